@@ -1,0 +1,34 @@
+#pragma once
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace robosim {
+
+/// A fault in a file or an argument that a person gave: what is wrong, where, and how to mend it.
+/// `what()` has one error a line.
+class ConfigError : public std::runtime_error {
+ public:
+  explicit ConfigError(std::vector<std::string> errors);
+  explicit ConfigError(const std::string& error) : ConfigError(std::vector<std::string>{error}) {}
+  const std::vector<std::string>& errors() const { return errors_; }
+
+ private:
+  std::vector<std::string> errors_;
+};
+
+/// Gathers the errors of one load, so that a person sees all of them at once.
+class ErrorList {
+ public:
+  void add(const std::string& file, int line, const std::string& what);
+  void add(const ConfigError& error);
+  bool empty() const { return errors_.empty(); }
+  const std::vector<std::string>& errors() const { return errors_; }
+  /// @throws ConfigError with all errors, if there are any.
+  void throwIfAny() const;
+
+ private:
+  std::vector<std::string> errors_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,15 @@
+#pragma once
+#include <cstdint>
+
+namespace robosim {
+
+/// Simulation time: a count of steps of equal length. The time is computed from the count, never added up, so that
+/// it does not drift.
+struct SimTime {
+  std::uint64_t step = 0;
+  double period_s = 0.1;  ///< (0, 1]
+
+  double seconds() const { return static_cast<double>(step) * period_s; }
+};
+
+}  // namespace robosim

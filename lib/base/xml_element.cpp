@@ -1,0 +1,117 @@
+#include "base/xml_element.h"
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <sstream>
+
+#include <tinyxml2.h>
+
+#include "base/error_list.h"
+
+namespace robosim {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const char* white = " \t\r\n";
+  const auto first = text.find_first_not_of(white);
+  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
+}
+
+ConfigError at(const std::string& file, int line, const std::string& what) {
+  return ConfigError(file + ":" + std::to_string(line) + ": " + what);
+}
+
+XmlElement copied(const tinyxml2::XMLElement& from, const std::string& file) {
+  XmlElement to{.name = from.Name(), .text = {}, .attributes = {}, .children = {}, .line = {from.GetLineNum()}};
+  for (auto* a = from.FirstAttribute(); a; a = a->Next()) to.attributes.emplace_back(a->Name(), trimmed(a->Value()));
+  for (auto* node = from.FirstChild(); node; node = node->NextSibling()) {
+    if (auto* child = node->ToElement()) to.children.push_back(copied(*child, file));
+    if (auto* text = node->ToText()) to.text += text->Value();
+    if (node->ToUnknown()) throw at(file, node->GetLineNum(), "a <!…> declaration has no place here; take it out");
+  }
+  to.text = trimmed(to.text);
+  return to;
+}
+
+void push(tinyxml2::XMLPrinter& printer, const XmlElement& element) {
+  printer.OpenElement(element.name.c_str());
+  for (const auto& [name, value] : element.attributes) printer.PushAttribute(name.c_str(), value.c_str());
+  if (!element.text.empty()) printer.PushText(element.text.c_str());
+  for (const auto& child : element.children) push(printer, child);
+  printer.CloseElement();
+}
+
+std::string mend(tinyxml2::XMLError error) {
+  switch (error) {
+    case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
+      return "an element is not closed, or closed by another's tag";
+    case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
+      return "elements lie more than 100 deep";
+    case tinyxml2::XML_ERROR_PARSING:
+      return "this is not XML, or the file was cut off";
+    default:
+      return std::string("this is not XML, or the file was cut off (") + tinyxml2::XMLDocument::ErrorIDToName(error) + ")";
+  }
+}
+
+}  // namespace
+
+XmlElement& XmlElement::add(std::string child_name, std::string child_text) {
+  children.push_back({.name = std::move(child_name), .text = std::move(child_text), .attributes = {}, .children = {}, .line = {}});
+  return children.back();
+}
+
+XmlElement parseXml(const std::string& text, const std::string& file) {
+  if (trimmed(text).empty()) throw at(file, 1, "the file is empty; an XML document was expected");
+  if (text.find('\0') != std::string::npos) throw at(file, 1, "this is not XML: it holds a zero byte");
+  tinyxml2::XMLDocument document;
+  // A DOCTYPE is looked for before parsing, so that whoever wrote entities hears of them and not of a later '>'.
+  if (const auto doctype = text.find("<!DOCTYPE"); doctype != std::string::npos) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(doctype), '\n');
+    throw at(file, static_cast<int>(line), "a DOCTYPE (and with it entities) is not accepted; take it out");
+  }
+  if (const auto error = document.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS) {
+    throw at(file, std::max(1, document.ErrorLineNum()), mend(error) + "; mend the file here or just before");
+  }
+  if (!document.RootElement()) throw at(file, 1, "there is no element in the file");
+  for (auto* other = document.RootElement()->NextSiblingElement(); other; other = other->NextSiblingElement()) {
+    throw at(file, other->GetLineNum(), std::string("a second root element <") + other->Name() + ">; an XML file has one");
+  }
+  return copied(*document.RootElement(), file);
+}
+
+XmlElement readXmlFile(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  const std::string name = file.string();
+  if (!std::filesystem::exists(status)) throw ConfigError(name + ": no such file; check the path");
+  if (std::filesystem::is_directory(status)) throw ConfigError(name + ": is a directory; name a file in it");
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw ConfigError(name + ": cannot be opened for reading; check its permissions");
+  std::string text;
+  char block[1 << 16];
+  while (in.read(block, sizeof block) || in.gcount() > 0) {
+    text.append(block, static_cast<std::size_t>(in.gcount()));
+    if (text.size() > kMaxXmlFileBytes) {
+      throw ConfigError(name + ": is larger than " + std::to_string(kMaxXmlFileBytes >> 20) +
+                        " MiB, the most that is read; is it a world file?");
+    }
+  }
+  return parseXml(text, name);
+}
+
+std::string toXml(const XmlElement& root) {
+  tinyxml2::XMLPrinter printer;
+  printer.PushHeader(false, true);
+  push(printer, root);
+  return printer.CStr();
+}
+
+std::string toText(double value) {
+  char buffer[32];
+  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
+  return {buffer, end};
+}
+
+}  // namespace robosim

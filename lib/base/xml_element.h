@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace robosim {
+
+/// The line a value came from, for error messages. Equal to every other line: where a thing stood in its file is no part
+/// of what it says.
+struct SourceLine {
+  int number = 0;
+  bool operator==(const SourceLine&) const { return true; }
+};
+
+/// An element of an XML file as a plain value.
+struct XmlElement {
+  std::string name;
+  std::string text;  ///< the element's own text, without white space at either end
+  std::vector<std::pair<std::string, std::string>> attributes;
+  std::vector<XmlElement> children;
+  SourceLine line;
+
+  bool operator==(const XmlElement&) const = default;
+
+  /// Adds `<name>text</name>`, and returns it.
+  XmlElement& add(std::string child_name, std::string child_text = {});
+};
+
+/// Largest XML file read [bytes].
+constexpr std::size_t kMaxXmlFileBytes = 64u << 20;
+
+/// Reads a whole file into its root element.
+/// @throws ConfigError "file:line: what" when the file is missing, a directory, empty, larger than kMaxXmlFileBytes, not
+/// well-formed, deeper than 100 elements, or has a DOCTYPE (entities of its own are refused, never expanded).
+XmlElement readXmlFile(const std::filesystem::path& file);
+/// The same from text; `file` names it in errors.
+XmlElement parseXml(const std::string& text, const std::string& file);
+
+/// The element as an XML document, indented by two blanks, with a final newline.
+std::string toXml(const XmlElement& root);
+
+/// The shortest text that reads back as exactly `value`.
+std::string toText(double value);
+
+}  // namespace robosim

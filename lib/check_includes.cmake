@@ -1,0 +1,20 @@
+# cmake -DROOM=r -DUSES="a;b" -DLIB=dir -P check_includes.cmake: fails on an #include of a room beyond USES.
+file(GLOB rooms RELATIVE ${LIB} ${LIB}/*)
+file(GLOB files ${LIB}/${ROOM}/*.h ${LIB}/${ROOM}/*.cpp)
+set(allowed ${ROOM} ${USES})
+set(failed FALSE)
+foreach(file IN LISTS files)
+  file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"][a-z0-9_]+/")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([a-z0-9_]+)/.*" "\\1" room "${line}")
+    if(IS_DIRECTORY ${LIB}/${room} AND NOT room IN_LIST allowed)
+      message(SEND_ERROR "${file}: ${line}\n  room '${ROOM}' may include only: ${allowed}. "
+                         "Move the code to the room that may, or add '${room}' to USES in lib/CMakeLists.txt and to the "
+                         "table in doc/architecture.md, if it lies further down.")
+      set(failed TRUE)
+    endif()
+  endforeach()
+endforeach()
+if(NOT failed)
+  message(STATUS "room '${ROOM}' includes only: ${allowed}")
+endif()

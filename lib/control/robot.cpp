@@ -1,0 +1,70 @@
+#include "control/robot.h"
+
+namespace robosim {
+namespace {
+
+const Echoes kNoEchoes;
+const Contacts kNoContacts;
+const Odometry kAtStart;
+
+}  // namespace
+
+Robot::Robot(Hardware& hardware) : hardware_(hardware) {
+  const auto& sensors = *hardware.info().sensors;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    const auto kind = static_cast<std::size_t>(sensors[i].kind);
+    if (slot_of_kind_.size() <= kind) slot_of_kind_.resize(kind + 1, -1);
+    if (slot_of_kind_[kind] < 0) slot_of_kind_[kind] = static_cast<int>(i);
+  }
+}
+
+std::optional<std::size_t> Robot::slot(SensorKind kind) const {
+  const auto index = static_cast<std::size_t>(kind);
+  if (index >= slot_of_kind_.size() || slot_of_kind_[index] < 0) return std::nullopt;
+  return static_cast<std::size_t>(slot_of_kind_[index]);
+}
+
+const SensorInfo* Robot::sensor(SensorKind kind) const {
+  const auto found = slot(kind);
+  return found ? &(*info().sensors)[*found] : nullptr;
+}
+
+const Echoes& Robot::echoes(SensorKind kind) const {
+  const auto found = slot(kind);
+  return found ? std::get<Echoes>(readings().measurements[*found]) : kNoEchoes;
+}
+
+std::optional<double> Robot::scalar(SensorKind kind) const {
+  const auto found = slot(kind);
+  if (!found) return std::nullopt;
+  return std::get<Scalar>(readings().measurements[*found]).value;
+}
+
+const std::vector<std::uint8_t>& Robot::bumper() const {
+  const auto found = slot(SensorKind::bumper);
+  return found ? std::get<Contacts>(readings().measurements[*found]).pressed : kNoContacts.pressed;
+}
+
+const Odometry& Robot::odometry() const {
+  const auto found = slot(SensorKind::odometry);
+  return found ? std::get<Odometry>(readings().measurements[*found]) : kAtStart;
+}
+
+void Robot::drive(double speed_mps, double turn_radps) {
+  if (command_.activity != Activity::active) return;
+  command_.speed_mps = speed_mps;
+  command_.turn_radps = turn_radps;
+  hardware_.command(command_);
+}
+
+void Robot::panLaser(double pan_rad) {
+  command_.laser_pan_rad = static_cast<float>(pan_rad);
+  hardware_.command(command_);
+}
+
+void Robot::halt(Activity why) {
+  command_ = {.speed_mps = 0, .turn_radps = 0, .laser_pan_rad = command_.laser_pan_rad, .activity = why};
+  hardware_.command(command_);
+}
+
+}  // namespace robosim

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hardware/hardware.h"
+
+namespace robosim {
+
+/// A robot for whoever programs one, in SI units: its readings by kind and its command, over any Hardware.
+/// PioneerRobot and ScoutRobot show the same with ARIA's and the Nomad's names and units.
+class Robot {
+ public:
+  /// @param hardware must outlive this.
+  explicit Robot(Hardware& hardware);
+
+  const RobotInfo& info() const { return hardware_.info(); }
+  const std::string& name() const { return info().name; }
+  const Readings& readings() const { return hardware_.readings(); }
+  std::uint64_t stepNumber() const { return readings().time.step; }
+  double time() const { return readings().time.seconds(); }  ///< [s] since the start
+
+  /// @name What the first sensor of a kind measured in this step
+  /// A robot without such a sensor: no echoes, nullopt, identity odometry.
+  ///@{
+  const Echoes& sonar() const { return echoes(SensorKind::sonar); }
+  const Echoes& laser() const { return echoes(SensorKind::laser); }
+  const Echoes& infrared() const { return echoes(SensorKind::infrared); }
+  std::optional<double> heat() const { return scalar(SensorKind::heat); }
+  std::optional<double> compass() const { return scalar(SensorKind::compass); }  ///< [rad], world frame
+  const std::vector<std::uint8_t>& bumper() const;
+  const Odometry& odometry() const;
+  ///@}
+  /// What is known of the first sensor of a kind; null for a robot without one.
+  const SensorInfo* sensor(SensorKind kind) const;
+  bool stalled() const { return readings().stalled; }
+
+  void drive(double speed_mps, double turn_radps);
+  void panLaser(double pan_rad);  ///< [-π/2, π/2]
+  void stop() { drive(0, 0); }
+  /// Stops for good; `found` says that it was for what it looked for.
+  void halt(Activity why = Activity::halted);
+  Activity activity() const { return command_.activity; }
+  const Command& command() const { return command_; }
+
+  /// @throws std::invalid_argument for an unknown receiver or too long a text.
+  void send(const std::string& to, const std::string& text) { hardware_.send(to, text); }
+  /// What was sent to this robot in the last step.
+  const std::vector<RobotMessage>& inbox() const { return readings().inbox; }
+
+ private:
+  std::optional<std::size_t> slot(SensorKind kind) const;
+  const Echoes& echoes(SensorKind kind) const;
+  std::optional<double> scalar(SensorKind kind) const;
+
+  Hardware& hardware_;
+  Command command_;
+  std::vector<int> slot_of_kind_;  ///< by kind; -1 for none
+};
+
+}  // namespace robosim

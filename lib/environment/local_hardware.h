@@ -1,0 +1,22 @@
+#pragma once
+#include "environment/environment.h"
+#include "hardware/hardware.h"
+
+namespace robosim {
+
+/// The hardware of a robot that is simulated in this process. The environment must outlive it.
+class LocalHardware : public Hardware {
+ public:
+  LocalHardware(Environment& environment, std::size_t robot) : environment_(environment), robot_(robot) {}
+
+  const RobotInfo& info() const override { return environment_.fleet().robots[robot_].info; }
+  const Readings& readings() const override { return environment_.state().readings[robot_]; }
+  void command(const Command& command) override { environment_.setCommand(robot_, command); }
+  void send(const std::string& to, const std::string& text) override { environment_.send(robot_, to, text); }
+
+ private:
+  Environment& environment_;
+  std::size_t robot_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "geometry/grid_index.h"
+#include "geometry/path.h"
+#include "geometry/ray.h"
+#include "geometry/sector.h"
+#include "geometry/solid.h"
+
+namespace robosim {
+
+/// A solid of a Scene: first the stationary ones in the order given, then the moving ones.
+enum class BodyId : std::uint32_t {};
+constexpr BodyId kNoBody{0xffffffffu};
+
+/// What a ray or a sector met.
+struct Hit {
+  double distance_m = std::numeric_limits<double>::infinity();
+  BodyId body = kNoBody;
+  mrpt::math::TPoint3D point;  ///< world frame [m]; undefined when nothing was met
+  explicit operator bool() const { return body != kNoBody; }
+};
+
+/// All solids of a world at one moment, indexed for fast questions. The stationary ones are indexed once; after the
+/// moving ones have moved, freeze() indexes those again, in linear time and without allocating. Every question is const
+/// and may be asked from any number of threads. A body may be left out of a question: the one who asks.
+class Scene {
+ public:
+  /// @param area the part of the plane that the index covers well; solids beyond it are found too.
+  Scene(std::vector<Solid> stationary, std::size_t moving_count, const Bounds2D& area);
+
+  std::size_t stationaryCount() const { return stationary_.size(); }
+  std::size_t movingCount() const { return moving_.size(); }
+  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationary_.size() + i)); }
+  const Solid& solid(BodyId body) const;
+
+  /// Sets where a moving solid is; takes effect for questions with freeze().
+  void place(std::size_t i, const Solid& solid) { moving_[i] = solid; }
+  void freeze();
+
+  /// The nearest solid that the ray meets strictly nearer than `range_m`. A tie goes to the lowest BodyId.
+  Hit castRay(const Ray&, double range_m, BodyId except = kNoBody) const;
+  /// The nearest point of any solid inside the sector strictly nearer than `range_m`. A tie goes to the lowest BodyId.
+  Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
+
+  /// Appends the bodies whose bounding rectangle meets `area`, in ascending order, each once.
+  void stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const;
+  void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
+
+ private:
+  std::vector<Solid> stationary_, moving_;
+  GridIndex stationary_index_, moving_index_;
+  Bounds2D area_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,31 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hardware/sensor_info.h"
+
+namespace robosim {
+
+/// What a robot's body can do.
+struct MotionLimits {
+  double speed_max_mps = 0;
+  double turn_max_radps = 0;
+  double accel_mps2 = 0;       ///< speeding up
+  double decel_mps2 = 0;       ///< slowing down
+  double turn_accel_radps2 = 0;  ///< both
+  bool operator==(const MotionLimits&) const = default;
+};
+
+/// What a controller may know of its robot: constant over a run.
+struct RobotInfo {
+  std::string name;
+  std::string model;      ///< "pioneer3dx", "scout"; "2005" for a robot that the world file describes itself
+  std::string neighbour;  ///< the robot it passes GOLD on to; empty for none
+  double radius_m = 0;    ///< of the disc that it covers in plan
+  double height_m = 0;
+  MotionLimits limits;
+  std::shared_ptr<const std::vector<SensorInfo>> sensors;  ///< shared by all robots of a model
+};
+
+}  // namespace robosim

@@ -1,0 +1,63 @@
+#pragma once
+#include <cstdint>
+#include <span>
+
+#include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPose2D.h>
+
+#include "base/random.h"
+#include "base/sim_time.h"
+#include "geometry/scene.h"
+#include "hardware/readings.h"
+#include "hardware/sensor_info.h"
+
+namespace robosim {
+
+/// Something warm.
+struct HeatSource {
+  mrpt::math::TPoint2D center;  ///< world frame [m]
+  double heat_celsius = 0;
+  BodyId body = kNoBody;
+};
+
+/// What a robot did in the last time step.
+struct Motion {
+  double length_m = 0;  ///< driven, signed
+  double turn_rad = 0;
+};
+
+/// The moment that sensors sense: everything stands still. Arrays are indexed by robot, in the world's order.
+struct Snapshot {
+  const Scene& scene;
+  std::span<const HeatSource> heat_sources;
+  std::span<const mrpt::math::TPose2D> world_from_robot;
+  std::span<const double> base_z_m;      ///< height of the robot frame's origin, the underside of its body
+  std::span<const Motion> last_motion;
+  std::span<const float> laser_pan_rad;
+  SimTime time;
+  std::uint64_t seed = 0;
+
+  BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
+  mrpt::math::TPoint3D toWorld(std::uint32_t robot, const mrpt::math::TPoint3D& in_robot) const;
+  mrpt::math::TPoint3Df toRobot(std::uint32_t robot, const mrpt::math::TPoint3D& in_world) const;
+  /// The noise of one sensor of one robot in this step.
+  Rng noise(std::uint32_t robot, std::size_t slot) const {
+    return Rng(seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), time.step);
+  }
+};
+
+/// One kind of sensor with one set of options, as mounted on all robots of a model. It senses for many robots at once and
+/// writes to each robot's own slot only, so robots may be split among threads in any way.
+class Sensor {
+ public:
+  virtual ~Sensor() = default;
+
+  virtual const SensorInfo& info() const = 0;
+  /// A measurement of the right kind and size, as before the first step.
+  virtual Measurement blank() const = 0;
+  /// Replaces readings[r].measurements[slot] for each r of `robots`; what stood there is the step before's.
+  virtual void sense(const Snapshot&, std::span<const std::uint32_t> robots, std::size_t slot,
+                     std::span<Readings> readings) const = 0;
+};
+
+}  // namespace robosim
