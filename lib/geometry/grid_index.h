@@ -27,7 +27,8 @@ class GridIndex {
   int row(double y) const;
   /// Indices of the solids in a cell, ascending.
   std::span<const std::uint32_t> cell(int column, int row) const {
-    const std::size_t i = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+    const std::size_t i =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
     return {items_.data() + begin_[i], items_.data() + begin_[i + 1]};
   }
 

@@ -13,9 +13,9 @@ enum class Activity : std::uint8_t {
 /// What a controller asks of its robot for the next time step. Speeds are what it wishes for: the robot's limits on
 /// speed and acceleration apply. Values that are not finite count as 0.
 struct Command {
-  double speed_mps = 0;      ///< ahead
-  double turn_radps = 0;     ///< counter-clockwise
-  float laser_pan_rad = 0;   ///< for a sensor that turns, [-π/2, π/2]
+  double speed_mps = 0;     ///< ahead
+  double turn_radps = 0;    ///< counter-clockwise
+  float laser_pan_rad = 0;  ///< for a sensor that turns, [-π/2, π/2]
   Activity activity = Activity::active;
   bool operator==(const Command&) const = default;
 };

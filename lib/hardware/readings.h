@@ -13,8 +13,8 @@
 namespace robosim {
 
 /// One range and where it was met. Single precision, as MRPT's observations keep ranges: a recorded reading is the
-/// reading. Nothing nearer than the sensor's range_max_m: range_m is the sensor's no_echo_m, and the point lies that far
-/// along the beam.
+/// reading. Nothing nearer than the sensor's range_max_m: range_m is the sensor's no_echo_m, and the point lies that
+/// far along the beam.
 struct Echo {
   float range_m = 0;              ///< from the sensor
   mrpt::math::TPoint3Df point_m;  ///< robot frame
@@ -53,7 +53,8 @@ struct Readings {
   std::vector<Measurement> measurements;  ///< one per sensor of RobotInfo::sensors, in that order
   bool stalled = false;                   ///< the last move was clipped or refused
   float laser_pan_rad = 0;                ///< where the turnable sensors looked
-  std::vector<RobotMessage> inbox;        ///< sent in the last step, ordered by sender (as the world lists them), then as sent
+  std::vector<RobotMessage>
+      inbox;  ///< sent in the last step, ordered by sender (as the world lists them), then as sent
 };
 
 }  // namespace robosim

@@ -11,8 +11,8 @@ namespace robosim {
 struct MotionLimits {
   double speed_max_mps = 0;
   double turn_max_radps = 0;
-  double accel_mps2 = 0;       ///< speeding up
-  double decel_mps2 = 0;       ///< slowing down
+  double accel_mps2 = 0;         ///< speeding up
+  double decel_mps2 = 0;         ///< slowing down
   double turn_accel_radps2 = 0;  ///< both
   bool operator==(const MotionLimits&) const = default;
 };

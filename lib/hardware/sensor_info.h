@@ -20,14 +20,14 @@ struct Beam {
 /// What a controller may know of a mounted sensor: constant over a run.
 struct SensorInfo {
   SensorKind kind = SensorKind::sonar;
-  std::string label;             ///< unique on its robot: "sonar", "laser_2"; the rawlog's label is "<robot>/<label>"
-  std::vector<Beam> beams;       ///< range sensors: one per echo, in the reading's order; bumper: one per contact segment
-  double range_min_m = 0;        ///< range sensors: nearest distance told
-  double range_max_m = 0;        ///< range sensors and heat
-  double no_echo_m = 0;          ///< what a range sensor reads when nothing is nearer than range_max_m; >= range_max_m
-  double beam_width_rad = 0;     ///< full opening angle of one beam; 0 for a thin ray. Bumper: width of a segment
-  double noise_std_m = 0;        ///< standard deviation of a range, 0 when noise is off
-  bool pans = false;             ///< beams turn with Command::laser_pan_rad
+  std::string label;          ///< unique on its robot: "sonar", "laser_2"; the rawlog's label is "<robot>/<label>"
+  std::vector<Beam> beams;    ///< range sensors: one per echo, in the reading's order; bumper: one per contact segment
+  double range_min_m = 0;     ///< range sensors: nearest distance told
+  double range_max_m = 0;     ///< range sensors and heat
+  double no_echo_m = 0;       ///< what a range sensor reads when nothing is nearer than range_max_m; >= range_max_m
+  double beam_width_rad = 0;  ///< full opening angle of one beam; 0 for a thin ray. Bumper: width of a segment
+  double noise_std_m = 0;     ///< standard deviation of a range, 0 when noise is off
+  bool pans = false;          ///< beams turn with Command::laser_pan_rad
 };
 
 }  // namespace robosim
