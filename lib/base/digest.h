@@ -6,7 +6,8 @@
 
 namespace robosim {
 
-/// A running hash (XXH3, 64 bits) over everything added to it, in order: two runs with the same digest were the same run.
+/// A running hash (XXH3, 64 bits) over everything added to it, in order: two runs with the same digest were the same
+/// run.
 class Digest {
  public:
   Digest();

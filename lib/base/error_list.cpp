@@ -15,11 +15,20 @@ ConfigError::ConfigError(std::vector<std::string> errors)
     : std::runtime_error(joined(errors)), errors_(std::move(errors)) {}
 
 void ErrorList::add(const std::string& file, int line, const std::string& what) {
-  errors_.push_back(file + ":" + std::to_string(line) + ": " + what);
+  add(file + ":" + std::to_string(line) + ": " + what);
 }
 
 void ErrorList::add(const ConfigError& error) {
-  errors_.insert(errors_.end(), error.errors().begin(), error.errors().end());
+  for (const auto& line : error.errors()) add(line);
+}
+
+void ErrorList::add(const std::string& error) {
+  if (errors_.size() < kMostErrors) {
+    errors_.push_back(error);
+    return;
+  }
+  if (++more_ == 1) errors_.emplace_back();
+  errors_.back() = "and " + std::to_string(more_) + (more_ == 1 ? " more error" : " more errors");
 }
 
 void ErrorList::throwIfAny() const {

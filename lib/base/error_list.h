@@ -17,18 +17,24 @@ class ConfigError : public std::runtime_error {
   std::vector<std::string> errors_;
 };
 
-/// Gathers the errors of one load, so that a person sees all of them at once.
+/// Gathers the errors of one load, so that a person sees all of them at once: each of the first kMostErrors, and how
+/// many more there were, so that a hopeless file cannot fill the memory.
 class ErrorList {
  public:
   void add(const std::string& file, int line, const std::string& what);
   void add(const ConfigError& error);
+  static constexpr std::size_t kMostErrors = 1000;
+
   bool empty() const { return errors_.empty(); }
   const std::vector<std::string>& errors() const { return errors_; }
   /// @throws ConfigError with all errors, if there are any.
   void throwIfAny() const;
 
  private:
+  void add(const std::string& error);
+
   std::vector<std::string> errors_;
+  std::size_t more_ = 0;
 };
 
 }  // namespace robosim

@@ -15,8 +15,7 @@ Rng::result_type Rng::operator()() {
   if (left_ == 0) {
     const r123::Philox4x32 philox;
     const r123::Philox4x32::ctr_type counter{{counter_[0], counter_[1], counter_[2], counter_[3]}};
-    const r123::Philox4x32::key_type key{
-        {static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
+    const r123::Philox4x32::key_type key{{static_cast<std::uint32_t>(seed_), static_cast<std::uint32_t>(seed_ >> 32)}};
     const auto block = philox(counter, key);
     for (unsigned i = 0; i < 4; ++i) block_[i] = block[i];
     ++counter_[3];
@@ -34,7 +33,8 @@ double Rng::uniform() {
 double Rng::uniform(double from, double to) { return from + (to - from) * uniform(); }
 
 double Rng::gaussian() {
-  // Box & Muller (1958). The cosine's twin is dropped: a pair kept over would make the stream depend on who drew before.
+  // Box & Muller (1958). The cosine's twin is dropped: a pair kept over would make the stream depend on who drew
+  // before.
   const double radius = std::sqrt(-2 * std::log(1 - uniform()));
   return radius * std::cos(2 * M_PI * uniform());
 }

@@ -14,7 +14,8 @@ enum class RandomPurpose : std::uint32_t { sensor_noise, message_loss, controlle
 class Rng {
  public:
   using result_type = std::uint32_t;
-  /// `robot` and `item` (a sensor's index, say) tell apart streams of one purpose; `step` is the time step.
+  /// `robot` and `item` (a sensor's index, say) tell apart streams of one purpose; `step` is the time step, of which
+  /// the low 32 bits count (13 years of tenths of a second), and `item` is below 2^24.
   explicit Rng(std::uint64_t seed, RandomPurpose purpose = RandomPurpose::test, std::uint32_t robot = 0,
                std::uint32_t item = 0, std::uint64_t step = 0);
 
@@ -22,10 +23,10 @@ class Rng {
   static constexpr result_type min() { return 0; }
   static constexpr result_type max() { return 0xffffffffu; }
 
-  double uniform();                      ///< in [0, 1)
+  double uniform();                        ///< in [0, 1)
   double uniform(double from, double to);  ///< in [from, to)
-  double gaussian();                     ///< mean 0, standard deviation 1
-  std::uint32_t below(std::uint32_t n);  ///< in [0, n), n > 0
+  double gaussian();                       ///< mean 0, standard deviation 1
+  std::uint32_t below(std::uint32_t n);    ///< in [0, n), n > 0; even to within n / 2^32
 
  private:
   std::uint64_t seed_;

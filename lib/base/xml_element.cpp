@@ -22,17 +22,27 @@ ConfigError at(const std::string& file, int line, const std::string& what) {
   return ConfigError(file + ":" + std::to_string(line) + ": " + what);
 }
 
+void refuseDeclaration(const tinyxml2::XMLNode& node, const std::string& file) {
+  if (node.ToUnknown()) throw at(file, node.GetLineNum(), "a <!…> declaration has no place here; take it out");
+}
+
 XmlElement copied(const tinyxml2::XMLElement& from, const std::string& file) {
   XmlElement to{.name = from.Name(), .text = {}, .attributes = {}, .children = {}, .line = {from.GetLineNum()}};
   for (auto* a = from.FirstAttribute(); a; a = a->Next()) to.attributes.emplace_back(a->Name(), trimmed(a->Value()));
   for (auto* node = from.FirstChild(); node; node = node->NextSibling()) {
     if (auto* child = node->ToElement()) to.children.push_back(copied(*child, file));
     if (auto* text = node->ToText()) to.text += text->Value();
-    if (node->ToUnknown()) throw at(file, node->GetLineNum(), "a <!…> declaration has no place here; take it out");
+    refuseDeclaration(*node, file);
   }
   to.text = trimmed(to.text);
   return to;
 }
+
+class IndentedByTwo : public tinyxml2::XMLPrinter {
+  void PrintSpace(int depth) override {
+    for (int i = 0; i < depth; ++i) Write("  ");
+  }
+};
 
 void push(tinyxml2::XMLPrinter& printer, const XmlElement& element) {
   printer.OpenElement(element.name.c_str());
@@ -42,41 +52,67 @@ void push(tinyxml2::XMLPrinter& printer, const XmlElement& element) {
   printer.CloseElement();
 }
 
-std::string mend(tinyxml2::XMLError error) {
+std::string faultOf(tinyxml2::XMLError error) {
   switch (error) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "an element is not closed, or closed by another's tag";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
-      return "elements lie more than 100 deep";
-    case tinyxml2::XML_ERROR_PARSING:
-      return "this is not XML, or the file was cut off";
+      return "elements lie more than 98 deep";
+    case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
+      return "an attribute is given twice, or is not name=\"value\"";
+    case tinyxml2::XML_ERROR_PARSING_COMMENT:
+      return "a comment is not closed by -->";
     default:
-      return std::string("this is not XML, or the file was cut off (") + tinyxml2::XMLDocument::ErrorIDToName(error) + ")";
+      return "this is not XML, or the file was cut off";
+  }
+}
+
+/// A small file may hold millions of elements, each a few hundred bytes in memory; and the parser compares the
+/// attributes of an element pairwise. So both are counted first: by '<', and by the quotation marks between two of
+/// them.
+void refuseBloated(const std::string& text, const std::string& file) {
+  constexpr std::size_t max_tags = 8'000'000;
+  constexpr std::size_t max_quotes = 2'000;
+  std::size_t tags = 0, quotes = 0;
+  int line = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    if (c == '"' || c == '\'') ++quotes;
+    if (c == '<') {
+      ++tags;
+      quotes = 0;
+    }
+    if (tags > max_tags) throw at(file, line, "more than 4 million elements; split the file");
+    if (quotes > max_quotes) throw at(file, line, "an element with more than 1000 attributes; is this a world file?");
   }
 }
 
 }  // namespace
 
 XmlElement& XmlElement::add(std::string child_name, std::string child_text) {
-  children.push_back({.name = std::move(child_name), .text = std::move(child_text), .attributes = {}, .children = {}, .line = {}});
+  children.push_back(
+      {.name = std::move(child_name), .text = std::move(child_text), .attributes = {}, .children = {}, .line = {}});
   return children.back();
 }
 
 XmlElement parseXml(const std::string& text, const std::string& file) {
   if (trimmed(text).empty()) throw at(file, 1, "the file is empty; an XML document was expected");
   if (text.find('\0') != std::string::npos) throw at(file, 1, "this is not XML: it holds a zero byte");
-  tinyxml2::XMLDocument document;
+  refuseBloated(text, file);
   // A DOCTYPE is looked for before parsing, so that whoever wrote entities hears of them and not of a later '>'.
   if (const auto doctype = text.find("<!DOCTYPE"); doctype != std::string::npos) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(doctype), '\n');
     throw at(file, static_cast<int>(line), "a DOCTYPE (and with it entities) is not accepted; take it out");
   }
+  tinyxml2::XMLDocument document;
   if (const auto error = document.Parse(text.data(), text.size()); error != tinyxml2::XML_SUCCESS) {
-    throw at(file, std::max(1, document.ErrorLineNum()), mend(error) + "; mend the file here or just before");
+    throw at(file, std::max(1, document.ErrorLineNum()), faultOf(error) + "; mend the file here or just before");
   }
+  for (auto* node = document.FirstChild(); node; node = node->NextSibling()) refuseDeclaration(*node, file);
   if (!document.RootElement()) throw at(file, 1, "there is no element in the file");
   for (auto* other = document.RootElement()->NextSiblingElement(); other; other = other->NextSiblingElement()) {
-    throw at(file, other->GetLineNum(), std::string("a second root element <") + other->Name() + ">; an XML file has one");
+    throw at(file, other->GetLineNum(),
+             std::string("a second root element <") + other->Name() + ">; an XML file has one");
   }
   return copied(*document.RootElement(), file);
 }
@@ -102,7 +138,7 @@ XmlElement readXmlFile(const std::filesystem::path& file) {
 }
 
 std::string toXml(const XmlElement& root) {
-  tinyxml2::XMLPrinter printer;
+  IndentedByTwo printer;
   printer.PushHeader(false, true);
   push(printer, root);
   return printer.CStr();

@@ -6,8 +6,8 @@
 
 namespace robosim {
 
-/// The line a value came from, for error messages. Equal to every other line: where a thing stood in its file is no part
-/// of what it says.
+/// The line a value came from, for error messages. Equal to every other line: where a thing stood in its file is no
+/// part of what it says.
 struct SourceLine {
   int number = 0;
   bool operator==(const SourceLine&) const { return true; }
@@ -31,8 +31,9 @@ struct XmlElement {
 constexpr std::size_t kMaxXmlFileBytes = 64u << 20;
 
 /// Reads a whole file into its root element.
-/// @throws ConfigError "file:line: what" when the file is missing, a directory, empty, larger than kMaxXmlFileBytes, not
-/// well-formed, deeper than 100 elements, or has a DOCTYPE (entities of its own are refused, never expanded).
+/// @throws ConfigError "file:line: what" when the file is missing, a directory, empty, larger than kMaxXmlFileBytes,
+/// not well-formed, deeper than 98 elements, bloated (more than 4 million elements, or 1000 attributes of one), or has
+/// a DOCTYPE (entities of its own are refused, never expanded).
 XmlElement readXmlFile(const std::filesystem::path& file);
 /// The same from text; `file` names it in errors.
 XmlElement parseXml(const std::string& text, const std::string& file);

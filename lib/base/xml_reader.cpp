@@ -13,20 +13,24 @@ constexpr double kRadPerDeg = M_PI / 180;
 std::optional<double> parsedNumber(const std::string& text) {
   const char* begin = text.data();
   const char* end = begin + text.size();
-  if (begin != end && *begin == '+') ++begin;
+  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;
   double value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
-  if (error != std::errc{} || stop != end || begin == end) return std::nullopt;
+  if (stop != end || begin == end || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc::result_out_of_range) return std::numeric_limits<double>::infinity();
   return value;
 }
 
 /// The unit that a setting's name ends in, as a word behind its bounds.
 std::string unitOf(const std::string& setting) {
-  const std::pair<const char*, const char*> units[] = {
-      {"_mps2", " metres per second squared"}, {"_degps2", " degrees per second squared"},
-      {"_mps", " metres per second"},          {"_degps", " degrees per second"},
-      {"_m", " metres"},                       {"_deg", " degrees"},
-      {"_s", " seconds"},                      {"_rad", " radians"}};
+  const std::pair<const char*, const char*> units[] = {{"_mps2", " metres per second squared"},
+                                                       {"_degps2", " degrees per second squared"},
+                                                       {"_mps", " metres per second"},
+                                                       {"_degps", " degrees per second"},
+                                                       {"_m", " metres"},
+                                                       {"_deg", " degrees"},
+                                                       {"_s", " seconds"},
+                                                       {"_rad", " radians"}};
   for (const auto& [ending, unit] : units) {
     if (setting.ends_with(ending)) return unit;
   }
