@@ -1,5 +1,7 @@
 #include "base/error_list.h"
 
+#include <algorithm>
+
 namespace robosim {
 namespace {
 
@@ -33,6 +35,13 @@ void ErrorList::add(const std::string& error) {
 
 void ErrorList::throwIfAny() const {
   if (!errors_.empty()) throw ConfigError(errors_);
+}
+
+std::string listed(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 10;
+  std::string all;
+  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) all += (i ? ", " : "") + words[i];
+  return words.size() <= most ? all : all + " and " + std::to_string(words.size() - most) + " more";
 }
 
 }  // namespace robosim

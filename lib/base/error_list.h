@@ -37,4 +37,7 @@ class ErrorList {
   std::size_t more_ = 0;
 };
 
+/// "a, b, c" for an error message; of a long list the first ten, and how many more there are.
+std::string listed(const std::vector<std::string>& words);
+
 }  // namespace robosim

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <sstream>
+#include <limits>
 
 #include <tinyxml2.h>
 
@@ -16,6 +16,18 @@ std::string trimmed(const std::string& text) {
   const char* white = " \t\r\n";
   const auto first = text.find_first_not_of(white);
   return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
+}
+
+template <typename Number>
+std::optional<Number> parsed(const std::string& text) {
+  const char* begin = text.data();
+  const char* end = begin + text.size();
+  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;
+  Number value = 0;
+  const auto [stop, error] = std::from_chars(begin, end, value);
+  if (stop != end || begin == end || error == std::errc::invalid_argument) return std::nullopt;
+  if (error == std::errc::result_out_of_range) return std::numeric_limits<Number>::infinity();
+  return value;
 }
 
 ConfigError at(const std::string& file, int line, const std::string& what) {
@@ -144,10 +156,29 @@ std::string toXml(const XmlElement& root) {
   return printer.CStr();
 }
 
-std::string toText(double value) {
-  char buffer[32];
-  const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
-  return {buffer, end};
+std::optional<double> parseNumber(const std::string& text) { return parsed<double>(text); }
+
+double toNumber(const std::string& text, double unit) {
+  // More digits than a double has are needed in between: the products of all doubles with a unit leave some doubles
+  // out.
+  static_assert(std::numeric_limits<long double>::digits >= 64);
+  if (unit == 1) return parsed<double>(text).value_or(0);
+  return static_cast<double>(parsed<long double>(text).value_or(0) * unit);
+}
+
+std::string toText(double value, double unit) {
+  char buffer[48];
+  char* const end = buffer + sizeof buffer;
+  if (unit == 1) return {buffer, std::to_chars(buffer, end, value).ptr};
+  std::string text;
+  const long double in_units = static_cast<long double>(value) / unit;
+  constexpr int enough = std::numeric_limits<long double>::max_digits10;
+  for (int digits = 1; digits <= enough; ++digits) {
+    text.assign(buffer, std::to_chars(buffer, end, in_units, std::chars_format::general, digits).ptr);
+    if (toNumber(text, unit) == value) break;
+  }
+  const std::string plain = toText(*parseNumber(text));  // 200, not 2e+02
+  return toNumber(plain, unit) == value ? plain : text;
 }
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,7 +42,13 @@ XmlElement parseXml(const std::string& text, const std::string& file);
 /// The element as an XML document, indented by two blanks, with a final newline.
 std::string toXml(const XmlElement& root);
 
-/// The shortest text that reads back as exactly `value`.
-std::string toText(double value);
+/// The number that the whole text is; nullopt when it is none. What is beyond a double's range counts as infinite.
+std::optional<double> parseNumber(const std::string& text);
+/// A number, as parseNumber() accepts it, times `unit`, rounded to a double only at the end: so for any unit each
+/// double has a text.
+double toNumber(const std::string& text, double unit);
+
+/// The shortest text that reads back as exactly `value`: by parseNumber(), and by toNumber() with that unit.
+std::string toText(double value, double unit = 1);
 
 }  // namespace robosim

@@ -173,5 +173,25 @@ TEST(ToText, ReadsBackAsExactlyTheSameNumber) {
   }
 }
 
+TEST(ToText, InAnyUnitReadsBackAsExactlyTheSameNumber) {
+  EXPECT_EQ(toText(38 * 0.1, 0.1), "38");
+  EXPECT_EQ(toText(0, 0.1), "0");
+  Rng rng(2);
+  for (const double unit : {0.1, 0.0254, 1.9, 1.0 / 3, 1000.0}) {
+    for (int i = 0; i < 2000; ++i) {
+      const double value = rng.uniform(-100, 100);
+      EXPECT_EQ(toNumber(toText(value, unit), unit), value) << unit;
+    }
+  }
+}
+
+TEST(ToText, InAUnitGivesBackWhatAPersonWrote) {
+  Rng rng(3);
+  for (int i = 0; i < 2000; ++i) {
+    const std::string written = toText(rng.below(2000) / 8.0);
+    EXPECT_EQ(toText(toNumber(written, 0.1), 0.1), written);
+  }
+}
+
 }  // namespace
 }  // namespace robosim

@@ -1,6 +1,5 @@
 #include "base/xml_reader.h"
 
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -9,17 +8,6 @@ namespace {
 
 const XmlElement kNothing;
 constexpr double kRadPerDeg = M_PI / 180;
-
-std::optional<double> parsedNumber(const std::string& text) {
-  const char* begin = text.data();
-  const char* end = begin + text.size();
-  if (end - begin > 1 && begin[0] == '+' && begin[1] != '-') ++begin;
-  double value = 0;
-  const auto [stop, error] = std::from_chars(begin, end, value);
-  if (stop != end || begin == end || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return std::numeric_limits<double>::infinity();
-  return value;
-}
 
 /// The unit that a setting's name ends in, as a word behind its bounds.
 std::string unitOf(const std::string& setting) {
@@ -83,9 +71,9 @@ std::optional<XmlReader::Found> XmlReader::find(const std::string& setting) {
   return found;
 }
 
-double XmlReader::checked(const Found& found, const std::string& setting, const Bounds& bounds, double harmless,
-                          const std::string& mend) {
-  const auto value = parsedNumber(found.text);
+std::optional<double> XmlReader::checked(const Found& found, const std::string& setting, const Bounds& bounds,
+                                         const std::string& mend) {
+  const auto value = parseNumber(found.text);
   std::string fault;
   if (!value) {
     fault = found.text.empty() ? "a number is missing" : "is not a number";
@@ -94,31 +82,36 @@ double XmlReader::checked(const Found& found, const std::string& setting, const 
   } else if (!bounds.contain(*value)) {
     fault = describe(bounds, unitOf(setting));
   } else {
-    return *value;
+    return value;
   }
   errors_->add(file_, found.line, found.quoted + ": " + fault + mend);
-  return harmless;
+  return std::nullopt;
 }
 
-double XmlReader::number(const std::string& setting, Bounds bounds) {
-  const double harmless = bounds.contain(1) ? 1 : bounds.max;
-  if (const auto found = find(setting)) return checked(*found, setting, bounds, harmless, "; write a number there");
-  error("<" + setting + "> is missing; add it");
-  return harmless;
+double XmlReader::number(const std::string& setting, Bounds bounds) { return length(setting, bounds, 1); }
+
+double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m) {
+  const auto found = find(setting);
+  if (!found) {
+    error("<" + setting + "> is missing; add it");
+  } else if (checked(*found, setting, bounds, "; write a number there")) {
+    return toNumber(found->text, unit_m);
+  }
+  return (bounds.contain(1) ? 1 : bounds.max) * unit_m;
 }
 
 double XmlReader::number(const std::string& setting, Bounds bounds, double otherwise) {
   const auto found = find(setting);
-  return found ? checked(*found, setting, bounds, otherwise, "; drop it for the default, " + toText(otherwise))
-               : otherwise;
+  if (!found) return otherwise;
+  return checked(*found, setting, bounds, "; drop it for the default, " + toText(otherwise)).value_or(otherwise);
 }
 
 double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double otherwise_rad) {
   const auto found = find(setting);
   if (!found) return otherwise_rad;
-  const double otherwise_deg = otherwise_rad / kRadPerDeg;
-  return kRadPerDeg *
-         checked(*found, setting, bounds_deg, otherwise_deg, "; drop it for the default, " + toText(otherwise_deg));
+  const auto value_deg =
+      checked(*found, setting, bounds_deg, "; drop it for the default, " + toText(otherwise_rad / kRadPerDeg));
+  return value_deg ? *value_deg * kRadPerDeg : otherwise_rad;
 }
 
 std::string XmlReader::word(const std::string& setting) {
@@ -152,7 +145,7 @@ std::vector<double> XmlReader::numbers(const std::string& setting, std::size_t c
   std::istringstream words(found->text);
   std::vector<double> values;
   for (std::string word; words >> word;) {
-    const auto value = parsedNumber(word);
+    const auto value = parseNumber(word);
     if (!value || !std::isfinite(*value) || !bounds.contain(*value)) {
       errors_->add(file_, found->line,
                    found->quoted + ": '" + word + "' is no number that fits; it " + describe(bounds, unitOf(setting)));

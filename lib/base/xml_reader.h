@@ -43,6 +43,8 @@ class XmlReader {
   /// @name A setting that must be there
   ///@{
   double number(const std::string& setting, Bounds bounds = Bounds::any());
+  /// Reads a length in units of `unit_m` metres, takes bounds in those units, and gives metres: see toNumber().
+  double length(const std::string& setting, Bounds bounds, double unit_m);
   std::string word(const std::string& setting);
   ///@}
 
@@ -84,8 +86,8 @@ class XmlReader {
     std::string quoted;  ///< as it stands in the file: <x>…</x> or <element x="…">
   };
   std::optional<Found> find(const std::string& setting);
-  double checked(const Found& found, const std::string& setting, const Bounds& bounds, double harmless,
-                 const std::string& mend);
+  std::optional<double> checked(const Found& found, const std::string& setting, const Bounds& bounds,
+                                const std::string& mend);
   void reportChoice(const Found& found, const std::string& accepted);
 
   const XmlElement* element_;

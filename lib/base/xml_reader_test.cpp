@@ -100,6 +100,16 @@ TEST(XmlReader, TurnsDegreesIntoRadiansAndTalksInDegrees) {
   EXPECT_EQ(said, Lines{"a.xml:1: <a q_deg=\"400\">: must lie in [-180, 180] degrees; drop it for the default, 90"});
 }
 
+TEST(XmlReader, TurnsLengthsIntoMetresAndTalksInTheFilesUnit) {
+  const Lines said = faults("<a x='25' y='-1'/>", [](XmlReader& a) {
+    EXPECT_EQ(a.length("x", Bounds::positive(), 0.1), 2.5);
+    EXPECT_EQ(a.length("y", Bounds::positive(), 0.5), 0.5);
+    EXPECT_EQ(a.length("z", Bounds::any(), 0.5), 0.5);
+  });
+  EXPECT_EQ(said, (Lines{"a.xml:1: <a y=\"-1\">: must be above 0; write a number there",
+                         "a.xml:1: <a>: <z> is missing; add it"}));
+}
+
 TEST(XmlReader, RefusesAnUnknownChoiceAndListsTheAcceptedOnes) {
   const Lines said = faults("<heat law='square' on='yes'/>", [](XmlReader& heat) {
     EXPECT_EQ((heat.choice<int>("law", {{"linear", 1}, {"inverse", 2}}, 1)), 1);
