@@ -114,6 +114,17 @@ double distance(const Outline& a, const Outline& b) {
   return std::visit([](const auto& one, const auto& other) { return between(one, other); }, a, b);
 }
 
+TPoint2D normalAt(const Outline& outline, const TPoint2D& on_rim) {
+  if (const auto* circle = std::get_if<Circle>(&outline)) {
+    const TPoint2D out = on_rim - circle->center;
+    return out * (1 / out.norm());
+  }
+  const auto& box = std::get<OrientedBox>(outline);
+  const TPoint2D in_box = toBox(box, on_rim);
+  const bool at_end = box.half_length_m - std::abs(in_box.x) < box.half_width_m - std::abs(in_box.y);
+  return at_end ? box.axis * std::copysign(1.0, in_box.x) : across(box) * std::copysign(1.0, in_box.y);
+}
+
 bool overlap(const Solid& a, const Solid& b) {
   return a.heights.overlaps(b.heights) &&
          std::visit([](const auto& one, const auto& other) { return shareInside(one, other); }, a.outline, b.outline);

@@ -60,6 +60,9 @@ double distance(const Outline&, const mrpt::math::TPoint2D& p);
 /// Distance [m] between two filled outlines, exact; 0 when they touch or overlap.
 double distance(const Outline&, const Outline&);
 
+/// Outward unit normal of the outline at a point of its rim; at a corner, of the face that is nearer.
+mrpt::math::TPoint2D normalAt(const Outline&, const mrpt::math::TPoint2D& on_rim);
+
 /// Whether the two solids share more than a touching face.
 bool overlap(const Solid&, const Solid&);
 

@@ -9,7 +9,7 @@ namespace robosim {
 
 /// What a sensor's reader may need to know of the robot that carries it.
 struct Mount {
-  double unit_m = 1;          ///< a length unit of the file, in metres; only 2005's <sensor> uses it
+  double unit_m = 1;  ///< a length unit of the file, in metres; only 2005's <sensor> uses it
   double robot_radius_m = 0;
   double robot_height_m = 0;
 };

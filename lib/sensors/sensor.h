@@ -3,6 +3,7 @@
 #include <span>
 
 #include <mrpt/math/TPoint2D.h>
+#include <mrpt/math/TPoint3D.h>
 #include <mrpt/math/TPose2D.h>
 
 #include "base/random.h"
@@ -26,28 +27,49 @@ struct Motion {
   double turn_rad = 0;
 };
 
+/// A robot's frame in the world, its sine and cosine worked out once for all of a robot's beams.
+class RobotFrame {
+ public:
+  RobotFrame(const mrpt::math::TPose2D& world_from_robot, double base_z_m);
+
+  mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const {
+    return {x_ + cos_ * in_robot.x - sin_ * in_robot.y, y_ + sin_ * in_robot.x + cos_ * in_robot.y, z_ + in_robot.z};
+  }
+  mrpt::math::TPoint3D turnToWorld(const mrpt::math::TPoint3D& v) const {
+    return {cos_ * v.x - sin_ * v.y, sin_ * v.x + cos_ * v.y, v.z};
+  }
+  mrpt::math::TPoint2D turnToWorld(const mrpt::math::TPoint2D& v) const {
+    return {cos_ * v.x - sin_ * v.y, sin_ * v.x + cos_ * v.y};
+  }
+  mrpt::math::TPoint3D turnToRobot(const mrpt::math::TPoint3D& v) const {
+    return {cos_ * v.x + sin_ * v.y, cos_ * v.y - sin_ * v.x, v.z};
+  }
+
+ private:
+  double x_, y_, z_, cos_, sin_;
+};
+
 /// The moment that sensors sense: everything stands still. Arrays are indexed by robot, in the world's order.
 struct Snapshot {
   const Scene& scene;
   std::span<const HeatSource> heat_sources;
   std::span<const mrpt::math::TPose2D> world_from_robot;
-  std::span<const double> base_z_m;      ///< height of the robot frame's origin, the underside of its body
+  std::span<const double> base_z_m;  ///< height of the robot frame's origin, the underside of its body
   std::span<const Motion> last_motion;
   std::span<const float> laser_pan_rad;
   SimTime time;
   std::uint64_t seed = 0;
 
   BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
-  mrpt::math::TPoint3D toWorld(std::uint32_t robot, const mrpt::math::TPoint3D& in_robot) const;
-  mrpt::math::TPoint3Df toRobot(std::uint32_t robot, const mrpt::math::TPoint3D& in_world) const;
+  RobotFrame frameOf(std::uint32_t robot) const { return {world_from_robot[robot], base_z_m[robot]}; }
   /// The noise of one sensor of one robot in this step.
   Rng noise(std::uint32_t robot, std::size_t slot) const {
     return Rng(seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), time.step);
   }
 };
 
-/// One kind of sensor with one set of options, as mounted on all robots of a model. It senses for many robots at once and
-/// writes to each robot's own slot only, so robots may be split among threads in any way.
+/// One kind of sensor with one set of options, as mounted on all robots of a model. It senses for many robots at once
+/// and writes to each robot's own slot only, so robots may be split among threads in any way.
 class Sensor {
  public:
   virtual ~Sensor() = default;

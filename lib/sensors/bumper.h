@@ -1,0 +1,24 @@
+#pragma once
+#include <memory>
+
+#include "base/xml_reader.h"
+#include "sensors/registry.h"
+#include "sensors/sensor.h"
+
+namespace robosim {
+
+/// A ring of contact segments round the robot's body, counter-clockwise; the first is centred straight ahead.
+struct BumperOptions {
+  std::string label = "bumper";
+  int segments = 12;          ///< [3, 360]
+  double travel_m = 0.002;    ///< (0, 0.1]: something this near to the body presses a segment
+  double robot_radius_m = 0;  ///< from the robot, not from the element
+  double z_m = 0;             ///< height of the ring above the robot's underside; default half the robot's height
+
+  /// Reads <bumper>.
+  static BumperOptions read(XmlReader&, const Mount&);
+};
+
+std::unique_ptr<Sensor> makeBumper(const BumperOptions&);
+
+}  // namespace robosim

@@ -1,0 +1,48 @@
+#include "sensors/compass.h"
+
+#include <cmath>
+
+#include <mrpt/math/wrap2pi.h>
+
+namespace robosim {
+namespace {
+
+class Compass : public Sensor {
+ public:
+  explicit Compass(const CompassOptions& options) : options_(options) {
+    info_.kind = SensorKind::compass;
+    info_.label = options.label;
+  }
+
+  const SensorInfo& info() const override { return info_; }
+  Measurement blank() const override { return Scalar{}; }
+
+  void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
+             std::span<Readings> readings) const override {
+    for (const auto robot : robots) {
+      double heading_rad = now.world_from_robot[robot].phi;
+      if (options_.noise_std_rad > 0) heading_rad += options_.noise_std_rad * now.noise(robot, slot).gaussian();
+      readings[robot].measurements[slot] = Scalar{mrpt::math::wrapToPi(heading_rad)};
+    }
+  }
+
+ private:
+  CompassOptions options_;
+  SensorInfo info_;
+};
+
+}  // namespace
+
+CompassOptions CompassOptions::read(XmlReader& reader) {
+  CompassOptions o;
+  o.label = reader.word("label", o.label);
+  if (auto element = reader.child("noise")) {
+    o.noise_std_rad = element->angle("std_deg", Bounds::notNegative(180), 2 * M_PI / 180);
+    element->finish();
+  }
+  return o;
+}
+
+std::unique_ptr<Sensor> makeCompass(const CompassOptions& options) { return std::make_unique<Compass>(options); }
+
+}  // namespace robosim

@@ -1,0 +1,43 @@
+#include "sensors/infrared.h"
+
+#include <algorithm>
+
+#include "sensors/beam_mounts.h"
+#include "sensors/thin_beams.h"
+
+namespace robosim {
+namespace {
+
+/// Of a GP2D12 behind an 8-bit converter: one step is about 2 % of the range in the middle of its curve (data sheet).
+constexpr RangeNoise kDataSheet{.on = true, .std_m = 0, .std_per_m = 0.02, .dropout = 0};
+
+}  // namespace
+
+InfraredOptions InfraredOptions::read(XmlReader& reader) {
+  InfraredOptions o;
+  o.label = reader.word("label", o.label);
+  o.beams = readBeamMounts(reader);
+  o.range_max_m = reader.number("range_max_m", Bounds::positive(10), o.range_max_m);
+  o.range_min_m =
+      reader.number("range_min_m", Bounds::notNegative(o.range_max_m), std::min(o.range_min_m, o.range_max_m / 8));
+  if (auto element = reader.child("noise")) {
+    o.noise = RangeNoise::read(*element, kDataSheet);
+    element->finish();
+  }
+  return o;
+}
+
+std::unique_ptr<Sensor> makeInfrared(const InfraredOptions& o) {
+  return makeThinBeams({.kind = SensorKind::infrared,
+                        .label = o.label,
+                        .beams = o.beams,
+                        .range_min_m = o.range_min_m,
+                        .range_max_m = o.range_max_m,
+                        .no_echo_m = o.range_max_m,
+                        .beam_width_rad = 0,
+                        .noise_std_m = o.noise.std_m,
+                        .pans = false},
+                       o.noise);
+}
+
+}  // namespace robosim

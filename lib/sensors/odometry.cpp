@@ -1,0 +1,78 @@
+#include "sensors/odometry.h"
+
+#include <cmath>
+
+#include <mrpt/math/wrap2pi.h>
+
+namespace robosim {
+namespace {
+
+/// The pose after an arc of constant curvature.
+mrpt::math::TPose2D afterArc(const mrpt::math::TPose2D& from, double length_m, double turn_rad) {
+  const double half = turn_rad / 2;
+  const double chord = length_m * (half == 0 ? 1 : std::sin(half) / half);
+  return {from.x + chord * std::cos(from.phi + half), from.y + chord * std::sin(from.phi + half),
+          mrpt::math::wrapToPi(from.phi + turn_rad)};
+}
+
+class WheelOdometry : public Sensor {
+ public:
+  explicit WheelOdometry(const OdometryOptions& options) : options_(options) {
+    info_.kind = SensorKind::odometry;
+    info_.label = options.label;
+  }
+
+  const SensorInfo& info() const override { return info_; }
+  Measurement blank() const override { return Odometry{}; }
+
+  void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
+             std::span<Readings> readings) const override {
+    for (const auto robot : robots) {
+      auto& odometry = std::get<Odometry>(readings[robot].measurements[slot]);
+      Motion told = now.last_motion[robot];
+      if (options_.noise.on) told = withNoise(told, now.noise(robot, slot));
+      odometry.odom_from_robot = afterArc(odometry.odom_from_robot, told.length_m, told.turn_rad);
+      odometry.speed_mps = told.length_m / now.time.period_s;
+      odometry.turn_radps = told.turn_rad / now.time.period_s;
+    }
+  }
+
+ private:
+  Motion withNoise(const Motion& true_motion, Rng rng) const {
+    const auto& noise = options_.noise;
+    const double root_m = std::sqrt(std::abs(true_motion.length_m));
+    const double root_rad = std::sqrt(std::abs(true_motion.turn_rad));
+    Motion told = true_motion;
+    told.length_m += noise.length_std_per_sqrt_m * root_m * rng.gaussian();
+    told.turn_rad += noise.turn_std_per_sqrt_rad * root_rad * rng.gaussian();
+    told.turn_rad += noise.drift_std_per_sqrt_m * root_m * rng.gaussian();
+    return told;
+  }
+
+  OdometryOptions options_;
+  SensorInfo info_;
+};
+
+}  // namespace
+
+OdometryOptions OdometryOptions::read(XmlReader& reader) {
+  OdometryOptions o;
+  o.label = reader.word("label", o.label);
+  if (auto element = reader.child("noise")) {
+    o.noise.on = true;
+    const auto read = [&](const char* name, double& value) {
+      value = element->number(name, Bounds::notNegative(10), value);
+    };
+    read("length_std_per_sqrt_m", o.noise.length_std_per_sqrt_m);
+    read("turn_std_per_sqrt_rad", o.noise.turn_std_per_sqrt_rad);
+    read("drift_std_per_sqrt_m", o.noise.drift_std_per_sqrt_m);
+    element->finish();
+  }
+  return o;
+}
+
+std::unique_ptr<Sensor> makeOdometry(const OdometryOptions& options) {
+  return std::make_unique<WheelOdometry>(options);
+}
+
+}  // namespace robosim
