@@ -23,8 +23,8 @@ struct EnvironmentOptions {
   int threads = 1;        ///< the run is the same for any number
 };
 
-/// Owns the state of a world and keeps its time step. No socket, no wall clock and no global inside: the same world, seed
-/// and commands give the same run, bit for bit, for any number of threads.
+/// Owns the state of a world and keeps its time step. No socket, no wall clock and no global inside: the same world,
+/// seed and commands give the same run, bit for bit, for any number of threads.
 ///
 /// A time step:
 ///  1. take each robot's last command;

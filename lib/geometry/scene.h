@@ -36,6 +36,7 @@ class Scene {
   std::size_t stationaryCount() const { return stationary_.size(); }
   std::size_t movingCount() const { return moving_.size(); }
   BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationary_.size() + i)); }
+  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationary_.size(); }
   const Solid& solid(BodyId body) const;
 
   /// Sets where a moving solid is; takes effect for questions with freeze().

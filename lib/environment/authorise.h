@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "geometry/path.h"
+#include "geometry/scene.h"
+
+namespace robosim {
+
+/// A robot that asks to move: a disc that stands upright.
+struct Mover {
+  double radius_m = 0;
+  HeightSpan heights;
+};
+
+/// Decides how far each robot may go (the rule is in environment.h). Keeps its working memory from step to step.
+class Authority {
+ public:
+  explicit Authority(std::vector<Mover> movers);
+
+  /// Shortens the robots' paths in place until no two bodies can overlap.
+  /// @param scene frozen where the robots stand now
+  /// @param stalled set to 1 for each robot whose path was cut short
+  void authorise(const Scene& scene, const Workers& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
+
+ private:
+  void clip(const Scene& scene, std::size_t robot, std::span<Path> paths) const;
+  bool meetsAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;
+
+  std::vector<Mover> movers_;
+  double radius_max_m_ = 0;
+  double length_max_m_ = 0;  ///< of this step's paths
+  std::vector<std::uint8_t> stays_;
+};
+
+}  // namespace robosim

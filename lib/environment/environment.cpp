@@ -1,0 +1,223 @@
+#include "environment/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "environment/authorise.h"
+#include "environment/mail.h"
+#include "environment/run_digest.h"
+#include "robots/differential_drive.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kChunk = 64;
+
+std::vector<Solid> solidsOf(const World& world) {
+  std::vector<Solid> solids;
+  solids.reserve(world.objects.size());
+  for (const auto& object : world.objects) solids.push_back(object.body.solid());
+  return solids;
+}
+
+std::vector<Mover> moversOf(const Fleet& fleet) {
+  std::vector<Mover> movers;
+  movers.reserve(fleet.robots.size());
+  for (const auto& robot : fleet.robots) movers.push_back({robot.info.radius_m, robot.body.heights()});
+  return movers;
+}
+
+std::vector<std::string> namesOf(const Fleet& fleet) {
+  std::vector<std::string> names;
+  names.reserve(fleet.robots.size());
+  for (const auto& robot : fleet.robots) names.push_back(robot.info.name);
+  return names;
+}
+
+/// Robots that carry the same sensors.
+struct Group {
+  const RobotModel* model;
+  std::vector<std::uint32_t> robots;
+};
+
+std::vector<Group> groupsOf(const Fleet& fleet) {
+  std::vector<Group> groups;
+  std::map<const RobotModel*, std::size_t> group_of;
+  for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
+    const RobotModel* model = fleet.robots[i].model.get();
+    const auto [found, is_new] = group_of.emplace(model, groups.size());
+    if (is_new) groups.push_back({model, {}});
+    groups[found->second].robots.push_back(i);
+  }
+  return groups;
+}
+
+}  // namespace
+
+struct Environment::Impl {
+  World world;
+  Fleet fleet;
+  EnvironmentOptions options;
+  Workers workers;
+  Scene scene;
+  Authority authority;
+  Mail mail;
+  RunDigest digest;
+  std::vector<Group> groups;
+  std::vector<Command> commands;
+  std::vector<Path> paths;
+  std::vector<double> base_z_m;
+  std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
+  State state;
+
+  Impl(World the_world, Fleet the_fleet, const EnvironmentOptions& the_options)
+      : world(std::move(the_world)),
+        fleet(std::move(the_fleet)),
+        options(the_options),
+        workers(options.threads),
+        scene(solidsOf(world), fleet.robots.size(), world.bounds),
+        authority(moversOf(fleet)),
+        mail(namesOf(fleet), world.communication, options.seed),
+        digest(fleet.robots.size()),
+        groups(groupsOf(fleet)),
+        commands(fleet.robots.size()),
+        paths(fleet.robots.size()) {
+    const std::size_t n = fleet.robots.size();
+    state.time = {0, options.period_s};
+    state.world_from_robot.resize(n);
+    state.speed_mps.resize(n);
+    state.turn_radps.resize(n);
+    state.last_motion.resize(n);
+    state.driven_m.resize(n);
+    state.stalled.resize(n);
+    state.activity.resize(n, Activity::active);
+    state.laser_pan_rad.resize(n);
+    state.readings.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+      const FleetRobot& robot = fleet.robots[i];
+      state.world_from_robot[i] = robot.world_from_start;
+      base_z_m.push_back(robot.body.heights().z_min_m);
+      for (const auto& sensor : robot.model->sensors) state.readings[i].measurements.push_back(sensor->blank());
+    }
+    for (std::size_t i = 0; i < world.objects.size(); ++i) {
+      const auto& pose = world.objects[i].body.world_from_body;
+      addHeatSource(world.objects[i].body, {pose.x, pose.y}, BodyId(static_cast<std::uint32_t>(i)));
+    }
+    for (std::size_t i = 0; i < n; ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
+    placeBodies();
+    sense();
+    digest.add(state, workers);
+  }
+
+  void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
+    if (body.heat_celsius != 0) heat_sources.push_back({center, body.heat_celsius, id});
+  }
+
+  void placeBodies() {
+    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+      Body body = fleet.robots[i].body;
+      body.world_from_body = state.world_from_robot[i];
+      scene.place(i, body.solid());
+    });
+    scene.freeze();
+    for (auto& source : heat_sources) {
+      if (static_cast<std::size_t>(source.body) < scene.stationaryCount()) continue;
+      const auto& pose = state.world_from_robot[scene.movingIndex(source.body)];
+      source.center = {pose.x, pose.y};
+    }
+  }
+
+  void takeCommands() {
+    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+      const Command& command = commands[i];
+      if (state.activity[i] == Activity::active) state.activity[i] = command.activity;
+      state.laser_pan_rad[i] =
+          std::isfinite(command.laser_pan_rad)
+              ? std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2))
+              : 0;
+      Command wish = command;
+      wish.activity = state.activity[i];
+      const DriveSpeeds speeds = reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, wish,
+                                                 fleet.robots[i].info.limits, options.period_s);
+      state.speed_mps[i] = speeds.speed_mps;
+      state.turn_radps[i] = speeds.turn_radps;
+      paths[i] = pathOf(state.world_from_robot[i], speeds, options.period_s);
+    });
+  }
+
+  void move() {
+    authority.authorise(scene, workers, paths, state.stalled);
+    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+      const Path& path = paths[i];
+      if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
+      state.last_motion[i] = {path.clippedLength(), path.turn_rad};
+      state.driven_m[i] += std::abs(path.clippedLength());
+      if (state.stalled[i]) state.speed_mps[i] = 0;  // it stands against something and starts from rest
+    });
+    state.stalls += static_cast<std::uint64_t>(std::count(state.stalled.begin(), state.stalled.end(), 1));
+    placeBodies();
+  }
+
+  void sense() {
+    const Snapshot now{.scene = scene,
+                       .heat_sources = heat_sources,
+                       .world_from_robot = state.world_from_robot,
+                       .base_z_m = base_z_m,
+                       .last_motion = state.last_motion,
+                       .laser_pan_rad = state.laser_pan_rad,
+                       .time = state.time,
+                       .seed = options.seed};
+    for (const auto& group : groups) {
+      workers.forChunks(group.robots.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        const std::span robots(group.robots.data() + begin, end - begin);
+        for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
+          group.model->sensors[slot]->sense(now, robots, slot, state.readings);
+        }
+        for (const auto i : robots) {
+          state.readings[i].time = state.time;
+          state.readings[i].stalled = state.stalled[i] != 0;
+          state.readings[i].laser_pan_rad = state.laser_pan_rad[i];
+        }
+      });
+    }
+  }
+
+  void step() {
+    ++state.time.step;
+    takeCommands();
+    move();
+    state.messages_delivered += mail.deliver(state.time, state.world_from_robot, state.readings);
+    sense();
+    digest.add(state, workers);
+  }
+};
+
+Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options)
+    : impl_(std::make_unique<Impl>(std::move(world), std::move(fleet), options)) {}
+
+Environment::~Environment() = default;
+
+const World& Environment::world() const { return impl_->world; }
+const Fleet& Environment::fleet() const { return impl_->fleet; }
+std::size_t Environment::robotCount() const { return impl_->fleet.robots.size(); }
+const State& Environment::state() const { return impl_->state; }
+SimTime Environment::time() const { return impl_->state.time; }
+
+void Environment::setCommand(std::size_t robot, const Command& command) { impl_->commands[robot] = command; }
+
+void Environment::send(std::size_t from, const std::string& to, const std::string& text) {
+  impl_->mail.send(from, to, text);
+}
+
+void Environment::step() { impl_->step(); }
+
+bool Environment::allHalted() const {
+  const auto& activity = impl_->state.activity;
+  return !activity.empty() &&
+         std::none_of(activity.begin(), activity.end(), [](Activity a) { return a == Activity::active; });
+}
+
+std::string Environment::digest() const { return impl_->digest.text(); }
+
+}  // namespace robosim
