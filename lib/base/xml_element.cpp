@@ -67,7 +67,7 @@ void push(tinyxml2::XMLPrinter& printer, const XmlElement& element) {
 std::string faultOf(tinyxml2::XMLError error) {
   switch (error) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "an element is not closed, or closed by another's tag";
+      return "an element is closed by another's tag, or not at all (was the file cut off?)";
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements lie more than 98 deep";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:

@@ -99,7 +99,8 @@ TEST(XmlElement, RefusesWhatIsNotXmlAndSaysWhere) {
   EXPECT_EQ(fault("<!-- only a remark -->"), "a.xml:1: there is no element in the file");
   EXPECT_EQ(fault("<a/>\n<b/>"), "a.xml:2: a second root element <b>; an XML file has one");
   EXPECT_EQ(fault("<a>\n<b></c>\n</a>"),
-            "a.xml:2: an element is not closed, or closed by another's tag; mend the file here or just before");
+            "a.xml:2: an element is closed by another's tag, or not at all (was the file cut off?); mend the file here "
+            "or just before");
   EXPECT_EQ(fault("<a>\n<b x=\"1\" x=\"2\"/></a>"),
             "a.xml:2: an attribute is given twice, or is not name=\"value\"; mend the file here or just before");
   EXPECT_EQ(fault("<a>\n<!-- b"), "a.xml:2: a comment is not closed by -->; mend the file here or just before");

@@ -50,7 +50,7 @@ bool XmlReader::has(const std::string& setting) const {
 }
 
 std::optional<XmlReader::Found> XmlReader::find(const std::string& setting) {
-  asked_.insert(setting);
+  const bool is_news = asked_.insert(setting).second;
   std::optional<Found> found;
   for (const auto& [name, value] : element_->attributes) {
     if (name != setting) continue;
@@ -59,14 +59,14 @@ std::optional<XmlReader::Found> XmlReader::find(const std::string& setting) {
   for (const auto& child : element_->children) {
     if (child.name != setting) continue;
     if (found) {
-      errors_->add(file_, child.line.number, "<" + setting + "> is given twice in <" + element_->name + ">; keep one");
+      if (is_news) XmlReader(child, file_, *errors_).error("is given twice in <" + element_->name + ">; keep one");
       break;
     }
     found = Found{child.text, child.line.number, "<" + setting + ">" + child.text + "</" + setting + ">"};
     // A value holds text only; anything else inside it is an unknown tag like any other.
     XmlReader inner(child, file_, *errors_);
     inner.asked_.insert("");
-    inner.finish();
+    if (is_news) inner.finish();
   }
   return found;
 }
@@ -127,7 +127,9 @@ std::string XmlReader::word(const std::string& setting) {
 }
 
 std::string XmlReader::word(const std::string& setting, const std::string& otherwise) {
-  return has(setting) ? word(setting) : otherwise;
+  if (has(setting)) return word(setting);
+  asked_.insert(setting);
+  return otherwise;
 }
 
 bool XmlReader::flag(const std::string& setting, bool otherwise) {

@@ -142,6 +142,18 @@ TEST(XmlReader, ReportsWhatNobodyAskedFor) {
                          "a.xml:1: <a>: the text 'stray words' has no meaning here; take it out"}));
 }
 
+TEST(XmlReader, NamesWhatWasAskedForAmongWhatIsAccepted) {
+  const Lines said = faults("<a q='1'/>", [](XmlReader& a) {
+    a.word("word", "");
+    a.number("number", Bounds::any(), 0);
+    a.flag("flag", false);
+    a.numbers("numbers", 3, Bounds::any(), {});
+    a.child("child");
+  });
+  EXPECT_EQ(said,
+            Lines{"a.xml:1: <a>: unknown attribute q=\"1\"; accepted here are: child, flag, number, numbers, word"});
+}
+
 TEST(XmlReader, ReportsATagInsideAValue) {
   const Lines said = faults("<a>\n<x>3<y/></x></a>", [](XmlReader& a) { EXPECT_EQ(a.number("x"), 3); });
   EXPECT_EQ(said, Lines{"a.xml:2: <y>: unknown tag in <x>; nothing but text is accepted here"});
@@ -163,9 +175,11 @@ TEST(XmlReader, ReportsASettingOrChildThatIsGivenTwice) {
     EXPECT_EQ(a.number("x"), 1);
     EXPECT_EQ(a.number("z"), 1);
     EXPECT_EQ(a.child("b")->line().number, 5);
+    EXPECT_EQ(a.number("x"), 1) << "asked again, nothing is said again";
   });
-  EXPECT_EQ(said, (Lines{"a.xml:3: <x> is given twice in <a>; keep one", "a.xml:4: <z> is given twice in <a>; keep one",
-                         "a.xml:6: <b>: is given twice in <a>; keep one"}));
+  EXPECT_EQ(said,
+            (Lines{"a.xml:3: <x>: is given twice in <a>; keep one", "a.xml:4: <z>: is given twice in <a>; keep one",
+                   "a.xml:6: <b>: is given twice in <a>; keep one"}));
 }
 
 TEST(XmlReader, ReportsAMissingChildOnceAndNotWhatIsMissingInIt) {

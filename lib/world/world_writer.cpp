@@ -1,0 +1,116 @@
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+
+#include "world/world_file.h"
+
+namespace robosim {
+namespace {
+
+/// The shortest text that reads back, by way of a double, as exactly `value`.
+std::string floatText(float value) {
+  char buffer[32];
+  const std::string text{buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
+  // Rounded twice, decimal to double to float, a number very near the middle between two floats may go astray.
+  return static_cast<float>(toNumber(text, 1)) == value ? text : toText(static_cast<double>(value));
+}
+
+class WorldWriter {
+ public:
+  explicit WorldWriter(const World& world) : world_(world) {}
+
+  XmlElement write() const {
+    XmlElement root;
+    root.name = "world";
+    if (world_.unit_m != 1) root.attributes.emplace_back("unit_m", toText(world_.unit_m));
+    XmlElement& surface = root.add("surface");
+    surface.add("type", world_.surface_type);
+    XmlElement& size = surface.add("size");
+    addLength(size, "xmin", world_.bounds.x_min);
+    addLength(size, "xmax", world_.bounds.x_max);
+    addLength(size, "ymin", world_.bounds.y_min);
+    addLength(size, "ymax", world_.bounds.y_max);
+    for (const auto& object : world_.objects) {
+      addBody(surface.add("object").add("shape").add("primitive"), object.name, object.body, object.stationary);
+    }
+    for (const auto& robot : world_.robots) addRobot(surface.add("object").add("shape").add("robot"), robot);
+    addCommunication(root);
+    return root;
+  }
+
+ private:
+  void addCommunication(XmlElement& root) const {
+    const Communication& communication = world_.communication;
+    if (communication == Communication{}) return;
+    XmlElement& element = root.add("communication");
+    if (communication.range_m) addLength(element, "range", *communication.range_m);
+    if (communication.loss_probability != 0) element.add("loss", toText(communication.loss_probability));
+  }
+
+  void addRobot(XmlElement& element, const RobotPlacement& robot) const {
+    assert(robot.body || !robot.model.empty());
+    if (!robot.model.empty()) element.add("model", robot.model);
+    if (robot.body) {
+      Body body = *robot.body;
+      body.world_from_body = robot.world_from_robot;
+      addBody(element, robot.name, body, false);
+    } else {
+      element.add("name", robot.name);
+      addPose(element, robot.world_from_robot);
+      if (robot.color) element.add("color", colorText(*robot.color));
+    }
+    addSensors(element, robot.sensors);
+    if (!robot.controller.empty()) element.add("controller", robot.controller);
+    if (!robot.neighbour.empty()) element.add("neighbour", robot.neighbour);
+  }
+
+  void addSensors(XmlElement& robot, const std::vector<XmlElement>& sensors) const {
+    if (sensors.empty()) return;
+    // As in 2005 when nothing is newer; else all in one place, which keeps their order.
+    const bool all_2005 =
+        std::all_of(sensors.begin(), sensors.end(), [](const XmlElement& sensor) { return sensor.name == "sensor"; });
+    auto& place = (all_2005 ? robot : robot.add("sensors")).children;
+    place.insert(place.end(), sensors.begin(), sensors.end());
+  }
+
+  void addBody(XmlElement& owner, const std::string& name, const Body& body, bool stationary) const {
+    const auto* cylinder = std::get_if<Cylinder>(&body.shape);
+    XmlElement& element = owner.add(cylinder ? "cylinder" : "cube");
+    element.add("name", name);
+    addPose(element, body.world_from_body);
+    addLength(element, "z", body.center_z_m);
+    if (cylinder) {
+      addLength(element, "radius", cylinder->radius_m);
+    } else {
+      const auto& cube = std::get<Cube>(body.shape);
+      addLength(element, "length", cube.length_m);
+      addLength(element, "width", cube.width_m);
+    }
+    addLength(element, "height", body.height_m);
+    element.add("color", colorText(body.color));
+    element.add("hot", toText(body.heat_celsius));
+    element.add("stationary", stationary ? "1" : "0");
+  }
+
+  void addPose(XmlElement& element, const mrpt::math::TPose2D& pose) const {
+    addLength(element, "x", pose.x);
+    addLength(element, "y", pose.y);
+    element.add("direction", toText(pose.phi));
+  }
+
+  void addLength(XmlElement& element, const char* tag, double length_m) const {
+    element.add(tag, toText(length_m, world_.unit_m));
+  }
+
+  static std::string colorText(const std::array<float, 3>& color) {
+    return floatText(color[0]) + " " + floatText(color[1]) + " " + floatText(color[2]);
+  }
+
+  const World& world_;
+};
+
+}  // namespace
+
+std::string toXml(const World& world) { return toXml(WorldWriter(world).write()); }
+
+}  // namespace robosim
