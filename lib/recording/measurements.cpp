@@ -1,0 +1,138 @@
+#include "recording/measurements.h"
+
+#include <cmath>
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationGasSensors.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRange.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
+
+#include "recording/fan.h"
+#include "recording/observations.h"
+#include "recording/recording_error.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint3Df;
+using mrpt::math::TPose3D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationGasSensors;
+using mrpt::obs::CObservationIMU;
+using mrpt::obs::CObservationOdometry;
+using mrpt::obs::CObservationRange;
+using mrpt::obs::CObservationRawDAQ;
+
+TPoint3Df pointAlong(const TPose3D& robot_from_beam, double range_m) {
+  // MRPT's pitch is positive downwards.
+  const double level = std::cos(robot_from_beam.pitch);
+  return {static_cast<float>(robot_from_beam.x + level * std::cos(robot_from_beam.yaw) * range_m),
+          static_cast<float>(robot_from_beam.y + level * std::sin(robot_from_beam.yaw) * range_m),
+          static_cast<float>(robot_from_beam.z - std::sin(robot_from_beam.pitch) * range_m)};
+}
+
+Echo silence(const SensorInfo& sensor, const TPose3D& robot_from_beam) {
+  return {static_cast<float>(sensor.no_echo_m), pointAlong(robot_from_beam, sensor.no_echo_m)};
+}
+
+[[noreturn]] void refuse(const CObservation& observation, const SensorInfo& sensor, const std::string& why) {
+  throw RecordingError("recorded observation \"" + observation.sensorLabel + "\" (" +
+                       observation.GetRuntimeClass()->className + ") is not of the " + nameOf(sensor.kind) + " \"" +
+                       sensor.label + "\": " + why + "; give the robots that the recording was made with");
+}
+
+template <typename Class>
+const Class& as(const CObservation& observation, const SensorInfo& sensor) {
+  if (const auto* it = dynamic_cast<const Class*>(&observation)) return *it;
+  refuse(observation, sensor, std::string("the class should be ") + Class::GetRuntimeClassIdStatic().className);
+}
+
+void checkSize(const CObservation& observation, const SensorInfo& sensor, std::size_t recorded, std::size_t expected) {
+  if (recorded == expected) return;
+  refuse(observation, sensor,
+         "it holds " + std::to_string(recorded) + " values in place of " + std::to_string(expected));
+}
+
+Echoes echoesFrom(const CObservationRange& range, const SensorInfo& sensor) {
+  checkSize(range, sensor, range.sensedData.size(), sensor.beams.size());
+  Echoes echoes;
+  for (const auto& sensed : range.sensedData) {
+    const float range_m = sensed.sensedDistance;
+    const bool silent = range_m > static_cast<float>(sensor.range_max_m);
+    echoes.push_back(silent ? silence(sensor, sensed.sensorPose)
+                            : Echo{range_m, pointAlong(sensed.sensorPose, range_m)});
+  }
+  return echoes;
+}
+
+Echoes echoesFrom(const CObservation2DRangeScan& scan, const SensorInfo& sensor, const Fan& fan) {
+  checkSize(scan, sensor, scan.getScanSize(), sensor.beams.size());
+  const double pan_rad = sensor.pans ? std::remainder(scan.sensorPose.yaw() - fan.robot_from_middle.yaw, 2 * M_PI) : 0;
+  Echoes echoes;
+  for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+    const TPose3D robot_from_beam = panned(sensor.beams[i].robot_from_beam, pan_rad);
+    const float range_m = scan.getScanRange(i);
+    const bool heard = scan.getScanRangeValidity(i);
+    echoes.push_back(heard ? Echo{range_m, pointAlong(robot_from_beam, range_m)} : silence(sensor, robot_from_beam));
+  }
+  return echoes;
+}
+
+Scalar heatFrom(const CObservationGasSensors& heat, const SensorInfo& sensor) {
+  checkSize(heat, sensor, heat.m_readings.size(), 1);
+  if (!heat.m_readings[0].hasTemperature) refuse(heat, sensor, "it has no temperature");
+  return {heat.m_readings[0].temperature};
+}
+
+Scalar yawFrom(const CObservationIMU& compass, const SensorInfo& sensor) {
+  if (!compass.has(mrpt::obs::IMU_YAW)) refuse(compass, sensor, "it has no yaw");
+  return {compass.get(mrpt::obs::IMU_YAW)};
+}
+
+Contacts contactsFrom(const CObservationRawDAQ& bumper, const SensorInfo& sensor) {
+  checkSize(bumper, sensor, bumper.DIN.size(), (sensor.beams.size() + 7) / 8);
+  Contacts contacts;
+  for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+    contacts.pressed.push_back((bumper.DIN[i / 8] >> (i % 8)) & 1u);
+  }
+  return contacts;
+}
+
+Odometry odometryFrom(const CObservationOdometry& observation) {
+  Odometry odometry;
+  odometry.odom_from_robot = {observation.odometry.x(), observation.odometry.y(), observation.odometry.phi()};
+  if (observation.hasVelocities) {
+    odometry.speed_mps = observation.velocityLocal.vx;
+    odometry.turn_radps = observation.velocityLocal.omega == kNoTurn_radps ? 0 : observation.velocityLocal.omega;
+  }
+  return odometry;
+}
+
+}  // namespace
+
+Measurement measurementFrom(const CObservation& observation, const SensorInfo& sensor) {
+  switch (sensor.kind) {
+    case SensorKind::laser:
+      if (const auto fan = fanOf(sensor.beams)) {
+        return echoesFrom(as<CObservation2DRangeScan>(observation, sensor), sensor, *fan);
+      }
+      [[fallthrough]];
+    case SensorKind::sonar:
+    case SensorKind::infrared:
+      return echoesFrom(as<CObservationRange>(observation, sensor), sensor);
+    case SensorKind::heat:
+      return heatFrom(as<CObservationGasSensors>(observation, sensor), sensor);
+    case SensorKind::bumper:
+      return contactsFrom(as<CObservationRawDAQ>(observation, sensor), sensor);
+    case SensorKind::odometry:
+      return odometryFrom(as<CObservationOdometry>(observation, sensor));
+    case SensorKind::compass:
+      return yawFrom(as<CObservationIMU>(observation, sensor), sensor);
+  }
+  refuse(observation, sensor, "it is of no known kind");
+}
+
+}  // namespace robosim

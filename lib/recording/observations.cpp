@@ -1,0 +1,225 @@
+#include "recording/observations.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationGasSensors.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRange.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include "recording/fan.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::math::TPose3D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationGasSensors;
+using mrpt::obs::CObservationIMU;
+using mrpt::obs::CObservationOdometry;
+using mrpt::obs::CObservationRange;
+using mrpt::obs::CObservationRawDAQ;
+using mrpt::obs::CObservationRobotPose;
+using mrpt::poses::CPose3D;
+
+/// Grids take a cone of no width for a fault.
+constexpr float kThinBeam_rad = 0.001f;
+
+bool isSilence(const SensorInfo& sensor, float range_m) { return range_m >= static_cast<float>(sensor.no_echo_m); }
+
+/// Where a sensor of one number sits.
+TPose3D poseOf(const SensorInfo& sensor) {
+  return sensor.beams.empty() ? TPose3D::Identity() : sensor.beams[0].robot_from_beam;
+}
+
+// One pair of functions for each class: make() it with all that is constant, and fill() in a step's reading.
+
+CObservation::Ptr makeRange(const SensorInfo& sensor) {
+  auto range = CObservationRange::Create();
+  range->minSensorDistance = static_cast<float>(sensor.range_min_m);
+  range->maxSensorDistance = static_cast<float>(sensor.range_max_m);
+  range->sensorConeApperture = std::max(static_cast<float>(sensor.beam_width_rad), kThinBeam_rad);
+  range->sensedData.resize(sensor.beams.size());
+  for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+    range->sensedData[i].sensorID = static_cast<std::uint16_t>(i);
+    range->sensedData[i].sensorPose = sensor.beams[i].robot_from_beam;
+  }
+  return range;
+}
+
+void fill(CObservationRange& range, const SensorInfo& sensor, const Echoes& echoes, float pan_rad) {
+  assert(echoes.size() == range.sensedData.size());
+  const float no_echo_m = recordedNoEcho(sensor);
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    auto& sensed = range.sensedData[i];
+    sensed.sensedDistance = isSilence(sensor, echoes[i].range_m) ? no_echo_m : echoes[i].range_m;
+    if (sensor.pans) sensed.sensorPose = panned(sensor.beams[i].robot_from_beam, pan_rad);
+  }
+}
+
+CObservation::Ptr makeScan(const SensorInfo& sensor, const Fan& fan) {
+  auto scan = CObservation2DRangeScan::Create();
+  scan->aperture = static_cast<float>(fan.aperture_rad);
+  scan->rightToLeft = fan.step_rad > 0;
+  scan->maxRange = static_cast<float>(sensor.range_max_m);
+  scan->sensorPose = CPose3D(fan.robot_from_middle);
+  scan->beamAperture = static_cast<float>(sensor.beam_width_rad);
+  // A noiseless scanner keeps MRPT's 1 cm: an error of 0 would make every likelihood 0.
+  if (sensor.noise_std_m > 0) scan->stdError = static_cast<float>(sensor.noise_std_m);
+  scan->resizeScanAndAssign(sensor.beams.size(), static_cast<float>(sensor.no_echo_m), false);
+  return scan;
+}
+
+void fill(CObservation2DRangeScan& scan, const SensorInfo& sensor, const Echoes& echoes, float pan_rad) {
+  assert(echoes.size() == scan.getScanSize());
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    scan.setScanRange(i, echoes[i].range_m);
+    scan.setScanRangeValidity(i, !isSilence(sensor, echoes[i].range_m));
+  }
+  if (sensor.pans) scan.sensorPose = CPose3D(panned(fanOf(sensor.beams)->robot_from_middle, pan_rad));
+}
+
+CObservation::Ptr makeHeat(const SensorInfo& sensor) {
+  auto heat = CObservationGasSensors::Create();
+  auto& nose = heat->m_readings.emplace_back();
+  nose.eNosePoseOnTheRobot = poseOf(sensor);
+  nose.hasTemperature = true;
+  nose.isActive = true;
+  return heat;
+}
+
+CObservation::Ptr makeCompass(const SensorInfo& sensor) {
+  auto compass = CObservationIMU::Create();
+  compass->sensorPose = CPose3D(poseOf(sensor));
+  compass->dataIsPresent.fill(false);
+  compass->rawMeasurements.fill(0);
+  return compass;
+}
+
+CObservation::Ptr makeBumper(const SensorInfo& sensor) {
+  auto bumper = CObservationRawDAQ::Create();
+  bumper->DIN.resize((sensor.beams.size() + 7) / 8);
+  return bumper;
+}
+
+void fill(CObservationRawDAQ& bumper, const Contacts& contacts) {
+  assert((contacts.pressed.size() + 7) / 8 == bumper.DIN.size());
+  std::fill(bumper.DIN.begin(), bumper.DIN.end(), std::uint8_t{0});
+  for (std::size_t i = 0; i < contacts.pressed.size(); ++i) {
+    if (contacts.pressed[i]) bumper.DIN[i / 8] |= static_cast<std::uint8_t>(1u << (i % 8));
+  }
+}
+
+CObservation::Ptr makeOdometry() {
+  auto odometry = CObservationOdometry::Create();
+  odometry->hasVelocities = true;
+  return odometry;
+}
+
+void fill(CObservationOdometry& observation, const Odometry& odometry) {
+  observation.odometry.x(odometry.odom_from_robot.x);
+  observation.odometry.y(odometry.odom_from_robot.y);
+  observation.odometry.phi(
+      odometry.odom_from_robot.phi);  // the constructor would wrap the angle, and lose its last bits
+  const double turn_radps = odometry.turn_radps == 0 ? kNoTurn_radps : odometry.turn_radps;
+  observation.velocityLocal = {odometry.speed_mps, 0, turn_radps};
+}
+
+CObservation::Ptr makeObservation(const SensorInfo& sensor) {
+  switch (sensor.kind) {
+    case SensorKind::laser:
+      if (const auto fan = fanOf(sensor.beams)) return makeScan(sensor, *fan);
+      return makeRange(sensor);
+    case SensorKind::sonar:
+    case SensorKind::infrared:
+      return makeRange(sensor);
+    case SensorKind::heat:
+      return makeHeat(sensor);
+    case SensorKind::bumper:
+      return makeBumper(sensor);
+    case SensorKind::odometry:
+      return makeOdometry();
+    case SensorKind::compass:
+      return makeCompass(sensor);
+  }
+  assert(!"a kind of sensor that no observation has been chosen for");
+  return {};
+}
+
+void fill(CObservation& observation, const SensorInfo& sensor, const Measurement& measurement, float pan_rad) {
+  switch (sensor.kind) {
+    case SensorKind::laser:
+      if (auto* scan = dynamic_cast<CObservation2DRangeScan*>(&observation)) {
+        return fill(*scan, sensor, std::get<Echoes>(measurement), pan_rad);
+      }
+      [[fallthrough]];
+    case SensorKind::sonar:
+    case SensorKind::infrared:
+      return fill(static_cast<CObservationRange&>(observation), sensor, std::get<Echoes>(measurement), pan_rad);
+    case SensorKind::heat:
+      static_cast<CObservationGasSensors&>(observation).m_readings[0].temperature =
+          static_cast<float>(std::get<Scalar>(measurement).value);
+      return;
+    case SensorKind::bumper:
+      return fill(static_cast<CObservationRawDAQ&>(observation), std::get<Contacts>(measurement));
+    case SensorKind::odometry:
+      return fill(static_cast<CObservationOdometry&>(observation), std::get<Odometry>(measurement));
+    case SensorKind::compass:
+      static_cast<CObservationIMU&>(observation).set(mrpt::obs::IMU_YAW, std::get<Scalar>(measurement).value);
+      return;
+  }
+}
+
+}  // namespace
+
+mrpt::Clock::time_point timestampOf(const SimTime& time) {
+  const auto ticks = static_cast<mrpt::Clock::rep>(std::llround(time.seconds() * mrpt::Clock::period::den));
+  return mrpt::Clock::fromDouble(kEpochUnixSeconds) + mrpt::Clock::duration(ticks);
+}
+
+double secondsSinceStart(mrpt::Clock::time_point timestamp) {
+  return std::chrono::duration<double>(timestamp - mrpt::Clock::fromDouble(kEpochUnixSeconds)).count();
+}
+
+std::string sensorLabel(const std::string& robot, const std::string& sensor) { return robot + "/" + sensor; }
+
+float recordedNoEcho(const SensorInfo& sensor) { return static_cast<float>(sensor.range_max_m * 1.001); }
+
+RobotObservations::RobotObservations(const RobotInfo& robot) : sensors_(robot.sensors) {
+  for (std::size_t i = 0; i < sensors_->size(); ++i) slots_.push_back(i);
+  std::stable_partition(slots_.begin(), slots_.end(),
+                        [&](std::size_t i) { return (*sensors_)[i].kind == SensorKind::odometry; });
+
+  observations_.push_back(CObservationRobotPose::Create());
+  observations_.back()->sensorLabel = sensorLabel(robot.name, kGroundTruth);
+  for (const std::size_t slot : slots_) {
+    observations_.push_back(makeObservation((*sensors_)[slot]));
+    observations_.back()->sensorLabel = sensorLabel(robot.name, (*sensors_)[slot].label);
+  }
+}
+
+std::span<const CObservation::Ptr> RobotObservations::of(const Readings& readings,
+                                                         const std::optional<TPose2D>& world_from_robot) {
+  assert(readings.measurements.size() == sensors_->size());
+  const auto timestamp = timestampOf(readings.time);
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    CObservation& observation = *observations_[1 + i];
+    observation.timestamp = timestamp;
+    fill(observation, (*sensors_)[slots_[i]], readings.measurements[slots_[i]], readings.laser_pan_rad);
+  }
+  if (!world_from_robot) return all().subspan(1);
+  auto& truth = static_cast<CObservationRobotPose&>(*observations_[0]);
+  truth.timestamp = timestamp;
+  truth.pose.mean = CPose3D(TPose3D(*world_from_robot));
+  return observations_;
+}
+
+}  // namespace robosim

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mrpt/core/Clock.h>
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/obs/CObservation.h>
+
+#include "hardware/readings.h"
+#include "hardware/robot_info.h"
+
+namespace robosim {
+
+/// What simulated time 0 is called in a recording: 2005-01-01 00:00:00 UTC, in seconds since 1970. Fixed, so that the
+/// same run is the same recording.
+constexpr std::int64_t kEpochUnixSeconds = 1'104'537'600;
+
+/// Simulated time as MRPT's timestamp (its unit is 100 ns).
+mrpt::Clock::time_point timestampOf(const SimTime&);
+/// Simulated time [s] since the start of the run.
+double secondsSinceStart(mrpt::Clock::time_point);
+
+/// The rawlog's label of a sensor: "<robot>/<sensor>".
+std::string sensorLabel(const std::string& robot, const std::string& sensor);
+/// The label's second half for where a robot really was.
+inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
+
+/// One robot's readings as stock MRPT observations (the table is in doc/rawlog.md):
+///
+///  * laser with two or more evenly spaced beams from one place: CObservation2DRangeScan; no echo is an invalid range
+///  * sonar, infrared, any other laser: CObservationRange, one for all beams of the sensor; `sensorID` counts the
+///  beams.
+///    No echo is recordedNoEcho(), a little more than the sensor's maximum: MRPT's maps take 0 for a wall or for
+///    nothing, as they please, and leave out what lies beyond the maximum
+///  * heat: CObservationGasSensors, one e-nose with only a temperature, in single precision
+///  * bumper: CObservationRawDAQ, segment i is digital input i (bit i % 8 of byte i / 8)
+///  * compass: CObservationIMU with only a yaw
+///  * odometry: CObservationOdometry. Stock icp-slam makes NaN of an angular speed of exactly 0, so 0 is written as
+///    kNoTurn_radps
+///  * ground truth: CObservationRobotPose
+///
+/// A sensor that turns is recorded with the pose that it had. Angles, ranges and speeds come back bit for bit through
+/// measurementFrom().
+class RobotObservations {
+ public:
+  explicit RobotObservations(const RobotInfo& robot);
+
+  /// Ground truth if it is given, odometry, then the other sensors as the robot lists them. The same objects are filled
+  /// anew in every call: serialise them, or copy what is to stay.
+  std::span<const mrpt::obs::CObservation::Ptr> of(const Readings&,
+                                                   const std::optional<mrpt::math::TPose2D>& world_from_robot);
+
+  /// The objects of all sensors, ground truth first, as they stand: what they are and how many never changes.
+  std::span<const mrpt::obs::CObservation::Ptr> all() const { return observations_; }
+
+ private:
+  std::shared_ptr<const std::vector<SensorInfo>> sensors_;
+  std::vector<std::size_t> slots_;  ///< of observations_[1 + i]: its place in RobotInfo::sensors
+  std::vector<mrpt::obs::CObservation::Ptr> observations_;
+};
+
+/// What CObservationRange holds for a beam of this sensor that met nothing [m].
+float recordedNoEcho(const SensorInfo&);
+
+/// Written for an angular speed of exactly 0.
+constexpr double kNoTurn_radps = 1e-6;
+
+}  // namespace robosim

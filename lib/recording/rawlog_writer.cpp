@@ -1,0 +1,162 @@
+#include "recording/rawlog_writer.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cctype>
+#include <optional>
+#include <set>
+#include <string>
+
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationRange.h>
+#include <mrpt/obs/CSensoryFrame.h>
+
+#include "base/error_list.h"
+#include "recording/byte_archive.h"
+#include "recording/gzip_file.h"
+#include "recording/observations.h"
+#include "recording/range_imprint.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationRange;
+
+/// Compressed at a time: little enough to stay in the processor's cache.
+constexpr std::size_t kChunkBytes = 64 * 1024;
+
+/// Observations of one robot on their way to bytes.
+struct Track {
+  explicit Track(const RobotInfo& robot) : observations(robot) {
+    for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
+      if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
+    }
+    for (const auto& observation : observations.all()) {
+      const auto* range = dynamic_cast<const CObservationRange*>(observation.get());
+      imprints.push_back(range ? std::make_optional<RangeImprint>(*range) : std::nullopt);
+    }
+  }
+
+  RobotObservations observations;
+  std::vector<std::optional<RangeImprint>> imprints;  ///< as observations.all()
+  std::optional<std::size_t> odometry_slot;
+  std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
+};
+
+struct Output {
+  explicit Output(const std::filesystem::path& path) : file(path) {}
+
+  void flush(std::size_t from_bytes) {
+    if (archive.bytes.size() < from_bytes) return;
+    file.write(archive.bytes);
+    archive.bytes.clear();
+  }
+
+  GzipFile file;
+  ByteArchive archive;
+};
+
+/// A robot's name as part of a file name.
+std::string fileNamePart(const std::string& robot) {
+  std::string part = robot;
+  for (char& c : part) {
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
+  }
+  return part;
+}
+
+std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, std::span<const RobotInfo> robots,
+                                            RawlogFormat format) {
+  if (format == RawlogFormat::observations || robots.size() == 1) return {file};
+  std::vector<std::filesystem::path> files;
+  std::set<std::string> taken;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    std::string part = fileNamePart(robots[i].name);
+    if (!taken.insert(part).second) part.append("_").append(std::to_string(i + 1));
+    files.push_back(file.parent_path() / (file.stem().string() + "_" + part + file.extension().string()));
+  }
+  return files;
+}
+
+void appendObservations(Track& track, std::span<const CObservation::Ptr> observations, ByteArchive& archive) {
+  const std::size_t skipped = track.imprints.size() - observations.size();  // ground truth, when it is not known
+  for (std::size_t i = 0; i < observations.size(); ++i) {
+    if (auto& imprint = track.imprints[skipped + i]) {
+      imprint->append(static_cast<const CObservationRange&>(*observations[i]), archive);
+    } else {
+      archive << *observations[i];
+    }
+  }
+}
+
+void appendPair(Track& track, const Readings& readings, std::span<const CObservation::Ptr> observations,
+                ByteArchive& archive) {
+  const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
+  const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
+
+  mrpt::obs::CActionRobotMovement2D movement;
+  movement.timestamp = timestampOf(readings.time);
+  movement.computeFromOdometry(odom_from_robot - track.odom_from_robot.value_or(odom_from_robot), {});
+  track.odom_from_robot = odom_from_robot;
+  mrpt::obs::CActionCollection actions;
+  actions.insert(movement);
+
+  mrpt::obs::CSensoryFrame frame;
+  for (const auto& observation : observations) frame.push_back(observation);
+  archive << actions << frame;
+}
+
+}  // namespace
+
+struct RawlogWriter::Impl {
+  RawlogFormat format;
+  std::vector<Track> tracks;
+  std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
+};
+
+RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format)
+    : impl_(new Impl{format, {}, {}}) {
+  for (const auto& robot : robots) {
+    const Track& track = impl_->tracks.emplace_back(robot);
+    if (format == RawlogFormat::sensory_frames && !track.odometry_slot) {
+      throw ConfigError(file.string() + ": robot \"" + robot.name +
+                        "\" has no odometry, which a recording of actions and sensory frames is made from; give it "
+                        "one, or record observations only");
+    }
+  }
+  for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
+}
+
+RawlogWriter::~RawlogWriter() = default;
+
+void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot) {
+  assert(readings.size() == impl_->tracks.size());
+  assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    Track& track = impl_->tracks[i];
+    const auto truth = world_from_robot.empty() ? std::nullopt : std::make_optional(world_from_robot[i]);
+    const auto observations = track.observations.of(readings[i], truth);
+    if (impl_->format == RawlogFormat::observations) {
+      appendObservations(track, observations, impl_->outputs[0]->archive);
+    } else {
+      appendPair(track, readings[i], observations, impl_->outputs[i]->archive);
+    }
+  }
+  for (auto& output : impl_->outputs) output->flush(kChunkBytes);
+}
+
+void RawlogWriter::close() {
+  for (auto& output : impl_->outputs) output->flush(0);
+  for (auto& output : impl_->outputs) output->file.commit();
+}
+
+std::vector<std::filesystem::path> RawlogWriter::files() const {
+  std::vector<std::filesystem::path> files;
+  for (const auto& output : impl_->outputs) files.push_back(output->file.path());
+  return files;
+}
+
+}  // namespace robosim

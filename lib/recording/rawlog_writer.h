@@ -1,0 +1,54 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <mrpt/math/TPose2D.h>
+
+#include "hardware/readings.h"
+#include "hardware/robot_info.h"
+
+namespace robosim {
+
+enum class RawlogFormat {
+  observations,    ///< a row of observations, MRPT's own form today; one file for all robots
+  sensory_frames,  ///< pairs of action and sensory frame, which rbpf-slam and others want. One robot a file: of several
+                   ///< robots, each is recorded in "<stem>_<robot><extension>"
+};
+
+/// Records a run as an MRPT rawlog (doc/rawlog.md), of stock observations in MRPT's own format, compressed as MRPT
+/// does.
+///
+/// A step's observations are written robot by robot, as the robots were given; of each robot ground truth, odometry,
+/// then its other sensors in their order. Of a pair, the action is the odometry's increment since the pair before (0
+/// for the first) under MRPT's default motion model, and the frame holds all the robot's observations, odometry and
+/// ground truth too.
+///
+/// The file has its name only from close() on, and is then whole (GzipFile). The destructor without close() drops the
+/// recording. A caller that is interrupted, or whose run fails, calls close() to keep what there is.
+class RawlogWriter {
+ public:
+  /// @throws ConfigError when a file cannot be made, or a robot has no odometry for its actions.
+  RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
+               RawlogFormat format = RawlogFormat::observations);
+  ~RawlogWriter();
+
+  /// Records one time step.
+  /// @param readings one per robot, in the order of the constructor's.
+  /// @param world_from_robot where each robot really is; empty when nobody knows.
+  /// @throws RecordingError when the disk is full, or fails. Whatever had the file's name before is still there.
+  void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot);
+  /// Finishes the recording, and gives it its name.
+  /// @throws RecordingError as write() does.
+  void close();
+
+  /// The recording's files: one, or one per robot.
+  std::vector<std::filesystem::path> files() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace robosim
