@@ -15,7 +15,7 @@ struct RangeNoise {
 
   /// Reads a <noise> element; `data_sheet` holds the values of a <noise/> without attributes. The caller finishes it.
   static RangeNoise read(XmlReader& noise, const RangeNoise& data_sheet);
-  /// The range as measured: at least 0; infinite for a dropped one.
+  /// The range as measured: at least 0; infinite for one that is dropped, or was infinite.
   double apply(double range_m, Rng& rng) const;
 };
 

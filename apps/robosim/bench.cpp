@@ -1,0 +1,11 @@
+#include "robosim/subcommands.h"
+
+namespace robosim {
+
+void addBench(CLI::App& program) {
+  auto* bench = program.add_subcommand("bench", "Measure: how well and how fast");
+  bench->require_subcommand(1);
+  addBenchGold(*bench);
+}
+
+}  // namespace robosim

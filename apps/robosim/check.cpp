@@ -1,0 +1,126 @@
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "maze/controllers.h"
+#include "robosim/subcommands.h"
+#include "robosim/text.h"
+#include "robots/fleet.h"
+#include "world/robot_list.h"
+#include "world/world_file.h"
+
+namespace robosim {
+namespace {
+
+/// What a file holds, or what is wrong with it.
+struct Checked {
+  ErrorList errors;
+  std::string kind;
+  std::vector<std::string> robots;
+  std::size_t objects = 0;
+  Rows contents;  ///< for a person
+};
+
+void checkWorld(const std::string& file, Checked& checked) {
+  const World world = readWorld(file, checked.errors);
+  const Fleet fleet = buildFleet(world, file, robotTypeFolders(file), controllerNames(), checked.errors);
+  for (const auto& robot : world.robots) checked.robots.push_back(robot.name);
+  checked.objects = world.objects.size();
+
+  const auto& b = world.bounds;
+  std::size_t hot = 0;
+  for (const auto& object : world.objects) hot += object.body.heat_celsius != 0 ? 1 : 0;
+  checked.contents = {{"surface", fixed(b.x_max - b.x_min, 1) + " m × " + fixed(b.y_max - b.y_min, 1) +
+                                      " m; one length unit of the file is " + toText(world.unit_m) + " m"},
+                      {"objects", std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot"},
+                      {"robots", std::to_string(world.robots.size())}};
+  constexpr std::size_t kMostListed = 20;
+  for (std::size_t i = 0; i < std::min(kMostListed, fleet.robots.size()); ++i) {
+    const auto& robot = fleet.robots[i];
+    std::string sensors;
+    for (const auto& sensor : *robot.info.sensors) sensors += (sensors.empty() ? "" : " ") + sensor.label;
+    checked.contents.push_back(
+        {"  " + robot.info.name, robot.info.model + ", " +
+                                     (robot.controller.empty() ? "default controller" : robot.controller) + ", " +
+                                     sensors});
+  }
+  if (fleet.robots.size() > kMostListed) {
+    checked.contents.push_back({"  …", std::to_string(fleet.robots.size() - kMostListed) + " more"});
+  }
+}
+
+void checkRobotList(const std::string& file, Checked& checked) {
+  const auto robots = readRobotList(file, checked.errors);
+  checked.contents.push_back({"robots", std::to_string(robots.size())});
+  for (const auto& robot : robots) {
+    checked.robots.push_back(robot.name);
+    checked.contents.push_back(
+        {"  " + robot.name, robot.hostname + ":" + std::to_string(robot.port) + (robot.primary ? ", primary" : "")});
+  }
+}
+
+void checkRobotModel(const std::string& file, Checked& checked) {
+  const RobotModel model = readRobotModel(file, checked.errors);
+  checked.robots.push_back(model.name);
+  checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};
+  if (!model.sensor_infos) return;
+  for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
+}
+
+Checked check(const std::string& file) {
+  Checked checked;
+  try {
+    const std::string root = readXmlFile(file).name;
+    if (root == "RobotInfo") {
+      checked.kind = "robot list";
+      checkRobotList(file, checked);
+    } else if (root == "robot") {
+      checked.kind = "robot type";
+      checkRobotModel(file, checked);
+    } else {
+      checked.kind = "world";
+      checkWorld(file, checked);
+    }
+  } catch (const ConfigError& error) {
+    checked.errors.add(error);
+  }
+  return checked;
+}
+
+void report(const std::string& file, const Checked& checked, bool as_json) {
+  const bool ok = checked.errors.empty();
+  if (as_json) {
+    std::cout << nlohmann::ordered_json{{"file", file},
+                                        {"kind", checked.kind},
+                                        {"ok", ok},
+                                        {"errors", checked.errors.errors()},
+                                        {"robots", checked.robots},
+                                        {"objects", checked.objects}}
+                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+              << '\n';
+  } else if (ok) {
+    std::cout << "ok: " << file << " (" << checked.kind << ")\n" << listing(checked.contents);
+  } else {
+    for (const auto& error : checked.errors.errors()) std::cout << error << '\n';
+    const auto count = checked.errors.errors().size();
+    std::cout << file << ": " << count << (count == 1 ? " error\n" : " errors\n");
+  }
+  if (!ok) throw Exit{kBadInput};
+}
+
+}  // namespace
+
+void addCheck(CLI::App& program) {
+  struct Arguments {
+    std::string file;
+    bool json = false;
+  };
+  auto* command =
+      program.add_subcommand("check", "Say whether a world file is right and what is in it, or list every error");
+  auto arguments = std::make_shared<Arguments>();
+  command->add_option("FILE", arguments->file, "a world, a robot type, or a 2005 robot list")->required();
+  command->add_flag("--json", arguments->json, "print one JSON object: ok, errors, robots (names), objects (count)");
+  command->callback([arguments] { report(arguments->file, check(arguments->file), arguments->json); });
+}
+
+}  // namespace robosim

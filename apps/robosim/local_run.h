@@ -1,0 +1,58 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/controller.h"
+#include "environment/environment.h"
+#include "environment/local_hardware.h"
+#include "robots/fleet.h"
+
+namespace robosim {
+
+struct RunOptions {
+  EnvironmentOptions environment;
+  std::string controller;  ///< for every robot; empty: what the world names, and kDefaultController where it names none
+};
+
+/// What a robot runs that neither the world nor the command line gives a controller: the 2005 application.
+constexpr const char* kDefaultController = "gold_finder";
+
+/// When and by whom the gold was found, and when all had stopped; simulated seconds.
+struct GoldOutcome {
+  std::optional<std::string> found_by;
+  std::optional<double> found_s;
+  std::optional<double> all_halted_s;
+};
+
+/// An environment and the controllers of all its robots in this process: where the two towers of the house meet.
+class LocalRun {
+ public:
+  /// @throws ConfigError for an unknown controller.
+  LocalRun(LoadedWorld world, const RunOptions& options);
+
+  /// Lets every controller decide, then takes one time step.
+  void step();
+
+  const Environment& environment() const { return environment_; }
+  const GoldOutcome& gold() const { return gold_; }
+
+ private:
+  struct Seat {
+    LocalHardware hardware;
+    Robot robot;
+    std::unique_ptr<Controller> controller;
+    Seat(Environment& environment, std::size_t i, std::unique_ptr<Controller> c)
+        : hardware(environment, i), robot(hardware), controller(std::move(c)) {}
+  };
+  void noteOutcome();
+
+  Environment environment_;
+  Workers workers_;
+  std::vector<std::unique_ptr<Seat>> seats_;  ///< on the heap: a Robot holds on to its LocalHardware
+  GoldOutcome gold_;
+};
+
+}  // namespace robosim

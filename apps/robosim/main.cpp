@@ -1,0 +1,44 @@
+#include <iostream>
+
+#include "base/error_list.h"
+#include "robosim/subcommands.h"
+
+namespace {
+
+int fail(robosim::ExitCode code, const std::string& what) {
+  std::cout.flush();
+  std::cerr << "robosim: " << what << '\n';
+  return code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App program(
+      "RoboSim simulates many sensing, talking, cooperating mobile robots, and keeps their runs as MRPT rawlogs.");
+  program.name("robosim");
+  program.set_version_flag("--version", "robosim " ROBOSIM_VERSION);
+  program.require_subcommand(1);
+  program.footer(
+      "Try:  robosim run worlds/opho2_1.xml --picture run.png\n"
+      "Exit: 0 done, 1 bad input, 2 the run itself failed.");
+  robosim::addRun(program);
+  robosim::addCheck(program);
+  robosim::addBench(program);
+
+  try {
+    program.parse(argc, argv);
+    return robosim::kDone;
+  } catch (const CLI::ParseError& error) {
+    // Help and version are no errors; everything else that CLI11 refuses is bad input, whatever its own number for it.
+    return program.exit(error) == 0 ? robosim::kDone : robosim::kBadInput;
+  } catch (const robosim::Exit& exit) {
+    return exit.code;
+  } catch (const robosim::ConfigError& error) {
+    return fail(robosim::kBadInput, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(robosim::kBadInput, error.what());
+  } catch (const std::exception& error) {
+    return fail(robosim::kRunFailed, error.what());
+  }
+}

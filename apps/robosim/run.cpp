@@ -1,0 +1,165 @@
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include "maze/controllers.h"
+#include "recording/rawlog_writer.h"
+#include "rendering/plan.h"
+#include "robosim/interrupt.h"
+#include "robosim/local_run.h"
+#include "robosim/progress.h"
+#include "robosim/run_summary.h"
+#include "robosim/subcommands.h"
+#include "robosim/text.h"
+#include "robosim/tracks.h"
+
+namespace robosim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Arguments {
+  std::string world;
+  RunOptions run;
+  double time_s = 1800;
+  std::string speed = "max";
+  std::string record;
+  RawlogFormat rawlog_format = RawlogFormat::observations;
+  std::string picture;
+  bool json = false;
+};
+
+/// How many simulated seconds a second may hold; 0 for as many as it can.
+double speedOf(const std::string& text) {
+  if (text == "max") return 0;
+  char* end = nullptr;
+  const double speed = std::strtod(text.c_str(), &end);
+  if (text.empty() || *end != '\0' || !(speed > 0 && speed <= 1e6)) {
+    throw ConfigError("--speed " + text + ": must be 'max' or a number in (0, 1000000]; 1 is real time");
+  }
+  return speed;
+}
+
+std::unique_ptr<RawlogWriter> openRecording(const Arguments& arguments, const Environment& environment) {
+  if (arguments.record.empty()) return nullptr;
+  std::vector<RobotInfo> robots;
+  for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
+  return std::make_unique<RawlogWriter>(arguments.record, robots, arguments.rawlog_format);
+}
+
+std::string progressText(const LocalRun& run, double wall_s) {
+  const State& state = run.environment().state();
+  const auto active = std::count(state.activity.begin(), state.activity.end(), Activity::active);
+  const double sim_s = state.time.seconds();
+  return "simulated " + fixed(sim_s, 1) + " s, " +
+         withCommas(static_cast<std::uint64_t>(sim_s / std::max(1e-9, wall_s))) + " times real time, " +
+         std::to_string(active) + " of " + std::to_string(state.activity.size()) +
+         " robots active (Ctrl-C ends the run)";
+}
+
+EndedBy drive(LocalRun& run, const Arguments& arguments, RawlogWriter* recording, Tracks* tracks) {
+  const double speed = speedOf(arguments.speed);
+  const auto observe = [&] {
+    const State& state = run.environment().state();
+    if (recording) recording->write(state.readings, state.world_from_robot);
+    if (tracks) tracks->add(state.world_from_robot);
+  };
+  Interrupt interrupt;
+  Progress progress;
+  const auto start = Clock::now();
+  observe();
+  while (!run.gold().all_halted_s) {
+    const double sim_s = run.environment().time().seconds();
+    if (interrupt.asked()) return EndedBy::interrupt;
+    // Half a step of grace: the limit is meant, not its last digit.
+    if (sim_s + run.environment().time().period_s / 2 > arguments.time_s) return EndedBy::time_limit;
+    if (speed > 0) std::this_thread::sleep_until(start + std::chrono::duration<double>(sim_s / speed));
+    run.step();
+    observe();
+    if (progress.due()) {
+      progress.show(progressText(run, std::chrono::duration<double>(Clock::now() - start).count()));
+    }
+  }
+  return EndedBy::all_halted;
+}
+
+void runWorld(const Arguments& arguments) {
+  speedOf(arguments.speed);  // a slip in an argument is told before the work begins
+  LocalRun run(loadWorld(arguments.world, controllerNames()), arguments.run);
+  auto recording = openRecording(arguments, run.environment());
+  std::unique_ptr<Tracks> tracks;
+  if (!arguments.picture.empty()) {
+    checkPlanFile(arguments.picture);
+    tracks = std::make_unique<Tracks>(run.environment().robotCount());
+  }
+
+  const auto start = Clock::now();
+  const EndedBy ended_by = drive(run, arguments, recording.get(), tracks.get());
+  if (recording) recording->close();
+  RunSummary summary = RunSummary::of(run);
+  summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();
+  summary.world = arguments.world;
+  summary.seed = arguments.run.environment.seed;
+  summary.ended_by = ended_by;
+  if (tracks) {
+    const Environment& environment = run.environment();
+    writePlan(arguments.picture, environment.world(), environment.fleet(), tracks->points(),
+              environment.state().world_from_robot);
+  }
+  if (arguments.json) {
+    std::cout << summary.json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
+    return;
+  }
+  std::cout << summary.text();
+  if (recording) {
+    for (const auto& file : recording->files()) std::cout << "rawlog    " << file.string() << '\n';
+  }
+  if (tracks) std::cout << "picture   " << arguments.picture << '\n';
+}
+
+std::string controllersHelp() {
+  std::string text = "Controllers:\n";
+  Rows rows;
+  for (const auto& type : controllerTypes()) rows.push_back({std::string("  ") + type.name, type.help});
+  return text + listing(rows);
+}
+
+}  // namespace
+
+void addRun(CLI::App& program) {
+  auto* command = program.add_subcommand("run", "Run a world in this process, as fast as it can");
+  auto a = std::make_shared<Arguments>();
+  auto& environment = a->run.environment;
+  command->add_option("WORLD", a->world, "world file")->required();
+  command->add_option("--record", a->record, "keep the run as an MRPT rawlog in this file");
+  command
+      ->add_option("--rawlog-format", a->rawlog_format,
+                   "obs: observations; sf: pairs of action and sensory frame, one file a robot")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, RawlogFormat>{{"obs", RawlogFormat::observations},
+                                                                              {"sf", RawlogFormat::sensory_frames}}))
+      ->default_str("obs");
+  command->add_option("--seed", environment.seed, "of everything that is left to chance")->capture_default_str();
+  command
+      ->add_option("--time", a->time_s,
+                   "simulated seconds after which the run ends; it ends sooner when all robots have halted")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  command->add_option("--step", environment.period_s, "length of a time step, seconds")
+      ->check(CLI::Range(0.001, 1.0))
+      ->capture_default_str();
+  command->add_option("--threads", environment.threads, "the run is the same for any number")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  command->add_option("--speed", a->speed, "simulated seconds per second: a number (1 is real time) or max")
+      ->capture_default_str();
+  command->add_option("--controller", a->run.controller, "for all robots, in place of what the world names")
+      ->check(CLI::IsMember(controllerNames()));
+  command->add_option("--picture", a->picture, "draw the world from above with every robot's path to this PNG file");
+  command->add_flag("--json", a->json, "print the summary as one JSON object");
+  command->footer(controllersHelp());
+  command->callback([a] { runWorld(*a); });
+}
+
+}  // namespace robosim

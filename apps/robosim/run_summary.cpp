@@ -1,0 +1,85 @@
+#include "robosim/run_summary.h"
+
+#include <numeric>
+
+#include "robosim/text.h"
+
+namespace robosim {
+namespace {
+
+const char* nameOf(EndedBy why) {
+  switch (why) {
+    case EndedBy::all_halted:
+      return "all_halted";
+    case EndedBy::time_limit:
+      return "time_limit";
+    case EndedBy::interrupt:
+      return "interrupt";
+  }
+  return "";
+}
+
+template <typename T>
+nlohmann::ordered_json orNull(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
+  std::string text =
+      gold.found_s ? "gold found by " + *gold.found_by + " after " + fixed(*gold.found_s, 1) + " s" : "no gold found";
+  if (gold.all_halted_s) text += "; all robots halted after " + fixed(*gold.all_halted_s, 1) + " s";
+  if (why == EndedBy::time_limit) text += "; ended by the time limit";
+  if (why == EndedBy::interrupt) text += "; ended by an interrupt";
+  return text;
+}
+
+}  // namespace
+
+RunSummary RunSummary::of(const LocalRun& run) {
+  const Environment& environment = run.environment();
+  const State& state = environment.state();
+  RunSummary summary;
+  summary.robots = environment.robotCount();
+  summary.steps = state.time.step;
+  summary.sim_time_s = state.time.seconds();
+  summary.digest = environment.digest();
+  summary.gold = run.gold();
+  summary.driven_m = std::accumulate(state.driven_m.begin(), state.driven_m.end(), 0.0);
+  summary.stalls = state.stalls;
+  summary.messages = state.messages_delivered;
+  return summary;
+}
+
+nlohmann::ordered_json RunSummary::json() const {
+  return {{"world", world},
+          {"seed", seed},
+          {"robots", robots},
+          {"steps", steps},
+          {"sim_time_s", sim_time_s},
+          {"wall_s", wall_s},
+          {"real_time_factor", realTimeFactor()},
+          {"ended_by", nameOf(ended_by)},
+          {"digest", digest},
+          {"gold_found", gold.found_s.has_value()},
+          {"gold_found_by", orNull(gold.found_by)},
+          {"gold_time_s", orNull(gold.found_s)},
+          {"all_halted_time_s", orNull(gold.all_halted_s)},
+          {"driven_m", driven_m},
+          {"stalls", stalls},
+          {"messages", messages}};
+}
+
+std::string RunSummary::text() const {
+  return world + ": " + sentenceOn(gold, ended_by) + "\n" +
+         listing({{"robots", std::to_string(robots)},
+                  {"simulated", fixed(sim_time_s, 1) + " s in " + withCommas(steps) + " steps"},
+                  {"took", fixed(wall_s, 3) + " s, " + withCommas(static_cast<std::uint64_t>(realTimeFactor())) +
+                               " times real time"},
+                  {"driven", fixed(driven_m, 1) + " m"},
+                  {"stalls", withCommas(stalls)},
+                  {"messages", withCommas(messages)},
+                  {"seed", std::to_string(seed)},
+                  {"digest", digest}});
+}
+
+}  // namespace robosim

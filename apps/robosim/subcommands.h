@@ -1,0 +1,26 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace robosim {
+
+/// How a run of the program ends.
+enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 2 };
+
+/// @name The subcommands, one file each
+/// Each adds itself to the program. What it throws says how it ended: ConfigError and std::invalid_argument for bad
+/// input, anything else for a run that failed.
+///@{
+void addRun(CLI::App& program);
+void addCheck(CLI::App& program);
+void addBench(CLI::App& program);
+///@}
+
+/// `robosim bench gold`
+void addBenchGold(CLI::App& bench);
+
+/// The way for a subcommand to end with a code of its own, after it has said why.
+struct Exit {
+  ExitCode code;
+};
+
+}  // namespace robosim
