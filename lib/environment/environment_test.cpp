@@ -1,0 +1,219 @@
+#include "environment/environment.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+#include "environment/local_hardware.h"
+#include "environment/small_world.h"
+
+namespace robosim {
+namespace {
+
+struct Scenario {
+  World world = emptyWorld(10);
+  Fleet fleet;
+  EnvironmentOptions options;
+
+  void robot(const std::string& name, const mrpt::math::TPose2D& start, double radius_m = 0.25) {
+    addDisc(world, fleet, name, start, radius_m);
+  }
+  std::unique_ptr<Environment> start() const { return std::make_unique<Environment>(world, fleet, options); }
+};
+
+TEST(Environment, MovesARobotByItsSpeedTimesTheTimeStep) {
+  Scenario s;
+  s.robot("a", {0, 0, M_PI_2});
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 0.5});
+  for (int i = 0; i < 10; ++i) environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0, 1e-12);
+  EXPECT_NEAR(environment->state().world_from_robot[0].y, 0.5, 1e-12);
+  EXPECT_NEAR(environment->state().driven_m[0], 0.5, 1e-12);
+  EXPECT_DOUBLE_EQ(environment->time().seconds(), 1);
+}
+
+TEST(Environment, KeepsTheLastCommandUntilThereIsAnother) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->setCommand(0, {.speed_mps = 0.5});
+  environment->step();
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.1, 1e-12);
+}
+
+TEST(Environment, TakesAWishThatIsNotANumberForStandingStill) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  auto environment = s.start();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  environment->setCommand(0, {.speed_mps = std::numeric_limits<double>::infinity(),
+                              .turn_radps = nan,
+                              .laser_pan_rad = static_cast<float>(nan)});
+  environment->step();
+  EXPECT_EQ(environment->state().world_from_robot[0], mrpt::math::TPose2D(0, 0, 0));
+  EXPECT_EQ(environment->state().laser_pan_rad[0], 0);
+}
+
+TEST(Environment, StopsARobotAtTheFirstContactAndCallsItStalled) {
+  Scenario s;
+  addWall(s.world, 1.5, 0, 1, 10);  // its face is at x = 1
+  s.robot("a", {0.7, 0, 0});
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.75, 2e-6);
+  EXPECT_LT(environment->state().world_from_robot[0].x, 0.75);
+  EXPECT_TRUE(environment->state().stalled[0]);
+  EXPECT_TRUE(environment->state().readings[0].stalled);
+  EXPECT_EQ(environment->state().stalls, 1u);
+  environment->setCommand(0, {.speed_mps = -1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.65, 2e-6) << "away from the wall it is free";
+  EXPECT_FALSE(environment->state().stalled[0]);
+}
+
+TEST(Environment, LetsARobotThatStandsAgainstAWallTurnAndSlideAlongIt) {
+  Scenario s;
+  addWall(s.world, 1.5, 0, 1, 10);
+  s.robot("a", {0.75 - 5e-7, 0, M_PI_2});  // nearer than the contact gap
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].y, 0.1, 1e-12);
+  environment->setCommand(0, {.turn_radps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].phi, M_PI_2 + 0.1, 1e-12);
+}
+
+TEST(Environment, StopsARobotWhereAnotherStarted) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  s.robot("b", {0.55, 0, 0});
+  auto environment = s.start();
+  // b drives off at the same speed, yet a is stopped where b stood: the rule asks nobody who moves first.
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->setCommand(1, {.speed_mps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.05, 2e-6);
+  EXPECT_NEAR(environment->state().world_from_robot[1].x, 0.65, 1e-12);
+  EXPECT_TRUE(environment->state().stalled[0]);
+  EXPECT_FALSE(environment->state().stalled[1]);
+}
+
+TEST(Environment, LetsNeitherOfTwoRobotsMoveWhoseWaysWouldMeet) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  s.robot("b", {0.65, 0, M_PI});
+  auto environment = s.start();
+  // 0.15 m lie between the hulls; each may go 0.1 m by rule (a), and both together would touch.
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->setCommand(1, {.speed_mps = 1});
+  environment->step();
+  EXPECT_EQ(environment->state().world_from_robot[0].x, 0);
+  EXPECT_EQ(environment->state().world_from_robot[1].x, 0.65);
+  EXPECT_EQ(environment->state().stalls, 2u);
+}
+
+TEST(Environment, LetsTwoRobotsPassThatCrossTheSamePointAtDifferentTimes) {
+  Scenario s;
+  s.robot("a", {-0.05, 0, 0}, 0.01);
+  s.robot("b", {0.02, -0.1, M_PI_2}, 0.01);
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->setCommand(1, {.speed_mps = 1});
+  environment->step();
+  // They are nearest after 85 % of the step, a at (0.035, 0) and b at (0.02, -0.015): 0.0212 m, more than both radii.
+  EXPECT_EQ(environment->state().stalls, 0u);
+}
+
+TEST(Environment, PassesOverWhatIsLowerOrHigherThanTheRobot) {
+  Scenario s;
+  addWall(s.world, 1.5, 0, 1, 10);
+  s.world.objects[0].body.center_z_m = 0.85;  // a beam from 0.35 to 1.35 m over a robot of 0.3 m
+  s.robot("a", {0.7, 0, 0});
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.8, 1e-12);
+}
+
+TEST(Environment, NeverLetsARobotThroughAThinWallAtTopSpeed) {
+  for (const double speed_mps : {1.0, 10.0, 1000.0}) {
+    for (const double turned_rad : {0.0, 0.3, M_PI_4}) {
+      Scenario s;
+      addWall(s.world, 1, 0, 0.001, 30, turned_rad);
+      addDisc(s.world, s.fleet, "a", {-2, 0, 0}, 0.05, {speed_mps, 100, 1e9, 1e9, 1e9});
+      s.options.period_s = 1;
+      auto environment = s.start();
+      for (const double turn_radps : {0.0, 0.1, -0.1}) {
+        environment->setCommand(0, {.speed_mps = speed_mps, .turn_radps = turn_radps});
+        for (int i = 0; i < 10; ++i) environment->step();
+        const auto& pose = environment->state().world_from_robot[0];
+        const double beyond = (pose.x - 1) * std::cos(turned_rad) + pose.y * std::sin(turned_rad);
+        const bool round_its_end = std::abs(-(pose.x - 1) * std::sin(turned_rad) + pose.y * std::cos(turned_rad)) > 15;
+        EXPECT_TRUE(beyond < -0.05 || round_its_end) << speed_mps << " m/s, wall turned " << turned_rad;
+      }
+    }
+  }
+}
+
+TEST(Environment, AcceleratesAndBrakesAsTheModelCan) {
+  Scenario s;
+  addDisc(s.world, s.fleet, "a", {0, 0, 0}, 0.25,
+          {.speed_max_mps = 0.7, .turn_max_radps = 1, .accel_mps2 = 3, .decel_mps2 = 2, .turn_accel_radps2 = 5});
+  auto environment = s.start();
+  const auto speedAfterStep = [&](double wish_mps) {
+    environment->setCommand(0, {.speed_mps = wish_mps});
+    environment->step();
+    return environment->state().speed_mps[0];
+  };
+  EXPECT_DOUBLE_EQ(speedAfterStep(9), 0.3);
+  EXPECT_DOUBLE_EQ(speedAfterStep(9), 0.6);
+  EXPECT_DOUBLE_EQ(speedAfterStep(9), 0.7) << "never above its top speed";
+  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0.5);
+  EXPECT_DOUBLE_EQ(speedAfterStep(0.45), 0.45);
+  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0.25);
+  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0.05);
+  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0) << "it comes to a stand before it reverses";
+  EXPECT_DOUBLE_EQ(speedAfterStep(-9), -0.3);
+}
+
+TEST(Environment, BrakesARobotThatHasHaltedAndHoldsItThere) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  s.robot("b", {3, 0, 0});
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1, .activity = Activity::found});
+  environment->step();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->step();
+  EXPECT_EQ(environment->state().activity[0], Activity::found) << "a halt is final";
+  EXPECT_EQ(environment->state().world_from_robot[0].x, 0);
+  EXPECT_FALSE(environment->allHalted());
+  environment->setCommand(1, {.activity = Activity::halted});
+  environment->step();
+  EXPECT_TRUE(environment->allHalted());
+}
+
+TEST(Environment, HandsControllersOneRobotAsHardware) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  s.robot("b", {3, 0, 0});
+  auto environment = s.start();
+  LocalHardware a(*environment, 0);
+  LocalHardware b(*environment, 1);
+  EXPECT_EQ(b.info().name, "b");
+  a.command({.speed_mps = 1});
+  a.send("b", "hello");
+  environment->step();
+  EXPECT_NEAR(std::get<Odometry>(a.readings().measurements[0]).odom_from_robot.x, 0.1, 1e-12);
+  ASSERT_EQ(b.readings().inbox.size(), 1u);
+  EXPECT_EQ(b.readings().inbox[0], (RobotMessage{"a", "b", "hello"}));
+}
+
+}  // namespace
+}  // namespace robosim
