@@ -1,0 +1,77 @@
+// `robosim check` and `robosim bench gold` as a person runs them.
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+using nlohmann::json;
+
+TEST(Check, SaysOkAndWhatIsInAWorld) {
+  const Ended check = runProgram("check worlds/opho2_1.xml");
+  EXPECT_EQ(check.exit_code, 0);
+  EXPECT_EQ(check.out.substr(0, 2), "ok");
+  EXPECT_NE(check.out.find("Finder1"), std::string::npos);
+}
+
+TEST(Check, SaysTheSameAsAnObject) {
+  const json ok = json::parse(runProgram("check --json worlds/opho2_1.xml").out);
+  EXPECT_EQ(ok["ok"], true);
+  EXPECT_EQ(ok["errors"], json::array());
+  EXPECT_EQ(ok["robots"], (json{"Finder1", "Finder2", "Finder3", "Finder4"}));
+  EXPECT_EQ(ok["objects"], 15);
+}
+
+TEST(Check, ListsEveryErrorOfAFile) {
+  const auto file = emptyFolder() / "bad.xml";
+  std::ofstream(file) << R"(<?xml version="1.0"?>
+<world>
+  <surface>
+    <size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>five</ymax></size>
+    <object><shape><primitive><cylinder>
+      <name>A</name><x>0</x><y>0</y><z>1</z><radius>-1</radius><height>2</height>
+    </cylinder></primitive></shape></object>
+    <object><shape><robot>
+      <model>pioneer9</model><name>R</name><x>1</x><y>1</y><direction>0</direction>
+    </robot></shape></object>
+    <colour>1 0 0</colour>
+  </surface>
+</world>
+)";
+  const Ended check = runProgram("check --json '" + file.string() + "'");
+  EXPECT_EQ(check.exit_code, 1);
+  const json result = json::parse(check.out);
+  EXPECT_EQ(result["ok"], false);
+  const std::string all = result["errors"].dump();
+  for (const char* place : {"bad.xml:4: ", "bad.xml:6: ", "bad.xml:9: ", "bad.xml:11: "}) {
+    EXPECT_NE(all.find(place), std::string::npos) << place << all;
+  }
+}
+
+TEST(Check, ReadsTheRobotListOf2005) {
+  const Ended check = runProgram("check tests/data/legacy_robots.xml");
+  EXPECT_EQ(check.exit_code, 0) << check.out;
+  EXPECT_NE(check.out.find("Finder2"), std::string::npos);
+}
+
+TEST(BenchGold, PrintsTheSameTableForAnyNumberOfThreads) {
+  const auto folder = emptyFolder();
+  const auto bench = [&](const std::string& threads) {
+    return runProgram("bench gold worlds/small_maze.xml --runs 4 --seed 7 --threads " + threads + " --csv '" +
+                      (folder / (threads + ".csv")).string() + "'");
+  };
+  const Ended one = bench("1");
+  const Ended two = bench("2");
+  EXPECT_EQ(one.exit_code, 0) << one.err;
+  EXPECT_EQ(one.out, two.out);
+  EXPECT_NE(one.out.find("100.0 %"), std::string::npos) << one.out;
+  EXPECT_EQ(textOf(folder / "1.csv"), textOf(folder / "2.csv"));
+  EXPECT_EQ(textOf(folder / "1.csv").substr(0, 16), "world,seed,gold_");
+}
+
+}  // namespace
+}  // namespace robosim

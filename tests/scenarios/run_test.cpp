@@ -1,0 +1,153 @@
+// `robosim run` as a person runs it.
+#include <csignal>
+#include <cstdio>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "scenarios/program.h"
+#include "stock_tools.h"
+
+namespace robosim {
+namespace {
+
+using nlohmann::json;
+
+TEST(Run, FindsTheGoldInTheSmallMazeAndSaysSo) {
+  const Ended run = runProgram("run worlds/small_maze.xml");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("gold found by "), std::string::npos) << run.out;
+  EXPECT_NE(run.out.find("digest"), std::string::npos);
+  EXPECT_EQ(run.err, "") << "no progress line in a pipe";
+}
+
+TEST(Run, PrintsOneJsonObjectWithEverythingInIt) {
+  const Ended run = runProgram("run worlds/small_maze.xml --json --seed 3");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const json summary = json::parse(run.out);
+  for (const char* key : {"world", "seed", "robots", "steps", "sim_time_s", "wall_s", "real_time_factor", "digest",
+                          "gold_found", "gold_found_by", "gold_time_s", "all_halted_time_s", "stalls", "messages"}) {
+    EXPECT_TRUE(summary.contains(key)) << key;
+  }
+  EXPECT_EQ(summary["seed"], 3);
+  EXPECT_EQ(summary["robots"], 2);
+  EXPECT_EQ(summary["gold_found"], true);
+  EXPECT_GE(summary["all_halted_time_s"].get<double>(), summary["gold_time_s"].get<double>());
+  EXPECT_DOUBLE_EQ(summary["sim_time_s"].get<double>(), summary["steps"].get<double>() * 0.1);
+  EXPECT_GE(summary["messages"].get<int>(), 1) << "GOLD goes round the ring";
+}
+
+TEST(Run, WithTheSameSeedIsTheSameRunForAnyNumberOfThreadsRecordedOrNot) {
+  const auto folder = emptyFolder();
+  const auto digest = [](const std::string& arguments) {
+    return json::parse(runProgram("run worlds/small_maze.xml --json --time 60 " + arguments).out)["digest"];
+  };
+  const auto one = digest("--seed 5");
+  EXPECT_EQ(digest("--seed 5 --threads 2"), one);
+  EXPECT_EQ(digest("--seed 5 --record '" + (folder / "run.rawlog").string() + "'"), one);
+  EXPECT_NE(digest("--seed 6"), one);
+}
+
+TEST(Run, EndsAtItsTimeLimitAndTakesAnotherControllerAndStep) {
+  const json summary =
+      json::parse(runProgram("run worlds/small_maze.xml --json --controller still --time 10 --step 0.05").out);
+  EXPECT_EQ(summary["steps"], 200);
+  EXPECT_EQ(summary["ended_by"], "time_limit");
+  EXPECT_EQ(summary["gold_found"], false);
+  EXPECT_TRUE(summary["gold_time_s"].is_null());
+  EXPECT_EQ(summary["driven_m"], 0);
+}
+
+TEST(Run, RunsAWorldOf2005AsItIs) {
+  const Ended run = runProgram("run tests/data/legacy_world.xml --json");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(json::parse(run.out)["gold_found_by"], "Finder1");
+}
+
+TEST(Run, KeepsARawlogThatRawlogEditOpensAndAPicture) {
+  const auto folder = emptyFolder();
+  const auto rawlog = folder / "run.rawlog";
+  const auto picture = folder / "run.png";
+  const Ended run = runProgram("run worlds/small_maze.xml --time 20 --record '" + rawlog.string() + "' --picture '" +
+                               picture.string() + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(textOf(picture).substr(0, 4), "\x89PNG");
+  EXPECT_FALSE(std::filesystem::exists(rawlog.string() + ".part"));
+  EXPECT_EQ(std::system(("rawlog-edit --info -i '" + rawlog.string() + "' >'" + (folder / "info").string() +
+                         "' 2>&1 </dev/null")
+                            .c_str()),
+            0);
+  const std::string info = textOf(folder / "info");
+  for (const char* name : {"CObservationRange", "CObservationOdometry", "CObservationRobotPose"}) {
+    EXPECT_NE(info.find(name), std::string::npos) << name << "\n" << info;
+  }
+}
+
+TEST(Run, EndsCleanlyWhenInterruptedAndItsRawlogIsReadable) {
+  const auto folder = emptyFolder();
+  const std::string rawlog = (folder / "run.rawlog").string();
+  const std::string summary = (folder / "summary").string();
+  // At real time the run lasts half an hour; it is interrupted as soon as it has begun to write.
+  const std::string script = "cd '" ROBOSIM_SOURCE_DIR "'; '" ROBOSIM_PROGRAM
+                             "' run worlds/small_maze.xml --json --speed 1 "
+                             "--controller wander --record '" +
+                             rawlog + "' >'" + summary +
+                             "' 2>&1 </dev/null & p=$!; "
+                             "while [ ! -e '" +
+                             rawlog +
+                             ".part' ] && kill -0 $p; do :; done; "
+                             "kill -INT $p; wait $p";
+  const int status = std::system(("bash -c \"set -m; " + script + "\"").c_str());
+  EXPECT_EQ(status, 0) << textOf(summary);
+  EXPECT_EQ(json::parse(textOf(summary))["ended_by"], "interrupt");
+  EXPECT_TRUE(std::filesystem::exists(rawlog));
+  EXPECT_FALSE(std::filesystem::exists(rawlog + ".part"));
+  EXPECT_EQ(std::system(("rawlog-edit --info -i '" + rawlog + "' >/dev/null 2>&1 </dev/null").c_str()), 0);
+}
+
+struct Mistake {
+  const char* arguments;
+  const char* complaint;
+};
+
+TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
+  const Mistake mistakes[] = {
+      {"run no_such_world.xml", "no_such_world.xml: no such file; check the path"},
+      {"run worlds", "worlds: is a directory; name a file in it"},
+      {"run README.md", "README.md:1: "},
+      {"run", "WORLD is required"},
+      {"run worlds/small_maze.xml --controller bogus", "bogus"},
+      {"run worlds/small_maze.xml --step 0", "--step"},
+      {"run worlds/small_maze.xml --time -5", "--time"},
+      {"run worlds/small_maze.xml --threads 0", "--threads"},
+      {"run worlds/small_maze.xml --speed fast", "--speed fast: must be 'max' or a number"},
+      {"run worlds/small_maze.xml --record /no/such/folder/x.rawlog", "/no/such/folder"},
+      {"run worlds/small_maze.xml --picture /no/such/folder/x.png", "/no/such/folder"},
+      {"run worlds/small_maze.xml --bogus", "--bogus"},
+      {"bogus", "bogus"},
+      {"", "subcommand"},
+  };
+  for (const auto& mistake : mistakes) {
+    const Ended run = runProgram(mistake.arguments);
+    EXPECT_EQ(run.exit_code, 1) << mistake.arguments;
+    EXPECT_NE(run.err.find(mistake.complaint), std::string::npos) << mistake.arguments << "\n" << run.err;
+    EXPECT_EQ(run.out, "") << mistake.arguments;
+  }
+}
+
+TEST(Run, FailsWithCode2AndLeavesNoHalfWrittenRawlogWhenTheDiskIsFull) {
+  const auto folder = emptyFolder();
+  // A limit on the size of files stands in for the full disk: the write fails in the same way.
+  const std::string rawlog = (folder / "run.rawlog").string();
+  const int status = std::system(("bash -c \"ulimit -f 8; trap '' XFSZ; cd '" ROBOSIM_SOURCE_DIR "'; '" ROBOSIM_PROGRAM
+                                  "' run worlds/open_100.xml --time 60 --record '" +
+                                  rawlog + "' >/dev/null 2>'" + (folder / "err").string() + "'\"")
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_NE(textOf(folder / "err").find("run.rawlog"), std::string::npos) << textOf(folder / "err");
+  EXPECT_FALSE(std::filesystem::exists(rawlog));
+}
+
+}  // namespace
+}  // namespace robosim
