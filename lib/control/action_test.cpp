@@ -1,0 +1,140 @@
+#include "control/action.h"
+
+#include <gtest/gtest.h>
+
+#include "control/fake_hardware.h"
+#include "control/pioneer_robot.h"
+
+namespace robosim {
+namespace {
+
+/// Wants the same in every step, and notes what was settled before it.
+class Wish : public Action {
+ public:
+  Wish(std::string name, ActionDesired desired) : Action(std::move(name)), desired_(desired) {}
+  ActionDesired fire(PioneerRobot&, const ActionDesired& current) override {
+    seen = current;
+    return desired_;
+  }
+  ActionDesired seen;
+
+ private:
+  ActionDesired desired_;
+};
+
+ActionDesired vel(double value, double strength = 1) {
+  ActionDesired desired;
+  desired.setVel(value, strength);
+  return desired;
+}
+
+struct Actions : testing::Test {
+  FakeHardware hardware;
+  Robot robot{hardware};
+  PioneerRobot pioneer{robot};
+  ActionList list;
+};
+
+TEST_F(Actions, OfHigherPriorityComeFirst) {
+  Wish low("low", vel(100)), high("high", vel(300));
+  list.add(low, 10);
+  list.add(high, 90);
+  EXPECT_EQ(list.resolve(pioneer).getVel(), 300);
+  EXPECT_EQ(low.seen.getVel(), 300);
+  EXPECT_EQ(high.seen.getVelStrength(), ActionDesired::NO_STRENGTH);
+}
+
+TEST_F(Actions, OfLowerPriorityFillWhatIsLeftOpen) {
+  // Half of 400 and half of 100; the third finds nothing open.
+  Wish first("first", vel(400, 0.5)), second("second", vel(100)), third("third", vel(-900));
+  list.add(first, 3);
+  list.add(second, 2);
+  list.add(third, 1);
+  const ActionDesired settled = list.resolve(pioneer);
+  EXPECT_DOUBLE_EQ(settled.getVel(), 250);
+  EXPECT_DOUBLE_EQ(settled.getVelStrength(), 1);
+}
+
+TEST_F(Actions, OfOnePriorityAreAveragedByStrength) {
+  Wish a("a", vel(100)), b("b", vel(200)), c("c", vel(600, 0.5));
+  list.add(a, 5);
+  list.add(b, 5);
+  list.add(c, 5);
+  EXPECT_DOUBLE_EQ(list.resolve(pioneer).getVel(), (100 + 200 + 300) / 2.5);
+}
+
+TEST_F(Actions, WithNothingToSayLeaveAllOpen) {
+  Wish nothing("nothing", {}), go("go", vel(100));
+  list.add(nothing, 9);
+  list.add(go, 1);
+  EXPECT_EQ(list.resolve(pioneer).getVel(), 100);
+  EXPECT_EQ(list.resolve(pioneer).getDeltaHeadingStrength(), ActionDesired::NO_STRENGTH);
+}
+
+TEST_F(Actions, CannotTurnByAngleAndBySpeedAtOnce) {
+  ActionDesired by_angle, by_speed;
+  by_angle.setDeltaHeading(20);
+  by_speed.setRotVel(50);
+  Wish angle("angle", by_angle), speed("speed", by_speed);
+  list.add(angle, 9);
+  list.add(speed, 1);
+  EXPECT_EQ(list.resolve(pioneer).getDeltaHeading(), 20);
+  EXPECT_EQ(list.resolve(pioneer).getRotVelStrength(), ActionDesired::NO_STRENGTH);
+  EXPECT_TRUE(list.remove(angle));
+  EXPECT_FALSE(list.remove(angle));
+  EXPECT_EQ(list.resolve(pioneer).getRotVel(), 50);
+}
+
+TEST_F(Actions, LimitSpeedByTheLowestOfAllLimits) {
+  ActionDesired limit200, limit500;
+  limit200.setMaxVel(200);
+  limit500.setMaxVel(500);
+  limit500.setMaxNegVel(-50);
+  Wish low("low", limit200), high("high", limit500), go("go", vel(900));
+  list.add(high, 9);
+  list.add(low, 1);
+  list.add(go, 5);
+  EXPECT_EQ(list.resolve(pioneer).getMaxVel(), 200);
+  EXPECT_EQ(list.resolve(pioneer).getMaxNegVel(), -50);
+}
+
+TEST_F(Actions, DriveTheRobotUntilItIsToldDirectly) {
+  Wish go("go", vel(300));
+  pioneer.addAction(go, 10);
+  const auto steps = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      hardware.advance();
+      pioneer.update();
+    }
+  };
+  steps(20);
+  EXPECT_NEAR(pioneer.getVel(), 300, 1e-6);
+  pioneer.setVel(100);
+  EXPECT_TRUE(pioneer.isDirectMotion());
+  steps(20);
+  EXPECT_NEAR(pioneer.getVel(), 100, 1e-6);
+  pioneer.clearDirectMotion();
+  steps(20);
+  EXPECT_NEAR(pioneer.getVel(), 300, 1e-6);
+  EXPECT_EQ(pioneer.findAction("go"), &go);
+  EXPECT_EQ(pioneer.findAction("come"), nullptr);
+}
+
+TEST_F(Actions, ThatWantNothingLetTheRobotStand) {
+  Wish go("go", vel(300)), nothing("nothing", {});
+  pioneer.addAction(go, 10);
+  pioneer.addAction(nothing, 20);
+  const auto steps = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      hardware.advance();
+      pioneer.update();
+    }
+  };
+  steps(20);
+  pioneer.remAction(go);
+  steps(20);
+  EXPECT_EQ(pioneer.getVel(), 0);
+}
+
+}  // namespace
+}  // namespace robosim

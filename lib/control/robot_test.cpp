@@ -1,0 +1,94 @@
+#include "control/robot.h"
+
+#include <gtest/gtest.h>
+
+#include "control/echo.h"
+#include "control/fake_hardware.h"
+
+namespace robosim {
+namespace {
+
+TEST(Robot, ReadsTheFirstSensorOfEachKind) {
+  FakeHardware hardware;
+  hardware.hearSonar(3, 1.5);
+  hardware.hearLaser(4);
+  hardware.feelHeat(7);
+  hardware.mutableOdometry().odom_from_robot = {1, 2, 0.5};
+  const Robot robot(hardware);
+  EXPECT_EQ(robot.sonar().size(), 16u);
+  EXPECT_EQ(robot.sonar()[3].range_m, 1.5f);
+  EXPECT_EQ(robot.laser()[0].range_m, 4.f);
+  EXPECT_EQ(robot.heat(), 7.);
+  EXPECT_EQ(robot.odometry().odom_from_robot.y, 2);
+  EXPECT_EQ(robot.sensor(SensorKind::heat)->range_max_m, 3);
+}
+
+TEST(Robot, OfWhichASensorIsMissingReadsNothingFromIt) {
+  FakeHardware hardware;
+  const Robot robot(hardware);
+  EXPECT_TRUE(robot.infrared().empty());
+  EXPECT_TRUE(robot.bumper().empty());
+  EXPECT_EQ(robot.compass(), std::nullopt);
+  EXPECT_EQ(robot.sensor(SensorKind::compass), nullptr);
+}
+
+TEST(Robot, WithoutAnySensorHasIdentityOdometry) {
+  FakeHardware hardware;
+  hardware.mutableInfo().sensors = std::make_shared<std::vector<SensorInfo>>();
+  hardware.mutableReadings().measurements.clear();
+  const Robot robot(hardware);
+  EXPECT_EQ(robot.odometry(), Odometry{});
+  EXPECT_TRUE(robot.sonar().empty());
+  EXPECT_EQ(robot.heat(), std::nullopt);
+}
+
+TEST(Robot, TellsTheTimeOfItsReadings) {
+  FakeHardware hardware;
+  const Robot robot(hardware);
+  for (int i = 0; i < 7; ++i) hardware.advance();
+  EXPECT_EQ(robot.stepNumber(), 7u);
+  EXPECT_DOUBLE_EQ(robot.time(), 0.7);
+}
+
+TEST(Robot, PassesItsCommandsOn) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  robot.drive(0.3, -0.2);
+  robot.panLaser(0.5);
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.3, .turn_radps = -0.2, .laser_pan_rad = 0.5f}));
+  robot.stop();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.laser_pan_rad = 0.5f}));
+}
+
+TEST(Robot, OnceHaltedStandsForGood) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  robot.drive(0.3, 0.1);
+  robot.halt(Activity::found);
+  EXPECT_EQ(hardware.lastCommand(), Command{.activity = Activity::found});
+  robot.drive(0.3, 0.1);
+  EXPECT_EQ(hardware.lastCommand(), Command{.activity = Activity::found});
+  EXPECT_EQ(robot.activity(), Activity::found);
+}
+
+TEST(Robot, SendsAndReceivesMessages) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  robot.send("other", "hello");
+  ASSERT_EQ(hardware.sent.size(), 1u);
+  EXPECT_EQ(hardware.sent[0], (RobotMessage{"fake", "other", "hello"}));
+  hardware.mutableReadings().inbox = {{"other", "fake", "hi"}};
+  ASSERT_EQ(robot.inbox().size(), 1u);
+  EXPECT_EQ(robot.inbox()[0].text, "hi");
+}
+
+TEST(Echo, IsHeardOnlyNearerThanTheSensorsRange) {
+  // 8.1 has no exact float: the reading of a sensor that hears nothing must not count as an echo through rounding.
+  SensorInfo sensor;
+  sensor.range_max_m = sensor.no_echo_m = 8.1;
+  EXPECT_FALSE(heard(sensor, {static_cast<float>(8.1), {}}));
+  EXPECT_TRUE(heard(sensor, {8.09f, {}}));
+}
+
+}  // namespace
+}  // namespace robosim
