@@ -35,7 +35,7 @@ fs::path checkedPath(const fs::path& file) {
     throw ConfigError(file.string() +
                       ": is no ordinary file, and a recording would take its place; choose another name");
   }
-  if (access(file.c_str(), W_OK) != 0) {
+  if (faccessat(AT_FDCWD, file.c_str(), W_OK, AT_EACCESS) != 0) {
     throw ConfigError(file.string() + ": must not be overwritten; choose another name, or make the file writable");
   }
   return fs::canonical(file);
@@ -43,6 +43,8 @@ fs::path checkedPath(const fs::path& file) {
 
 std::string whyNotOpened(const fs::path& part, int error) {
   const fs::path folder = part.has_parent_path() ? part.parent_path() : ".";
+  std::error_code ignored;
+  if (error == ENOENT && fs::is_directory(folder, ignored)) error = EACCES;  // a folder of the system's, such as /proc
   switch (error) {
     case ENOENT:
       return "the folder " + folder.string() + " does not exist; make it, or record to another";

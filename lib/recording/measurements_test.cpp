@@ -1,0 +1,148 @@
+#include "recording/measurements.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationGasSensors.h>
+#include <mrpt/obs/CObservationRange.h>
+
+#include "recording/byte_archive.h"
+#include "recording/observations.h"
+#include "recording/recording_error.h"
+#include "recording/sample_robot.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::obs::CObservation;
+
+/// Reads back what a ByteArchive wrote.
+class ByteReader : public mrpt::serialization::CArchive {
+ public:
+  explicit ByteReader(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
+
+ protected:
+  std::size_t write(const void*, std::size_t) override { return 0; }
+  std::size_t read(void* data, std::size_t size) override {
+    const std::size_t n = std::min(size, bytes_.size() - at_);
+    std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(at_), n, static_cast<std::uint8_t*>(data));
+    at_ += n;
+    return n;
+  }
+
+ private:
+  std::vector<std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+};
+
+CObservation::Ptr writtenAndRead(const CObservation& observation) {
+  ByteArchive archive;
+  archive << observation;
+  return ByteReader(archive.bytes).ReadObject<CObservation>();
+}
+
+const SensorInfo& sensorOf(const RobotInfo& robot, const CObservation& observation) {
+  for (const auto& sensor : *robot.sensors) {
+    if (sensorLabel(robot.name, sensor.label) == observation.sensorLabel) return sensor;
+  }
+  throw std::out_of_range(observation.sensorLabel);
+}
+
+std::size_t slotOf(const RobotInfo& robot, const SensorInfo& sensor) {
+  return static_cast<std::size_t>(&sensor - robot.sensors->data());
+}
+
+TEST(Measurements, ARecordedReadingIsTheReadingForEveryKindOfSensor) {
+  const RobotInfo robot = sampleRobot("rover");
+  RobotObservations observations(robot);
+  for (std::uint64_t step = 0; step < 100; ++step) {
+    const Readings readings = sampleReadings(robot, step);
+    for (const auto& observation : observations.of(readings, std::nullopt)) {
+      const auto read = writtenAndRead(*observation);
+      const SensorInfo& sensor = sensorOf(robot, *read);
+      expectSameReading(measurementFrom(*read, sensor), readings.measurements[slotOf(robot, sensor)],
+                        read->sensorLabel);
+    }
+  }
+}
+
+Measurement thereAndBack(const SensorInfo& sensor, const Measurement& measurement) {
+  RobotInfo robot;
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sensor});
+  Readings readings;
+  readings.measurements = {measurement};
+  RobotObservations observations(robot);
+  return measurementFrom(*writtenAndRead(*observations.of(readings, std::nullopt)[0]), sensor);
+}
+
+TEST(Measurements, ARobotThatDoesNotTurnDoesNotTurnWhenReadBack) {
+  const Odometry straight{{1, 0, 0}, 0.5, 0};
+  EXPECT_EQ(std::get<Odometry>(thereAndBack(plainSensor(SensorKind::odometry, "odometry"), straight)), straight);
+}
+
+TEST(Measurements, AnOdometryHeadingBeyondATurnStaysAsItWas) {
+  const Odometry turned{{0, 0, 7.123456789012345}, 0, 1};
+  EXPECT_EQ(std::get<Odometry>(thereAndBack(plainSensor(SensorKind::odometry, "odometry"), turned)), turned);
+}
+
+TEST(Measurements, SilenceIsTheSensorsOwnReadingAgain) {
+  const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.2, 0, 0, 0)}, 1.5, 1.6);
+  const auto echo = std::get<Echoes>(thereAndBack(sonar, Echoes{{1.6f, {1.8f, 0, 0}}}))[0];
+  EXPECT_EQ(echo, (Echo{1.6f, {1.8f, 0, 0}}));
+}
+
+TEST(Measurements, AnEchoFromTheSensorsVeryMaximumIsSilence) {
+  // As readings.h has it: what is not nearer than the maximum is not told.
+  const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 1.5, 1.5);
+  EXPECT_EQ(std::get<Echoes>(thereAndBack(sonar, Echoes{{1.5f, {1.5f, 0, 0}}}))[0].range_m, 1.5f);
+}
+
+TEST(Measurements, AWideSonarsPointComesBackOnItsAxis) {
+  auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.5, 0, 0.2, M_PI / 2)}, 5, 5);
+  sonar.beam_width_rad = 20 * M_PI / 180;
+  const Echo off_axis{2, {0.5f + 2 * 0.1f, 2 * 0.995f, 0.2f}};
+  const auto echo = std::get<Echoes>(thereAndBack(sonar, Echoes{off_axis}))[0];
+  EXPECT_EQ(echo.range_m, 2.0f);
+  EXPECT_NEAR(echo.point_m.x, 0.5, 1e-6);
+  EXPECT_NEAR(echo.point_m.y, 2, 1e-6);
+  EXPECT_NEAR(echo.point_m.z, 0.2, 1e-6);
+}
+
+TEST(Measurements, ABeamThatLooksDownHitsBelow) {
+  const auto infrared = rangeSensor(SensorKind::infrared, "infrared", {Beam{{0, 0, 1, 0, M_PI / 6, 0}}}, 5, 5);
+  const auto echo = std::get<Echoes>(thereAndBack(infrared, Echoes{{1, {}}}))[0];
+  EXPECT_NEAR(echo.point_m.x, std::cos(M_PI / 6), 1e-6);
+  EXPECT_NEAR(echo.point_m.z, 0.5, 1e-6);
+}
+
+TEST(Measurements, HeatKeepsSinglePrecision) {
+  EXPECT_EQ(std::get<Scalar>(thereAndBack(plainSensor(SensorKind::heat, "heat"), Scalar{0.1})).value,
+            static_cast<double>(0.1f));
+}
+
+std::string refusal(const CObservation& observation, const SensorInfo& sensor) {
+  try {
+    measurementFrom(observation, sensor);
+  } catch (const RecordingError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST(Measurements, AnObservationOfAnotherSensorIsRefused) {
+  mrpt::obs::CObservationComment comment;
+  comment.sensorLabel = "rover/heat";
+  EXPECT_EQ(
+      refusal(comment, plainSensor(SensorKind::heat, "heat")),
+      "recorded observation \"rover/heat\" (mrpt::obs::CObservationComment) is not of the heat \"heat\": the class "
+      "should be mrpt::obs::CObservationGasSensors; give the robots that the recording was made with");
+}
+
+TEST(Measurements, AnObservationOfAnotherSizeIsRefused) {
+  const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 5, 5);
+  EXPECT_NE(refusal(mrpt::obs::CObservationRange(), sonar).find("holds 0 values in place of 1"), std::string::npos);
+  EXPECT_NE(refusal(mrpt::obs::CObservationGasSensors(), plainSensor(SensorKind::heat, "heat")).find("0 values"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,218 @@
+#include "recording/observations.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationGasSensors.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRange.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include "recording/sample_robot.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationRange;
+
+RobotInfo robotWith(const SensorInfo& sensor) {
+  RobotInfo robot;
+  robot.name = "rover";
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sensor});
+  return robot;
+}
+
+/// What one sensor's measurement is recorded as.
+template <typename Class>
+Class recorded(const SensorInfo& sensor, const Measurement& measurement, float pan_rad = 0) {
+  Readings readings;
+  readings.measurements = {measurement};
+  readings.laser_pan_rad = pan_rad;
+  RobotObservations observations(robotWith(sensor));
+  return dynamic_cast<const Class&>(*observations.of(readings, std::nullopt)[0]);
+}
+
+TEST(Observations, ComeInTheOrderGroundTruthOdometryThenTheOthersAsMounted) {
+  const RobotInfo robot = sampleRobot("rover");
+  RobotObservations observations(robot);
+  std::vector<std::string> labels;
+  for (const auto& observation : observations.of(sampleReadings(robot, 1), mrpt::math::TPose2D(1, 2, 3))) {
+    labels.push_back(observation->sensorLabel);
+  }
+  EXPECT_EQ(labels,
+            (std::vector<std::string>{"rover/GROUND_TRUTH", "rover/odometry", "rover/sonar", "rover/laser",
+                                      "rover/beam", "rover/infrared", "rover/heat", "rover/bumper", "rover/compass"}));
+}
+
+TEST(Observations, LeaveOutAGroundTruthThatNobodyKnows) {
+  const RobotInfo robot = sampleRobot("rover");
+  RobotObservations observations(robot);
+  const auto list = observations.of(sampleReadings(robot, 1), std::nullopt);
+  ASSERT_EQ(list.size(), 8u);
+  EXPECT_EQ(list[0]->sensorLabel, "rover/odometry");
+}
+
+TEST(Observations, CarrySimulatedTimeFrom2005On) {
+  const RobotInfo robot = sampleRobot("rover");
+  RobotObservations observations(robot);
+  for (const auto& observation : observations.of(sampleReadings(robot, 3), mrpt::math::TPose2D())) {
+    EXPECT_EQ(mrpt::system::dateTimeToString(observation->timestamp), "2005/01/01,00:00:00.300000");
+  }
+}
+
+TEST(Observations, TimestampsAreExactToTheirUnitOf100NanosecondsAfterAYear) {
+  const SimTime year{3153600001, 0.01};
+  const auto since_epoch = timestampOf(year) - timestampOf({});
+  EXPECT_EQ(since_epoch.count(), 315360000100000);
+  EXPECT_EQ(secondsSinceStart(timestampOf(year)), 31536000.01);
+}
+
+TEST(Observations, ASonarRingIsOneObservationOfAllItsRangesAndPlaces) {
+  auto sensor = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.1, 0.2, 0.3, 0.4), beamAt(0, 0, 0, 2)}, 5, 5);
+  sensor.range_min_m = 0.15;
+  sensor.beam_width_rad = 0.35;
+  const auto range = recorded<CObservationRange>(sensor, Echoes{{1.25f, {}}, {4.5f, {}}});
+  EXPECT_EQ(range.minSensorDistance, 0.15f);
+  EXPECT_EQ(range.maxSensorDistance, 5.0f);
+  EXPECT_EQ(range.sensorConeApperture, 0.35f);
+  ASSERT_EQ(range.sensedData.size(), 2u);
+  EXPECT_EQ(range.sensedData[0].sensorID, 0);
+  EXPECT_EQ(range.sensedData[0].sensorPose, mrpt::math::TPose3D(0.1, 0.2, 0.3, 0.4, 0, 0));
+  EXPECT_EQ(range.sensedData[0].sensedDistance, 1.25f);
+  EXPECT_EQ(range.sensedData[1].sensorID, 1);
+  EXPECT_EQ(range.sensedData[1].sensedDistance, 4.5f);
+}
+
+TEST(Observations, ARangeWithoutEchoIsALittleMoreThanTheSensorsMaximumWhateverTheSensorReads) {
+  for (const double no_echo_m : {5.0, 6.0}) {
+    const auto sensor = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 5, no_echo_m);
+    const auto range = recorded<CObservationRange>(sensor, Echoes{{static_cast<float>(no_echo_m), {}}});
+    EXPECT_EQ(range.sensedData[0].sensedDistance, 5.005f) << no_echo_m;
+  }
+}
+
+TEST(Observations, AThinBeamHasASmallConeForGridsThatCannotTakeNone) {
+  const auto sensor = rangeSensor(SensorKind::infrared, "infrared", {beamAt(0, 0, 0, 0)}, 1, 1);
+  EXPECT_EQ(recorded<CObservationRange>(sensor, Echoes(1)).sensorConeApperture, 0.001f);
+}
+
+TEST(Observations, AScanningLaserIsA2dScanFromRightToLeft) {
+  auto sensor = rangeSensor(SensorKind::laser, "laser",
+                            {beamAt(0.2, 0, 0.3, -0.5), beamAt(0.2, 0, 0.3, 0.5), beamAt(0.2, 0, 0.3, 1.5)}, 8, 8);
+  sensor.noise_std_m = 0.03;
+  const auto scan = recorded<CObservation2DRangeScan>(sensor, Echoes{{1, {}}, {8, {}}, {3, {}}});
+  EXPECT_EQ(scan.aperture, 2.0f);
+  EXPECT_TRUE(scan.rightToLeft);
+  EXPECT_EQ(scan.maxRange, 8.0f);
+  EXPECT_EQ(scan.stdError, 0.03f);
+  EXPECT_NEAR(scan.sensorPose.yaw(), 0.5, 1e-12);
+  EXPECT_EQ(scan.sensorPose.x(), 0.2);
+  EXPECT_EQ(scan.sensorPose.z(), 0.3);
+  ASSERT_EQ(scan.getScanSize(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(scan.getScanAngle(i), static_cast<double>(i) - 1, 1e-6);
+  EXPECT_EQ(scan.getScanRange(0), 1.0f);
+  EXPECT_TRUE(scan.getScanRangeValidity(0));
+  EXPECT_FALSE(scan.getScanRangeValidity(1));
+  EXPECT_TRUE(scan.getScanRangeValidity(2));
+}
+
+TEST(Observations, AScanIsWholeWhereItCrossesTheRobotsBack) {
+  std::vector<Beam> beams;
+  for (int i = 0; i < 5; ++i) beams.push_back(beamAt(0, 0, 0, std::remainder(M_PI - 0.2 + 0.1 * i, 2 * M_PI)));
+  const auto scan = recorded<CObservation2DRangeScan>(rangeSensor(SensorKind::laser, "laser", beams, 8, 8), Echoes(5));
+  EXPECT_NEAR(scan.aperture, 0.4, 1e-6);
+  EXPECT_NEAR(std::abs(scan.sensorPose.yaw()), M_PI, 1e-9);
+}
+
+TEST(Observations, AClockwiseScannerIsRecordedFromLeftToRight) {
+  const auto sensor = rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 1), beamAt(0, 0, 0, -1)}, 8, 8);
+  const auto scan = recorded<CObservation2DRangeScan>(sensor, Echoes(2));
+  EXPECT_FALSE(scan.rightToLeft);
+  EXPECT_EQ(scan.aperture, 2.0f);
+  EXPECT_NEAR(scan.getScanAngle(0), 1, 1e-6);
+}
+
+TEST(Observations, ALaserWithoutAFanOfBeamsIsASetOfRanges) {
+  const auto one = rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 0)}, 8, 8);
+  const auto uneven =
+      rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 0), beamAt(0, 0, 0, 1), beamAt(0, 0, 0, 1.5)}, 8, 8);
+  const auto apart = rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 0), beamAt(0, 0.1, 0, 1)}, 8, 8);
+  EXPECT_EQ(recorded<CObservationRange>(one, Echoes(1)).sensedData.size(), 1u);
+  EXPECT_EQ(recorded<CObservationRange>(uneven, Echoes(3)).sensedData.size(), 3u);
+  EXPECT_EQ(recorded<CObservationRange>(apart, Echoes(2)).sensedData.size(), 2u);
+}
+
+TEST(Observations, ASensorThatTurnsIsRecordedWhereItLooked) {
+  auto sensor = rangeSensor(SensorKind::laser, "laser", {beamAt(0.3, 0, 0, 0.25)}, 8, 8);
+  sensor.pans = true;
+  const auto range = recorded<CObservationRange>(sensor, Echoes(1), 0.5f);
+  EXPECT_EQ(range.sensedData[0].sensorPose.yaw, 0.75);
+  EXPECT_EQ(range.sensedData[0].sensorPose.x, 0.3);
+  auto scanner = sampleScanner();
+  scanner.pans = true;
+  EXPECT_NEAR(recorded<CObservation2DRangeScan>(scanner, Echoes(181), 0.5f).sensorPose.yaw(), 0.5, 1e-9);
+}
+
+TEST(Observations, HeatIsATemperatureWhereTheSensorSits) {
+  const auto sensor = plainSensor(SensorKind::heat, "heat", {beamAt(0, 0, 0.4, 0)});
+  const auto heat = recorded<mrpt::obs::CObservationGasSensors>(sensor, Scalar{12.5});
+  ASSERT_EQ(heat.m_readings.size(), 1u);
+  EXPECT_TRUE(heat.m_readings[0].hasTemperature);
+  EXPECT_EQ(heat.m_readings[0].temperature, 12.5f);
+  EXPECT_EQ(heat.m_readings[0].eNosePoseOnTheRobot.z, 0.4);
+}
+
+TEST(Observations, EachBumperSegmentIsADigitalInput) {
+  const auto sensor = plainSensor(SensorKind::bumper, "bumper", std::vector<Beam>(10));
+  const auto bumper = recorded<mrpt::obs::CObservationRawDAQ>(sensor, Contacts{{1, 0, 1, 0, 0, 0, 0, 0, 0, 1}});
+  EXPECT_EQ(bumper.DIN, (std::vector<std::uint8_t>{0b00000101, 0b00000010}));
+}
+
+TEST(Observations, ABumperLetsGo) {
+  RobotObservations observations(robotWith(plainSensor(SensorKind::bumper, "bumper", std::vector<Beam>(1))));
+  Readings readings;
+  readings.measurements = {Contacts{{1}}};
+  observations.of(readings, std::nullopt);
+  readings.measurements = {Contacts{{0}}};
+  const auto& bumper = dynamic_cast<const mrpt::obs::CObservationRawDAQ&>(*observations.of(readings, std::nullopt)[0]);
+  EXPECT_EQ(bumper.DIN, std::vector<std::uint8_t>{0});
+}
+
+TEST(Observations, ACompassIsAYawAndNothingElse) {
+  const auto compass = recorded<mrpt::obs::CObservationIMU>(plainSensor(SensorKind::compass, "compass"), Scalar{-2.5});
+  EXPECT_EQ(compass.get(mrpt::obs::IMU_YAW), -2.5);
+  EXPECT_EQ(std::count(compass.dataIsPresent.begin(), compass.dataIsPresent.end(), true), 1);
+}
+
+TEST(Observations, OdometryHasPoseAndSpeeds) {
+  const auto odometry = recorded<mrpt::obs::CObservationOdometry>(plainSensor(SensorKind::odometry, "odometry"),
+                                                                  Odometry{{1, 2, 3}, 0.5, -0.25});
+  EXPECT_EQ(odometry.odometry.x(), 1);
+  EXPECT_EQ(odometry.odometry.y(), 2);
+  EXPECT_EQ(odometry.odometry.phi(), 3);
+  EXPECT_TRUE(odometry.hasVelocities);
+  EXPECT_EQ(odometry.velocityLocal, mrpt::math::TTwist2D(0.5, 0, -0.25));
+}
+
+TEST(Observations, AngularSpeedIsNeverExactlyZeroWhichIcpSlamCannotDivideBy) {
+  const auto odometry = recorded<mrpt::obs::CObservationOdometry>(plainSensor(SensorKind::odometry, "odometry"),
+                                                                  Odometry{{0, 0, 0}, 0.5, 0});
+  EXPECT_EQ(odometry.velocityLocal.omega, 1e-6);
+}
+
+TEST(Observations, GroundTruthIsTheRobotsPoseWithoutDoubt) {
+  const RobotInfo robot = sampleRobot("rover");
+  RobotObservations observations(robot);
+  const auto list = observations.of(sampleReadings(robot, 0), mrpt::math::TPose2D(1, -2, 3));
+  const auto& truth = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(*list[0]);
+  EXPECT_EQ(truth.pose.mean.x(), 1);
+  EXPECT_EQ(truth.pose.mean.y(), -2);
+  EXPECT_NEAR(truth.pose.mean.yaw(), 3, 1e-12);
+  EXPECT_EQ(truth.pose.cov.sum(), 0);
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,266 @@
+#include "recording/rawlog_writer.h"
+
+#include <fstream>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CRawlog.h>
+
+#include "base/error_list.h"
+#include "recording/measurements.h"
+#include "recording/observations.h"
+#include "recording/sample_robot.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+using mrpt::obs::CRawlog;
+
+class RawlogWriterTest : public testing::Test {
+ protected:
+  RawlogWriterTest() {
+    folder_ = fs::path(testing::TempDir()) /
+              (std::string("robosim_rawlog_") + testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  ~RawlogWriterTest() override { fs::remove_all(folder_); }
+
+  fs::path in(const std::string& name) const { return folder_ / name; }
+
+  std::set<std::string> filesInFolder() const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+struct SampleRun {
+  explicit SampleRun(std::vector<std::string> names) {
+    for (const auto& name : names) robots.push_back(sampleRobot(name));
+  }
+
+  std::vector<Readings> readings(std::uint64_t step) const {
+    std::vector<Readings> all;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      all.push_back(sampleReadings(robots[i], 1000 * i + step));
+      all.back().time = {step, 0.1};
+    }
+    return all;
+  }
+
+  std::vector<TPose2D> truth(std::uint64_t step) const {
+    std::vector<TPose2D> all;
+    for (std::size_t i = 0; i < robots.size(); ++i) all.emplace_back(0.1 * static_cast<double>(step), i, 0.5);
+    return all;
+  }
+
+  void record(RawlogWriter& writer, std::uint64_t steps) const {
+    for (std::uint64_t step = 0; step < steps; ++step) writer.write(readings(step), truth(step));
+    writer.close();
+  }
+
+  std::vector<RobotInfo> robots;
+};
+
+CRawlog loaded(const fs::path& file) {
+  CRawlog rawlog;
+  EXPECT_TRUE(rawlog.loadFromRawLogFile(file.string()));
+  return rawlog;
+}
+
+TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
+  const SampleRun run({"anna", "bert"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  run.record(writer, 50);
+
+  CRawlog rawlog = loaded(in("run.rawlog"));
+  const std::size_t sensors = run.robots[0].sensors->size();
+  ASSERT_EQ(rawlog.size(), 50 * 2 * (1 + sensors));
+  std::size_t entry = 0;
+  for (std::uint64_t step = 0; step < 50; ++step) {
+    const auto readings = run.readings(step);
+    for (std::size_t r = 0; r < 2; ++r) {
+      RobotObservations expected(run.robots[r]);
+      for (const auto& observation : expected.of(readings[r], run.truth(step)[r])) {
+        const auto read = rawlog.getAsObservation(entry++);
+        ASSERT_EQ(read->sensorLabel, observation->sensorLabel);
+        EXPECT_EQ(read->timestamp, observation->timestamp);
+        for (std::size_t slot = 0; slot < sensors; ++slot) {
+          const SensorInfo& sensor = (*run.robots[r].sensors)[slot];
+          if (read->sensorLabel != sensorLabel(run.robots[r].name, sensor.label)) continue;
+          expectSameReading(measurementFrom(*read, sensor), readings[r].measurements[slot], read->sensorLabel);
+        }
+      }
+    }
+  }
+}
+
+TEST_F(RawlogWriterTest, KeepsTheGroundTruthOfEachRobot) {
+  const SampleRun run({"anna", "bert"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  run.record(writer, 11);
+  CRawlog rawlog = loaded(in("run.rawlog"));
+  const auto last = rawlog.getAsObservation(rawlog.size() - 1 - run.robots[1].sensors->size());
+  ASSERT_EQ(last->sensorLabel, "bert/GROUND_TRUTH");
+  const auto& pose = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(*last).pose.mean;
+  EXPECT_EQ(pose.x(), 1);
+  EXPECT_EQ(pose.y(), 1);
+  EXPECT_NEAR(pose.yaw(), 0.5, 1e-12);
+}
+
+TEST_F(RawlogWriterTest, RecordsRobotsThatNobodyKnowsTheTruthOf) {
+  const SampleRun run({"anna"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  writer.write(run.readings(0), {});
+  writer.close();
+  CRawlog rawlog = loaded(in("run.rawlog"));
+  ASSERT_EQ(rawlog.size(), run.robots[0].sensors->size());
+  EXPECT_EQ(rawlog.getAsObservation(1)->sensorLabel, "anna/sonar");
+}
+
+TEST_F(RawlogWriterTest, TheSameRunIsTheSameFile) {
+  const SampleRun run({"anna"});
+  for (const char* name : {"a.rawlog", "b.rawlog"}) {
+    RawlogWriter writer(in(name), run.robots);
+    run.record(writer, 20);
+  }
+  const auto bytes = [&](const char* name) {
+    std::ifstream file(in(name), std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  };
+  EXPECT_EQ(bytes("a.rawlog"), bytes("b.rawlog"));
+}
+
+TEST_F(RawlogWriterTest, ATruncatedRecordingReadsUpToTheCut) {
+  const SampleRun run({"anna"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  run.record(writer, 500);
+  const CRawlog whole = loaded(in("run.rawlog"));
+  fs::resize_file(in("run.rawlog"), fs::file_size(in("run.rawlog")) / 2);
+
+  CRawlog half;
+  half.loadFromRawLogFile(in("run.rawlog").string());
+  EXPECT_GT(half.size(), whole.size() / 3);
+  EXPECT_LT(half.size(), whole.size() * 2 / 3);
+  for (std::size_t i = 0; i < half.size(); ++i) {
+    ASSERT_EQ(half.getAsObservation(i)->asString(), whole.getAsObservation(i)->asString());
+  }
+}
+
+TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
+  const SampleRun run({"anna"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  for (std::uint64_t step = 0; step < 1000; ++step) writer.write(run.readings(step), run.truth(step));
+  fs::copy_file(in("run.rawlog.part"), in("left.rawlog"));
+  CRawlog left;
+  left.loadFromRawLogFile(in("left.rawlog").string());
+  // Up to half a megabyte, 120 such steps, waits in memory to be compressed.
+  EXPECT_GT(left.size(), 800 * (1 + run.robots[0].sensors->size()));
+}
+
+TEST_F(RawlogWriterTest, DropsWhatIsNotClosed) {
+  const SampleRun run({"anna"});
+  { RawlogWriter(in("run.rawlog"), run.robots).write(run.readings(0), run.truth(0)); }
+  EXPECT_EQ(filesInFolder(), std::set<std::string>());
+}
+
+// Actions and sensory frames
+
+TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
+  const SampleRun run({"anna"});
+  RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
+  run.record(writer, 10);
+  EXPECT_EQ(writer.files(), std::vector<fs::path>{in("run.rawlog")});
+
+  CRawlog rawlog = loaded(in("run.rawlog"));
+  ASSERT_EQ(rawlog.size(), 20u);
+  for (std::uint64_t step = 0; step < 10; ++step) {
+    EXPECT_EQ(rawlog.getType(2 * step), CRawlog::etActionCollection);
+    const auto frame = rawlog.getAsObservations(2 * step + 1);
+    ASSERT_EQ(frame->size(), 1 + run.robots[0].sensors->size());
+    EXPECT_EQ(frame->getObservationByIndex(0)->sensorLabel, "anna/GROUND_TRUTH");
+    const auto readings = run.readings(step)[0];
+    const auto& odometry_info = (*run.robots[0].sensors)[6];
+    ASSERT_EQ(odometry_info.kind, SensorKind::odometry);
+    EXPECT_EQ(measurementFrom(*frame->getObservationByIndex(1), odometry_info), readings.measurements[6]);
+  }
+}
+
+TEST_F(RawlogWriterTest, AnActionIsTheOdometrysIncrementInTheRobotsFrame) {
+  RobotInfo robot;
+  robot.name = "anna";
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(
+      std::vector<SensorInfo>{plainSensor(SensorKind::odometry, "odometry")});
+  RawlogWriter writer(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
+  // It stands at (1, 1) looking along y, drives 0.2 m ahead, then turns left by 0.1.
+  std::vector<Readings> step(1);
+  for (const TPose2D& odom_from_robot :
+       {TPose2D(1, 1, M_PI / 2), TPose2D(1, 1.2, M_PI / 2), TPose2D(1, 1.2, M_PI / 2 + 0.1)}) {
+    step[0].measurements = {Odometry{odom_from_robot, 0, 0}};
+    writer.write(step, {});
+    ++step[0].time.step;
+  }
+  writer.close();
+
+  CRawlog rawlog = loaded(in("run.rawlog"));
+  const auto increment = [&](std::size_t i) {
+    const auto action = rawlog.getAsAction(2 * i)->getActionByClass<mrpt::obs::CActionRobotMovement2D>();
+    EXPECT_EQ(action->timestamp, timestampOf({i, 0.1}));
+    EXPECT_EQ(action->estimationMethod, mrpt::obs::CActionRobotMovement2D::emOdometry);
+    EXPECT_NEAR(action->poseChange->getMeanVal().distanceTo(action->rawOdometryIncrementReading), 0, 1e-12);
+    return action->rawOdometryIncrementReading.asTPose();
+  };
+  const auto expectNear = [](const TPose2D& pose, const TPose2D& expected) {
+    EXPECT_NEAR(pose.x, expected.x, 1e-12);
+    EXPECT_NEAR(pose.y, expected.y, 1e-12);
+    EXPECT_NEAR(pose.phi, expected.phi, 1e-12);
+  };
+  expectNear(increment(0), {0, 0, 0});
+  expectNear(increment(1), {0.2, 0, 0});
+  expectNear(increment(2), {0, 0, 0.1});
+}
+
+TEST_F(RawlogWriterTest, GivesEachOfSeveralRobotsAFileOfItsOwnFrames) {
+  const SampleRun run({"anna", "bert"});
+  RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
+  run.record(writer, 3);
+  EXPECT_EQ(writer.files(), (std::vector<fs::path>{in("run_anna.rawlog"), in("run_bert.rawlog")}));
+  EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run_anna.rawlog", "run_bert.rawlog"}));
+  EXPECT_EQ(loaded(in("run_bert.rawlog")).getAsObservations(1)->getObservationByIndex(0)->sensorLabel,
+            "bert/GROUND_TRUTH");
+}
+
+TEST_F(RawlogWriterTest, FilesOfRobotsWithNamesUnfitForFilesStayApartAndInTheFolder) {
+  const SampleRun run({"../a b", "../a_b", "a/b"});
+  RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
+  run.record(writer, 1);
+  EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run_.._a_b.rawlog", "run_.._a_b_2.rawlog", "run_a_b.rawlog"}));
+}
+
+TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
+  RobotInfo robot;
+  robot.name = "anna";
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>();
+  try {
+    RawlogWriter(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
+    FAIL() << "actions of a robot without odometry";
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.what(),
+              in("run.rawlog").string() +
+                  ": robot \"anna\" has no odometry, which a recording of actions and sensory frames is made "
+                  "from; give it one, or record observations only");
+  }
+  EXPECT_EQ(filesInFolder(), std::set<std::string>());
+}
+
+}  // namespace
+}  // namespace robosim

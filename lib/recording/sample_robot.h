@@ -1,0 +1,123 @@
+#pragma once
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+#include "hardware/readings.h"
+#include "hardware/robot_info.h"
+
+/// For the tests of this room: a robot that has every kind of sensor, and readings for it.
+namespace robosim {
+
+inline Beam beamAt(double x_m, double y_m, double z_m, double yaw_rad) { return {{x_m, y_m, z_m, yaw_rad, 0, 0}}; }
+
+inline SensorInfo rangeSensor(SensorKind kind, const std::string& label, std::vector<Beam> beams, double range_max_m,
+                              double no_echo_m) {
+  SensorInfo sensor;
+  sensor.kind = kind;
+  sensor.label = label;
+  sensor.beams = std::move(beams);
+  sensor.range_max_m = range_max_m;
+  sensor.no_echo_m = no_echo_m;
+  return sensor;
+}
+
+inline SensorInfo plainSensor(SensorKind kind, const std::string& label, std::vector<Beam> beams = {}) {
+  return rangeSensor(kind, label, std::move(beams), 0, 0);
+}
+
+/// 181 beams over 180°, 0.2 m ahead of the robot's centre.
+inline SensorInfo sampleScanner(double range_max_m = 8) {
+  std::vector<Beam> beams;
+  for (int i = 0; i <= 180; ++i) beams.push_back(beamAt(0.2, 0, 0.3, (i - 90) * M_PI / 180));
+  return rangeSensor(SensorKind::laser, "laser", beams, range_max_m, range_max_m);
+}
+
+/// Mounted, in this order: sonar (16), laser (181 beams), beam (a laser that pans), infrared (2), heat, bumper
+/// (10 segments), odometry, compass.
+inline RobotInfo sampleRobot(const std::string& name) {
+  std::vector<Beam> ring, bumper;
+  for (int i = 0; i < 16; ++i) ring.push_back(beamAt(0.2 * std::cos(i), 0.2 * std::sin(i), 0.15, (i - 8) * M_PI / 8));
+  for (int i = 0; i < 10; ++i) bumper.push_back(beamAt(0.2, 0, 0.1, i * M_PI / 5));
+  auto sonar = rangeSensor(SensorKind::sonar, "sonar", ring, 5, 5);
+  sonar.range_min_m = 0.1;
+  sonar.beam_width_rad = 20 * M_PI / 180;
+  auto beam = rangeSensor(SensorKind::laser, "beam", {beamAt(0.3, 0, 0.15, 0)}, 2, 2.1);
+  beam.pans = true;
+  const auto infrared = rangeSensor(SensorKind::infrared, "infrared",
+                                    {beamAt(0.2, 0.1, 0.1, 0.2), beamAt(0.2, -0.1, 0.1, -0.2)}, 0.8, 0.8);
+  RobotInfo robot;
+  robot.name = name;
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{
+      sonar, sampleScanner(), beam, infrared, plainSensor(SensorKind::heat, "heat", {beamAt(0, 0, 0.4, 0)}),
+      plainSensor(SensorKind::bumper, "bumper", bumper), plainSensor(SensorKind::odometry, "odometry"),
+      plainSensor(SensorKind::compass, "compass")});
+  return robot;
+}
+
+/// Readings that differ from step to step in every value; about one echo in five is silence.
+inline Readings sampleReadings(const RobotInfo& robot, std::uint64_t step) {
+  Rng rng(step);
+  Readings readings;
+  readings.time = {step, 0.1};
+  readings.laser_pan_rad = static_cast<float>(rng.uniform(-1.5, 1.5));
+  for (const auto& sensor : *robot.sensors) {
+    switch (sensor.kind) {
+      case SensorKind::sonar:
+      case SensorKind::laser:
+      case SensorKind::infrared: {
+        Echoes echoes;
+        for (const auto& beam : sensor.beams) {
+          const bool silent = rng.uniform() < 0.2;
+          const double range_m = silent ? sensor.no_echo_m : rng.uniform(0, sensor.range_max_m);
+          const auto& at = beam.robot_from_beam;
+          const double yaw = at.yaw + (sensor.pans ? readings.laser_pan_rad : 0);
+          const mrpt::math::TPoint3D point{at.x + range_m * std::cos(yaw), at.y + range_m * std::sin(yaw), at.z};
+          echoes.push_back({static_cast<float>(range_m), mrpt::math::TPoint3Df(point)});
+        }
+        readings.measurements.emplace_back(echoes);
+        break;
+      }
+      case SensorKind::heat:
+        readings.measurements.emplace_back(Scalar{static_cast<float>(rng.uniform(0, 30))});
+        break;
+      case SensorKind::compass:
+        readings.measurements.emplace_back(Scalar{rng.uniform(-M_PI, M_PI)});
+        break;
+      case SensorKind::bumper: {
+        Contacts contacts;
+        for (std::size_t i = 0; i < sensor.beams.size(); ++i) contacts.pressed.push_back(rng.below(2));
+        readings.measurements.emplace_back(contacts);
+        break;
+      }
+      case SensorKind::odometry:
+        readings.measurements.emplace_back(
+            Odometry{{rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-M_PI, M_PI)}, rng.uniform(), rng.uniform()});
+        break;
+    }
+  }
+  return readings;
+}
+
+/// Ranges and all other numbers bit for bit, points but for the rounding of a recomputed one.
+inline void expectSameReading(const Measurement& read, const Measurement& written, const std::string& label) {
+  const auto* echoes = std::get_if<Echoes>(&written);
+  if (!echoes) {
+    EXPECT_EQ(read, written) << label;
+    return;
+  }
+  const auto& read_echoes = std::get<Echoes>(read);
+  ASSERT_EQ(read_echoes.size(), echoes->size()) << label;
+  for (std::size_t i = 0; i < echoes->size(); ++i) {
+    EXPECT_EQ(read_echoes[i].range_m, (*echoes)[i].range_m) << label << ' ' << i;
+    EXPECT_NEAR(read_echoes[i].point_m.x, (*echoes)[i].point_m.x, 2e-6) << label << ' ' << i;
+    EXPECT_NEAR(read_echoes[i].point_m.y, (*echoes)[i].point_m.y, 2e-6) << label << ' ' << i;
+    EXPECT_NEAR(read_echoes[i].point_m.z, (*echoes)[i].point_m.z, 2e-6) << label << ' ' << i;
+  }
+}
+
+}  // namespace robosim
