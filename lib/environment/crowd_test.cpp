@@ -39,33 +39,47 @@ void makeCrowd(World& world, Fleet& fleet, std::uint64_t seed) {
   }
 }
 
-/// The first overlap found by looking at every pair; empty if there is none.
-std::string overlapAmong(const Environment& environment) {
-  const auto& poses = environment.state().world_from_robot;
-  const auto& robots = environment.fleet().robots;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const double dx = poses[i].x - poses[j].x;
-      const double dy = poses[i].y - poses[j].y;
-      const double reach = robots[i].info.radius_m + robots[j].info.radius_m;
-      if (dx * dx + dy * dy < reach * reach) return robots[i].info.name + " in " + robots[j].info.name;
-    }
-    for (const auto& object : environment.world().objects) {
-      if (distance(object.body.solid().outline, mrpt::math::TPoint2D(poses[i].x, poses[i].y)) <
-          robots[i].info.radius_m) {
-        return robots[i].info.name + " in " + object.name;
+/// Looks at every pair of bodies for an overlap.
+class BruteForce {
+ public:
+  explicit BruteForce(const Environment& environment) : environment_(environment) {
+    for (const auto& robot : environment.fleet().robots) radii_m_.push_back(robot.info.radius_m);
+    for (const auto& object : environment.world().objects) outlines_.push_back(object.body.solid().outline);
+  }
+
+  /// The first overlap; empty if there is none.
+  std::string overlap() const {
+    const auto& poses = environment_.state().world_from_robot;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      int overlaps = 0;
+      for (std::size_t j = 0; j < i; ++j) {
+        const double dx = poses[i].x - poses[j].x;
+        const double dy = poses[i].y - poses[j].y;
+        const double reach_m = radii_m_[i] + radii_m_[j];
+        overlaps += dx * dx + dy * dy < reach_m * reach_m ? 1 : 0;
+      }
+      if (overlaps > 0) return "robot " + std::to_string(i) + " in another";
+      for (const auto& outline : outlines_) {
+        const bool apart = distance(outline, mrpt::math::TPoint2D(poses[i].x, poses[i].y)) >= radii_m_[i];
+        if (!apart) return "robot " + std::to_string(i) + " in an object";
       }
     }
+    return "";
   }
-  return "";
-}
+
+ private:
+  const Environment& environment_;
+  std::vector<double> radii_m_;
+  std::vector<Outline> outlines_;
+};
 
 TEST(Crowd, OfAThousandRobotsNeverOverlapsInTwoThousandSteps) {
   World world;
   Fleet fleet;
   makeCrowd(world, fleet, 7);
   Environment environment(world, fleet, {.seed = 1, .period_s = 0.1, .threads = 2});
-  ASSERT_EQ(overlapAmong(environment), "");
+  const BruteForce look(environment);
+  ASSERT_EQ(look.overlap(), "");
   for (int step = 0; step < 2000; ++step) {
     for (std::uint32_t i = 0; i < kRobots; ++i) {
       // Each keeps a course for a while, mostly ahead, then takes another.
@@ -73,7 +87,7 @@ TEST(Crowd, OfAThousandRobotsNeverOverlapsInTwoThousandSteps) {
       environment.setCommand(i, {.speed_mps = rng.uniform(-0.5, 2), .turn_radps = rng.uniform(-4, 4)});
     }
     environment.step();
-    ASSERT_EQ(overlapAmong(environment), "") << "after step " << step + 1;
+    ASSERT_EQ(look.overlap(), "") << "after step " << step + 1;
   }
   double driven_m = 0;
   for (const double way_m : environment.state().driven_m) driven_m += way_m;
