@@ -114,6 +114,8 @@ mrpt::math::TPose2D Path::endPose() const {
 
 double firstContact(const Path& path, double radius_m, const Outline& outline) {
   if (path.length_m == 0) return 1;
+  const TPoint2D start(path.world_from_start.x, path.world_from_start.y);
+  if (distance(outline, start) > radius_m + kContactGap_m + std::abs(path.length_m)) return 1;
   const int n = path.chords();
   TPoint2D from = onArc(path, 0);
   for (int i = 0; i < n; ++i) {
@@ -132,6 +134,10 @@ double firstContact(const Path& path, double radius_m, const Outline& outline) {
 
 bool meet(const Path& a, double radius_a_m, const Path& b, double radius_b_m) {
   const double reach = radius_a_m + radius_b_m + kContactGap_m;
+  const double gap_x = a.world_from_start.x - b.world_from_start.x;
+  const double gap_y = a.world_from_start.y - b.world_from_start.y;
+  const double nearest_possible = reach + std::abs(a.clippedLength()) + std::abs(b.clippedLength());
+  if (gap_x * gap_x + gap_y * gap_y > nearest_possible * nearest_possible) return false;
   // Between two neighbouring breaks of either way both centres move evenly, so one seen from the other moves straight.
   const int chords_a = a.chords();
   const int chords_b = b.chords();
