@@ -24,7 +24,8 @@ struct Fleet {
   std::vector<FleetRobot> robots;
 };
 
-/// Where robot types are looked for: `robots/` beside the world file, then the folder that came with RoboSim.
+/// Where robot types are looked for: `robots/` beside the world file, then `robots/` in the folder of worlds that came
+/// with RoboSim, or in the one that the environment variable ROBOSIM_WORLDS names instead.
 std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file);
 
 /// Makes each placed robot's model, and checks the start: adds to `errors` every unknown model, wrong sensor, unknown

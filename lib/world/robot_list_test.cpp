@@ -11,7 +11,8 @@ using Lines = std::vector<std::string>;
 
 /// What is said against a list of this text, without the file's name.
 Lines faults(const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "robot_list_test.xml";
+  const auto file = std::filesystem::path(testing::TempDir()) /
+                    (testing::UnitTest::GetInstance()->current_test_info()->name() + std::string(".xml"));
   std::ofstream(file) << text;
   ErrorList errors;
   readRobotList(file, errors);

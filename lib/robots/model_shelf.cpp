@@ -1,0 +1,108 @@
+#include "robots/model_shelf.h"
+
+#include <functional>
+
+namespace robosim {
+namespace {
+
+void mix(std::size_t& hash, const std::string& text) { hash = hash * 1099511628211u ^ std::hash<std::string>{}(text); }
+
+void mix(std::size_t& hash, const XmlElement& element) {
+  mix(hash, element.name);
+  mix(hash, element.text);
+  for (const auto& [name, value] : element.attributes) {
+    mix(hash, name);
+    mix(hash, value);
+  }
+  for (const auto& child : element.children) mix(hash, child);
+}
+
+void mix(std::size_t& hash, double number) { hash = hash * 1099511628211u ^ std::hash<double>{}(number); }
+
+/// Equal for robots that are alike.
+std::size_t hashOf(const RobotPlacement& robot) {
+  std::size_t hash = 0;
+  mix(hash, robot.model);
+  if (robot.body) mix(hash, robot.body->coveringRadius());
+  for (const auto& sensor : robot.sensors) mix(hash, sensor);
+  return hash;
+}
+
+bool sameForm(const std::optional<Body>& a, const std::optional<Body>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->shape == b->shape && a->height_m == b->height_m && a->center_z_m == b->center_z_m;
+}
+
+bool alike(const RobotPlacement& a, const RobotPlacement& b) {
+  return a.model == b.model && sameForm(a.body, b.body) && a.sensors == b.sensors;
+}
+
+}  // namespace
+
+ModelShelf::ModelShelf(const World& world, std::string world_file,
+                       const std::vector<std::filesystem::path>& type_folders, ErrorList& errors)
+    : world_(world), world_file_(std::move(world_file)), errors_(errors) {
+  for (const auto& folder : type_folders) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const auto& file = entry.path();
+      if (file.extension() != ".xml") continue;
+      const auto [type, is_new] = types_.try_emplace(file.stem().string());
+      if (is_new) type->second.file = file;
+    }
+  }
+}
+
+std::shared_ptr<const RobotModel> ModelShelf::modelFor(const RobotPlacement& robot) {
+  auto& bucket = made_[hashOf(robot)];
+  for (const auto& made : bucket) {
+    if (alike(*made.first, robot)) return made.model;
+  }
+  const std::size_t faults = errors_.errors().size();
+  const auto model = make(robot);
+  // A faulty one is made again for the next robot that is like it, so that its fault is told of that robot's line too.
+  if (errors_.errors().size() == faults) bucket.push_back({&robot, model});
+  return model;
+}
+
+const ModelShelf::Type* ModelShelf::typeOf(const RobotPlacement& robot) {
+  const auto found = types_.find(robot.model);
+  if (found == types_.end()) {
+    std::vector<std::string> known;
+    for (const auto& [name, type] : types_) known.push_back(name);
+    errors_.add(
+        world_file_, robot.line.number,
+        "robot '" + robot.name + "': there is no robot type '" + robot.model + "'; known are: " + listed(known));
+    return nullptr;
+  }
+  Type& type = found->second;
+  if (!type.was_read) {
+    type.was_read = true;
+    const std::size_t faults = errors_.errors().size();
+    try {
+      type.root = readXmlFile(type.file);
+      RobotModel model = modelOf(type.root, type.file.string(), {}, errors_);
+      if (errors_.errors().size() == faults) type.model = std::make_shared<const RobotModel>(std::move(model));
+    } catch (const ConfigError& error) {
+      errors_.add(error);
+    }
+  }
+  return type.model ? &type : nullptr;
+}
+
+std::shared_ptr<const RobotModel> ModelShelf::make(const RobotPlacement& robot) {
+  RobotDescription description{.file = world_file_, .unit_m = world_.unit_m};
+  if (robot.body) description.body = &*robot.body;
+  if (robot.model.empty()) {
+    if (!robot.body) return nullptr;  // the world's reader has told of it
+    description.sensors = &robot.sensors;
+    return std::make_shared<const RobotModel>(modelOf2005(description, errors_));
+  }
+  const Type* type = typeOf(robot);
+  if (!type) return nullptr;
+  if (!robot.sensors.empty()) description.sensors = &robot.sensors;
+  if (!description.body && !description.sensors) return type->model;
+  return std::make_shared<const RobotModel>(modelOf(type->root, type->file.string(), description, errors_));
+}
+
+}  // namespace robosim

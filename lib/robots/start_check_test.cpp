@@ -1,0 +1,113 @@
+#include "robots/start_check.h"
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "base/random.h"
+
+namespace robosim {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+World surface(double half_m) {
+  World world;
+  world.bounds = {-half_m, half_m, -half_m, half_m};
+  return world;
+}
+
+void addPillar(World& world, const std::string& name, double x, double y, double radius, HeightSpan heights = {0, 1}) {
+  Body body;
+  body.shape = Cylinder{radius};
+  body.world_from_body = {x, y, 0};
+  body.height_m = heights.z_max_m - heights.z_min_m;
+  body.center_z_m = (heights.z_min_m + heights.z_max_m) / 2;
+  world.objects.push_back({.name = name, .body = body, .stationary = true, .line = {7}});
+}
+
+RobotStart robot(const std::string& name, int line, double x, double y, double radius, HeightSpan heights = {0, 1}) {
+  return {name, line, {{x, y}, radius}, heights};
+}
+
+Lines faults(const World& world, const std::vector<RobotStart>& robots) {
+  ErrorList errors;
+  checkStarts(world, robots, "w.xml", errors);
+  return errors.errors();
+}
+
+TEST(CheckStarts, NamesBothWhoOverlap) {
+  World world = surface(10);
+  addPillar(world, "Pillar", 0, 0, 1);
+  EXPECT_EQ(faults(world, {robot("A", 20, 1.2, 0, 0.3), robot("B", 21, 1.3, 0.5, 0.3)}),
+            (Lines{"w.xml:20: robot 'A' overlaps the object 'Pillar' of line 7; move one of them",
+                   "w.xml:21: robot 'B' overlaps the robot 'A' of line 20; move one of them"}));
+}
+
+TEST(CheckStarts, LetsRobotsTouch) {
+  World world = surface(10);
+  addPillar(world, "Pillar", 0, 0, 1);
+  EXPECT_EQ(faults(world, {robot("A", 20, 1.5, 0, 0.5), robot("B", 21, 2.5, 0, 0.5), robot("C", 22, 9.5, -9.5, 0.5)}),
+            Lines{});
+}
+
+TEST(CheckStarts, LooksAtHeights) {
+  World world = surface(10);
+  addPillar(world, "Bridge", 0, 0, 1, {2, 3});
+  EXPECT_EQ(faults(world, {robot("A", 20, 0, 0, 0.5), robot("B", 21, 0, 0, 0.5, {1, 2})}), Lines{});
+  EXPECT_EQ(faults(world, {robot("A", 20, 0, 0, 0.5, {0, 2.1})}),
+            Lines{"w.xml:20: robot 'A' overlaps the object 'Bridge' of line 7; move one of them"});
+}
+
+TEST(CheckStarts, WantsAllOfARobotOnTheSurface) {
+  const std::string fault =
+      " stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>";
+  EXPECT_EQ(
+      faults(surface(10), {robot("A", 20, 9.6, 0, 0.5), robot("B", 21, 0, -9.51, 0.5), robot("C", 22, 1e9, 0, 0.5)}),
+      (Lines{"w.xml:20: robot 'A'" + fault, "w.xml:21: robot 'B'" + fault, "w.xml:22: robot 'C'" + fault}));
+}
+
+TEST(CheckStarts, FindsTheSameAsLookingAtEveryPair) {
+  for (std::uint64_t seed = 0; seed < 200; ++seed) {
+    Rng rng(seed);
+    World world = surface(10);
+    for (int i = 0; i < 20; ++i) {
+      addPillar(world, std::to_string(i), rng.uniform(-12, 12), rng.uniform(-12, 12), rng.uniform(0.1, 1.5),
+                {0, rng.uniform(0.5, 1.5)});
+    }
+    std::vector<RobotStart> robots;
+    for (int i = 0; i < 60; ++i) {
+      const double low = rng.uniform(0, 2);
+      robots.push_back(
+          robot(std::to_string(i), i, rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(0.05, 1), {low, low + 1}));
+    }
+    std::set<std::string> overlapping;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      const Solid solid{robots[i].disc, robots[i].heights};
+      for (const auto& object : world.objects) {
+        if (overlap(solid, object.body.solid())) overlapping.insert(robots[i].name);
+      }
+      for (std::size_t j = 0; j < i; ++j) {
+        if (overlap(solid, {robots[j].disc, robots[j].heights})) overlapping.insert(robots[i].name);
+      }
+    }
+    std::set<std::string> told;
+    for (const auto& fault : faults(world, robots)) {
+      const auto begin = fault.find('\'') + 1;
+      told.insert(fault.substr(begin, fault.find('\'', begin) - begin));
+    }
+    EXPECT_EQ(told, overlapping) << "seed " << seed;
+  }
+}
+
+TEST(CheckStarts, TakesAHundredThousandRobotsOnOnePlaceInItsStride) {
+  const std::vector<RobotStart> robots(100'000, robot("A", 20, 0, 0, 0.5));
+  const Lines lines = faults(surface(10), robots);
+  ASSERT_EQ(lines.size(), ErrorList::kMostErrors + 1);
+  EXPECT_EQ(lines.back(), "and 98999 more errors");
+}
+
+}  // namespace
+}  // namespace robosim
