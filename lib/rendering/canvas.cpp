@@ -1,0 +1,147 @@
+#include "rendering/canvas.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <opencv2/imgproc.hpp>
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr int kFiner = 2;  ///< fine pixels per pixel, in each direction
+constexpr int kShift = 4;  ///< fractional bits of OpenCV's coordinates
+constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
+constexpr double kFontHeight_px = 22;  ///< of a capital, at scale 1
+
+cv::Scalar bgr(const Color& color) { return {color[2] * 255.0, color[1] * 255.0, color[0] * 255.0}; }
+
+int fineWidth(double width_px) { return std::max(1, static_cast<int>(std::lround(width_px * kFiner))); }
+int fineRadius(double radius_px) { return static_cast<int>(std::lround(radius_px * kFiner * (1 << kShift))); }
+
+struct TextStyle {
+  double scale;
+  int thickness;
+};
+TextStyle styleOf(double size_px) {
+  return {size_px * kFiner / kFontHeight_px, std::max(1, static_cast<int>(std::lround(size_px * kFiner / 14)))};
+}
+
+}  // namespace
+
+Color mix(const Color& a, const Color& b, float share_of_b) {
+  Color mixed;
+  for (std::size_t i = 0; i < 3; ++i) mixed[i] = a[i] + (b[i] - a[i]) * share_of_b;
+  return mixed;
+}
+
+Canvas::Canvas(const PlanView& view, const Color& background)
+    : view_(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
+
+cv::Point Canvas::fine(const TPoint2D& pixel) const {
+  // Pixel 0 is made of the fine pixels 0 and 1, so its middle lies at 0.5 of the fine ones.
+  const auto fixed = [](double coordinate) {
+    return static_cast<int>(std::lround((coordinate * kFiner + (kFiner - 1) / 2.0) * (1 << kShift)));
+  };
+  return {fixed(pixel.x), fixed(pixel.y)};
+}
+
+std::vector<cv::Point> Canvas::finePolygon(const OrientedBox& box) const {
+  const TPoint2D along = box.axis * box.half_length_m;
+  const TPoint2D across = TPoint2D(-box.axis.y, box.axis.x) * box.half_width_m;
+  std::vector<cv::Point> corners;
+  for (const auto& corner : {along + across, across - along, -along - across, along - across}) {
+    corners.push_back(fine(view_.toPixel(box.center + corner)));
+  }
+  return corners;
+}
+
+cv::Rect Canvas::fineRect(const Bounds2D& pixels) const {
+  const auto at = [](double coordinate) { return static_cast<int>(std::lround((coordinate + 0.5) * kFiner)); };
+  return cv::Rect(cv::Point(at(pixels.x_min), at(pixels.y_min)), cv::Point(at(pixels.x_max), at(pixels.y_max))) &
+         cv::Rect(0, 0, fine_.cols, fine_.rows);
+}
+
+void Canvas::line(const TPoint2D& from, const TPoint2D& to, double width_px, const Color& color) {
+  cv::line(fine_, fine(from), fine(to), bgr(color), fineWidth(width_px), cv::LINE_AA, kShift);
+}
+
+void Canvas::polyline(std::span<const TPoint2D> points, double width_px, const Color& color) {
+  std::vector<cv::Point> chain;
+  for (const auto& point : points) chain.push_back(fine(point));
+  cv::polylines(fine_, chain, false, bgr(color), fineWidth(width_px), cv::LINE_AA, kShift);
+}
+
+void Canvas::disc(const TPoint2D& center, double radius_px, const Color& color) {
+  cv::circle(fine_, fine(center), fineRadius(radius_px), bgr(color), cv::FILLED, cv::LINE_AA, kShift);
+}
+
+void Canvas::fill(const Outline& shape, const Color& color) {
+  if (const auto* circle = std::get_if<Circle>(&shape)) {
+    disc(view_.toPixel(circle->center), circle->radius_m * view_.pixelsPerMetre(), color);
+  } else {
+    cv::fillConvexPoly(fine_, finePolygon(std::get<OrientedBox>(shape)), bgr(color), cv::LINE_AA, kShift);
+  }
+}
+
+void Canvas::outline(const Outline& shape, double width_px, const Color& color) {
+  if (const auto* circle = std::get_if<Circle>(&shape)) {
+    cv::circle(fine_, fine(view_.toPixel(circle->center)), fineRadius(circle->radius_m * view_.pixelsPerMetre()),
+               bgr(color), fineWidth(width_px), cv::LINE_AA, kShift);
+  } else {
+    cv::polylines(fine_, finePolygon(std::get<OrientedBox>(shape)), true, bgr(color), fineWidth(width_px), cv::LINE_AA,
+                  kShift);
+  }
+}
+
+void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
+  const Bounds2D bounds = boundsOf(shape);
+  const auto low = view_.toPixel({bounds.x_min, bounds.y_max}), high = view_.toPixel({bounds.x_max, bounds.y_min});
+  const cv::Rect region = fineRect({low.x - reach_px, high.x + reach_px, low.y - reach_px, high.y + reach_px});
+  Canvas light(view_, {0, 0, 0});
+  light.fill(shape, {1, 1, 1});
+  light.outline(shape, reach_px * 0.7, {1, 1, 1});
+  cv::Mat lit = light.fine_(region);
+  cv::GaussianBlur(lit, lit, {}, reach_px * kFiner * 0.3);
+  cv::Mat ground = fine_(region);
+  const cv::Scalar glow_bgr = bgr(color);
+  ground.forEach<cv::Vec3b>([&](cv::Vec3b& pixel, const int* at) {
+    const double share = lit.at<cv::Vec3b>(at[0], at[1])[0] / 255.0;
+    for (int i = 0; i < 3; ++i) pixel[i] = cv::saturate_cast<uchar>(pixel[i] + (glow_bgr[i] - pixel[i]) * share);
+  });
+}
+
+void Canvas::text(const TPoint2D& at, const std::string& text, double size_px, const Color& color) {
+  const auto [scale, thickness] = styleOf(size_px);
+  // putText() knows whole pixels only.
+  const cv::Point origin(static_cast<int>(std::lround(at.x * kFiner)),
+                         static_cast<int>(std::lround((at.y + size_px / 2) * kFiner)));
+  cv::putText(fine_, text, origin, kFont, scale, bgr({1, 1, 1}), thickness + 3 * kFiner, cv::LINE_AA);
+  cv::putText(fine_, text, origin, kFont, scale, bgr(color), thickness, cv::LINE_AA);
+}
+
+double Canvas::textWidth(const std::string& text, double size_px) {
+  const auto [scale, thickness] = styleOf(size_px);
+  int below = 0;
+  return cv::getTextSize(text, kFont, scale, thickness, &below).width / static_cast<double>(kFiner);
+}
+
+double Canvas::unrest(const Bounds2D& pixels) const {
+  cv::Scalar mean, spread;
+  cv::meanStdDev(fine_(fineRect(pixels)), mean, spread);
+  return spread[0] + spread[1] + spread[2];
+}
+
+cv::Mat Canvas::picture() const {
+  cv::Mat picture;
+  cv::resize(fine_, picture, {view_.width(), view_.height()}, 0, 0, cv::INTER_AREA);
+  // Nobody sees the difference to the nearest of 52 levels, and a PNG file of them is a quarter smaller.
+  constexpr int kLevelStep = 5;
+  cv::Mat level(1, 256, CV_8U);
+  for (int i = 0; i < 256; ++i) level.at<uchar>(i) = static_cast<uchar>((i + kLevelStep / 2) / kLevelStep * kLevelStep);
+  cv::LUT(picture, level, picture);
+  return picture;
+}
+
+}  // namespace robosim

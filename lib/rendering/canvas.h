@@ -1,0 +1,53 @@
+#pragma once
+#include <array>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <mrpt/math/TPoint2D.h>
+#include <opencv2/core/mat.hpp>
+
+#include "geometry/solid.h"
+#include "rendering/plan_view.h"
+
+namespace robosim {
+
+/// Red, green, blue, each in [0, 1].
+using Color = std::array<float, 3>;
+Color mix(const Color& a, const Color& b, float share_of_b);
+
+/// Draws on a PlanView. Places are pixels of the finished picture (PlanView::toPixel()) or outlines in the world frame;
+/// widths and radii are pixels. Works at twice the resolution, which smooths what OpenCV's own smoothing leaves rough.
+class Canvas {
+ public:
+  Canvas(const PlanView& view, const Color& background);
+
+  const PlanView& view() const { return view_; }
+
+  void line(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, double width_px, const Color&);
+  void polyline(std::span<const mrpt::math::TPoint2D> points, double width_px, const Color&);
+  void disc(const mrpt::math::TPoint2D& center, double radius_px, const Color&);
+  void fill(const Outline&, const Color&);
+  void outline(const Outline&, double width_px, const Color&);
+  /// A soft light around the outline that fades within some pixels.
+  void glow(const Outline&, double reach_px, const Color&);
+
+  /// A line of text with its left end at `at`, vertically centred on it, with a light rim.
+  void text(const mrpt::math::TPoint2D& at, const std::string& text, double size_px, const Color&);
+  static double textWidth(const std::string& text, double size_px);
+  /// How much there is to see already in a rectangle of pixels: 0 for an even colour.
+  double unrest(const Bounds2D& pixels) const;
+
+  /// The finished picture.
+  cv::Mat picture() const;
+
+ private:
+  cv::Point fine(const mrpt::math::TPoint2D& pixel) const;
+  std::vector<cv::Point> finePolygon(const OrientedBox&) const;
+  cv::Rect fineRect(const Bounds2D& pixels) const;
+
+  PlanView view_;
+  cv::Mat fine_;
+};
+
+}  // namespace robosim
