@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@ class ErrorList {
   static constexpr std::size_t kMostErrors = 1000;
 
   bool empty() const { return errors_.empty(); }
+  /// How many there are, told one by one or not.
+  std::size_t count() const { return std::min(errors_.size(), kMostErrors) + more_; }
   const std::vector<std::string>& errors() const { return errors_; }
   /// @throws ConfigError with all errors, if there are any.
   void throwIfAny() const;

@@ -23,10 +23,12 @@ TEST(ErrorList, CountsWhatGoesBeyondAThousand) {
   ErrorList errors;
   for (int i = 1; i <= 1001; ++i) errors.add("a.xml", i, "wrong");
   ASSERT_EQ(errors.errors().size(), 1001u);
+  EXPECT_EQ(errors.count(), 1001u);
   EXPECT_EQ(errors.errors()[999], "a.xml:1000: wrong");
   EXPECT_EQ(errors.errors()[1000], "and 1 more error");
   for (int i = 0; i < 41; ++i) errors.add("a.xml", i, "wrong");
   EXPECT_EQ(errors.errors().size(), 1001u);
+  EXPECT_EQ(errors.count(), 1042u);
   EXPECT_EQ(errors.errors().back(), "and 42 more errors");
 }
 

@@ -58,10 +58,10 @@ std::shared_ptr<const RobotModel> ModelShelf::modelFor(const RobotPlacement& rob
   for (const auto& made : bucket) {
     if (alike(*made.first, robot)) return made.model;
   }
-  const std::size_t faults = errors_.errors().size();
+  const std::size_t faults = errors_.count();
   const auto model = make(robot);
   // A faulty one is made again for the next robot that is like it, so that its fault is told of that robot's line too.
-  if (errors_.errors().size() == faults) bucket.push_back({&robot, model});
+  if (errors_.count() == faults) bucket.push_back({&robot, model});
   return model;
 }
 
@@ -78,11 +78,11 @@ const ModelShelf::Type* ModelShelf::typeOf(const RobotPlacement& robot) {
   Type& type = found->second;
   if (!type.was_read) {
     type.was_read = true;
-    const std::size_t faults = errors_.errors().size();
+    const std::size_t faults = errors_.count();
     try {
       type.root = readXmlFile(type.file);
       RobotModel model = modelOf(type.root, type.file.string(), {}, errors_);
-      if (errors_.errors().size() == faults) type.model = std::make_shared<const RobotModel>(std::move(model));
+      if (errors_.count() == faults) type.model = std::make_shared<const RobotModel>(std::move(model));
     } catch (const ConfigError& error) {
       errors_.add(error);
     }

@@ -41,12 +41,12 @@ class WorldReader {
   void readSurface(XmlReader& surface) {
     world_.surface_type = surface.word("type", "smooth");
     XmlReader size = surface.requiredChild("size");
-    const std::size_t faults = errors_.errors().size();
+    const std::size_t faults = errors_.count();
     world_.bounds.x_min = length(size, "xmin");
     world_.bounds.x_max = length(size, "xmax");
     world_.bounds.y_min = length(size, "ymin");
     world_.bounds.y_max = length(size, "ymax");
-    if (errors_.errors().size() == faults) {
+    if (errors_.count() == faults) {
       const std::string fault = "; the surface must be wider than nothing, so mend one of them";
       if (world_.bounds.x_min >= world_.bounds.x_max) size.errorAt("xmin", "is not below <xmax>" + fault);
       if (world_.bounds.y_min >= world_.bounds.y_max) size.errorAt("ymin", "is not below <ymax>" + fault);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -269,6 +270,38 @@ TEST(WorldReader, RefusesAHundredMegabytes) {
   std::filesystem::remove(file);
   EXPECT_EQ(errors.errors(),
             Lines{file.string() + ": is larger than 64 MiB, the most that is read; is it a world file?"});
+}
+
+TEST(WorldReader, SurvivesDamageOfAnyKind) {
+  ErrorList none;
+  const std::string text = toXml(readWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", none));
+  const std::string strange = "<>/&\"'=-!?[]\n0e9.\xff";
+  Rng rng(1);
+  const auto below = [&](std::size_t n) { return rng.below(static_cast<std::uint32_t>(n)); };
+  for (int i = 0; i < 5000; ++i) {
+    std::string damaged = text;
+    for (auto hits = 1 + rng.below(4); hits > 0; --hits) {
+      const std::size_t at = below(damaged.size());
+      switch (rng.below(4)) {
+        case 0:
+          damaged[at] = strange[below(strange.size())];
+          break;
+        case 1:
+          damaged.erase(at, 1 + rng.below(40));
+          break;
+        case 2:
+          damaged.insert(at, 1, strange[below(strange.size())]);
+          break;
+        default:
+          damaged.insert(at, damaged.substr(below(damaged.size()), rng.below(200)));
+      }
+    }
+    ErrorList errors;
+    const World world = parseWorld(damaged, "legacy_world.xml", errors);
+    if (!errors.empty()) continue;  // refused, as it should be
+    EXPECT_EQ(parseWorld(toXml(world), "legacy_world.xml", errors), world) << damaged;
+    EXPECT_TRUE(errors.empty()) << errors.errors()[0] << damaged;
+  }
 }
 
 TEST(WorldReader, ReadsAHundredThousandRobots) {
