@@ -15,26 +15,14 @@
 #include "base/error_list.h"
 #include "base/random.h"
 #include "recording/recording_error.h"
+#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
 
-class GzipFileTest : public testing::Test {
- protected:
-  GzipFileTest() {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("robosim_gzip_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~GzipFileTest() override { fs::remove_all(folder_); }
-
-  fs::path in(const std::string& name) const { return folder_ / name; }
-
-  fs::path folder_;
-};
+using GzipFileTest = TestFolder;
 
 /// Bytes that do not compress.
 std::vector<std::uint8_t> noise(std::size_t size) {

@@ -119,6 +119,10 @@ TEST(Observations, AScanningLaserIsA2dScanFromRightToLeft) {
   EXPECT_TRUE(scan.getScanRangeValidity(2));
 }
 
+TEST(Observations, AScannerThatLooksStraightAheadDoesSoToTheLastBit) {
+  EXPECT_EQ(recorded<CObservation2DRangeScan>(sampleScanner(), Echoes(181)).sensorPose.yaw(), 0);
+}
+
 TEST(Observations, AScanIsWholeWhereItCrossesTheRobotsBack) {
   std::vector<Beam> beams;
   for (int i = 0; i < 5; ++i) beams.push_back(beamAt(0, 0, 0, std::remainder(M_PI - 0.2 + 0.1 * i, 2 * M_PI)));

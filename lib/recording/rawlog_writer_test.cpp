@@ -13,6 +13,7 @@
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/sample_robot.h"
+#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {
@@ -22,26 +23,7 @@ using mrpt::math::TPose2D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CRawlog;
 
-class RawlogWriterTest : public testing::Test {
- protected:
-  RawlogWriterTest() {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("robosim_rawlog_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~RawlogWriterTest() override { fs::remove_all(folder_); }
-
-  fs::path in(const std::string& name) const { return folder_ / name; }
-
-  std::set<std::string> filesInFolder() const {
-    std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder_)) names.insert(entry.path().filename());
-    return names;
-  }
-
-  fs::path folder_;
-};
+using RawlogWriterTest = TestFolder;
 
 struct SampleRun {
   explicit SampleRun(std::vector<std::string> names) {
@@ -78,7 +60,7 @@ CRawlog loaded(const fs::path& file) {
 }
 
 TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
-  const SampleRun run({"anna", "bert"});
+  const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   run.record(writer, 50);
 
@@ -105,12 +87,12 @@ TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
 }
 
 TEST_F(RawlogWriterTest, KeepsTheGroundTruthOfEachRobot) {
-  const SampleRun run({"anna", "bert"});
+  const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   run.record(writer, 11);
   CRawlog rawlog = loaded(in("run.rawlog"));
   const auto last = rawlog.getAsObservation(rawlog.size() - 1 - run.robots[1].sensors->size());
-  ASSERT_EQ(last->sensorLabel, "bert/GROUND_TRUTH");
+  ASSERT_EQ(last->sensorLabel, "robot2/GROUND_TRUTH");
   const auto& pose = dynamic_cast<const mrpt::obs::CObservationRobotPose&>(*last).pose.mean;
   EXPECT_EQ(pose.x(), 1);
   EXPECT_EQ(pose.y(), 1);
@@ -118,17 +100,17 @@ TEST_F(RawlogWriterTest, KeepsTheGroundTruthOfEachRobot) {
 }
 
 TEST_F(RawlogWriterTest, RecordsRobotsThatNobodyKnowsTheTruthOf) {
-  const SampleRun run({"anna"});
+  const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   writer.write(run.readings(0), {});
   writer.close();
   CRawlog rawlog = loaded(in("run.rawlog"));
   ASSERT_EQ(rawlog.size(), run.robots[0].sensors->size());
-  EXPECT_EQ(rawlog.getAsObservation(1)->sensorLabel, "anna/sonar");
+  EXPECT_EQ(rawlog.getAsObservation(1)->sensorLabel, "robot1/sonar");
 }
 
 TEST_F(RawlogWriterTest, TheSameRunIsTheSameFile) {
-  const SampleRun run({"anna"});
+  const SampleRun run({"robot1"});
   for (const char* name : {"a.rawlog", "b.rawlog"}) {
     RawlogWriter writer(in(name), run.robots);
     run.record(writer, 20);
@@ -141,7 +123,7 @@ TEST_F(RawlogWriterTest, TheSameRunIsTheSameFile) {
 }
 
 TEST_F(RawlogWriterTest, ATruncatedRecordingReadsUpToTheCut) {
-  const SampleRun run({"anna"});
+  const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   run.record(writer, 500);
   const CRawlog whole = loaded(in("run.rawlog"));
@@ -157,7 +139,7 @@ TEST_F(RawlogWriterTest, ATruncatedRecordingReadsUpToTheCut) {
 }
 
 TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
-  const SampleRun run({"anna"});
+  const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   for (std::uint64_t step = 0; step < 1000; ++step) writer.write(run.readings(step), run.truth(step));
   fs::copy_file(in("run.rawlog.part"), in("left.rawlog"));
@@ -168,7 +150,7 @@ TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
 }
 
 TEST_F(RawlogWriterTest, DropsWhatIsNotClosed) {
-  const SampleRun run({"anna"});
+  const SampleRun run({"robot1"});
   { RawlogWriter(in("run.rawlog"), run.robots).write(run.readings(0), run.truth(0)); }
   EXPECT_EQ(filesInFolder(), std::set<std::string>());
 }
@@ -176,7 +158,7 @@ TEST_F(RawlogWriterTest, DropsWhatIsNotClosed) {
 // Actions and sensory frames
 
 TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
-  const SampleRun run({"anna"});
+  const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
   run.record(writer, 10);
   EXPECT_EQ(writer.files(), std::vector<fs::path>{in("run.rawlog")});
@@ -187,7 +169,7 @@ TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
     EXPECT_EQ(rawlog.getType(2 * step), CRawlog::etActionCollection);
     const auto frame = rawlog.getAsObservations(2 * step + 1);
     ASSERT_EQ(frame->size(), 1 + run.robots[0].sensors->size());
-    EXPECT_EQ(frame->getObservationByIndex(0)->sensorLabel, "anna/GROUND_TRUTH");
+    EXPECT_EQ(frame->getObservationByIndex(0)->sensorLabel, "robot1/GROUND_TRUTH");
     const auto readings = run.readings(step)[0];
     const auto& odometry_info = (*run.robots[0].sensors)[6];
     ASSERT_EQ(odometry_info.kind, SensorKind::odometry);
@@ -197,7 +179,7 @@ TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
 
 TEST_F(RawlogWriterTest, AnActionIsTheOdometrysIncrementInTheRobotsFrame) {
   RobotInfo robot;
-  robot.name = "anna";
+  robot.name = "robot1";
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>(
       std::vector<SensorInfo>{plainSensor(SensorKind::odometry, "odometry")});
   RawlogWriter writer(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
@@ -230,13 +212,13 @@ TEST_F(RawlogWriterTest, AnActionIsTheOdometrysIncrementInTheRobotsFrame) {
 }
 
 TEST_F(RawlogWriterTest, GivesEachOfSeveralRobotsAFileOfItsOwnFrames) {
-  const SampleRun run({"anna", "bert"});
+  const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
   run.record(writer, 3);
-  EXPECT_EQ(writer.files(), (std::vector<fs::path>{in("run_anna.rawlog"), in("run_bert.rawlog")}));
-  EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run_anna.rawlog", "run_bert.rawlog"}));
-  EXPECT_EQ(loaded(in("run_bert.rawlog")).getAsObservations(1)->getObservationByIndex(0)->sensorLabel,
-            "bert/GROUND_TRUTH");
+  EXPECT_EQ(writer.files(), (std::vector<fs::path>{in("run_robot1.rawlog"), in("run_robot2.rawlog")}));
+  EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run_robot1.rawlog", "run_robot2.rawlog"}));
+  EXPECT_EQ(loaded(in("run_robot2.rawlog")).getAsObservations(1)->getObservationByIndex(0)->sensorLabel,
+            "robot2/GROUND_TRUTH");
 }
 
 TEST_F(RawlogWriterTest, FilesOfRobotsWithNamesUnfitForFilesStayApartAndInTheFolder) {
@@ -248,7 +230,7 @@ TEST_F(RawlogWriterTest, FilesOfRobotsWithNamesUnfitForFilesStayApartAndInTheFol
 
 TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
   RobotInfo robot;
-  robot.name = "anna";
+  robot.name = "robot1";
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>();
   try {
     RawlogWriter(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
@@ -256,7 +238,7 @@ TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
   } catch (const ConfigError& error) {
     EXPECT_EQ(error.what(),
               in("run.rawlog").string() +
-                  ": robot \"anna\" has no odometry, which a recording of actions and sensory frames is made "
+                  ": robot \"robot1\" has no odometry, which a recording of actions and sensory frames is made "
                   "from; give it one, or record observations only");
   }
   EXPECT_EQ(filesInFolder(), std::set<std::string>());

@@ -10,6 +10,7 @@
 
 #include "recording/rawlog_writer.h"
 #include "recording/sample_robot.h"
+#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {
@@ -18,18 +19,7 @@ namespace fs = std::filesystem;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-class StockTools : public testing::Test {
- protected:
-  StockTools() {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("robosim_tools_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~StockTools() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
-};
+using StockTools = TestFolder;
 
 // A robot drives once round an ellipse in a room of 8 m × 6 m with a corner cut off and a pillar.
 
@@ -126,7 +116,7 @@ std::vector<std::string> linesOf(const fs::path& file) {
 }
 
 TEST_F(StockTools, RawlogEditCountsTheObservationsOfEverySensor) {
-  recordSamples(folder_ / "run.rawlog", RawlogFormat::observations, 30);
+  recordSamples(in("run.rawlog"), RawlogFormat::observations, 30);
   const ToolRun info = runTool("rawlog-edit -i run.rawlog --info", folder_);
   EXPECT_EQ(info.exit_code, 0) << info.output;
   for (const char* expected : {"Overall number of objects         : 270", "Observations format               : Yes",
@@ -139,7 +129,7 @@ TEST_F(StockTools, RawlogEditCountsTheObservationsOfEverySensor) {
 }
 
 TEST_F(StockTools, RawlogEditCountsActionsAndSensoryFrames) {
-  recordSamples(folder_ / "run.rawlog", RawlogFormat::sensory_frames, 30);
+  recordSamples(in("run.rawlog"), RawlogFormat::sensory_frames, 30);
   const ToolRun info = runTool("rawlog-edit -i run.rawlog --info", folder_);
   EXPECT_EQ(info.exit_code, 0) << info.output;
   for (const char* expected : {"Overall number of objects         : 60", "Actions/SensoryFrame format       : Yes"}) {
@@ -148,7 +138,7 @@ TEST_F(StockTools, RawlogEditCountsActionsAndSensoryFrames) {
 }
 
 TEST_F(StockTools, RawlogEditExportsTheGroundTruthAsText) {
-  recordSamples(folder_ / "run.rawlog", RawlogFormat::observations, 30);
+  recordSamples(in("run.rawlog"), RawlogFormat::observations, 30);
   const ToolRun exported = runTool("rawlog-edit -i run.rawlog --export-txt", folder_);
   EXPECT_EQ(exported.exit_code, 0) << exported.output;
   const auto lines = linesOf(folder_ / "run_rover_GROUND_TRUTH.txt");
@@ -161,7 +151,7 @@ TEST_F(StockTools, RawlogEditExportsTheGroundTruthAsText) {
 }
 
 TEST_F(StockTools, RawlogEditExportsHeatAsATemperature) {
-  recordSamples(folder_ / "run.rawlog", RawlogFormat::observations, 30);
+  recordSamples(in("run.rawlog"), RawlogFormat::observations, 30);
   const ToolRun exported = runTool("rawlog-edit -i run.rawlog --export-enose-txt", folder_);
   EXPECT_EQ(exported.exit_code, 0) << exported.output;
   const auto lines = linesOf(folder_ / "run_rover_heat.txt");
@@ -172,10 +162,24 @@ TEST_F(StockTools, RawlogEditExportsHeatAsATemperature) {
   EXPECT_NEAR(heat_celsius, std::get<Scalar>(readings.measurements[4]).value, 1e-4);
 }
 
+TEST_F(StockTools, RbpfSlamTakesEveryPairOfActionAndSensoryFrame) {
+  recordEllipse(in("run.rawlog"), RawlogFormat::sensory_frames);
+  const ToolRun slam = runTool("rbpf-slam '" ROBOSIM_SOURCE_DIR "/tests/data/rbpf-slam.ini' run.rawlog", folder_);
+  EXPECT_EQ(slam.exit_code, 0) << slam.output;
+  // A line a pair: "pair x y z yaw pitch roll time". How good the path is, is left to the particles' chance; NaN is no
+  // number here.
+  const auto lines = linesOf(folder_ / "rbpf-slam" / "log_estimated_path.txt");
+  ASSERT_EQ(lines.size(), static_cast<std::size_t>(kSteps));
+  for (const auto& line : lines) {
+    double pair = 0, x_m = 0, y_m = 0;
+    EXPECT_TRUE(std::istringstream(line) >> pair >> x_m >> y_m) << line;
+  }
+}
+
 TEST_F(StockTools, IcpSlamFindsThePathThatTheWheelsGotWrong) {
-  const double odometry_rms_m = recordEllipse(folder_ / "run.rawlog", RawlogFormat::observations);
+  const double odometry_rms_m = recordEllipse(in("run.rawlog"), RawlogFormat::observations);
   ASSERT_GT(odometry_rms_m, 0.3);
-  const PathError error = icpSlamError(folder_ / "run.rawlog", "rover", "laser", folder_ / "slam");
+  const PathError error = icpSlamError(in("run.rawlog"), "rover", "laser", folder_ / "slam");
   EXPECT_EQ(error.poses, static_cast<std::size_t>(kSteps));
   EXPECT_LT(error.rms_m, 0.15);
   RecordProperty("icp_slam_rms_m", std::to_string(error.rms_m));
