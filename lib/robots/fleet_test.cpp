@@ -203,6 +203,26 @@ TEST(Worlds, ThatAreShippedAllLoadAndSurviveWriting) {
   EXPECT_GE(worlds, 4);
 }
 
+TEST(Worlds, ExamplesInTheirDocumentationLoad) {
+  std::ifstream in(ROBOSIM_SOURCE_DIR "/doc/world_file.md");
+  const std::string doc{std::istreambuf_iterator<char>(in), {}};
+  const std::string fence = "```xml\n";
+  ErrorList errors;
+  int examples = 0;
+  for (auto begin = doc.find(fence); begin != std::string::npos; begin = doc.find(fence, begin)) {
+    begin += fence.size();
+    const XmlElement example = parseXml(doc.substr(begin, doc.find("```", begin) - begin), "doc");
+    ++examples;
+    if (example.name == "world") {
+      EXPECT_EQ(fleetOf(toXml(example), errors).robots.size(), 1u);
+    } else if (example.name == "robot") {
+      EXPECT_EQ(modelOf(example, "tortoise.xml", {}, errors).sensors.size(), 2u);
+    }
+  }
+  EXPECT_EQ(errors.errors(), Lines{});
+  EXPECT_EQ(examples, 3);
+}
+
 TEST(Worlds, RobotTypesThatAreShippedAllLoad) {
   int types = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kWorlds / "robots")) {
