@@ -74,8 +74,8 @@ TEST(Table1, OfThe2005ReportComesOutOfTheReconstructedMaze) {
       within_01 += difference <= 0.1 + 1e-6;
       within_02 += difference <= 0.2 + 1e-6;
       within_05 += difference <= 0.5 + 1e-6;
-      std::printf("%s%6.2f /%6.2f%s", i % 6 == 0 ? (i == 0 ? "row " : "      ") : "  ", row.readings[i], readings[i],
-                  i % 6 == 5 ? "\n" : "");
+      if (i % 6 == 0) std::printf(i == 0 ? "row %2d" : "      ", row.number);
+      std::printf("  %6.2f /%6.2f%s", row.readings[i], readings[i], i % 6 == 5 ? "\n" : "");
     }
   }
   std::printf("within 0.1: %d, within 0.2: %d, within 0.5: %d, of 180\n", within_01, within_02, within_05);
