@@ -1,0 +1,74 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/random.h"
+#include "control/robot.h"
+#include "maze/controllers.h"
+#include "maze/heat_trace.h"
+#include "maze/maze_map.h"
+#include "maze/obstacles.h"
+#include "maze/path_driver.h"
+#include "maze/wavefront.h"
+
+namespace robosim {
+
+/// Drives a robot through a place that it has not seen until it has felt for heat everywhere it can reach, and towards
+/// heat wherever it feels some. It draws its map in the frame of its odometry:
+///  - explore: to the nearest place not yet searched for heat, through whatever is not known to be blocked;
+///  - follow: where it is warm, to the nearest place about the likely source where it has not stood;
+///  - when it does not get on: draws back, to a side left to chance, so that two who block each other part;
+///  - when nothing is left to search: drops obstacles that were not sure, then the whole map, and begins again.
+class Explorer {
+ public:
+  /// @param warm heat from which on it is worth following, above the sensor's noise.
+  /// @throws std::invalid_argument for a robot without odometry or without heat sensor.
+  Explorer(const Robot& robot, const ControllerSetup& setup, double warm);
+  Explorer(const Explorer&) = delete;
+  Explorer& operator=(const Explorer&) = delete;
+
+  /// Looks, decides and commands; once a time step.
+  void step(Robot& robot);
+
+  const MazeMap& map() const { return map_; }
+  /// How often everything was searched and the map begun anew.
+  int rounds() const { return rounds_; }
+
+ private:
+  void look(const Robot& robot);
+  void plan(const Robot& robot);
+  bool planToHeat(const Cell& start);
+  bool planToSearch(const Cell& start);
+  void startOver(const Robot& robot);
+  bool atGoal(const Robot& robot) const;
+  bool isStuck(const Robot& robot);
+  void drawBack(Robot& robot);
+
+  ControllerSetup setup_;
+  double warm_;
+  MazeMap map_;
+  Obstacles obstacles_;
+  HeatTrace heat_;
+  Wavefront wavefront_;
+  PathDriver driver_;
+  std::vector<Cell> way_;
+  Rng rng_;
+  int rounds_ = 0;
+
+  bool following_ = false;           ///< heat, rather than exploring
+  std::uint64_t follow_until_ = 0;   ///< step in which it gives up following
+  std::uint64_t explore_until_ = 0;  ///< step until which it does not follow, having given up
+  std::uint64_t planned_step_ = 0;
+  std::uint64_t planned_changes_ = 0;  ///< Obstacles::changes() at the last look at the way
+
+  mrpt::math::TPose2D looked_from_;
+  std::uint64_t looked_step_ = 0;
+  bool looked_ = false;
+
+  mrpt::math::TPose2D moved_from_;  ///< where it last got on
+  std::uint64_t moved_step_ = 0;
+  std::uint64_t back_until_ = 0;
+  double back_speed_ = 0, back_turn_ = 0;
+};
+
+}  // namespace robosim

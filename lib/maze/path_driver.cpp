@@ -1,0 +1,96 @@
+#include "maze/path_driver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <mrpt/math/wrap2pi.h>
+
+#include "control/echo.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kLookAhead = 8;    // cells
+constexpr std::size_t kWatchAhead = 24;  // cells
+constexpr double kTurnGain_per_s = 2.5;
+constexpr double kTurnOnSpot_rad = 1.0;  // farther off course than this it turns before it drives
+constexpr double kGap_m = 0.05;          // it keeps from what is in front
+
+/// Whether a robot can go straight from one cell to another: none of the cells on the line is blocked.
+bool isClear(const MazeMap& map, const Cell& from, const Cell& to) {
+  const int steps = ringDistance(from, to);
+  for (int i = 1; i <= steps; ++i) {
+    const auto between = [&](int a, int b) {
+      return static_cast<int>(std::lround(a + (b - a) * static_cast<double>(i) / steps));
+    };
+    const Cell cell{between(from.x, to.x), between(from.y, to.y)};
+    if (map.contains(cell) && map[cell].blocked()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double roomAhead(const Robot& robot) {
+  const double radius = robot.info().radius_m;
+  double room = std::numeric_limits<double>::infinity();
+  for (const auto kind : {SensorKind::sonar, SensorKind::laser}) {
+    const SensorInfo* sensor = robot.sensor(kind);
+    if (!sensor) continue;
+    for (const Echo& echo : kind == SensorKind::sonar ? robot.sonar() : robot.laser()) {
+      const double x = echo.point_m.x, y = echo.point_m.y;
+      if (x <= 0 || std::abs(y) >= radius || !heard(*sensor, echo)) continue;
+      room = std::min(room, x - std::sqrt(radius * radius - y * y));
+    }
+  }
+  return room;
+}
+
+void PathDriver::follow(const std::vector<Cell>& way) {
+  way_ = way;
+  next_ = 0;
+}
+
+bool PathDriver::blocked(const MazeMap& map) const {
+  const std::size_t end = std::min(way_.size(), next_ + kWatchAhead);
+  // The first few may well be: the robot is about to leave them.
+  for (std::size_t i = next_ + 2; i < end; ++i) {
+    if (map.contains(way_[i]) && map[way_[i]].blocked()) return true;
+  }
+  return false;
+}
+
+void PathDriver::advance(const MazeMap& map, const mrpt::math::TPoint2D& robot) {
+  const auto distance = [&](std::size_t i) { return (map.center(way_[i]) - robot).norm(); };
+  while (next_ + 1 < way_.size() && distance(next_ + 1) <= distance(next_)) ++next_;
+}
+
+Cell PathDriver::aim(const MazeMap& map, const Cell& robot) const {
+  std::size_t i = std::min(next_ + kLookAhead, way_.size() - 1);
+  while (i > next_ && !isClear(map, robot, way_[i])) --i;
+  return way_[i];
+}
+
+void PathDriver::drive(Robot& robot, const MazeMap& map) {
+  const auto& pose = robot.odometry().odom_from_robot;
+  const mrpt::math::TPoint2D at(pose.x, pose.y);
+  advance(map, at);
+  const mrpt::math::TPoint2D aim_point = map.center(aim(map, map.cellAt(at)));
+  const double off = mrpt::math::wrapToPi(std::atan2(aim_point.y - at.y, aim_point.x - at.x) - pose.phi);
+
+  const MotionLimits& limits = robot.info().limits;
+  double speed = 0;
+  if (std::abs(off) < kTurnOnSpot_rad) {
+    const double room = std::max(0.0, roomAhead(robot) - kGap_m);
+    const double period_s = robot.readings().time.period_s;
+    // So slow that it could brake within the room, one step late.
+    const double loss = limits.decel_mps2 * period_s;
+    const double braking = std::sqrt(loss * loss + 2 * limits.decel_mps2 * room) - loss;
+    const double on_course = std::cos(off * M_PI_2 / kTurnOnSpot_rad);
+    speed = std::min(limits.speed_max_mps * on_course, braking);
+  }
+  robot.drive(speed, std::clamp(kTurnGain_per_s * off, -limits.turn_max_radps, limits.turn_max_radps));
+}
+
+}  // namespace robosim

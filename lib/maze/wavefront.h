@@ -1,0 +1,87 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "maze/maze_map.h"
+
+namespace robosim {
+
+/// Shortest ways over a MazeMap from one cell: Dijkstra's algorithm with a ring of buckets, since a step's cost is a
+/// small whole number (Dial, "Algorithm 360", CACM 12, 1969). Blocked cells are closed, except for the few about the
+/// start, by which a robot that stands close to a wall gets away from it. Keeping a berth from walls is worth a detour.
+class Wavefront {
+ public:
+  static constexpr int kStraight = 2, kDiagonal = 3;  ///< cost of a step to a neighbour
+  static constexpr int kCrowded = 3;                  ///< and on top of it where walls are close
+  static constexpr int kTight = 8;                    ///< or where the cell is blocked, near the start
+
+  /// Spreads from `start` until it knows the goal for which way + judge(cell) is least, or all ways up to `cost_max`.
+  /// @param judge the extra cost (>= 0) of ending at a cell; negative: it is no goal.
+  template <typename Judge>
+  std::optional<Cell> findGoal(const MazeMap& map, const Cell& start, int cost_max, const Judge& judge);
+
+  /// The way to a cell that the last search reached: from the cell after the start to `goal`, both included.
+  void wayTo(const MazeMap& map, const Cell& goal, std::vector<Cell>& way) const;
+
+ private:
+  struct Node {
+    std::uint32_t search = 0;  ///< the search that `cost` is of
+    std::int32_t cost = 0;
+    std::uint8_t from = 0;  ///< index in kNeighbours of the step that led here
+    bool done = false;
+  };
+  struct Neighbour {
+    Cell offset;
+    int cost;
+  };
+  static constexpr std::array<Neighbour, 8> kNeighbours{{{{1, 0}, kStraight},
+                                                         {{0, 1}, kStraight},
+                                                         {{0, -1}, kStraight},
+                                                         {{-1, 0}, kStraight},
+                                                         {{1, 1}, kDiagonal},
+                                                         {{1, -1}, kDiagonal},
+                                                         {{-1, 1}, kDiagonal},
+                                                         {{-1, -1}, kDiagonal}}};
+  static constexpr int kStartReach = 2;  ///< cells about the start that may be blocked
+  static constexpr std::size_t kBuckets = 16;
+  static_assert(kDiagonal + kCrowded + kTight < static_cast<int>(kBuckets));
+
+  void begin(const MazeMap& map, const Cell& start);
+  void spread(const MazeMap& map, const Cell& from, int cost);
+
+  Cell start_;
+  std::uint32_t search_ = 0;
+  std::vector<Node> nodes_;
+  std::array<std::vector<Cell>, kBuckets> buckets_;
+  std::size_t waiting_ = 0;
+};
+
+template <typename Judge>
+std::optional<Cell> Wavefront::findGoal(const MazeMap& map, const Cell& start, int cost_max, const Judge& judge) {
+  begin(map, start);
+  std::optional<Cell> best;
+  int best_cost = cost_max;
+  for (int cost = 0; cost < best_cost && waiting_ > 0; ++cost) {
+    auto& bucket = buckets_[static_cast<std::size_t>(cost) % kBuckets];
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+      const Cell cell = bucket[i];
+      --waiting_;
+      Node& node = nodes_[map.index(cell)];
+      if (node.done) continue;
+      node.done = true;
+      const int extra = judge(cell);
+      if (extra >= 0 && cost + extra < best_cost) {
+        best = cell;
+        best_cost = cost + extra;
+        if (extra == 0) return best;
+      }
+      spread(map, cell, cost);
+    }
+    bucket.clear();
+  }
+  return best;
+}
+
+}  // namespace robosim
