@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/program.h"
+#include "tests/scenarios/program.h"
 
 namespace robosim {
 namespace {

@@ -1,4 +1,4 @@
-#include "scenarios/program.h"
+#include "tests/scenarios/program.h"
 
 #include <cstdlib>
 #include <fstream>

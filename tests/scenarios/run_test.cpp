@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "scenarios/program.h"
-#include "stock_tools.h"
+#include "tests/scenarios/program.h"
+#include "tests/stock_tools.h"
 
 namespace robosim {
 namespace {
