@@ -24,6 +24,7 @@ constexpr Color kWhite{1, 1, 1};
 
 constexpr double kTextSize_px = 10;  // height of a capital
 constexpr double kPathWidth_px = 1.6;
+constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover in their full colours
 constexpr double kStartRadius_px = 4.5;
 constexpr double kRobotRadiusMin_px = 3;  // in a wide world a robot to scale would be lost
 
@@ -68,8 +69,12 @@ class Drawing {
 
   cv::Mat draw() {
     drawFloor();
+    const float paleness = pathPaleness();
+    for (std::size_t i = 0; i < paths_.size(); ++i) drawPath(i, paleness);
+    for (std::size_t i = 0; i < paths_.size(); ++i) {
+      if (!paths_[i].empty()) drawStart(view_.toPixel(paths_[i].front()), pathColor(i));
+    }
     drawObjects();
-    for (std::size_t i = 0; i < paths_.size(); ++i) drawPath(i);
     for (std::size_t i = 0; i < world_from_robot_.size(); ++i) drawRobot(i);
     writeNames();
     writeLegend();
@@ -117,14 +122,24 @@ class Drawing {
     return std::max(kRobotRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
   }
 
-  void drawPath(std::size_t robot) {
+  /// How far paths fade into the floor: the more of it they would cover, so that what stands on it can be seen.
+  float pathPaleness() const {
+    double length_m = 0;
+    for (const auto& path : paths_) {
+      for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
+    }
+    const double covered_px = length_m * view_.pixelsPerMetre() * kPathWidth_px;
+    const double covered = covered_px / (view_.width() * view_.height());
+    return static_cast<float>(std::clamp(1 - kPathsBright / covered, 0.0, 0.75));
+  }
+
+  void drawPath(std::size_t robot, float paleness) {
     std::vector<TPoint2D> way;
     for (const auto& point : paths_[robot]) way.push_back(view_.toPixel(point));
     if (way.empty()) return;
     if (robot < world_from_robot_.size()) way.push_back(robotPixel(robot));
     canvas_.polyline(way, kPathWidth_px + 1.6, kWhite);
-    canvas_.polyline(way, kPathWidth_px, pathColor(robot));
-    drawStart(way.front(), pathColor(robot));
+    canvas_.polyline(way, kPathWidth_px, mix(pathColor(robot), kFloor, paleness));
   }
 
   void drawStart(const TPoint2D& at, const Color& color) {

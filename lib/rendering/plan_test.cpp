@@ -148,6 +148,14 @@ TEST_F(PlanFile, MarksWhereAWayStartsAndWhereARobotLooks) {
   EXPECT_TRUE(colorful(scene.at(picture, {4.5, 1.25 + 0.15})));
 }
 
+TEST_F(PlanFile, FadesPathsThatWouldCoverMuchOfTheFloor) {
+  Scene10x5 scene;
+  for (int i = 0; i < 400; ++i) scene.paths[0].push_back({i % 2 ? 1.5 : 4.5, 1.25});
+  const auto way = scene.at(scene.draw(folder_ / "plan.png"), {3.25, 1.25});
+  EXPECT_TRUE(way[0] > 180 && way[1] > 180 && way[2] > 180) << way;
+  EXPECT_FALSE(light(way)) << way;
+}
+
 TEST_F(PlanFile, WritesEachRobotsNameBesideItsDisc) {
   Scene10x5 scene;
   const cv::Mat named = scene.draw(folder_ / "named.png");
