@@ -182,14 +182,12 @@ TEST(RobotModel, RefusesEveryFaultAtOnce) {
             (Lines{"r.xml:1: <robot>: <body> is missing; add it", "r.xml:1: <robot>: <limits> is missing; add it"}));
   EXPECT_EQ(
       faults("<robot name='s'>\n<body radius_m='0' height_m='x'/>\n<limits speed_max_mps='-1' "
-             "accel_mps2='1' decel_mps2='1' turn_max_degps='1'/>\n<sensors><radar/>\n<sonar/></sensors></robot>"),
+             "accel_mps2='1' decel_mps2='1' turn_max_degps='1'/>\n<sensors>\n<sonar/></sensors></robot>"),
       (Lines{"r.xml:1: <robot name=\"s\">: must be the file's name without .xml; rename one of them",
              "r.xml:2: <body radius_m=\"0\">: must lie in (0, 100] metres; write a number there",
              "r.xml:2: <body height_m=\"x\">: is not a number; write a number there",
              "r.xml:3: <limits speed_max_mps=\"-1\">: must lie in (0, 100] metres per second; write a number there",
              "r.xml:3: <limits>: <turn_accel_degps2> is missing; add it",
-             "r.xml:4: <radar>: is no sensor; there are: sonar, laser, heat, infrared, bumper, odometry, compass, and "
-             "2005's <sensor>",
              "r.xml:5: <sonar>: has no place on the robot; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>"}));
   EXPECT_EQ(
       faults("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
