@@ -203,6 +203,19 @@ TEST(Worlds, ThatAreShippedAllLoadAndSurviveWriting) {
   EXPECT_GE(worlds, 4);
 }
 
+TEST(Worlds, OneOf2005LoadsUnchanged) {
+  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", kControllers);
+  ASSERT_EQ(loaded.fleet.robots.size(), 1u);
+  const RobotInfo& finder = loaded.fleet.robots[0].info;
+  EXPECT_EQ(finder.name, "Finder1");
+  Lines labels;
+  for (const auto& sensor : *finder.sensors) labels.push_back(sensor.label);
+  EXPECT_EQ(labels, (Lines{"heat", "sonar", "laser", "odometry"}));
+  EXPECT_EQ(finder.sensors->at(1).beams.size(), 16u);
+  EXPECT_EQ(finder.sensors->at(1).no_echo_m, 16);
+  EXPECT_EQ(finder.sensors->at(2).no_echo_m, 21);
+}
+
 TEST(Worlds, ExamplesInTheirDocumentationLoad) {
   std::ifstream in(ROBOSIM_SOURCE_DIR "/doc/world_file.md");
   const std::string doc{std::istreambuf_iterator<char>(in), {}};
