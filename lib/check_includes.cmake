@@ -1,4 +1,5 @@
 # cmake -DROOM=r -DUSES="a;b" -DLIB=dir -P check_includes.cmake: fails on an #include of a room beyond USES.
+cmake_minimum_required(VERSION 3.25)
 file(GLOB rooms RELATIVE ${LIB} ${LIB}/*)
 file(GLOB files ${LIB}/${ROOM}/*.h ${LIB}/${ROOM}/*.cpp)
 set(allowed ${ROOM} ${USES})
