@@ -11,6 +11,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#if defined(__x86_64__)
+#include <immintrin.h>
+#endif
+
 #include "base/error_list.h"
 #include "recording/recording_error.h"
 
@@ -95,6 +99,18 @@ int writeAll(int descriptor, std::span<const std::uint8_t> bytes) {
   return 0;
 }
 
+/// ISA-L comes back with the upper halves of the vector registers in use, and until they are cleared every SSE
+/// instruction waits for them: a simulation that recorded in its own thread ran at half its speed.
+#if defined(__x86_64__)
+__attribute__((target("avx"))) void clearUpperHalves() { _mm256_zeroupper(); }
+
+void tidyVectorRegisters() {
+  if (__builtin_cpu_supports("avx")) clearUpperHalves();
+}
+#else
+void tidyVectorRegisters() {}
+#endif
+
 }  // namespace
 
 struct GzipFile::Compressor {
@@ -140,6 +156,7 @@ void GzipFile::compress(std::span<const std::uint8_t> bytes, bool last) {
     stream.avail_out = sizeof compressor_->out;
     [[maybe_unused]] const int status = isal_deflate(&stream);
     assert(status == COMP_OK);
+    tidyVectorRegisters();
     const int error = writeAll(descriptor_, {compressor_->out, stream.next_out});
     if (error != 0) giveUp(error);
   } while (stream.avail_out == 0);

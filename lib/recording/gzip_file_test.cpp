@@ -1,6 +1,5 @@
 #include "recording/gzip_file.h"
 
-#include <csignal>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -9,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <sys/file.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include "base/error_list.h"
@@ -56,24 +54,6 @@ std::string configErrorFor(const fs::path& file) {
   }
   return "none";
 }
-
-/// Lets no file of this program grow beyond some size, as a disk that is full.
-class FullDisk {
- public:
-  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    const rlimit small{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~FullDisk() {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
- private:
-  void (*handler_)(int);
-  rlimit before_{};
-};
 
 /// Takes root's power over everybody's files from a test that was started by root.
 class WithoutPower {

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cassert>
 #include <cctype>
+#include <future>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
@@ -27,6 +29,9 @@ using mrpt::obs::CObservationRange;
 
 /// Compressed at a time: little enough to stay in the processor's cache.
 constexpr std::size_t kChunkBytes = 64 * 1024;
+/// Readings of one robot and one step that are handed to the background at a time: enough that starting a thread for
+/// them costs nothing to speak of, and little to lose with a killed program.
+constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
@@ -111,14 +116,52 @@ void appendPair(Track& track, const Readings& readings, std::span<const CObserva
 
 }  // namespace
 
+/// The run goes on while what it measured is turned into bytes, compressed and written: write() only copies it to
+/// `filling`, and a full batch changes places with the one that the background has done.
 struct RawlogWriter::Impl {
+  struct Step {
+    std::vector<Readings> readings;
+    std::vector<TPose2D> world_from_robot;
+  };
+
+  void handOver();
+  void record(const Step&);
+
   RawlogFormat format;
   std::vector<Track> tracks;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
+  std::vector<Step> filling, recording;
+  std::size_t filled = 0;
+  std::future<void> background;  ///< at work on `recording`; the first to be destroyed, which waits for it
 };
 
+void RawlogWriter::Impl::handOver() {
+  if (background.valid()) background.get();
+  std::swap(filling, recording);
+  background = std::async(std::launch::async, [this, steps = std::exchange(filled, 0)] {
+    for (std::size_t i = 0; i < steps; ++i) record(recording[i]);
+  });
+}
+
+void RawlogWriter::Impl::record(const Step& step) {
+  for (std::size_t i = 0; i < step.readings.size(); ++i) {
+    Track& track = tracks[i];
+    const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
+    const auto observations = track.observations.of(step.readings[i], truth);
+    if (format == RawlogFormat::observations) {
+      appendObservations(track, observations, outputs[0]->archive);
+    } else {
+      appendPair(track, step.readings[i], observations, outputs[i]->archive);
+    }
+  }
+  for (auto& output : outputs) output->flush(kChunkBytes);
+}
+
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format)
-    : impl_(new Impl{format, {}, {}}) {
+    : impl_(std::make_unique<Impl>()) {
+  impl_->format = format;
+  impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
+  impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
     const Track& track = impl_->tracks.emplace_back(robot);
     if (format == RawlogFormat::sensory_frames && !track.odometry_slot) {
@@ -135,20 +178,15 @@ RawlogWriter::~RawlogWriter() = default;
 void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot) {
   assert(readings.size() == impl_->tracks.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
-  for (std::size_t i = 0; i < readings.size(); ++i) {
-    Track& track = impl_->tracks[i];
-    const auto truth = world_from_robot.empty() ? std::nullopt : std::make_optional(world_from_robot[i]);
-    const auto observations = track.observations.of(readings[i], truth);
-    if (impl_->format == RawlogFormat::observations) {
-      appendObservations(track, observations, impl_->outputs[0]->archive);
-    } else {
-      appendPair(track, readings[i], observations, impl_->outputs[i]->archive);
-    }
-  }
-  for (auto& output : impl_->outputs) output->flush(kChunkBytes);
+  Impl::Step& step = impl_->filling[impl_->filled++];
+  step.readings.assign(readings.begin(), readings.end());
+  step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
+  if (impl_->filled == impl_->filling.size()) impl_->handOver();
 }
 
 void RawlogWriter::close() {
+  impl_->handOver();
+  impl_->background.get();
   for (auto& output : impl_->outputs) output->flush(0);
   for (auto& output : impl_->outputs) output->file.commit();
 }

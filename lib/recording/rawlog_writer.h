@@ -25,6 +25,9 @@ enum class RawlogFormat {
 /// for the first) under MRPT's default motion model, and the frame holds all the robot's observations, odometry and
 /// ground truth too.
 ///
+/// All but copying the readings happens in a thread in the background, so that a run that has a processor to spare is
+/// hardly slower for being recorded.
+///
 /// The file has its name only from close() on, and is then whole (GzipFile). The destructor without close() drops the
 /// recording. A caller that is interrupted, or whose run fails, calls close() to keep what there is.
 class RawlogWriter {
@@ -34,7 +37,7 @@ class RawlogWriter {
                RawlogFormat format = RawlogFormat::observations);
   ~RawlogWriter();
 
-  /// Records one time step.
+  /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.
   /// @param readings one per robot, in the order of the constructor's.
   /// @param world_from_robot where each robot really is; empty when nobody knows.
   /// @throws RecordingError when the disk is full, or fails. Whatever had the file's name before is still there.

@@ -12,6 +12,7 @@
 #include "base/error_list.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
+#include "recording/recording_error.h"
 #include "recording/sample_robot.h"
 #include "recording/test_folder.h"
 
@@ -141,18 +142,50 @@ TEST_F(RawlogWriterTest, ATruncatedRecordingReadsUpToTheCut) {
 TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
-  for (std::uint64_t step = 0; step < 1000; ++step) writer.write(run.readings(step), run.truth(step));
+  for (std::uint64_t step = 0; step < 5000; ++step) writer.write(run.readings(step), run.truth(step));
   fs::copy_file(in("run.rawlog.part"), in("left.rawlog"));
   CRawlog left;
   left.loadFromRawLogFile(in("left.rawlog").string());
-  // Up to half a megabyte, 120 such steps, waits in memory to be compressed.
-  EXPECT_GT(left.size(), 800 * (1 + run.robots[0].sensors->size()));
+  // Up to two batches of 1025 steps, and some 120 steps more inside the compressor, were still in memory.
+  EXPECT_GT(left.size(), 2800 * (1 + run.robots[0].sensors->size()));
 }
 
 TEST_F(RawlogWriterTest, DropsWhatIsNotClosed) {
   const SampleRun run({"robot1"});
   { RawlogWriter(in("run.rawlog"), run.robots).write(run.readings(0), run.truth(0)); }
   EXPECT_EQ(filesInFolder(), std::set<std::string>());
+}
+
+/// Records until an error ends it; close() is the last chance for one.
+std::string errorOf(RawlogWriter& writer, const SampleRun& run, std::uint64_t steps) {
+  try {
+    run.record(writer, steps);
+  } catch (const RecordingError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST_F(RawlogWriterTest, AFullDiskEndsALongRecordingWhileItIsWritten) {
+  std::ofstream(in("run.rawlog")) << "the recording before";
+  const SampleRun run({"robot1"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  const FullDisk full(100'000);
+  EXPECT_THROW(for (std::uint64_t step = 0; step < 5000; ++step) writer.write(run.readings(step), run.truth(step)),
+               RecordingError);
+  EXPECT_EQ(filesInFolder(), std::set<std::string>{"run.rawlog"});
+  EXPECT_EQ(fs::file_size(in("run.rawlog")), std::string("the recording before").size());
+}
+
+TEST_F(RawlogWriterTest, AFullDiskIsToldOfAShortRecordingWhenItIsClosed) {
+  std::ofstream(in("run.rawlog")) << "the recording before";
+  const SampleRun run({"robot1", "robot2"});
+  RawlogWriter writer(in("run.rawlog"), run.robots);
+  const FullDisk full(1000);
+  EXPECT_NE(errorOf(writer, run, 10).find("run.rawlog: the recording could not be written: File too large"),
+            std::string::npos);
+  EXPECT_EQ(filesInFolder(), std::set<std::string>{"run.rawlog"});
+  EXPECT_EQ(fs::file_size(in("run.rawlog")), std::string("the recording before").size());
 }
 
 // Actions and sensory frames

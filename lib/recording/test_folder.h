@@ -1,9 +1,11 @@
 #pragma once
+#include <csignal>
 #include <filesystem>
 #include <set>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace robosim {
@@ -28,6 +30,24 @@ class TestFolder : public testing::Test {
   }
 
   std::filesystem::path folder_;
+};
+
+/// Lets no file of this program grow beyond some size, as a disk that is full.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+ private:
+  void (*handler_)(int);
+  rlimit before_{};
 };
 
 }  // namespace robosim
