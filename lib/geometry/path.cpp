@@ -60,11 +60,11 @@ std::optional<double> enterGrown(const TPoint2D& p_world, const TPoint2D& d_worl
 
   const TPoint2D nearest(std::clamp(p.x, -half.x, half.x), std::clamp(p.y, -half.y, half.y));
   const TPoint2D out = p - nearest;
-  if (dot(out, out) < grow_m * grow_m) {
-    const bool inside = out.x == 0 && out.y == 0;
-    const bool approaches = dot(out, d) < -kSlideTolerance_m * out.norm();
-    return inside || approaches ? std::optional(0.0) : std::nullopt;
-  }
+  // The distance to a convex outline only grows along a straight move that does not approach it at first.
+  const bool inside = out.x == 0 && out.y == 0;
+  const bool approaches = dot(out, d) < -kSlideTolerance_m * out.norm();
+  if (!inside && !approaches) return std::nullopt;
+  if (dot(out, out) < grow_m * grow_m) return 0;
   // The grown box is a rectangle with rounded corners. Enter the full rectangle first; where that happens beyond both
   // sides of the box itself, only the corner's disc counts, for the outline between two corners is convex.
   double from = 0;
