@@ -12,7 +12,9 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/poses/CPose3DQuat.h>
 
+#include "base/random.h"
 #include "recording/fan.h"
 
 namespace robosim {
@@ -178,6 +180,27 @@ void fill(CObservation& observation, const SensorInfo& sensor, const Measurement
   }
 }
 
+/// A measurement of some numbers that are surely not written anywhere else in an observation.
+Measurement probeOf(const SensorInfo& sensor, Rng& rng) {
+  switch (sensor.kind) {
+    case SensorKind::sonar:
+    case SensorKind::laser:
+    case SensorKind::infrared: {
+      Echoes echoes(sensor.beams.size());
+      for (auto& echo : echoes) echo.range_m = static_cast<float>(sensor.range_max_m * rng.uniform());
+      return echoes;
+    }
+    case SensorKind::heat:
+    case SensorKind::compass:
+      return Scalar{rng.uniform()};
+    case SensorKind::bumper:
+      return Contacts{std::vector<std::uint8_t>(sensor.beams.size())};
+    case SensorKind::odometry:
+      return Odometry{{rng.uniform(), rng.uniform(), rng.uniform()}, rng.uniform(), rng.uniform()};
+  }
+  return {};
+}
+
 }  // namespace
 
 mrpt::Clock::time_point timestampOf(const SimTime& time) {
@@ -204,6 +227,7 @@ RobotObservations::RobotObservations(const RobotInfo& robot) : sensors_(robot.se
     observations_.push_back(makeObservation((*sensors_)[slot]));
     observations_.back()->sensorLabel = sensorLabel(robot.name, (*sensors_)[slot].label);
   }
+  makeImprints();
 }
 
 std::span<const CObservation::Ptr> RobotObservations::of(const Readings& readings,
@@ -215,11 +239,65 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
     observation.timestamp = timestamp;
     fill(observation, (*sensors_)[slots_[i]], readings.measurements[slots_[i]], readings.laser_pan_rad);
   }
-  if (!world_from_robot) return all().subspan(1);
+  const std::span<const CObservation::Ptr> all = observations_;
+  if (!world_from_robot) return all.subspan(1);
   auto& truth = static_cast<CObservationRobotPose&>(*observations_[0]);
   truth.timestamp = timestamp;
   truth.pose.mean = CPose3D(TPose3D(*world_from_robot));
-  return observations_;
+  const mrpt::poses::CPose3DQuat as_written(truth.pose.mean);
+  for (std::size_t i = 0; i < truth_.size(); ++i) truth_[i] = as_written[i];
+  return all;
+}
+
+void RobotObservations::write(const Readings& readings, const std::optional<TPose2D>& world_from_robot,
+                              ByteArchive& archive) {
+  const auto observations = of(readings, world_from_robot);
+  for (std::size_t i = observations_.size() - observations.size(); i < observations_.size(); ++i) {
+    const bool turned = i > 0 && (*sensors_)[slots_[i - 1]].pans && readings.laser_pan_rad != 0;
+    if (imprints_[i] && !turned) {
+      imprints_[i]->append(archive);
+    } else {
+      archive << *observations_[i];
+    }
+  }
+}
+
+void RobotObservations::makeImprints() {
+  const auto probe = [this](int which) {
+    Rng rng(static_cast<std::uint64_t>(which));
+    Readings readings;
+    readings.time.step = 1 + rng.below(1'000'000);
+    for (const auto& sensor : *sensors_) readings.measurements.push_back(probeOf(sensor, rng));
+    of(readings, TPose2D(rng.uniform(), rng.uniform(), rng.uniform()));
+  };
+  for (std::size_t i = 0; i < observations_.size(); ++i) {
+    auto numbers = changingNumbers(i);
+    imprints_.push_back(numbers.empty() ? std::nullopt : Imprint::of(*observations_[i], std::move(numbers), probe));
+  }
+}
+
+/// What fill() changes, as far as MRPT writes it as it lies in memory; none for what is not worth the trouble.
+std::vector<Imprint::Number> RobotObservations::changingNumbers(std::size_t i) {
+  const auto number = [](const auto& value) { return std::as_bytes(std::span(&value, 1)); };
+  CObservation& observation = *observations_[i];
+  std::vector<Imprint::Number> numbers{number(observation.timestamp)};
+  if (i == 0) {
+    numbers.push_back(number(truth_));
+  } else if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
+    for (const auto& sensed : *range) numbers.push_back(number(sensed.sensedDistance));
+  } else if (const auto* heat = dynamic_cast<const CObservationGasSensors*>(&observation)) {
+    numbers.push_back(number(heat->m_readings[0].temperature));
+  } else if (auto* odometry = dynamic_cast<CObservationOdometry*>(&observation)) {
+    for (const double* value : {&odometry->odometry.x(), &odometry->odometry.y(), &odometry->odometry.phi(),
+                                &odometry->velocityLocal.vx, &odometry->velocityLocal.omega}) {
+      numbers.push_back(number(*value));
+    }
+  } else if (const auto* compass = dynamic_cast<const CObservationIMU*>(&observation)) {
+    numbers.push_back(number(compass->rawMeasurements[mrpt::obs::IMU_YAW]));
+  } else {
+    numbers.clear();
+  }
+  return numbers;
 }
 
 }  // namespace robosim

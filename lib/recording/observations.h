@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +13,8 @@
 
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
+#include "recording/byte_archive.h"
+#include "recording/imprint.h"
 
 namespace robosim {
 
@@ -47,19 +51,26 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 class RobotObservations {
  public:
   explicit RobotObservations(const RobotInfo& robot);
+  RobotObservations(const RobotObservations&) = delete;
+  RobotObservations& operator=(const RobotObservations&) = delete;
 
   /// Ground truth if it is given, odometry, then the other sensors as the robot lists them. The same objects are filled
   /// anew in every call: serialise them, or copy what is to stay.
   std::span<const mrpt::obs::CObservation::Ptr> of(const Readings&,
                                                    const std::optional<mrpt::math::TPose2D>& world_from_robot);
 
-  /// The objects of all sensors, ground truth first, as they stand: what they are and how many never changes.
-  std::span<const mrpt::obs::CObservation::Ptr> all() const { return observations_; }
+  /// Appends the bytes of all that of() gives, some three times as fast as `archive << observation` for each.
+  void write(const Readings&, const std::optional<mrpt::math::TPose2D>& world_from_robot, ByteArchive& archive);
 
  private:
+  void makeImprints();
+  std::vector<Imprint::Number> changingNumbers(std::size_t i);
+
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
   std::vector<std::size_t> slots_;  ///< of observations_[1 + i]: its place in RobotInfo::sensors
-  std::vector<mrpt::obs::CObservation::Ptr> observations_;
+  std::vector<mrpt::obs::CObservation::Ptr> observations_;  ///< ground truth, and one per sensor
+  std::vector<std::optional<Imprint>> imprints_;            ///< as observations_; of sensors that turn, not turned
+  std::array<double, 7> truth_{};                           ///< ground truth as MRPT writes it: x, y, z, quaternion
 };
 
 /// What CObservationRange holds for a beam of this sensor that met nothing [m].

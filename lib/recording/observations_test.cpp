@@ -218,5 +218,21 @@ TEST(Observations, GroundTruthIsTheRobotsPoseWithoutDoubt) {
   EXPECT_EQ(truth.pose.cov.sum(), 0);
 }
 
+TEST(Observations, AreWrittenByteForByteAsMrptWritesThem) {
+  const RobotInfo robot = sampleRobot("rover");
+  RobotObservations observations(robot);
+  for (std::uint64_t step = 0; step < 200; ++step) {
+    Readings readings = sampleReadings(robot, step);
+    if (step % 2) readings.laser_pan_rad = 0;  // as a sensor that turns is imprinted
+    std::optional<mrpt::math::TPose2D> truth;
+    if (step % 3)
+      truth = {0.1 * static_cast<double>(step), -2, std::remainder(0.1 * static_cast<double>(step), 2 * M_PI)};
+    ByteArchive written, expected;
+    for (const auto& observation : observations.of(readings, truth)) expected << *observation;
+    observations.write(readings, truth, written);
+    EXPECT_EQ(written.bytes, expected.bytes) << "step " << step;
+  }
+}
+
 }  // namespace
 }  // namespace robosim

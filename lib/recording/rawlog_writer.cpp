@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cctype>
+#include <deque>
 #include <future>
 #include <optional>
 #include <set>
@@ -11,21 +12,17 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
-#include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include "base/error_list.h"
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
-#include "recording/range_imprint.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPose2D;
-using mrpt::obs::CObservation;
-using mrpt::obs::CObservationRange;
 
 /// Compressed at a time: little enough to stay in the processor's cache.
 constexpr std::size_t kChunkBytes = 64 * 1024;
@@ -39,14 +36,9 @@ struct Track {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
-    for (const auto& observation : observations.all()) {
-      const auto* range = dynamic_cast<const CObservationRange*>(observation.get());
-      imprints.push_back(range ? std::make_optional<RangeImprint>(*range) : std::nullopt);
-    }
   }
 
   RobotObservations observations;
-  std::vector<std::optional<RangeImprint>> imprints;  ///< as observations.all()
   std::optional<std::size_t> odometry_slot;
   std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
 };
@@ -80,25 +72,13 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   std::set<std::string> taken;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     std::string part = fileNamePart(robots[i].name);
-    if (!taken.insert(part).second) part.append("_").append(std::to_string(i + 1));
+    while (!taken.insert(part).second) part.append("_").append(std::to_string(i + 1));
     files.push_back(file.parent_path() / (file.stem().string() + "_" + part + file.extension().string()));
   }
   return files;
 }
 
-void appendObservations(Track& track, std::span<const CObservation::Ptr> observations, ByteArchive& archive) {
-  const std::size_t skipped = track.imprints.size() - observations.size();  // ground truth, when it is not known
-  for (std::size_t i = 0; i < observations.size(); ++i) {
-    if (auto& imprint = track.imprints[skipped + i]) {
-      imprint->append(static_cast<const CObservationRange&>(*observations[i]), archive);
-    } else {
-      archive << *observations[i];
-    }
-  }
-}
-
-void appendPair(Track& track, const Readings& readings, std::span<const CObservation::Ptr> observations,
-                ByteArchive& archive) {
+void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth, ByteArchive& archive) {
   const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
@@ -110,7 +90,7 @@ void appendPair(Track& track, const Readings& readings, std::span<const CObserva
   actions.insert(movement);
 
   mrpt::obs::CSensoryFrame frame;
-  for (const auto& observation : observations) frame.push_back(observation);
+  for (const auto& observation : track.observations.of(readings, truth)) frame.push_back(observation);
   archive << actions << frame;
 }
 
@@ -128,7 +108,7 @@ struct RawlogWriter::Impl {
   void record(const Step&);
 
   RawlogFormat format;
-  std::vector<Track> tracks;
+  std::deque<Track> tracks;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
@@ -147,11 +127,10 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     Track& track = tracks[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
-    const auto observations = track.observations.of(step.readings[i], truth);
     if (format == RawlogFormat::observations) {
-      appendObservations(track, observations, outputs[0]->archive);
+      track.observations.write(step.readings[i], truth, outputs[0]->archive);
     } else {
-      appendPair(track, step.readings[i], observations, outputs[i]->archive);
+      appendPair(track, step.readings[i], truth, outputs[i]->archive);
     }
   }
   for (auto& output : outputs) output->flush(kChunkBytes);

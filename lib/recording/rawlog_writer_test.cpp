@@ -255,10 +255,11 @@ TEST_F(RawlogWriterTest, GivesEachOfSeveralRobotsAFileOfItsOwnFrames) {
 }
 
 TEST_F(RawlogWriterTest, FilesOfRobotsWithNamesUnfitForFilesStayApartAndInTheFolder) {
-  const SampleRun run({"../a b", "../a_b", "a/b"});
+  const SampleRun run({"../a b", "../a_b", "a/b", ".._a_b_2"});
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
   run.record(writer, 1);
-  EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run_.._a_b.rawlog", "run_.._a_b_2.rawlog", "run_a_b.rawlog"}));
+  EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run_.._a_b.rawlog", "run_.._a_b_2.rawlog", "run_a_b.rawlog",
+                                                    "run_.._a_b_2_4.rawlog"}));
 }
 
 TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
