@@ -16,6 +16,8 @@ struct Stretch {
   double from = -kInfinity;
   double to = kInfinity;
 
+  /// Also when the stretch has no end yet: infinity is not beyond infinity.
+  void makeEmpty() { *this = {kInfinity, -kInfinity}; }
   void clip(double other_from, double other_to) {
     from = std::max(from, other_from);
     to = std::min(to, other_to);
@@ -23,7 +25,7 @@ struct Stretch {
   /// Keeps where origin + t·direction lies within [low, high].
   void clipSlab(double origin, double direction, double low, double high) {
     if (direction == 0) {
-      if (origin < low || origin > high) from = kInfinity;
+      if (origin < low || origin > high) makeEmpty();
       return;
     }
     const double a = (low - origin) / direction;
@@ -38,7 +40,7 @@ void clipToOutline(Stretch& stretch, const Ray& ray, const Circle& circle) {
   const double dd = d.x * d.x + d.y * d.y;
   const double rr = circle.radius_m * circle.radius_m;
   if (dd == 0) {  // straight up or down
-    if (out.x * out.x + out.y * out.y > rr) stretch.from = kInfinity;
+    if (out.x * out.x + out.y * out.y > rr) stretch.makeEmpty();
     return;
   }
   // From the foot of the centre on the line: more exact for far circles than the textbook's b² - 4ac.
@@ -46,7 +48,7 @@ void clipToOutline(Stretch& stretch, const Ray& ray, const Circle& circle) {
   const TPoint2D foot(out.x + mid * d.x, out.y + mid * d.y);
   const double left = rr - (foot.x * foot.x + foot.y * foot.y);
   if (left < 0) {
-    stretch.from = kInfinity;
+    stretch.makeEmpty();
     return;
   }
   const double half = std::sqrt(left / dd);
