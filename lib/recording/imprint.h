@@ -13,8 +13,9 @@
 namespace robosim {
 
 /// The bytes of an observation of which only a few numbers differ from step to step: MRPT serialises it once, and from
-/// then on just those numbers are replaced. MRPT's own way takes 2.9 µs for a ring of 16 sonars, 16 poses of which are
-/// turned into quaternions each time, and 0.5 µs for a pose with a covariance of nothing but zeros.
+/// then on just those numbers are replaced. MRPT's own way takes 2.9 µs for a ring of 16 sonars, whose unchanging
+/// places it works out as 16 matrices each time, and 0.5 µs for a pose without doubt, of which it writes 36 zeros one
+/// by one.
 class Imprint {
  public:
   /// Bytes in memory that also stand in the serialised observation; they must not move.

@@ -12,7 +12,6 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 #include <mrpt/obs/CObservationRobotPose.h>
-#include <mrpt/poses/CPose3DQuat.h>
 
 #include "base/random.h"
 #include "recording/fan.h"
@@ -244,8 +243,10 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
   auto& truth = static_cast<CObservationRobotPose&>(*observations_[0]);
   truth.timestamp = timestamp;
   truth.pose.mean = CPose3D(TPose3D(*world_from_robot));
-  const mrpt::poses::CPose3DQuat as_written(truth.pose.mean);
-  for (std::size_t i = 0; i < truth_.size(); ++i) truth_[i] = as_written[i];
+  const CPose3D& pose = truth.pose.mean;
+  const auto& turned = pose.getRotationMatrix();
+  truth_ = {pose.x(), pose.y(), pose.z()};
+  std::copy(turned.begin(), turned.end(), truth_.begin() + 3);
   return all;
 }
 
@@ -282,7 +283,7 @@ std::vector<Imprint::Number> RobotObservations::changingNumbers(std::size_t i) {
   CObservation& observation = *observations_[i];
   std::vector<Imprint::Number> numbers{number(observation.timestamp)};
   if (i == 0) {
-    numbers.push_back(number(truth_));
+    numbers.push_back(number(truth_));  // as MRPT writes a CPose3D
   } else if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
     for (const auto& sensed : *range) numbers.push_back(number(sensed.sensedDistance));
   } else if (const auto* heat = dynamic_cast<const CObservationGasSensors*>(&observation)) {

@@ -70,7 +70,7 @@ class RobotObservations {
   std::vector<std::size_t> slots_;  ///< of observations_[1 + i]: its place in RobotInfo::sensors
   std::vector<mrpt::obs::CObservation::Ptr> observations_;  ///< ground truth, and one per sensor
   std::vector<std::optional<Imprint>> imprints_;            ///< as observations_; of sensors that turn, not turned
-  std::array<double, 7> truth_{};                           ///< ground truth as MRPT writes it: x, y, z, quaternion
+  std::array<double, 12> truth_{};  ///< ground truth as MRPT writes it: x, y, z, 3 × 3 rotation
 };
 
 /// What CObservationRange holds for a beam of this sensor that met nothing [m].
