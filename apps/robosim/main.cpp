@@ -11,6 +11,10 @@ int fail(robosim::ExitCode code, const std::string& what) {
   return code;
 }
 
+bool hasSubcommand(const CLI::App& program, const std::string& name) {
+  return !program.get_subcommands([&](const CLI::App* command) { return command->check_name(name); }).empty();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,6 +30,10 @@ int main(int argc, char** argv) {
   robosim::addCheck(program);
   robosim::addBench(program);
 
+  // CLI11 would call an unknown subcommand a missing one.
+  if (const std::string first = argc > 1 ? argv[1] : "-"; first.find('-') != 0 && !hasSubcommand(program, first)) {
+    return fail(robosim::kBadInput, "there is no subcommand '" + first + "'; see robosim --help");
+  }
   try {
     program.parse(argc, argv);
     return robosim::kDone;

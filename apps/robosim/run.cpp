@@ -59,14 +59,14 @@ std::string progressText(const LocalRun& run, double wall_s) {
          " robots active (Ctrl-C ends the run)";
 }
 
-EndedBy drive(LocalRun& run, const Arguments& arguments, RawlogWriter* recording, Tracks* tracks) {
+EndedBy drive(LocalRun& run, const Arguments& arguments, const Interrupt& interrupt, RawlogWriter* recording,
+              Tracks* tracks) {
   const double speed = speedOf(arguments.speed);
   const auto observe = [&] {
     const State& state = run.environment().state();
     if (recording) recording->write(state.readings, state.world_from_robot);
     if (tracks) tracks->add(state.world_from_robot);
   };
-  Interrupt interrupt;
   Progress progress;
   const auto start = Clock::now();
   observe();
@@ -86,6 +86,7 @@ EndedBy drive(LocalRun& run, const Arguments& arguments, RawlogWriter* recording
 }
 
 void runWorld(const Arguments& arguments) {
+  const Interrupt interrupt;
   speedOf(arguments.speed);  // a slip in an argument is told before the work begins
   LocalRun run(loadWorld(arguments.world, controllerNames()), arguments.run);
   auto recording = openRecording(arguments, run.environment());
@@ -96,7 +97,7 @@ void runWorld(const Arguments& arguments) {
   }
 
   const auto start = Clock::now();
-  const EndedBy ended_by = drive(run, arguments, recording.get(), tracks.get());
+  const EndedBy ended_by = drive(run, arguments, interrupt, recording.get(), tracks.get());
   if (recording) recording->close();
   RunSummary summary = RunSummary::of(run);
   summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();

@@ -21,7 +21,8 @@ std::vector<BodyId>& emptyList() {
 
 }  // namespace
 
-Authority::Authority(std::vector<Mover> movers) : movers_(std::move(movers)), stays_(movers_.size(), 0) {
+Authority::Authority(std::vector<Mover> movers, const Bounds2D& surface)
+    : movers_(std::move(movers)), surface_(surface), stays_(movers_.size(), 0) {
   for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
@@ -46,6 +47,7 @@ void Authority::clip(const Scene& scene, std::size_t robot, std::span<Path> path
   const Mover& mover = movers_[robot];
   const double reach_m = mover.radius_m + std::abs(path.length_m) + kContactGap_m;
 
+  path.end_fraction = firstExit(path, mover.radius_m, surface_);
   auto& bodies = emptyList();
   scene.stationaryNear(around(path.world_from_start, reach_m), bodies);
   for (const BodyId body : bodies) {

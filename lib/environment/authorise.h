@@ -18,7 +18,7 @@ struct Mover {
 /// Decides how far each robot may go (the rule is in environment.h). Keeps its working memory from step to step.
 class Authority {
  public:
-  explicit Authority(std::vector<Mover> movers);
+  Authority(std::vector<Mover> movers, const Bounds2D& surface);
 
   /// Shortens the robots' paths in place until no two bodies can overlap.
   /// @param scene frozen where the robots stand now
@@ -30,6 +30,7 @@ class Authority {
   bool meetsAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;
 
   std::vector<Mover> movers_;
+  Bounds2D surface_;
   double radius_max_m_ = 0;
   double length_max_m_ = 0;  ///< of this step's paths
   std::vector<std::uint8_t> stays_;

@@ -77,7 +77,7 @@ struct Environment::Impl {
         options(the_options),
         workers(options.threads),
         scene(solidsOf(world), fleet.robots.size(), world.bounds),
-        authority(moversOf(fleet)),
+        authority(moversOf(fleet), world.bounds),
         mail(namesOf(fleet), world.communication, options.seed),
         digest(fleet.robots.size()),
         groups(groupsOf(fleet)),

@@ -130,6 +130,21 @@ TEST(Environment, LetsTwoRobotsPassThatCrossTheSamePointAtDifferentTimes) {
   EXPECT_EQ(environment->state().stalls, 0u);
 }
 
+TEST(Environment, KeepsARobotOnTheSurface) {
+  Scenario s;
+  s.robot("a", {9.7, 0, 0});
+  auto environment = s.start();
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 9.75, 2e-6) << "the edge is at 10";
+  EXPECT_TRUE(environment->state().stalled[0]);
+  environment->setCommand(0, {.turn_radps = M_PI_2 / 0.1});
+  for (int i = 0; i < 8; ++i) environment->step();  // 2 rad/s at most: 1.6 rad to the left
+  environment->setCommand(0, {.speed_mps = 1});
+  environment->step();
+  EXPECT_NEAR(environment->state().world_from_robot[0].y, 0.1, 1e-3) << "along the edge it is free";
+}
+
 TEST(Environment, PassesOverWhatIsLowerOrHigherThanTheRobot) {
   Scenario s;
   addWall(s.world, 1.5, 0, 1, 10);

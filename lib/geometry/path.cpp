@@ -132,6 +132,36 @@ double firstContact(const Path& path, double radius_m, const Outline& outline) {
   return 1;
 }
 
+double firstExit(const Path& path, double radius_m, const Bounds2D& area) {
+  const double margin_m = radius_m + kContactGap_m;
+  const double reach_m = margin_m + std::abs(path.length_m);
+  const auto& start = path.world_from_start;
+  if (start.x - reach_m >= area.x_min && start.x + reach_m <= area.x_max && start.y - reach_m >= area.y_min &&
+      start.y + reach_m <= area.y_max) {
+    return 1;
+  }
+  const int n = path.chords();
+  TPoint2D from = onArc(path, 0);
+  for (int i = 0; i < n && i < path.end_fraction * n; ++i) {
+    const TPoint2D to = onArc(path, (i + 1.0) / n);
+    const TPoint2D d = to - from;
+    double share = 2;  // of the chord; beyond 1 for none
+    const auto keep = [&](double room_m, double outwards_m) {
+      if (outwards_m > std::max(room_m, kSlideTolerance_m)) share = std::min(share, std::max(0.0, room_m / outwards_m));
+    };
+    keep(area.x_max - margin_m - from.x, d.x);
+    keep(from.x - area.x_min - margin_m, -d.x);
+    keep(area.y_max - margin_m - from.y, d.y);
+    keep(from.y - area.y_min - margin_m, -d.y);
+    if (share <= 1) {
+      const double fraction = (i + share) / n;
+      return fraction < path.end_fraction ? fraction : 1;
+    }
+    from = to;
+  }
+  return 1;
+}
+
 bool meet(const Path& a, double radius_a_m, const Path& b, double radius_b_m) {
   const double reach = radius_a_m + radius_b_m + kContactGap_m;
   const double gap_x = a.world_from_start.x - b.world_from_start.x;

@@ -32,6 +32,11 @@ struct Path {
 /// Looks at no more than the path up to its end_fraction.
 double firstContact(const Path&, double radius_m, const Outline&);
 
+/// The fraction in [0, 1] at which a disc on the path first comes within kContactGap_m of the edge of `area` from
+/// inside; 1 when it never does. A disc that starts beyond that is free to come back, and stopped (0) if it would go
+/// further out.
+double firstExit(const Path&, double radius_m, const Bounds2D& area);
+
 /// Whether two discs that drive their paths at the same time come nearer than kContactGap_m to each other, except for
 /// two that start that near and draw apart.
 bool meet(const Path& a, double radius_a_m, const Path& b, double radius_b_m);

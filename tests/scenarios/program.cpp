@@ -1,11 +1,14 @@
 #include "tests/scenarios/program.h"
 
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 namespace robosim {
 
@@ -25,13 +28,58 @@ std::filesystem::path emptyFolder() {
   return folder;
 }
 
-Ended runProgram(const std::string& arguments) {
+namespace {
+
+/// Where a run's output goes.
+std::string outputStem() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string stem = testing::TempDir() + "/robosim_program_" + test->test_suite_name() + "_" + test->name();
+  return testing::TempDir() + "/robosim_program_" + test->test_suite_name() + "_" + test->name();
+}
+
+Ended ended(int status, const std::string& stem) {
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(stem + ".out"), textOf(stem + ".err")};
+}
+
+}  // namespace
+
+StartedProgram::StartedProgram(const std::vector<std::string>& arguments) : process_(-1), stem_(outputStem()) {
+  std::vector<char*> words{const_cast<char*>(ROBOSIM_PROGRAM)};
+  for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  words.push_back(nullptr);
+  process_ = fork();
+  if (process_ != 0) return;
+  const bool ready = chdir(ROBOSIM_SOURCE_DIR) == 0 && std::freopen((stem_ + ".out").c_str(), "w", stdout) &&
+                     std::freopen((stem_ + ".err").c_str(), "w", stderr);
+  if (ready) execv(ROBOSIM_PROGRAM, words.data());
+  _exit(127);
+}
+
+StartedProgram::~StartedProgram() {
+  if (!isRunning()) return;
+  kill(process_, SIGKILL);
+  waitpid(process_, &status_, 0);
+}
+
+bool StartedProgram::isRunning() {
+  if (!ended_) ended_ = waitpid(process_, &status_, WNOHANG) != 0;
+  return !ended_;
+}
+
+void StartedProgram::interrupt() {
+  if (isRunning()) kill(process_, SIGINT);
+}
+
+Ended StartedProgram::wait() {
+  if (!ended_) waitpid(process_, &status_, 0);
+  ended_ = true;
+  return ended(status_, stem_);
+}
+
+Ended runProgram(const std::string& arguments) {
+  const std::string stem = outputStem();
   const std::string command = "cd '" ROBOSIM_SOURCE_DIR "' && '" ROBOSIM_PROGRAM "' " + arguments + " >'" + stem +
                               ".out' 2>'" + stem + ".err' </dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, textOf(stem + ".out"), textOf(stem + ".err")};
+  return ended(std::system(command.c_str()), stem);
 }
 
 }  // namespace robosim

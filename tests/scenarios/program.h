@@ -1,6 +1,9 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
+
+#include <sys/types.h>
 
 namespace robosim {
 
@@ -13,6 +16,25 @@ struct Ended {
 
 /// Runs `robosim ARGUMENTS` (through the shell, from the project's folder) to its end.
 Ended runProgram(const std::string& arguments);
+
+/// A run of the program that goes on beside the test.
+class StartedProgram {
+ public:
+  explicit StartedProgram(const std::vector<std::string>& arguments);
+  ~StartedProgram();  ///< kills it if it still runs
+  StartedProgram(const StartedProgram&) = delete;
+  StartedProgram& operator=(const StartedProgram&) = delete;
+
+  bool isRunning();
+  void interrupt();  ///< as Ctrl-C does
+  Ended wait();
+
+ private:
+  pid_t process_;
+  std::string stem_;
+  int status_ = 0;
+  bool ended_ = false;
+};
 
 /// A new, empty folder of the running test's own.
 std::filesystem::path emptyFolder();

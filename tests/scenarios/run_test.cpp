@@ -1,7 +1,7 @@
 // `robosim run` as a person runs it.
-#include <csignal>
-#include <cstdio>
-#include <fstream>
+
+#include <cstdlib>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -41,7 +41,8 @@ TEST(Run, PrintsOneJsonObjectWithEverythingInIt) {
 TEST(Run, WithTheSameSeedIsTheSameRunForAnyNumberOfThreadsRecordedOrNot) {
   const auto folder = emptyFolder();
   const auto digest = [](const std::string& arguments) {
-    return json::parse(runProgram("run worlds/small_maze.xml --json --time 60 " + arguments).out)["digest"];
+    return json::parse(
+        runProgram("run worlds/small_maze.xml --json --time 60 --controller wander " + arguments).out)["digest"];
   };
   const auto one = digest("--seed 5");
   EXPECT_EQ(digest("--seed 5 --threads 2"), one);
@@ -74,36 +75,27 @@ TEST(Run, KeepsARawlogThatRawlogEditOpensAndAPicture) {
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(textOf(picture).substr(0, 4), "\x89PNG");
   EXPECT_FALSE(std::filesystem::exists(rawlog.string() + ".part"));
-  EXPECT_EQ(std::system(("rawlog-edit --info -i '" + rawlog.string() + "' >'" + (folder / "info").string() +
-                         "' 2>&1 </dev/null")
-                            .c_str()),
-            0);
-  const std::string info = textOf(folder / "info");
-  for (const char* name : {"CObservationRange", "CObservationOdometry", "CObservationRobotPose"}) {
-    EXPECT_NE(info.find(name), std::string::npos) << name << "\n" << info;
+  const ToolRun tool = runTool("rawlog-edit --info -i run.rawlog", folder);
+  EXPECT_EQ(tool.exit_code, 0) << tool.output;
+  for (const char* name : {"Pioneer1/sonar", "Scout1/odometry", "Scout1/GROUND_TRUTH"}) {
+    EXPECT_NE(tool.output.find(name), std::string::npos) << name << "\n" << tool.output;
   }
 }
 
 TEST(Run, EndsCleanlyWhenInterruptedAndItsRawlogIsReadable) {
   const auto folder = emptyFolder();
-  const std::string rawlog = (folder / "run.rawlog").string();
-  const std::string summary = (folder / "summary").string();
-  // At real time the run lasts half an hour; it is interrupted as soon as it has begun to write.
-  const std::string script = "cd '" ROBOSIM_SOURCE_DIR "'; '" ROBOSIM_PROGRAM
-                             "' run worlds/small_maze.xml --json --speed 1 "
-                             "--controller wander --record '" +
-                             rawlog + "' >'" + summary +
-                             "' 2>&1 </dev/null & p=$!; "
-                             "while [ ! -e '" +
-                             rawlog +
-                             ".part' ] && kill -0 $p; do :; done; "
-                             "kill -INT $p; wait $p";
-  const int status = std::system(("bash -c \"set -m; " + script + "\"").c_str());
-  EXPECT_EQ(status, 0) << textOf(summary);
-  EXPECT_EQ(json::parse(textOf(summary))["ended_by"], "interrupt");
+  const auto rawlog = folder / "run.rawlog";
+  // At real time the run would last half an hour. It is interrupted once its recording has been opened.
+  StartedProgram run({"run", "worlds/small_maze.xml", "--json", "--speed", "1", "--controller", "wander", "--record",
+                      rawlog.string()});
+  while (!std::filesystem::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
+  run.interrupt();
+  const Ended ended = run.wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(json::parse(ended.out)["ended_by"], "interrupt");
   EXPECT_TRUE(std::filesystem::exists(rawlog));
-  EXPECT_FALSE(std::filesystem::exists(rawlog + ".part"));
-  EXPECT_EQ(std::system(("rawlog-edit --info -i '" + rawlog + "' >/dev/null 2>&1 </dev/null").c_str()), 0);
+  EXPECT_FALSE(std::filesystem::exists(rawlog.string() + ".part"));
+  EXPECT_EQ(runTool("rawlog-edit --info -i run.rawlog", folder).exit_code, 0);
 }
 
 struct Mistake {
@@ -115,7 +107,7 @@ TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
   const Mistake mistakes[] = {
       {"run no_such_world.xml", "no_such_world.xml: no such file; check the path"},
       {"run worlds", "worlds: is a directory; name a file in it"},
-      {"run README.md", "README.md:1: "},
+      {"run LICENSE", "LICENSE:1: "},
       {"run", "WORLD is required"},
       {"run worlds/small_maze.xml --controller bogus", "bogus"},
       {"run worlds/small_maze.xml --step 0", "--step"},
