@@ -35,10 +35,9 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 /// One robot's readings as stock MRPT observations (the table is in doc/rawlog.md):
 ///
 ///  * laser with two or more evenly spaced beams from one place: CObservation2DRangeScan; no echo is an invalid range
-///  * sonar, infrared, any other laser: CObservationRange, one for all beams of the sensor; `sensorID` counts the
-///  beams.
-///    No echo is recordedNoEcho(), a little more than the sensor's maximum: MRPT's maps take 0 for a wall or for
-///    nothing, as they please, and leave out what lies beyond the maximum
+///  * sonar, infrared, any other laser: CObservationRange, one for all beams; `sensorID` counts them. No echo is
+///    recordedNoEcho(), a little more than the sensor's maximum: MRPT's maps leave out what lies beyond the maximum,
+///    but not all of them leave out 0
 ///  * heat: CObservationGasSensors, one e-nose with only a temperature, in single precision
 ///  * bumper: CObservationRawDAQ, segment i is digital input i (bit i % 8 of byte i / 8)
 ///  * compass: CObservationIMU with only a yaw
@@ -46,8 +45,7 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 ///    kNoTurn_radps
 ///  * ground truth: CObservationRobotPose
 ///
-/// A sensor that turns is recorded with the pose that it had. Angles, ranges and speeds come back bit for bit through
-/// measurementFrom().
+/// A sensor that turns is recorded with the pose that it had. measurementFrom() (measurements.h) is the way back.
 class RobotObservations {
  public:
   explicit RobotObservations(const RobotInfo& robot);

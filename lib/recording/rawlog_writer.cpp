@@ -116,9 +116,10 @@ struct RawlogWriter::Impl {
 };
 
 void RawlogWriter::Impl::handOver() {
+  const std::size_t steps = std::exchange(filled, 0);
   if (background.valid()) background.get();
   std::swap(filling, recording);
-  background = std::async(std::launch::async, [this, steps = std::exchange(filled, 0)] {
+  background = std::async(std::launch::async, [this, steps] {
     for (std::size_t i = 0; i < steps; ++i) record(recording[i]);
   });
 }

@@ -173,6 +173,8 @@ TEST_F(RawlogWriterTest, AFullDiskEndsALongRecordingWhileItIsWritten) {
   const FullDisk full(100'000);
   EXPECT_THROW(for (std::uint64_t step = 0; step < 5000; ++step) writer.write(run.readings(step), run.truth(step)),
                RecordingError);
+  EXPECT_NO_THROW(writer.write(run.readings(0), run.truth(0)));  // only kept in memory as yet
+  EXPECT_THROW(writer.close(), RecordingError);
   EXPECT_EQ(filesInFolder(), std::set<std::string>{"run.rawlog"});
   EXPECT_EQ(fs::file_size(in("run.rawlog")), std::string("the recording before").size());
 }
