@@ -14,7 +14,6 @@
 namespace robosim {
 namespace {
 
-using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationRange;
 

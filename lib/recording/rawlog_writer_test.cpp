@@ -21,13 +21,12 @@ namespace {
 
 namespace fs = std::filesystem;
 using mrpt::math::TPose2D;
-using mrpt::obs::CObservation;
 using mrpt::obs::CRawlog;
 
 using RawlogWriterTest = TestFolder;
 
 struct SampleRun {
-  explicit SampleRun(std::vector<std::string> names) {
+  explicit SampleRun(const std::vector<std::string>& names) {
     for (const auto& name : names) robots.push_back(sampleRobot(name));
   }
 
@@ -236,14 +235,14 @@ TEST_F(RawlogWriterTest, AnActionIsTheOdometrysIncrementInTheRobotsFrame) {
     EXPECT_NEAR(action->poseChange->getMeanVal().distanceTo(action->rawOdometryIncrementReading), 0, 1e-12);
     return action->rawOdometryIncrementReading.asTPose();
   };
-  const auto expectNear = [](const TPose2D& pose, const TPose2D& expected) {
+  const auto expect_near = [](const TPose2D& pose, const TPose2D& expected) {
     EXPECT_NEAR(pose.x, expected.x, 1e-12);
     EXPECT_NEAR(pose.y, expected.y, 1e-12);
     EXPECT_NEAR(pose.phi, expected.phi, 1e-12);
   };
-  expectNear(increment(0), {0, 0, 0});
-  expectNear(increment(1), {0.2, 0, 0});
-  expectNear(increment(2), {0, 0, 0.1});
+  expect_near(increment(0), {0, 0, 0});
+  expect_near(increment(1), {0.2, 0, 0});
+  expect_near(increment(2), {0, 0, 0.1});
 }
 
 TEST_F(RawlogWriterTest, GivesEachOfSeveralRobotsAFileOfItsOwnFrames) {
@@ -269,7 +268,7 @@ TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
   robot.name = "robot1";
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>();
   try {
-    RawlogWriter(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
+    const RawlogWriter refused(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
     FAIL() << "actions of a robot without odometry";
   } catch (const ConfigError& error) {
     EXPECT_EQ(error.what(),
