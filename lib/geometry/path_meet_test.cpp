@@ -71,6 +71,13 @@ TEST(Meet, LetsTouchingDiscsDrawApartButNotNearer) {
   }
 }
 
+TEST(Meet, IsNoNewsToTwoThatStandTouchingOrDriveSideBySide) {
+  const double apart = 2 + kContactGap_m / 2;
+  EXPECT_FALSE(meet(drive(0, 0, 0, 0), 1, drive(0, apart, 0, 0), 1));
+  EXPECT_FALSE(meet({{0, 0, 0}, 0, 1}, 1, {{0, apart, 0}, 0, -1}, 1)) << "turning on the spot";
+  EXPECT_FALSE(meet(drive(0, 0, 0, 3), 1, drive(0, apart, 0, 3), 1));
+}
+
 TEST(Meet, AgreesWithASlowSearchOverRandomPaths) {
   Rng rng(2);
   int meetings = 0;

@@ -48,7 +48,8 @@ class Scene {
   /// The nearest point of any solid inside the sector strictly nearer than `range_m`. A tie goes to the lowest BodyId.
   Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
 
-  /// Appends the bodies whose bounding rectangle meets `area`, in ascending order, each once.
+  /// Appends the bodies near `area`, in ascending order, each once: all that reach into it, and none whose bounding
+  /// rectangle lies beyond it.
   void stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const;
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 

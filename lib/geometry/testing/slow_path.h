@@ -57,6 +57,28 @@ inline std::optional<Real> slowFirstContact(const Path& path, double radius_m, c
   return std::nullopt;
 }
 
+/// How far the disc, its contact gap around it, stands out of the area at a fraction; < 0 inside.
+inline Real standsOutOf(const Bounds2D& area, const Path& path, double radius_m, Real fraction) {
+  const RealPoint p = onChords(path, fraction);
+  return std::max({p.x - area.x_max, area.x_min - p.x, p.y - area.y_max, area.y_min - p.y}) + radius_m + kContactGap_m;
+}
+
+/// For a disc that starts inside: what stands out is convex along a chord, so a chord that ends inside never left.
+inline std::optional<Real> slowFirstExit(const Path& path, double radius_m, const Bounds2D& area) {
+  const int n = path.chords();
+  for (int chord = 0; chord < n; ++chord) {
+    Real inside = Real(chord) / n, outside = std::min(Real(chord + 1) / n, Real(path.end_fraction));
+    if (inside > outside) break;
+    if (standsOutOf(area, path, radius_m, outside) <= 0) continue;
+    for (int round = 0; round < 80; ++round) {
+      const Real middle = (inside + outside) / 2;
+      (standsOutOf(area, path, radius_m, middle) > 0 ? outside : inside) = middle;
+    }
+    return outside;
+  }
+  return std::nullopt;
+}
+
 /// The nearest that the two discs' centres come to each other in the step. Between two ends of chords, of either path,
 /// they draw nearer and apart along straight lines at constant speed, so that their distance is convex.
 inline Real slowNearest(const Path& a, const Path& b) {
