@@ -14,6 +14,7 @@ constexpr double kCell_radii = 0.6;
 constexpr int kSearchReach = 100000;      // cost: anywhere
 constexpr int kFollowReach = 400;         // cost: heat is near, but the way to it may lead round some walls
 constexpr int kCloser = 3;                // cost of ending a cell farther from the likely source
+constexpr double kTurn = 4;               // cost of a goal at right angles to the robot's heading
 constexpr std::size_t kLaserBeams = 31;   // that are taken in of a scan
 constexpr std::uint64_t kPlanPause = 3;   // steps between two plans, at least
 constexpr std::uint64_t kLookPause = 10;  // steps between two looks, at most
@@ -23,11 +24,6 @@ constexpr double kStuck_s = 1.5;
 
 std::uint64_t stepsIn(double seconds, const Robot& robot) {
   return static_cast<std::uint64_t>(std::ceil(seconds / robot.readings().time.period_s));
-}
-
-mrpt::math::TPoint2D placeOf(const Robot& robot) {
-  const auto& pose = robot.odometry().odom_from_robot;
-  return {pose.x, pose.y};
 }
 
 double heatRange(const Robot& robot) {
@@ -50,6 +46,7 @@ Explorer::Explorer(const Robot& robot, const ControllerSetup& setup, double warm
       rng_(setup.seed, RandomPurpose::controller, setup.robot) {}
 
 void Explorer::step(Robot& robot) {
+  tracker_.update(robot);
   look(robot);
   if (robot.stepNumber() < back_until_) {
     robot.drive(back_speed_, back_turn_);
@@ -60,7 +57,7 @@ void Explorer::step(Robot& robot) {
     return;
   }
   if (robot.stepNumber() >= planned_step_ + kPlanPause) {
-    bool new_plan = driver_.empty() || atGoal(robot);
+    bool new_plan = driver_.empty() || atGoal();
     if (!new_plan && obstacles_.changes() != planned_changes_) {
       planned_changes_ = obstacles_.changes();
       new_plan = driver_.blocked(map_);
@@ -70,12 +67,12 @@ void Explorer::step(Robot& robot) {
   if (driver_.empty()) {
     robot.drive(0, robot.info().limits.turn_max_radps / 2);  // look around
   } else {
-    driver_.drive(robot, map_);
+    driver_.drive(robot, tracker_.startFromRobot(), map_);
   }
 }
 
 void Explorer::look(const Robot& robot) {
-  const auto& pose = robot.odometry().odom_from_robot;
+  const auto& pose = tracker_.startFromRobot();
   const double moved = std::hypot(pose.x - looked_from_.x, pose.y - looked_from_.y);
   const double turned = std::abs(mrpt::math::wrapToPi(pose.phi - looked_from_.phi));
   if (looked_ && moved < map_.cellSize() / 2 && turned < 0.2 && robot.stepNumber() < looked_step_ + kLookPause) return;
@@ -83,18 +80,17 @@ void Explorer::look(const Robot& robot) {
   looked_from_ = pose;
   looked_step_ = robot.stepNumber();
 
-  const mrpt::math::TPoint2D place = placeOf(robot);
-  const Cell at = map_.cellAt(place);
-  const int reach = std::max(Obstacles::kReach_cells, HeatTrace::kReach_cells) + 4;
+  const Cell at = map_.cellAt(place());
+  const int reach = std::max(Obstacles::kReach_cells, heat_.reach()) + 4;
   map_.cover({at.x - reach, at.y - reach}, {at.x + reach, at.y + reach});
   if (const SensorInfo* sonar = robot.sensor(SensorKind::sonar)) obstacles_.look(pose, *sonar, robot.sonar());
   if (const SensorInfo* laser = robot.sensor(SensorKind::laser)) {
     obstacles_.look(pose, *laser, robot.laser(), (robot.laser().size() + kLaserBeams - 1) / kLaserBeams);
   }
-  obstacles_.clearUnder(place);
+  obstacles_.clearUnder(place());
 
   const double heat = robot.heat().value_or(0);
-  if (!heat_.measure(place, heat)) return;
+  if (!heat_.measure(place(), heat)) return;
   if (!following_ && heat >= warm_ && robot.stepNumber() >= explore_until_) {
     following_ = true;
     follow_until_ = robot.stepNumber() + stepsIn(kFollow_s, robot);
@@ -105,7 +101,7 @@ void Explorer::look(const Robot& robot) {
 void Explorer::plan(const Robot& robot) {
   planned_step_ = robot.stepNumber();
   planned_changes_ = obstacles_.changes();
-  const Cell start = map_.cellAt(placeOf(robot));
+  const Cell start = map_.cellAt(place());
   driver_.clear();
   if (following_) {
     if (robot.stepNumber() < follow_until_ && planToHeat(start)) return;
@@ -115,7 +111,7 @@ void Explorer::plan(const Robot& robot) {
   if (planToSearch(start)) return;
   obstacles_.forgetDoubtful();
   if (planToSearch(start)) return;
-  startOver(robot);
+  startOver();
 }
 
 bool Explorer::planToHeat(const Cell& start) {
@@ -137,7 +133,14 @@ bool Explorer::planToHeat(const Cell& start) {
 }
 
 bool Explorer::planToSearch(const Cell& start) {
-  const auto judge = [&](const Cell& cell) { return map_[cell].searched || map_[cell].blocked() ? -1 : 0; };
+  // Of places equally near the one ahead: turning takes time, and straight lanes leave no patches between them.
+  const auto& pose = tracker_.startFromRobot();
+  const double ahead_x = std::cos(pose.phi), ahead_y = std::sin(pose.phi);
+  const auto judge = [&](const Cell& cell) {
+    if (map_[cell].searched || map_[cell].blocked()) return -1;
+    const double x = cell.x - start.x, y = cell.y - start.y;
+    return static_cast<int>(kTurn * (1 - (x * ahead_x + y * ahead_y) / std::hypot(x, y)));
+  };
   const auto goal = wavefront_.findGoal(map_, start, kSearchReach, judge);
   if (!goal || *goal == start) return false;
   wavefront_.wayTo(map_, *goal, way_);
@@ -145,21 +148,21 @@ bool Explorer::planToSearch(const Cell& start) {
   return true;
 }
 
-void Explorer::startOver(const Robot&) {
+void Explorer::startOver() {
   map_.reset();
   heat_.reset();
   looked_ = false;
   ++rounds_;
 }
 
-bool Explorer::atGoal(const Robot& robot) const {
+bool Explorer::atGoal() const {
   const Cell& goal = driver_.goal();
-  if (following_) return map_[goal].stood || ringDistance(map_.cellAt(placeOf(robot)), goal) == 0;
+  if (following_) return map_[goal].stood || ringDistance(map_.cellAt(place()), goal) == 0;
   return map_[goal].searched;
 }
 
 bool Explorer::isStuck(const Robot& robot) {
-  const auto& pose = robot.odometry().odom_from_robot;
+  const auto& pose = tracker_.startFromRobot();
   const double moved = std::hypot(pose.x - moved_from_.x, pose.y - moved_from_.y);
   if (moved > map_.cellSize() / 2 || std::abs(mrpt::math::wrapToPi(pose.phi - moved_from_.phi)) > 0.3) {
     moved_from_ = pose;
@@ -169,7 +172,7 @@ bool Explorer::isStuck(const Robot& robot) {
 }
 
 void Explorer::drawBack(Robot& robot) {
-  const auto& pose = robot.odometry().odom_from_robot;
+  const auto& pose = tracker_.startFromRobot();
   const MotionLimits& limits = robot.info().limits;
   // Whatever holds it, the map did not know: it is just ahead.
   const double reach = robot.info().radius_m + map_.cellSize() / 2;

@@ -9,12 +9,13 @@
 #include "maze/maze_map.h"
 #include "maze/obstacles.h"
 #include "maze/path_driver.h"
+#include "maze/pose_tracker.h"
 #include "maze/wavefront.h"
 
 namespace robosim {
 
 /// Drives a robot through a place that it has not seen until it has felt for heat everywhere it can reach, and towards
-/// heat wherever it feels some. It draws its map in the frame of its odometry:
+/// heat wherever it feels some. It draws its map in the frame `start` of its PoseTracker:
 ///  - explore: to the nearest place not yet searched for heat, through whatever is not known to be blocked;
 ///  - follow: where it is warm, to the nearest place about the likely source where it has not stood;
 ///  - when it does not get on: draws back, to a side left to chance, so that two who block each other part;
@@ -39,13 +40,15 @@ class Explorer {
   void plan(const Robot& robot);
   bool planToHeat(const Cell& start);
   bool planToSearch(const Cell& start);
-  void startOver(const Robot& robot);
-  bool atGoal(const Robot& robot) const;
+  void startOver();
+  bool atGoal() const;
   bool isStuck(const Robot& robot);
   void drawBack(Robot& robot);
+  mrpt::math::TPoint2D place() const { return {tracker_.startFromRobot().x, tracker_.startFromRobot().y}; }
 
   ControllerSetup setup_;
   double warm_;
+  PoseTracker tracker_;
   MazeMap map_;
   Obstacles obstacles_;
   HeatTrace heat_;

@@ -6,6 +6,8 @@
 namespace robosim {
 namespace {
 
+constexpr double kReachMost_cells = 40;  // however far the sensor reaches: farther away it tells little, and costs time
+
 /// The radius [m] around the robot within which gold would have been felt, wherever it stands there: what is searched
 /// must leave room for gold that a robot cannot get nearer to than its own radius and the gold's.
 double searchRadius(double range_m, double robot_radius_m) {
@@ -15,12 +17,14 @@ double searchRadius(double range_m, double robot_radius_m) {
 }  // namespace
 
 HeatTrace::HeatTrace(MazeMap& map, double range_m, double robot_radius_m)
-    : map_(map), range_m_(range_m), spacing_m_(std::max(map.cellSize(), range_m / 10)) {
+    : map_(map),
+      range_m_(range_m),
+      spacing_m_(std::max(map.cellSize(), range_m / 10)),
+      reach_cells_(static_cast<int>(std::min<double>(kReachMost_cells, range_m / map.cellSize()))) {
   const double cell_m = map.cellSize();
   const double search_m = searchRadius(range_m, robot_radius_m);
-  const int reach = static_cast<int>(std::min<double>(kReach_cells, range_m / cell_m));
-  for (int y = -reach; y <= reach; ++y) {
-    for (int x = -reach; x <= reach; ++x) {
+  for (int y = -reach_cells_; y <= reach_cells_; ++y) {
+    for (int x = -reach_cells_; x <= reach_cells_; ++x) {
       const double distance_m = std::hypot(x, y) * cell_m;
       if (distance_m >= range_m) continue;
       votes_.push_back({{x, y}, static_cast<float>(1 - distance_m / range_m), distance_m <= search_m});

@@ -32,8 +32,8 @@ class HeatTrace {
   double range() const { return range_m_; }
   void reset() { hottest_.reset(); }
 
-  /// Farther away than this many cells nothing is counted, however far the sensor reaches.
-  static constexpr int kReach_cells = 40;
+  /// Within so many cells of the robot a measurement counts.
+  int reach() const { return reach_cells_; }
 
  private:
   struct Vote {
@@ -48,6 +48,7 @@ class HeatTrace {
 
   MazeMap& map_;
   double range_m_, spacing_m_;
+  int reach_cells_;
   std::vector<Vote> votes_;
   std::optional<Measurement> last_, hottest_;
 };

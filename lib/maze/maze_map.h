@@ -5,7 +5,7 @@
 
 namespace robosim {
 
-/// What a robot has learnt of one place. Frame: its odometry's.
+/// What a robot has learnt of one place. Frame: `start`, that of its PoseTracker.
 struct MapCell {
   std::uint8_t evidence = 0;     ///< that something stands here (Obstacles)
   std::uint8_t walls_near = 0;   ///< cells with something in them so near that the robot would touch it

@@ -8,9 +8,9 @@ namespace robosim {
 namespace {
 
 constexpr int kHit = 4;
-constexpr int kOccupied = 3;      // one echo is enough to keep off
-constexpr int kSure = 8;          // and more than one makes it sure
-constexpr int kMost = 12;         // as many empty looks as are needed to take back what was sure
+constexpr int kOccupied = 3;          // one echo is enough to keep off
+constexpr int kSure = 8;              // and more than one makes it sure
+constexpr int kMost = 12;             // as many empty looks as are needed to take back what was sure
 constexpr double kBerth_radii = 0.5;  // beyond the body
 
 std::vector<Cell> offsetsWithin(double distance_cells) {
@@ -32,19 +32,19 @@ Obstacles::Obstacles(MazeMap& map, double robot_radius_m)
       near_(offsetsWithin(robot_radius_m / map.cellSize())),
       close_(offsetsWithin(robot_radius_m * (1 + kBerth_radii) / map.cellSize() + 1)) {}
 
-void Obstacles::look(const mrpt::math::TPose2D& odom_from_robot, const SensorInfo& sensor, const Echoes& echoes,
+void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorInfo& sensor, const Echoes& echoes,
                      std::size_t stride) {
   const double cell_m = map_.cellSize();
   const double reach_m = kReach_cells * cell_m;
-  const double cos_phi = std::cos(odom_from_robot.phi), sin_phi = std::sin(odom_from_robot.phi);
-  const auto toOdom = [&](double x, double y) {
-    return mrpt::math::TPoint2D(odom_from_robot.x + cos_phi * x - sin_phi * y,
-                                odom_from_robot.y + sin_phi * x + cos_phi * y);
+  const double cos_phi = std::cos(start_from_robot.phi), sin_phi = std::sin(start_from_robot.phi);
+  const auto toStart = [&](double x, double y) {
+    return mrpt::math::TPoint2D(start_from_robot.x + cos_phi * x - sin_phi * y,
+                                start_from_robot.y + sin_phi * x + cos_phi * y);
   };
   for (std::size_t i = 0; i < echoes.size(); i += stride) {
     const auto& mount = sensor.beams[i].robot_from_beam;
-    const mrpt::math::TPoint2D from = toOdom(mount.x, mount.y);
-    const mrpt::math::TPoint2D way = toOdom(echoes[i].point_m.x, echoes[i].point_m.y) - from;
+    const mrpt::math::TPoint2D from = toStart(mount.x, mount.y);
+    const mrpt::math::TPoint2D way = toStart(echoes[i].point_m.x, echoes[i].point_m.y) - from;
     const double length = way.norm();
     if (length <= 0) continue;
     const mrpt::math::TPoint2D step = way * (cell_m / length);

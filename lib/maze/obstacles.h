@@ -18,8 +18,8 @@ class Obstacles {
   /// @param map must outlive this.
   Obstacles(MazeMap& map, double robot_radius_m);
 
-  /// Takes in what a range sensor heard from `odom_from_robot`; only every `stride`-th beam.
-  void look(const mrpt::math::TPose2D& odom_from_robot, const SensorInfo& sensor, const Echoes& echoes,
+  /// Takes in what a range sensor heard from `start_from_robot`; only every `stride`-th beam.
+  void look(const mrpt::math::TPose2D& start_from_robot, const SensorInfo& sensor, const Echoes& echoes,
             std::size_t stride = 1);
   /// Nothing stands where the robot itself is.
   void clearUnder(const mrpt::math::TPoint2D& robot);

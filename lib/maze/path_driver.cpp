@@ -11,21 +11,22 @@
 namespace robosim {
 namespace {
 
-constexpr std::size_t kLookAhead = 8;    // cells
-constexpr std::size_t kWatchAhead = 24;  // cells
+constexpr std::size_t kLookAhead = 8;            // cells
+constexpr std::size_t kLookAheadWhereTight = 2;  // cells
+constexpr std::size_t kWatchAhead = 24;          // cells
 constexpr double kTurnGain_per_s = 2.5;
 constexpr double kTurnOnSpot_rad = 1.0;  // farther off course than this it turns before it drives
 constexpr double kGap_m = 0.05;          // it keeps from what is in front
 
-/// Whether a robot can go straight from one cell to another: none of the cells on the line is blocked.
-bool isClear(const MazeMap& map, const Cell& from, const Cell& to) {
+/// Whether a robot can go straight from one cell to another and keep a berth: walls are close to no cell on the line.
+bool isRoomy(const MazeMap& map, const Cell& from, const Cell& to) {
   const int steps = ringDistance(from, to);
   for (int i = 1; i <= steps; ++i) {
     const auto between = [&](int a, int b) {
       return static_cast<int>(std::lround(a + (b - a) * static_cast<double>(i) / steps));
     };
     const Cell cell{between(from.x, to.x), between(from.y, to.y)};
-    if (map.contains(cell) && map[cell].blocked()) return false;
+    if (map.contains(cell) && map[cell].walls_close > 0) return false;
   }
   return true;
 }
@@ -68,16 +69,16 @@ void PathDriver::advance(const MazeMap& map, const mrpt::math::TPoint2D& robot) 
 
 Cell PathDriver::aim(const MazeMap& map, const Cell& robot) const {
   std::size_t i = std::min(next_ + kLookAhead, way_.size() - 1);
-  while (i > next_ && !isClear(map, robot, way_[i])) --i;
+  const std::size_t nearest = std::min(next_ + kLookAheadWhereTight, way_.size() - 1);
+  while (i > nearest && !isRoomy(map, robot, way_[i])) --i;
   return way_[i];
 }
 
-void PathDriver::drive(Robot& robot, const MazeMap& map) {
-  const auto& pose = robot.odometry().odom_from_robot;
-  const mrpt::math::TPoint2D at(pose.x, pose.y);
+void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot, const MazeMap& map) {
+  const mrpt::math::TPoint2D at(start_from_robot.x, start_from_robot.y);
   advance(map, at);
   const mrpt::math::TPoint2D aim_point = map.center(aim(map, map.cellAt(at)));
-  const double off = mrpt::math::wrapToPi(std::atan2(aim_point.y - at.y, aim_point.x - at.x) - pose.phi);
+  const double off = mrpt::math::wrapToPi(std::atan2(aim_point.y - at.y, aim_point.x - at.x) - start_from_robot.phi);
 
   const MotionLimits& limits = robot.info().limits;
   double speed = 0;

@@ -25,7 +25,7 @@ class PathDriver {
   /// Whether something blocks the way, as the map knows by now.
   bool blocked(const MazeMap& map) const;
   /// Commands the robot for the next step. The way must not be empty.
-  void drive(Robot& robot, const MazeMap& map);
+  void drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot, const MazeMap& map);
 
  private:
   void advance(const MazeMap& map, const mrpt::math::TPoint2D& robot);

@@ -1,0 +1,24 @@
+#pragma once
+#include <optional>
+
+#include <mrpt/math/TPose2D.h>
+
+#include "control/robot.h"
+
+namespace robosim {
+
+/// Where a robot is, from where it started: by wheel odometry, and by compass if it has one, which keeps the heading
+/// from drifting. Frame `start`: the robot's pose at the first update is (0, 0, 0).
+class PoseTracker {
+ public:
+  /// Takes in the odometry's motion since the last update; once a time step.
+  const mrpt::math::TPose2D& update(const Robot& robot);
+  const mrpt::math::TPose2D& startFromRobot() const { return start_from_robot_; }
+
+ private:
+  mrpt::math::TPose2D start_from_robot_;
+  std::optional<mrpt::math::TPose2D> last_odom_from_robot_;
+  double compass_at_start_rad_ = 0;
+};
+
+}  // namespace robosim
