@@ -6,6 +6,7 @@
 
 #include "maze/controllers.h"
 #include "recording/rawlog_writer.h"
+#include "recording/recording_error.h"
 #include "rendering/plan.h"
 #include "robosim/interrupt.h"
 #include "robosim/local_run.h"
@@ -97,7 +98,15 @@ void runWorld(const Arguments& arguments) {
   }
 
   const auto start = Clock::now();
-  const EndedBy ended_by = drive(run, arguments, interrupt, recording.get(), tracks.get());
+  EndedBy ended_by = EndedBy::all_halted;
+  try {
+    ended_by = drive(run, arguments, interrupt, recording.get(), tracks.get());
+  } catch (const RecordingError&) {
+    throw;
+  } catch (...) {
+    if (recording) recording->close();  // what there is of a run that failed is what one wants to look at
+    throw;
+  }
   if (recording) recording->close();
   RunSummary summary = RunSummary::of(run);
   summary.wall_s = std::chrono::duration<double>(Clock::now() - start).count();

@@ -12,18 +12,49 @@ constexpr double kMargin_m = 1e-6;
 
 /// Whether the box reaches into the square cell, by the two axes of the box (those of the cell are covered by its
 /// bounds).
-bool reaches(const OrientedBox& box, const mrpt::math::TPoint2D& cell_center, double half_cell_m) {
-  const auto between = cell_center - box.center;
-  const double shadow = half_cell_m * (std::abs(box.axis.x) + std::abs(box.axis.y)) + kMargin_m;
-  return std::abs(between.x * box.axis.x + between.y * box.axis.y) <= box.half_length_m + shadow &&
-         std::abs(between.y * box.axis.x - between.x * box.axis.y) <= box.half_width_m + shadow;
+bool reaches(const GridItem& box, double center_x, double center_y, double half_cell_m) {
+  const double dx = center_x - box.x;
+  const double dy = center_y - box.y;
+  const double shadow = half_cell_m * (std::abs(box.axis_x) + std::abs(box.axis_y)) + kMargin_m;
+  return std::abs(dx * box.axis_x + dy * box.axis_y) <= box.half_length_m + shadow &&
+         std::abs(dy * box.axis_x - dx * box.axis_y) <= box.half_width_m + shadow;
 }
 
 int cells(double extent_m, double cell_m) {
   return static_cast<int>(std::clamp(std::ceil(extent_m / cell_m), 1.0, 32768.0));
 }
 
+GridItem itemOf(const Solid& solid, std::uint32_t index) {
+  GridItem item;
+  item.heights = solid.heights;
+  item.index = index;
+  if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
+    item.is_circle = true;
+    item.x = circle->center.x;
+    item.y = circle->center.y;
+    item.half_length_m = item.reach_m = circle->radius_m;
+  } else {
+    const auto& box = std::get<OrientedBox>(solid.outline);
+    item.x = box.center.x;
+    item.y = box.center.y;
+    item.axis_x = box.axis.x;
+    item.axis_y = box.axis.y;
+    item.half_length_m = box.half_length_m;
+    item.half_width_m = box.half_width_m;
+    // A little more than it is, so that no rounding makes a ray through a corner seem to pass aside.
+    item.reach_m = std::hypot(box.half_length_m, box.half_width_m) * (1 + 1e-9);
+  }
+  return item;
+}
+
 }  // namespace
+
+Bounds2D GridItem::bounds() const {
+  if (is_circle) return {x - half_length_m, x + half_length_m, y - half_length_m, y + half_length_m};
+  const double half_x = half_length_m * std::abs(axis_x) + half_width_m * std::abs(axis_y);
+  const double half_y = half_length_m * std::abs(axis_y) + half_width_m * std::abs(axis_x);
+  return {x - half_x, x + half_x, y - half_y, y + half_y};
+}
 
 GridIndex::GridIndex(const Bounds2D& area, double cell_m)
     : area_(area),
@@ -33,27 +64,19 @@ GridIndex::GridIndex(const Bounds2D& area, double cell_m)
       rows_(cells(area.y_max - area.y_min, cell_m)),
       begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0) {}
 
-int GridIndex::column(double x) const {
-  return static_cast<int>(std::clamp(std::floor((x - area_.x_min) * per_m_), 0.0, columns_ - 1.0));
-}
-
-int GridIndex::row(double y) const {
-  return static_cast<int>(std::clamp(std::floor((y - area_.y_min) * per_m_), 0.0, rows_ - 1.0));
-}
-
 template <typename Visit>
-void GridIndex::forCells(const Solid& solid, const Visit& visit) const {
-  const Bounds2D reach = boundsOf(solid.outline);
-  const int left = column(reach.x_min - kMargin_m);
-  const int right = column(reach.x_max + kMargin_m);
-  const int bottom = row(reach.y_min - kMargin_m);
-  const int top = row(reach.y_max + kMargin_m);
-  const auto* box = std::get_if<OrientedBox>(&solid.outline);
+void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
+  const Bounds2D bounds = item.bounds();
+  const int left = column(bounds.x_min - kMargin_m);
+  const int right = column(bounds.x_max + kMargin_m);
+  const int bottom = row(bounds.y_min - kMargin_m);
+  const int top = row(bounds.y_max + kMargin_m);
+  const bool in_one = left == right && bottom == top;
   for (int y = bottom; y <= top; ++y) {
     for (int x = left; x <= right; ++x) {
       const bool on_rim = x == 0 || y == 0 || x == columns_ - 1 || y == rows_ - 1;
-      const mrpt::math::TPoint2D center(area_.x_min + (x + 0.5) * cell_m_, area_.y_min + (y + 0.5) * cell_m_);
-      if (!box || on_rim || reaches(*box, center, cell_m_ / 2)) {
+      if (item.is_circle || in_one || on_rim ||
+          reaches(item, area_.x_min + (x + 0.5) * cell_m_, area_.y_min + (y + 0.5) * cell_m_, cell_m_ / 2)) {
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
       }
     }
@@ -61,14 +84,18 @@ void GridIndex::forCells(const Solid& solid, const Visit& visit) const {
 }
 
 void GridIndex::build(std::span<const Solid> solids) {
+  given_.resize(solids.size());
   std::fill(begin_.begin(), begin_.end(), 0);
-  for (const auto& solid : solids) forCells(solid, [&](std::size_t cell) { ++begin_[cell]; });
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    given_[i] = itemOf(solids[i], static_cast<std::uint32_t>(i));
+    forCells(given_[i], [&](std::size_t cell) { ++begin_[cell]; });
+  }
   std::uint32_t sum = 0;
   for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
   items_.resize(sum);
-  // Filled from the back, so that each cell's end becomes its begin and its solids stay in ascending order.
-  for (std::size_t i = solids.size(); i-- > 0;) {
-    forCells(solids[i], [&](std::size_t cell) { items_[--begin_[cell]] = static_cast<std::uint32_t>(i); });
+  // Filled from the back, so that each cell's end becomes its begin and its solids stay in the order given.
+  for (std::size_t i = given_.size(); i-- > 0;) {
+    forCells(given_[i], [&](std::size_t cell) { items_[--begin_[cell]] = given_[i]; });
   }
 }
 

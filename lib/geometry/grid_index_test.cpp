@@ -11,8 +11,9 @@ namespace robosim {
 namespace {
 
 std::vector<std::uint32_t> listed(const GridIndex& grid, int column, int row) {
-  const auto items = grid.cell(column, row);
-  return {items.begin(), items.end()};
+  std::vector<std::uint32_t> indices;
+  for (const auto& item : grid.cell(column, row)) indices.push_back(item.index);
+  return indices;
 }
 
 Outline rectangle(const Bounds2D& b) {

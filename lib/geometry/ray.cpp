@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "geometry/level_ray.h"
+
 namespace robosim {
 namespace {
 
@@ -65,6 +67,22 @@ void clipToOutline(Stretch& stretch, const Ray& ray, const OrientedBox& box) {
                    box.half_width_m);
 }
 
+std::optional<double> intersectLevel(const Ray& ray, const Solid& solid) {
+  if (!solid.heights.contains(ray.origin.z)) return std::nullopt;
+  const TPoint2D origin(ray.origin.x, ray.origin.y);
+  double distance_m = kInfinity;
+  if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
+    const TPoint2D out = circle->center - origin;
+    distance_m = enterCircle(out.x, out.y, ray.direction.x, ray.direction.y, circle->radius_m);
+  } else {
+    const auto& box = std::get<OrientedBox>(solid.outline);
+    const TPoint2D out = box.center - origin;
+    distance_m = enterBox(out.x, out.y, ray.direction.x, ray.direction.y, box.axis.x, box.axis.y, box.half_length_m,
+                          box.half_width_m);
+  }
+  return distance_m < kInfinity ? std::optional(distance_m) : std::nullopt;
+}
+
 }  // namespace
 
 Ray Ray::towards(const mrpt::math::TPoint3D& origin, double azimuth_rad, double elevation_rad) {
@@ -74,6 +92,7 @@ Ray Ray::towards(const mrpt::math::TPoint3D& origin, double azimuth_rad, double 
 }
 
 std::optional<double> intersect(const Ray& ray, const Solid& solid) {
+  if (ray.direction.z == 0) return intersectLevel(ray, solid);
   Stretch stretch{0, kInfinity};
   stretch.clipSlab(ray.origin.z, ray.direction.z, solid.heights.z_min_m, solid.heights.z_max_m);
   if (stretch.from > stretch.to) return std::nullopt;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "geometry/level_ray.h"
+
 namespace robosim {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A cell size at which a cell holds less than one solid on average, and that keeps the grid's memory in proportion.
 double cellFor(const Bounds2D& area, std::size_t solids) {
   const double square_m2 = std::max(1e-6, (area.x_max - area.x_min) * (area.y_max - area.y_min));
-  return std::max(0.25, std::sqrt(square_m2 / (4.0 * static_cast<double>(solids + 4))));
+  return std::max(0.25, std::sqrt(square_m2 / (2.0 * static_cast<double>(solids + 4))));
 }
 
 bool better(double distance_m, BodyId body, const Hit& best) {
@@ -75,21 +77,101 @@ double distanceToCell(const GridIndex& grid, int column, int row, const TPoint2D
   return std::hypot(gap(p.x, grid.xMin(), column, grid.columns()), gap(p.y, grid.yMin(), row, grid.rows()));
 }
 
-void collectNear(const GridIndex& grid, const std::vector<Solid>& solids, std::uint32_t first_body,
-                 const Bounds2D& area, std::vector<BodyId>& found) {
+bool meet(const Bounds2D& a, const Bounds2D& b) {
+  return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
+}
+
+void collectNear(const GridIndex& grid, std::uint32_t first_body, const Bounds2D& area, std::vector<BodyId>& found) {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  for (int row = grid.row(area.y_min); row <= grid.row(area.y_max); ++row) {
-    for (int column = grid.column(area.x_min); column <= grid.column(area.x_max); ++column) {
-      for (const auto i : grid.cell(column, row)) {
-        const Bounds2D b = robosim::boundsOf(solids[i].outline);
-        const bool meets =
-            b.x_min <= area.x_max && area.x_min <= b.x_max && b.y_min <= area.y_max && area.y_min <= b.y_max;
-        if (meets) found.push_back(BodyId(first_body + i));
+  const int right = grid.column(area.x_max);
+  const int top = grid.row(area.y_max);
+  for (int row = grid.row(area.y_min); row <= top; ++row) {
+    for (int column = grid.column(area.x_min); column <= right; ++column) {
+      for (const auto& item : grid.cell(column, row)) {
+        if (meet(item.bounds(), area)) found.push_back(BodyId(first_body + item.index));
       }
     }
   }
   std::sort(found.begin() + begin, found.end());
   found.erase(std::unique(found.begin() + begin, found.end()), found.end());
+}
+
+/// Distance along a level ray to where it enters an item at its height, or infinity.
+double enterLevel(const Ray& ray, const GridItem& item) {
+  const double ox = item.x - ray.origin.x;
+  const double oy = item.y - ray.origin.y;
+  const double dx = ray.direction.x;
+  const double dy = ray.direction.y;
+  // Most items of a cell lie aside of the ray; that is seen without a square root or a division.
+  const double across = dx * oy - dy * ox;
+  if (across * across > item.reach_m * item.reach_m) return kInfinity;
+  if (item.is_circle) return enterCircle(ox, oy, dx, dy, item.half_length_m);
+  return enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+}
+
+/// Marks which bodies a question has looked at already: a body is listed in every cell it reaches into. One for each
+/// thread, for all scenes: a question's mark is a number never used before.
+class Seen {
+ public:
+  static Seen& begin(std::size_t bodies) {
+    static thread_local Seen seen;
+    if (seen.marks_.size() < bodies) seen.marks_.resize(bodies, 0);
+    if (++seen.mark_ == 0) {
+      std::fill(seen.marks_.begin(), seen.marks_.end(), 0);
+      seen.mark_ = 1;
+    }
+    return seen;
+  }
+  bool isFirst(std::uint32_t body) {
+    const bool first = marks_[body] != mark_;
+    marks_[body] = mark_;
+    return first;
+  }
+
+ private:
+  std::vector<std::uint32_t> marks_;
+  std::uint32_t mark_ = 0;
+};
+
+/// Visits the cells around a point, ring by ring outwards, until all that are left lie further than reach() from it.
+template <typename Reach, typename Visit>
+void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach, const Visit& visit) {
+  const int column = grid.column(center.x);
+  const int row = grid.row(center.y);
+  const int last_column = grid.columns() - 1;
+  const int last_row = grid.rows() - 1;
+  visit(column, row);
+  for (int ring = 1;; ++ring) {
+    const int left = column - ring;
+    const int right = column + ring;
+    const int bottom = row - ring;
+    const int top = row + ring;
+    // What this ring and those beyond it cover begins at the border of the square inside it; at the rim nothing is
+    // left.
+    const double to_left = left < 0 ? kInfinity : center.x - (grid.xMin() + (left + 1) * grid.cellSize());
+    const double to_right = right > last_column ? kInfinity : grid.xMin() + right * grid.cellSize() - center.x;
+    const double to_bottom = bottom < 0 ? kInfinity : center.y - (grid.yMin() + (bottom + 1) * grid.cellSize());
+    const double to_top = top > last_row ? kInfinity : grid.yMin() + top * grid.cellSize() - center.y;
+    const double far = std::min(reach(), std::numeric_limits<double>::max());  // so that the rim lies beyond any reach
+    if (std::min({to_left, to_right, to_bottom, to_top}) > far) return;
+    // A side that lies too far is left out; so are a far side's ends of the other two.
+    const int from_x = std::max(0, to_left > far ? left + 1 : left);
+    const int to_x = std::min(last_column, to_right > far ? right - 1 : right);
+    const int from_y = std::max(bottom + 1, 0);
+    const int to_y = std::min(top - 1, last_row);
+    if (to_bottom <= far) {
+      for (int x = from_x; x <= to_x; ++x) visit(x, bottom);
+    }
+    if (to_top <= far) {
+      for (int x = from_x; x <= to_x; ++x) visit(x, top);
+    }
+    if (to_left <= far) {
+      for (int y = from_y; y <= to_y; ++y) visit(left, y);
+    }
+    if (to_right <= far) {
+      for (int y = from_y; y <= to_y; ++y) visit(right, y);
+    }
+  }
 }
 
 }  // namespace
@@ -113,23 +195,41 @@ void Scene::freeze() { moving_index_.build(moving_); }
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
   best.distance_m = range_m;
-  const auto cast = [&](const GridIndex& grid, const std::vector<Solid>& solids, std::uint32_t first_body) {
+  const bool is_level = ray.direction.z == 0;
+  const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
     alongRay(
         grid, ray, [&] { return best.distance_m; },
         [&](int column, int row) {
-          for (const auto i : grid.cell(column, row)) {
-            const BodyId body{first_body + i};
-            if (body == except) continue;
-            const auto met = intersect(ray, solids[i]);
-            if (met && better(*met, body, best)) best = {*met, body, {}};
+          for (const auto& item : grid.cell(column, row)) {
+            const BodyId body{first_body + item.index};
+            if (is_level && !item.heights.contains(ray.origin.z)) continue;
+            const double met = is_level ? enterLevel(ray, item) : intersect(ray, solid(body)).value_or(kInfinity);
+            if (better(met, body, best) && body != except) best = {met, body, {}};
           }
         });
   };
-  cast(stationary_index_, stationary_, 0);
-  cast(moving_index_, moving_, static_cast<std::uint32_t>(stationary_.size()));
+  cast(stationary_index_, 0);
+  cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
   if (!best) return {};
   best.point = ray.at(best.distance_m);
   return best;
+}
+
+void Scene::castRays(RayBatch& batch, BodyId except) const {
+  if (batch.size() == 0) return;
+  Seen& seen = Seen::begin(stationary_.size() + moving_.size());
+  const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
+    outwards(
+        grid, batch.center(), [&] { return batch.reach(); },
+        [&](int column, int row) {
+          for (const auto& item : grid.cell(column, row)) {
+            const std::uint32_t body = first_body + item.index;
+            if (BodyId(body) != except && seen.isFirst(body)) batch.meet(item, body);
+          }
+        });
+  };
+  cast(stationary_index_, 0);
+  cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
 }
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
@@ -137,17 +237,17 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
   best.distance_m = range_m;
   const TPoint2D apex(sector.apex.x, sector.apex.y);
   const Bounds2D reach = boundsOf(sector, range_m);
-  const auto sense = [&](const GridIndex& grid, const std::vector<Solid>& solids, std::uint32_t first_body) {
+  const auto sense = [&](const GridIndex& grid, std::uint32_t first_body) {
     const int right = grid.column(reach.x_max);
     const int top = grid.row(reach.y_max);
     for (int row = grid.row(reach.y_min); row <= top; ++row) {
       for (int column = grid.column(reach.x_min); column <= right; ++column) {
         const auto listed = grid.cell(column, row);
         if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-        for (const auto i : listed) {
-          const BodyId body{first_body + i};
+        for (const auto& item : listed) {
+          const BodyId body{first_body + item.index};
           if (body == except) continue;
-          const auto met = nearestInSector(sector, solids[i]);
+          const auto met = nearestInSector(sector, solid(body));
           if (met && better(met->distance_m, body, best)) {
             best = {met->distance_m, body, {met->point.x, met->point.y, sector.apex.z}};
           }
@@ -155,17 +255,17 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
       }
     }
   };
-  sense(stationary_index_, stationary_, 0);
-  sense(moving_index_, moving_, static_cast<std::uint32_t>(stationary_.size()));
+  sense(stationary_index_, 0);
+  sense(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
   return best ? best : Hit{};
 }
 
 void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  collectNear(stationary_index_, stationary_, 0, area, found);
+  collectNear(stationary_index_, 0, area, found);
 }
 
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  collectNear(moving_index_, moving_, static_cast<std::uint32_t>(stationary_.size()), area, found);
+  collectNear(moving_index_, static_cast<std::uint32_t>(stationary_.size()), area, found);
 }
 
 }  // namespace robosim

@@ -8,6 +8,7 @@
 #include "geometry/grid_index.h"
 #include "geometry/path.h"
 #include "geometry/ray.h"
+#include "geometry/ray_batch.h"
 #include "geometry/sector.h"
 #include "geometry/solid.h"
 
@@ -47,6 +48,9 @@ class Scene {
   Hit castRay(const Ray&, double range_m, BodyId except = kNoBody) const;
   /// The nearest point of any solid inside the sector strictly nearer than `range_m`. A tie goes to the lowest BodyId.
   Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
+
+  /// Casts all rays of a batch, as castRay() would one by one.
+  void castRays(RayBatch& batch, BodyId except = kNoBody) const;
 
   /// Appends the bodies near `area`, in ascending order, each once: all that reach into it, and none whose bounding
   /// rectangle lies beyond it.

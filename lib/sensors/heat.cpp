@@ -28,7 +28,8 @@ class Heat : public Sensor {
         sum += heatAt(options_, source.heat_celsius, (source.center - mrpt::math::TPoint2D(pose.x, pose.y)).norm());
       }
       if (options_.noise_std > 0) sum += options_.noise_std * now.noise(robot, slot).gaussian();
-      readings[robot].measurements[slot] = Scalar{sum};
+      // Single precision, as MRPT's observations keep it: a recorded reading is the reading.
+      readings[robot].measurements[slot] = Scalar{static_cast<float>(sum)};
     }
   }
 
