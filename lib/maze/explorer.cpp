@@ -15,6 +15,7 @@ constexpr int kSearchReach = 100000;      // cost: anywhere
 constexpr int kFollowReach = 400;         // cost: heat is near, but the way to it may lead round some walls
 constexpr int kCloser = 3;                // cost of ending a cell farther from the likely source
 constexpr double kTurn = 4;               // cost of a goal at right angles to the robot's heading
+constexpr double kSliver = 0.3;           // share of a neighbourhood that must be unsearched to be worth a trip
 constexpr std::size_t kLaserBeams = 31;   // that are taken in of a scan
 constexpr std::uint64_t kPlanPause = 3;   // steps between two plans, at least
 constexpr std::uint64_t kLookPause = 10;  // steps between two looks, at most
@@ -137,7 +138,7 @@ bool Explorer::planToSearch(const Cell& start) {
   const auto& pose = tracker_.startFromRobot();
   const double ahead_x = std::cos(pose.phi), ahead_y = std::sin(pose.phi);
   const auto judge = [&](const Cell& cell) {
-    if (map_[cell].searched || map_[cell].blocked()) return -1;
+    if (map_[cell].searched || map_[cell].blocked() || isSliver(cell)) return -1;
     const double x = cell.x - start.x, y = cell.y - start.y;
     return static_cast<int>(kTurn * (1 - (x * ahead_x + y * ahead_y) / std::hypot(x, y)));
   };
@@ -146,6 +147,18 @@ bool Explorer::planToSearch(const Cell& start) {
   wavefront_.wayTo(map_, *goal, way_);
   driver_.follow(way_);
   return true;
+}
+
+bool Explorer::isSliver(const Cell& cell) const {
+  int open = 0, unsearched = 0;
+  for (int y = cell.y - 2; y <= cell.y + 2; ++y) {
+    for (int x = cell.x - 2; x <= cell.x + 2; ++x) {
+      if (!map_.contains({x, y}) || map_[{x, y}].blocked()) continue;
+      ++open;
+      unsearched += map_[{x, y}].searched ? 0 : 1;
+    }
+  }
+  return unsearched < kSliver * open;
 }
 
 void Explorer::startOver() {

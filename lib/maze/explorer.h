@@ -40,6 +40,7 @@ class Explorer {
   void plan(const Robot& robot);
   bool planToHeat(const Cell& start);
   bool planToSearch(const Cell& start);
+  bool isSliver(const Cell& cell) const;
   void startOver();
   bool atGoal() const;
   bool isStuck(const Robot& robot);
