@@ -12,8 +12,9 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kTurnPerChord_rad = 3 * M_PI / 180;
-/// Rounding may make a slide along a wall look like an approach of this much [m] a step; it is no approach.
-constexpr double kSlideTolerance_m = 1e-14;
+/// Rounding may make a slide along a wall look like an approach of this much [m] a step, a kilometre from the origin;
+/// it is no approach. A million steps of nothing but such rounding would use up the contact gap.
+constexpr double kSlideTolerance_m = 1e-12;
 
 double dot(const TPoint2D& a, const TPoint2D& b) { return a.x * b.x + a.y * b.y; }
 
@@ -33,8 +34,7 @@ std::optional<double> enterDisc(const TPoint2D& p, const TPoint2D& d, const TPoi
   const double b = dot(out, d);
   const double c = dot(out, out) - radius * radius;
   if (c < 0) {
-    if (b < -kSlideTolerance_m * out.norm() || (b < 0 && out.norm() == 0)) return 0;
-    return std::nullopt;
+    return b < -kSlideTolerance_m * out.norm() ? std::optional(0.0) : std::nullopt;
   }
   const double a = dot(d, d);
   if (a == 0 || b >= 0) return std::nullopt;

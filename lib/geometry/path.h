@@ -10,9 +10,9 @@ namespace robosim {
 constexpr double kContactGap_m = 1e-6;
 
 /// The way of a disc's centre through one time step: an arc of constant curvature, taken as a chain of chords whose
-/// ends lie on the arc (at most 3° of turn each, so the chord leaves a 1 m arc by less than 0.4 mm). The chords are
-/// what the robot drives: queries on them are exact. Fractions run over the whole step, 0 … 1, in time and length
-/// alike.
+/// ends lie on the arc (at most 3° of turn each, so the chord leaves an arc of 1 m radius by less than 0.4 mm). The
+/// chords are what the robot drives: queries on them are exact. Fractions run over the whole step, 0 … 1, in time and
+/// length alike.
 struct Path {
   mrpt::math::TPose2D world_from_start;
   double length_m = 0;      ///< signed: negative backwards

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sensors/beam_mounts.h"
+#include "sensors/level_beams.h"
 #include "sensors/position_2005.h"
 
 namespace robosim {
@@ -50,7 +51,7 @@ struct Heard {
 
 class Sonar : public Sensor {
  public:
-  explicit Sonar(const SonarOptions& options) : options_(options) {
+  explicit Sonar(const SonarOptions& options) : options_(options), axes_(options.beams) {
     const double half_rad = options.beam_width_rad / 2;
     const auto cone = coneDirections(options.rays, half_rad);
     for (const auto& beam : options.beams) {
@@ -81,15 +82,27 @@ class Sonar : public Sensor {
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
       const RobotFrame frame = now.frameOf(robot);
-      if (options_.noise.range.on) {
-        senseWithNoise(now, robot, slot, frame, echoes);
-      } else {
-        for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = told(i, hear(now, robot, frame, sonars_[i]));
-      }
+      static thread_local std::vector<Heard> heard;
+      hearAll(now, robot, frame, heard);
+      if (options_.noise.range.on) addNoise(now, robot, slot, frame, heard);
+      for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = told(i, heard[i]);
     }
   }
 
  private:
+  void hearAll(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, std::vector<Heard>& heard) const {
+    heard.assign(sonars_.size(), {});
+    if (options_.model == SonarModel::rays && options_.rays == 1) {
+      static thread_local std::vector<Met> met;
+      axes_.cast(now, robot, 0, options_.range_max_m, met);
+      for (std::size_t i = 0; i < met.size(); ++i) {
+        if (met[i].body != kNoBody) heard[i] = {met[i].distance_m, sonars_[i].axis, met[i].body};
+      }
+      return;
+    }
+    for (std::size_t i = 0; i < sonars_.size(); ++i) heard[i] = hear(now, robot, frame, sonars_[i]);
+  }
+
   Heard hear(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, const MountedSonar& sonar) const {
     const TPoint3D origin = frame.pointToWorld(sonar.origin);
     const BodyId self = now.bodyOf(robot);
@@ -121,17 +134,15 @@ class Sonar : public Sensor {
             pointAlong(sonars_[sonar].origin, heard.direction, heard.range_m)};
   }
 
-  void senseWithNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const RobotFrame& frame,
-                      Echoes& echoes) const {
+  void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const RobotFrame& frame,
+                std::vector<Heard>& heard) const {
     Rng rng = now.noise(robot, slot);
     for (std::size_t i = 0; i < sonars_.size(); ++i) {
-      Heard heard = hear(now, robot, frame, sonars_[i]);
-      if (heard.body != kNoBody && mirrorsAway(now, frame, sonars_[i], heard)) heard = {};
+      if (heard[i].body != kNoBody && mirrorsAway(now, frame, sonars_[i], heard[i])) heard[i] = {};
       // Drawn for silence too, so that one sonar's luck does not depend on what another hears.
-      heard.range_m = options_.noise.range.apply(heard.range_m, rng);
-      echoes[i] = told(i, heard);
+      heard[i].range_m = options_.noise.range.apply(heard[i].range_m, rng);
     }
-    if (options_.noise.crosstalk > 0) mixNeighbours(rng, echoes);
+    if (options_.noise.crosstalk > 0) mixNeighbours(rng, heard);
   }
 
   bool mirrorsAway(const Snapshot& now, const RobotFrame& frame, const MountedSonar& sonar, const Heard& heard) const {
@@ -143,21 +154,21 @@ class Sonar : public Sensor {
     return straightness < std::cos(options_.noise.specular_rad);
   }
 
-  void mixNeighbours(Rng& rng, Echoes& echoes) const {
-    const std::size_t n = echoes.size();
+  void mixNeighbours(Rng& rng, std::vector<Heard>& heard) const {
     // Neighbours' echoes as they were, so that an echo does not wander round the ring.
-    std::vector<float> ranges(n);
-    for (std::size_t i = 0; i < n; ++i) ranges[i] = echoes[i].range_m;
+    const std::vector<Heard> own = heard;
+    const std::size_t n = own.size();
     for (std::size_t i = 0; i < n; ++i) {
       const bool mixed = rng.uniform() < options_.noise.crosstalk;
       const std::size_t other = (i + (rng.below(2) ? 1 : n - 1)) % n;
-      if (mixed && ranges[other] < ranges[i]) echoes[i] = told(i, {ranges[other], sonars_[i].axis, kNoBody});
+      if (mixed && own[other].range_m < own[i].range_m) heard[i] = {own[other].range_m, sonars_[i].axis, kNoBody};
     }
   }
 
   SonarOptions options_;
   SensorInfo info_;
   std::vector<MountedSonar> sonars_;
+  LevelBeams axes_;  ///< for the model of one ray a sonar
 };
 
 SonarModel readModel(XmlReader& reader, SonarModel otherwise) {

@@ -1,9 +1,10 @@
 #include "sensors/thin_beams.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "sensors/beam_mounts.h"
+#include "sensors/level_beams.h"
 
 namespace robosim {
 namespace {
@@ -12,37 +13,39 @@ using mrpt::math::TPoint3D;
 
 class ThinBeams : public Sensor {
  public:
-  ThinBeams(const SensorInfo& info, const RangeNoise& noise) : info_(info), noise_(noise) {
-    for (const auto& beam : info.beams) rays_.push_back({originOf(beam), directionOf(beam)});
-  }
+  ThinBeams(const SensorInfo& info, const RangeNoise& noise) : info_(info), noise_(noise), beams_(info.beams) {}
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Echoes(rays_.size()); }
+  Measurement blank() const override { return Echoes(beams_.size()); }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
+    static thread_local std::vector<Met> met;
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
-      const RobotFrame frame = now.frameOf(robot);
-      const RobotFrame pan({0, 0, info_.pans ? now.laser_pan_rad[robot] : 0.0}, 0);
-      const BodyId self = now.bodyOf(robot);
+      const double pan_rad = info_.pans ? now.laser_pan_rad[robot] : 0;
+      beams_.cast(now, robot, pan_rad, info_.range_max_m, met);
+      const RobotFrame pan({0, 0, pan_rad}, 0);
       Rng rng = now.noise(robot, slot);
-      for (std::size_t i = 0; i < rays_.size(); ++i) {
-        const TPoint3D direction = info_.pans ? pan.turnToWorld(rays_[i].direction) : rays_[i].direction;
-        const Ray ray{frame.pointToWorld(rays_[i].origin), frame.turnToWorld(direction)};
-        double range_m = now.scene.castRay(ray, info_.range_max_m, self).distance_m;
-        if (noise_.on) range_m = noise_.apply(range_m, rng);
-        const bool met = static_cast<float>(range_m) < static_cast<float>(info_.range_max_m);
-        const double told_m = met ? std::max(range_m, info_.range_min_m) : info_.no_echo_m;
-        echoes[i] = {static_cast<float>(told_m), pointAlong(rays_[i].origin, direction, met ? range_m : told_m)};
+      for (std::size_t i = 0; i < beams_.size(); ++i) {
+        const double range_m = noise_.on ? noise_.apply(rangeOf(met[i]), rng) : rangeOf(met[i]);
+        const bool heard = static_cast<float>(range_m) < static_cast<float>(info_.range_max_m);
+        const double told_m = heard ? std::max(range_m, info_.range_min_m) : info_.no_echo_m;
+        const TPoint3D direction = info_.pans ? pan.turnToWorld(beams_[i].direction) : beams_[i].direction;
+        echoes[i] = {static_cast<float>(told_m), pointAlong(beams_[i].origin, direction, heard ? range_m : told_m)};
       }
     }
   }
 
  private:
+  /// Infinite for nothing, which no noise brings back.
+  static double rangeOf(const Met& met) {
+    return met.body == kNoBody ? std::numeric_limits<double>::infinity() : met.distance_m;
+  }
+
   SensorInfo info_;
   RangeNoise noise_;
-  std::vector<Ray> rays_;  ///< robot frame, before panning
+  LevelBeams beams_;
 };
 
 }  // namespace
