@@ -215,7 +215,8 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   return best;
 }
 
-void Scene::castRays(RayBatch& batch, BodyId except) const {
+template <typename Batch>
+void Scene::meetAll(Batch& batch, BodyId except) const {
   if (batch.size() == 0) return;
   Seen& seen = Seen::begin(stationary_.size() + moving_.size());
   const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
@@ -231,6 +232,9 @@ void Scene::castRays(RayBatch& batch, BodyId except) const {
   cast(stationary_index_, 0);
   cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
 }
+
+void Scene::castRays(RayBatch& batch, BodyId except) const { meetAll(batch, except); }
+void Scene::senseSectors(SectorBatch& batch, BodyId except) const { meetAll(batch, except); }
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
   Hit best;

@@ -10,6 +10,7 @@
 #include "geometry/ray.h"
 #include "geometry/ray_batch.h"
 #include "geometry/sector.h"
+#include "geometry/sector_batch.h"
 #include "geometry/solid.h"
 
 namespace robosim {
@@ -52,12 +53,19 @@ class Scene {
   /// Casts all rays of a batch, as castRay() would one by one.
   void castRays(RayBatch& batch, BodyId except = kNoBody) const;
 
+  /// Asks all sectors of a batch, as senseSector() would one by one.
+  void senseSectors(SectorBatch& batch, BodyId except = kNoBody) const;
+
   /// Appends the bodies near `area`, in ascending order, each once: all that reach into it, and none whose bounding
   /// rectangle lies beyond it.
   void stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const;
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
+  /// Holds every body that may matter against a batch, the nearest first.
+  template <typename Batch>
+  void meetAll(Batch& batch, BodyId except) const;
+
   std::vector<Solid> stationary_, moving_;
   GridIndex stationary_index_, moving_index_;
   Bounds2D area_;

@@ -62,6 +62,7 @@ class Sonar : public Sensor {
       const RobotFrame turned({0, 0, yaw}, 0);
       for (const auto& ray : cone) sonar.rays.push_back(turned.turnToWorld(ray));
       sonars_.push_back(std::move(sonar));
+      one_height_ = one_height_ && sonars_.back().origin.z == sonars_.front().origin.z;
     }
     info_ = {.kind = SensorKind::sonar,
              .label = options.label,
@@ -100,19 +101,41 @@ class Sonar : public Sensor {
       }
       return;
     }
+    if (options_.model == SonarModel::sector && one_height_) return hearSectors(now, robot, frame, heard);
     for (std::size_t i = 0; i < sonars_.size(); ++i) heard[i] = hear(now, robot, frame, sonars_[i]);
+  }
+
+  void hearSectors(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, std::vector<Heard>& heard) const {
+    static thread_local SectorBatch batch;  // its arrays serve all robots of a thread
+    const TPoint3D center = frame.pointToWorld(TPoint3D(0, 0, sonars_.front().origin.z));
+    batch.begin({center.x, center.y}, center.z, options_.range_max_m);
+    for (const auto& sonar : sonars_) batch.add(sectorOf(frame, sonar));
+    batch.finish();
+    now.scene.senseSectors(batch, now.bodyOf(robot));
+    for (std::size_t i = 0; i < sonars_.size(); ++i) {
+      if (batch.body(i) == SectorBatch::kNothing) continue;
+      const TPoint3D out = frame.turnToRobot(TPoint3D(batch.towards(i).x, batch.towards(i).y, 0));
+      heard[i] = echoFrom(sonars_[i], batch.distance(i), out, BodyId(static_cast<std::uint32_t>(batch.body(i))));
+    }
+  }
+
+  static Sector sectorOf(const RobotFrame& frame, const MountedSonar& sonar) {
+    return {frame.pointToWorld(sonar.origin), frame.turnToWorld(TPoint2D(sonar.axis.x, sonar.axis.y)),
+            frame.turnToWorld(sonar.left), frame.turnToWorld(sonar.right)};
+  }
+
+  /// @param out from the sonar to what it hears, robot frame
+  static Heard echoFrom(const MountedSonar& sonar, double distance_m, const TPoint3D& out, BodyId body) {
+    return {distance_m, distance_m > 0 ? out * (1 / distance_m) : sonar.axis, body};
   }
 
   Heard hear(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, const MountedSonar& sonar) const {
     const TPoint3D origin = frame.pointToWorld(sonar.origin);
     const BodyId self = now.bodyOf(robot);
     if (options_.model == SonarModel::sector) {
-      const Sector sector{origin, frame.turnToWorld(TPoint2D(sonar.axis.x, sonar.axis.y)),
-                          frame.turnToWorld(sonar.left), frame.turnToWorld(sonar.right)};
-      const Hit hit = now.scene.senseSector(sector, options_.range_max_m, self);
+      const Hit hit = now.scene.senseSector(sectorOf(frame, sonar), options_.range_max_m, self);
       if (!hit) return {};
-      const TPoint3D out = frame.turnToRobot(hit.point - origin);
-      return {hit.distance_m, hit.distance_m > 0 ? out * (1 / hit.distance_m) : sonar.axis, hit.body};
+      return echoFrom(sonar, hit.distance_m, frame.turnToRobot(hit.point - origin), hit.body);
     }
     Heard nearest;
     for (const auto& ray : sonar.rays) {
@@ -168,7 +191,8 @@ class Sonar : public Sensor {
   SonarOptions options_;
   SensorInfo info_;
   std::vector<MountedSonar> sonars_;
-  LevelBeams axes_;  ///< for the model of one ray a sonar
+  bool one_height_ = true;  ///< a batch of sectors has one
+  LevelBeams axes_;         ///< for the model of one ray a sonar
 };
 
 SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
