@@ -161,7 +161,7 @@ void benchGold(const Arguments& arguments) {
 void addBenchGold(CLI::App& bench) {
   auto* command = bench.add_subcommand("gold", "How surely and how soon robots find the gold, over many seeded runs");
   auto a = std::make_shared<Arguments>();
-  command->add_option("WORLD", a->worlds, "world files")->required();
+  command->add_option("WORLD", a->worlds, "world files")->type_name("FILE")->required();
   command->add_option("--runs", a->runs, "runs a world, each with the robots at other starts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
@@ -171,13 +171,15 @@ void addBenchGold(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--time", a->time_s, "simulated seconds after which a run is given up")
       ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--step", a->period_s, "length of a time step, seconds")
       ->check(CLI::Range(0.001, 1.0))
+      ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--controller", a->controller, "for all robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
-  command->add_option("--csv", a->csv, "also write a line per run to this file");
+  command->add_option("--csv", a->csv, "also write a line per run to this file")->type_name("FILE");
   command->callback([a] { benchGold(*a); });
 }
 

@@ -138,10 +138,11 @@ void addBenchSpeed(CLI::App& bench) {
       ->check(CLI::Range(1, 10000000))
       ->capture_default_str();
   command->add_option("--workload", a->workloads, "which; may be given several times; all of them without");
-  command->add_option("--threads", a->threads, "")->check(CLI::Range(1, 1024))->capture_default_str();
+  command->add_option("--threads", a->threads, "to step with")->check(CLI::Range(1, 1024))->capture_default_str();
   command->add_option("--seed", a->seed, "of the worlds")->capture_default_str();
   command->add_option("--at-least", a->least_s, "seconds to measure each for")
       ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS")
       ->capture_default_str();
   command->add_flag("--json", a->json, "print one JSON object a line");
   std::string footer = "Workloads:\n";

@@ -142,31 +142,43 @@ void addRun(CLI::App& program) {
   auto* command = program.add_subcommand("run", "Run a world in this process, as fast as it can");
   auto a = std::make_shared<Arguments>();
   auto& environment = a->run.environment;
-  command->add_option("WORLD", a->world, "world file")->required();
-  command->add_option("--record", a->record, "keep the run as an MRPT rawlog in this file");
+  command->add_option("WORLD", a->world, "world file")->type_name("FILE")->required();
+  command->add_option("--record", a->record, "keep the run as an MRPT rawlog in this file")->type_name("FILE");
+  auto format = CLI::CheckedTransformer(
+      std::map<std::string, RawlogFormat>{{"obs", RawlogFormat::observations}, {"sf", RawlogFormat::sensory_frames}});
   command
       ->add_option("--rawlog-format", a->rawlog_format,
                    "obs: observations; sf: pairs of action and sensory frame, one file a robot")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, RawlogFormat>{{"obs", RawlogFormat::observations},
-                                                                              {"sf", RawlogFormat::sensory_frames}}))
+      ->transform(format.description(""))
+      ->type_name("obs|sf")
       ->default_str("obs");
+sf:
+  pairs of action and sensory frame,
+      one file a robot ")
+          ->transform(CLI::CheckedTransformer(std::map<std::string, RawlogFormat>{
+              {"obs", RawlogFormat::observations}, {"sf", RawlogFormat::sensory_frames}}))
+          ->default_str("obs");
   command->add_option("--seed", environment.seed, "of everything that is left to chance")->capture_default_str();
   command
       ->add_option("--time", a->time_s,
                    "simulated seconds after which the run ends; it ends sooner when all robots have halted")
       ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--step", environment.period_s, "length of a time step, seconds")
       ->check(CLI::Range(0.001, 1.0))
+      ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--threads", environment.threads, "the run is the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--speed", a->speed, "simulated seconds per second: a number (1 is real time) or max")
+      ->type_name("X|max")
       ->capture_default_str();
   command->add_option("--controller", a->run.controller, "for all robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
-  command->add_option("--picture", a->picture, "draw the world from above with every robot's path to this PNG file");
+  command->add_option("--picture", a->picture, "draw the world from above with every robot's path to this PNG file")
+      ->type_name("FILE");
   command->add_flag("--json", a->json, "print the summary as one JSON object");
   command->footer(controllersHelp());
   command->callback([a] { runWorld(*a); });
