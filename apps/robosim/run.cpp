@@ -152,12 +152,6 @@ void addRun(CLI::App& program) {
       ->transform(format.description(""))
       ->type_name("obs|sf")
       ->default_str("obs");
-sf:
-  pairs of action and sensory frame,
-      one file a robot ")
-          ->transform(CLI::CheckedTransformer(std::map<std::string, RawlogFormat>{
-              {"obs", RawlogFormat::observations}, {"sf", RawlogFormat::sensory_frames}}))
-          ->default_str("obs");
   command->add_option("--seed", environment.seed, "of everything that is left to chance")->capture_default_str();
   command
       ->add_option("--time", a->time_s,
