@@ -27,7 +27,7 @@ struct Arguments {
   double time_s = 1800;
   std::string speed = "max";
   std::string record;
-  RawlogFormat rawlog_format = RawlogFormat::observations;
+  std::string rawlog_format = "obs";
   std::string picture;
   bool json = false;
 };
@@ -47,7 +47,8 @@ std::unique_ptr<RawlogWriter> openRecording(const Arguments& arguments, const En
   if (arguments.record.empty()) return nullptr;
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
-  return std::make_unique<RawlogWriter>(arguments.record, robots, arguments.rawlog_format);
+  const auto format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations;
+  return std::make_unique<RawlogWriter>(arguments.record, robots, format);
 }
 
 std::string progressText(const LocalRun& run, double wall_s) {
@@ -144,14 +145,11 @@ void addRun(CLI::App& program) {
   auto& environment = a->run.environment;
   command->add_option("WORLD", a->world, "world file")->type_name("FILE")->required();
   command->add_option("--record", a->record, "keep the run as an MRPT rawlog in this file")->type_name("FILE");
-  auto format = CLI::CheckedTransformer(
-      std::map<std::string, RawlogFormat>{{"obs", RawlogFormat::observations}, {"sf", RawlogFormat::sensory_frames}});
   command
       ->add_option("--rawlog-format", a->rawlog_format,
                    "obs: observations; sf: pairs of action and sensory frame, one file a robot")
-      ->transform(format.description(""))
-      ->type_name("obs|sf")
-      ->default_str("obs");
+      ->check(CLI::IsMember({"obs", "sf"}))
+      ->capture_default_str();
   command->add_option("--seed", environment.seed, "of everything that is left to chance")->capture_default_str();
   command
       ->add_option("--time", a->time_s,

@@ -67,7 +67,8 @@ struct Environment::Impl {
   std::vector<Group> groups;
   std::vector<Command> commands;
   std::vector<Path> paths;
-  std::vector<double> base_z_m;
+  std::vector<double> base_z_m;          ///< of each robot's underside
+  std::vector<RobotFrame> frames;        ///< where the robots are now
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
   State state;
 
@@ -82,7 +83,8 @@ struct Environment::Impl {
         digest(fleet.robots.size()),
         groups(groupsOf(fleet)),
         commands(fleet.robots.size()),
-        paths(fleet.robots.size()) {
+        paths(fleet.robots.size()),
+        frames(fleet.robots.size()) {
     const std::size_t n = fleet.robots.size();
     state.time = {0, options.period_s};
     state.world_from_robot.resize(n);
@@ -118,6 +120,7 @@ struct Environment::Impl {
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       Body body = fleet.robots[i].body;
       body.world_from_body = state.world_from_robot[i];
+      frames[i] = RobotFrame(state.world_from_robot[i], base_z_m[i]);
       scene.place(i, body.solid());
     });
     scene.freeze();
@@ -163,7 +166,7 @@ struct Environment::Impl {
     const Snapshot now{.scene = scene,
                        .heat_sources = heat_sources,
                        .world_from_robot = state.world_from_robot,
-                       .base_z_m = base_z_m,
+                       .frames = frames,
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,

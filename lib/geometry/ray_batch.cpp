@@ -109,9 +109,13 @@ void RayBatch::add(const TPoint2D& origin, const TPoint2D& direction) {
 
 void RayBatch::finish() {
   size_ = x_.size();
+  double spread_m2 = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    spread_m_ = std::max(spread_m_, std::hypot(x_[i] - center_.x, y_[i] - center_.y));
+    const double ox = x_[i] - center_.x;
+    const double oy = y_[i] - center_.y;
+    spread_m2 = std::max(spread_m2, ox * ox + oy * oy);
   }
+  spread_m_ = std::sqrt(spread_m2);
   const std::size_t blocks = (size_ + kBlock - 1) / kBlock;
   while (x_.size() < blocks * kBlock) add({x_.back(), y_.back()}, {dx_.back(), dy_.back()});
   distance_.assign(x_.size(), range_m_);
@@ -149,16 +153,14 @@ double RayBatch::reach() const {
 }
 
 void RayBatch::meet(const GridItem& item, std::int64_t body) {
-  if (!item.heights.contains(z_m_)) return;
+  const std::size_t blocks = touched_.size();
+  if (blocks == 1) return meetBlock(item, body, 0);
   const double ox = item.x - center_.x;
   const double oy = item.y - center_.y;
   const double reach_m = item.reach_m + spread_m_;
-  const double nearest_m = std::sqrt(ox * ox + oy * oy) - reach_m;
-  if (nearest_m > range_m_) return;
-  const std::size_t blocks = touched_.size();
-  if (blocks == 1) return meetBlock(item, body, 0);
+  const double nearest_m = std::sqrt(ox * ox + oy * oy) - reach_m - kSlack_m;
   findTouched({middle_x_.data(), middle_y_.data(), cos_.data(), sin_.data(), farthest_.data()}, blocks, ox, oy, reach_m,
-              nearest_m - kSlack_m, touched_.data());
+              nearest_m, touched_.data());
   for (std::size_t block = 0; block < blocks; ++block) {
     if (touched_[block]) meetBlock(item, body, block);
   }

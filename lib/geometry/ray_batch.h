@@ -31,6 +31,13 @@ class RayBatch {
   /// Nothing further than this from the centre can change what is known so far [m].
   double reach() const;
 
+  /// Whether the solid is at their height and within their range, so that meet() is worth its while.
+  bool mayMeet(const GridItem& item) const {
+    const double ox = item.x - center_.x;
+    const double oy = item.y - center_.y;
+    const double far = range_m_ + spread_m_ + item.reach_m;
+    return ox * ox + oy * oy <= far * far && item.heights.contains(z_m_);
+  }
   /// Holds a solid against all rays it may meet.
   void meet(const GridItem& item, std::int64_t body);
 

@@ -225,7 +225,7 @@ void Scene::meetAll(Batch& batch, BodyId except) const {
         [&](int column, int row) {
           for (const auto& item : grid.cell(column, row)) {
             const std::uint32_t body = first_body + item.index;
-            if (BodyId(body) != except && seen.isFirst(body)) batch.meet(item, body);
+            if (batch.mayMeet(item) && BodyId(body) != except && seen.isFirst(body)) batch.meet(item, body);
           }
         });
   };

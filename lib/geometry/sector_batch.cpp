@@ -105,9 +105,13 @@ void SectorBatch::add(const Sector& sector) {
 
 void SectorBatch::finish() {
   size_ = x_.size();
+  double spread_m2 = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    spread_m_ = std::max(spread_m_, std::hypot(x_[i] - center_.x, y_[i] - center_.y));
+    const double ox = x_[i] - center_.x;
+    const double oy = y_[i] - center_.y;
+    spread_m2 = std::max(spread_m2, ox * ox + oy * oy);
   }
+  spread_m_ = std::sqrt(spread_m2);
   const std::size_t padded = (size_ + kBlock - 1) / kBlock * kBlock;
   for (auto* field : {&x_, &y_, &left_x_, &left_y_, &right_x_, &right_y_}) {
     if (size_ > 0) field->resize(padded, field->back());
@@ -125,11 +129,6 @@ double SectorBatch::reach() const {
 }
 
 void SectorBatch::meet(const GridItem& item, std::int64_t body) {
-  if (!item.heights.contains(z_m_)) return;
-  const double ox = item.x - center_.x;
-  const double oy = item.y - center_.y;
-  const double far = range_m_ + spread_m_ + item.reach_m;
-  if (ox * ox + oy * oy > far * far) return;
   const Sectors s{x_.data(),       y_.data(),        left_x_.data(),    left_y_.data(),    right_x_.data(),
                   right_y_.data(), distance_.data(), towards_x_.data(), towards_y_.data(), body_.data()};
   if (item.is_circle) {

@@ -32,7 +32,7 @@ class Bumper : public Sensor {
     const double reach_m = options_.robot_radius_m + options_.travel_m;
     for (const auto robot : robots) {
       auto& pressed = std::get<Contacts>(readings[robot].measurements[slot]).pressed;
-      const RobotFrame frame = now.frameOf(robot);
+      const RobotFrame& frame = now.frames[robot];
       for (std::size_t i = 0; i < sectors_.size(); ++i) {
         const Sector& s = sectors_[i];
         const Sector sector{frame.pointToWorld(s.apex), frame.turnToWorld(s.axis), frame.turnToWorld(s.left),

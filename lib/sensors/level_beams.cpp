@@ -25,7 +25,7 @@ LevelBeams::LevelBeams(const std::vector<Beam>& beams) {
 void LevelBeams::cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m,
                       std::vector<Met>& met) const {
   static thread_local RayBatch batch;  // its arrays serve all robots of a thread
-  const RobotFrame frame = now.frameOf(robot);
+  const RobotFrame& frame = now.frames[robot];
   const double pan_cos = std::cos(pan_rad);
   const double pan_sin = std::sin(pan_rad);
   met.resize(beams_.size());

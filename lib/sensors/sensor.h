@@ -30,6 +30,8 @@ struct Motion {
 /// A robot's frame in the world, its sine and cosine worked out once for all of a robot's beams.
 class RobotFrame {
  public:
+  RobotFrame() = default;
+  /// @param base_z_m height of the frame's origin, the underside of the robot's body
   RobotFrame(const mrpt::math::TPose2D& world_from_robot, double base_z_m);
 
   mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const {
@@ -46,7 +48,7 @@ class RobotFrame {
   }
 
  private:
-  double x_, y_, z_, cos_, sin_;
+  double x_ = 0, y_ = 0, z_ = 0, cos_ = 1, sin_ = 0;
 };
 
 /// The moment that sensors sense: everything stands still. Arrays are indexed by robot, in the world's order.
@@ -54,14 +56,13 @@ struct Snapshot {
   const Scene& scene;
   std::span<const HeatSource> heat_sources;
   std::span<const mrpt::math::TPose2D> world_from_robot;
-  std::span<const double> base_z_m;  ///< height of the robot frame's origin, the underside of its body
+  std::span<const RobotFrame> frames;  ///< the same poses, at the height of the robots' undersides
   std::span<const Motion> last_motion;
   std::span<const float> laser_pan_rad;
   SimTime time;
   std::uint64_t seed = 0;
 
   BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
-  RobotFrame frameOf(std::uint32_t robot) const { return {world_from_robot[robot], base_z_m[robot]}; }
   /// The noise of one sensor of one robot in this step.
   Rng noise(std::uint32_t robot, std::size_t slot) const {
     return Rng(seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), time.step);

@@ -82,7 +82,7 @@ class Sonar : public Sensor {
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
-      const RobotFrame frame = now.frameOf(robot);
+      const RobotFrame& frame = now.frames[robot];
       static thread_local std::vector<Heard> heard;
       hearAll(now, robot, frame, heard);
       if (options_.noise.range.on) addNoise(now, robot, slot, frame, heard);
