@@ -61,7 +61,7 @@ double ProfiledDrive::Axis::next(double speed_now, double period_s) const {
 ProfiledDrive::ProfiledDrive(Robot& robot) : robot_(robot) {
   if (!robot.sensor(SensorKind::odometry)) {
     throw std::invalid_argument("robot '" + robot.name() +
-                                "' has no odometry, by which moves are measured; give its model an <odometry/>");
+                                "' has no odometry, by which moves are measured; add <odometry/> to its model");
   }
   way_.limits = hardwareWay(robot);
   turn_.limits = hardwareTurn(robot);

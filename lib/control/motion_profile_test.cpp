@@ -160,7 +160,7 @@ TEST(ProfiledDrive, SaysWhichRobotHasNoOdometry) {
     FAIL();
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(error.what(),
-                 "robot 'fake' has no odometry, by which moves are measured; give its model an <odometry/>");
+                 "robot 'fake' has no odometry, by which moves are measured; add <odometry/> to its model");
   }
 }
 

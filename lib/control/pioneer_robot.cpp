@@ -230,16 +230,16 @@ void PioneerRobot::turnLaser(double deg) { robot_.panLaser(deg / kDegPerRad); }
 template <typename Accept>
 double PioneerRobot::nearestEcho(const Accept& accept, double if_none) const {
   double nearest = if_none;
-  const auto look = [&](SensorKind kind, const Echoes& echoes) {
-    for (const Echo& echo : echoes) {
+  const auto look = [&](SensorKind kind) {
+    for (const Echo& echo : robot_.echoes(kind)) {
       if (!heard(*robot_.sensor(kind), echo)) continue;
       const double x = echo.point_m.x * kMmPerM, y = echo.point_m.y * kMmPerM;
       const double distance = std::hypot(x, y);
       if (distance < nearest && accept(x, y)) nearest = distance;
     }
   };
-  if (sonar_on_) look(SensorKind::sonar, robot_.sonar());
-  look(SensorKind::laser, robot_.laser());
+  if (sonar_on_) look(SensorKind::sonar);
+  look(SensorKind::laser);
   return nearest;
 }
 

@@ -32,6 +32,8 @@ class Robot {
   const std::vector<std::uint8_t>& bumper() const;
   const Odometry& odometry() const;
   ///@}
+  /// What the first range sensor of a kind heard; the same as sonar(), laser() or infrared().
+  const Echoes& echoes(SensorKind kind) const;
   /// What is known of the first sensor of a kind; null for a robot without one.
   const SensorInfo* sensor(SensorKind kind) const;
   bool stalled() const { return readings().stalled; }
@@ -51,7 +53,6 @@ class Robot {
 
  private:
   std::optional<std::size_t> slot(SensorKind kind) const;
-  const Echoes& echoes(SensorKind kind) const;
   std::optional<double> scalar(SensorKind kind) const;
 
   Hardware& hardware_;

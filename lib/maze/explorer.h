@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "base/random.h"
@@ -18,8 +19,9 @@ namespace robosim {
 /// heat wherever it feels some. It draws its map in the frame `start` of its PoseTracker:
 ///  - explore: to the nearest place not yet searched for heat, through whatever is not known to be blocked;
 ///  - follow: where it is warm, to the nearest place about the likely source where it has not stood;
-///  - when it does not get on: draws back, to a side left to chance, so that two who block each other part;
-///  - when nothing is left to search: drops obstacles that were not sure, then the whole map, and begins again.
+///  - when it does not get on: draws back, and turns by chance, so that two who block each other part;
+///  - when nothing is left to search: drops obstacles that were not sure, waits a little for whoever stands in the way,
+///    and then begins a new map.
 class Explorer {
  public:
   /// @param warm heat from which on it is worth following, above the sensor's noise.
@@ -37,18 +39,23 @@ class Explorer {
 
  private:
   void look(const Robot& robot);
+  void feel(const Robot& robot);
+  bool needsPlan();
   void plan(const Robot& robot);
   bool planToHeat(const Cell& start);
   bool planToSearch(const Cell& start);
+  /// Takes the way to the goal that `judge` likes best (Wavefront::findGoal); false when there is none.
+  template <typename Judge>
+  bool planTo(const Cell& start, int cost_max, const Judge& judge);
   bool isSliver(const Cell& cell) const;
-  void startOver();
   bool atGoal() const;
+  void startOver();
   bool isStuck(const Robot& robot);
   void drawBack(Robot& robot);
   mrpt::math::TPoint2D place() const { return {tracker_.startFromRobot().x, tracker_.startFromRobot().y}; }
 
-  ControllerSetup setup_;
   double warm_;
+  Rng rng_;
   PoseTracker tracker_;
   MazeMap map_;
   Obstacles obstacles_;
@@ -56,22 +63,23 @@ class Explorer {
   Wavefront wavefront_;
   PathDriver driver_;
   std::vector<Cell> way_;
-  Rng rng_;
   int rounds_ = 0;
 
-  bool following_ = false;           ///< heat, rather than exploring
-  std::uint64_t follow_until_ = 0;   ///< step in which it gives up following
-  std::uint64_t explore_until_ = 0;  ///< step until which it does not follow, having given up
-  std::uint64_t planned_step_ = 0;
-  std::uint64_t planned_changes_ = 0;  ///< Obstacles::changes() at the last look at the way
-
+  // Moments are numbers of time steps.
   mrpt::math::TPose2D looked_from_;
-  std::uint64_t looked_step_ = 0;
-  bool looked_ = false;
+  std::uint64_t look_at_ = 0;  ///< it looks again, at the latest
+
+  std::uint64_t plan_from_ = 0;     ///< earliest next plan
+  std::uint64_t seen_changes_ = 0;  ///< Obstacles::changes() at the last look at the way
+  std::optional<std::uint64_t> nothing_left_since_;
+
+  bool following_ = false;  ///< heat, rather than exploring
+  bool source_moved_ = false;
+  std::uint64_t follow_until_ = 0, explore_until_ = 0;
 
   mrpt::math::TPose2D moved_from_;  ///< where it last got on
-  std::uint64_t moved_step_ = 0;
-  std::uint64_t back_until_ = 0;
+  std::uint64_t moved_at_ = 0;
+  std::uint64_t back_until_ = 0;  ///< it draws back
   double back_speed_ = 0, back_turn_ = 0;
 };
 

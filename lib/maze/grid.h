@@ -22,7 +22,7 @@ inline int ringDistance(const Cell& a, const Cell& b) { return std::max(std::abs
 template <typename Value>
 class Grid {
  public:
-  static constexpr int kMaxSide = 1024;
+  static constexpr int kMaxSide = 512;
 
   explicit Grid(double cell_m) : cell_m_(cell_m) {}
 
@@ -79,7 +79,11 @@ class Grid {
     values_.swap(grown);
   }
 
-  void reset() { std::fill(values_.begin(), values_.end(), Value{}); }
+  /// Drops all cells; the next cover() begins anew.
+  void clear() {
+    values_.clear();
+    columns_ = rows_ = 0;
+  }
 
  private:
   /// Widens [low, end) to hold [from, to], by a piece of its own size where it has to.

@@ -6,7 +6,7 @@
 namespace robosim {
 namespace {
 
-constexpr double kReachMost_cells = 40;  // however far the sensor reaches: farther away it tells little, and costs time
+constexpr double kReachMost_cells = 30;  // however far the sensor reaches: farther away it tells little, and costs time
 
 /// The radius [m] around the robot within which gold would have been felt, wherever it stands there: what is searched
 /// must leave room for gold that a robot cannot get nearer to than its own radius and the gold's.
@@ -19,7 +19,6 @@ double searchRadius(double range_m, double robot_radius_m) {
 HeatTrace::HeatTrace(MazeMap& map, double range_m, double robot_radius_m)
     : map_(map),
       range_m_(range_m),
-      spacing_m_(std::max(map.cellSize(), range_m / 10)),
       reach_cells_(static_cast<int>(std::min<double>(kReachMost_cells, range_m / map.cellSize()))) {
   const double cell_m = map.cellSize();
   const double search_m = searchRadius(range_m, robot_radius_m);
@@ -33,7 +32,7 @@ HeatTrace::HeatTrace(MazeMap& map, double range_m, double robot_radius_m)
 }
 
 bool HeatTrace::measure(const mrpt::math::TPoint2D& robot, double heat) {
-  if (last_ && (robot - last_->place).norm() < spacing_m_) return false;
+  if (last_ && (robot - last_->place).norm() < map_.cellSize()) return false;
   last_ = {robot, heat};
   if (!hottest_ ? heat > 0 : heat > hottest_->heat) hottest_ = last_;
   const Cell at = map_.cellAt(robot);
@@ -48,6 +47,11 @@ bool HeatTrace::measure(const mrpt::math::TPoint2D& robot, double heat) {
     here.stood |= std::abs(vote.offset.x) <= 1 && std::abs(vote.offset.y) <= 1;
   }
   return true;
+}
+
+void HeatTrace::reset() {
+  last_.reset();
+  hottest_.reset();
 }
 
 std::optional<HeatTrace::Source> HeatTrace::source() const {

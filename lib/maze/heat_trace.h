@@ -25,12 +25,16 @@ class HeatTrace {
   /// @param map must outlive this.
   HeatTrace(MazeMap& map, double range_m, double robot_radius_m);
 
-  /// Takes in a measurement, unless the last one was taken nearby. @return whether it did.
+  /// Takes in a measurement, unless the last one was taken less than a cell away. @return whether it did.
   bool measure(const mrpt::math::TPoint2D& robot, double heat);
-  /// The cell that best explains the heat, among those within range of the hottest place; nullopt when there was none.
+  /// The cell that best explains the heat, among those within range of the hottest place since the last
+  /// searchFromHere(); nullopt when there was no heat.
   std::optional<Source> source() const;
   double range() const { return range_m_; }
-  void reset() { hottest_.reset(); }
+  /// Looks for the source about the last measurement from now on, whatever was hotter before.
+  void searchFromHere() { hottest_ = last_; }
+  /// Forgets where it measured; the map's cells are the caller's to clear.
+  void reset();
 
   /// Within so many cells of the robot a measurement counts.
   int reach() const { return reach_cells_; }
@@ -47,7 +51,7 @@ class HeatTrace {
   };
 
   MazeMap& map_;
-  double range_m_, spacing_m_;
+  double range_m_;
   int reach_cells_;
   std::vector<Vote> votes_;
   std::optional<Measurement> last_, hottest_;

@@ -7,6 +7,7 @@
 namespace robosim {
 namespace {
 
+constexpr int kReach_cells = 24;  // farther echoes are not taken in: a map needs them seldom, and they cost time
 constexpr int kHit = 4;
 constexpr int kOccupied = 3;          // one echo is enough to keep off
 constexpr int kSure = 8;              // and more than one makes it sure
@@ -65,7 +66,12 @@ void Obstacles::clearUnder(const mrpt::math::TPoint2D& robot) {
   }
 }
 
-void Obstacles::bump(const mrpt::math::TPoint2D& place) { add(map_.cellAt(place), kMost); }
+void Obstacles::bump(const mrpt::math::TPoint2D& place) { add(map_.cellAt(place), kSure - 1); }
+
+int Obstacles::reach() const {
+  // Whoever is near an obstacle must be there when it is counted, or would be counted wrong when it goes.
+  return kReach_cells + 1 + close_.back().y;
+}
 
 void Obstacles::forgetDoubtful() {
   for (std::size_t i = 0; i < map_.size(); ++i) {

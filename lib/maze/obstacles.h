@@ -15,7 +15,7 @@ namespace robosim {
 /// count as free.
 class Obstacles {
  public:
-  /// @param map must outlive this.
+  /// @param map must outlive this, and be changed by nothing else.
   Obstacles(MazeMap& map, double robot_radius_m);
 
   /// Takes in what a range sensor heard from `start_from_robot`; only every `stride`-th beam.
@@ -31,8 +31,8 @@ class Obstacles {
   /// Goes up whenever a cell becomes occupied or free.
   std::uint64_t changes() const { return changes_; }
 
-  /// Echoes farther than this many cells are not taken in: a map needs them seldom, and they cost time.
-  static constexpr int kReach_cells = 24;
+  /// How many cells about the robot the map must have before look().
+  int reach() const;
 
  private:
   void add(const Cell& cell, int evidence);

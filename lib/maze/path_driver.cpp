@@ -16,7 +16,14 @@ constexpr std::size_t kLookAheadWhereTight = 2;  // cells
 constexpr std::size_t kWatchAhead = 24;          // cells
 constexpr double kTurnGain_per_s = 2.5;
 constexpr double kTurnOnSpot_rad = 1.0;  // farther off course than this it turns before it drives
+constexpr double kBendSpeed = 0.5;       // of its highest speed, at the end of a straight piece
 constexpr double kGap_m = 0.05;          // it keeps from what is in front
+
+/// The highest speed from which a robot can brake to `end_mps` within `room_m`, if it begins a step late.
+double brakingSpeed(double room_m, double end_mps, double decel_mps2, double period_s) {
+  const double loss = decel_mps2 * period_s;
+  return std::sqrt(loss * loss + 2 * decel_mps2 * room_m + end_mps * end_mps) - loss;
+}
 
 /// Whether a robot can go straight from one cell to another and keep a berth: walls are close to no cell on the line.
 bool isRoomy(const MazeMap& map, const Cell& from, const Cell& to) {
@@ -33,14 +40,13 @@ bool isRoomy(const MazeMap& map, const Cell& from, const Cell& to) {
 
 }  // namespace
 
-double roomAhead(const Robot& robot) {
+double roomInLane(const Robot& robot, int direction) {
   const double radius = robot.info().radius_m;
   double room = std::numeric_limits<double>::infinity();
-  for (const auto kind : {SensorKind::sonar, SensorKind::laser}) {
+  for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared}) {
     const SensorInfo* sensor = robot.sensor(kind);
-    if (!sensor) continue;
-    for (const Echo& echo : kind == SensorKind::sonar ? robot.sonar() : robot.laser()) {
-      const double x = echo.point_m.x, y = echo.point_m.y;
+    for (const Echo& echo : robot.echoes(kind)) {
+      const double x = direction * echo.point_m.x, y = echo.point_m.y;
       if (x <= 0 || std::abs(y) >= radius || !heard(*sensor, echo)) continue;
       room = std::min(room, x - std::sqrt(radius * radius - y * y));
     }
@@ -80,16 +86,22 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
   const mrpt::math::TPoint2D aim_point = map.center(aim(map, map.cellAt(at)));
   const double off = mrpt::math::wrapToPi(std::atan2(aim_point.y - at.y, aim_point.x - at.x) - start_from_robot.phi);
 
+  const double to_aim = (aim_point - at).norm();
+  const bool at_end = next_ + 1 == way_.size();
+  if (at_end && to_aim < map.cellSize() / 2) {
+    robot.stop();
+    return;
+  }
   const MotionLimits& limits = robot.info().limits;
   double speed = 0;
   if (std::abs(off) < kTurnOnSpot_rad) {
-    const double room = std::max(0.0, roomAhead(robot) - kGap_m);
-    const double period_s = robot.readings().time.period_s;
-    // So slow that it could brake within the room, one step late.
-    const double loss = limits.decel_mps2 * period_s;
-    const double braking = std::sqrt(loss * loss + 2 * limits.decel_mps2 * room) - loss;
+    // So slow that it could brake within the room, and come to the aim with a speed fit for a bend.
+    const double room = std::max(0.0, roomInLane(robot, 1) - kGap_m);
+    const double bend_mps = at_end ? 0 : kBendSpeed * limits.speed_max_mps;
     const double on_course = std::cos(off * M_PI_2 / kTurnOnSpot_rad);
-    speed = std::min(limits.speed_max_mps * on_course, braking);
+    const double period_s = robot.readings().time.period_s;
+    speed = std::min({limits.speed_max_mps * on_course, brakingSpeed(room, 0, limits.decel_mps2, period_s),
+                      brakingSpeed(to_aim, bend_mps, limits.decel_mps2, period_s)});
   }
   robot.drive(speed, std::clamp(kTurnGain_per_s * off, -limits.turn_max_radps, limits.turn_max_radps));
 }

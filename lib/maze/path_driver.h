@@ -8,9 +8,9 @@
 
 namespace robosim {
 
-/// Room [m] that a robot has straight ahead before it touches what its range sensors hear; infinity when nothing is
-/// there.
-double roomAhead(const Robot& robot);
+/// Room [m] that a robot has before it touches what its range sensors hear, straight ahead (`direction` 1) or straight
+/// back (-1); infinity when nothing is there.
+double roomInLane(const Robot& robot, int direction);
 
 /// Drives a robot along a way over a MazeMap: towards a point some way ahead on it that can be reached in a straight
 /// line (pure pursuit), the slower the more it has to turn and the nearer something is in front.

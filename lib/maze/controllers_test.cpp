@@ -1,0 +1,45 @@
+#include "maze/controllers.h"
+
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "base/error_list.h"
+#include "control/fake_hardware.h"
+
+namespace robosim {
+namespace {
+
+TEST(Controllers, AreOnOneList) {
+  EXPECT_EQ(controllerNames(), (std::vector<std::string>{"gold_finder", "wander", "wall_follower", "still"}));
+  for (const auto& type : controllerTypes()) {
+    EXPECT_EQ(std::string(type.help).back(), '.') << type.name;
+  }
+}
+
+TEST(Controllers, AreMadeByName) {
+  for (const auto& name : controllerNames()) {
+    FakeHardware hardware;
+    Robot robot(hardware);
+    const auto controller = makeController(name, {.seed = 1});
+    for (int i = 0; i < 20; ++i) {
+      controller->step(robot);
+      hardware.advance();
+    }
+    const bool moved = hardware.odometry().odom_from_robot != mrpt::math::TPose2D();
+    EXPECT_EQ(moved, name != "still") << name;
+  }
+}
+
+TEST(Controllers, OfUnknownNameAreRefusedWithThoseThereAre) {
+  try {
+    makeController("gold_digger", {});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "there is no controller 'gold_digger'; take one of gold_finder, wander, wall_follower, still");
+  }
+}
+
+}  // namespace
+}  // namespace robosim
