@@ -22,7 +22,7 @@ std::vector<BodyId>& emptyList() {
 }  // namespace
 
 Authority::Authority(std::vector<Mover> movers, const Bounds2D& surface)
-    : movers_(std::move(movers)), surface_(surface), stays_(movers_.size(), 0) {
+    : movers_(std::move(movers)), surface_(surface), has_company_(movers_.size(), 0), stays_(movers_.size(), 0) {
   for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
@@ -32,6 +32,7 @@ void Authority::authorise(const Scene& scene, const Workers& workers, std::span<
   for (const auto& path : paths) length_max_m_ = std::max(length_max_m_, std::abs(path.length_m));
 
   workers.forEach(paths.size(), kChunk, [&](std::size_t i) {
+    has_company_[i] = 0;
     if (paths[i].length_m != 0) clip(scene, i, paths);
   });
   // All pairs are judged on the clipped paths of both before any is shortened further: no order decides.
@@ -42,7 +43,11 @@ void Authority::authorise(const Scene& scene, const Workers& workers, std::span<
   });
 }
 
-void Authority::clip(const Scene& scene, std::size_t robot, std::span<Path> paths) const {
+double Authority::reachOfMeeting(std::size_t robot, const Path& path) const {
+  return movers_[robot].radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
+}
+
+void Authority::clip(const Scene& scene, std::size_t robot, std::span<Path> paths) {
   Path& path = paths[robot];
   const Mover& mover = movers_[robot];
   const double reach_m = mover.radius_m + std::abs(path.length_m) + kContactGap_m;
@@ -57,7 +62,8 @@ void Authority::clip(const Scene& scene, std::size_t robot, std::span<Path> path
   }
 
   bodies.clear();
-  scene.movingNear(around(path.world_from_start, reach_m + radius_max_m_), bodies);
+  scene.movingNear(around(path.world_from_start, reachOfMeeting(robot, path)), bodies);
+  has_company_[robot] = bodies.size() > 1 ? 1 : 0;  // the robot itself is always found
   for (const BodyId body : bodies) {
     const std::size_t other = scene.movingIndex(body);
     if (other == robot || !movers_[other].heights.overlaps(mover.heights)) continue;
@@ -70,11 +76,10 @@ void Authority::clip(const Scene& scene, std::size_t robot, std::span<Path> path
 bool Authority::meetsAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const {
   const Path& path = paths[robot];
   // Against those that stand still, (a) has clipped the path already; and a stay would be no news to one of these.
-  if (path.clippedLength() == 0) return false;
+  if (path.clippedLength() == 0 || !has_company_[robot]) return false;
   const Mover& mover = movers_[robot];
-  const double reach_m = mover.radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
   auto& bodies = emptyList();
-  scene.movingNear(around(path.world_from_start, reach_m), bodies);
+  scene.movingNear(around(path.world_from_start, reachOfMeeting(robot, path)), bodies);
   return std::any_of(bodies.begin(), bodies.end(), [&](BodyId body) {
     const std::size_t other = scene.movingIndex(body);
     return other != robot && paths[other].clippedLength() != 0 && movers_[other].heights.overlaps(mover.heights) &&

@@ -26,13 +26,16 @@ class Authority {
   void authorise(const Scene& scene, const Workers& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
 
  private:
-  void clip(const Scene& scene, std::size_t robot, std::span<Path> paths) const;
+  void clip(const Scene& scene, std::size_t robot, std::span<Path> paths);
+  /// How far from a robot others may be that it could meet in this step [m].
+  double reachOfMeeting(std::size_t robot, const Path& path) const;
   bool meetsAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;
 
   std::vector<Mover> movers_;
   Bounds2D surface_;
   double radius_max_m_ = 0;
-  double length_max_m_ = 0;  ///< of this step's paths
+  double length_max_m_ = 0;                ///< of this step's paths
+  std::vector<std::uint8_t> has_company_;  ///< another robot is near enough to meet
   std::vector<std::uint8_t> stays_;
 };
 

@@ -29,9 +29,9 @@ struct EnvironmentOptions {
 /// A time step:
 ///  1. take each robot's last command;
 ///  2. authorise and move. The rule does not depend on any order: (a) each robot's path is clipped at the first contact
-///     with anything stationary, with the surface's edge, and with where every other robot *started* the step; (b) two robots whose clipped paths
-///     would still touch both stay where they started (they may turn). Then no two bodies overlap. Who was clipped or
-///     stayed is `stalled`;
+///     with anything stationary, with the surface's edge, and with where every other robot *started* the step; (b) two
+///     robots whose clipped paths would still touch both stay where they started (they may turn). Then no two bodies
+///     overlap. Who was clipped or stayed is `stalled`;
 ///  3. deliver the robot messages sent since the last step: by sender (in the world's order), then as sent;
 ///  4. sense, everything from one frozen scene, every robot writing to its own slots only;
 ///  5. the result stands, read-only, for whoever looks (recorder, viewer, server) until the next step.

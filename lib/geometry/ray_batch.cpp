@@ -88,27 +88,16 @@ double largest(const double* block) {
 
 }  // namespace
 
-void RayBatch::begin(const TPoint2D& center, double z_m, double range_m) {
+void RayBatch::begin(const TPoint2D& center, double z_m, double range_m, std::size_t count) {
   center_ = center;
   z_m_ = z_m;
   range_m_ = range_m;
-  spread_m_ = 0;
-  size_ = 0;
-  x_.clear();
-  y_.clear();
-  dx_.clear();
-  dy_.clear();
-}
-
-void RayBatch::add(const TPoint2D& origin, const TPoint2D& direction) {
-  x_.push_back(origin.x);
-  y_.push_back(origin.y);
-  dx_.push_back(direction.x);
-  dy_.push_back(direction.y);
+  size_ = count;
+  const std::size_t padded = (count + kBlock - 1) / kBlock * kBlock;
+  for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(padded);
 }
 
 void RayBatch::finish() {
-  size_ = x_.size();
   double spread_m2 = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     const double ox = x_[i] - center_.x;
@@ -116,8 +105,10 @@ void RayBatch::finish() {
     spread_m2 = std::max(spread_m2, ox * ox + oy * oy);
   }
   spread_m_ = std::sqrt(spread_m2);
-  const std::size_t blocks = (size_ + kBlock - 1) / kBlock;
-  while (x_.size() < blocks * kBlock) add({x_.back(), y_.back()}, {dx_.back(), dy_.back()});
+  const std::size_t blocks = x_.size() / kBlock;
+  for (auto* field : {&x_, &y_, &dx_, &dy_}) {
+    for (std::size_t i = size_; i < field->size(); ++i) (*field)[i] = (*field)[size_ - 1];
+  }
   distance_.assign(x_.size(), range_m_);
   body_.assign(x_.size(), kNothing);
 

@@ -17,12 +17,17 @@ class RayBatch {
   /// kept.
   static constexpr std::int64_t kNothing = -1;
 
-  /// Begins a batch of rays from near `center` at the height `z_m`.
-  void begin(const mrpt::math::TPoint2D& center, double z_m, double range_m);
-  /// Adds a ray from `origin` along the unit vector `direction`, world frame. Rays that are neighbours by direction
+  /// Begins a batch of `count` rays from near `center` at the height `z_m`; set() each of them next.
+  void begin(const mrpt::math::TPoint2D& center, double z_m, double range_m, std::size_t count);
+  /// Ray `i` leads from `origin` along the unit vector `direction`, world frame. Rays that are neighbours by direction
   /// should be neighbours here.
-  void add(const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& direction);
-  /// Call once when all rays are there.
+  void set(std::size_t i, const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& direction) {
+    x_[i] = origin.x;
+    y_[i] = origin.y;
+    dx_[i] = direction.x;
+    dy_[i] = direction.y;
+  }
+  /// Call once when all rays are set.
   void finish();
 
   std::size_t size() const { return size_; }

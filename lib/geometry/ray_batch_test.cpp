@@ -14,8 +14,10 @@ namespace {
 std::string difference(const Scene& scene, const std::vector<Ray>& rays, const mrpt::math::TPoint2D& center,
                        double range_m, BodyId except) {
   RayBatch batch;
-  batch.begin(center, rays.front().origin.z, range_m);
-  for (const auto& ray : rays) batch.add({ray.origin.x, ray.origin.y}, {ray.direction.x, ray.direction.y});
+  batch.begin(center, rays.front().origin.z, range_m, rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    batch.set(i, {rays[i].origin.x, rays[i].origin.y}, {rays[i].direction.x, rays[i].direction.y});
+  }
   batch.finish();
   scene.castRays(batch, except);
   for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -60,7 +62,7 @@ TEST(RayBatch, GivesTheSameBitsAsItsRaysOneByOne) {
 TEST(RayBatch, OfNoRaysAsksNothing) {
   const Scene scene({{Circle{{1, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
   RayBatch batch;
-  batch.begin({0, 0}, 0.5, 5);
+  batch.begin({0, 0}, 0.5, 5, 0);
   batch.finish();
   scene.castRays(batch);
   EXPECT_EQ(batch.size(), 0u);
@@ -70,8 +72,8 @@ TEST(RayBatch, MayBeUsedAgainForOthers) {
   const Scene scene({{Circle{{2, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
   RayBatch batch;
   for (const double x : {0.0, 1.0, -1.0}) {
-    batch.begin({x, 0}, 0.5, 5);
-    batch.add({x, 0}, {1, 0});
+    batch.begin({x, 0}, 0.5, 5, 1);
+    batch.set(0, {x, 0}, {1, 0});
     batch.finish();
     scene.castRays(batch);
     EXPECT_EQ(batch.distance(0), 1.5 - x);

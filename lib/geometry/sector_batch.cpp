@@ -85,26 +85,25 @@ void meetBox(const Sectors& s, std::size_t count, double x, double y, double ux,
 
 }  // namespace
 
-void SectorBatch::begin(const TPoint2D& center, double z_m, double range_m) {
+void SectorBatch::begin(const TPoint2D& center, double z_m, double range_m, std::size_t count) {
   center_ = center;
   z_m_ = z_m;
   range_m_ = range_m;
-  spread_m_ = 0;
-  size_ = 0;
-  for (auto* field : {&x_, &y_, &left_x_, &left_y_, &right_x_, &right_y_}) field->clear();
+  size_ = count;
+  const std::size_t padded = (count + kBlock - 1) / kBlock * kBlock;
+  for (auto* field : {&x_, &y_, &left_x_, &left_y_, &right_x_, &right_y_}) field->resize(padded);
 }
 
-void SectorBatch::add(const Sector& sector) {
-  x_.push_back(sector.apex.x);
-  y_.push_back(sector.apex.y);
-  left_x_.push_back(sector.left.x);
-  left_y_.push_back(sector.left.y);
-  right_x_.push_back(sector.right.x);
-  right_y_.push_back(sector.right.y);
+void SectorBatch::set(std::size_t i, const Sector& sector) {
+  x_[i] = sector.apex.x;
+  y_[i] = sector.apex.y;
+  left_x_[i] = sector.left.x;
+  left_y_[i] = sector.left.y;
+  right_x_[i] = sector.right.x;
+  right_y_[i] = sector.right.y;
 }
 
 void SectorBatch::finish() {
-  size_ = x_.size();
   double spread_m2 = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     const double ox = x_[i] - center_.x;
@@ -112,10 +111,10 @@ void SectorBatch::finish() {
     spread_m2 = std::max(spread_m2, ox * ox + oy * oy);
   }
   spread_m_ = std::sqrt(spread_m2);
-  const std::size_t padded = (size_ + kBlock - 1) / kBlock * kBlock;
   for (auto* field : {&x_, &y_, &left_x_, &left_y_, &right_x_, &right_y_}) {
-    if (size_ > 0) field->resize(padded, field->back());
+    for (std::size_t i = size_; i < field->size(); ++i) (*field)[i] = (*field)[size_ - 1];
   }
+  const std::size_t padded = x_.size();
   distance_.assign(padded, range_m_);
   towards_x_.assign(padded, 0);
   towards_y_.assign(padded, 0);

@@ -14,10 +14,10 @@ class SectorBatch {
   /// What `body` holds for a sector that holds nothing: lower than any body.
   static constexpr std::int64_t kNothing = -1;
 
-  /// Begins a batch of sectors from near `center` at the height `z_m`.
-  void begin(const mrpt::math::TPoint2D& center, double z_m, double range_m);
-  void add(const Sector& sector);
-  /// Call once when all sectors are there.
+  /// Begins a batch of `count` sectors from near `center` at the height `z_m`; set() each of them next.
+  void begin(const mrpt::math::TPoint2D& center, double z_m, double range_m, std::size_t count);
+  void set(std::size_t i, const Sector& sector);
+  /// Call once when all sectors are set.
   void finish();
 
   std::size_t size() const { return size_; }

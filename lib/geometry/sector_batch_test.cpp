@@ -31,12 +31,12 @@ TEST(SectorBatch, AnswersAsItsSectorsOneByOne) {
     const std::size_t count = 1 + rng.below(24);
     std::vector<Sector> sectors;
     SectorBatch batch;
-    batch.begin(center, z_m, range_m);
+    batch.begin(center, z_m, range_m, count);
     for (std::size_t i = 0; i < count; ++i) {
       const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(count);
       const mrpt::math::TPoint3D apex(center.x + ring_m * std::cos(angle), center.y + ring_m * std::sin(angle), z_m);
       sectors.push_back(Sector::towards(apex, angle, rng.uniform(0.01, 1)));
-      batch.add(sectors.back());
+      batch.set(i, sectors.back());
     }
     batch.finish();
     scene.senseSectors(batch, except);
@@ -60,7 +60,7 @@ TEST(SectorBatch, AnswersAsItsSectorsOneByOne) {
 TEST(SectorBatch, OfNoSectorsAsksNothing) {
   const Scene scene({{Circle{{1, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
   SectorBatch batch;
-  batch.begin({0, 0}, 0.5, 5);
+  batch.begin({0, 0}, 0.5, 5, 0);
   batch.finish();
   scene.senseSectors(batch);
   EXPECT_EQ(batch.size(), 0u);

@@ -31,12 +31,13 @@ void LevelBeams::cast(const Snapshot& now, std::uint32_t robot, double pan_rad, 
   met.resize(beams_.size());
   for (const auto& tier : tiers_) {
     const auto middle = frame.pointToWorld(mrpt::math::TPoint3D(tier.middle.x, tier.middle.y, tier.z_m));
-    batch.begin({middle.x, middle.y}, middle.z, range_m);
-    for (const auto i : tier.beams) {
+    batch.begin({middle.x, middle.y}, middle.z, range_m, tier.beams.size());
+    for (std::size_t k = 0; k < tier.beams.size(); ++k) {
+      const std::size_t i = tier.beams[k];
       const auto origin = frame.pointToWorld(beams_[i].origin);
       const auto& ahead = beams_[i].direction;
       const mrpt::math::TPoint2D panned(pan_cos * ahead.x - pan_sin * ahead.y, pan_sin * ahead.x + pan_cos * ahead.y);
-      batch.add({origin.x, origin.y}, frame.turnToWorld(panned));
+      batch.set(k, {origin.x, origin.y}, frame.turnToWorld(panned));
     }
     batch.finish();
     now.scene.castRays(batch, now.bodyOf(robot));

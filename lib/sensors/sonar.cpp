@@ -108,8 +108,8 @@ class Sonar : public Sensor {
   void hearSectors(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, std::vector<Heard>& heard) const {
     static thread_local SectorBatch batch;  // its arrays serve all robots of a thread
     const TPoint3D center = frame.pointToWorld(TPoint3D(0, 0, sonars_.front().origin.z));
-    batch.begin({center.x, center.y}, center.z, options_.range_max_m);
-    for (const auto& sonar : sonars_) batch.add(sectorOf(frame, sonar));
+    batch.begin({center.x, center.y}, center.z, options_.range_max_m, sonars_.size());
+    for (std::size_t i = 0; i < sonars_.size(); ++i) batch.set(i, sectorOf(frame, sonars_[i]));
     batch.finish();
     now.scene.senseSectors(batch, now.bodyOf(robot));
     for (std::size_t i = 0; i < sonars_.size(); ++i) {
