@@ -184,7 +184,7 @@ bool Explorer::atGoal() const {
 }
 
 void Explorer::startOver() {
-  map_.clear();
+  map_.reset();
   heat_.reset();
   driver_.clear();
   nothing_left_since_.reset();

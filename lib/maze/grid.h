@@ -79,10 +79,13 @@ class Grid {
     values_.swap(grown);
   }
 
-  /// Drops all cells; the next cover() begins anew.
-  void clear() {
-    values_.clear();
-    columns_ = rows_ = 0;
+  /// Default Values everywhere. A grid that could not grow any more drops its cells: the next cover() begins anew.
+  void reset() {
+    if (std::max(columns_, rows_) == kMaxSide) {
+      values_.clear();
+      columns_ = rows_ = 0;
+    }
+    std::fill(values_.begin(), values_.end(), Value{});
   }
 
  private:

@@ -63,15 +63,23 @@ TEST(Grid, FindsTheCellOfAnIndex) {
   for (std::size_t i = 0; i < grid.size(); ++i) EXPECT_EQ(grid.index(grid.cell(i)), i);
 }
 
-TEST(Grid, BeginsAnewOnceCleared) {
+TEST(Grid, KeepsItsCellsWithDefaultValuesOnceReset) {
   Grid<int> grid(1);
   grid.cover({0, 0}, {9, 9});
   grid[{1, 1}] = 5;
-  grid.clear();
-  EXPECT_FALSE(grid.contains({1, 1}));
-  grid.cover({1, 1}, {1, 1});
+  grid.reset();
   EXPECT_EQ((grid[{1, 1}]), 0);
-  EXPECT_EQ(grid.size(), 1u);
+  EXPECT_EQ(grid.size(), 100u);
+}
+
+TEST(Grid, BeginsElsewhereOnceResetWhenItWasFull) {
+  Grid<int> grid(1);
+  for (int i = 0; i < 1000; ++i) grid.cover({i, 0}, {i, 0});
+  EXPECT_FALSE(grid.contains({999, 0}));
+  grid.reset();
+  grid.cover({999, 0}, {999, 0});
+  EXPECT_TRUE(grid.contains({999, 0}));
+  EXPECT_FALSE(grid.contains({0, 0}));
 }
 
 }  // namespace

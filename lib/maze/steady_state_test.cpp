@@ -1,0 +1,49 @@
+// Whether controllers ask for memory in each step, once what they keep has its size: this program's operator new
+// counts.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "maze/controllers.h"
+#include "maze/fake_maze.h"
+
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+// Not inline: g++ 12 would see the free() and take it for the wrong way to give back what operator new gave.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace robosim {
+namespace {
+
+TEST(Controllers, AllocateNothingOnceTheyKnowTheirSurroundings) {
+  for (const auto& name : controllerNames()) {
+    FakeMaze maze(FakeMaze::room(-2, 2, -2, 2), {99, 99}, 0);
+    Robot robot(maze.hardware);
+    const auto controller = makeController(name, {.seed = 1});
+    const auto allocationsIn = [&](int steps) {
+      long count = 0;
+      for (int i = 0; i < steps; ++i) {
+        const long before = allocations;
+        controller->step(robot);
+        count += allocations - before;
+        maze.hardware.advance();
+      }
+      return count;
+    };
+    allocationsIn(4000);
+    EXPECT_EQ(allocationsIn(4000), 0) << name;
+  }
+}
+
+}  // namespace
+}  // namespace robosim
