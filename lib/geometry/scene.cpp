@@ -208,8 +208,8 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
           }
         });
   };
-  cast(stationary_index_, 0);
-  cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  if (!stationary_.empty()) cast(stationary_index_, 0);
+  if (!moving_.empty()) cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
   if (!best) return {};
   best.point = ray.at(best.distance_m);
   return best;
@@ -229,8 +229,8 @@ void Scene::meetAll(Batch& batch, BodyId except) const {
           }
         });
   };
-  cast(stationary_index_, 0);
-  cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  if (!stationary_.empty()) cast(stationary_index_, 0);
+  if (!moving_.empty()) cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
 }
 
 void Scene::castRays(RayBatch& batch, BodyId except) const { meetAll(batch, except); }
