@@ -26,7 +26,7 @@ std::span<const ControllerType> controllerTypes() { return kTypes; }
 
 std::vector<std::string> controllerNames() {
   std::vector<std::string> names;
-  for (const ControllerType& type : kTypes) names.push_back(type.name);
+  for (const ControllerType& type : kTypes) names.emplace_back(type.name);
   return names;
 }
 

@@ -52,7 +52,7 @@ TEST(Explorer, SearchesAllThereIsBeforeItBeginsAnew) {
   // Wherever gold could stand, 0.3 m from walls at least, it must have come near enough to feel it (3 m − 2.5 radii).
   std::vector<mrpt::math::TPoint2D> unsearched;
   for (double x = -0.7; x <= 4.7; x += 0.2) {
-    for (double y = -0.7; y <= 2.7; y += 0.2) unsearched.push_back({x, y});
+    for (double y = -0.7; y <= 2.7; y += 0.2) unsearched.emplace_back(x, y);
   }
   for (int i = 0; i < 4000 && search.explorer.rounds() == 0; ++i) {
     search.step();

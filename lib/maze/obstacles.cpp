@@ -38,14 +38,14 @@ void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorIn
   const double cell_m = map_.cellSize();
   const double reach_m = kReach_cells * cell_m;
   const double cos_phi = std::cos(start_from_robot.phi), sin_phi = std::sin(start_from_robot.phi);
-  const auto toStart = [&](double x, double y) {
+  const auto to_start = [&](double x, double y) {
     return mrpt::math::TPoint2D(start_from_robot.x + cos_phi * x - sin_phi * y,
                                 start_from_robot.y + sin_phi * x + cos_phi * y);
   };
   for (std::size_t i = 0; i < echoes.size(); i += stride) {
     const auto& mount = sensor.beams[i].robot_from_beam;
-    const mrpt::math::TPoint2D from = toStart(mount.x, mount.y);
-    const mrpt::math::TPoint2D way = toStart(echoes[i].point_m.x, echoes[i].point_m.y) - from;
+    const mrpt::math::TPoint2D from = to_start(mount.x, mount.y);
+    const mrpt::math::TPoint2D way = to_start(echoes[i].point_m.x, echoes[i].point_m.y) - from;
     const double length = way.norm();
     if (length <= 0) continue;
     const mrpt::math::TPoint2D step = way * (cell_m / length);

@@ -16,7 +16,7 @@ struct WithCompass {
     auto sensors = *hardware.info().sensors;
     sensors.emplace_back().kind = SensorKind::compass;
     hardware.mutableInfo().sensors = std::make_shared<std::vector<SensorInfo>>(sensors);
-    hardware.mutableReadings().measurements.push_back(Scalar{});
+    hardware.mutableReadings().measurements.emplace_back(Scalar{});
   }
   void point(double compass_rad) {
     std::get<Scalar>(hardware.mutableReadings().measurements.back()).value = compass_rad;

@@ -30,7 +30,7 @@ TEST(Controllers, AllocateNothingOnceTheyKnowTheirSurroundings) {
     FakeMaze maze(FakeMaze::room(-2, 2, -2, 2), {99, 99}, 0);
     Robot robot(maze.hardware);
     const auto controller = makeController(name, {.seed = 1});
-    const auto allocationsIn = [&](int steps) {
+    const auto allocations_in = [&](int steps) {
       long count = 0;
       for (int i = 0; i < steps; ++i) {
         const long before = allocations;
@@ -40,8 +40,8 @@ TEST(Controllers, AllocateNothingOnceTheyKnowTheirSurroundings) {
       }
       return count;
     };
-    allocationsIn(4000);
-    EXPECT_EQ(allocationsIn(4000), 0) << name;
+    allocations_in(4000);
+    EXPECT_EQ(allocations_in(4000), 0) << name;
   }
 }
 

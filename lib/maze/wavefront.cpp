@@ -17,7 +17,7 @@ void Wavefront::begin(const MazeMap& map, const Cell& start) {
 }
 
 void Wavefront::spread(const MazeMap& map, const Cell& from, int cost) {
-  for (std::uint8_t i = 0; i < kNeighbours.size(); ++i) {
+  for (std::size_t i = 0; i < kNeighbours.size(); ++i) {
     const Cell cell{from.x + kNeighbours[i].offset.x, from.y + kNeighbours[i].offset.y};
     if (!map.contains(cell)) continue;
     const std::size_t index = map.index(cell);
@@ -31,7 +31,7 @@ void Wavefront::spread(const MazeMap& map, const Cell& from, int cost) {
     }
     Node& node = nodes_[index];
     if (node.search == search_ && node.cost <= total) continue;
-    node = {.search = search_, .cost = total, .from = i, .done = false};
+    node = {.search = search_, .cost = total, .from = static_cast<std::uint8_t>(i), .done = false};
     buckets_[static_cast<std::size_t>(total) % kBuckets].push_back(cell);
     ++waiting_;
   }
