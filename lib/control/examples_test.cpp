@@ -23,11 +23,7 @@ class Bouncer : public Controller {
   void step(Robot& robot) override {
     bool near = false;
     for (const Echo& echo : robot.sonar()) near |= echo.range_m < 0.5 && echo.point_m.x > 0;
-    if (near) {
-      robot.drive(0, 0.8);
-    } else {
-      robot.drive(0.3, 0);
-    }
+    robot.drive(near ? 0 : 0.3, near ? 0.8 : 0);  // m/s, rad/s
   }
 };
 
