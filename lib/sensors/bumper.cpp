@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "geometry/sector_batch.h"
 #include "sensors/beam_mounts.h"
 
 namespace robosim {
@@ -29,16 +30,20 @@ class Bumper : public Sensor {
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
+    static thread_local SectorBatch batch;  // its arrays serve all robots of a thread
     const double reach_m = options_.robot_radius_m + options_.travel_m;
     for (const auto robot : robots) {
       auto& pressed = std::get<Contacts>(readings[robot].measurements[slot]).pressed;
       const RobotFrame& frame = now.frames[robot];
+      const auto center = frame.pointToWorld(sectors_.front().apex);
+      batch.begin({center.x, center.y}, center.z, reach_m, sectors_.size());
       for (std::size_t i = 0; i < sectors_.size(); ++i) {
         const Sector& s = sectors_[i];
-        const Sector sector{frame.pointToWorld(s.apex), frame.turnToWorld(s.axis), frame.turnToWorld(s.left),
-                            frame.turnToWorld(s.right)};
-        pressed[i] = now.scene.senseSector(sector, reach_m, now.bodyOf(robot)) ? 1 : 0;
+        batch.set(i, {center, frame.turnToWorld(s.axis), frame.turnToWorld(s.left), frame.turnToWorld(s.right)});
       }
+      batch.finish();
+      now.scene.senseSectors(batch, now.bodyOf(robot));
+      for (std::size_t i = 0; i < pressed.size(); ++i) pressed[i] = batch.body(i) == SectorBatch::kNothing ? 0 : 1;
     }
   }
 
