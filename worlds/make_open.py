@@ -3,6 +3,7 @@
 import argparse
 import math
 import random
+import sys
 
 from world_text import cube, cylinder, gold, quarter_turn, robots, world
 
@@ -19,11 +20,12 @@ class Scatter:
 
     def place(self, radius):
         room = HALF_WIDTH - WALL - self.gap - radius
-        while True:
+        for _ in range(10000):
             x, y = self.rng.uniform(-room, room), self.rng.uniform(-room, room)
             if all(math.hypot(x - a, y - b) > radius + r + self.gap for a, b, r in self.discs):
                 self.discs.append((x, y, radius))
                 return x, y
+        sys.exit("make_open.py: there is no room for so much; ask for fewer --robots or --things")
 
 
 def main():
