@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <limits>
@@ -7,6 +9,7 @@
 
 #include "environment/start_poses.h"
 #include "maze/controllers.h"
+#include "robosim/arguments.h"
 #include "robosim/interrupt.h"
 #include "robosim/local_run.h"
 #include "robosim/progress.h"
@@ -107,18 +110,20 @@ void writeCsv(std::ofstream& csv, const std::string& file, const std::vector<Run
 
 void benchGold(const Arguments& arguments) {
   std::vector<LoadedWorld> worlds;
-  for (const auto& file : arguments.worlds) worlds.push_back(loadWorld(file, controllerNames()));
-  // Opened before the work, so that an unwritable path costs nobody the wait.
+  for (const auto& file : arguments.worlds) worlds.push_back(loadWorldToRun(file, arguments.controller));
+  for (const auto& file : arguments.worlds) refuseSameFile({{"WORLD", file}, {"--csv", arguments.csv}});
+  // Opened before the work, so that an unwritable path costs nobody the wait; an older file of that name stays until
+  // the end.
+  const std::string unfinished = arguments.csv + ".part";
   std::ofstream csv;
   if (!arguments.csv.empty()) {
-    csv.open(arguments.csv);
+    csv.open(unfinished);
     if (!csv) throw ConfigError(arguments.csv + ": cannot be written; check the folder and its permissions");
   }
 
   const auto runs_per_world = static_cast<std::size_t>(arguments.runs);
   std::vector<RunSummary> runs(worlds.size() * runs_per_world);
   Interrupt interrupt;
-  const auto start = std::chrono::steady_clock::now();
   {
     Progress progress;
     std::mutex progress_mutex;
@@ -131,6 +136,7 @@ void benchGold(const Arguments& arguments) {
     });
   }
   if (interrupt.asked()) {
+    if (csv.is_open()) std::filesystem::remove(unfinished);
     throw std::runtime_error("interrupted before all runs were done; their figures would mislead, so there are none");
   }
 
@@ -141,19 +147,22 @@ void benchGold(const Arguments& arguments) {
   std::cout
       << table(rows)
       << "Times to the gold are simulated; a run without gold counts as never. Way and stalls: all robots of a run.\n";
-  if (csv.is_open()) writeCsv(csv, arguments.csv, runs);
-  // The one figure that differs from time to time goes where the table's readers are not disturbed by it.
-  double simulated_s = 0;
-  double busy_s = 0;
-  for (const auto& run : runs) {
-    simulated_s += run.sim_time_s;
-    busy_s += run.wall_s;
+  if (csv.is_open()) {
+    writeCsv(csv, arguments.csv, runs);
+    csv.close();
+    std::filesystem::rename(unfinished, arguments.csv);
   }
-  const double wall_s = secondsSince(start);
-  std::cerr << "Speed: " << withCommas(static_cast<std::uint64_t>(simulated_s / wall_s))
-            << " simulated seconds per second on " << arguments.threads
-            << (arguments.threads == 1 ? " thread" : " threads") << ", "
-            << withCommas(static_cast<std::uint64_t>(simulated_s / busy_s)) << " per thread.\n";
+  // The figures that differ from time to time go where the table's readers are not disturbed by them.
+  for (std::size_t w = 0; w < worlds.size(); ++w) {
+    double simulated_s = 0;
+    double busy_s = 0;
+    for (const auto& run : std::span(runs).subspan(w * runs_per_world, runs_per_world)) {
+      simulated_s += run.sim_time_s;
+      busy_s += run.wall_s;
+    }
+    std::cerr << worlds[w].world.name << ": " << withCommas(static_cast<std::uint64_t>(simulated_s / busy_s))
+              << " simulated seconds per second on one thread\n";
+  }
 }
 
 }  // namespace
@@ -165,21 +174,23 @@ void addBenchGold(CLI::App& bench) {
   command->add_option("--runs", a->runs, "runs a world, each with the robots at other starts")
       ->check(CLI::Range(1, 1000000))
       ->capture_default_str();
-  command->add_option("--seed", a->seed, "of the first run; the next ones count up")->capture_default_str();
+  command->add_option("--seed", a->seed, "of the first run; the next ones count up")
+      ->check(seedNumber())
+      ->capture_default_str();
   command->add_option("--threads", a->threads, "runs at a time; the table is the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   command->add_option("--time", a->time_s, "simulated seconds after which a run is given up")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(1e-3, 1e9))
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--step", a->period_s, "length of a time step, seconds")
-      ->check(CLI::Range(0.001, 1.0))
+      ->check(numberIn(0.001, 1))
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--controller", a->controller, "for all robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
-  command->add_option("--csv", a->csv, "also write a line per run to this file")->type_name("FILE");
+  command->add_option("--csv", a->csv, "also write a line per run to this file")->type_name("FILE")->check(fileName());
   command->callback([a] { benchGold(*a); });
 }
 

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "robosim/arguments.h"
 #include "robosim/local_run.h"
 #include "robosim/progress.h"
 #include "robosim/subcommands.h"
@@ -139,9 +140,9 @@ void addBenchSpeed(CLI::App& bench) {
       ->capture_default_str();
   command->add_option("--workload", a->workloads, "which; may be given several times; all of them without");
   command->add_option("--threads", a->threads, "to step with")->check(CLI::Range(1, 1024))->capture_default_str();
-  command->add_option("--seed", a->seed, "of the worlds")->capture_default_str();
+  command->add_option("--seed", a->seed, "of the worlds")->check(seedNumber())->capture_default_str();
   command->add_option("--at-least", a->least_s, "seconds to measure each for")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(1e-6, 3600))
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_flag("--json", a->json, "print one JSON object a line");

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "maze/controllers.h"
+#include "robosim/local_run.h"
 #include "robosim/subcommands.h"
 #include "robosim/text.h"
 #include "robots/fleet.h"
@@ -22,8 +23,12 @@ struct Checked {
 };
 
 void checkWorld(const std::string& file, Checked& checked) {
-  const World world = readWorld(file, checked.errors);
-  const Fleet fleet = buildFleet(world, file, robotTypeFolders(file), controllerNames(), checked.errors);
+  LoadedWorld loaded;
+  loaded.world = readWorld(file, checked.errors);
+  loaded.fleet = buildFleet(loaded.world, file, robotTypeFolders(file), controllerNames(), checked.errors);
+  if (checked.errors.empty()) checkControllers(loaded, file, "", checked.errors);
+  const World& world = loaded.world;
+  const Fleet& fleet = loaded.fleet;
   for (const auto& robot : world.robots) checked.robots.push_back(robot.name);
   checked.objects = world.objects.size();
 

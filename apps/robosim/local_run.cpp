@@ -1,18 +1,51 @@
 #include "robosim/local_run.h"
 
+#include <algorithm>
+
 #include "maze/controllers.h"
 
 namespace robosim {
+
+std::string controllerOf(const FleetRobot& robot, const std::string& instead) {
+  if (!instead.empty()) return instead;
+  return robot.controller.empty() ? kDefaultController : robot.controller;
+}
+
+void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
+                      ErrorList& errors) {
+  const std::size_t count = std::min(world.world.robots.size(), world.fleet.robots.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const FleetRobot& robot = world.fleet.robots[i];
+    const std::string name = controllerOf(robot, instead);
+    const auto known = controllerNames();
+    if (std::find(known.begin(), known.end(), name) == known.end()) continue;  // told by buildFleet()
+    for (const SensorKind kind : controllerType(name).needs) {
+      const auto& sensors = *robot.info.sensors;
+      if (std::any_of(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; })) continue;
+      errors.add(world_file, world.world.robots[i].line.number,
+                 "robot '" + robot.info.name + "': its controller " + name + " needs a sensor of the kind " +
+                     nameOf(kind) + "; add one, or take another controller");
+    }
+  }
+}
+
+LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
+  LoadedWorld world = loadWorld(file, controllerNames());
+  ErrorList errors;
+  checkControllers(world, file, instead, errors);
+  errors.throwIfAny();
+  if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+  return world;
+}
 
 LocalRun::LocalRun(LoadedWorld world, const RunOptions& options)
     : environment_(std::move(world.world), std::move(world.fleet), options.environment),
       workers_(options.environment.threads) {
   const auto& robots = environment_.fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const std::string own = robots[i].controller.empty() ? kDefaultController : robots[i].controller;
     const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
-    seats_.push_back(std::make_unique<Seat>(
-        environment_, i, makeController(options.controller.empty() ? own : options.controller, setup)));
+    seats_.push_back(
+        std::make_unique<Seat>(environment_, i, makeController(controllerOf(robots[i], options.controller), setup)));
   }
 }
 

@@ -20,6 +20,19 @@ struct RunOptions {
 /// What a robot runs that neither the world nor the command line gives a controller: the 2005 application.
 constexpr const char* kDefaultController = "gold_finder";
 
+/// What a robot runs.
+/// @param instead for every robot in place of its own; empty for its own
+std::string controllerOf(const FleetRobot& robot, const std::string& instead);
+
+/// Adds to `errors` each robot that lacks a sensor its controller cannot do without. `world_file` names the file in
+/// errors.
+void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
+                      ErrorList& errors);
+
+/// Reads a world that is to be run: as loadWorld(), with checkControllers(), and there must be a robot.
+/// @throws ConfigError with every fault found.
+LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead);
+
 /// When and by whom the gold was found, and when all had stopped; simulated seconds.
 struct GoldOutcome {
   std::optional<std::string> found_by;

@@ -36,6 +36,8 @@ int main(int argc, char** argv) {
   }
   try {
     program.parse(argc, argv);
+    std::cout.flush();
+    if (!std::cout) return fail(robosim::kRunFailed, "standard output could not be written; is the disk full?");
     return robosim::kDone;
   } catch (const CLI::ParseError& error) {
     // Help and version are no errors; everything else that CLI11 refuses is bad input, whatever its own number for it.

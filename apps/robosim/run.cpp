@@ -8,6 +8,7 @@
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
 #include "rendering/plan.h"
+#include "robosim/arguments.h"
 #include "robosim/interrupt.h"
 #include "robosim/local_run.h"
 #include "robosim/progress.h"
@@ -37,8 +38,8 @@ double speedOf(const std::string& text) {
   if (text == "max") return 0;
   char* end = nullptr;
   const double speed = std::strtod(text.c_str(), &end);
-  if (text.empty() || *end != '\0' || !(speed > 0 && speed <= 1e6)) {
-    throw ConfigError("--speed " + text + ": must be 'max' or a number in (0, 1000000]; 1 is real time");
+  if (text.empty() || *end != '\0' || !(speed >= 0.001 && speed <= 1e6)) {
+    throw ConfigError("--speed " + text + ": must be 'max' or a number in [0.001, 1000000]; 1 is real time");
   }
   return speed;
 }
@@ -61,6 +62,15 @@ std::string progressText(const LocalRun& run, double wall_s) {
          " robots active (Ctrl-C ends the run)";
 }
 
+/// Sleeps until then, in short naps, for an interrupt wakes nobody. @return whether nobody asked for the end meanwhile
+bool waitUntil(std::chrono::time_point<Clock, std::chrono::duration<double>> then, const Interrupt& interrupt) {
+  constexpr std::chrono::duration<double> kNap(0.05);
+  while (Clock::now() < then && !interrupt.asked()) {
+    std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(kNap, then - Clock::now()));
+  }
+  return !interrupt.asked();
+}
+
 EndedBy drive(LocalRun& run, const Arguments& arguments, const Interrupt& interrupt, RawlogWriter* recording,
               Tracks* tracks) {
   const double speed = speedOf(arguments.speed);
@@ -77,7 +87,9 @@ EndedBy drive(LocalRun& run, const Arguments& arguments, const Interrupt& interr
     if (interrupt.asked()) return EndedBy::interrupt;
     // Half a step of grace: the limit is meant, not its last digit.
     if (sim_s + run.environment().time().period_s / 2 > arguments.time_s) return EndedBy::time_limit;
-    if (speed > 0) std::this_thread::sleep_until(start + std::chrono::duration<double>(sim_s / speed));
+    if (speed > 0 && !waitUntil(start + std::chrono::duration<double>(sim_s / speed), interrupt)) {
+      return EndedBy::interrupt;
+    }
     run.step();
     observe();
     if (progress.due()) {
@@ -87,10 +99,20 @@ EndedBy drive(LocalRun& run, const Arguments& arguments, const Interrupt& interr
   return EndedBy::all_halted;
 }
 
+/// The picture comes last, so that a disk that is full by now costs nobody the summary; and it was no bad input.
+void draw(const std::string& picture, const Environment& environment, const Tracks& tracks) {
+  try {
+    writePlan(picture, environment.world(), environment.fleet(), tracks.points(), environment.state().world_from_robot);
+  } catch (const ConfigError& error) {
+    throw std::runtime_error(error.what());
+  }
+}
+
 void runWorld(const Arguments& arguments) {
   const Interrupt interrupt;
   speedOf(arguments.speed);  // a slip in an argument is told before the work begins
-  LocalRun run(loadWorld(arguments.world, controllerNames()), arguments.run);
+  refuseSameFile({{"WORLD", arguments.world}, {"--record", arguments.record}, {"--picture", arguments.picture}});
+  LocalRun run(loadWorldToRun(arguments.world, arguments.run.controller), arguments.run);
   auto recording = openRecording(arguments, run.environment());
   std::unique_ptr<Tracks> tracks;
   if (!arguments.picture.empty()) {
@@ -105,7 +127,8 @@ void runWorld(const Arguments& arguments) {
   } catch (const RecordingError&) {
     throw;
   } catch (...) {
-    if (recording) recording->close();  // what there is of a run that failed is what one wants to look at
+    // What there is of a run that failed is what one wants to look at; of one that never began there is nothing.
+    if (recording && run.environment().time().step > 0) recording->close();
     throw;
   }
   if (recording) recording->close();
@@ -114,20 +137,16 @@ void runWorld(const Arguments& arguments) {
   summary.world = arguments.world;
   summary.seed = arguments.run.environment.seed;
   summary.ended_by = ended_by;
-  if (tracks) {
-    const Environment& environment = run.environment();
-    writePlan(arguments.picture, environment.world(), environment.fleet(), tracks->points(),
-              environment.state().world_from_robot);
-  }
   if (arguments.json) {
-    std::cout << summary.json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << '\n';
-    return;
+    std::cout << summary.json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
+  } else {
+    std::cout << summary.text();
+    if (recording) {
+      for (const auto& file : recording->files()) std::cout << "rawlog    " << file.string() << '\n';
+    }
+    if (tracks) std::cout << "picture   " << arguments.picture << std::endl;
   }
-  std::cout << summary.text();
-  if (recording) {
-    for (const auto& file : recording->files()) std::cout << "rawlog    " << file.string() << '\n';
-  }
-  if (tracks) std::cout << "picture   " << arguments.picture << '\n';
+  if (tracks) draw(arguments.picture, run.environment(), *tracks);
 }
 
 std::string controllersHelp() {
@@ -144,21 +163,25 @@ void addRun(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
   auto& environment = a->run.environment;
   command->add_option("WORLD", a->world, "world file")->type_name("FILE")->required();
-  command->add_option("--record", a->record, "keep the run as an MRPT rawlog in this file")->type_name("FILE");
+  command->add_option("--record", a->record, "keep the run as an MRPT rawlog in this file")
+      ->type_name("FILE")
+      ->check(fileName());
   command
       ->add_option("--rawlog-format", a->rawlog_format,
                    "obs: observations; sf: pairs of action and sensory frame, one file a robot")
       ->check(CLI::IsMember({"obs", "sf"}))
       ->capture_default_str();
-  command->add_option("--seed", environment.seed, "of everything that is left to chance")->capture_default_str();
+  command->add_option("--seed", environment.seed, "of everything that is left to chance")
+      ->check(seedNumber())
+      ->capture_default_str();
   command
       ->add_option("--time", a->time_s,
                    "simulated seconds after which the run ends; it ends sooner when all robots have halted")
-      ->check(CLI::PositiveNumber)
+      ->check(numberIn(1e-3, 1e9))
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--step", environment.period_s, "length of a time step, seconds")
-      ->check(CLI::Range(0.001, 1.0))
+      ->check(numberIn(0.001, 1))
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_option("--threads", environment.threads, "the run is the same for any number")
@@ -170,7 +193,8 @@ void addRun(CLI::App& program) {
   command->add_option("--controller", a->run.controller, "for all robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
   command->add_option("--picture", a->picture, "draw the world from above with every robot's path to this PNG file")
-      ->type_name("FILE");
+      ->type_name("FILE")
+      ->check(fileName());
   command->add_flag("--json", a->json, "print the summary as one JSON object");
   command->footer(controllersHelp());
   command->callback([a] { runWorld(*a); });

@@ -139,7 +139,8 @@ int ScoutRobot::gs() {
   State[STATE_COMPASS] = toTenthDegrees(robot_.compass().value_or(0));
   State[STATE_ERROR] = robot_.stalled();
   State[STATE_BUMPER] = 0;
-  for (std::size_t i = 0; i < robot_.bumper().size(); ++i) State[STATE_BUMPER] |= long{robot_.bumper()[i]} << i;
+  const std::size_t bits = std::min<std::size_t>(62, robot_.bumper().size());  // what a long holds besides its sign
+  for (std::size_t i = 0; i < bits; ++i) State[STATE_BUMPER] |= long{robot_.bumper()[i]} << i;
   for (std::size_t i = 0; i < std::min<std::size_t>(16, robot_.infrared().size()); ++i) {
     State[STATE_IR_0 + i] = toTenthInches(robot_.infrared()[i].range_m);
   }

@@ -109,17 +109,23 @@ void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed) {
     heights.z_max_m = std::max(heights.z_max_m, robot.body.heights().z_max_m);
     starts.emplace_back(robot.world_from_start.x, robot.world_from_start.y);
   }
+  const double cells =
+      4 * (world.bounds.x_max - world.bounds.x_min) / radius_m * ((world.bounds.y_max - world.bounds.y_min) / radius_m);
+  if (!(cells < 1e8)) {
+    throw ConfigError("world '" + world.name +
+                      "': is too large for its robots to shuffle their starts; keep its sides below 5,000 robot radii");
+  }
   const Raster raster(world, radius_m, heights);
-  std::vector<std::size_t> cells = raster.reachableFrom(starts);
+  std::vector<std::size_t> free_cells = raster.reachableFrom(starts);
 
   Rng rng(seed, RandomPurpose::start_pose);
   std::vector<TPoint2D> taken;
   for (auto& robot : fleet.robots) {
-    while (!cells.empty()) {
-      const std::size_t draw = rng.below(static_cast<std::uint32_t>(cells.size()));
-      const TPoint2D place = raster.place(cells[draw]);
-      cells[draw] = cells.back();
-      cells.pop_back();
+    while (!free_cells.empty()) {
+      const std::size_t draw = rng.below(static_cast<std::uint32_t>(free_cells.size()));
+      const TPoint2D place = raster.place(free_cells[draw]);
+      free_cells[draw] = free_cells.back();
+      free_cells.pop_back();
       const bool clear = std::none_of(taken.begin(), taken.end(), [&](const TPoint2D& other) {
         return (other - place).norm() < 2 * radius_m + kContactGap_m;
       });

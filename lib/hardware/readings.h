@@ -13,8 +13,9 @@
 namespace robosim {
 
 /// One range and where it was met. Single precision, as MRPT's observations keep ranges: a recorded reading is the
-/// reading. Nothing nearer than the sensor's range_max_m: range_m is the sensor's no_echo_m, and the point lies that
-/// far along the beam.
+/// reading. Something nearer than the sensor's range_min_m reads range_min_m, while the point is where it was met.
+/// Nothing nearer than the sensor's range_max_m: range_m is the sensor's no_echo_m, and the point lies that far along
+/// the beam.
 struct Echo {
   float range_m = 0;              ///< from the sensor
   mrpt::math::TPoint3Df point_m;  ///< robot frame

@@ -10,13 +10,21 @@ namespace robosim {
 namespace {
 
 const ControllerType kTypes[] = {
-    {"gold_finder", "Searches a maze that it has not seen for gold, tells its neighbour, and halts.",
+    {"gold_finder",
+     "Searches a maze that it has not seen for gold, tells its neighbour, and halts.",
+     {SensorKind::odometry, SensorKind::heat},
      [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<GoldFinder>(setup); }},
-    {"wander", "Drives about at random and avoids what is near.",
+    {"wander",
+     "Drives about at random and avoids what is near.",
+     {},
      [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<Wander>(setup); }},
-    {"wall_follower", "Follows the wall on its right.",
+    {"wall_follower",
+     "Follows the wall on its right.",
+     {SensorKind::sonar},
      [](const ControllerSetup&) -> std::unique_ptr<Controller> { return std::make_unique<WallFollower>(); }},
-    {"still", "Does nothing.",
+    {"still",
+     "Does nothing.",
+     {},
      [](const ControllerSetup&) -> std::unique_ptr<Controller> { return std::make_unique<Still>(); }},
 };
 
@@ -30,13 +38,17 @@ std::vector<std::string> controllerNames() {
   return names;
 }
 
-std::unique_ptr<Controller> makeController(const std::string& name, const ControllerSetup& setup) {
+const ControllerType& controllerType(const std::string& name) {
   std::string known;
   for (const ControllerType& type : kTypes) {
-    if (name == type.name) return type.make(setup);
+    if (name == type.name) return type;
     known += (known.empty() ? "" : ", ") + std::string(type.name);
   }
   throw ConfigError("there is no controller '" + name + "'; take one of " + known);
+}
+
+std::unique_ptr<Controller> makeController(const std::string& name, const ControllerSetup& setup) {
+  return controllerType(name).make(setup);
 }
 
 }  // namespace robosim

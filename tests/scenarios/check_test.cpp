@@ -1,9 +1,14 @@
 // `robosim check` and `robosim bench gold` as a person runs them.
+#include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "environment/start_poses.h"
+#include "robosim/local_run.h"
 #include "tests/scenarios/program.h"
 
 namespace robosim {
@@ -71,6 +76,47 @@ TEST(BenchGold, PrintsTheSameTableForAnyNumberOfThreads) {
   EXPECT_NE(one.out.find("100.0 %"), std::string::npos) << one.out;
   EXPECT_EQ(textOf(folder / "1.csv"), textOf(folder / "2.csv"));
   EXPECT_EQ(textOf(folder / "1.csv").substr(0, 16), "world,seed,gold_");
+}
+
+TEST(BenchSpeed, PrintsOneObjectALine) {
+  const Ended bench = runProgram("bench speed --robots 5 --robots 20 --at-least 0.001 --json");
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  std::istringstream lines(bench.out);
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const json figures = json::parse(line);
+    for (const char* key :
+         {"workload", "robots", "threads", "robot_steps_per_s", "rays_per_s", "cpu_s_per_robot_step", "peak_rss_mb"}) {
+      EXPECT_TRUE(figures.contains(key)) << key;
+    }
+    EXPECT_GT(figures["robot_steps_per_s"].get<double>(), 0);
+  }
+  EXPECT_EQ(count, 8) << "four workloads, two sizes";
+}
+
+TEST(BenchGold, CountsOnlyGoldThatIsThere) {
+  // Whoever says that it has found gold stands where its heat is felt: within 1.5 m of it in this maze.
+  RunOptions options;
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    options.environment.seed = seed;
+    LoadedWorld world = loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml", "");
+    shuffleStartPoses(world.world, world.fleet, seed);
+    LocalRun run(std::move(world), options);
+    while (!run.gold().all_halted_s && run.environment().time().seconds() < 1800) run.step();
+    ASSERT_TRUE(run.gold().found_by) << "seed " << seed;
+    const Environment& environment = run.environment();
+    for (std::size_t i = 0; i < environment.robotCount(); ++i) {
+      if (environment.state().activity[i] != Activity::found) continue;
+      const auto& at = environment.state().world_from_robot[i];
+      double nearest_m = 1e9;
+      for (const auto& object : environment.world().objects) {
+        if (object.body.heat_celsius == 0) continue;
+        const auto& gold = object.body.world_from_body;
+        nearest_m = std::min(nearest_m, std::hypot(at.x - gold.x, at.y - gold.y));
+      }
+      EXPECT_LT(nearest_m, 1.5) << "seed " << seed;
+    }
+  }
 }
 
 }  // namespace

@@ -75,10 +75,10 @@ Ended StartedProgram::wait() {
   return ended(status_, stem_);
 }
 
-Ended runProgram(const std::string& arguments) {
+Ended runProgram(const std::string& arguments, const std::string& out) {
   const std::string stem = outputStem();
-  const std::string command = "cd '" ROBOSIM_SOURCE_DIR "' && '" ROBOSIM_PROGRAM "' " + arguments + " >'" + stem +
-                              ".out' 2>'" + stem + ".err' </dev/null";
+  const std::string command = "cd '" ROBOSIM_SOURCE_DIR "' && '" ROBOSIM_PROGRAM "' " + arguments + " >'" +
+                              (out.empty() ? stem + ".out" : out) + "' 2>'" + stem + ".err' </dev/null";
   return ended(std::system(command.c_str()), stem);
 }
 

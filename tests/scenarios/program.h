@@ -15,7 +15,8 @@ struct Ended {
 };
 
 /// Runs `robosim ARGUMENTS` (through the shell, from the project's folder) to its end.
-Ended runProgram(const std::string& arguments);
+/// @param out where its standard output goes instead of to Ended::out
+Ended runProgram(const std::string& arguments, const std::string& out = "");
 
 /// A run of the program that goes on beside the test.
 class StartedProgram {

@@ -1,6 +1,7 @@
 // `robosim run` as a person runs it.
 
 #include <cstdlib>
+#include <fstream>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -112,6 +113,16 @@ TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
       {"run worlds/small_maze.xml --controller bogus", "bogus"},
       {"run worlds/small_maze.xml --step 0", "--step"},
       {"run worlds/small_maze.xml --time -5", "--time"},
+      {"run worlds/small_maze.xml --step nan", "--step: nan: must be a number in [0.001, 1]"},
+      {"run worlds/small_maze.xml --time nan", "--time: nan: must be a number in [0.001, 1000000000]"},
+      {"run worlds/small_maze.xml --time inf", "--time"},
+      {"run worlds/small_maze.xml --seed -1", "--seed: -1: must be a whole number"},
+      {"run worlds/small_maze.xml --seed 99999999999999999999", "--seed"},
+      {"run worlds/small_maze.xml --record ''", "--record"},
+      {"run worlds/small_maze.xml --record worlds/../worlds/small_maze.xml", "is both WORLD and --record"},
+      {"run worlds/small_maze.xml --record /tmp/robosim_same.png --picture /tmp/robosim_same.png", "--picture"},
+      {"bench gold worlds/small_maze.xml --csv worlds/small_maze.xml", "is both WORLD and --csv"},
+      {"bench gold worlds/small_maze.xml --time nan", "--time"},
       {"run worlds/small_maze.xml --threads 0", "--threads"},
       {"run worlds/small_maze.xml --speed fast", "--speed fast: must be 'max' or a number"},
       {"run worlds/small_maze.xml --record /no/such/folder/x.rawlog", "/no/such/folder"},
@@ -126,6 +137,38 @@ TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
     EXPECT_NE(run.err.find(mistake.complaint), std::string::npos) << mistake.arguments << "\n" << run.err;
     EXPECT_EQ(run.out, "") << mistake.arguments;
   }
+}
+
+TEST(Run, EndsWhenInterruptedAlsoWhileItWaitsForAVerySlowClock) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  StartedProgram run({"run", "worlds/small_maze.xml", "--json", "--speed", "0.001", "--controller", "wander",
+                      "--record", rawlog.string()});
+  while (!std::filesystem::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
+  run.interrupt();
+  EXPECT_EQ(json::parse(run.wait().out)["ended_by"], "interrupt");
+}
+
+TEST(Run, KeepsAnOlderRawlogWhenARobotCannotRunItsController) {
+  const auto folder = emptyFolder();
+  std::ofstream(folder / "blind.xml") << R"(<world><surface>
+    <size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size>
+    <object><shape><robot><cylinder>
+      <name>Blind</name><x>0</x><y>0</y><z>1</z><radius>1</radius><height>2</height>
+    </cylinder></robot></shape></object>
+  </surface></world>)";
+  std::ofstream(folder / "old.rawlog") << "old";
+  const Ended run =
+      runProgram("run '" + (folder / "blind.xml").string() + "' --record '" + (folder / "old.rawlog").string() + "'");
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.err.find("blind.xml:3: robot 'Blind': its controller gold_finder needs a sensor of the kind heat"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(textOf(folder / "old.rawlog"), "old");
+}
+
+TEST(Run, FailsWithCode2WhenItsSummaryCannotBeWritten) {
+  const Ended run = runProgram("run worlds/small_maze.xml --time 1 --json", "/dev/full");
+  EXPECT_EQ(run.exit_code, 2) << run.err;
 }
 
 TEST(Run, FailsWithCode2AndLeavesNoHalfWrittenRawlogWhenTheDiskIsFull) {
