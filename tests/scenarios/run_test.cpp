@@ -114,7 +114,7 @@ TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
       {"run worlds/small_maze.xml --step 0", "--step"},
       {"run worlds/small_maze.xml --time -5", "--time"},
       {"run worlds/small_maze.xml --step nan", "--step: nan: must be a number in [0.001, 1]"},
-      {"run worlds/small_maze.xml --time nan", "--time: nan: must be a number in [0.001, 1000000000]"},
+      {"run worlds/small_maze.xml --time nan", "--time: nan: must be a number in [0.001, 1e+09]"},
       {"run worlds/small_maze.xml --time inf", "--time"},
       {"run worlds/small_maze.xml --seed -1", "--seed: -1: must be a whole number"},
       {"run worlds/small_maze.xml --seed 99999999999999999999", "--seed"},
