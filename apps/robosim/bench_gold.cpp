@@ -95,13 +95,13 @@ std::string quoted(const std::string& cell) {
 }
 
 void writeCsv(std::ofstream& csv, const std::string& file, const std::vector<RunSummary>& runs) {
-  const auto orEmpty = [](const std::optional<double>& s) { return s ? fixed(*s, 3) : ""; };
+  const auto or_empty = [](const std::optional<double>& s) { return s ? fixed(*s, 3) : ""; };
   csv << "world,seed,gold_found,gold_found_by,gold_time_s,all_halted_time_s,sim_time_s,driven_m,stalls,messages,"
          "digest\n";
   for (const auto& run : runs) {
     csv << quoted(run.world) << ',' << run.seed << ',' << (run.gold.found_s ? 1 : 0) << ','
-        << quoted(run.gold.found_by.value_or("")) << ',' << orEmpty(run.gold.found_s) << ','
-        << orEmpty(run.gold.all_halted_s) << ',' << fixed(run.sim_time_s, 3) << ',' << fixed(run.driven_m, 3) << ','
+        << quoted(run.gold.found_by.value_or("")) << ',' << or_empty(run.gold.found_s) << ','
+        << or_empty(run.gold.all_halted_s) << ',' << fixed(run.sim_time_s, 3) << ',' << fixed(run.driven_m, 3) << ','
         << run.stalls << ',' << run.messages << ',' << run.digest << '\n';
   }
   csv.flush();

@@ -181,20 +181,20 @@ TEST(Environment, AcceleratesAndBrakesAsTheModelCan) {
   addDisc(s.world, s.fleet, "a", {0, 0, 0}, 0.25,
           {.speed_max_mps = 0.7, .turn_max_radps = 1, .accel_mps2 = 3, .decel_mps2 = 2, .turn_accel_radps2 = 5});
   auto environment = s.start();
-  const auto speedAfterStep = [&](double wish_mps) {
+  const auto speed_after_step = [&](double wish_mps) {
     environment->setCommand(0, {.speed_mps = wish_mps});
     environment->step();
     return environment->state().speed_mps[0];
   };
-  EXPECT_DOUBLE_EQ(speedAfterStep(9), 0.3);
-  EXPECT_DOUBLE_EQ(speedAfterStep(9), 0.6);
-  EXPECT_DOUBLE_EQ(speedAfterStep(9), 0.7) << "never above its top speed";
-  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0.5);
-  EXPECT_DOUBLE_EQ(speedAfterStep(0.45), 0.45);
-  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0.25);
-  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0.05);
-  EXPECT_DOUBLE_EQ(speedAfterStep(-9), 0) << "it comes to a stand before it reverses";
-  EXPECT_DOUBLE_EQ(speedAfterStep(-9), -0.3);
+  EXPECT_DOUBLE_EQ(speed_after_step(9), 0.3);
+  EXPECT_DOUBLE_EQ(speed_after_step(9), 0.6);
+  EXPECT_DOUBLE_EQ(speed_after_step(9), 0.7) << "never above its top speed";
+  EXPECT_DOUBLE_EQ(speed_after_step(-9), 0.5);
+  EXPECT_DOUBLE_EQ(speed_after_step(0.45), 0.45);
+  EXPECT_DOUBLE_EQ(speed_after_step(-9), 0.25);
+  EXPECT_DOUBLE_EQ(speed_after_step(-9), 0.05);
+  EXPECT_DOUBLE_EQ(speed_after_step(-9), 0) << "it comes to a stand before it reverses";
+  EXPECT_DOUBLE_EQ(speed_after_step(-9), -0.3);
 }
 
 TEST(Environment, BrakesARobotThatHasHaltedAndHoldsItThere) {

@@ -73,7 +73,7 @@ void findTouched(const Cones& cones, std::size_t count, double ox, double oy, do
     // Turning from the cone's middle to its edge brings the ray nearer to the disc's centre by the most it can.
     const double least_across = across * cones.cos[i] - std::abs(along) * cones.sin[i];
     const double most_along = along * cones.cos[i] + across * cones.sin[i];
-    touched[i] = (least_across <= reach) & (most_along >= -reach) & (nearest <= cones.farthest[i]) ? 1 : 0;
+    touched[i] = ((least_across <= reach) & (most_along >= -reach) & (nearest <= cones.farthest[i])) ? 1 : 0;
   }
 }
 
