@@ -1,5 +1,6 @@
 #include "robosim/bench_process.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -8,6 +9,8 @@
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+#include "robosim/bench_rounds.h"
 
 namespace robosim {
 namespace {
@@ -45,6 +48,31 @@ Memory Memory::now() {
   getrusage(RUSAGE_SELF, &usage);
   return {pages_resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024),
           static_cast<double>(usage.ru_maxrss) / 1024};
+}
+
+Company::Company() : start_s_(Clocks::now().wall_s), others_s_(othersTime()) {}
+
+double Company::processors() const {
+  return std::max(0.0, othersTime() - others_s_) / std::max(1e-9, Clocks::now().wall_s - start_s_);
+}
+
+long Company::ofProcessors() { return sysconf(_SC_NPROCESSORS_ONLN); }
+
+/// What all programs have used, less what this one and those that it has run and seen end have [s].
+double Company::othersTime() {
+  std::ifstream stat("/proc/stat");
+  std::string name;
+  double user = 0, nice = 0, system = 0, idle = 0, waiting = 0, interrupts = 0, soft_interrupts = 0;
+  stat >> name >> user >> nice >> system >> idle >> waiting >> interrupts >> soft_interrupts;
+  double others_s = (user + nice + system + interrupts + soft_interrupts) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  for (const auto who : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage usage{};
+    getrusage(who, &usage);
+    for (const auto& t : {usage.ru_utime, usage.ru_stime}) {
+      others_s -= static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+    }
+  }
+  return others_s;
 }
 
 nlohmann::json inOwnProcess(const std::function<nlohmann::json()>& measure) {

@@ -12,6 +12,19 @@ struct Memory {
   static Memory now();
 };
 
+/// How much other programs have used the machine's processors since this was made.
+class Company {
+ public:
+  Company();
+  double processors() const;  ///< kept busy by others, on average
+  static long ofProcessors();
+
+ private:
+  static double othersTime();
+  double start_s_;
+  double others_s_;
+};
+
 /// Measures in a process of its own, so that neither what was measured before nor its leftover memory matters. Call it
 /// while there is only one thread.
 /// @param measure makes the figures

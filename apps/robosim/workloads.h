@@ -18,7 +18,7 @@ struct Workload {
 
 std::span<const Workload> workloads();
 /// The workload of that name.
-/// @throws ConfigError naming the known ones.
+/// @throws std::invalid_argument
 const Workload& workloadNamed(const std::string& name);
 
 /// A square world for `robots` robots, the same for the same seed: 16 m² of ground, one box or cylinder of 0.2 m … 0.6
