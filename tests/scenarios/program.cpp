@@ -75,11 +75,21 @@ Ended StartedProgram::wait() {
   return ended(status_, stem_);
 }
 
-Ended runProgram(const std::string& arguments, const std::string& out) {
+namespace {
+
+Ended run(const std::string& command, const std::string& out) {
   const std::string stem = outputStem();
-  const std::string command = "cd '" ROBOSIM_SOURCE_DIR "' && '" ROBOSIM_PROGRAM "' " + arguments + " >'" +
-                              (out.empty() ? stem + ".out" : out) + "' 2>'" + stem + ".err' </dev/null";
-  return ended(std::system(command.c_str()), stem);
+  const std::string line = "cd '" ROBOSIM_SOURCE_DIR "' && " + command + " >'" + (out.empty() ? stem + ".out" : out) +
+                           "' 2>'" + stem + ".err' </dev/null";
+  return ended(std::system(line.c_str()), stem);
 }
+
+}  // namespace
+
+Ended runProgram(const std::string& arguments, const std::string& out) {
+  return run("'" ROBOSIM_PROGRAM "' " + arguments, out);
+}
+
+Ended runCommand(const std::string& command) { return run(command, ""); }
 
 }  // namespace robosim

@@ -18,6 +18,9 @@ struct Ended {
 /// @param out where its standard output goes instead of to Ended::out
 Ended runProgram(const std::string& arguments, const std::string& out = "");
 
+/// The same with any command.
+Ended runCommand(const std::string& command);
+
 /// A run of the program that goes on beside the test.
 class StartedProgram {
  public:
