@@ -40,8 +40,8 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) 
   errors.throwIfAny();
   if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
 #ifdef __GLIBC__
-  // Reading a file takes several times the memory of the world that comes of it. It is free by now, but strewn with what
-  // is kept, so that the process would hold on to it.
+  // Reading a file takes several times the memory of the world that comes of it. It is free by now, but strewn with
+  // what is kept, so that the process would hold on to it.
   malloc_trim(0);
 #endif
   return world;
