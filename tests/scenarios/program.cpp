@@ -46,6 +46,7 @@ StartedProgram::StartedProgram(const std::vector<std::string>& arguments) : proc
   std::vector<char*> words{const_cast<char*>(ROBOSIM_PROGRAM)};
   for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
+  std::filesystem::remove(stem_ + ".out");  // of an earlier test run
   process_ = fork();
   if (process_ != 0) return;
   const bool ready = chdir(ROBOSIM_SOURCE_DIR) == 0 && std::freopen((stem_ + ".out").c_str(), "w", stdout) &&
@@ -68,6 +69,8 @@ bool StartedProgram::isRunning() {
 void StartedProgram::interrupt() {
   if (isRunning()) kill(process_, SIGINT);
 }
+
+std::string StartedProgram::outSoFar() const { return textOf(stem_ + ".out"); }
 
 Ended StartedProgram::wait() {
   if (!ended_) waitpid(process_, &status_, 0);

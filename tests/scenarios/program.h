@@ -30,7 +30,8 @@ class StartedProgram {
   StartedProgram& operator=(const StartedProgram&) = delete;
 
   bool isRunning();
-  void interrupt();  ///< as Ctrl-C does
+  void interrupt();  ///< as kill -INT does
+  std::string outSoFar() const;
   Ended wait();
 
  private:
