@@ -16,7 +16,8 @@ class WarmRun {
     const Clocks start = Clocks::now();
     const RunOptions options{.environment = {.seed = seed, .period_s = 0.1, .threads = threads}, .controller = ""};
     run_ = std::make_unique<LocalRun>(make(), options);
-    ready_s_ = Clocks::now().wall_s - start.wall_s;
+    const Clocks ready = Clocks::now();
+    making_ = {ready.wall_s - start.wall_s, ready.cpu_s - start.cpu_s};
     constexpr int kWarmUpSteps = 20;
     for (int i = 0; i < kWarmUpSteps; ++i) run_->step();
     digest_ = run_->environment().digest();
@@ -29,12 +30,12 @@ class WarmRun {
       return static_cast<double>(run->environment().robotCount());
     }};
   }
-  double readyAfter() const { return ready_s_; }  ///< [s] from nothing to where the first step could be taken
+  const Cost& making() const { return making_; }  ///< from nothing to where the first step could be taken
   const std::string& digest() const { return digest_; }
 
  private:
   std::unique_ptr<LocalRun> run_;
-  double ready_s_ = 0;
+  Cost making_;
   std::string digest_;
 };
 
@@ -54,7 +55,7 @@ RobotFigures benchRobots(const RobotLoad& load, std::uint64_t seed, double least
             .threads = load.threads,
             .robot_step = cost,
             .peak_rss_mb = Memory::now().peak_mb,
-            .make_s = run.readyAfter(),
+            .make_s = run.making().wall_s,
             .digest = run.digest()};
   });
 }
@@ -78,7 +79,7 @@ LoadingFigures benchLoading(const Workload& workload, std::size_t robots, std::u
   return inOwnProcess([&]() -> LoadingFigures {
     const Memory before = Memory::now();
     const WarmRun run([&] { return loadWorldToRun(file.get<std::string>(), ""); }, 1, seed);
-    return {.load_s = run.readyAfter(), .rss_growth_mb = Memory::now().resident_mb - before.resident_mb};
+    return {.load = run.making(), .rss_growth_mb = Memory::now().resident_mb - before.resident_mb};
   });
 }
 

@@ -35,10 +35,10 @@ std::vector<Cost> compareRobots(const std::vector<RobotLoad>& loads, std::uint64
 
 /// What it takes to have a world from its file, ready to be stepped.
 struct LoadingFigures {
-  double load_s = 0;
+  Cost load;
   double rss_growth_mb = 0;  ///< what the process held more than before, once some steps had been taken
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadingFigures, load_s, rss_growth_mb)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LoadingFigures, load, rss_growth_mb)
 
 /// Writes the world to a file, and loads that in a process of its own.
 LoadingFigures benchLoading(const Workload& workload, std::size_t robots, std::uint64_t seed);

@@ -194,8 +194,8 @@ SpeedFigures enough() {
   figures.sonar_sector = {{1, 1}, {2.5, 2.5}};
   figures.some_many = {{1, 1}, {1.5, 1.5}};
   figures.one_two = {{1.7, 1}, {1, 1}};
-  figures.some_loaded = {.load_s = 0, .rss_growth_mb = 10};
-  figures.many_loaded = {.load_s = 5, .rss_growth_mb = 10 + 99000 * 2048.0 / (1024 * 1024)};
+  figures.some_loaded = {.load = {}, .rss_growth_mb = 10};
+  figures.many_loaded = {.load = {5, 5}, .rss_growth_mb = 10 + 99000 * 2048.0 / (1024 * 1024)};
   figures.small_run = {.plain = {1.0 / 3000, 1.0 / 3000}, .recorded = {1.3 / 3000, 1.3 / 3000}};
   return figures;
 }
