@@ -20,11 +20,13 @@ bool reaches(const GridItem& box, double center_x, double center_y, double half_
          std::abs(dy * box.axis_x - dx * box.axis_y) <= box.half_width_m + shadow;
 }
 
-int cells(double extent_m, double cell_m) {
+}  // namespace
+
+int cellsIn(double extent_m, double cell_m) {
   return static_cast<int>(std::clamp(std::ceil(extent_m / cell_m), 1.0, 32768.0));
 }
 
-GridItem itemOf(const Solid& solid, std::uint32_t index) {
+GridItem GridItem::from(const Solid& solid, std::uint32_t index) {
   GridItem item;
   item.heights = solid.heights;
   item.index = index;
@@ -32,7 +34,7 @@ GridItem itemOf(const Solid& solid, std::uint32_t index) {
     item.is_circle = true;
     item.x = circle->center.x;
     item.y = circle->center.y;
-    item.half_length_m = item.reach_m = circle->radius_m;
+    item.round_m = item.reach_m = circle->radius_m;
   } else {
     const auto& box = std::get<OrientedBox>(solid.outline);
     item.x = box.center.x;
@@ -47,12 +49,9 @@ GridItem itemOf(const Solid& solid, std::uint32_t index) {
   return item;
 }
 
-}  // namespace
-
 Bounds2D GridItem::bounds() const {
-  if (is_circle) return {x - half_length_m, x + half_length_m, y - half_length_m, y + half_length_m};
-  const double half_x = half_length_m * std::abs(axis_x) + half_width_m * std::abs(axis_y);
-  const double half_y = half_length_m * std::abs(axis_y) + half_width_m * std::abs(axis_x);
+  const double half_x = half_length_m * std::abs(axis_x) + half_width_m * std::abs(axis_y) + round_m;
+  const double half_y = half_length_m * std::abs(axis_y) + half_width_m * std::abs(axis_x) + round_m;
   return {x - half_x, x + half_x, y - half_y, y + half_y};
 }
 
@@ -60,8 +59,8 @@ GridIndex::GridIndex(const Bounds2D& area, double cell_m)
     : area_(area),
       cell_m_(cell_m),
       per_m_(1 / cell_m),
-      columns_(cells(area.x_max - area.x_min, cell_m)),
-      rows_(cells(area.y_max - area.y_min, cell_m)),
+      columns_(cellsIn(area.x_max - area.x_min, cell_m)),
+      rows_(cellsIn(area.y_max - area.y_min, cell_m)),
       begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0) {}
 
 template <typename Visit>
@@ -87,7 +86,7 @@ void GridIndex::build(std::span<const Solid> solids) {
   given_.resize(solids.size());
   std::fill(begin_.begin(), begin_.end(), 0);
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    given_[i] = itemOf(solids[i], static_cast<std::uint32_t>(i));
+    given_[i] = GridItem::from(solids[i], static_cast<std::uint32_t>(i));
     forCells(given_[i], [&](std::size_t cell) { ++begin_[cell]; });
   }
   std::uint32_t sum = 0;

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -7,19 +9,39 @@
 
 namespace robosim {
 
-/// A solid as a grid keeps it: all that a question asks of it, in one run of memory.
+/// A solid as a grid keeps it: all that a question asks of it, in one run of memory. A box, or a circle as a box
+/// without sides that is round by its radius: so that most questions are the same sum for both.
 struct GridItem {
   double x = 0, y = 0;            ///< centre [m]
-  double axis_x = 1, axis_y = 0;  ///< box: unit vector along its length
-  double half_length_m = 0;       ///< circle: its radius
-  double half_width_m = 0;        ///< circle: 0
-  double reach_m = 0;             ///< radius of the disc about its centre that covers it
+  double axis_x = 1, axis_y = 0;  ///< unit vector along the box's length
+  double half_length_m = 0;
+  double half_width_m = 0;
+  double round_m = 0;  ///< radius of a circle; 0 for a box
+  double reach_m = 0;  ///< radius of the disc about its centre that covers the solid
   HeightSpan heights;
   std::uint32_t index = 0;  ///< in the order the solids were given
   bool is_circle = false;
 
+  static GridItem from(const Solid&, std::uint32_t index);
   Bounds2D bounds() const;
+  /// Whether some of its outline lies no further than `far_m` from a point.
+  bool isWithin(double far_m, const mrpt::math::TPoint2D& of) const {
+    const double ox = of.x - x;
+    const double oy = of.y - y;
+    const double beyond_a = std::max(0.0, std::abs(ox * axis_x + oy * axis_y) - half_length_m);
+    const double beyond_b = std::max(0.0, std::abs(oy * axis_x - ox * axis_y) - half_width_m);
+    return beyond_a * beyond_a + beyond_b * beyond_b <= (far_m + round_m) * (far_m + round_m);
+  }
 };
+
+/// How many cells of a size cover an extent: at least 1, and no more than 32768.
+int cellsIn(double extent_m, double cell_m);
+/// The cell of a coordinate that is counted in cells, pulled onto the rim when it lies outside.
+inline int cellOf(double in_cells, int count) {
+  // Cast only what is in range: a far coordinate would not fit an int.
+  if (!(in_cells > 0)) return 0;
+  return in_cells < count ? static_cast<int>(in_cells) : count - 1;
+}
 
 /// Which solids reach into which square cell of the plane. Built by counting sort: linear time, no allocation once the
 /// arrays have their size. Each cell's solids lie side by side in memory, copied, so that looking through a cell
@@ -40,6 +62,8 @@ class GridIndex {
   /// Column or row of a coordinate, pulled onto the rim when it lies outside.
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
+  /// A solid, in the order given.
+  const GridItem& item(std::uint32_t index) const { return given_[index]; }
   /// The solids in a cell, in the order they were given.
   std::span<const GridItem> cell(int column, int row) const {
     const std::size_t i =
@@ -48,11 +72,6 @@ class GridIndex {
   }
 
  private:
-  static int cellOf(double in_cells, int count) {
-    // Cast only what is in range: a far coordinate would not fit an int.
-    if (!(in_cells > 0)) return 0;
-    return in_cells < count ? static_cast<int>(in_cells) : count - 1;
-  }
   template <typename Visit>
   void forCells(const GridItem& item, const Visit& visit) const;
 

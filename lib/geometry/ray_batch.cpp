@@ -1,22 +1,21 @@
 #include "geometry/ray_batch.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <limits>
 
 #include "geometry/level_ray.h"
-#include "geometry/vector_clones.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr std::size_t kBlock = 16;
+constexpr std::size_t kBlock = RayFan::kBlock;
+static_assert(kBlock <= kMaskBits);
 /// Rounding may make a solid seem this much [m] farther off than it is.
 constexpr double kSlack_m = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Rays of a batch as bare arrays: what the loops below need to become vector instructions.
 struct Rays {
   const double* __restrict x;
@@ -52,6 +51,30 @@ void meetBox(const Rays& rays, std::size_t begin, std::size_t end, double x, dou
   }
 }
 
+/// Which of a block's rays pass through the rectangle about a solid that lies along and across the ray, nearer than
+/// they have met something: bit i for ray i. Finding that out costs less than the sum for where they enter the solid,
+/// and of rays that look all ways few do.
+ROBOSIM_VECTOR_CLONES
+std::uint64_t raysThatPass(const Rays& rays, std::size_t begin, double x, double y, double ux, double uy,
+                           double half_length, double half_width, double round) {
+  std::uint64_t passing = 0;
+  for (std::size_t i = 0; i < kBlock; ++i) {
+    const double dx = rays.dx[begin + i];
+    const double dy = rays.dy[begin + i];
+    const double ox = x - rays.x[begin + i];
+    const double oy = y - rays.y[begin + i];
+    const double along = dx * ox + dy * oy;
+    const double across = std::abs(dx * oy - dy * ox);
+    const double slope_a = std::abs(dx * ux + dy * uy);
+    const double slope_b = std::abs(dy * ux - dx * uy);
+    const double wide = half_length * slope_b + half_width * slope_a + round;
+    const double deep = half_length * slope_a + half_width * slope_b + round;
+    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[begin + i]);
+    passing += passes ? kMaskBit[i] : 0;
+  }
+  return passing;
+}
+
 /// Cones of directions, by block, and how far the farthest of a block's rays still reaches.
 struct Cones {
   const double* __restrict x;
@@ -77,74 +100,45 @@ void findTouched(const Cones& cones, std::size_t count, double ox, double oy, do
   }
 }
 
-/// The largest of a block's numbers, four at a time.
-double largest(const double* block) {
-  double most[4] = {block[0], block[1], block[2], block[3]};
-  for (std::size_t i = 4; i < kBlock; i += 4) {
-    for (std::size_t j = 0; j < 4; ++j) most[j] = block[i + j] > most[j] ? block[i + j] : most[j];
-  }
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
-}
-
 }  // namespace
 
-void RayBatch::begin(const TPoint2D& center, double z_m, double range_m, std::size_t count) {
-  center_ = center;
-  z_m_ = z_m;
-  range_m_ = range_m;
-  size_ = count;
-  const std::size_t padded = (count + kBlock - 1) / kBlock * kBlock;
-  for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(padded);
-}
-
-void RayBatch::finish() {
-  double spread_m2 = 0;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const double ox = x_[i] - center_.x;
-    const double oy = y_[i] - center_.y;
-    spread_m2 = std::max(spread_m2, ox * ox + oy * oy);
+void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double range_m, double pan_rad) {
+  const LevelFrame& frame = world_from_fan;
+  fan_ = &fan;
+  center_ = frame.pointToWorld(fan.middle());
+  z_m_ = frame.z() + fan.z();
+  spread_m_ = fan.spread() + kSlack_m;
+  farthest_m_ = range_m;
+  const std::size_t rays = fan.x_.size();
+  for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(rays);
+  transform(fan.x_.data(), fan.y_.data(), rays, frame.x(), frame.y(), frame.cos(), frame.sin(), x_.data(), y_.data());
+  double cos = frame.cos();
+  double sin = frame.sin();
+  if (pan_rad != 0) {
+    cos = frame.cos() * std::cos(pan_rad) - frame.sin() * std::sin(pan_rad);
+    sin = frame.sin() * std::cos(pan_rad) + frame.cos() * std::sin(pan_rad);
   }
-  spread_m_ = std::sqrt(spread_m2);
-  const std::size_t blocks = x_.size() / kBlock;
-  for (auto* field : {&x_, &y_, &dx_, &dy_}) {
-    for (std::size_t i = size_; i < field->size(); ++i) (*field)[i] = (*field)[size_ - 1];
-  }
-  distance_.assign(x_.size(), range_m_);
-  body_.assign(x_.size(), kNothing);
+  transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, cos, sin, dx_.data(), dy_.data());
+  distance_.assign(rays, range_m);
+  body_.assign(rays, kNothing);
 
-  middle_x_.resize(blocks);
-  middle_y_.resize(blocks);
-  cos_.resize(blocks);
-  sin_.resize(blocks);
+  const std::size_t blocks = fan.blocks();
+  farthest_.assign(blocks, range_m);
+  open_ = rays;
+  if (blocks == 1) return;
+  for (auto* field : {&middle_x_, &middle_y_, &cos_, &sin_}) field->resize(blocks);
   touched_.resize(blocks);
-  farthest_.assign(blocks, range_m_);
   for (std::size_t block = 0; block < blocks; ++block) {
-    const std::size_t first = block * kBlock;
-    double mx = dx_[first] + dx_[first + kBlock - 1];
-    double my = dy_[first] + dy_[first + kBlock - 1];
-    const double length = std::hypot(mx, my);
-    mx = length > 1e-6 ? mx / length : dx_[first];
-    my = length > 1e-6 ? my / length : dy_[first];
-    double least_cos = 1;
-    for (std::size_t i = first; i < first + kBlock; ++i) least_cos = std::min(least_cos, mx * dx_[i] + my * dy_[i]);
-    // A cone wider than a half-plane tells nothing apart.
-    const bool narrow = least_cos > 0.1;
-    least_cos = narrow ? std::max(0.0, least_cos - 1e-9) : 0;
-    middle_x_[block] = mx;
-    middle_y_[block] = my;
-    cos_[block] = least_cos;
-    sin_[block] = narrow ? std::sqrt(1 - least_cos * least_cos) : kInfinity;
+    const auto& cone = fan.cones_[block];
+    middle_x_[block] = cos * cone.middle.x - sin * cone.middle.y;
+    middle_y_[block] = sin * cone.middle.x + cos * cone.middle.y;
+    cos_[block] = cone.cos;
+    sin_[block] = cone.sin;
   }
-}
-
-double RayBatch::reach() const {
-  double farthest_m = 0;
-  for (const double d : farthest_) farthest_m = std::max(farthest_m, d);
-  return farthest_m + spread_m_;
 }
 
 void RayBatch::meet(const GridItem& item, std::int64_t body) {
-  const std::size_t blocks = touched_.size();
+  const std::size_t blocks = farthest_.size();
   if (blocks == 1) return meetBlock(item, body, 0);
   const double ox = item.x - center_.x;
   const double oy = item.y - center_.y;
@@ -158,15 +152,44 @@ void RayBatch::meet(const GridItem& item, std::int64_t body) {
 }
 
 void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t block) {
+  if (!fan_->cones_[block].is_narrow) return pairUp(item, body, block);
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
   const std::size_t begin = block * kBlock;
   const std::size_t end = begin + kBlock;
   if (item.is_circle) {
-    meetCircle(rays, begin, end, item.x, item.y, item.half_length_m, body);
+    meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
   } else {
     meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
   }
-  farthest_[block] = largest(distance_.data() + begin);
+  farthest_[block] = largest(distance_.data() + begin, kBlock);
+  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
+}
+
+void RayBatch::pairUp(const GridItem& item, std::int64_t body, std::size_t block) {
+  const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
+  const std::size_t begin = block * kBlock;
+  std::uint64_t passing = raysThatPass(rays, begin, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m,
+                                       item.half_width_m, item.round_m + kSlack_m);
+  for (; passing != 0; passing &= passing - 1) {
+    const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(passing));
+    pairs_.add(item, body, static_cast<std::uint32_t>(i), item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
+  }
+  if (pairs_.isFull()) settle();
+}
+
+void RayBatch::settle() {
+  const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
+  pairs_.settle([&](std::uint32_t ray, double t, std::int64_t with) {
+    const bool was_open = rays.body[ray] == kNothing;
+    keep(rays, ray, t, with);
+    open_ -= was_open && rays.body[ray] != kNothing ? 1 : 0;
+  });
+  // While one ray has met nothing, what is farthest is the range.
+  if (open_ > 0) return;
+  for (std::size_t block = 0; block < farthest_.size(); ++block) {
+    farthest_[block] = largest(distance_.data() + block * kBlock, kBlock);
+  }
+  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
 }
 
 }  // namespace robosim

@@ -11,6 +11,11 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// How far [m] an owner of a neighbour list goes before it is made anew: some steps of a quick robot; not so far that
+/// the list grows much.
+constexpr double kSkin_m = 0.4;
+/// Of a neighbour list. Where more lie within reach, the nearest ones hide most of the rest.
+constexpr std::size_t kMostNeighbours = 64;
 
 /// A cell size at which a cell holds less than one solid on average, and that keeps the grid's memory in proportion.
 double cellFor(const Bounds2D& area, std::size_t solids) {
@@ -81,21 +86,6 @@ bool meet(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-void collectNear(const GridIndex& grid, std::uint32_t first_body, const Bounds2D& area, std::vector<BodyId>& found) {
-  const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  const int right = grid.column(area.x_max);
-  const int top = grid.row(area.y_max);
-  for (int row = grid.row(area.y_min); row <= top; ++row) {
-    for (int column = grid.column(area.x_min); column <= right; ++column) {
-      for (const auto& item : grid.cell(column, row)) {
-        if (meet(item.bounds(), area)) found.push_back(BodyId(first_body + item.index));
-      }
-    }
-  }
-  std::sort(found.begin() + begin, found.end());
-  found.erase(std::unique(found.begin() + begin, found.end()), found.end());
-}
-
 /// Distance along a level ray to where it enters an item at its height, or infinity.
 double enterLevel(const Ray& ray, const GridItem& item) {
   const double ox = item.x - ray.origin.x;
@@ -105,7 +95,7 @@ double enterLevel(const Ray& ray, const GridItem& item) {
   // Most items of a cell lie aside of the ray; that is seen without a square root or a division.
   const double across = dx * oy - dy * ox;
   if (across * across > item.reach_m * item.reach_m) return kInfinity;
-  if (item.is_circle) return enterCircle(ox, oy, dx, dy, item.half_length_m);
+  if (item.is_circle) return enterCircle(ox, oy, dx, dy, item.round_m);
   return enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
 }
 
@@ -196,80 +186,124 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
   best.distance_m = range_m;
   const bool is_level = ray.direction.z == 0;
-  const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
-    alongRay(
-        grid, ray, [&] { return best.distance_m; },
-        [&](int column, int row) {
-          for (const auto& item : grid.cell(column, row)) {
-            const BodyId body{first_body + item.index};
-            if (is_level && !item.heights.contains(ray.origin.z)) continue;
-            const double met = is_level ? enterLevel(ray, item) : intersect(ray, solid(body)).value_or(kInfinity);
-            if (better(met, body, best) && body != except) best = {met, body, {}};
-          }
-        });
+  const auto reach = [&] { return best.distance_m; };
+  const auto cast = [&](const GridItem& item, BodyId body) {
+    if (is_level && !item.heights.contains(ray.origin.z)) return;
+    const double met = is_level ? enterLevel(ray, item) : intersect(ray, solid(body)).value_or(kInfinity);
+    if (better(met, body, best) && body != except) best = {met, body, {}};
   };
-  if (!stationary_.empty()) cast(stationary_index_, 0);
-  if (!moving_.empty()) cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  alongRay(stationary_index_, ray, reach, [&](int column, int row) {
+    for (const auto& item : stationary_index_.cell(column, row)) cast(item, BodyId{item.index});
+  });
+  moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
+    const GridItem& item = moving_index_.item(disc.index);
+    cast(item, movingBody(disc.index));
+  });
   if (!best) return {};
   best.point = ray.at(best.distance_m);
   return best;
 }
 
 template <typename Batch>
-void Scene::meetAll(Batch& batch, BodyId except) const {
+void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
   if (batch.size() == 0) return;
-  Seen& seen = Seen::begin(stationary_.size() + moving_.size());
-  const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
-    outwards(
-        grid, batch.center(), [&] { return batch.reach(); },
-        [&](int column, int row) {
-          for (const auto& item : grid.cell(column, row)) {
-            const std::uint32_t body = first_body + item.index;
-            if (batch.mayMeet(item) && BodyId(body) != except && seen.isFirst(body)) batch.meet(item, body);
-          }
-        });
+  const auto reach = [&] { return batch.reach(); };
+  const auto meet = [&](const GridItem& item, BodyId body) {
+    if (batch.mayMeet(item) && body != except) batch.meet(item, static_cast<std::int64_t>(body));
   };
-  if (!stationary_.empty()) cast(stationary_index_, 0);
-  if (!moving_.empty()) cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  const bool was_all =
+      near.visitNear(batch.center(), reach, [&](std::uint32_t i) { meet(stationary_index_.item(i), BodyId{i}); });
+  if (!was_all) {
+    Seen& seen = Seen::begin(stationary_.size());
+    outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
+      for (const auto& item : stationary_index_.cell(column, row)) {
+        if (batch.mayMeet(item) && seen.isFirst(item.index)) batch.meet(item, item.index);
+      }
+    });
+  }
+  const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
+  visitMoving(batch.center(), far,
+              [&](BodyId body) { meet(moving_index_.item(static_cast<std::uint32_t>(movingIndex(body))), body); });
+  batch.finish();
 }
 
-void Scene::castRays(RayBatch& batch, BodyId except) const { meetAll(batch, except); }
-void Scene::senseSectors(SectorBatch& batch, BodyId except) const { meetAll(batch, except); }
+void Scene::castRays(RayBatch& batch, BodyId except, const NeighbourList& near) const { meetAll(batch, except, near); }
+void Scene::senseSectors(SectorBatch& batch, BodyId except, const NeighbourList& near) const {
+  meetAll(batch, except, near);
+}
+
+void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) const {
+  if (near.driftTo(at) <= kSkin_m) return;
+  static thread_local std::vector<NeighbourList::Neighbour> found;
+  found.clear();
+  double covered_m = reach_m + kSkin_m;
+  forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](const GridItem& item) {
+    if (!item.isWithin(covered_m, at)) return;
+    const auto nearest_m = static_cast<float>(distance(solid(BodyId{item.index}).outline, at));
+    found.push_back({std::nextafter(nearest_m, -1.0F), item.index});
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  if (found.size() > kMostNeighbours) {
+    covered_m = found[kMostNeighbours].nearest_m;
+    found.resize(kMostNeighbours);
+  }
+  near.set(at, covered_m, found);
+}
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
   Hit best;
   best.distance_m = range_m;
   const TPoint2D apex(sector.apex.x, sector.apex.y);
   const Bounds2D reach = boundsOf(sector, range_m);
-  const auto sense = [&](const GridIndex& grid, std::uint32_t first_body) {
-    const int right = grid.column(reach.x_max);
-    const int top = grid.row(reach.y_max);
-    for (int row = grid.row(reach.y_min); row <= top; ++row) {
-      for (int column = grid.column(reach.x_min); column <= right; ++column) {
-        const auto listed = grid.cell(column, row);
-        if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-        for (const auto& item : listed) {
-          const BodyId body{first_body + item.index};
-          if (body == except) continue;
-          const auto met = nearestInSector(sector, solid(body));
-          if (met && better(met->distance_m, body, best)) {
-            best = {met->distance_m, body, {met->point.x, met->point.y, sector.apex.z}};
-          }
-        }
-      }
+  const auto sense = [&](BodyId body) {
+    if (body == except) return;
+    const auto met = nearestInSector(sector, solid(body));
+    if (met && better(met->distance_m, body, best)) {
+      best = {met->distance_m, body, {met->point.x, met->point.y, sector.apex.z}};
     }
   };
-  sense(stationary_index_, 0);
-  sense(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  const GridIndex& grid = stationary_index_;
+  const int right = grid.column(reach.x_max);
+  const int top = grid.row(reach.y_max);
+  for (int row = grid.row(reach.y_min); row <= top; ++row) {
+    for (int column = grid.column(reach.x_min); column <= right; ++column) {
+      const auto listed = grid.cell(column, row);
+      if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
+      for (const auto& item : listed) sense(BodyId{item.index});
+    }
+  }
+  moving_index_.visitNear(reach, [&](const CenterIndex::Disc& disc) { sense(movingBody(disc.index)); });
   return best ? best : Hit{};
 }
 
+template <typename Visit>
+void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
+  const GridIndex& grid = stationary_index_;
+  const int right = grid.column(area.x_max);
+  const int top = grid.row(area.y_max);
+  for (int row = grid.row(area.y_min); row <= top; ++row) {
+    for (int column = grid.column(area.x_min); column <= right; ++column) {
+      for (const auto& item : grid.cell(column, row)) visit(item);
+    }
+  }
+}
+
 void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  collectNear(stationary_index_, 0, area, found);
+  const auto begin = static_cast<std::ptrdiff_t>(found.size());
+  forCells(area, [&](const GridItem& item) {
+    if (meet(item.bounds(), area)) found.push_back(BodyId{item.index});
+  });
+  std::sort(found.begin() + begin, found.end());
+  found.erase(std::unique(found.begin() + begin, found.end()), found.end());
 }
 
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  collectNear(moving_index_, static_cast<std::uint32_t>(stationary_.size()), area, found);
+  const auto begin = static_cast<std::ptrdiff_t>(found.size());
+  moving_index_.visitNear(area, [&](const CenterIndex::Disc& disc) {
+    if (meet(moving_index_.item(disc.index).bounds(), area)) found.push_back(movingBody(disc.index));
+  });
+  std::sort(found.begin() + begin, found.end());
 }
 
 }  // namespace robosim
