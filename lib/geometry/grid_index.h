@@ -24,13 +24,20 @@ struct GridItem {
 
   static GridItem from(const Solid&, std::uint32_t index);
   Bounds2D bounds() const;
-  /// Whether some of its outline lies no further than `far_m` from a point.
+  /// Whether some of the solid outline lies no further than `far_m` from a point.
   bool isWithin(double far_m, const mrpt::math::TPoint2D& of) const {
-    const double ox = of.x - x;
-    const double oy = of.y - y;
+    return squaredToBox(of) <= (far_m + round_m) * (far_m + round_m);
+  }
+  /// Distance [m] from a point to the solid outline; 0 inside.
+  double distanceTo(const mrpt::math::TPoint2D& p) const { return std::max(0.0, std::sqrt(squaredToBox(p)) - round_m); }
+
+ private:
+  double squaredToBox(const mrpt::math::TPoint2D& p) const {
+    const double ox = p.x - x;
+    const double oy = p.y - y;
     const double beyond_a = std::max(0.0, std::abs(ox * axis_x + oy * axis_y) - half_length_m);
     const double beyond_b = std::max(0.0, std::abs(oy * axis_x - ox * axis_y) - half_width_m);
-    return beyond_a * beyond_a + beyond_b * beyond_b <= (far_m + round_m) * (far_m + round_m);
+    return beyond_a * beyond_a + beyond_b * beyond_b;
   }
 };
 

@@ -51,28 +51,51 @@ void meetBox(const Rays& rays, std::size_t begin, std::size_t end, double x, dou
   }
 }
 
+/// Rays of a block as seen from the batch's centre, in single precision: enough to tell which are worth a sum.
+struct RoughRays {
+  const float* __restrict x;
+  const float* __restrict y;
+  const float* __restrict dx;
+  const float* __restrict dy;
+  const float* __restrict distance;
+};
+
+/// A solid as seen from there; `round` with room for what single precision loses.
+struct RoughSolid {
+  float x, y, ux, uy, half_length, half_width, round;
+};
+
 /// Which of a block's rays pass through the rectangle about a solid that lies along and across the ray, nearer than
 /// they have met something: bit i for ray i. Finding that out costs less than the sum for where they enter the solid,
 /// and of rays that look all ways few do.
 ROBOSIM_VECTOR_CLONES
-std::uint64_t raysThatPass(const Rays& rays, std::size_t begin, double x, double y, double ux, double uy,
-                           double half_length, double half_width, double round) {
-  std::uint64_t passing = 0;
+std::uint32_t raysThatPass(const RoughRays& rays, const RoughSolid& solid) {
+  std::uint32_t passing = 0;
   for (std::size_t i = 0; i < kBlock; ++i) {
-    const double dx = rays.dx[begin + i];
-    const double dy = rays.dy[begin + i];
-    const double ox = x - rays.x[begin + i];
-    const double oy = y - rays.y[begin + i];
-    const double along = dx * ox + dy * oy;
-    const double across = std::abs(dx * oy - dy * ox);
-    const double slope_a = std::abs(dx * ux + dy * uy);
-    const double slope_b = std::abs(dy * ux - dx * uy);
-    const double wide = half_length * slope_b + half_width * slope_a + round;
-    const double deep = half_length * slope_a + half_width * slope_b + round;
-    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[begin + i]);
+    const float dx = rays.dx[i];
+    const float dy = rays.dy[i];
+    const float ox = solid.x - rays.x[i];
+    const float oy = solid.y - rays.y[i];
+    const float along = dx * ox + dy * oy;
+    const float across = std::abs(dx * oy - dy * ox);
+    const float slope_a = std::abs(dx * solid.ux + dy * solid.uy);
+    const float slope_b = std::abs(dy * solid.ux - dx * solid.uy);
+    const float wide = solid.half_length * slope_b + solid.half_width * slope_a + solid.round;
+    const float deep = solid.half_length * slope_a + solid.half_width * slope_b + solid.round;
+    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[i]);
     passing += passes ? kMaskBit[i] : 0;
   }
   return passing;
+}
+
+/// Points as seen from (x0, y0), in single precision.
+ROBOSIM_VECTOR_CLONES
+void roughly(const double* __restrict x, const double* __restrict y, std::size_t count, double x0, double y0,
+             float* __restrict rough_x, float* __restrict rough_y) {
+  for (std::size_t i = 0; i < count; ++i) {
+    rough_x[i] = static_cast<float>(x[i] - x0);
+    rough_y[i] = static_cast<float>(y[i] - y0);
+  }
 }
 
 /// Cones of directions, by block, and how far the farthest of a block's rays still reaches.
@@ -119,6 +142,10 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
     sin = frame.sin() * std::cos(pan_rad) + frame.cos() * std::sin(pan_rad);
   }
   transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, cos, sin, dx_.data(), dy_.data());
+  for (auto* field : {&rough_x_, &rough_y_, &rough_dx_, &rough_dy_}) field->resize(rays);
+  roughly(x_.data(), y_.data(), rays, center_.x, center_.y, rough_x_.data(), rough_y_.data());
+  roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
+  rough_distance_.assign(rays, static_cast<float>(range_m));
   distance_.assign(rays, range_m);
   body_.assign(rays, kNothing);
 
@@ -166,10 +193,21 @@ void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t bl
 }
 
 void RayBatch::pairUp(const GridItem& item, std::int64_t body, std::size_t block) {
-  const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
   const std::size_t begin = block * kBlock;
-  std::uint64_t passing = raysThatPass(rays, begin, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m,
-                                       item.half_width_m, item.round_m + kSlack_m);
+  const double ox = item.x - center_.x;
+  const double oy = item.y - center_.y;
+  // Single precision loses less than 1e-6 of any length on the way, none of which is longer than these together.
+  const double lost_m = 1e-6 * (std::abs(ox) + std::abs(oy) + item.reach_m + spread_m_) + kSlack_m;
+  const RoughSolid solid{static_cast<float>(ox),
+                         static_cast<float>(oy),
+                         static_cast<float>(item.axis_x),
+                         static_cast<float>(item.axis_y),
+                         static_cast<float>(item.half_length_m),
+                         static_cast<float>(item.half_width_m),
+                         static_cast<float>(item.round_m + 4 * lost_m)};
+  std::uint32_t passing = raysThatPass({rough_x_.data() + begin, rough_y_.data() + begin, rough_dx_.data() + begin,
+                                        rough_dy_.data() + begin, rough_distance_.data() + begin},
+                                       solid);
   for (; passing != 0; passing &= passing - 1) {
     const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(passing));
     pairs_.add(item, body, static_cast<std::uint32_t>(i), item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
@@ -182,6 +220,7 @@ void RayBatch::settle() {
   pairs_.settle([&](std::uint32_t ray, double t, std::int64_t with) {
     const bool was_open = rays.body[ray] == kNothing;
     keep(rays, ray, t, with);
+    rough_distance_[ray] = static_cast<float>(rays.distance[ray]);
     open_ -= was_open && rays.body[ray] != kNothing ? 1 : 0;
   });
   // While one ray has met nothing, what is farthest is the range.

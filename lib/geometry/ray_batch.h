@@ -51,6 +51,7 @@ class RayBatch {
   double spread_m_ = 0;                  ///< farthest origin from the centre
   double farthest_m_ = 0;                ///< of all rays: how far they still reach
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray, as in the fan
+  std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;  ///< the same as seen from the centre
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
   // By block of rays: the cone that holds their directions, and how far the farthest of them still reaches.

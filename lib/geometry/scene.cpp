@@ -16,6 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kSkin_m = 0.4;
 /// Of a neighbour list. Where more lie within reach, the nearest ones hide most of the rest.
 constexpr std::size_t kMostNeighbours = 64;
+/// A little less than 1: no number times this grows when it becomes a float.
+constexpr double kRoundDown = 1 - 1e-7;
 
 /// A cell size at which a cell holds less than one solid on average, and that keeps the grid's memory in proportion.
 double cellFor(const Bounds2D& area, std::size_t solids) {
@@ -238,9 +240,8 @@ void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) cons
   found.clear();
   double covered_m = reach_m + kSkin_m;
   forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](const GridItem& item) {
-    if (!item.isWithin(covered_m, at)) return;
-    const auto nearest_m = static_cast<float>(distance(solid(BodyId{item.index}).outline, at));
-    found.push_back({std::nextafter(nearest_m, -1.0F), item.index});
+    const double nearest_m = item.distanceTo(at);
+    if (nearest_m <= covered_m) found.push_back({static_cast<float>(nearest_m * kRoundDown), item.index});
   });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());

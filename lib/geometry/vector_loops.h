@@ -12,8 +12,8 @@ namespace robosim {
 /// "or" of shifts would not.
 constexpr std::size_t kMaskBits = 16;
 constexpr auto kMaskBit = [] {
-  std::array<std::uint64_t, kMaskBits> bits{};
-  for (std::size_t i = 0; i < kMaskBits; ++i) bits[i] = std::uint64_t{1} << i;
+  std::array<std::uint32_t, kMaskBits> bits{};
+  for (std::size_t i = 0; i < kMaskBits; ++i) bits[i] = std::uint32_t{1} << i;
   return bits;
 }();
 
