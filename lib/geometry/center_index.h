@@ -28,8 +28,8 @@ class CenterIndex {
 
   void build(std::span<const Solid> solids);
 
-  /// A solid, in the order given.
-  const GridItem& item(std::uint32_t index) const { return items_[index]; }
+  /// The solids, in the order given.
+  std::span<const GridItem> items() const { return items_; }
 
   /// Calls visit(disc) for each solid whose disc may reach into `area`, each once.
   template <typename Visit>

@@ -69,8 +69,8 @@ class GridIndex {
   /// Column or row of a coordinate, pulled onto the rim when it lies outside.
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
-  /// A solid, in the order given.
-  const GridItem& item(std::uint32_t index) const { return given_[index]; }
+  /// The solids, in the order given.
+  std::span<const GridItem> items() const { return given_; }
   /// The solids in a cell, in the order they were given.
   std::span<const GridItem> cell(int column, int row) const {
     const std::size_t i =

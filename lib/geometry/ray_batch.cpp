@@ -60,41 +60,35 @@ struct RoughRays {
   const float* __restrict distance;
 };
 
-/// A solid as seen from there; `round` with room for what single precision loses.
-struct RoughSolid {
-  float x, y, ux, uy, half_length, half_width, round;
-};
-
-/// Which of a block's rays pass through the rectangle about a solid that lies along and across the ray, nearer than
-/// they have met something: bit i for ray i. Finding that out costs less than the sum for where they enter the solid,
-/// and of rays that look all ways few do.
+/// Which rays pass through the rectangle about a solid that lies along and across the ray, nearer than they have met
+/// something; for each solid and each block of rays, bit i for ray i. Finding that out costs less than the sum for
+/// where a ray enters a solid, and of rays that look all ways few do.
 ROBOSIM_VECTOR_CLONES
-std::uint32_t raysThatPass(const RoughRays& rays, const RoughSolid& solid) {
-  std::uint32_t passing = 0;
-  for (std::size_t i = 0; i < kBlock; ++i) {
-    const float dx = rays.dx[i];
-    const float dy = rays.dy[i];
-    const float ox = solid.x - rays.x[i];
-    const float oy = solid.y - rays.y[i];
-    const float along = dx * ox + dy * oy;
-    const float across = std::abs(dx * oy - dy * ox);
-    const float slope_a = std::abs(dx * solid.ux + dy * solid.uy);
-    const float slope_b = std::abs(dy * solid.ux - dx * solid.uy);
-    const float wide = solid.half_length * slope_b + solid.half_width * slope_a + solid.round;
-    const float deep = solid.half_length * slope_a + solid.half_width * slope_b + solid.round;
-    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[i]);
-    passing += passes ? kMaskBit[i] : 0;
-  }
-  return passing;
-}
-
-/// Points as seen from (x0, y0), in single precision.
-ROBOSIM_VECTOR_CLONES
-void roughly(const double* __restrict x, const double* __restrict y, std::size_t count, double x0, double y0,
-             float* __restrict rough_x, float* __restrict rough_y) {
-  for (std::size_t i = 0; i < count; ++i) {
-    rough_x[i] = static_cast<float>(x[i] - x0);
-    rough_y[i] = static_cast<float>(y[i] - y0);
+void findPassing(const RoughRays& rays, std::size_t blocks, const RoughPlace& place, const RoughSolid* solids,
+                 const std::uint32_t* indices, std::size_t count, std::uint32_t* __restrict passing) {
+  for (std::size_t k = 0; k < count; ++k) {
+    const RoughSolid& solid = solids[indices[k]];
+    const float x = solid.x - place.x;
+    const float y = solid.y - place.y;
+    const float round = solid.round_m + place.lost_m;
+    for (std::size_t begin = 0; begin < blocks * kBlock; begin += kBlock) {
+      std::uint32_t bits = 0;
+      for (std::size_t i = 0; i < kBlock; ++i) {
+        const float dx = rays.dx[begin + i];
+        const float dy = rays.dy[begin + i];
+        const float ox = x - rays.x[begin + i];
+        const float oy = y - rays.y[begin + i];
+        const float along = dx * ox + dy * oy;
+        const float across = std::abs(dx * oy - dy * ox);
+        const float slope_a = std::abs(dx * solid.axis_x + dy * solid.axis_y);
+        const float slope_b = std::abs(dy * solid.axis_x - dx * solid.axis_y);
+        const float wide = solid.half_length_m * slope_b + solid.half_width_m * slope_a + round;
+        const float deep = solid.half_length_m * slope_a + solid.half_width_m * slope_b + round;
+        const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[begin + i]);
+        bits += passes ? kMaskBit[i] : 0;
+      }
+      *passing++ = bits;
+    }
   }
 }
 
@@ -142,17 +136,20 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
     sin = frame.sin() * std::cos(pan_rad) + frame.cos() * std::sin(pan_rad);
   }
   transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, cos, sin, dx_.data(), dy_.data());
-  for (auto* field : {&rough_x_, &rough_y_, &rough_dx_, &rough_dy_}) field->resize(rays);
-  roughly(x_.data(), y_.data(), rays, center_.x, center_.y, rough_x_.data(), rough_y_.data());
-  roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
-  rough_distance_.assign(rays, static_cast<float>(range_m));
   distance_.assign(rays, range_m);
   body_.assign(rays, kNothing);
 
   const std::size_t blocks = fan.blocks();
+  if (!fan.isNarrow()) {
+    for (auto* field : {&rough_x_, &rough_y_, &rough_dx_, &rough_dy_}) field->resize(rays);
+    roughly(x_.data(), y_.data(), rays, center_.x, center_.y, rough_x_.data(), rough_y_.data());
+    roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
+    rough_distance_.assign(rays, static_cast<float>(range_m));
+    passing_.resize(blocks * Candidates::kMost);
+    open_ = rays;
+    return;
+  }
   farthest_.assign(blocks, range_m);
-  open_ = rays;
-  if (blocks == 1) return;
   for (auto* field : {&middle_x_, &middle_y_, &cos_, &sin_}) field->resize(blocks);
   touched_.resize(blocks);
   for (std::size_t block = 0; block < blocks; ++block) {
@@ -164,55 +161,58 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
   }
 }
 
-void RayBatch::meet(const GridItem& item, std::int64_t body) {
-  const std::size_t blocks = farthest_.size();
-  if (blocks == 1) return meetBlock(item, body, 0);
+void RayBatch::meet(const Candidates& candidates) {
+  if (!fan_->isNarrow()) return meetByRay(candidates);
+  for (const auto i : candidates.indices) {
+    const std::int64_t body = candidates.first_body + i;
+    if (mayMeet(candidates.items[i]) && body != candidates.except) meetByBlock(candidates.items[i], body);
+  }
+}
+
+void RayBatch::meetByBlock(const GridItem& item, std::int64_t body) {
   const double ox = item.x - center_.x;
   const double oy = item.y - center_.y;
   const double reach_m = item.reach_m + spread_m_;
   const double nearest_m = std::sqrt(ox * ox + oy * oy) - reach_m - kSlack_m;
+  const std::size_t blocks = farthest_.size();
   findTouched({middle_x_.data(), middle_y_.data(), cos_.data(), sin_.data(), farthest_.data()}, blocks, ox, oy, reach_m,
               nearest_m, touched_.data());
-  for (std::size_t block = 0; block < blocks; ++block) {
-    if (touched_[block]) meetBlock(item, body, block);
-  }
-}
-
-void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t block) {
-  if (!fan_->cones_[block].is_narrow) return pairUp(item, body, block);
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
-  const std::size_t begin = block * kBlock;
-  const std::size_t end = begin + kBlock;
-  if (item.is_circle) {
-    meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
-  } else {
-    meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
+  bool is_nearer = false;
+  for (std::size_t block = 0; block < blocks; ++block) {
+    if (!touched_[block]) continue;
+    const std::size_t begin = block * kBlock;
+    const std::size_t end = begin + kBlock;
+    if (item.is_circle) {
+      meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
+    } else {
+      meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
+    }
+    farthest_[block] = largest(distance_.data() + begin, kBlock);
+    is_nearer = true;
   }
-  farthest_[block] = largest(distance_.data() + begin, kBlock);
-  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
+  if (is_nearer) farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
 }
 
-void RayBatch::pairUp(const GridItem& item, std::int64_t body, std::size_t block) {
-  const std::size_t begin = block * kBlock;
-  const double ox = item.x - center_.x;
-  const double oy = item.y - center_.y;
-  // Single precision loses less than 1e-6 of any length on the way, none of which is longer than these together.
-  const double lost_m = 1e-6 * (std::abs(ox) + std::abs(oy) + item.reach_m + spread_m_) + kSlack_m;
-  const RoughSolid solid{static_cast<float>(ox),
-                         static_cast<float>(oy),
-                         static_cast<float>(item.axis_x),
-                         static_cast<float>(item.axis_y),
-                         static_cast<float>(item.half_length_m),
-                         static_cast<float>(item.half_width_m),
-                         static_cast<float>(item.round_m + 4 * lost_m)};
-  std::uint32_t passing = raysThatPass({rough_x_.data() + begin, rough_y_.data() + begin, rough_dx_.data() + begin,
-                                        rough_dy_.data() + begin, rough_distance_.data() + begin},
-                                       solid);
-  for (; passing != 0; passing &= passing - 1) {
-    const std::size_t i = begin + static_cast<std::size_t>(std::countr_zero(passing));
-    pairs_.add(item, body, static_cast<std::uint32_t>(i), item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
+void RayBatch::meetByRay(const Candidates& candidates) {
+  const std::size_t blocks = fan_->blocks();
+  findPassing({rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(), rough_distance_.data()}, blocks,
+              RoughPlace::from(center_, spread_m_, candidates.middle), candidates.rough, candidates.indices.data(),
+              candidates.indices.size(), passing_.data());
+  const std::uint32_t* passing = passing_.data();
+  for (const auto index : candidates.indices) {
+    const GridItem& item = candidates.items[index];
+    const std::int64_t body = candidates.first_body + index;
+    for (std::uint32_t begin = 0; begin < blocks * kBlock; begin += kBlock) {
+      std::uint32_t bits = *passing++;
+      if (bits == 0 || !item.heights.contains(z_m_) || body == candidates.except) continue;
+      for (; bits != 0; bits &= bits - 1) {
+        const std::uint32_t i = begin + static_cast<std::uint32_t>(std::countr_zero(bits));
+        pairs_.add(item, body, i, item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
+      }
+      if (pairs_.isFull()) settle();
+    }
   }
-  if (pairs_.isFull()) settle();
 }
 
 void RayBatch::settle() {
@@ -224,11 +224,7 @@ void RayBatch::settle() {
     open_ -= was_open && rays.body[ray] != kNothing ? 1 : 0;
   });
   // While one ray has met nothing, what is farthest is the range.
-  if (open_ > 0) return;
-  for (std::size_t block = 0; block < farthest_.size(); ++block) {
-    farthest_[block] = largest(distance_.data() + block * kBlock, kBlock);
-  }
-  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
+  if (open_ == 0) farthest_m_ = largest(distance_.data(), distance_.size());
 }
 
 }  // namespace robosim

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/grid_index.h"
+#include "geometry/candidates.h"
 #include "geometry/level_frame.h"
 #include "geometry/ray_fan.h"
 #include "geometry/ray_pairs.h"
@@ -31,18 +31,20 @@ class RayBatch {
 
   /// Whether the solid is at their height and within their range, so that meet() is worth its while.
   bool mayMeet(const GridItem& item) const { return item.heights.contains(z_m_) && item.isWithin(reach(), center_); }
-  /// Holds a solid against all rays it may meet.
-  void meet(const GridItem& item, std::int64_t body);
+  /// Holds solids against all rays they may meet.
+  void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
-  void finish() { settle(); }
+  void finish() {
+    if (!fan_->isNarrow()) settle();
+  }
 
   /// Distance [m] from the origin of ray `i` to what it met, or the range.
   double distance(std::size_t i) const { return distance_[i]; }
   std::int64_t body(std::size_t i) const { return body_[i]; }
 
  private:
-  void meetBlock(const GridItem& item, std::int64_t body, std::size_t block);
-  void pairUp(const GridItem& item, std::int64_t body, std::size_t block);
+  void meetByRay(const Candidates& candidates);
+  void meetByBlock(const GridItem& item, std::int64_t body);
   void settle();
 
   const RayFan* fan_ = nullptr;
@@ -51,13 +53,17 @@ class RayBatch {
   double spread_m_ = 0;                  ///< farthest origin from the centre
   double farthest_m_ = 0;                ///< of all rays: how far they still reach
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray, as in the fan
-  std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;  ///< the same as seen from the centre
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
-  // By block of rays: the cone that holds their directions, and how far the farthest of them still reaches.
+
+  // A narrow fan's, by block of rays: the cone that holds their directions, and how far the farthest still reaches.
   std::vector<double> middle_x_, middle_y_, cos_, sin_, farthest_;
   std::vector<std::int64_t> touched_;
-  std::size_t open_ = 0;  ///< rays of blocks that are paired up and have met nothing yet
+
+  // Any other fan's, by ray, as seen from the centre.
+  std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;
+  std::vector<std::uint32_t> passing_;
+  std::size_t open_ = 0;  ///< rays that have met nothing yet
   RayPairs pairs_;
 };
 

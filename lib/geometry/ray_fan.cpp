@@ -32,7 +32,7 @@ RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
     for (std::size_t i = first; i <= last; ++i) {
       least_cos = std::min(least_cos, cone.middle.x * dx_[i] + cone.middle.y * dy_[i]);
     }
-    cone.is_narrow = least_cos > 0.8;
+    is_narrow_ = is_narrow_ && least_cos > 0.8;
     cone.cos = std::max(0.0, least_cos - 1e-9);
     cone.sin = std::sqrt(1 - cone.cos * cone.cos);
     cones_.push_back(cone);

@@ -26,6 +26,9 @@ class RayFan {
   const mrpt::math::TPoint2D& middle() const { return middle_; }
   /// Distance from there to the farthest origin [m].
   double spread() const { return spread_m_; }
+  /// Whether each block looks much the same way, so that most solids are aside of most whole blocks: a laser, not a
+  /// ring of sonars.
+  bool isNarrow() const { return is_narrow_; }
 
  private:
   friend class RayBatch;
@@ -34,13 +37,13 @@ class RayFan {
   struct Cone {
     mrpt::math::TPoint2D middle;
     double cos = 1, sin = 0;
-    bool is_narrow = false;  ///< worth asking before the rays themselves
   };
 
   std::size_t size_ = 0;
   double z_m_ = 0;
   mrpt::math::TPoint2D middle_;
   double spread_m_ = 0;
+  bool is_narrow_ = true;
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray; the last one repeated up to a whole block
   std::vector<Cone> cones_;              ///< by block
 };

@@ -1,6 +1,7 @@
 #include "geometry/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "geometry/level_ray.h"
@@ -166,15 +167,46 @@ void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach,
   }
 }
 
+/// Hands a batch what it may meet, some at a time.
+template <typename Batch>
+class Gathering {
+ public:
+  Gathering(Batch& batch, const Candidates& of) : batch_(batch), of_(of) {}
+
+  void add(std::uint32_t index) {
+    indices_[count_++] = index;
+    if (count_ == indices_.size()) finish();
+  }
+  void finish() {
+    if (count_ == 0) return;
+    of_.indices = {indices_.data(), count_};
+    batch_.meet(of_);
+    count_ = 0;
+  }
+
+ private:
+  Batch& batch_;
+  Candidates of_;
+  std::array<std::uint32_t, Candidates::kMost> indices_;
+  std::size_t count_ = 0;
+};
+
 }  // namespace
 
 Scene::Scene(std::vector<Solid> stationary, std::size_t moving_count, const Bounds2D& area)
     : stationary_(std::move(stationary)),
       moving_(moving_count),
       stationary_index_(area, cellFor(area, stationary_.size())),
-      moving_index_(area, cellFor(area, moving_count)) {
+      moving_index_(area, cellFor(area, moving_count)),
+      middle_((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2) {
   stationary_index_.build(stationary_);
+  makeRough(stationary_index_.items(), rough_stationary_);
   freeze();
+}
+
+void Scene::makeRough(std::span<const GridItem> items, std::vector<RoughSolid>& rough) const {
+  rough.resize(items.size());
+  for (std::size_t i = 0; i < items.size(); ++i) rough[i] = RoughSolid::from(items[i], middle_);
 }
 
 const Solid& Scene::solid(BodyId body) const {
@@ -182,7 +214,10 @@ const Solid& Scene::solid(BodyId body) const {
   return i < stationary_.size() ? stationary_[i] : moving_[i - stationary_.size()];
 }
 
-void Scene::freeze() { moving_index_.build(moving_); }
+void Scene::freeze() {
+  moving_index_.build(moving_);
+  makeRough(moving_index_.items(), rough_moving_);
+}
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
@@ -198,7 +233,7 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
     for (const auto& item : stationary_index_.cell(column, row)) cast(item, BodyId{item.index});
   });
   moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
-    const GridItem& item = moving_index_.item(disc.index);
+    const GridItem& item = moving_index_.items()[disc.index];
     cast(item, movingBody(disc.index));
   });
   if (!best) return {};
@@ -209,23 +244,26 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
 template <typename Batch>
 void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
   if (batch.size() == 0) return;
+  const std::int64_t left_out = except == kNoBody ? -1 : static_cast<std::int64_t>(except);
+  Gathering<Batch> stationary(batch,
+                              {{}, stationary_index_.items().data(), rough_stationary_.data(), middle_, 0, left_out});
   const auto reach = [&] { return batch.reach(); };
-  const auto meet = [&](const GridItem& item, BodyId body) {
-    if (batch.mayMeet(item) && body != except) batch.meet(item, static_cast<std::int64_t>(body));
-  };
-  const bool was_all =
-      near.visitNear(batch.center(), reach, [&](std::uint32_t i) { meet(stationary_index_.item(i), BodyId{i}); });
-  if (!was_all) {
+  if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i) { stationary.add(i); })) {
     Seen& seen = Seen::begin(stationary_.size());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
       for (const auto& item : stationary_index_.cell(column, row)) {
-        if (batch.mayMeet(item) && seen.isFirst(item.index)) batch.meet(item, item.index);
+        if (batch.mayMeet(item) && seen.isFirst(item.index)) stationary.add(item.index);
       }
     });
   }
+  stationary.finish();
+
+  const auto first_moving = static_cast<std::uint32_t>(stationary_.size());
+  Gathering<Batch> moving(batch,
+                          {{}, moving_index_.items().data(), rough_moving_.data(), middle_, first_moving, left_out});
   const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
-  visitMoving(batch.center(), far,
-              [&](BodyId body) { meet(moving_index_.item(static_cast<std::uint32_t>(movingIndex(body))), body); });
+  visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
+  moving.finish();
   batch.finish();
 }
 
@@ -302,7 +340,7 @@ void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) con
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
   moving_index_.visitNear(area, [&](const CenterIndex::Disc& disc) {
-    if (meet(moving_index_.item(disc.index).bounds(), area)) found.push_back(movingBody(disc.index));
+    if (meet(moving_index_.items()[disc.index].bounds(), area)) found.push_back(movingBody(disc.index));
   });
   std::sort(found.begin() + begin, found.end());
 }

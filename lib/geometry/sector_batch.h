@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/grid_index.h"
+#include "geometry/candidates.h"
 #include "geometry/level_frame.h"
 #include "geometry/sector_fan.h"
 #include "geometry/sector_pairs.h"
@@ -27,8 +27,8 @@ class SectorBatch {
 
   /// Whether the solid is at their height and within their range, so that meet() is worth its while.
   bool mayMeet(const GridItem& item) const { return item.heights.contains(z_m_) && item.isWithin(reach(), center_); }
-  /// Holds a solid against all sectors it may reach into.
-  void meet(const GridItem& item, std::int64_t body);
+  /// Holds solids against all sectors they may reach into.
+  void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
   void finish() { settle(); }
 
@@ -39,6 +39,9 @@ class SectorBatch {
   mrpt::math::TPoint2D towards(std::size_t i) const { return {towards_x_[i], towards_y_[i]}; }
 
  private:
+  struct RoughSectors {
+    std::vector<float> x, y, axis_x, axis_y, left_x, left_y, right_x, right_y, distance;
+  };
   void settle();
 
   const SectorFan* fan_ = nullptr;
@@ -49,6 +52,8 @@ class SectorBatch {
   SectorFan::Vectors apex_, axis_, left_, right_;
   std::vector<double> distance_, towards_x_, towards_y_;
   std::vector<std::int64_t> body_;
+  RoughSectors rough_;  ///< as seen from the centre
+  std::vector<std::uint32_t> holding_;
   SectorPairs pairs_;
 };
 
