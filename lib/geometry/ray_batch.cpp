@@ -29,7 +29,7 @@ struct Rays {
 /// Keeps a hit at `t` for ray i if it is nearer, or as near and of a lower body; so the order of solids does not
 /// matter.
 inline void keep(const Rays& rays, std::size_t i, double t, std::int64_t body) {
-  const bool keeps = t < rays.distance[i] || (t == rays.distance[i] && body < rays.body[i]);
+  const bool keeps = (t < rays.distance[i]) | ((t == rays.distance[i]) & (body < rays.body[i]));
   rays.distance[i] = keeps ? t : rays.distance[i];
   rays.body[i] = keeps ? body : rays.body[i];
 }
@@ -221,7 +221,7 @@ void RayBatch::settle() {
     const bool was_open = rays.body[ray] == kNothing;
     keep(rays, ray, t, with);
     rough_distance_[ray] = static_cast<float>(rays.distance[ray]);
-    open_ -= was_open && rays.body[ray] != kNothing ? 1 : 0;
+    open_ -= (was_open & (rays.body[ray] != kNothing)) ? 1 : 0;
   });
   // While one ray has met nothing, what is farthest is the range.
   if (open_ == 0) farthest_m_ = largest(distance_.data(), distance_.size());

@@ -14,7 +14,7 @@ using mrpt::math::TPoint2D;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// How far [m] an owner of a neighbour list goes before it is made anew: some steps of a quick robot; not so far that
 /// the list grows much.
-constexpr double kSkin_m = 0.4;
+constexpr double kSkin_m = 0.7;
 /// Of a neighbour list. Where more lie within reach, the nearest ones hide most of the rest.
 constexpr std::size_t kMostNeighbours = 64;
 /// A little less than 1: no number times this grows when it becomes a float.

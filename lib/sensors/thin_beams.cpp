@@ -11,6 +11,8 @@ namespace {
 
 using mrpt::math::TPoint3D;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 class ThinBeams : public Sensor {
  public:
   ThinBeams(const SensorInfo& info, const RangeNoise& noise) : info_(info), noise_(noise), beams_(info.beams) {}
@@ -26,9 +28,9 @@ class ThinBeams : public Sensor {
       const LevelFrame pan = pan_rad == 0 ? LevelFrame() : LevelFrame({0, 0, pan_rad}, 0);
       Rng rng = now.noise(robot, slot);
       beams_.cast(now, robot, pan_rad, info_.range_max_m, [&](std::size_t i, double distance_m, BodyId body) {
+        double range_m = distance_m;
         // Infinite for nothing, which no noise brings back.
-        double range_m = body == kNoBody ? std::numeric_limits<double>::infinity() : distance_m;
-        if (noise_.on) range_m = noise_.apply(range_m, rng);
+        if (noise_.on) range_m = noise_.apply(body == kNoBody ? kInfinity : distance_m, rng);
         const bool heard = static_cast<float>(range_m) < static_cast<float>(info_.range_max_m);
         const double told_m = heard ? std::max(range_m, info_.range_min_m) : info_.no_echo_m;
         const TPoint3D direction = pan_rad != 0 ? pan.turnToWorld(beams_[i].direction) : beams_[i].direction;
