@@ -1,133 +1,105 @@
-#include <chrono>
+#include <algorithm>
 #include <iostream>
 
-#include <nlohmann/json.hpp>
-#include <sys/resource.h>
-
 #include "robosim/arguments.h"
-#include "robosim/local_run.h"
+#include "robosim/bench_process.h"
+#include "robosim/bench_tables.h"
+#include "robosim/bench_targets.h"
+#include "robosim/interrupt.h"
 #include "robosim/progress.h"
 #include "robosim/subcommands.h"
 #include "robosim/text.h"
-#include "robosim/workloads.h"
 
 namespace robosim {
 namespace {
 
+constexpr const char* kRaysHelp =
+    "laser scans and single rays among 1,000 solids, one thread, beside Embree 3 where built in";
+
 struct Arguments {
-  std::vector<std::size_t> robots{100, 1000, 10000};
+  std::vector<std::size_t> robots;
   std::vector<std::string> workloads;
   int threads = 1;
   std::uint64_t seed = 1;
   double least_s = 1;
   bool json = false;
+  bool targets = false;  ///< nothing was asked for in particular, so everything is measured
 };
 
-/// What one workload cost.
-struct Figures {
-  const Workload* workload = nullptr;
-  std::size_t robots = 0;
-  double robot_steps_per_s = 0;
-  double rays_per_s = 0;
-  double cpu_s_per_robot_step = 0;
-  double peak_rss_mb = 0;
-  double load_s = 0;
-  std::string digest;  ///< after the warm-up, of a fixed length
-};
+/// Measures, and shows meanwhile what.
+template <typename Measure>
+auto shown(const std::string& what, const Measure& measure) {
+  Progress progress;
+  if (progress.due()) progress.show(what + " …");
+  return measure();
+}
 
-struct Usage {
-  std::chrono::steady_clock::time_point wall = std::chrono::steady_clock::now();
-  double cpu_s = 0;
-  double peak_rss_mb = 0;
+bool wants(const Arguments& arguments, const std::string& workload) {
+  const auto& names = arguments.workloads;
+  return names.empty() || std::find(names.begin(), names.end(), workload) != names.end();
+}
 
-  static Usage now() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-    const auto seconds = [](const timeval& t) {
-      return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-    };
-    Usage u;
-    u.cpu_s = seconds(usage.ru_utime) + seconds(usage.ru_stime);
-    u.peak_rss_mb = static_cast<double>(usage.ru_maxrss) / 1024;
-    return u;
+std::vector<RobotLoad> loadsOf(const Arguments& arguments) {
+  if (arguments.targets) return standardLoads();
+  const auto sizes = arguments.robots.empty() ? std::vector<std::size_t>{100, 1000, 10000} : arguments.robots;
+  std::vector<RobotLoad> loads;
+  for (const auto& workload : workloads()) {
+    if (!wants(arguments, workload.name)) continue;
+    for (const auto robots : sizes) loads.push_back({&workload, robots, arguments.threads});
   }
-};
-
-double between(const Usage& from, const Usage& to) {
-  return std::chrono::duration<double>(to.wall - from.wall).count();
+  return loads;
 }
 
-Figures measure(const Workload& workload, std::size_t robots, const Arguments& arguments) {
-  const Usage before = Usage::now();
-  RunOptions options;
-  options.environment = {.seed = arguments.seed, .period_s = 0.1, .threads = arguments.threads};
-  LocalRun run(makeWorld(workload, robots, arguments.seed), options);
-  const Usage loaded = Usage::now();
-
-  // The first steps fill caches, and bring the robots up to speed.
-  constexpr int kWarmUpSteps = 20;
-  for (int i = 0; i < kWarmUpSteps; ++i) run.step();
-  const std::string digest = run.environment().digest();
-  const Usage start = Usage::now();
-  Usage end = start;
-  double steps = 0;
-  do {
-    for (int i = 0; i < 10; ++i) run.step();
-    steps += 10;
-    end = Usage::now();
-  } while (between(start, end) < arguments.least_s);
-
-  const double robot_steps = steps * static_cast<double>(robots);
-  const double wall_s = between(start, end);
-  return {.workload = &workload,
-          .robots = robots,
-          .robot_steps_per_s = robot_steps / wall_s,
-          .rays_per_s = robot_steps * static_cast<double>(workload.rays) / wall_s,
-          .cpu_s_per_robot_step = (end.cpu_s - start.cpu_s) / robot_steps,
-          .peak_rss_mb = end.peak_rss_mb,
-          .load_s = between(before, loaded),
-          .digest = digest};
+std::string textOf(const RobotLoad& load) {
+  return std::string(load.workload->name) + ", " + withCommas(load.robots) + " robots, " +
+         std::to_string(load.threads) + (load.threads == 1 ? " thread" : " threads");
 }
 
-nlohmann::ordered_json json(const Figures& f, int threads) {
-  return {{"workload", f.workload->name},
-          {"robots", f.robots},
-          {"threads", threads},
-          {"robot_steps_per_s", f.robot_steps_per_s},
-          {"rays_per_s", f.rays_per_s},
-          {"cpu_s_per_robot_step", f.cpu_s_per_robot_step},
-          {"peak_rss_mb", f.peak_rss_mb},
-          {"load_s", f.load_s},
-          {"digest", f.digest}};
+/// What only the targets need.
+void measureRest(const Arguments& arguments, SpeedFigures& figures) {
+  const Workload& sonar = workloadNamed("sonar");
+  const Workload& sector = workloadNamed("sector");
+  const auto compare = [&](const std::string& what, const RobotLoad& a, const RobotLoad& b) {
+    return shown(what, [&] { return compareRobots({a, b}, arguments.seed, arguments.least_s); });
+  };
+  figures.sonar_sector = compare("sector beside sonar", {&sonar, kSome, 1}, {&sector, kSome, 1});
+  figures.some_many = compare("100,000 robots beside 1,000", {&sonar, kSome, 1}, {&sonar, kMany, 1});
+  figures.one_two = compare("two threads beside one", {&sonar, kMany, 1}, {&sonar, kMany, 2});
+  figures.some_loaded = benchLoading(sonar, kSome, arguments.seed);
+  figures.many_loaded = shown("loading 100,000 robots", [&] { return benchLoading(sonar, kMany, arguments.seed); });
+  figures.small_run = shown("opho2_1 with and without recording", [&] { return benchSmallRun(arguments.least_s); });
+}
+
+SpeedFigures measure(const Arguments& arguments) {
+  SpeedFigures figures;
+  for (const auto& load : loadsOf(arguments)) {
+    figures.loads.push_back(shown(textOf(load), [&] { return benchRobots(load, arguments.seed, arguments.least_s); }));
+    if (arguments.json) std::cout << lineOf(figures.loads.back()).dump() << std::endl;
+  }
+  if (wants(arguments, kRays)) {
+    figures.rays = shown("rays beside Embree", [&] { return benchRays(arguments.seed, arguments.least_s); });
+    if (arguments.json) {
+      for (const auto& line : linesOf(figures.rays)) std::cout << line.dump() << std::endl;
+    }
+  }
+  if (arguments.targets) measureRest(arguments, figures);
+  return figures;
+}
+
+void print(const SpeedFigures& figures, bool with_targets) {
+  if (!figures.loads.empty()) std::cout << tableOf(figures.loads) << '\n';
+  if (!figures.rays.figures.empty()) std::cout << tableOf(figures.rays) << '\n';
+  if (with_targets) std::cout << tableOf(targetsOf(figures)) << '\n';
 }
 
 void benchSpeed(const Arguments& arguments) {
-  std::vector<std::string> names = arguments.workloads;
-  if (names.empty()) {
-    for (const auto& workload : workloads()) names.emplace_back(workload.name);
-  }
-  for (const auto& name : names) workloadNamed(name);
-
-  Rows rows{
-      {"workload", "robots", "threads", "robot-steps/s", "Mrays/s", "CPU µs/robot-step", "peak MB", "made in [s]"}};
-  for (const auto& name : names) {
-    for (const auto robots : arguments.robots) {
-      {
-        Progress progress;
-        if (progress.due()) progress.show(name + ", " + withCommas(robots) + " robots …");
-      }
-      const Figures f = measure(workloadNamed(name), robots, arguments);
-      if (arguments.json) {
-        std::cout << json(f, arguments.threads).dump() << std::endl;
-        continue;
-      }
-      rows.push_back({name, withCommas(robots), std::to_string(arguments.threads),
-                      withCommas(static_cast<std::uint64_t>(f.robot_steps_per_s)),
-                      f.rays_per_s > 0 ? fixed(f.rays_per_s * 1e-6, 1) : "–", fixed(f.cpu_s_per_robot_step * 1e6, 2),
-                      fixed(f.peak_rss_mb, 0), fixed(f.load_s, 2)});
-    }
-  }
-  if (!arguments.json) std::cout << table(rows);
+  const Interrupt interrupt;  // it ends the process that measures; this one then puts away its files
+  const Company company;
+  const SpeedFigures figures = measure(arguments);
+  if (arguments.json) return;
+  print(figures, arguments.targets);
+  std::cout << "Other programs kept " << fixed(company.processors(), 1) << " of " << Company::ofProcessors()
+            << " processors busy meanwhile; the more, the worse are figures by the clock.\n";
 }
 
 }  // namespace
@@ -135,22 +107,36 @@ void benchSpeed(const Arguments& arguments) {
 void addBenchSpeed(CLI::App& bench) {
   auto* command = bench.add_subcommand("speed", "How many robots it steps a second, on standard workloads");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--robots", a->robots, "how many; may be given several times")
-      ->check(CLI::Range(1, 10000000))
-      ->capture_default_str();
-  command->add_option("--workload", a->workloads, "which; may be given several times; all of them without");
-  command->add_option("--threads", a->threads, "to step with")->check(CLI::Range(1, 1024))->capture_default_str();
+  std::vector<std::string> names;
+  Rows rows;
+  for (const auto& workload : workloads()) {
+    names.emplace_back(workload.name);
+    rows.push_back({std::string("  ") + workload.name, workload.help});
+  }
+  names.emplace_back(kRays);
+  rows.push_back({std::string("  ") + kRays, kRaysHelp});
+  std::vector<CLI::Option*> choices;
+  choices.push_back(
+      command->add_option("--robots", a->robots, "how many; may be given several times; without: 100, 1,000 and 10,000")
+          ->check(CLI::Range(1, 10000000)));
+  choices.push_back(
+      command->add_option("--workload", a->workloads, "which; may be given several times; all of them without")
+          ->check(CLI::IsMember(names)));
+  choices.push_back(
+      command->add_option("--threads", a->threads, "to step with")->check(CLI::Range(1, 1024))->capture_default_str());
+  choices.push_back(command->add_flag("--json", a->json, "print one JSON object a line"));
   command->add_option("--seed", a->seed, "of the worlds")->check(seedNumber())->capture_default_str();
   command->add_option("--at-least", a->least_s, "seconds to measure each for")
       ->check(numberIn(1e-6, 3600))
       ->type_name("SECONDS")
       ->capture_default_str();
-  command->add_flag("--json", a->json, "print one JSON object a line");
-  std::string footer = "Workloads:\n";
-  Rows rows;
-  for (const auto& workload : workloads()) rows.push_back({std::string("  ") + workload.name, workload.help});
-  command->footer(footer + listing(rows));
-  command->callback([a] { benchSpeed(*a); });
+  command->footer("Workloads:\n" + listing(rows) +
+                  "Without --robots, --workload, --threads and --json it measures all that RoboSim wants to reach in\n"
+                  "speed, 100,000 robots and two threads too, and says what is reached (doc/performance.md).");
+  command->callback([a, choices] {
+    a->targets = std::none_of(choices.begin(), choices.end(), [](const CLI::Option* o) { return o->count() > 0; });
+    benchSpeed(*a);
+  });
 }
 
 }  // namespace robosim

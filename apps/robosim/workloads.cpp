@@ -1,18 +1,19 @@
 #include "robosim/workloads.h"
 
 #include <cmath>
+#include <fstream>
 
 #include "base/random.h"
-#include "base/xml_reader.h"
+#include "base/xml_element.h"
 #include "geometry/scene.h"
-#include "sensors/registry.h"
+#include "robosim/scratch_folder.h"
+#include "world/world_file.h"
 
 namespace robosim {
 namespace {
 
 constexpr double kSquarePerRobot_m2 = 16;
 constexpr double kRadius_m = 0.25;
-constexpr double kHeight_m = 0.3;
 
 constexpr Workload kWorkloads[] = {
     {"sonar", "16 sonars of one ray, 5 m",
@@ -36,24 +37,18 @@ void addObject(World& world, Body body) {
   world.objects.push_back(std::move(object));
 }
 
-std::shared_ptr<const RobotModel> modelFor(const Workload& workload) {
-  auto model = std::make_shared<RobotModel>();
-  model->name = workload.name;
-  model->body.shape = Cylinder{kRadius_m};
-  model->body.height_m = kHeight_m;
-  model->body.center_z_m = kHeight_m / 2;
-  model->radius_m = kRadius_m;
-  model->limits = {.speed_max_mps = 0.7, .turn_max_radps = 2, .accel_mps2 = 1, .decel_mps2 = 2, .turn_accel_radps2 = 5};
-  ErrorList errors;
-  const XmlElement all = parseXml(std::string("<sensors>") + workload.sensors + "<odometry/></sensors>", workload.name);
-  auto infos = std::make_shared<std::vector<SensorInfo>>();
-  for (auto& reader : XmlReader(all, workload.name, errors).all()) {
-    model->sensors.push_back(readSensor(reader, {1, kRadius_m, kHeight_m}));
-    infos->push_back(model->sensors.back()->info());
-  }
-  errors.throwIfAny();
-  model->sensor_infos = infos;
-  return model;
+/// A type of robot as worlds/robots/ has them: a disc of 0.5 m, lively enough to wander.
+std::string robotTypeText(const Workload& workload) {
+  return std::string("<?xml version='1.0'?>\n<robot name='") + workload.name + "'>\n<body radius_m='" +
+         toText(kRadius_m) + "' height_m='0.3'/>\n" +
+         "<limits speed_max_mps='0.7' accel_mps2='1' decel_mps2='2' turn_max_degps='115' turn_accel_degps2='286'/>\n" +
+         "<sensors>" + workload.sensors + "<odometry/></sensors>\n</robot>\n";
+}
+
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text << std::flush;
+  if (!out) throw std::runtime_error(file.string() + ": could not be written; is the disk full?");
 }
 
 /// Free places for robots: drawn at random, and drawn again where something stands.
@@ -80,22 +75,8 @@ class Places {
   Scene scene_;
 };
 
-}  // namespace
-
-std::span<const Workload> workloads() { return kWorkloads; }
-
-const Workload& workloadNamed(const std::string& name) {
-  std::string known;
-  for (const auto& workload : kWorkloads) {
-    if (name == workload.name) return workload;
-    known += (known.empty() ? "" : ", ") + std::string(workload.name);
-  }
-  throw ConfigError("there is no workload '" + name + "'; known are: " + known);
-}
-
-LoadedWorld makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed) {
-  LoadedWorld made;
-  World& world = made.world;
+World makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed) {
+  World world;
   world.name = workload.name;
   const double half_m = std::sqrt(kSquarePerRobot_m2 * static_cast<double>(robots)) / 2;
   world.bounds = {-half_m - 1, half_m + 1, -half_m - 1, half_m + 1};
@@ -120,32 +101,53 @@ LoadedWorld makeWorld(const Workload& workload, std::size_t robots, std::uint64_
   }
 
   const Places places(world, robots);
-  const auto model = modelFor(workload);
   // Robots start one in each square of a raster of 4 m, so that no two of them touch.
   const auto columns = static_cast<std::size_t>(std::ceil(2 * half_m / 4));
   const double pitch_m = 2 * half_m / static_cast<double>(columns);
   for (std::size_t i = 0; i < robots; ++i) {
-    FleetRobot robot;
+    RobotPlacement robot;
+    robot.name = "r" + std::to_string(i);
+    robot.model = workload.name;
+    robot.controller = "wander";
     const double left = -half_m + pitch_m * static_cast<double>(i % columns);
     const double bottom = -half_m + pitch_m * static_cast<double>(i / columns);
     do {
-      robot.world_from_start = {left + rng.uniform(0.3, pitch_m - 0.3), bottom + rng.uniform(0.3, pitch_m - 0.3),
+      robot.world_from_robot = {left + rng.uniform(0.3, pitch_m - 0.3), bottom + rng.uniform(0.3, pitch_m - 0.3),
                                 rng.uniform(-M_PI, M_PI)};
-    } while (!places.isFree({robot.world_from_start.x, robot.world_from_start.y}));
-    robot.info = {.name = "r" + std::to_string(i),
-                  .model = model->name,
-                  .neighbour = "",
-                  .radius_m = kRadius_m,
-                  .height_m = kHeight_m,
-                  .limits = model->limits,
-                  .sensors = model->sensor_infos};
-    robot.model = model;
-    robot.body = model->body;
-    robot.body.world_from_body = robot.world_from_start;
-    robot.controller = "wander";
-    made.fleet.robots.push_back(std::move(robot));
+    } while (!places.isFree({robot.world_from_robot.x, robot.world_from_robot.y}));
+    world.robots.push_back(std::move(robot));
   }
+  return world;
+}
+
+}  // namespace
+
+std::span<const Workload> workloads() { return kWorkloads; }
+
+const Workload& workloadNamed(const std::string& name) {
+  for (const auto& workload : kWorkloads) {
+    if (name == workload.name) return workload;
+  }
+  throw std::invalid_argument("there is no workload '" + name + "'");
+}
+
+LoadedWorld makeWorldToRun(const Workload& workload, std::size_t robots, std::uint64_t seed) {
+  const ScratchFolder types;
+  write(types.path() / (std::string(workload.name) + ".xml"), robotTypeText(workload));
+  LoadedWorld made{makeWorld(workload, robots, seed), {}};
+  ErrorList errors;
+  made.fleet = buildFleet(made.world, workload.name, {types.path()}, {}, errors);
+  errors.throwIfAny();
   return made;
+}
+
+std::filesystem::path writeWorld(const std::filesystem::path& folder, const Workload& workload, std::size_t robots,
+                                 std::uint64_t seed) {
+  std::filesystem::create_directories(folder / "robots");
+  write(folder / "robots" / (std::string(workload.name) + ".xml"), robotTypeText(workload));
+  auto file = folder / (std::string(workload.name) + ".xml");
+  write(file, toXml(makeWorld(workload, robots, seed)));
+  return file;
 }
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
 
@@ -7,7 +8,7 @@
 
 namespace robosim {
 
-/// A standard load for measuring speed: what each robot senses, and how crowded its world is (doc/performance.md).
+/// A standard load for measuring speed: what each robot senses in a world of a given crowdedness (doc/performance.md).
 struct Workload {
   const char* name;
   const char* help;     ///< one sentence
@@ -16,11 +17,19 @@ struct Workload {
 };
 
 std::span<const Workload> workloads();
-/// @throws ConfigError naming the known ones.
+/// The workload of that name.
+/// @throws std::invalid_argument
 const Workload& workloadNamed(const std::string& name);
 
 /// A square world for `robots` robots, the same for the same seed: 16 m² of ground, one box or cylinder of 0.2 m … 0.6
-/// m half-width for each robot, a wall of 4 m for every four robots, and walls around. All robots wander.
-LoadedWorld makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed);
+/// m half-width for each robot, a wall of 4 m for every four robots, and walls around. All robots are of the type that
+/// has the workload's name, and wander.
+LoadedWorld makeWorldToRun(const Workload& workload, std::size_t robots, std::uint64_t seed);
+
+/// Writes that world and its type of robot into a folder.
+/// @return the world's file
+/// @throws std::runtime_error when the files cannot be written
+std::filesystem::path writeWorld(const std::filesystem::path& folder, const Workload& workload, std::size_t robots,
+                                 std::uint64_t seed);
 
 }  // namespace robosim

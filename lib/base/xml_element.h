@@ -28,8 +28,8 @@ struct XmlElement {
   XmlElement& add(std::string child_name, std::string child_text = {});
 };
 
-/// Largest XML file read [bytes].
-constexpr std::size_t kMaxXmlFileBytes = 64u << 20;
+/// Largest XML file read [bytes]: enough for a world of 100,000 robots, at about 1 KB each with the things around it.
+constexpr std::size_t kMaxXmlFileBytes = 128u << 20;
 
 /// Reads a whole file into its root element.
 /// @throws ConfigError "file:line: what" when the file is missing, a directory, empty, larger than kMaxXmlFileBytes,

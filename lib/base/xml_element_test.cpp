@@ -153,10 +153,10 @@ TEST_F(XmlFile, ThatCannotBeReadIsRefusedWithItsName) {
   EXPECT_EQ(faultOfFile(empty), empty.string() + ":1: the file is empty; an XML document was expected");
 }
 
-TEST_F(XmlFile, OfAHundredMegabytesIsRefusedAfterReadingALittleOfIt) {
+TEST_F(XmlFile, OfTwoHundredMegabytesIsRefusedAfterReadingALittleOfIt) {
   const auto file = holding("<a>");
-  std::filesystem::resize_file(file, 100'000'000);
-  EXPECT_EQ(faultOfFile(file), file.string() + ": is larger than 64 MiB, the most that is read; is it a world file?");
+  std::filesystem::resize_file(file, 200'000'000);
+  EXPECT_EQ(faultOfFile(file), file.string() + ": is larger than 128 MiB, the most that is read; is it a world file?");
 }
 
 TEST(ToText, ReadsBackAsExactlyTheSameNumber) {

@@ -261,15 +261,15 @@ TEST(WorldReader, RefusesWhatIsNoXmlFile) {
                                     ROBOSIM_SOURCE_DIR "/tests/none.xml: no such file; check the path"}));
 }
 
-TEST(WorldReader, RefusesAHundredMegabytes) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "hundred_megabytes.xml";
+TEST(WorldReader, RefusesTwoHundredMegabytes) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "two_hundred_megabytes.xml";
   std::ofstream(file) << "<world>";
-  std::filesystem::resize_file(file, 100'000'000);
+  std::filesystem::resize_file(file, 200'000'000);
   ErrorList errors;
   readWorld(file, errors);
   std::filesystem::remove(file);
   EXPECT_EQ(errors.errors(),
-            Lines{file.string() + ": is larger than 64 MiB, the most that is read; is it a world file?"});
+            Lines{file.string() + ": is larger than 128 MiB, the most that is read; is it a world file?"});
 }
 
 TEST(WorldReader, SurvivesDamageOfAnyKind) {

@@ -1,0 +1,85 @@
+#include "robosim/bench_robots.h"
+
+#include "robosim/bench_process.h"
+#include "robosim/local_run.h"
+#include "robosim/scratch_folder.h"
+
+namespace robosim {
+namespace {
+
+/// A run whose first steps are done: they fill caches, give arrays their sizes and bring the robots up to speed.
+class WarmRun {
+ public:
+  /// @param make gives the world
+  template <typename Make>
+  WarmRun(const Make& make, int threads, std::uint64_t seed) {
+    const Clocks start = Clocks::now();
+    const RunOptions options{.environment = {.seed = seed, .period_s = 0.1, .threads = threads}, .controller = ""};
+    run_ = std::make_unique<LocalRun>(make(), options);
+    ready_s_ = Clocks::now().wall_s - start.wall_s;
+    constexpr int kWarmUpSteps = 20;
+    for (int i = 0; i < kWarmUpSteps; ++i) run_->step();
+    digest_ = run_->environment().digest();
+  }
+
+  /// Takes a step a time; the unit is a robot-step.
+  Contender steps() const {
+    return {.work = [run = run_.get()] {
+      run->step();
+      return static_cast<double>(run->environment().robotCount());
+    }};
+  }
+  double readyAfter() const { return ready_s_; }  ///< [s] from nothing to where the first step could be taken
+  const std::string& digest() const { return digest_; }
+
+ private:
+  std::unique_ptr<LocalRun> run_;
+  double ready_s_ = 0;
+  std::string digest_;
+};
+
+WarmRun warmRun(const RobotLoad& load, std::uint64_t seed) {
+  return {[&] { return makeWorldToRun(*load.workload, load.robots, seed); }, load.threads, seed};
+}
+
+}  // namespace
+
+RobotFigures benchRobots(const RobotLoad& load, std::uint64_t seed, double least_s) {
+  return inOwnProcess([&]() -> RobotFigures {
+    const WarmRun run = warmRun(load, seed);
+    const Contender steps = run.steps();
+    const Cost cost = takeTurns({&steps, 1}, least_s).front();
+    return {.workload = load.workload->name,
+            .robots = load.robots,
+            .threads = load.threads,
+            .robot_step = cost,
+            .peak_rss_mb = Memory::now().peak_mb,
+            .make_s = run.readyAfter(),
+            .digest = run.digest()};
+  });
+}
+
+std::vector<Cost> compareRobots(const std::vector<RobotLoad>& loads, std::uint64_t seed, double least_s) {
+  return inOwnProcess([&] {
+    std::vector<WarmRun> runs;
+    std::vector<Contender> contenders;
+    for (const auto& load : loads) {
+      runs.push_back(warmRun(load, seed));
+      contenders.push_back(runs.back().steps());
+    }
+    return takeTurns(contenders, least_s);
+  });
+}
+
+LoadingFigures benchLoading(const Workload& workload, std::size_t robots, std::uint64_t seed) {
+  const ScratchFolder folder;
+  // Written elsewhere, for the memory that this takes is no part of loading.
+  const auto file = inOwnProcess([&] { return writeWorld(folder.path(), workload, robots, seed).string(); });
+  return inOwnProcess([&]() -> LoadingFigures {
+    const Memory before = Memory::now();
+    const WarmRun run([&] { return loadWorldToRun(file.get<std::string>(), ""); }, 1, seed);
+    return {.load_s = run.readyAfter(), .rss_growth_mb = Memory::now().resident_mb - before.resident_mb};
+  });
+}
+
+}  // namespace robosim
