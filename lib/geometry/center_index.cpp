@@ -12,13 +12,15 @@ CenterIndex::CenterIndex(const Bounds2D& area, double cell_m)
 
 void CenterIndex::build(std::span<const Solid> solids) {
   items_.resize(solids.size());
+  rough_.resize(solids.size());
   cell_.resize(solids.size());
   discs_.resize(solids.size());
   std::fill(begin_.begin(), begin_.end(), 0);
   reach_max_m_ = 0;
   centers_ = {kInfinity, -kInfinity, kInfinity, -kInfinity};
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    const GridItem& item = items_[i] = GridItem::from(solids[i], static_cast<std::uint32_t>(i));
+    const GridItem& item = items_[i] = GridItem::from(solids[i]);
+    rough_[i] = RoughSolid::from(item, middle());
     reach_max_m_ = std::max(reach_max_m_, item.reach_m);
     centers_ = {std::min(centers_.x_min, item.x), std::max(centers_.x_max, item.x), std::min(centers_.y_min, item.y),
                 std::max(centers_.y_max, item.y)};
@@ -30,7 +32,7 @@ void CenterIndex::build(std::span<const Solid> solids) {
   // Filled from the back, so that each cell's end becomes its begin and its solids stay in the order given.
   for (std::size_t i = items_.size(); i-- > 0;) {
     const GridItem& item = items_[i];
-    discs_[--begin_[cell_[i]]] = {item.x, item.y, item.reach_m, item.index};
+    discs_[--begin_[cell_[i]]] = {item.x, item.y, item.reach_m, static_cast<std::uint32_t>(i)};
   }
 }
 

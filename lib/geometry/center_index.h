@@ -30,6 +30,9 @@ class CenterIndex {
 
   /// The solids, in the order given.
   std::span<const GridItem> items() const { return items_; }
+  std::span<const RoughSolid> rough() const { return rough_; }
+  /// From where the rough solids are seen.
+  mrpt::math::TPoint2D middle() const { return {(area_.x_min + area_.x_max) / 2, (area_.y_min + area_.y_max) / 2}; }
 
   /// Calls visit(disc) for each solid whose disc may reach into `area`, each once.
   template <typename Visit>
@@ -106,6 +109,7 @@ class CenterIndex {
   Bounds2D centers_;                  ///< of all solids
   std::vector<std::uint32_t> begin_;  ///< by cell, and the end
   std::vector<GridItem> items_;       ///< as given
+  std::vector<RoughSolid> rough_;     ///< as given
   std::vector<std::uint32_t> cell_;   ///< of each
   std::vector<Disc> discs_;           ///< by cell
 };

@@ -26,35 +26,6 @@ int cellsIn(double extent_m, double cell_m) {
   return static_cast<int>(std::clamp(std::ceil(extent_m / cell_m), 1.0, 32768.0));
 }
 
-GridItem GridItem::from(const Solid& solid, std::uint32_t index) {
-  GridItem item;
-  item.heights = solid.heights;
-  item.index = index;
-  if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
-    item.is_circle = true;
-    item.x = circle->center.x;
-    item.y = circle->center.y;
-    item.round_m = item.reach_m = circle->radius_m;
-  } else {
-    const auto& box = std::get<OrientedBox>(solid.outline);
-    item.x = box.center.x;
-    item.y = box.center.y;
-    item.axis_x = box.axis.x;
-    item.axis_y = box.axis.y;
-    item.half_length_m = box.half_length_m;
-    item.half_width_m = box.half_width_m;
-    // A little more than it is, so that no rounding makes a ray through a corner seem to pass aside.
-    item.reach_m = std::hypot(box.half_length_m, box.half_width_m) * (1 + 1e-9);
-  }
-  return item;
-}
-
-Bounds2D GridItem::bounds() const {
-  const double half_x = half_length_m * std::abs(axis_x) + half_width_m * std::abs(axis_y) + round_m;
-  const double half_y = half_length_m * std::abs(axis_y) + half_width_m * std::abs(axis_x) + round_m;
-  return {x - half_x, x + half_x, y - half_y, y + half_y};
-}
-
 GridIndex::GridIndex(const Bounds2D& area, double cell_m)
     : area_(area),
       cell_m_(cell_m),
@@ -83,18 +54,22 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
 }
 
 void GridIndex::build(std::span<const Solid> solids) {
-  given_.resize(solids.size());
+  items_.resize(solids.size());
+  rough_.resize(solids.size());
   std::fill(begin_.begin(), begin_.end(), 0);
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    given_[i] = GridItem::from(solids[i], static_cast<std::uint32_t>(i));
-    forCells(given_[i], [&](std::size_t cell) { ++begin_[cell]; });
+    items_[i] = GridItem::from(solids[i]);
+    rough_[i] = RoughSolid::from(items_[i], middle());
+    forCells(items_[i], [&](std::size_t cell) { ++begin_[cell]; });
   }
   std::uint32_t sum = 0;
   for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
-  items_.resize(sum);
+  listed_.resize(sum);
   // Filled from the back, so that each cell's end becomes its begin and its solids stay in the order given.
-  for (std::size_t i = given_.size(); i-- > 0;) {
-    forCells(given_[i], [&](std::size_t cell) { items_[--begin_[cell]] = given_[i]; });
+  for (std::size_t i = items_.size(); i-- > 0;) {
+    forCells(items_[i], [&](std::size_t cell) {
+      listed_[--begin_[cell]] = {rough_[i], static_cast<std::uint32_t>(i)};
+    });
   }
 }
 

@@ -1,45 +1,14 @@
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "geometry/solid.h"
+#include "geometry/grid_item.h"
+#include "geometry/ray.h"
 
 namespace robosim {
-
-/// A solid as a grid keeps it: all that a question asks of it, in one run of memory. A box, or a circle as a box
-/// without sides that is round by its radius: so that most questions are the same sum for both.
-struct GridItem {
-  double x = 0, y = 0;            ///< centre [m]
-  double axis_x = 1, axis_y = 0;  ///< unit vector along the box's length
-  double half_length_m = 0;
-  double half_width_m = 0;
-  double round_m = 0;  ///< radius of a circle; 0 for a box
-  double reach_m = 0;  ///< radius of the disc about its centre that covers the solid
-  HeightSpan heights;
-  std::uint32_t index = 0;  ///< in the order the solids were given
-  bool is_circle = false;
-
-  static GridItem from(const Solid&, std::uint32_t index);
-  Bounds2D bounds() const;
-  /// Whether some of the solid outline lies no further than `far_m` from a point.
-  bool isWithin(double far_m, const mrpt::math::TPoint2D& of) const {
-    return squaredToBox(of) <= (far_m + round_m) * (far_m + round_m);
-  }
-  /// Distance [m] from a point to the solid outline; 0 inside.
-  double distanceTo(const mrpt::math::TPoint2D& p) const { return std::max(0.0, std::sqrt(squaredToBox(p)) - round_m); }
-
- private:
-  double squaredToBox(const mrpt::math::TPoint2D& p) const {
-    const double ox = p.x - x;
-    const double oy = p.y - y;
-    const double beyond_a = std::max(0.0, std::abs(ox * axis_x + oy * axis_y) - half_length_m);
-    const double beyond_b = std::max(0.0, std::abs(oy * axis_x - ox * axis_y) - half_width_m);
-    return beyond_a * beyond_a + beyond_b * beyond_b;
-  }
-};
 
 /// How many cells of a size cover an extent: at least 1, and no more than 32768.
 int cellsIn(double extent_m, double cell_m);
@@ -51,15 +20,27 @@ inline int cellOf(double in_cells, int count) {
 }
 
 /// Which solids reach into which square cell of the plane. Built by counting sort: linear time, no allocation once the
-/// arrays have their size. Each cell's solids lie side by side in memory, copied, so that looking through a cell
-/// touches nothing else. Solids beyond the grid's area are listed in the cells of its rim, which stand for all that
-/// lies outwards of them.
+/// arrays have their size. Each cell's solids lie side by side in memory, in single precision, so that telling which of
+/// them matter touches nothing else. Solids beyond the grid's area are listed in the cells of its rim, which stand for
+/// all that lies outwards of them.
 class GridIndex {
  public:
+  /// A solid as a cell lists it.
+  struct Listed {
+    RoughSolid rough;
+    std::uint32_t index = 0;  ///< in the order the solids were given
+  };
+
   GridIndex(const Bounds2D& area, double cell_m);
 
   /// Lists each solid in every cell that its outline reaches.
   void build(std::span<const Solid> solids);
+
+  /// The solids, in the order given.
+  std::span<const GridItem> items() const { return items_; }
+  std::span<const RoughSolid> rough() const { return rough_; }
+  /// From where the rough solids are seen.
+  mrpt::math::TPoint2D middle() const { return {(area_.x_min + area_.x_max) / 2, (area_.y_min + area_.y_max) / 2}; }
 
   double cellSize() const { return cell_m_; }
   int columns() const { return columns_; }
@@ -69,16 +50,62 @@ class GridIndex {
   /// Column or row of a coordinate, pulled onto the rim when it lies outside.
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
-  /// The solids, in the order given.
-  std::span<const GridItem> items() const { return given_; }
   /// The solids in a cell, in the order they were given.
-  std::span<const GridItem> cell(int column, int row) const {
-    const std::size_t i =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-    return {items_.data() + begin_[i], items_.data() + begin_[i + 1]};
+  std::span<const Listed> cell(int column, int row) const { return cell(cellAt(column, row)); }
+
+  /// Visits what the cells list that a ray goes through, in its order, until the next cell begins at or beyond reach()
+  /// (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the rim go on
+  /// outwards without end.
+  template <typename Reach, typename Visit>
+  void visitAlong(const Ray& ray, const Reach& reach, const Visit& visit) const {
+    Walk x = walk(ray.origin.x, ray.direction.x, area_.x_min, column(ray.origin.x), columns_);
+    Walk y = walk(ray.origin.y, ray.direction.y, area_.y_min, row(ray.origin.y), rows_);
+    const std::ptrdiff_t step_x = ray.direction.x > 0 ? 1 : -1;
+    const std::ptrdiff_t step_y = ray.direction.y > 0 ? columns_ : -columns_;
+    auto at = static_cast<std::ptrdiff_t>(cellAt(column(ray.origin.x), row(ray.origin.y)));
+    while (true) {
+      for (const auto& listed : cell(static_cast<std::size_t>(at))) visit(listed);
+      // Which border is next is anybody's guess, so it is told without a branch.
+      const bool in_x = x.next <= y.next;
+      if ((in_x ? x.next : y.next) >= reach()) return;
+      at += in_x ? step_x : step_y;
+      x.cross(in_x);
+      y.cross(!in_x);
+    }
   }
 
  private:
+  /// The way along one axis.
+  struct Walk {
+    double next = std::numeric_limits<double>::infinity();  ///< distance along the ray to the next border
+    double delta = 0;                                       ///< and between borders
+    int left = 0;                                           ///< borders still to cross before the rim
+
+    void cross(bool crosses) {
+      left -= crosses ? 1 : 0;
+      const double after = next + (crosses ? delta : 0.0);
+      next = left == 0 ? std::numeric_limits<double>::infinity() : after;
+    }
+  };
+  Walk walk(double origin, double direction, double low, int cell, int count) const {
+    Walk w;
+    w.left = direction > 0 ? count - 1 - cell : cell;
+    if (direction == 0 || w.left == 0) {
+      w.left = 0;
+      return w;
+    }
+    const double per = 1 / direction;
+    w.next = (low + (cell + (direction > 0 ? 1 : 0)) * cell_m_ - origin) * per;
+    w.delta = cell_m_ * std::abs(per);
+    return w;
+  }
+
+  std::size_t cellAt(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+  std::span<const Listed> cell(std::size_t at) const {
+    return {listed_.data() + begin_[at], listed_.data() + begin_[at + 1]};
+  }
   template <typename Visit>
   void forCells(const GridItem& item, const Visit& visit) const;
 
@@ -86,8 +113,9 @@ class GridIndex {
   double cell_m_, per_m_;
   int columns_, rows_;
   std::vector<std::uint32_t> begin_;
-  std::vector<GridItem> given_;  ///< one per solid
-  std::vector<GridItem> items_;  ///< by cell
+  std::vector<GridItem> items_;    ///< one per solid
+  std::vector<RoughSolid> rough_;  ///< one per solid
+  std::vector<Listed> listed_;     ///< by cell
 };
 
 }  // namespace robosim

@@ -29,8 +29,6 @@ class RayBatch {
   /// Nothing further than this from the centre can change what is known so far [m].
   double reach() const { return farthest_m_ + spread_m_; }
 
-  /// Whether the solid is at their height and within their range, so that meet() is worth its while.
-  bool mayMeet(const GridItem& item) const { return item.heights.contains(z_m_) && item.isWithin(reach(), center_); }
   /// Holds solids against all rays they may meet.
   void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
@@ -43,6 +41,8 @@ class RayBatch {
   std::int64_t body(std::size_t i) const { return body_[i]; }
 
  private:
+  /// Whether the solid is at their height and within their reach.
+  bool mayMeet(const GridItem& item) const { return item.heights.contains(z_m_) && item.isWithin(reach(), center_); }
   void meetByRay(const Candidates& candidates);
   void meetByBlock(const GridItem& item, std::int64_t body);
   void settle();

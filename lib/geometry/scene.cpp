@@ -30,36 +30,6 @@ bool better(double distance_m, BodyId body, const Hit& best) {
   return distance_m < best.distance_m || (distance_m == best.distance_m && best.body != kNoBody && body < best.body);
 }
 
-/// Visits the cells that the ray goes through, in its order, until the next one begins at or beyond reach() (Amanatides
-/// & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the rim go on outwards
-/// without end.
-template <typename Reach, typename Visit>
-void alongRay(const GridIndex& grid, const Ray& ray, const Reach& reach, const Visit& visit) {
-  struct Axis {
-    int cell, step, last;
-    double next, delta;  // distance along the ray to the next border, and between borders
-  };
-  const auto axis = [&](double origin, double direction, double low, int cell, int count) {
-    Axis a{cell, direction > 0 ? 1 : -1, direction > 0 ? count - 1 : 0, kInfinity, 0};
-    if (direction != 0) {
-      const double border = low + (cell + (direction > 0 ? 1 : 0)) * grid.cellSize();
-      a.next = (border - origin) / direction;
-      a.delta = grid.cellSize() / std::abs(direction);
-    }
-    if (a.cell == a.last) a.next = kInfinity;
-    return a;
-  };
-  Axis x = axis(ray.origin.x, ray.direction.x, grid.xMin(), grid.column(ray.origin.x), grid.columns());
-  Axis y = axis(ray.origin.y, ray.direction.y, grid.yMin(), grid.row(ray.origin.y), grid.rows());
-  while (true) {
-    visit(x.cell, y.cell);
-    Axis& nearer = x.next <= y.next ? x : y;
-    if (nearer.next >= reach()) return;
-    nearer.cell += nearer.step;
-    nearer.next = nearer.cell == nearer.last ? kInfinity : nearer.next + nearer.delta;
-  }
-}
-
 Bounds2D boundsOf(const Sector& sector, double range_m) {
   Bounds2D b{sector.apex.x, sector.apex.x, sector.apex.y, sector.apex.y};
   const auto include = [&](const TPoint2D& direction) {
@@ -89,15 +59,37 @@ bool meet(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-/// Distance along a level ray to where it enters an item at its height, or infinity.
+/// A level ray in single precision, from the middle of the scene: enough to tell what it may meet.
+struct RoughRay {
+  RoughPlace from;
+  float dx, dy;
+
+  RoughRay(const Ray& ray, const TPoint2D& middle)
+      : from(RoughPlace::from({ray.origin.x, ray.origin.y}, 0, middle)),
+        dx(static_cast<float>(ray.direction.x)),
+        dy(static_cast<float>(ray.direction.y)) {}
+
+  /// Whether it passes through the rectangle about the solid that lies along and across it, nearer than `reach_m`.
+  bool passes(const RoughSolid& solid, float reach_m) const {
+    const float ox = solid.x - from.x;
+    const float oy = solid.y - from.y;
+    const float round = solid.round_m + from.lost_m;
+    const float along = dx * ox + dy * oy;
+    const float across = std::abs(dx * oy - dy * ox);
+    const float slope_a = std::abs(dx * solid.axis_x + dy * solid.axis_y);
+    const float slope_b = std::abs(dy * solid.axis_x - dx * solid.axis_y);
+    const float wide = solid.half_length_m * slope_b + solid.half_width_m * slope_a + round;
+    const float deep = solid.half_length_m * slope_a + solid.half_width_m * slope_b + round;
+    return (across <= wide) & (along >= -deep) & (along - deep <= reach_m);
+  }
+};
+
+/// Distance along a level ray to where it enters an item, or infinity.
 double enterLevel(const Ray& ray, const GridItem& item) {
   const double ox = item.x - ray.origin.x;
   const double oy = item.y - ray.origin.y;
   const double dx = ray.direction.x;
   const double dy = ray.direction.y;
-  // Most items of a cell lie aside of the ray; that is seen without a square root or a division.
-  const double across = dx * oy - dy * ox;
-  if (across * across > item.reach_m * item.reach_m) return kInfinity;
   if (item.is_circle) return enterCircle(ox, oy, dx, dy, item.round_m);
   return enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
 }
@@ -197,16 +189,9 @@ Scene::Scene(std::vector<Solid> stationary, std::size_t moving_count, const Boun
     : stationary_(std::move(stationary)),
       moving_(moving_count),
       stationary_index_(area, cellFor(area, stationary_.size())),
-      moving_index_(area, cellFor(area, moving_count)),
-      middle_((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2) {
+      moving_index_(area, cellFor(area, moving_count)) {
   stationary_index_.build(stationary_);
-  makeRough(stationary_index_.items(), rough_stationary_);
   freeze();
-}
-
-void Scene::makeRough(std::span<const GridItem> items, std::vector<RoughSolid>& rough) const {
-  rough.resize(items.size());
-  for (std::size_t i = 0; i < items.size(); ++i) rough[i] = RoughSolid::from(items[i], middle_);
 }
 
 const Solid& Scene::solid(BodyId body) const {
@@ -214,28 +199,32 @@ const Solid& Scene::solid(BodyId body) const {
   return i < stationary_.size() ? stationary_[i] : moving_[i - stationary_.size()];
 }
 
-void Scene::freeze() {
-  moving_index_.build(moving_);
-  makeRough(moving_index_.items(), rough_moving_);
-}
+void Scene::freeze() { moving_index_.build(moving_); }
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
   best.distance_m = range_m;
-  const bool is_level = ray.direction.z == 0;
   const auto reach = [&] { return best.distance_m; };
-  const auto cast = [&](const GridItem& item, BodyId body) {
-    if (is_level && !item.heights.contains(ray.origin.z)) return;
-    const double met = is_level ? enterLevel(ray, item) : intersect(ray, solid(body)).value_or(kInfinity);
-    if (better(met, body, best) && body != except) best = {met, body, {}};
+  const auto keep = [&](double met_m, BodyId body) {
+    if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
   };
-  alongRay(stationary_index_, ray, reach, [&](int column, int row) {
-    for (const auto& item : stationary_index_.cell(column, row)) cast(item, BodyId{item.index});
-  });
-  moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
-    const GridItem& item = moving_index_.items()[disc.index];
-    cast(item, movingBody(disc.index));
-  });
+  if (ray.direction.z == 0) {
+    const RoughRay rough(ray, stationary_index_.middle());
+    const auto castLevel = [&](const RoughSolid& solid, const GridItem& item, BodyId body) {
+      if (!rough.passes(solid, static_cast<float>(best.distance_m)) || !item.heights.contains(ray.origin.z)) return;
+      keep(enterLevel(ray, item), body);
+    };
+    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Listed& listed) {
+      castLevel(listed.rough, stationary_index_.items()[listed.index], BodyId{listed.index});
+    });
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
+      castLevel(moving_index_.rough()[disc.index], moving_index_.items()[disc.index], movingBody(disc.index));
+    });
+  } else {
+    const auto cast = [&](BodyId body) { keep(intersect(ray, solid(body)).value_or(kInfinity), body); };
+    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Listed& listed) { cast(BodyId{listed.index}); });
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) { cast(movingBody(disc.index)); });
+  }
   if (!best) return {};
   best.point = ray.at(best.distance_m);
   return best;
@@ -245,22 +234,29 @@ template <typename Batch>
 void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
   if (batch.size() == 0) return;
   const std::int64_t left_out = except == kNoBody ? -1 : static_cast<std::int64_t>(except);
-  Gathering<Batch> stationary(batch,
-                              {{}, stationary_index_.items().data(), rough_stationary_.data(), middle_, 0, left_out});
+  Gathering<Batch> stationary(batch, {{},
+                                      stationary_index_.items().data(),
+                                      stationary_index_.rough().data(),
+                                      stationary_index_.middle(),
+                                      0,
+                                      left_out});
   const auto reach = [&] { return batch.reach(); };
   if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i) { stationary.add(i); })) {
     Seen& seen = Seen::begin(stationary_.size());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
-      for (const auto& item : stationary_index_.cell(column, row)) {
-        if (batch.mayMeet(item) && seen.isFirst(item.index)) stationary.add(item.index);
+      for (const auto& listed : stationary_index_.cell(column, row)) {
+        if (seen.isFirst(listed.index)) stationary.add(listed.index);
       }
     });
   }
   stationary.finish();
 
-  const auto first_moving = static_cast<std::uint32_t>(stationary_.size());
-  Gathering<Batch> moving(batch,
-                          {{}, moving_index_.items().data(), rough_moving_.data(), middle_, first_moving, left_out});
+  Gathering<Batch> moving(batch, {{},
+                                  moving_index_.items().data(),
+                                  moving_index_.rough().data(),
+                                  moving_index_.middle(),
+                                  static_cast<std::uint32_t>(stationary_.size()),
+                                  left_out});
   const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
   visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
   moving.finish();
@@ -277,9 +273,9 @@ void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) cons
   static thread_local std::vector<NeighbourList::Neighbour> found;
   found.clear();
   double covered_m = reach_m + kSkin_m;
-  forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](const GridItem& item) {
-    const double nearest_m = item.distanceTo(at);
-    if (nearest_m <= covered_m) found.push_back({static_cast<float>(nearest_m * kRoundDown), item.index});
+  forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](std::uint32_t i) {
+    const double nearest_m = stationary_index_.items()[i].distanceTo(at);
+    if (nearest_m <= covered_m) found.push_back({static_cast<float>(nearest_m * kRoundDown), i});
   });
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
@@ -309,7 +305,7 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
     for (int column = grid.column(reach.x_min); column <= right; ++column) {
       const auto listed = grid.cell(column, row);
       if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-      for (const auto& item : listed) sense(BodyId{item.index});
+      for (const auto& one : listed) sense(BodyId{one.index});
     }
   }
   moving_index_.visitNear(reach, [&](const CenterIndex::Disc& disc) { sense(movingBody(disc.index)); });
@@ -323,15 +319,15 @@ void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
   const int top = grid.row(area.y_max);
   for (int row = grid.row(area.y_min); row <= top; ++row) {
     for (int column = grid.column(area.x_min); column <= right; ++column) {
-      for (const auto& item : grid.cell(column, row)) visit(item);
+      for (const auto& listed : grid.cell(column, row)) visit(listed.index);
     }
   }
 }
 
 void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  forCells(area, [&](const GridItem& item) {
-    if (meet(item.bounds(), area)) found.push_back(BodyId{item.index});
+  forCells(area, [&](std::uint32_t i) {
+    if (meet(stationary_index_.items()[i].bounds(), area)) found.push_back(BodyId{i});
   });
   std::sort(found.begin() + begin, found.end());
   found.erase(std::unique(found.begin() + begin, found.end()), found.end());

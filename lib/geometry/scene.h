@@ -93,7 +93,6 @@ class Scene {
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
-  void makeRough(std::span<const GridItem> items, std::vector<RoughSolid>& rough) const;
   /// Holds every body that may matter against a batch, the nearest first.
   template <typename Batch>
   void meetAll(Batch& batch, BodyId except, const NeighbourList& near) const;
@@ -105,8 +104,6 @@ class Scene {
   std::vector<Solid> stationary_, moving_;
   GridIndex stationary_index_;
   CenterIndex moving_index_;
-  mrpt::math::TPoint2D middle_;  ///< of the area
-  std::vector<RoughSolid> rough_stationary_, rough_moving_;
   Bounds2D area_;
 };
 

@@ -25,8 +25,6 @@ class SectorBatch {
   /// Nothing further than this from the centre can change what is known so far [m].
   double reach() const { return farthest_m_ + spread_m_; }
 
-  /// Whether the solid is at their height and within their range, so that meet() is worth its while.
-  bool mayMeet(const GridItem& item) const { return item.heights.contains(z_m_) && item.isWithin(reach(), center_); }
   /// Holds solids against all sectors they may reach into.
   void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
