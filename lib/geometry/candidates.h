@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <span>
 
-#include "geometry/grid_item.h"
+#include "geometry/rough_solid.h"
 
 namespace robosim {
 

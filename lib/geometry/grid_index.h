@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "geometry/grid_item.h"
 #include "geometry/ray.h"
+#include "geometry/rough_solid.h"
 
 namespace robosim {
 

@@ -20,6 +20,15 @@ class LevelFrame {
         cos_(std::cos(world_from_frame.phi)),
         sin_(std::sin(world_from_frame.phi)) {}
 
+  /// The same frame turned further about its own origin.
+  LevelFrame(const LevelFrame& frame, double turn_rad) : LevelFrame(frame) {
+    if (turn_rad == 0) return;
+    const double cos = std::cos(turn_rad);
+    const double sin = std::sin(turn_rad);
+    cos_ = frame.cos_ * cos - frame.sin_ * sin;
+    sin_ = frame.sin_ * cos + frame.cos_ * sin;
+  }
+
   double x() const { return x_; }
   double y() const { return y_; }
   double z() const { return z_; }

@@ -92,31 +92,6 @@ void findPassing(const RoughRays& rays, std::size_t blocks, const RoughPlace& pl
   }
 }
 
-/// Cones of directions, by block, and how far the farthest of a block's rays still reaches.
-struct Cones {
-  const double* __restrict x;
-  const double* __restrict y;
-  const double* __restrict cos;
-  const double* __restrict sin;
-  const double* __restrict farthest;
-};
-
-/// Notes for each cone of rays that start within some distance of the centre whether one of them may meet a disc at
-/// (ox, oy) from it. `reach` is the disc's radius and that distance together; the disc is no nearer to any origin than
-/// `nearest`.
-ROBOSIM_VECTOR_CLONES
-void findTouched(const Cones& cones, std::size_t count, double ox, double oy, double reach, double nearest,
-                 std::int64_t* __restrict touched) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double along = cones.x[i] * ox + cones.y[i] * oy;
-    const double across = std::abs(cones.x[i] * oy - cones.y[i] * ox);
-    // Turning from the cone's middle to its edge brings the ray nearer to the disc's centre by the most it can.
-    const double least_across = across * cones.cos[i] - std::abs(along) * cones.sin[i];
-    const double most_along = along * cones.cos[i] + across * cones.sin[i];
-    touched[i] = ((least_across <= reach) & (most_along >= -reach) & (nearest <= cones.farthest[i])) ? 1 : 0;
-  }
-}
-
 }  // namespace
 
 void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double range_m, double pan_rad) {
@@ -129,13 +104,8 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
   const std::size_t rays = fan.x_.size();
   for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(rays);
   transform(fan.x_.data(), fan.y_.data(), rays, frame.x(), frame.y(), frame.cos(), frame.sin(), x_.data(), y_.data());
-  double cos = frame.cos();
-  double sin = frame.sin();
-  if (pan_rad != 0) {
-    cos = frame.cos() * std::cos(pan_rad) - frame.sin() * std::sin(pan_rad);
-    sin = frame.sin() * std::cos(pan_rad) + frame.cos() * std::sin(pan_rad);
-  }
-  transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, cos, sin, dx_.data(), dy_.data());
+  const LevelFrame panned(frame, pan_rad);
+  transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, panned.cos(), panned.sin(), dx_.data(), dy_.data());
   distance_.assign(rays, range_m);
   body_.assign(rays, kNothing);
 
@@ -150,48 +120,48 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
     return;
   }
   farthest_.assign(blocks, range_m);
-  for (auto* field : {&middle_x_, &middle_y_, &cos_, &sin_}) field->resize(blocks);
-  touched_.resize(blocks);
-  for (std::size_t block = 0; block < blocks; ++block) {
-    const auto& cone = fan.cones_[block];
-    middle_x_[block] = cos * cone.middle.x - sin * cone.middle.y;
-    middle_y_[block] = sin * cone.middle.x + cos * cone.middle.y;
-    cos_[block] = cone.cos;
-    sin_[block] = cone.sin;
-  }
+  cones_.place(fan.cones_, panned, range_m);
+  passing_.resize(cones_.blocks() * Candidates::kMost);
 }
 
 void RayBatch::meet(const Candidates& candidates) {
-  if (!fan_->isNarrow()) return meetByRay(candidates);
-  for (const auto i : candidates.indices) {
-    const std::int64_t body = candidates.first_body + i;
-    if (mayMeet(candidates.items[i]) && body != candidates.except) meetByBlock(candidates.items[i], body);
+  if (fan_->isNarrow()) {
+    meetByBlock(candidates);
+  } else {
+    meetByRay(candidates);
   }
 }
 
-void RayBatch::meetByBlock(const GridItem& item, std::int64_t body) {
-  const double ox = item.x - center_.x;
-  const double oy = item.y - center_.y;
-  const double reach_m = item.reach_m + spread_m_;
-  const double nearest_m = std::sqrt(ox * ox + oy * oy) - reach_m - kSlack_m;
-  const std::size_t blocks = farthest_.size();
-  findTouched({middle_x_.data(), middle_y_.data(), cos_.data(), sin_.data(), farthest_.data()}, blocks, ox, oy, reach_m,
-              nearest_m, touched_.data());
-  const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
-  bool is_nearer = false;
-  for (std::size_t block = 0; block < blocks; ++block) {
-    if (!touched_[block]) continue;
-    const std::size_t begin = block * kBlock;
-    const std::size_t end = begin + kBlock;
-    if (item.is_circle) {
-      meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
-    } else {
-      meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
+void RayBatch::meetByBlock(const Candidates& candidates) {
+  cones_.find(RoughPlace::from(center_, 0, candidates.middle, spread_m_), candidates.rough, candidates.indices,
+              passing_.data());
+  const std::uint32_t* passing = passing_.data();
+  for (const auto index : candidates.indices) {
+    const GridItem& item = candidates.items[index];
+    const std::int64_t body = candidates.first_body + index;
+    for (std::size_t cone = 0; cone < cones_.blocks() * RoughSectors::kBlock; cone += RoughSectors::kBlock) {
+      std::uint32_t bits = *passing++;
+      if (bits == 0 || !item.heights.contains(z_m_) || body == candidates.except) continue;
+      for (; bits != 0; bits &= bits - 1) {
+        const std::size_t block = cone + static_cast<std::size_t>(std::countr_zero(bits));
+        if (block < farthest_.size()) meetBlock(item, body, block);
+      }
     }
-    farthest_[block] = largest(distance_.data() + begin, kBlock);
-    is_nearer = true;
   }
-  if (is_nearer) farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
+  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
+}
+
+void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t block) {
+  const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
+  const std::size_t begin = block * kBlock;
+  const std::size_t end = begin + kBlock;
+  if (item.is_circle) {
+    meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
+  } else {
+    meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
+  }
+  farthest_[block] = largest(distance_.data() + begin, kBlock);
+  cones_.setReach(block, farthest_[block]);
 }
 
 void RayBatch::meetByRay(const Candidates& candidates) {

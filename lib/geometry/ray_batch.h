@@ -6,6 +6,7 @@
 #include "geometry/level_frame.h"
 #include "geometry/ray_fan.h"
 #include "geometry/ray_pairs.h"
+#include "geometry/rough_sectors.h"
 
 namespace robosim {
 
@@ -41,10 +42,9 @@ class RayBatch {
   std::int64_t body(std::size_t i) const { return body_[i]; }
 
  private:
-  /// Whether the solid is at their height and within their reach.
-  bool mayMeet(const GridItem& item) const { return item.heights.contains(z_m_) && item.isWithin(reach(), center_); }
   void meetByRay(const Candidates& candidates);
-  void meetByBlock(const GridItem& item, std::int64_t body);
+  void meetByBlock(const Candidates& candidates);
+  void meetBlock(const GridItem& item, std::int64_t body, std::size_t block);
   void settle();
 
   const RayFan* fan_ = nullptr;
@@ -55,14 +55,14 @@ class RayBatch {
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray, as in the fan
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
+  std::vector<std::uint32_t> passing_;  ///< which rays, or cones, candidates pass
 
   // A narrow fan's, by block of rays: the cone that holds their directions, and how far the farthest still reaches.
-  std::vector<double> middle_x_, middle_y_, cos_, sin_, farthest_;
-  std::vector<std::int64_t> touched_;
+  RoughSectors cones_;
+  std::vector<double> farthest_;
 
   // Any other fan's, by ray, as seen from the centre.
   std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;
-  std::vector<std::uint32_t> passing_;
   std::size_t open_ = 0;  ///< rays that have met nothing yet
   RayPairs pairs_;
 };

@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kNarrow_rad = 0.6;
+
+}  // namespace
 
 RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
   if (rays.empty()) return;
@@ -11,7 +18,7 @@ RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
   for (const auto& ray : rays) middle_ += {ray.origin.x, ray.origin.y};
   middle_ *= 1.0 / static_cast<double>(size_);
   for (const auto& ray : rays) {
-    spread_m_ = std::max(spread_m_, (mrpt::math::TPoint2D(ray.origin.x, ray.origin.y) - middle_).norm());
+    spread_m_ = std::max(spread_m_, (TPoint2D(ray.origin.x, ray.origin.y) - middle_).norm());
   }
 
   const std::size_t padded = (size_ + kBlock - 1) / kBlock * kBlock;
@@ -22,21 +29,23 @@ RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
     dx_.push_back(ray.direction.x);
     dy_.push_back(ray.direction.y);
   }
+  std::vector<Sector> cones;
   for (std::size_t first = 0; first < padded; first += kBlock) {
-    Cone cone;
     const std::size_t last = first + kBlock - 1;
-    cone.middle = {dx_[first] + dx_[last], dy_[first] + dy_[last]};
-    const double length = cone.middle.norm();
-    cone.middle = length > 1e-6 ? cone.middle * (1 / length) : mrpt::math::TPoint2D(dx_[first], dy_[first]);
-    double least_cos = 1;
+    TPoint2D axis(dx_[first] + dx_[last], dy_[first] + dy_[last]);
+    if (axis.norm() < 1e-6) axis = {dx_[first], dy_[first]};
+    double half_width_rad = 0;
     for (std::size_t i = first; i <= last; ++i) {
-      least_cos = std::min(least_cos, cone.middle.x * dx_[i] + cone.middle.y * dy_[i]);
+      const double across = axis.x * dy_[i] - axis.y * dx_[i];
+      const double along = axis.x * dx_[i] + axis.y * dy_[i];
+      half_width_rad = std::max(half_width_rad, std::abs(std::atan2(across, along)));
     }
-    is_narrow_ = is_narrow_ && least_cos > 0.8;
-    cone.cos = std::max(0.0, least_cos - 1e-9);
-    cone.sin = std::sqrt(1 - cone.cos * cone.cos);
-    cones_.push_back(cone);
+    // Wider ones are not told from a half-plane; a little more than it is, so that no rounding leaves a ray out.
+    is_narrow_ = is_narrow_ && half_width_rad < kNarrow_rad;
+    cones.push_back(Sector::towards({middle_.x, middle_.y, z_m_}, std::atan2(axis.y, axis.x),
+                                    std::min(half_width_rad, kNarrow_rad) + 1e-6));
   }
+  cones_ = SectorFan(cones);
 }
 
 }  // namespace robosim

@@ -5,6 +5,7 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include "geometry/ray.h"
+#include "geometry/sector_fan.h"
 
 namespace robosim {
 
@@ -33,19 +34,13 @@ class RayFan {
  private:
   friend class RayBatch;
 
-  /// Directions of a block's rays: all within the angle of `cos` and `sin` from the middle one.
-  struct Cone {
-    mrpt::math::TPoint2D middle;
-    double cos = 1, sin = 0;
-  };
-
   std::size_t size_ = 0;
   double z_m_ = 0;
   mrpt::math::TPoint2D middle_;
   double spread_m_ = 0;
   bool is_narrow_ = true;
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray; the last one repeated up to a whole block
-  std::vector<Cone> cones_;              ///< by block
+  SectorFan cones_;                      ///< by block: from the middle, all directions of the block's rays
 };
 
 }  // namespace robosim

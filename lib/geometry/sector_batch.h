@@ -4,7 +4,7 @@
 
 #include "geometry/candidates.h"
 #include "geometry/level_frame.h"
-#include "geometry/sector_fan.h"
+#include "geometry/rough_sectors.h"
 #include "geometry/sector_pairs.h"
 
 namespace robosim {
@@ -37,9 +37,6 @@ class SectorBatch {
   mrpt::math::TPoint2D towards(std::size_t i) const { return {towards_x_[i], towards_y_[i]}; }
 
  private:
-  struct RoughSectors {
-    std::vector<float> x, y, axis_x, axis_y, left_x, left_y, right_x, right_y, distance;
-  };
   void settle();
 
   const SectorFan* fan_ = nullptr;
@@ -50,7 +47,7 @@ class SectorBatch {
   SectorFan::Vectors apex_, axis_, left_, right_;
   std::vector<double> distance_, towards_x_, towards_y_;
   std::vector<std::int64_t> body_;
-  RoughSectors rough_;  ///< as seen from the centre
+  RoughSectors rough_;
   std::vector<std::uint32_t> holding_;
   SectorPairs pairs_;
 };

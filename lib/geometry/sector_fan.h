@@ -24,6 +24,7 @@ class SectorFan {
   double spread() const { return spread_m_; }
 
  private:
+  friend class RoughSectors;
   friend class SectorBatch;
 
   /// Points or directions, by sector; the last one repeated up to a whole block.
