@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace robosim {
 namespace {
@@ -32,7 +33,8 @@ GridIndex::GridIndex(const Bounds2D& area, double cell_m)
       per_m_(1 / cell_m),
       columns_(cellsIn(area.x_max - area.x_min, cell_m)),
       rows_(cellsIn(area.y_max - area.y_min, cell_m)),
-      begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0) {}
+      count_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0),
+      begin_(count_.size() + 1, 0) {}
 
 template <typename Visit>
 void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
@@ -53,22 +55,42 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
   }
 }
 
+GridIndex::Pack::Pack() {
+  for (auto* field : {x, y, axis_x, axis_y, half_length_m, half_width_m}) std::fill_n(field, kMost, 0.0F);
+  std::fill_n(round_m, kMost, -std::numeric_limits<float>::max());  // nothing passes so near
+  std::fill_n(index, kMost, 0U);
+}
+
+void GridIndex::Pack::add(const RoughSolid& solid, std::uint32_t solid_index) {
+  x[count] = solid.x;
+  y[count] = solid.y;
+  axis_x[count] = solid.axis_x;
+  axis_y[count] = solid.axis_y;
+  half_length_m[count] = solid.half_length_m;
+  half_width_m[count] = solid.half_width_m;
+  round_m[count] = solid.round_m;
+  index[count] = solid_index;
+  ++count;
+}
+
 void GridIndex::build(std::span<const Solid> solids) {
   items_.resize(solids.size());
   rough_.resize(solids.size());
-  std::fill(begin_.begin(), begin_.end(), 0);
+  std::fill(count_.begin(), count_.end(), 0);
   for (std::size_t i = 0; i < solids.size(); ++i) {
     items_[i] = GridItem::from(solids[i]);
     rough_[i] = RoughSolid::from(items_[i], middle());
-    forCells(items_[i], [&](std::size_t cell) { ++begin_[cell]; });
+    forCells(items_[i], [&](std::size_t cell) { ++count_[cell]; });
   }
-  std::uint32_t sum = 0;
-  for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
-  listed_.resize(sum);
-  // Filled from the back, so that each cell's end becomes its begin and its solids stay in the order given.
-  for (std::size_t i = items_.size(); i-- > 0;) {
+  begin_[0] = 0;
+  for (std::size_t cell = 0; cell < count_.size(); ++cell) {
+    begin_[cell + 1] = begin_[cell] + (count_[cell] + Pack::kMost - 1) / Pack::kMost;
+  }
+  packs_.assign(begin_.back(), Pack());
+  std::fill(count_.begin(), count_.end(), 0);
+  for (std::size_t i = 0; i < items_.size(); ++i) {
     forCells(items_[i], [&](std::size_t cell) {
-      listed_[--begin_[cell]] = {rough_[i], static_cast<std::uint32_t>(i)};
+      packs_[begin_[cell] + count_[cell]++ / Pack::kMost].add(rough_[i], static_cast<std::uint32_t>(i));
     });
   }
 }

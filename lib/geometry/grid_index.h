@@ -20,15 +20,20 @@ inline int cellOf(double in_cells, int count) {
 }
 
 /// Which solids reach into which square cell of the plane. Built by counting sort: linear time, no allocation once the
-/// arrays have their size. Each cell's solids lie side by side in memory, in single precision, so that telling which of
-/// them matter touches nothing else. Solids beyond the grid's area are listed in the cells of its rim, which stand for
-/// all that lies outwards of them.
+/// arrays have their size. Each cell's solids lie side by side in memory, in packs. Solids beyond the grid's area are
+/// listed in the cells of its rim, which stand for all that lies outwards of them.
 class GridIndex {
  public:
-  /// A solid as a cell lists it.
-  struct Listed {
-    RoughSolid rough;
-    std::uint32_t index = 0;  ///< in the order the solids were given
+  /// Some solids of a cell, by field, in single precision: one vector instruction looks at all of them.
+  struct Pack {
+    static constexpr std::size_t kMost = 8;
+    float x[kMost], y[kMost], axis_x[kMost], axis_y[kMost], half_length_m[kMost], half_width_m[kMost], round_m[kMost];
+    std::uint32_t index[kMost];  ///< in the order the solids were given
+    std::uint32_t count = 0;     ///< where there are fewer, the others are nowhere
+
+    Pack();
+    void add(const RoughSolid& solid, std::uint32_t index);
+    std::span<const std::uint32_t> indices() const { return {index, count}; }
   };
 
   GridIndex(const Bounds2D& area, double cell_m);
@@ -51,20 +56,20 @@ class GridIndex {
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
   /// The solids in a cell, in the order they were given.
-  std::span<const Listed> cell(int column, int row) const { return cell(cellAt(column, row)); }
+  std::span<const Pack> cell(int column, int row) const { return cell(cellAt(column, row)); }
 
-  /// Visits what the cells list that a ray goes through, in its order, until the next cell begins at or beyond reach()
-  /// (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the rim go on
-  /// outwards without end.
+  /// Visits the packs of the cells that a ray goes through, in its order, until the next cell begins at or beyond
+  /// reach() (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the
+  /// rim go on outwards without end.
   template <typename Reach, typename Visit>
-  void visitAlong(const Ray& ray, const Reach& reach, const Visit& visit) const {
+  [[gnu::always_inline]] inline void visitAlong(const Ray& ray, const Reach& reach, const Visit& visit) const {
     Walk x = walk(ray.origin.x, ray.direction.x, area_.x_min, column(ray.origin.x), columns_);
     Walk y = walk(ray.origin.y, ray.direction.y, area_.y_min, row(ray.origin.y), rows_);
     const std::ptrdiff_t step_x = ray.direction.x > 0 ? 1 : -1;
     const std::ptrdiff_t step_y = ray.direction.y > 0 ? columns_ : -columns_;
     auto at = static_cast<std::ptrdiff_t>(cellAt(column(ray.origin.x), row(ray.origin.y)));
     while (true) {
-      for (const auto& listed : cell(static_cast<std::size_t>(at))) visit(listed);
+      for (const auto& pack : cell(static_cast<std::size_t>(at))) visit(pack);
       // Which border is next is anybody's guess, so it is told without a branch.
       const bool in_x = x.next <= y.next;
       if ((in_x ? x.next : y.next) >= reach()) return;
@@ -103,8 +108,8 @@ class GridIndex {
   std::size_t cellAt(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
   }
-  std::span<const Listed> cell(std::size_t at) const {
-    return {listed_.data() + begin_[at], listed_.data() + begin_[at + 1]};
+  std::span<const Pack> cell(std::size_t at) const {
+    return {packs_.data() + begin_[at], packs_.data() + begin_[at + 1]};
   }
   template <typename Visit>
   void forCells(const GridItem& item, const Visit& visit) const;
@@ -112,10 +117,11 @@ class GridIndex {
   Bounds2D area_;
   double cell_m_, per_m_;
   int columns_, rows_;
-  std::vector<std::uint32_t> begin_;
-  std::vector<GridItem> items_;    ///< one per solid
-  std::vector<RoughSolid> rough_;  ///< one per solid
-  std::vector<Listed> listed_;     ///< by cell
+  std::vector<GridItem> items_;       ///< one per solid
+  std::vector<RoughSolid> rough_;     ///< one per solid
+  std::vector<std::uint32_t> count_;  ///< of solids, by cell
+  std::vector<std::uint32_t> begin_;  ///< first pack, by cell, and the end
+  std::vector<Pack> packs_;           ///< by cell
 };
 
 }  // namespace robosim

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 
 #include "geometry/level_ray.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
@@ -23,7 +25,7 @@ constexpr double kRoundDown = 1 - 1e-7;
 /// A cell size at which a cell holds less than one solid on average, and that keeps the grid's memory in proportion.
 double cellFor(const Bounds2D& area, std::size_t solids) {
   const double square_m2 = std::max(1e-6, (area.x_max - area.x_min) * (area.y_max - area.y_min));
-  return std::max(0.25, std::sqrt(square_m2 / (2.0 * static_cast<double>(solids + 4))));
+  return std::max(0.25, std::sqrt(square_m2 / (0.4 * static_cast<double>(solids + 4))));
 }
 
 bool better(double distance_m, BodyId body, const Hit& best) {
@@ -59,39 +61,29 @@ bool meet(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-/// A level ray in single precision, from the middle of the scene: enough to tell what it may meet.
+/// A level ray in single precision, from the middle of the scene.
 struct RoughRay {
-  RoughPlace from;
-  float dx, dy;
-
-  RoughRay(const Ray& ray, const TPoint2D& middle)
-      : from(RoughPlace::from({ray.origin.x, ray.origin.y}, 0, middle)),
-        dx(static_cast<float>(ray.direction.x)),
-        dy(static_cast<float>(ray.direction.y)) {}
-
-  /// Whether it passes through the rectangle about the solid that lies along and across it, nearer than `reach_m`.
-  bool passes(const RoughSolid& solid, float reach_m) const {
-    const float ox = solid.x - from.x;
-    const float oy = solid.y - from.y;
-    const float round = solid.round_m + from.lost_m;
-    const float along = dx * ox + dy * oy;
-    const float across = std::abs(dx * oy - dy * ox);
-    const float slope_a = std::abs(dx * solid.axis_x + dy * solid.axis_y);
-    const float slope_b = std::abs(dy * solid.axis_x - dx * solid.axis_y);
-    const float wide = solid.half_length_m * slope_b + solid.half_width_m * slope_a + round;
-    const float deep = solid.half_length_m * slope_a + solid.half_width_m * slope_b + round;
-    return (across <= wide) & (along >= -deep) & (along - deep <= reach_m);
-  }
+  float x, y, lost_m, dx, dy;
 };
 
-/// Distance along a level ray to where it enters an item, or infinity.
-double enterLevel(const Ray& ray, const GridItem& item) {
-  const double ox = item.x - ray.origin.x;
-  const double oy = item.y - ray.origin.y;
-  const double dx = ray.direction.x;
-  const double dy = ray.direction.y;
-  if (item.is_circle) return enterCircle(ox, oy, dx, dy, item.round_m);
-  return enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+/// Which solids of a pack lie on a ray's way nearer than its reach, by the rectangle about each that lies along and
+/// across the ray: bit i for solid i.
+[[gnu::always_inline]] inline std::uint32_t passedBy(const RoughRay& ray, const GridIndex::Pack& pack, float reach_m) {
+  std::uint32_t passed = 0;
+  for (std::size_t i = 0; i < GridIndex::Pack::kMost; ++i) {
+    const float ox = pack.x[i] - ray.x;
+    const float oy = pack.y[i] - ray.y;
+    const float round = pack.round_m[i] + ray.lost_m;
+    const float along = ray.dx * ox + ray.dy * oy;
+    const float across = std::abs(ray.dx * oy - ray.dy * ox);
+    const float slope_a = std::abs(ray.dx * pack.axis_x[i] + ray.dy * pack.axis_y[i]);
+    const float slope_b = std::abs(ray.dy * pack.axis_x[i] - ray.dx * pack.axis_y[i]);
+    const float wide = pack.half_length_m[i] * slope_b + pack.half_width_m[i] * slope_a + round;
+    const float deep = pack.half_length_m[i] * slope_a + pack.half_width_m[i] * slope_b + round;
+    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= reach_m);
+    passed += passes ? kMaskBit[i] : 0;
+  }
+  return passed;
 }
 
 /// Marks which bodies a question has looked at already: a body is listed in every cell it reaches into. One for each
@@ -203,30 +195,58 @@ void Scene::freeze() { moving_index_.build(moving_); }
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
-  best.distance_m = range_m;
-  const auto reach = [&] { return best.distance_m; };
-  const auto keep = [&](double met_m, BodyId body) {
-    if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
-  };
   if (ray.direction.z == 0) {
-    const RoughRay rough(ray, stationary_index_.middle());
-    const auto castLevel = [&](const RoughSolid& solid, const GridItem& item, BodyId body) {
-      if (!rough.passes(solid, static_cast<float>(best.distance_m)) || !item.heights.contains(ray.origin.z)) return;
-      keep(enterLevel(ray, item), body);
-    };
-    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Listed& listed) {
-      castLevel(listed.rough, stationary_index_.items()[listed.index], BodyId{listed.index});
-    });
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
-      castLevel(moving_index_.rough()[disc.index], moving_index_.items()[disc.index], movingBody(disc.index));
-    });
+    best = castLevel(ray, range_m, except);
   } else {
-    const auto cast = [&](BodyId body) { keep(intersect(ray, solid(body)).value_or(kInfinity), body); };
-    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Listed& listed) { cast(BodyId{listed.index}); });
+    best.distance_m = range_m;
+    const auto reach = [&] { return best.distance_m; };
+    const auto cast = [&](BodyId body) {
+      const double met_m = intersect(ray, solid(body)).value_or(kInfinity);
+      if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
+    };
+    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
+      for (const auto i : pack.indices()) cast(BodyId{i});
+    });
     moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) { cast(movingBody(disc.index)); });
   }
   if (!best) return {};
   best.point = ray.at(best.distance_m);
+  return best;
+}
+
+ROBOSIM_VECTOR_CLONES
+Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
+  Hit best;
+  best.distance_m = range_m;
+  const auto reach = [&] { return best.distance_m; };
+  const double dx = ray.direction.x;
+  const double dy = ray.direction.y;
+  const auto cast = [&](const GridItem& item, BodyId body) __attribute__((always_inline)) {
+    if (!item.heights.contains(ray.origin.z)) return;
+    const double ox = item.x - ray.origin.x;
+    const double oy = item.y - ray.origin.y;
+    const double met_m =
+        item.is_circle ? enterCircle(ox, oy, dx, dy, item.round_m)
+                       : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+    if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
+  };
+  const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
+  const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(dx), static_cast<float>(dy)};
+  const GridItem* items = stationary_index_.items().data();
+  stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
+    std::uint32_t passed = passedBy(rough, pack, static_cast<float>(best.distance_m));
+    for (; passed != 0; passed &= passed - 1) {
+      const std::uint32_t i = pack.index[std::countr_zero(passed)];
+      cast(items[i], BodyId{i});
+    }
+  });
+  if (!moving_.empty()) {
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
+      const double across = dx * (disc.y - ray.origin.y) - dy * (disc.x - ray.origin.x);
+      if (std::abs(across) > disc.reach_m) return;
+      cast(moving_index_.items()[disc.index], movingBody(disc.index));
+    });
+  }
   return best;
 }
 
@@ -244,8 +264,10 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i) { stationary.add(i); })) {
     Seen& seen = Seen::begin(stationary_.size());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
-      for (const auto& listed : stationary_index_.cell(column, row)) {
-        if (seen.isFirst(listed.index)) stationary.add(listed.index);
+      for (const auto& pack : stationary_index_.cell(column, row)) {
+        for (const auto i : pack.indices()) {
+          if (seen.isFirst(i)) stationary.add(i);
+        }
       }
     });
   }
@@ -305,7 +327,9 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
     for (int column = grid.column(reach.x_min); column <= right; ++column) {
       const auto listed = grid.cell(column, row);
       if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-      for (const auto& one : listed) sense(BodyId{one.index});
+      for (const auto& pack : listed) {
+        for (const auto i : pack.indices()) sense(BodyId{i});
+      }
     }
   }
   moving_index_.visitNear(reach, [&](const CenterIndex::Disc& disc) { sense(movingBody(disc.index)); });
@@ -319,7 +343,9 @@ void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
   const int top = grid.row(area.y_max);
   for (int row = grid.row(area.y_min); row <= top; ++row) {
     for (int column = grid.column(area.x_min); column <= right; ++column) {
-      for (const auto& listed : grid.cell(column, row)) visit(listed.index);
+      for (const auto& pack : grid.cell(column, row)) {
+        for (const auto i : pack.indices()) visit(i);
+      }
     }
   }
 }

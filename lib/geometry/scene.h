@@ -93,6 +93,8 @@ class Scene {
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
+  /// castRay() for a level one, without the point.
+  Hit castLevel(const Ray& ray, double range_m, BodyId except) const;
   /// Holds every body that may matter against a batch, the nearest first.
   template <typename Batch>
   void meetAll(Batch& batch, BodyId except, const NeighbourList& near) const;
