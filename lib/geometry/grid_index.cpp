@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace robosim {
 namespace {
@@ -53,24 +52,6 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
       }
     }
   }
-}
-
-GridIndex::Pack::Pack() {
-  for (auto* field : {x, y, axis_x, axis_y, half_length_m, half_width_m}) std::fill_n(field, kMost, 0.0F);
-  std::fill_n(round_m, kMost, -std::numeric_limits<float>::max());  // nothing passes so near
-  std::fill_n(index, kMost, 0U);
-}
-
-void GridIndex::Pack::add(const RoughSolid& solid, std::uint32_t solid_index) {
-  x[count] = solid.x;
-  y[count] = solid.y;
-  axis_x[count] = solid.axis_x;
-  axis_y[count] = solid.axis_y;
-  half_length_m[count] = solid.half_length_m;
-  half_width_m[count] = solid.half_width_m;
-  round_m[count] = solid.round_m;
-  index[count] = solid_index;
-  ++count;
 }
 
 void GridIndex::build(std::span<const Solid> solids) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "geometry/ray.h"
-#include "geometry/rough_solid.h"
+#include "geometry/solid_pack.h"
 
 namespace robosim {
 
@@ -24,17 +24,7 @@ inline int cellOf(double in_cells, int count) {
 /// listed in the cells of its rim, which stand for all that lies outwards of them.
 class GridIndex {
  public:
-  /// Some solids of a cell, by field, in single precision: one vector instruction looks at all of them.
-  struct Pack {
-    static constexpr std::size_t kMost = 8;
-    float x[kMost], y[kMost], axis_x[kMost], axis_y[kMost], half_length_m[kMost], half_width_m[kMost], round_m[kMost];
-    std::uint32_t index[kMost];  ///< in the order the solids were given
-    std::uint32_t count = 0;     ///< where there are fewer, the others are nowhere
-
-    Pack();
-    void add(const RoughSolid& solid, std::uint32_t index);
-    std::span<const std::uint32_t> indices() const { return {index, count}; }
-  };
+  using Pack = SolidPack<8>;
 
   GridIndex(const Bounds2D& area, double cell_m);
 

@@ -1,7 +1,6 @@
 #include "geometry/ray_batch.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "geometry/level_ray.h"
@@ -13,7 +12,6 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr std::size_t kBlock = RayFan::kBlock;
-static_assert(kBlock <= kMaskBits);
 /// Rounding may make a solid seem this much [m] farther off than it is.
 constexpr double kSlack_m = 1e-9;
 /// Rays of a batch as bare arrays: what the loops below need to become vector instructions.
@@ -60,34 +58,32 @@ struct RoughRays {
   const float* __restrict distance;
 };
 
-/// Which rays pass through the rectangle about a solid that lies along and across the ray, nearer than they have met
-/// something; for each solid and each block of rays, bit i for ray i. Finding that out costs less than the sum for
-/// where a ray enters a solid, and of rays that look all ways few do.
+/// Which rays of a block pass through the rectangle about each solid that lies along and across the ray, nearer than
+/// they have met something. Finding that out costs less than the sum for where a ray enters a solid, and of rays that
+/// look all ways few do. One ray after the other: what is found of each solid gathers in its own lane.
 ROBOSIM_VECTOR_CLONES
-void findPassing(const RoughRays& rays, std::size_t blocks, const RoughPlace& place, const RoughSolid* solids,
-                 const std::uint32_t* indices, std::size_t count, std::uint32_t* __restrict passing) {
-  for (std::size_t k = 0; k < count; ++k) {
-    const RoughSolid& solid = solids[indices[k]];
-    const float x = solid.x - place.x;
-    const float y = solid.y - place.y;
-    const float round = solid.round_m + place.lost_m;
-    for (std::size_t begin = 0; begin < blocks * kBlock; begin += kBlock) {
-      std::uint32_t bits = 0;
-      for (std::size_t i = 0; i < kBlock; ++i) {
-        const float dx = rays.dx[begin + i];
-        const float dy = rays.dy[begin + i];
-        const float ox = x - rays.x[begin + i];
-        const float oy = y - rays.y[begin + i];
-        const float along = dx * ox + dy * oy;
-        const float across = std::abs(dx * oy - dy * ox);
-        const float slope_a = std::abs(dx * solid.axis_x + dy * solid.axis_y);
-        const float slope_b = std::abs(dy * solid.axis_x - dx * solid.axis_y);
-        const float wide = solid.half_length_m * slope_b + solid.half_width_m * slope_a + round;
-        const float deep = solid.half_length_m * slope_a + solid.half_width_m * slope_b + round;
-        const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[begin + i]);
-        bits += passes ? kMaskBit[i] : 0;
-      }
-      *passing++ = bits;
+void findPassing(const RoughRays& rays, std::size_t begin, std::size_t end, const RoughPlace& place,
+                 const Candidates::Pack& solids, std::size_t lanes, std::uint32_t* __restrict passing) {
+  for (std::size_t k = 0; k < lanes; ++k) passing[k] = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t bit = std::uint32_t{1} << (i - begin);
+    const float x = place.x + rays.x[i];
+    const float y = place.y + rays.y[i];
+    const float dx = rays.dx[i];
+    const float dy = rays.dy[i];
+    const float reach = rays.distance[i];
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float ox = solids.x[k] - x;
+      const float oy = solids.y[k] - y;
+      const float round = solids.round_m[k] + place.lost_m;
+      const float along = dx * ox + dy * oy;
+      const float across = std::abs(dx * oy - dy * ox);
+      const float slope_a = std::abs(dx * solids.axis_x[k] + dy * solids.axis_y[k]);
+      const float slope_b = std::abs(dy * solids.axis_x[k] - dx * solids.axis_y[k]);
+      const float wide = solids.half_length_m[k] * slope_b + solids.half_width_m[k] * slope_a + round;
+      const float deep = solids.half_length_m[k] * slope_a + solids.half_width_m[k] * slope_b + round;
+      const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= reach);
+      passing[k] += passes ? bit : 0;
     }
   }
 }
@@ -115,13 +111,13 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
     roughly(x_.data(), y_.data(), rays, center_.x, center_.y, rough_x_.data(), rough_y_.data());
     roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
     rough_distance_.assign(rays, static_cast<float>(range_m));
-    passing_.resize(blocks * Candidates::kMost);
-    open_ = rays;
+    passing_.resize(blocks);
+    open_ = fan.size();
     return;
   }
   farthest_.assign(blocks, range_m);
   cones_.place(fan.cones_, panned, range_m);
-  passing_.resize(cones_.blocks() * Candidates::kMost);
+  passing_.resize(cones_.blocks());
 }
 
 void RayBatch::meet(const Candidates& candidates) {
@@ -133,20 +129,12 @@ void RayBatch::meet(const Candidates& candidates) {
 }
 
 void RayBatch::meetByBlock(const Candidates& candidates) {
-  cones_.find(RoughPlace::from(center_, 0, candidates.middle, spread_m_), candidates.rough, candidates.indices,
-              passing_.data());
-  const std::uint32_t* passing = passing_.data();
-  for (const auto index : candidates.indices) {
-    const GridItem& item = candidates.items[index];
-    const std::int64_t body = candidates.first_body + index;
-    for (std::size_t cone = 0; cone < cones_.blocks() * RoughSectors::kBlock; cone += RoughSectors::kBlock) {
-      std::uint32_t bits = *passing++;
-      if (bits == 0 || !item.heights.contains(z_m_) || body == candidates.except) continue;
-      for (; bits != 0; bits &= bits - 1) {
-        const std::size_t block = cone + static_cast<std::size_t>(std::countr_zero(bits));
-        if (block < farthest_.size()) meetBlock(item, body, block);
-      }
-    }
+  cones_.find(RoughPlace::from(center_, 0, candidates.middle, spread_m_), candidates, passing_);
+  for (std::size_t cones = 0; cones < cones_.blocks(); ++cones) {
+    const auto first = static_cast<std::uint32_t>(cones * RoughSectors::kBlock);
+    candidates.forEachMark(
+        passing_[cones], z_m_, first,
+        [&](const GridItem& item, std::int64_t body, std::uint32_t block) { meetBlock(item, body, block); });
   }
   farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
 }
@@ -165,23 +153,17 @@ void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t bl
 }
 
 void RayBatch::meetByRay(const Candidates& candidates) {
-  const std::size_t blocks = fan_->blocks();
-  findPassing({rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(), rough_distance_.data()}, blocks,
-              RoughPlace::from(center_, spread_m_, candidates.middle), candidates.rough, candidates.indices.data(),
-              candidates.indices.size(), passing_.data());
-  const std::uint32_t* passing = passing_.data();
-  for (const auto index : candidates.indices) {
-    const GridItem& item = candidates.items[index];
-    const std::int64_t body = candidates.first_body + index;
-    for (std::uint32_t begin = 0; begin < blocks * kBlock; begin += kBlock) {
-      std::uint32_t bits = *passing++;
-      if (bits == 0 || !item.heights.contains(z_m_) || body == candidates.except) continue;
-      for (; bits != 0; bits &= bits - 1) {
-        const std::uint32_t i = begin + static_cast<std::uint32_t>(std::countr_zero(bits));
-        pairs_.add(item, body, i, item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
-      }
-      if (pairs_.isFull()) settle();
-    }
+  const RoughRays rays{rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(), rough_distance_.data()};
+  const auto place = RoughPlace::from(center_, spread_m_, candidates.middle);
+  for (std::size_t block = 0; block < fan_->blocks(); ++block) {
+    const std::size_t begin = block * kBlock;
+    findPassing(rays, begin, std::min(size(), begin + kBlock), place, candidates.pack, candidates.lanes(),
+                passing_[block].of);
+    candidates.forEachMark(passing_[block], z_m_, static_cast<std::uint32_t>(begin),
+                           [&](const GridItem& item, std::int64_t body, std::uint32_t i) {
+                             pairs_.add(item, body, i, item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
+                             if (pairs_.isFull()) settle();
+                           });
   }
 }
 
@@ -194,7 +176,8 @@ void RayBatch::settle() {
     open_ -= (was_open & (rays.body[ray] != kNothing)) ? 1 : 0;
   });
   // While one ray has met nothing, what is farthest is the range.
-  if (open_ == 0) farthest_m_ = largest(distance_.data(), distance_.size());
+  if (open_ == 0)
+    farthest_m_ = *std::max_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(size()));
 }
 
 }  // namespace robosim

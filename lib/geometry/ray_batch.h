@@ -55,7 +55,7 @@ class RayBatch {
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray, as in the fan
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
-  std::vector<std::uint32_t> passing_;  ///< which rays, or cones, candidates pass
+  std::vector<Candidates::Masks> passing_;  ///< which rays, or cones, candidates pass
 
   // A narrow fan's, by block of rays: the cone that holds their directions, and how far the farthest still reaches.
   RoughSectors cones_;

@@ -1,14 +1,12 @@
 #include "geometry/rough_sectors.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "geometry/vector_loops.h"
+#include "geometry/vector_clones.h"
 
 namespace robosim {
 namespace {
-
-constexpr std::size_t kBlock = RoughSectors::kBlock;
-static_assert(kBlock <= kMaskBits);
 
 /// Sectors as bare arrays: what the loop below needs to become vector instructions.
 struct Arrays {
@@ -23,35 +21,40 @@ struct Arrays {
   const float* __restrict reach;
 };
 
-/// Half of what a solid is wide across a direction.
-inline float halfWidth(float dx, float dy, const RoughSolid& solid, float round) {
-  return solid.half_length_m * std::abs(dy * solid.axis_x - dx * solid.axis_y) +
-         solid.half_width_m * std::abs(dx * solid.axis_x + dy * solid.axis_y) + round;
-}
-
+/// Looks at all solids for one sector after the other: what is found of each solid gathers in its own lane.
 ROBOSIM_VECTOR_CLONES
-void findMasks(const Arrays& s, std::size_t blocks, const RoughPlace& middle, const RoughSolid* solids,
-               const std::uint32_t* indices, std::size_t count, std::uint32_t* __restrict masks) {
-  for (std::size_t j = 0; j < count; ++j) {
-    const RoughSolid& solid = solids[indices[j]];
-    const float x = solid.x - middle.x;
-    const float y = solid.y - middle.y;
-    const float round = solid.round_m + middle.lost_m;
-    for (std::size_t begin = 0; begin < blocks * kBlock; begin += kBlock) {
-      std::uint32_t bits = 0;
-      for (std::size_t i = 0; i < kBlock; ++i) {
-        const std::size_t k = begin + i;
-        const float ox = x - s.x[k];
-        const float oy = y - s.y[k];
-        const float from_right = s.right_x[k] * oy - s.right_y[k] * ox;
-        const float from_left = ox * s.left_y[k] - oy * s.left_x[k];
-        const float along = s.axis_x[k] * ox + s.axis_y[k] * oy;
-        const bool may_hold = (from_right >= -halfWidth(s.right_x[k], s.right_y[k], solid, round)) &
-                              (from_left >= -halfWidth(s.left_x[k], s.left_y[k], solid, round)) &
-                              (along - halfWidth(-s.axis_y[k], s.axis_x[k], solid, round) <= s.reach[k]);
-        bits += may_hold ? kMaskBit[i] : 0;
-      }
-      *masks++ = bits;
+void findMasks(const Arrays& sectors, std::size_t begin, std::size_t end, const RoughPlace& middle,
+               const Candidates::Pack& solids, std::size_t lanes, std::uint32_t* __restrict masks) {
+  for (std::size_t k = 0; k < lanes; ++k) masks[k] = 0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::uint32_t bit = std::uint32_t{1} << (i - begin);
+    const float apex_x = middle.x + sectors.x[i];
+    const float apex_y = middle.y + sectors.y[i];
+    const float axis_x = sectors.axis_x[i];
+    const float axis_y = sectors.axis_y[i];
+    const float left_x = sectors.left_x[i];
+    const float left_y = sectors.left_y[i];
+    const float right_x = sectors.right_x[i];
+    const float right_y = sectors.right_y[i];
+    const float reach = sectors.reach[i];
+    for (std::size_t k = 0; k < lanes; ++k) {
+      const float ox = solids.x[k] - apex_x;
+      const float oy = solids.y[k] - apex_y;
+      const float ux = solids.axis_x[k];
+      const float uy = solids.axis_y[k];
+      const float half_length = solids.half_length_m[k];
+      const float half_width = solids.half_width_m[k];
+      const float round = solids.round_m[k] + middle.lost_m;
+      // Half of what the solid is wide across the edges, and long along the axis.
+      const float right = half_length * std::abs(right_y * ux - right_x * uy) +
+                          half_width * std::abs(right_x * ux + right_y * uy) + round;
+      const float left =
+          half_length * std::abs(left_y * ux - left_x * uy) + half_width * std::abs(left_x * ux + left_y * uy) + round;
+      const float deep =
+          half_length * std::abs(axis_x * ux + axis_y * uy) + half_width * std::abs(axis_y * ux - axis_x * uy) + round;
+      const bool may_hold = (right_x * oy - right_y * ox >= -right) & (ox * left_y - oy * left_x >= -left) &
+                            (axis_x * ox + axis_y * oy - deep <= reach);
+      masks[k] += may_hold ? bit : 0;
     }
   }
 }
@@ -68,6 +71,7 @@ void turn(const double* __restrict x, const double* __restrict y, std::size_t co
 }  // namespace
 
 void RoughSectors::place(const SectorFan& fan, const LevelFrame& frame, double range_m) {
+  size_ = fan.size();
   const std::size_t count = fan.axis_.x.size();
   const auto set = [&](Vectors& to, const SectorFan::Vectors& from, const mrpt::math::TPoint2D& seen_from) {
     to.x.resize(count);
@@ -82,11 +86,14 @@ void RoughSectors::place(const SectorFan& fan, const LevelFrame& frame, double r
   reach_.assign(count, static_cast<float>(range_m));
 }
 
-void RoughSectors::find(const RoughPlace& middle, const RoughSolid* solids, std::span<const std::uint32_t> indices,
-                        std::uint32_t* masks) const {
-  findMasks({apex_.x.data(), apex_.y.data(), axis_.x.data(), axis_.y.data(), left_.x.data(), left_.y.data(),
-             right_.x.data(), right_.y.data(), reach_.data()},
-            blocks(), middle, solids, indices.data(), indices.size(), masks);
+void RoughSectors::find(const RoughPlace& middle, const Candidates& candidates,
+                        std::span<Candidates::Masks> masks) const {
+  const Arrays sectors{apex_.x.data(), apex_.y.data(),  axis_.x.data(),  axis_.y.data(), left_.x.data(),
+                       left_.y.data(), right_.x.data(), right_.y.data(), reach_.data()};
+  for (std::size_t block = 0; block < blocks(); ++block) {
+    findMasks(sectors, block * kBlock, std::min(size_, (block + 1) * kBlock), middle, candidates.pack,
+              candidates.lanes(), masks[block].of);
+  }
 }
 
 }  // namespace robosim

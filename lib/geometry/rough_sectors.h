@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "geometry/candidates.h"
 #include "geometry/level_frame.h"
-#include "geometry/rough_solid.h"
 #include "geometry/sector_fan.h"
 
 namespace robosim {
@@ -22,14 +22,15 @@ class RoughSectors {
   void setReach(std::size_t sector, double reach_m) { reach_[sector] = static_cast<float>(reach_m); }
 
   /// Which sectors each solid may reach into nearer than they look: it lies neither all beyond one of their edges nor
-  /// all too far along their axis. For each solid and each block of sectors, bit i for sector i.
-  void find(const RoughPlace& middle, const RoughSolid* solids, std::span<const std::uint32_t> indices,
-            std::uint32_t* masks) const;
+  /// all too far along their axis.
+  /// @param masks one a block
+  void find(const RoughPlace& middle, const Candidates& candidates, std::span<Candidates::Masks> masks) const;
 
  private:
   struct Vectors {
     std::vector<float> x, y;
   };
+  std::size_t size_ = 0;
   Vectors apex_, axis_, left_, right_;
   std::vector<float> reach_;
 };

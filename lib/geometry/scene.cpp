@@ -1,7 +1,6 @@
 #include "geometry/scene.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -151,28 +150,37 @@ void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach,
   }
 }
 
-/// Hands a batch what it may meet, some at a time.
-template <typename Batch>
+/// Hands a batch what it may meet, a pack at a time.
+template <typename Batch, typename Index>
 class Gathering {
  public:
-  Gathering(Batch& batch, const Candidates& of) : batch_(batch), of_(of) {}
+  Gathering(Batch& batch, const Index& index, std::size_t first_body, BodyId except)
+      : batch_(batch),
+        rough_(index.rough().data()),
+        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body),
+                    except == kNoBody ? -1 : static_cast<std::int64_t>(except)} {}
 
   void add(std::uint32_t index) {
-    indices_[count_++] = index;
-    if (count_ == indices_.size()) finish();
+    pack_.add(rough_[index], index);
+    if (pack_.isFull()) finish();
   }
   void finish() {
-    if (count_ == 0) return;
-    of_.indices = {indices_.data(), count_};
-    batch_.meet(of_);
-    count_ = 0;
+    if (pack_.count == 0) return;
+    batch_.meet(candidates_);
+    pack_.count = 0;
   }
 
  private:
+  static Candidates::Pack& emptyPack() {
+    static thread_local Candidates::Pack pack;
+    pack.count = 0;
+    return pack;
+  }
+
   Batch& batch_;
-  Candidates of_;
-  std::array<std::uint32_t, Candidates::kMost> indices_;
-  std::size_t count_ = 0;
+  const RoughSolid* rough_;
+  Candidates::Pack& pack_ = emptyPack();
+  Candidates candidates_;
 };
 
 }  // namespace
@@ -233,13 +241,14 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
   const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
   const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(dx), static_cast<float>(dy)};
   const GridItem* items = stationary_index_.items().data();
-  stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
-    std::uint32_t passed = passedBy(rough, pack, static_cast<float>(best.distance_m));
-    for (; passed != 0; passed &= passed - 1) {
-      const std::uint32_t i = pack.index[std::countr_zero(passed)];
-      cast(items[i], BodyId{i});
-    }
-  });
+  stationary_index_.visitAlong(
+      ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
+        std::uint32_t passed = passedBy(rough, pack, static_cast<float>(best.distance_m));
+        for (; passed != 0; passed &= passed - 1) {
+          const std::uint32_t i = pack.index[std::countr_zero(passed)];
+          cast(items[i], BodyId{i});
+        }
+      });
   if (!moving_.empty()) {
     moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
       const double across = dx * (disc.y - ray.origin.y) - dy * (disc.x - ray.origin.x);
@@ -253,15 +262,11 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
 template <typename Batch>
 void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
   if (batch.size() == 0) return;
-  const std::int64_t left_out = except == kNoBody ? -1 : static_cast<std::int64_t>(except);
-  Gathering<Batch> stationary(batch, {{},
-                                      stationary_index_.items().data(),
-                                      stationary_index_.rough().data(),
-                                      stationary_index_.middle(),
-                                      0,
-                                      left_out});
+  Gathering stationary(batch, stationary_index_, 0, except);
   const auto reach = [&] { return batch.reach(); };
-  if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i) { stationary.add(i); })) {
+  if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i, bool is_sure) {
+        if (is_sure || stationary_index_.items()[i].isWithin(reach(), batch.center())) stationary.add(i);
+      })) {
     Seen& seen = Seen::begin(stationary_.size());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
       for (const auto& pack : stationary_index_.cell(column, row)) {
@@ -273,12 +278,7 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   }
   stationary.finish();
 
-  Gathering<Batch> moving(batch, {{},
-                                  moving_index_.items().data(),
-                                  moving_index_.rough().data(),
-                                  moving_index_.middle(),
-                                  static_cast<std::uint32_t>(stationary_.size()),
-                                  left_out});
+  Gathering moving(batch, moving_index_, stationary_.size(), except);
   const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
   visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
   moving.finish();

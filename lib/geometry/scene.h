@@ -69,7 +69,7 @@ class Scene {
   void visitStationary(const mrpt::math::TPoint2D& at, double reach_m, const NeighbourList& near,
                        const Visit& visit) const {
     const auto reach = [&] { return reach_m; };
-    if (near.visitNear(at, reach, [&](std::uint32_t solid) { visit(BodyId{solid}); })) return;
+    if (near.visitNear(at, reach, [&](std::uint32_t solid, bool) { visit(BodyId{solid}); })) return;
     static thread_local std::vector<BodyId> found;
     found.clear();
     stationaryNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m}, found);

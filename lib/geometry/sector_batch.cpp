@@ -1,7 +1,6 @@
 #include "geometry/sector_batch.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "geometry/vector_loops.h"
@@ -35,7 +34,7 @@ void SectorBatch::place(const SectorFan& fan, const LevelFrame& world_from_fan, 
   turn(fan.left_, 0, 0, left_);
   turn(fan.right_, 0, 0, right_);
   rough_.place(fan, frame, range_m);
-  holding_.resize(count / kBlock * Candidates::kMost);
+  holding_.resize(rough_.blocks());
   distance_.assign(count, range_m);
   body_.assign(count, kNothing);
   towards_x_.resize(count);
@@ -43,23 +42,14 @@ void SectorBatch::place(const SectorFan& fan, const LevelFrame& world_from_fan, 
 }
 
 void SectorBatch::meet(const Candidates& candidates) {
-  const std::size_t blocks = rough_.blocks();
-  rough_.find(RoughPlace::from(center_, spread_m_, candidates.middle), candidates.rough, candidates.indices,
-              holding_.data());
-  const std::uint32_t* holding = holding_.data();
-  for (const auto index : candidates.indices) {
-    const GridItem& item = candidates.items[index];
-    const std::int64_t body = candidates.first_body + index;
-    for (std::uint32_t begin = 0; begin < blocks * kBlock; begin += kBlock) {
-      std::uint32_t bits = *holding++;
-      if (bits == 0 || !item.heights.contains(z_m_) || body == candidates.except) continue;
-      for (; bits != 0; bits &= bits - 1) {
-        const std::uint32_t i = begin + static_cast<std::uint32_t>(std::countr_zero(bits));
-        pairs_.add(item, body, i, item.x - apex_.x[i], item.y - apex_.y[i], {left_.x[i], left_.y[i]},
-                   {right_.x[i], right_.y[i]});
-      }
+  rough_.find(RoughPlace::from(center_, spread_m_, candidates.middle), candidates, holding_);
+  for (std::size_t block = 0; block < rough_.blocks(); ++block) {
+    const auto first = static_cast<std::uint32_t>(block * kBlock);
+    candidates.forEachMark(holding_[block], z_m_, first, [&](const GridItem& item, std::int64_t body, std::uint32_t i) {
+      pairs_.add(item, body, i, item.x - apex_.x[i], item.y - apex_.y[i], {left_.x[i], left_.y[i]},
+                 {right_.x[i], right_.y[i]});
       if (pairs_.isFull()) settle();
-    }
+    });
   }
 }
 

@@ -48,7 +48,7 @@ class SectorBatch {
   std::vector<double> distance_, towards_x_, towards_y_;
   std::vector<std::int64_t> body_;
   RoughSectors rough_;
-  std::vector<std::uint32_t> holding_;
+  std::vector<Candidates::Masks> holding_;
   SectorPairs pairs_;
 };
 
