@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -84,6 +85,7 @@ nlohmann::json inOwnProcess(const std::function<nlohmann::json()>& measure) {
     // Ctrl-C ends it at once; the parent then tidies up.
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    prctl(PR_SET_PDEATHSIG, SIGTERM);  // nor does it go on when nobody listens any more
     close(ends[0]);
     try {
       tell(ends[1], {{"figures", measure()}});
@@ -98,7 +100,7 @@ nlohmann::json inOwnProcess(const std::function<nlohmann::json()>& measure) {
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
   if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGINT || WTERMSIG(status) == SIGTERM)) {
-    throw std::runtime_error("interrupted before all was measured");
+    throw std::runtime_error(kInterrupted);
   }
   const auto answer = nlohmann::json::parse(text, nullptr, false);
   if (answer.is_discarded()) {

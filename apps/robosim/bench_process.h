@@ -25,6 +25,9 @@ class Company {
   double others_s_;
 };
 
+/// What a bench says that was interrupted.
+constexpr const char* kInterrupted = "interrupted before all was measured";
+
 /// Measures in a process of its own, so that neither what was measured before nor its leftover memory matters. Call it
 /// while there is only one thread.
 /// @param measure makes the figures

@@ -10,7 +10,7 @@
 namespace robosim {
 namespace {
 
-constexpr std::size_t kPlaces = 500;
+constexpr std::size_t kPlaces = 250;
 
 struct Way {
   const char* what;

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <iostream>
+#include <type_traits>
 
 #include "robosim/arguments.h"
 #include "robosim/bench_process.h"
@@ -26,14 +27,6 @@ struct Arguments {
   bool targets = false;  ///< nothing was asked for in particular, so everything is measured
 };
 
-/// Measures, and shows meanwhile what.
-template <typename Measure>
-auto shown(const std::string& what, const Measure& measure) {
-  Progress progress;
-  if (progress.due()) progress.show(what + " …");
-  return measure();
-}
-
 bool wants(const Arguments& arguments, const std::string& workload) {
   const auto& names = arguments.workloads;
   return names.empty() || std::find(names.begin(), names.end(), workload) != names.end();
@@ -55,36 +48,58 @@ std::string textOf(const RobotLoad& load) {
          std::to_string(load.threads) + (load.threads == 1 ? " thread" : " threads");
 }
 
-/// What only the targets need.
-void measureRest(const Arguments& arguments, SpeedFigures& figures) {
-  const Workload& sonar = workloadNamed("sonar");
-  const Workload& sector = workloadNamed("sector");
-  const auto compare = [&](const std::string& what, const RobotLoad& a, const RobotLoad& b) {
-    return shown(what, [&] { return compareRobots({a, b}, arguments.seed, arguments.least_s); });
-  };
-  figures.sonar_sector = compare("sector beside sonar", {&sonar, kSome, 1}, {&sector, kSome, 1});
-  figures.some_many = compare("100,000 robots beside 1,000", {&sonar, kSome, 1}, {&sonar, kMany, 1});
-  figures.one_two = compare("two threads beside one", {&sonar, kMany, 1}, {&sonar, kMany, 2});
-  figures.some_loaded = benchLoading(sonar, kSome, arguments.seed);
-  figures.many_loaded = shown("loading 100,000 robots", [&] { return benchLoading(sonar, kMany, arguments.seed); });
-  figures.small_run = shown("opho2_1 with and without recording", [&] { return benchSmallRun(arguments.least_s); });
-}
+class SpeedBench {
+ public:
+  explicit SpeedBench(const Arguments& arguments) : arguments_(arguments) {}
 
-SpeedFigures measure(const Arguments& arguments) {
-  SpeedFigures figures;
-  for (const auto& load : loadsOf(arguments)) {
-    figures.loads.push_back(shown(textOf(load), [&] { return benchRobots(load, arguments.seed, arguments.least_s); }));
-    if (arguments.json) std::cout << lineOf(figures.loads.back()).dump() << std::endl;
-  }
-  if (wants(arguments, kRays)) {
-    figures.rays = shown("rays beside Embree", [&] { return benchRays(arguments.seed, arguments.least_s); });
-    if (arguments.json) {
-      for (const auto& line : linesOf(figures.rays)) std::cout << line.dump() << std::endl;
+  /// Prints lines for a program meanwhile, if those are what is wanted.
+  SpeedFigures measure() {
+    for (const auto& load : loadsOf(arguments_)) {
+      figures_.loads.push_back(shown(textOf(load), [&] { return benchRobots(load, seed_, least_s_); }));
+      if (arguments_.json) std::cout << lineOf(figures_.loads.back()).dump() << std::endl;
     }
+    if (wants(arguments_, kRays)) {
+      figures_.rays = shown("rays beside Embree", [&] { return benchRays(seed_, least_s_); });
+      if (arguments_.json) {
+        for (const auto& line : linesOf(figures_.rays)) std::cout << line.dump() << std::endl;
+      }
+    }
+    if (arguments_.targets) measureRest();
+    return std::move(figures_);
   }
-  if (arguments.targets) measureRest(arguments, figures);
-  return figures;
-}
+
+ private:
+  /// What only the targets need.
+  void measureRest() {
+    const Workload& sonar = workloadNamed("sonar");
+    const Workload& sector = workloadNamed("sector");
+    const auto compare = [&](const std::string& what, const RobotLoad& a, const RobotLoad& b) {
+      return shown(what, [&] { return compareRobots({a, b}, seed_, least_s_); });
+    };
+    figures_.sonar_sector = compare("sector beside sonar", {&sonar, kSome, 1}, {&sector, kSome, 1});
+    figures_.some_many = compare("100,000 robots beside 1,000", {&sonar, kSome, 1}, {&sonar, kMany, 1});
+    figures_.one_two = compare("two threads beside one", {&sonar, kMany, 1}, {&sonar, kMany, 2});
+    figures_.some_loaded = shown("loading 1,000 robots", [&] { return benchLoading(sonar, kSome, seed_); });
+    figures_.many_loaded = shown("loading 100,000 robots", [&] { return benchLoading(sonar, kMany, seed_); });
+    figures_.small_run = shown("opho2_1 with and without recording", [&] { return benchSmallRun(least_s_); });
+  }
+
+  /// Measures, and shows meanwhile what.
+  template <typename Measure>
+  std::invoke_result_t<Measure> shown(const std::string& what, const Measure& measure) {
+    Progress progress;
+    if (progress.due()) progress.show(what + " …");
+    auto figures = measure();
+    if (interrupt_.asked()) throw std::runtime_error(kInterrupted);
+    return figures;
+  }
+
+  const Arguments& arguments_;
+  const std::uint64_t seed_ = arguments_.seed;
+  const double least_s_ = arguments_.least_s;
+  const Interrupt interrupt_;  ///< it ends the process that measures; this one then puts away its files
+  SpeedFigures figures_;
+};
 
 void print(const SpeedFigures& figures, bool with_targets) {
   if (!figures.loads.empty()) std::cout << tableOf(figures.loads) << '\n';
@@ -93,9 +108,8 @@ void print(const SpeedFigures& figures, bool with_targets) {
 }
 
 void benchSpeed(const Arguments& arguments) {
-  const Interrupt interrupt;  // it ends the process that measures; this one then puts away its files
   const Company company;
-  const SpeedFigures figures = measure(arguments);
+  const SpeedFigures figures = SpeedBench(arguments).measure();
   if (arguments.json) return;
   print(figures, arguments.targets);
   std::cout << "Other programs kept " << fixed(company.processors(), 1) << " of " << Company::ofProcessors()

@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 #include "maze/controllers.h"
 
 namespace robosim {
@@ -35,6 +39,11 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) 
   checkControllers(world, file, instead, errors);
   errors.throwIfAny();
   if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+#ifdef __GLIBC__
+  // Reading a file takes several times the memory of the world that comes of it. It is free by now, but strewn with
+  // what is kept, so that the process would hold on to it.
+  malloc_trim(0);
+#endif
   return world;
 }
 

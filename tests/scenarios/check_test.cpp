@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -76,22 +75,6 @@ TEST(BenchGold, PrintsTheSameTableForAnyNumberOfThreads) {
   EXPECT_NE(one.out.find("100.0 %"), std::string::npos) << one.out;
   EXPECT_EQ(textOf(folder / "1.csv"), textOf(folder / "2.csv"));
   EXPECT_EQ(textOf(folder / "1.csv").substr(0, 16), "world,seed,gold_");
-}
-
-TEST(BenchSpeed, PrintsOneObjectALine) {
-  const Ended bench = runProgram("bench speed --robots 5 --robots 20 --at-least 0.001 --json");
-  ASSERT_EQ(bench.exit_code, 0) << bench.err;
-  std::istringstream lines(bench.out);
-  int count = 0;
-  for (std::string line; std::getline(lines, line); ++count) {
-    const json figures = json::parse(line);
-    for (const char* key :
-         {"workload", "robots", "threads", "robot_steps_per_s", "rays_per_s", "cpu_s_per_robot_step", "peak_rss_mb"}) {
-      EXPECT_TRUE(figures.contains(key)) << key;
-    }
-    EXPECT_GT(figures["robot_steps_per_s"].get<double>(), 0);
-  }
-  EXPECT_EQ(count, 8) << "four workloads, two sizes";
 }
 
 TEST(BenchGold, CountsOnlyGoldThatIsThere) {

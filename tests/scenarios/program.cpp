@@ -46,6 +46,7 @@ StartedProgram::StartedProgram(const std::vector<std::string>& arguments) : proc
   std::vector<char*> words{const_cast<char*>(ROBOSIM_PROGRAM)};
   for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
+  std::filesystem::remove(stem_ + ".out");  // of an earlier test run
   process_ = fork();
   if (process_ != 0) return;
   const bool ready = chdir(ROBOSIM_SOURCE_DIR) == 0 && std::freopen((stem_ + ".out").c_str(), "w", stdout) &&
@@ -69,17 +70,29 @@ void StartedProgram::interrupt() {
   if (isRunning()) kill(process_, SIGINT);
 }
 
+std::string StartedProgram::outSoFar() const { return textOf(stem_ + ".out"); }
+
 Ended StartedProgram::wait() {
   if (!ended_) waitpid(process_, &status_, 0);
   ended_ = true;
   return ended(status_, stem_);
 }
 
-Ended runProgram(const std::string& arguments, const std::string& out) {
+namespace {
+
+Ended run(const std::string& command, const std::string& out) {
   const std::string stem = outputStem();
-  const std::string command = "cd '" ROBOSIM_SOURCE_DIR "' && '" ROBOSIM_PROGRAM "' " + arguments + " >'" +
-                              (out.empty() ? stem + ".out" : out) + "' 2>'" + stem + ".err' </dev/null";
-  return ended(std::system(command.c_str()), stem);
+  const std::string line = "cd '" ROBOSIM_SOURCE_DIR "' && " + command + " >'" + (out.empty() ? stem + ".out" : out) +
+                           "' 2>'" + stem + ".err' </dev/null";
+  return ended(std::system(line.c_str()), stem);
 }
+
+}  // namespace
+
+Ended runProgram(const std::string& arguments, const std::string& out) {
+  return run("'" ROBOSIM_PROGRAM "' " + arguments, out);
+}
+
+Ended runCommand(const std::string& command) { return run(command, ""); }
 
 }  // namespace robosim

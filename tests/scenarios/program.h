@@ -18,6 +18,9 @@ struct Ended {
 /// @param out where its standard output goes instead of to Ended::out
 Ended runProgram(const std::string& arguments, const std::string& out = "");
 
+/// The same with any command.
+Ended runCommand(const std::string& command);
+
 /// A run of the program that goes on beside the test.
 class StartedProgram {
  public:
@@ -27,7 +30,8 @@ class StartedProgram {
   StartedProgram& operator=(const StartedProgram&) = delete;
 
   bool isRunning();
-  void interrupt();  ///< as Ctrl-C does
+  void interrupt();  ///< as kill -INT does
+  std::string outSoFar() const;
   Ended wait();
 
  private:

@@ -1,0 +1,79 @@
+#include "tests/instructions/loads.h"
+
+#include <memory>
+
+#include "robosim/bench_ray_caster.h"
+#include "robosim/local_run.h"
+#include "robosim/workloads.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::uint64_t kSeed = 1;
+
+/// 100 robots that have been on their way for a while.
+InstructionWork robots(const char* workload) {
+  constexpr std::size_t kRobots = 100;
+  constexpr int kWarmUpSteps = 10;
+  constexpr int kSteps = 50;
+  const auto run = std::make_shared<LocalRun>(makeWorldToRun(workloadNamed(workload), kRobots, kSeed), RunOptions{});
+  for (int i = 0; i < kWarmUpSteps; ++i) run->step();
+  return {.units = static_cast<double>(kRobots) * kSteps, .work = [run] {
+            for (int i = 0; i < kSteps; ++i) run->step();
+          }};
+}
+
+InstructionWork rays(void (RayCaster::*cast)(double range_m), double range_m) {
+  const RayScene scene = makeRayScene(20, kSeed);
+  const std::shared_ptr<RayCaster> caster = makeSceneCaster(scene);
+  (*caster.*cast)(range_m);  // once before, to give arrays their sizes
+  return {.units = static_cast<double>(scene.beams.size()),
+          .work = [caster, cast, range_m] { (*caster.*cast)(range_m); }};
+}
+
+/// Four gold finders, until all have halted.
+InstructionWork smallRun() {
+  const auto made = [] {
+    return std::make_shared<LocalRun>(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml", ""), RunOptions{});
+  };
+  const auto drive = [](LocalRun& run) {
+    while (!run.gold().all_halted_s) run.step();
+  };
+  const auto rehearsal = made();
+  drive(*rehearsal);
+  const Environment& environment = rehearsal->environment();
+  const double robot_steps =
+      static_cast<double>(environment.time().step) * static_cast<double>(environment.robotCount());
+  return {.units = robot_steps, .work = [run = made(), drive] { drive(*run); }};
+}
+
+/// From the file to where the first step can be taken.
+InstructionWork loading() {
+  return {.units = 1, .work = [] {
+            const LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/maze_20x20.xml", ""), RunOptions{});
+          }};
+}
+
+constexpr InstructionLoad kLoads[] = {
+    {"sonar", "robot-step", [] { return robots("sonar"); }},
+    {"sector", "robot-step", [] { return robots("sector"); }},
+    {"laser", "robot-step", [] { return robots("laser"); }},
+    {"infrared", "robot-step", [] { return robots("infrared"); }},
+    {"rays, scans to 8 m", "ray", [] { return rays(&RayCaster::castScans, 8); }},
+    {"rays, scans to 20 m", "ray", [] { return rays(&RayCaster::castScans, 20); }},
+    {"rays, single rays to 8 m", "ray", [] { return rays(&RayCaster::castSingles, 8); }},
+    {"rays, single rays to 20 m", "ray", [] { return rays(&RayCaster::castSingles, 20); }},
+    {"opho2_1", "robot-step", smallRun},
+    {"loading maze_20x20", "world", loading},
+};
+
+}  // namespace
+
+std::span<const InstructionLoad> instructionLoads() { return kLoads; }
+
+}  // namespace robosim
+
+__attribute__((noinline)) void robosimCounted(const std::function<void()>& work) {
+  work();
+  asm volatile("");  // so that the call above is no jump, which would leave this function
+}

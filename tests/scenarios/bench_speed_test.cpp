@@ -1,0 +1,152 @@
+// `robosim bench speed` as a person, and as a program, runs it.
+#include <filesystem>
+#include <set>
+#include <sstream>
+#include <thread>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "robosim/bench_ray_caster.h"
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+std::vector<ordered_json> linesOf(const Ended& bench) {
+  std::vector<ordered_json> lines;
+  std::istringstream in(bench.out);
+  for (std::string line; std::getline(in, line);) lines.push_back(ordered_json::parse(line));
+  return lines;
+}
+
+TEST(BenchSpeed, PrintsOneObjectALineWithTheSameFieldsFirst) {
+  const Ended bench = runProgram("bench speed --robots 5 --robots 20 --at-least 1e-6 --json");
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  const auto lines = linesOf(bench);
+  ASSERT_EQ(lines.size(), 12) << "four workloads in two sizes, and four ways to cast rays";
+  std::set<std::string> workloads;
+  for (const auto& line : lines) {
+    std::vector<std::string> names;
+    for (const auto& field : line.items()) names.push_back(field.key());
+    names.resize(7);
+    EXPECT_EQ(names, (std::vector<std::string>{"workload", "robots", "threads", "robot_steps_per_s", "rays_per_s",
+                                               "cpu_s_per_robot_step", "peak_rss_mb"}));
+    workloads.insert(line["workload"].get<std::string>());
+    EXPECT_TRUE(line["robots"].is_number_unsigned()) << line;
+    EXPECT_TRUE(line["threads"].is_number_integer()) << line;
+    for (const char* figure : {"robot_steps_per_s", "cpu_s_per_robot_step", "peak_rss_mb"}) {
+      ASSERT_TRUE(line[figure].is_number_float()) << line;
+      EXPECT_GT(line[figure].get<double>(), 0) << line;
+    }
+    EXPECT_TRUE(line["rays_per_s"].is_number_float()) << line;
+    EXPECT_EQ(line["rays_per_s"].get<double>() > 0, line["workload"] != "sector") << "a sector is no number of rays";
+  }
+  EXPECT_EQ(workloads, (std::set<std::string>{"sonar", "sector", "laser", "infrared", "rays"}));
+}
+
+TEST(BenchSpeed, StepsTheSameWorldsWithAnyNumberOfThreads) {
+  const auto digests = [](int threads) {
+    const Ended bench = runProgram(
+        "bench speed --workload sonar --workload sector --workload laser --workload infrared --robots 300 "
+        "--at-least 1e-6 --json --threads " +
+        std::to_string(threads));
+    EXPECT_EQ(bench.exit_code, 0) << bench.err;
+    std::vector<std::string> all;
+    for (const auto& line : linesOf(bench)) {
+      EXPECT_EQ(line["threads"], threads);
+      all.push_back(line["digest"].get<std::string>());
+    }
+    return all;
+  };
+  const auto one = digests(1);
+  EXPECT_EQ(one.size(), 4);
+  EXPECT_EQ(std::set<std::string>(one.begin(), one.end()).size(), 4) << "four workloads, four runs";
+  EXPECT_EQ(one, digests(2));
+  EXPECT_EQ(one, digests(3));
+}
+
+TEST(BenchSpeed, MakesOtherWorldsFromOtherSeeds) {
+  const auto digest = [](const std::string& seed) {
+    return linesOf(runProgram("bench speed --workload sonar --robots 20 --at-least 1e-6 --json --seed " + seed))
+        .at(0)["digest"];
+  };
+  EXPECT_EQ(digest("1"), digest("1"));
+  EXPECT_NE(digest("1"), digest("2"));
+}
+
+TEST(BenchSpeed, PrintsATableForAPerson) {
+  const Ended bench = runProgram("bench speed --workload laser --robots 20 --at-least 1e-6");
+  EXPECT_EQ(bench.exit_code, 0) << bench.err;
+  EXPECT_EQ(bench.out.rfind("workload  robots  threads  robot-steps/s", 0), 0) << bench.out;
+  EXPECT_NE(bench.out.find("\nlaser         20        1"), std::string::npos) << bench.out;
+  EXPECT_EQ(bench.out.find("target"), std::string::npos) << "only asked for a part\n" << bench.out;
+  EXPECT_NE(bench.out.find("Other programs kept"), std::string::npos) << bench.out;
+}
+
+TEST(BenchSpeed, CastsRaysBesideEmbreeAndSaysSoWhereThereIsNone) {
+  const fs::path program = ROBOSIM_PROGRAM;
+  const std::string arguments = "bench speed --workload rays --at-least 1e-6";
+
+  // The module lies beside the program; a copy of the program elsewhere has none.
+  const auto folder = emptyFolder();
+  fs::copy_file(program, folder / "robosim");
+  const Ended alone = runCommand("'" + (folder / "robosim").string() + "' " + arguments);
+  EXPECT_EQ(alone.exit_code, 0) << alone.err;
+  EXPECT_NE(alone.out.find("Not beside Embree 3: RoboSim was built without it; install libembree-dev"),
+            std::string::npos)
+      << alone.out;
+  EXPECT_NE(alone.out.find("181,000 answers are brute force's."), std::string::npos) << alone.out;
+
+  if (!fs::exists(program.parent_path() / kEmbreeModule)) return;  // then `alone` was all there is to see
+  const Ended beside = runProgram(arguments);
+  EXPECT_EQ(beside.exit_code, 0) << beside.err;
+  EXPECT_NE(beside.out.find("Embree 3."), std::string::npos) << beside.out;
+  EXPECT_NE(beside.out.find("181,000 answers of each are brute force's."), std::string::npos) << beside.out;
+}
+
+TEST(BenchSpeed, DoesNotNeedEmbreeToRun) {
+  const Ended libraries = runCommand("ldd '" ROBOSIM_PROGRAM "'");
+  EXPECT_EQ(libraries.exit_code, 0) << libraries.err;
+  EXPECT_NE(libraries.out.find("libtbb"), std::string::npos) << libraries.out;
+  EXPECT_EQ(libraries.out.find("embree"), std::string::npos) << libraries.out;
+}
+
+TEST(BenchSpeed, EndsWhenInterrupted) {
+  // So many loads that they would take half a minute.
+  std::vector<std::string> arguments{"bench", "speed", "--json", "--workload", "sonar"};
+  for (int i = 0; i < 1000; ++i) arguments.insert(arguments.end(), {"--robots", "10"});
+  StartedProgram bench(arguments);
+  while (bench.outSoFar().empty() && bench.isRunning()) std::this_thread::yield();
+  bench.interrupt();
+  const Ended ended = bench.wait();
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_EQ(ended.err, "robosim: interrupted before all was measured\n");
+  for (const auto& line : linesOf(ended)) EXPECT_EQ(line["robots"], 10) << "no half line";
+}
+
+TEST(BenchSpeed, RefusesWhatMakesNoSense) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"--workload radar", "--workload: radar not in {sonar,sector,laser,infrared,rays}"},
+      {"--robots 0", "--robots: Value 0 not in range 1 to 10000000"},
+      {"--robots -5", "--robots: Value -5 not in range"},
+      {"--robots many", "--robots: Value many not in range"},
+      {"--threads 0", "--threads: Value 0 not in range 1 to 1024"},
+      {"--at-least 0", "--at-least: 0: must be a number in [1e-06, 3600]"},
+      {"--at-least nan", "--at-least: nan: must be a number"},
+      {"--seed -1", "--seed: -1: must be a whole number"},
+      {"sonar", "The following argument was not expected: sonar"},
+  };
+  for (const auto& [arguments, message] : wrong) {
+    const Ended bench = runProgram(std::string("bench speed ") + arguments);
+    EXPECT_EQ(bench.exit_code, 1) << arguments;
+    EXPECT_EQ(bench.out, "") << arguments;
+    EXPECT_NE(bench.err.find(message), std::string::npos) << arguments << ": " << bench.err;
+  }
+}
+
+}  // namespace
+}  // namespace robosim

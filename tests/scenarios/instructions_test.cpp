@@ -1,0 +1,77 @@
+// How counts of instructions are held against those that are kept; the test `instructions` does it with real ones.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/instructions/counts.h"
+#include "tests/instructions/loads.h"
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+InstructionCounts counts(double sonar, double laser) {
+  return {.compiler = "g++ 12", .vectors = "x86-64-v3", .instructions = {{"sonar", sonar}, {"laser", laser}}};
+}
+
+const char* const kMend = "If what was gained is worth it, keep the new counts: ./dev bench --instructions --update";
+
+TEST(Instructions, MayGrowByATenthAndFallAsTheyLike) {
+  EXPECT_EQ(growthOf(counts(1100, 5000), counts(1000, 50000)), Lines{});
+}
+
+TEST(Instructions, ThatGrewMoreAreToldWithTheMend) {
+  EXPECT_EQ(growthOf(counts(1000, 60500), counts(1000, 50000)),
+            (Lines{"laser: 60,500 instructions a robot-step, which is +21.0 % on the 50,000 that are kept; +10 % is "
+                   "allowed",
+                   kMend}));
+}
+
+TEST(Instructions, OfAnotherCompilerAreToldToBeSo) {
+  InstructionCounts now = counts(1200, 50000);
+  now.compiler = "g++ 13";
+  EXPECT_EQ(growthOf(now, counts(1000, 50000)),
+            (Lines{"sonar: 1,200 instructions a robot-step, which is +20.0 % on the 1,000 that are kept; +10 % is "
+                   "allowed",
+                   "The counts that are kept are of g++ 12 for x86-64-v3, these of g++ 13 for x86-64-v3: they may "
+                   "differ for that reason alone.",
+                   kMend}));
+}
+
+TEST(Instructions, AreToldWhenALoadIsNewOrGone) {
+  InstructionCounts now = counts(1000, 50000);
+  now.instructions.erase("laser");
+  now.instructions["radar"] = 1;
+  EXPECT_EQ(growthOf(now, counts(1000, 50000)), (Lines{"radar: there is no count to compare with",
+                                                       "laser: a count is kept, but there is no such load", kMend}));
+}
+
+TEST(Instructions, AreKeptInAFile) {
+  const auto file = emptyFolder() / "counts.json";
+  EXPECT_TRUE(readCounts(file).instructions.empty()) << "no file, no counts";
+  writeCounts(file, counts(1000.26, 50000));
+  EXPECT_EQ(readCounts(file).compiler, "g++ 12");
+  EXPECT_EQ(readCounts(file).vectors, "x86-64-v3");
+  EXPECT_EQ(readCounts(file).instructions, (std::map<std::string, double>{{"sonar", 1000.3}, {"laser", 50000}}));
+  std::ofstream(file) << "{}";
+  EXPECT_THROW(readCounts(file), std::runtime_error);
+}
+
+TEST(Instructions, AreKeptForEveryLoad) {
+  const auto kept = readCounts(ROBOSIM_SOURCE_DIR "/tests/data/instructions.json");
+  for (const auto& load : instructionLoads()) EXPECT_TRUE(kept.instructions.count(load.name)) << load.name;
+  EXPECT_EQ(kept.instructions.size(), instructionLoads().size());
+}
+
+TEST(Instructions, AreThoseOfWorkThatIsDone) {
+  for (const auto& load : instructionLoads()) {
+    const InstructionWork work = load.prepare();
+    EXPECT_GE(work.units, 1) << load.name;
+    robosimCounted(work.work);
+  }
+}
+
+}  // namespace
+}  // namespace robosim
