@@ -45,7 +45,7 @@ void Authority::clip(const Scene& scene, const NeighbourList& near, std::size_t 
 
   path.end_fraction = firstExit(path, mover.radius_m, surface_);
   scene.visitStationary(startOf(path), reach_m, near, [&](BodyId body) {
-    const Solid& solid = scene.solid(body);
+    const Solid solid = scene.solid(body);
     if (!solid.heights.overlaps(mover.heights)) return;
     path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, solid.outline));
   });

@@ -24,9 +24,11 @@ class CenterIndex {
     std::uint32_t index = 0;
   };
 
-  CenterIndex(const Bounds2D& area, double cell_m);
+  CenterIndex(const Bounds2D& area, double cell_m, std::size_t solids);
 
-  void build(std::span<const Solid> solids);
+  /// Sets a solid; takes effect with build().
+  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid); }
+  void build();
 
   /// The solids, in the order given.
   std::span<const GridItem> items() const { return items_; }

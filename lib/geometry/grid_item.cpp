@@ -6,10 +6,9 @@ GridItem GridItem::from(const Solid& solid) {
   GridItem item;
   item.heights = solid.heights;
   if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
-    item.is_circle = true;
     item.x = circle->center.x;
     item.y = circle->center.y;
-    item.round_m = item.reach_m = circle->radius_m;
+    item.round_m = circle->radius_m;
   } else {
     const auto& box = std::get<OrientedBox>(solid.outline);
     item.x = box.center.x;
@@ -18,10 +17,19 @@ GridItem GridItem::from(const Solid& solid) {
     item.axis_y = box.axis.y;
     item.half_length_m = box.half_length_m;
     item.half_width_m = box.half_width_m;
-    // A little more than it is, so that no rounding makes a ray through a corner seem to pass aside.
-    item.reach_m = std::hypot(box.half_length_m, box.half_width_m) * (1 + 1e-9);
   }
   return item;
+}
+
+Solid GridItem::solid() const {
+  if (isCircle()) return {Circle{{x, y}, round_m}, heights};
+  return {OrientedBox{{x, y}, {axis_x, axis_y}, half_length_m, half_width_m}, heights};
+}
+
+double GridItem::reach() const {
+  if (isCircle()) return round_m;
+  // A little more than it is, so that no rounding makes a ray through a corner seem to pass aside.
+  return std::hypot(half_length_m, half_width_m) * (1 + 1e-9);
 }
 
 Bounds2D GridItem::bounds() const {

@@ -15,11 +15,13 @@ struct GridItem {
   double half_length_m = 0;
   double half_width_m = 0;
   double round_m = 0;  ///< radius of a circle; 0 for a box
-  double reach_m = 0;  ///< radius of the disc about its centre that covers the solid
   HeightSpan heights;
-  bool is_circle = false;
 
   static GridItem from(const Solid&);
+  Solid solid() const;
+  bool isCircle() const { return round_m > 0; }
+  /// Radius [m] of the disc about its centre that covers it.
+  double reach() const;
   Bounds2D bounds() const;
   /// Whether some of the solid outline lies no further than `far_m` from a point.
   bool isWithin(double far_m, const mrpt::math::TPoint2D& of) const {

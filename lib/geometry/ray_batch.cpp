@@ -143,7 +143,7 @@ void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t bl
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
   const std::size_t begin = block * kBlock;
   const std::size_t end = begin + kBlock;
-  if (item.is_circle) {
+  if (item.isCircle()) {
     meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
   } else {
     meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);

@@ -16,7 +16,7 @@ class RayPairs {
 
   /// @param ray its number in the batch; (ox, oy) leads from its origin to the solid's centre; (dx, dy) its direction
   void add(const GridItem& item, std::int64_t body, std::uint32_t ray, double ox, double oy, double dx, double dy) {
-    Pairs& pairs = item.is_circle ? circles_ : boxes_;
+    Pairs& pairs = item.isCircle() ? circles_ : boxes_;
     const std::size_t k = pairs.count++;
     pairs.ray[k] = ray;
     pairs.body[k] = body;
@@ -26,7 +26,7 @@ class RayPairs {
     pairs.dy[k] = dy;
     pairs.ux[k] = item.axis_x;
     pairs.uy[k] = item.axis_y;
-    pairs.a[k] = item.is_circle ? item.round_m : item.half_length_m;
+    pairs.a[k] = item.isCircle() ? item.round_m : item.half_length_m;
     pairs.b[k] = item.half_width_m;
   }
   /// Whether there is enough to settle; if there is, settle() before any more than kEnough others are added.

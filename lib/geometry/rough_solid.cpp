@@ -14,7 +14,7 @@ constexpr double kSlack_m = 1e-9;
 RoughSolid RoughSolid::from(const GridItem& item, const mrpt::math::TPoint2D& middle) {
   const double x = item.x - middle.x;
   const double y = item.y - middle.y;
-  const double lost_m = kLoss * (std::abs(x) + std::abs(y) + item.reach_m) + kSlack_m;
+  const double lost_m = kLoss * (std::abs(x) + std::abs(y) + item.reach()) + kSlack_m;
   return {static_cast<float>(x),
           static_cast<float>(y),
           static_cast<float>(item.axis_x),

@@ -21,10 +21,14 @@ constexpr std::size_t kMostNeighbours = 64;
 /// A little less than 1: no number times this grows when it becomes a float.
 constexpr double kRoundDown = 1 - 1e-7;
 
-/// A cell size at which a cell holds less than one solid on average, and that keeps the grid's memory in proportion.
-double cellFor(const Bounds2D& area, std::size_t solids) {
+/// Stationary solids in a cell on average, those aside that reach over its borders: some fill a pack, few need a
+/// second.
+constexpr double kStationaryPerCell = 2.5;
+constexpr double kMovingPerCell = 1;
+
+double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
   const double square_m2 = std::max(1e-6, (area.x_max - area.x_min) * (area.y_max - area.y_min));
-  return std::max(0.25, std::sqrt(square_m2 / (0.4 * static_cast<double>(solids + 4))));
+  return std::max(0.25, std::sqrt(square_m2 * per_cell / static_cast<double>(solids + 4)));
 }
 
 bool better(double distance_m, BodyId body, const Hit& best) {
@@ -185,21 +189,17 @@ class Gathering {
 
 }  // namespace
 
-Scene::Scene(std::vector<Solid> stationary, std::size_t moving_count, const Bounds2D& area)
-    : stationary_(std::move(stationary)),
-      moving_(moving_count),
-      stationary_index_(area, cellFor(area, stationary_.size())),
-      moving_index_(area, cellFor(area, moving_count)) {
-  stationary_index_.build(stationary_);
+Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area)
+    : stationary_index_(area, cellFor(area, stationary.size(), kStationaryPerCell)),
+      moving_index_(area, cellFor(area, moving_count, kMovingPerCell), moving_count) {
+  stationary_index_.build(stationary);
   freeze();
 }
 
-const Solid& Scene::solid(BodyId body) const {
+Solid Scene::solid(BodyId body) const {
   const auto i = static_cast<std::size_t>(body);
-  return i < stationary_.size() ? stationary_[i] : moving_[i - stationary_.size()];
+  return (i < stationaryCount() ? stationary_index_.items()[i] : moving_index_.items()[i - stationaryCount()]).solid();
 }
-
-void Scene::freeze() { moving_index_.build(moving_); }
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
@@ -234,8 +234,8 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
     const double ox = item.x - ray.origin.x;
     const double oy = item.y - ray.origin.y;
     const double met_m =
-        item.is_circle ? enterCircle(ox, oy, dx, dy, item.round_m)
-                       : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+        item.isCircle() ? enterCircle(ox, oy, dx, dy, item.round_m)
+                        : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
     if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
   };
   const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
@@ -249,7 +249,7 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
           cast(items[i], BodyId{i});
         }
       });
-  if (!moving_.empty()) {
+  if (movingCount() > 0) {
     moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
       const double across = dx * (disc.y - ray.origin.y) - dy * (disc.x - ray.origin.x);
       if (std::abs(across) > disc.reach_m) return;
@@ -267,7 +267,7 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i, bool is_sure) {
         if (is_sure || stationary_index_.items()[i].isWithin(reach(), batch.center())) stationary.add(i);
       })) {
-    Seen& seen = Seen::begin(stationary_.size());
+    Seen& seen = Seen::begin(stationaryCount());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
       for (const auto& pack : stationary_index_.cell(column, row)) {
         for (const auto i : pack.indices()) {
@@ -278,7 +278,7 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   }
   stationary.finish();
 
-  Gathering moving(batch, moving_index_, stationary_.size(), except);
+  Gathering moving(batch, moving_index_, stationaryCount(), except);
   const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
   visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
   moving.finish();

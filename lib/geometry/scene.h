@@ -36,17 +36,17 @@ struct Hit {
 class Scene {
  public:
   /// @param area the part of the plane that the index covers well; solids beyond it are found too.
-  Scene(std::vector<Solid> stationary, std::size_t moving_count, const Bounds2D& area);
+  Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area);
 
-  std::size_t stationaryCount() const { return stationary_.size(); }
-  std::size_t movingCount() const { return moving_.size(); }
-  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationary_.size() + i)); }
-  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationary_.size(); }
-  const Solid& solid(BodyId body) const;
+  std::size_t stationaryCount() const { return stationary_index_.items().size(); }
+  std::size_t movingCount() const { return moving_index_.items().size(); }
+  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationaryCount() + i)); }
+  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationaryCount(); }
+  Solid solid(BodyId body) const;
 
   /// Sets where a moving solid is; takes effect for questions with freeze().
-  void place(std::size_t i, const Solid& solid) { moving_[i] = solid; }
-  void freeze();
+  void place(std::size_t i, const Solid& solid) { moving_index_.set(i, solid); }
+  void freeze() { moving_index_.build(); }
 
   /// The nearest solid that the ray meets strictly nearer than `range_m`. A tie goes to the lowest BodyId.
   Hit castRay(const Ray&, double range_m, BodyId except = kNoBody) const;
@@ -103,7 +103,6 @@ class Scene {
   template <typename Visit>
   void forCells(const Bounds2D& area, const Visit& visit) const;
 
-  std::vector<Solid> stationary_, moving_;
   GridIndex stationary_index_;
   CenterIndex moving_index_;
   Bounds2D area_;

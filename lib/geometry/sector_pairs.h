@@ -23,7 +23,7 @@ class SectorPairs {
   /// @param sector its number in the batch; (ox, oy) leads from its apex to the solid's centre
   void add(const GridItem& item, std::int64_t body, std::uint32_t sector, double ox, double oy,
            const mrpt::math::TPoint2D& left, const mrpt::math::TPoint2D& right) {
-    Pairs& pairs = item.is_circle ? circles_ : boxes_;
+    Pairs& pairs = item.isCircle() ? circles_ : boxes_;
     const std::size_t k = pairs.count++;
     pairs.sector[k] = sector;
     pairs.body[k] = body;
@@ -35,7 +35,7 @@ class SectorPairs {
     pairs.right_y[k] = right.y;
     pairs.ux[k] = item.axis_x;
     pairs.uy[k] = item.axis_y;
-    pairs.a[k] = item.is_circle ? item.round_m : item.half_length_m;
+    pairs.a[k] = item.isCircle() ? item.round_m : item.half_length_m;
     pairs.b[k] = item.half_width_m;
   }
   /// Whether there is enough to settle; if there is, settle() before any more than kEnough others are added.
