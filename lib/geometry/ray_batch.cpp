@@ -60,31 +60,34 @@ struct RoughRays {
 
 /// Which rays of a block pass through the rectangle about each solid that lies along and across the ray, nearer than
 /// they have met something. Finding that out costs less than the sum for where a ray enters a solid, and of rays that
-/// look all ways few do. One ray after the other: what is found of each solid gathers in its own lane.
+/// look all ways few do.
 ROBOSIM_VECTOR_CLONES
-void findPassing(const RoughRays& rays, std::size_t begin, std::size_t end, const RoughPlace& place,
-                 const Candidates::Pack& solids, std::size_t lanes, std::uint32_t* __restrict passing) {
-  for (std::size_t k = 0; k < lanes; ++k) passing[k] = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    const std::uint32_t bit = std::uint32_t{1} << (i - begin);
-    const float x = place.x + rays.x[i];
-    const float y = place.y + rays.y[i];
-    const float dx = rays.dx[i];
-    const float dy = rays.dy[i];
-    const float reach = rays.distance[i];
-    for (std::size_t k = 0; k < lanes; ++k) {
-      const float ox = solids.x[k] - x;
-      const float oy = solids.y[k] - y;
-      const float round = solids.round_m[k] + place.lost_m;
+void findPassing(const RoughRays& rays, const RoughPlace& place, const Candidates::Pack& solids,
+                 std::uint32_t* __restrict passing) {
+  for (std::size_t k = 0; k < solids.count; ++k) {
+    const float x = solids.x[k] - place.x;
+    const float y = solids.y[k] - place.y;
+    const float axis_x = solids.axis_x[k];
+    const float axis_y = solids.axis_y[k];
+    const float half_length = solids.half_length_m[k];
+    const float half_width = solids.half_width_m[k];
+    const float round = solids.round_m[k] + place.lost_m;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      const float dx = rays.dx[i];
+      const float dy = rays.dy[i];
+      const float ox = x - rays.x[i];
+      const float oy = y - rays.y[i];
       const float along = dx * ox + dy * oy;
       const float across = std::abs(dx * oy - dy * ox);
-      const float slope_a = std::abs(dx * solids.axis_x[k] + dy * solids.axis_y[k]);
-      const float slope_b = std::abs(dy * solids.axis_x[k] - dx * solids.axis_y[k]);
-      const float wide = solids.half_length_m[k] * slope_b + solids.half_width_m[k] * slope_a + round;
-      const float deep = solids.half_length_m[k] * slope_a + solids.half_width_m[k] * slope_b + round;
-      const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= reach);
-      passing[k] += passes ? bit : 0;
+      const float slope_a = std::abs(dx * axis_x + dy * axis_y);
+      const float slope_b = std::abs(dy * axis_x - dx * axis_y);
+      const float wide = half_length * slope_b + half_width * slope_a + round;
+      const float deep = half_length * slope_a + half_width * slope_b + round;
+      const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[i]);
+      bits += passes ? kMaskBit[i] : 0;
     }
+    passing[k] = bits;
   }
 }
 
@@ -112,7 +115,7 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
     roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
     rough_distance_.assign(rays, static_cast<float>(range_m));
     passing_.resize(blocks);
-    open_ = fan.size();
+    open_ = rays;
     return;
   }
   farthest_.assign(blocks, range_m);
@@ -153,12 +156,12 @@ void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t bl
 }
 
 void RayBatch::meetByRay(const Candidates& candidates) {
-  const RoughRays rays{rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(), rough_distance_.data()};
   const auto place = RoughPlace::from(center_, spread_m_, candidates.middle);
   for (std::size_t block = 0; block < fan_->blocks(); ++block) {
     const std::size_t begin = block * kBlock;
-    findPassing(rays, begin, std::min(size(), begin + kBlock), place, candidates.pack, candidates.lanes(),
-                passing_[block].of);
+    findPassing({rough_x_.data() + begin, rough_y_.data() + begin, rough_dx_.data() + begin, rough_dy_.data() + begin,
+                 rough_distance_.data() + begin},
+                place, candidates.pack, passing_[block].of);
     candidates.forEachMark(passing_[block], z_m_, static_cast<std::uint32_t>(begin),
                            [&](const GridItem& item, std::int64_t body, std::uint32_t i) {
                              pairs_.add(item, body, i, item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
