@@ -11,7 +11,7 @@ class SceneCaster : public RayCaster {
   explicit SceneCaster(const RayScene& rays)
       : scene_(rays.solids, 0, {-RayScene::kHalf_m, RayScene::kHalf_m, -RayScene::kHalf_m, RayScene::kHalf_m}),
         world_from_scanner_(rays.world_from_scanner),
-        beams_(rays.beams),
+        fan_(beams()),
         singles_(rays.singles),
         distance_m_(rays.singles.size()) {}
 
@@ -21,12 +21,7 @@ class SceneCaster : public RayCaster {
     for (std::size_t scan = 0; scan < world_from_scanner_.size(); ++scan) {
       const auto& at = world_from_scanner_[scan];
       const std::size_t first = scan * RayScene::kBeams;
-      batch_.begin({at.x, at.y}, RayScene::kHeight_m, range_m, RayScene::kBeams);
-      for (std::size_t i = 0; i < RayScene::kBeams; ++i) {
-        const Ray& beam = beams_[first + i];
-        batch_.set(i, {at.x, at.y}, {beam.direction.x, beam.direction.y});
-      }
-      batch_.finish();
+      batch_.place(fan_, LevelFrame(at, RayScene::kHeight_m), range_m);
       scene_.castRays(batch_);
       for (std::size_t i = 0; i < RayScene::kBeams; ++i) distance_m_[first + i] = batch_.distance(i);
     }
@@ -42,10 +37,18 @@ class SceneCaster : public RayCaster {
   double distance(std::size_t i) const override { return distance_m_[i]; }
 
  private:
+  /// In the scanner's frame.
+  static std::vector<Ray> beams() {
+    std::vector<Ray> beams;
+    for (std::size_t i = 0; i < RayScene::kBeams; ++i) beams.push_back(Ray::towards({0, 0, 0}, beamAngle(i)));
+    return beams;
+  }
+
   Scene scene_;
   RayBatch batch_;
   std::vector<mrpt::math::TPose2D> world_from_scanner_;
-  std::vector<Ray> beams_, singles_;
+  RayFan fan_;
+  std::vector<Ray> singles_;
   std::vector<double> distance_m_;
 };
 

@@ -22,11 +22,13 @@ class Authority {
 
   /// Shortens the robots' paths in place until no two bodies can overlap.
   /// @param scene frozen where the robots stand now
+  /// @param near what stands around each robot
   /// @param stalled set to 1 for each robot whose path was cut short
-  void authorise(const Scene& scene, const Workers& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
+  void authorise(const Scene& scene, std::span<const NeighbourList> near, const Workers& workers, std::span<Path> paths,
+                 std::span<std::uint8_t> stalled);
 
  private:
-  void clip(const Scene& scene, std::size_t robot, std::span<Path> paths);
+  void clip(const Scene& scene, const NeighbourList& near, std::size_t robot, std::span<Path> paths);
   /// How far from a robot others may be that it could meet in this step [m].
   double reachOfMeeting(std::size_t robot, const Path& path) const;
   bool meetsAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;

@@ -38,16 +38,28 @@ std::vector<std::string> namesOf(const Fleet& fleet) {
 /// Robots that carry the same sensors.
 struct Group {
   const RobotModel* model;
+  double reach_m;  ///< how far they look, or drive in a step, from their centres
   std::vector<std::uint32_t> robots;
 };
 
-std::vector<Group> groupsOf(const Fleet& fleet) {
+double reachOf(const RobotModel& model, double period_s) {
+  double reach_m = model.radius_m + model.limits.speed_max_mps * period_s;
+  for (const auto& sensor : model.sensors) {
+    const SensorInfo& info = sensor->info();
+    for (const auto& beam : info.beams) {
+      reach_m = std::max(reach_m, info.range_max_m + std::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
+    }
+  }
+  return reach_m + kContactGap_m;
+}
+
+std::vector<Group> groupsOf(const Fleet& fleet, double period_s) {
   std::vector<Group> groups;
   std::map<const RobotModel*, std::size_t> group_of;
   for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
     const RobotModel* model = fleet.robots[i].model.get();
     const auto [found, is_new] = group_of.emplace(model, groups.size());
-    if (is_new) groups.push_back({model, {}});
+    if (is_new) groups.push_back({model, reachOf(*model, period_s), {}});
     groups[found->second].robots.push_back(i);
   }
   return groups;
@@ -68,7 +80,8 @@ struct Environment::Impl {
   std::vector<Command> commands;
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< of each robot's underside
-  std::vector<RobotFrame> frames;        ///< where the robots are now
+  std::vector<LevelFrame> frames;        ///< where the robots are now
+  std::vector<NeighbourList> near;       ///< what stands around the robots
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
   State state;
 
@@ -81,10 +94,11 @@ struct Environment::Impl {
         authority(moversOf(fleet), world.bounds),
         mail(namesOf(fleet), world.communication, options.seed),
         digest(fleet.robots.size()),
-        groups(groupsOf(fleet)),
+        groups(groupsOf(fleet, options.period_s)),
         commands(fleet.robots.size()),
         paths(fleet.robots.size()),
-        frames(fleet.robots.size()) {
+        frames(fleet.robots.size()),
+        near(fleet.robots.size()) {
     const std::size_t n = fleet.robots.size();
     state.time = {0, options.period_s};
     state.world_from_robot.resize(n);
@@ -120,7 +134,7 @@ struct Environment::Impl {
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       Body body = fleet.robots[i].body;
       body.world_from_body = state.world_from_robot[i];
-      frames[i] = RobotFrame(state.world_from_robot[i], base_z_m[i]);
+      frames[i] = LevelFrame(state.world_from_robot[i], base_z_m[i]);
       scene.place(i, body.solid());
     });
     scene.freeze();
@@ -150,7 +164,7 @@ struct Environment::Impl {
   }
 
   void move() {
-    authority.authorise(scene, workers, paths, state.stalled);
+    authority.authorise(scene, near, workers, paths, state.stalled);
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
@@ -167,6 +181,7 @@ struct Environment::Impl {
                        .heat_sources = heat_sources,
                        .world_from_robot = state.world_from_robot,
                        .frames = frames,
+                       .near = near,
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,
@@ -174,6 +189,9 @@ struct Environment::Impl {
     for (const auto& group : groups) {
       workers.forChunks(group.robots.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         const std::span robots(group.robots.data() + begin, end - begin);
+        for (const auto i : robots) {
+          scene.update(near[i], {state.world_from_robot[i].x, state.world_from_robot[i].y}, group.reach_m);
+        }
         for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
           group.model->sensors[slot]->sense(now, robots, slot, state.readings);
         }

@@ -1,6 +1,8 @@
 #include "environment/mail.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "base/random.h"
@@ -9,12 +11,16 @@ namespace robosim {
 
 Mail::Mail(std::vector<std::string> names, const Communication& communication, std::uint64_t seed)
     : names_(std::move(names)), communication_(communication), seed_(seed), sent_by_(names_.size()) {
-  for (std::size_t i = 0; i < names_.size(); ++i) robot_named_.emplace(names_[i], i);
+  by_name_.resize(names_.size());
+  std::iota(by_name_.begin(), by_name_.end(), 0U);
+  std::sort(by_name_.begin(), by_name_.end(), [&](auto a, auto b) { return names_[a] < names_[b]; });
 }
 
 void Mail::send(std::size_t from, const std::string& to, const std::string& text) {
-  const auto found = robot_named_.find(to);
-  if (found == robot_named_.end()) {
+  const auto found =
+      std::lower_bound(by_name_.begin(), by_name_.end(), to,
+                       [&](std::uint32_t robot, const std::string& name) { return names_[robot] < name; });
+  if (found == by_name_.end() || names_[*found] != to) {
     throw std::invalid_argument("a message from '" + names_[from] + "' to '" + to +
                                 "': there is no robot of that name");
   }
@@ -23,7 +29,7 @@ void Mail::send(std::size_t from, const std::string& to, const std::string& text
                                 std::to_string(text.size()) + " bytes; the most is " +
                                 std::to_string(kMaxMessageBytes));
   }
-  sent_by_[from].push_back({found->second, text});
+  sent_by_[from].push_back({*found, text});
 }
 
 bool Mail::arrives(SimTime now, std::size_t from, std::size_t index, std::size_t to,

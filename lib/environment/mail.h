@@ -2,7 +2,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <unordered_map>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
@@ -36,7 +35,7 @@ class Mail {
                std::span<const mrpt::math::TPose2D> world_from_robot) const;
 
   std::vector<std::string> names_;
-  std::unordered_map<std::string, std::size_t> robot_named_;
+  std::vector<std::uint32_t> by_name_;  ///< robots, sorted by their names
   Communication communication_;
   std::uint64_t seed_;
   std::vector<std::vector<Letter>> sent_by_;

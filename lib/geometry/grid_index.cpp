@@ -20,49 +20,20 @@ bool reaches(const GridItem& box, double center_x, double center_y, double half_
          std::abs(dy * box.axis_x - dx * box.axis_y) <= box.half_width_m + shadow;
 }
 
-int cells(double extent_m, double cell_m) {
-  return static_cast<int>(std::clamp(std::ceil(extent_m / cell_m), 1.0, 32768.0));
-}
-
-GridItem itemOf(const Solid& solid, std::uint32_t index) {
-  GridItem item;
-  item.heights = solid.heights;
-  item.index = index;
-  if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
-    item.is_circle = true;
-    item.x = circle->center.x;
-    item.y = circle->center.y;
-    item.half_length_m = item.reach_m = circle->radius_m;
-  } else {
-    const auto& box = std::get<OrientedBox>(solid.outline);
-    item.x = box.center.x;
-    item.y = box.center.y;
-    item.axis_x = box.axis.x;
-    item.axis_y = box.axis.y;
-    item.half_length_m = box.half_length_m;
-    item.half_width_m = box.half_width_m;
-    // A little more than it is, so that no rounding makes a ray through a corner seem to pass aside.
-    item.reach_m = std::hypot(box.half_length_m, box.half_width_m) * (1 + 1e-9);
-  }
-  return item;
-}
-
 }  // namespace
 
-Bounds2D GridItem::bounds() const {
-  if (is_circle) return {x - half_length_m, x + half_length_m, y - half_length_m, y + half_length_m};
-  const double half_x = half_length_m * std::abs(axis_x) + half_width_m * std::abs(axis_y);
-  const double half_y = half_length_m * std::abs(axis_y) + half_width_m * std::abs(axis_x);
-  return {x - half_x, x + half_x, y - half_y, y + half_y};
+int cellsIn(double extent_m, double cell_m) {
+  return static_cast<int>(std::clamp(std::ceil(extent_m / cell_m), 1.0, 32768.0));
 }
 
 GridIndex::GridIndex(const Bounds2D& area, double cell_m)
     : area_(area),
       cell_m_(cell_m),
       per_m_(1 / cell_m),
-      columns_(cells(area.x_max - area.x_min, cell_m)),
-      rows_(cells(area.y_max - area.y_min, cell_m)),
-      begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0) {}
+      columns_(cellsIn(area.x_max - area.x_min, cell_m)),
+      rows_(cellsIn(area.y_max - area.y_min, cell_m)),
+      count_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0),
+      begin_(count_.size() + 1, 0) {}
 
 template <typename Visit>
 void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
@@ -75,7 +46,7 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
   for (int y = bottom; y <= top; ++y) {
     for (int x = left; x <= right; ++x) {
       const bool on_rim = x == 0 || y == 0 || x == columns_ - 1 || y == rows_ - 1;
-      if (item.is_circle || in_one || on_rim ||
+      if (item.isCircle() || in_one || on_rim ||
           reaches(item, area_.x_min + (x + 0.5) * cell_m_, area_.y_min + (y + 0.5) * cell_m_, cell_m_ / 2)) {
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
       }
@@ -84,18 +55,24 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
 }
 
 void GridIndex::build(std::span<const Solid> solids) {
-  given_.resize(solids.size());
-  std::fill(begin_.begin(), begin_.end(), 0);
+  items_.resize(solids.size());
+  rough_.resize(solids.size());
+  std::fill(count_.begin(), count_.end(), 0);
   for (std::size_t i = 0; i < solids.size(); ++i) {
-    given_[i] = itemOf(solids[i], static_cast<std::uint32_t>(i));
-    forCells(given_[i], [&](std::size_t cell) { ++begin_[cell]; });
+    items_[i] = GridItem::from(solids[i]);
+    rough_[i] = RoughSolid::from(items_[i], middle());
+    forCells(items_[i], [&](std::size_t cell) { ++count_[cell]; });
   }
-  std::uint32_t sum = 0;
-  for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
-  items_.resize(sum);
-  // Filled from the back, so that each cell's end becomes its begin and its solids stay in the order given.
-  for (std::size_t i = given_.size(); i-- > 0;) {
-    forCells(given_[i], [&](std::size_t cell) { items_[--begin_[cell]] = given_[i]; });
+  begin_[0] = 0;
+  for (std::size_t cell = 0; cell < count_.size(); ++cell) {
+    begin_[cell + 1] = begin_[cell] + (count_[cell] + Pack::kMost - 1) / Pack::kMost;
+  }
+  packs_.assign(begin_.back(), Pack());
+  std::fill(count_.begin(), count_.end(), 0);
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    forCells(items_[i], [&](std::size_t cell) {
+      packs_[begin_[cell] + count_[cell]++ / Pack::kMost].add(rough_[i], static_cast<std::uint32_t>(i));
+    });
   }
 }
 

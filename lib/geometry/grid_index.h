@@ -1,36 +1,41 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
-#include "geometry/solid.h"
+#include "geometry/ray.h"
+#include "geometry/solid_pack.h"
 
 namespace robosim {
 
-/// A solid as a grid keeps it: all that a question asks of it, in one run of memory.
-struct GridItem {
-  double x = 0, y = 0;            ///< centre [m]
-  double axis_x = 1, axis_y = 0;  ///< box: unit vector along its length
-  double half_length_m = 0;       ///< circle: its radius
-  double half_width_m = 0;        ///< circle: 0
-  double reach_m = 0;             ///< radius of the disc about its centre that covers it
-  HeightSpan heights;
-  std::uint32_t index = 0;  ///< in the order the solids were given
-  bool is_circle = false;
-
-  Bounds2D bounds() const;
-};
+/// How many cells of a size cover an extent: at least 1, and no more than 32768.
+int cellsIn(double extent_m, double cell_m);
+/// The cell of a coordinate that is counted in cells, pulled onto the rim when it lies outside.
+inline int cellOf(double in_cells, int count) {
+  // Cast only what is in range: a far coordinate would not fit an int.
+  if (!(in_cells > 0)) return 0;
+  return in_cells < count ? static_cast<int>(in_cells) : count - 1;
+}
 
 /// Which solids reach into which square cell of the plane. Built by counting sort: linear time, no allocation once the
-/// arrays have their size. Each cell's solids lie side by side in memory, copied, so that looking through a cell
-/// touches nothing else. Solids beyond the grid's area are listed in the cells of its rim, which stand for all that
-/// lies outwards of them.
+/// arrays have their size. Each cell's solids lie side by side in memory, in packs. Solids beyond the grid's area are
+/// listed in the cells of its rim, which stand for all that lies outwards of them.
 class GridIndex {
  public:
+  using Pack = SolidPack<8>;
+
   GridIndex(const Bounds2D& area, double cell_m);
 
   /// Lists each solid in every cell that its outline reaches.
   void build(std::span<const Solid> solids);
+
+  /// The solids, in the order given.
+  std::span<const GridItem> items() const { return items_; }
+  std::span<const RoughSolid> rough() const { return rough_; }
+  /// From where the rough solids are seen.
+  mrpt::math::TPoint2D middle() const { return {(area_.x_min + area_.x_max) / 2, (area_.y_min + area_.y_max) / 2}; }
 
   double cellSize() const { return cell_m_; }
   int columns() const { return columns_; }
@@ -41,17 +46,60 @@ class GridIndex {
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
   /// The solids in a cell, in the order they were given.
-  std::span<const GridItem> cell(int column, int row) const {
-    const std::size_t i =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
-    return {items_.data() + begin_[i], items_.data() + begin_[i + 1]};
+  std::span<const Pack> cell(int column, int row) const { return cell(cellAt(column, row)); }
+
+  /// Visits the packs of the cells that a ray goes through, in its order, until the next cell begins at or beyond
+  /// reach() (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the
+  /// rim go on outwards without end.
+  template <typename Reach, typename Visit>
+  [[gnu::always_inline]] inline void visitAlong(const Ray& ray, const Reach& reach, const Visit& visit) const {
+    Walk x = walk(ray.origin.x, ray.direction.x, area_.x_min, column(ray.origin.x), columns_);
+    Walk y = walk(ray.origin.y, ray.direction.y, area_.y_min, row(ray.origin.y), rows_);
+    const std::ptrdiff_t step_x = ray.direction.x > 0 ? 1 : -1;
+    const std::ptrdiff_t step_y = ray.direction.y > 0 ? columns_ : -columns_;
+    auto at = static_cast<std::ptrdiff_t>(cellAt(column(ray.origin.x), row(ray.origin.y)));
+    while (true) {
+      for (const auto& pack : cell(static_cast<std::size_t>(at))) visit(pack);
+      // Which border is next is anybody's guess, so it is told without a branch.
+      const bool in_x = x.next <= y.next;
+      if ((in_x ? x.next : y.next) >= reach()) return;
+      at += in_x ? step_x : step_y;
+      x.cross(in_x);
+      y.cross(!in_x);
+    }
   }
 
  private:
-  static int cellOf(double in_cells, int count) {
-    // Cast only what is in range: a far coordinate would not fit an int.
-    if (!(in_cells > 0)) return 0;
-    return in_cells < count ? static_cast<int>(in_cells) : count - 1;
+  /// The way along one axis.
+  struct Walk {
+    double next = std::numeric_limits<double>::infinity();  ///< distance along the ray to the next border
+    double delta = 0;                                       ///< and between borders
+    int left = 0;                                           ///< borders still to cross before the rim
+
+    void cross(bool crosses) {
+      left -= crosses ? 1 : 0;
+      const double after = next + (crosses ? delta : 0.0);
+      next = left == 0 ? std::numeric_limits<double>::infinity() : after;
+    }
+  };
+  Walk walk(double origin, double direction, double low, int cell, int count) const {
+    Walk w;
+    w.left = direction > 0 ? count - 1 - cell : cell;
+    if (direction == 0 || w.left == 0) {
+      w.left = 0;
+      return w;
+    }
+    const double per = 1 / direction;
+    w.next = (low + (cell + (direction > 0 ? 1 : 0)) * cell_m_ - origin) * per;
+    w.delta = cell_m_ * std::abs(per);
+    return w;
+  }
+
+  std::size_t cellAt(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
+  std::span<const Pack> cell(std::size_t at) const {
+    return {packs_.data() + begin_[at], packs_.data() + begin_[at + 1]};
   }
   template <typename Visit>
   void forCells(const GridItem& item, const Visit& visit) const;
@@ -59,9 +107,11 @@ class GridIndex {
   Bounds2D area_;
   double cell_m_, per_m_;
   int columns_, rows_;
-  std::vector<std::uint32_t> begin_;
-  std::vector<GridItem> given_;  ///< one per solid
-  std::vector<GridItem> items_;  ///< by cell
+  std::vector<GridItem> items_;       ///< one per solid
+  std::vector<RoughSolid> rough_;     ///< one per solid
+  std::vector<std::uint32_t> count_;  ///< of solids, by cell
+  std::vector<std::uint32_t> begin_;  ///< first pack, by cell, and the end
+  std::vector<Pack> packs_;           ///< by cell
 };
 
 }  // namespace robosim

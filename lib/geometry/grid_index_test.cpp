@@ -12,7 +12,9 @@ namespace {
 
 std::vector<std::uint32_t> listed(const GridIndex& grid, int column, int row) {
   std::vector<std::uint32_t> indices;
-  for (const auto& item : grid.cell(column, row)) indices.push_back(item.index);
+  for (const auto& pack : grid.cell(column, row)) {
+    indices.insert(indices.end(), pack.indices().begin(), pack.indices().end());
+  }
   return indices;
 }
 

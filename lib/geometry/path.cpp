@@ -97,6 +97,7 @@ int Path::chords() const {
 
 TPoint2D Path::centerAt(double fraction) const {
   const double at = std::min(fraction, end_fraction);
+  if (at == 1) return onArc(*this, 1);
   const int n = chords();
   const double in_chords = at * n;
   const double chord = std::min(std::floor(in_chords), n - 1.0);

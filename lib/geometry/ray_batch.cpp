@@ -2,21 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "geometry/level_ray.h"
-#include "geometry/vector_clones.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr std::size_t kBlock = 16;
+constexpr std::size_t kBlock = RayFan::kBlock;
 /// Rounding may make a solid seem this much [m] farther off than it is.
 constexpr double kSlack_m = 1e-9;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Rays of a batch as bare arrays: what the loops below need to become vector instructions.
 struct Rays {
   const double* __restrict x;
@@ -30,7 +27,7 @@ struct Rays {
 /// Keeps a hit at `t` for ray i if it is nearer, or as near and of a lower body; so the order of solids does not
 /// matter.
 inline void keep(const Rays& rays, std::size_t i, double t, std::int64_t body) {
-  const bool keeps = t < rays.distance[i] || (t == rays.distance[i] && body < rays.body[i]);
+  const bool keeps = (t < rays.distance[i]) | ((t == rays.distance[i]) & (body < rays.body[i]));
   rays.distance[i] = keeps ? t : rays.distance[i];
   rays.body[i] = keeps ? body : rays.body[i];
 }
@@ -52,121 +49,138 @@ void meetBox(const Rays& rays, std::size_t begin, std::size_t end, double x, dou
   }
 }
 
-/// Cones of directions, by block, and how far the farthest of a block's rays still reaches.
-struct Cones {
-  const double* __restrict x;
-  const double* __restrict y;
-  const double* __restrict cos;
-  const double* __restrict sin;
-  const double* __restrict farthest;
+/// Rays of a block as seen from the batch's centre, in single precision: enough to tell which are worth a sum.
+struct RoughRays {
+  const float* __restrict x;
+  const float* __restrict y;
+  const float* __restrict dx;
+  const float* __restrict dy;
+  const float* __restrict distance;
 };
 
-/// Notes for each cone of rays that start within some distance of the centre whether one of them may meet a disc at
-/// (ox, oy) from it. `reach` is the disc's radius and that distance together; the disc is no nearer to any origin than
-/// `nearest`.
+/// Which rays of a block pass through the rectangle about each solid that lies along and across the ray, nearer than
+/// they have met something. Finding that out costs less than the sum for where a ray enters a solid, and of rays that
+/// look all ways few do.
 ROBOSIM_VECTOR_CLONES
-void findTouched(const Cones& cones, std::size_t count, double ox, double oy, double reach, double nearest,
-                 std::int64_t* __restrict touched) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double along = cones.x[i] * ox + cones.y[i] * oy;
-    const double across = std::abs(cones.x[i] * oy - cones.y[i] * ox);
-    // Turning from the cone's middle to its edge brings the ray nearer to the disc's centre by the most it can.
-    const double least_across = across * cones.cos[i] - std::abs(along) * cones.sin[i];
-    const double most_along = along * cones.cos[i] + across * cones.sin[i];
-    touched[i] = ((least_across <= reach) & (most_along >= -reach) & (nearest <= cones.farthest[i])) ? 1 : 0;
+void findPassing(const RoughRays& rays, const RoughPlace& place, const Candidates::Pack& solids,
+                 std::uint32_t* __restrict passing) {
+  for (std::size_t k = 0; k < solids.count; ++k) {
+    const float x = solids.x[k] - place.x;
+    const float y = solids.y[k] - place.y;
+    const float axis_x = solids.axis_x[k];
+    const float axis_y = solids.axis_y[k];
+    const float half_length = solids.half_length_m[k];
+    const float half_width = solids.half_width_m[k];
+    const float round = solids.round_m[k] + place.lost_m;
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      const float dx = rays.dx[i];
+      const float dy = rays.dy[i];
+      const float ox = x - rays.x[i];
+      const float oy = y - rays.y[i];
+      const float along = dx * ox + dy * oy;
+      const float across = std::abs(dx * oy - dy * ox);
+      const float slope_a = std::abs(dx * axis_x + dy * axis_y);
+      const float slope_b = std::abs(dy * axis_x - dx * axis_y);
+      const float wide = half_length * slope_b + half_width * slope_a + round;
+      const float deep = half_length * slope_a + half_width * slope_b + round;
+      const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[i]);
+      bits += passes ? kMaskBit[i] : 0;
+    }
+    passing[k] = bits;
   }
-}
-
-/// The largest of a block's numbers, four at a time.
-double largest(const double* block) {
-  double most[4] = {block[0], block[1], block[2], block[3]};
-  for (std::size_t i = 4; i < kBlock; i += 4) {
-    for (std::size_t j = 0; j < 4; ++j) most[j] = block[i + j] > most[j] ? block[i + j] : most[j];
-  }
-  return std::max(std::max(most[0], most[1]), std::max(most[2], most[3]));
 }
 
 }  // namespace
 
-void RayBatch::begin(const TPoint2D& center, double z_m, double range_m, std::size_t count) {
-  center_ = center;
-  z_m_ = z_m;
-  range_m_ = range_m;
-  size_ = count;
-  const std::size_t padded = (count + kBlock - 1) / kBlock * kBlock;
-  for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(padded);
+void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double range_m, double pan_rad) {
+  const LevelFrame& frame = world_from_fan;
+  fan_ = &fan;
+  center_ = frame.pointToWorld(fan.middle());
+  z_m_ = frame.z() + fan.z();
+  spread_m_ = fan.spread() + kSlack_m;
+  farthest_m_ = range_m;
+  const std::size_t rays = fan.x_.size();
+  for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(rays);
+  transform(fan.x_.data(), fan.y_.data(), rays, frame.x(), frame.y(), frame.cos(), frame.sin(), x_.data(), y_.data());
+  const LevelFrame panned(frame, pan_rad);
+  transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, panned.cos(), panned.sin(), dx_.data(), dy_.data());
+  distance_.assign(rays, range_m);
+  body_.assign(rays, kNothing);
+
+  const std::size_t blocks = fan.blocks();
+  if (!fan.isNarrow()) {
+    for (auto* field : {&rough_x_, &rough_y_, &rough_dx_, &rough_dy_}) field->resize(rays);
+    roughly(x_.data(), y_.data(), rays, center_.x, center_.y, rough_x_.data(), rough_y_.data());
+    roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
+    rough_distance_.assign(rays, static_cast<float>(range_m));
+    passing_.resize(blocks);
+    open_ = rays;
+    return;
+  }
+  farthest_.assign(blocks, range_m);
+  cones_.place(fan.cones_, panned, range_m);
+  passing_.resize(cones_.blocks());
 }
 
-void RayBatch::finish() {
-  double spread_m2 = 0;
-  for (std::size_t i = 0; i < size_; ++i) {
-    const double ox = x_[i] - center_.x;
-    const double oy = y_[i] - center_.y;
-    spread_m2 = std::max(spread_m2, ox * ox + oy * oy);
-  }
-  spread_m_ = std::sqrt(spread_m2);
-  const std::size_t blocks = x_.size() / kBlock;
-  for (auto* field : {&x_, &y_, &dx_, &dy_}) {
-    for (std::size_t i = size_; i < field->size(); ++i) (*field)[i] = (*field)[size_ - 1];
-  }
-  distance_.assign(x_.size(), range_m_);
-  body_.assign(x_.size(), kNothing);
-
-  middle_x_.resize(blocks);
-  middle_y_.resize(blocks);
-  cos_.resize(blocks);
-  sin_.resize(blocks);
-  touched_.resize(blocks);
-  farthest_.assign(blocks, range_m_);
-  for (std::size_t block = 0; block < blocks; ++block) {
-    const std::size_t first = block * kBlock;
-    double mx = dx_[first] + dx_[first + kBlock - 1];
-    double my = dy_[first] + dy_[first + kBlock - 1];
-    const double length = std::hypot(mx, my);
-    mx = length > 1e-6 ? mx / length : dx_[first];
-    my = length > 1e-6 ? my / length : dy_[first];
-    double least_cos = 1;
-    for (std::size_t i = first; i < first + kBlock; ++i) least_cos = std::min(least_cos, mx * dx_[i] + my * dy_[i]);
-    // A cone wider than a half-plane tells nothing apart.
-    const bool narrow = least_cos > 0.1;
-    least_cos = narrow ? std::max(0.0, least_cos - 1e-9) : 0;
-    middle_x_[block] = mx;
-    middle_y_[block] = my;
-    cos_[block] = least_cos;
-    sin_[block] = narrow ? std::sqrt(1 - least_cos * least_cos) : kInfinity;
+void RayBatch::meet(const Candidates& candidates) {
+  if (fan_->isNarrow()) {
+    meetByBlock(candidates);
+  } else {
+    meetByRay(candidates);
   }
 }
 
-double RayBatch::reach() const {
-  double farthest_m = 0;
-  for (const double d : farthest_) farthest_m = std::max(farthest_m, d);
-  return farthest_m + spread_m_;
-}
-
-void RayBatch::meet(const GridItem& item, std::int64_t body) {
-  const std::size_t blocks = touched_.size();
-  if (blocks == 1) return meetBlock(item, body, 0);
-  const double ox = item.x - center_.x;
-  const double oy = item.y - center_.y;
-  const double reach_m = item.reach_m + spread_m_;
-  const double nearest_m = std::sqrt(ox * ox + oy * oy) - reach_m - kSlack_m;
-  findTouched({middle_x_.data(), middle_y_.data(), cos_.data(), sin_.data(), farthest_.data()}, blocks, ox, oy, reach_m,
-              nearest_m, touched_.data());
-  for (std::size_t block = 0; block < blocks; ++block) {
-    if (touched_[block]) meetBlock(item, body, block);
+void RayBatch::meetByBlock(const Candidates& candidates) {
+  cones_.find(RoughPlace::from(center_, 0, candidates.middle, spread_m_), candidates, passing_);
+  for (std::size_t cones = 0; cones < cones_.blocks(); ++cones) {
+    const auto first = static_cast<std::uint32_t>(cones * RoughSectors::kBlock);
+    candidates.forEachMark(
+        passing_[cones], z_m_, first,
+        [&](const GridItem& item, std::int64_t body, std::uint32_t block) { meetBlock(item, body, block); });
   }
+  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
 }
 
 void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t block) {
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
   const std::size_t begin = block * kBlock;
   const std::size_t end = begin + kBlock;
-  if (item.is_circle) {
-    meetCircle(rays, begin, end, item.x, item.y, item.half_length_m, body);
+  if (item.isCircle()) {
+    meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
   } else {
     meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
   }
-  farthest_[block] = largest(distance_.data() + begin);
+  farthest_[block] = largest(distance_.data() + begin, kBlock);
+  cones_.setReach(block, farthest_[block]);
+}
+
+void RayBatch::meetByRay(const Candidates& candidates) {
+  const auto place = RoughPlace::from(center_, spread_m_, candidates.middle);
+  for (std::size_t block = 0; block < fan_->blocks(); ++block) {
+    const std::size_t begin = block * kBlock;
+    findPassing({rough_x_.data() + begin, rough_y_.data() + begin, rough_dx_.data() + begin, rough_dy_.data() + begin,
+                 rough_distance_.data() + begin},
+                place, candidates.pack, passing_[block].of);
+    candidates.forEachMark(passing_[block], z_m_, static_cast<std::uint32_t>(begin),
+                           [&](const GridItem& item, std::int64_t body, std::uint32_t i) {
+                             pairs_.add(item, body, i, item.x - x_[i], item.y - y_[i], dx_[i], dy_[i]);
+                             if (pairs_.isFull()) settle();
+                           });
+  }
+}
+
+void RayBatch::settle() {
+  const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
+  pairs_.settle([&](std::uint32_t ray, double t, std::int64_t with) {
+    const bool was_open = rays.body[ray] == kNothing;
+    keep(rays, ray, t, with);
+    rough_distance_[ray] = static_cast<float>(rays.distance[ray]);
+    open_ -= (was_open & (rays.body[ray] != kNothing)) ? 1 : 0;
+  });
+  // While one ray has met nothing, what is farthest is the range.
+  if (open_ == 0)
+    farthest_m_ = *std::max_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(size()));
 }
 
 }  // namespace robosim

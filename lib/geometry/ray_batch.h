@@ -2,68 +2,69 @@
 #include <cstdint>
 #include <vector>
 
-#include <mrpt/math/TPoint2D.h>
-
-#include "geometry/grid_index.h"
+#include "geometry/candidates.h"
+#include "geometry/level_frame.h"
+#include "geometry/ray_fan.h"
+#include "geometry/ray_pairs.h"
+#include "geometry/rough_sectors.h"
 
 namespace robosim {
 
-/// Level rays of one height that start near one place, as those of a laser or of a ring of sonars. Cast together: each
-/// solid nearby is held against many rays at once, the nearest solids first, rather than each ray against the solids on
-/// its way. Fields lie in arrays of their own, so that the compiler turns the loops over rays into vector instructions.
+/// The rays of a fan at one place in the world, cast together: each solid nearby is held against all of them, the
+/// nearest solids first, rather than each ray against the solids on its way. Fields lie in arrays of their own, so that
+/// the compiler turns the loops over rays into vector instructions.
 class RayBatch {
  public:
   /// What `body` holds for a ray that has met nothing: lower than any body, so that nothing at the range itself is
   /// kept.
   static constexpr std::int64_t kNothing = -1;
 
-  /// Begins a batch of `count` rays from near `center` at the height `z_m`; set() each of them next.
-  void begin(const mrpt::math::TPoint2D& center, double z_m, double range_m, std::size_t count);
-  /// Ray `i` leads from `origin` along the unit vector `direction`, world frame. Rays that are neighbours by direction
-  /// should be neighbours here.
-  void set(std::size_t i, const mrpt::math::TPoint2D& origin, const mrpt::math::TPoint2D& direction) {
-    x_[i] = origin.x;
-    y_[i] = origin.y;
-    dx_[i] = direction.x;
-    dy_[i] = direction.y;
-  }
-  /// Call once when all rays are set.
-  void finish();
+  /// Puts the rays of a fan where its carrier is, all turned about their own origins by `pan_rad` first. Nothing is
+  /// met yet. The fan must stay while the batch is in use.
+  void place(const RayFan& fan, const LevelFrame& world_from_fan, double range_m, double pan_rad = 0);
 
-  std::size_t size() const { return size_; }
+  std::size_t size() const { return fan_ ? fan_->size() : 0; }
+  /// About the middle of the rays' origins.
   const mrpt::math::TPoint2D& center() const { return center_; }
   double z() const { return z_m_; }
   /// Nothing further than this from the centre can change what is known so far [m].
-  double reach() const;
+  double reach() const { return farthest_m_ + spread_m_; }
 
-  /// Whether the solid is at their height and within their range, so that meet() is worth its while.
-  bool mayMeet(const GridItem& item) const {
-    const double ox = item.x - center_.x;
-    const double oy = item.y - center_.y;
-    const double far = range_m_ + spread_m_ + item.reach_m;
-    return ox * ox + oy * oy <= far * far && item.heights.contains(z_m_);
+  /// Holds solids against all rays they may meet.
+  void meet(const Candidates& candidates);
+  /// Call once when all solids have been met.
+  void finish() {
+    if (!fan_->isNarrow()) settle();
   }
-  /// Holds a solid against all rays it may meet.
-  void meet(const GridItem& item, std::int64_t body);
 
   /// Distance [m] from the origin of ray `i` to what it met, or the range.
   double distance(std::size_t i) const { return distance_[i]; }
   std::int64_t body(std::size_t i) const { return body_[i]; }
 
  private:
+  void meetByRay(const Candidates& candidates);
+  void meetByBlock(const Candidates& candidates);
   void meetBlock(const GridItem& item, std::int64_t body, std::size_t block);
+  void settle();
 
+  const RayFan* fan_ = nullptr;
   mrpt::math::TPoint2D center_;
   double z_m_ = 0;
-  double range_m_ = 0;
-  double spread_m_ = 0;  ///< farthest origin from the centre
-  std::size_t size_ = 0;
-  std::vector<double> x_, y_, dx_, dy_;  ///< by ray; the last one repeated up to a whole block
+  double spread_m_ = 0;                  ///< farthest origin from the centre
+  double farthest_m_ = 0;                ///< of all rays: how far they still reach
+  std::vector<double> x_, y_, dx_, dy_;  ///< by ray, as in the fan
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
-  // By block of rays: the cone that holds their directions, and how far the farthest of them still reaches.
-  std::vector<double> middle_x_, middle_y_, cos_, sin_, farthest_;
-  std::vector<std::int64_t> touched_;
+  std::vector<Candidates::Masks> passing_;  ///< which rays, or cones, candidates pass
+
+  // A narrow fan's, by block of rays: the cone that holds their directions, and how far the farthest still reaches.
+  RoughSectors cones_;
+  std::vector<double> farthest_;
+
+  // Any other fan's, by ray, as seen from the centre.
+  std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;
+  std::size_t open_ = 0;  ///< rays that have met nothing yet
+  RayPairs pairs_;
 };
 
 }  // namespace robosim

@@ -11,15 +11,12 @@ namespace robosim {
 namespace {
 
 /// Casts level rays as a batch and one by one, and says where the two differ; empty if nowhere.
-std::string difference(const Scene& scene, const std::vector<Ray>& rays, const mrpt::math::TPoint2D& center,
-                       double range_m, BodyId except) {
+std::string difference(const Scene& scene, const std::vector<Ray>& rays, double range_m, BodyId except,
+                       const NeighbourList& near) {
+  const RayFan fan(rays);
   RayBatch batch;
-  batch.begin(center, rays.front().origin.z, range_m, rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    batch.set(i, {rays[i].origin.x, rays[i].origin.y}, {rays[i].direction.x, rays[i].direction.y});
-  }
-  batch.finish();
-  scene.castRays(batch, except);
+  batch.place(fan, {}, range_m);
+  scene.castRays(batch, except, near);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const Hit hit = scene.castRay(rays[i], range_m, except);
     const bool same = hit ? batch.body(i) == static_cast<std::int64_t>(hit.body) && batch.distance(i) == hit.distance_m
@@ -55,15 +52,39 @@ TEST(RayBatch, GivesTheSameBitsAsItsRaysOneByOne) {
     const double ranges[] = {0, 0.3, 5, 8, 100, INFINITY};
     const BodyId except =
         moving > 0 && rng.below(2) ? scene.movingBody(rng.below(static_cast<std::uint32_t>(moving))) : kNoBody;
-    EXPECT_EQ(difference(scene, rays, center, ranges[rng.below(6)], except), "") << "seed " << seed;
+    const double range_m = ranges[rng.below(6)];
+    EXPECT_EQ(difference(scene, rays, range_m, except, {}), "") << "seed " << seed;
+    // And from lists of neighbours: made here, made a step away, and made for less than the range.
+    for (const double away_m : {0.0, 0.3, 0.6}) {
+      NeighbourList near;
+      scene.update(near, {center.x + away_m, center.y}, rng.below(2) ? range_m + spread_m : range_m / 2);
+      EXPECT_EQ(difference(scene, rays, range_m, except, near), "") << "seed " << seed << ", list " << away_m;
+    }
   }
+}
+
+TEST(RayBatch, TurnsItsFanWithItsCarrierAndEachRayAboutItsOwnOrigin) {
+  // From 1 m ahead of a carrier that stands in (2, 3) and looks along y; the ray itself panned a quarter to the left,
+  // along -x.
+  const Scene scene({{Circle{{-2, 4}, 0.5}, {0, 1}}, {Circle{{2, 9}, 0.5}, {0, 1}}}, 0, {-10, 10, -10, 10});
+  const RayFan fan(std::vector<Ray>{Ray::towards({1, 0, 0.25}, 0)});
+  RayBatch batch;
+  const LevelFrame carrier({2, 3, M_PI_2}, 0.25);
+  batch.place(fan, carrier, 20, M_PI_2);
+  scene.castRays(batch);
+  EXPECT_NEAR(batch.distance(0), 3.5, 1e-12);
+  EXPECT_EQ(batch.body(0), 0);
+  batch.place(fan, carrier, 20);
+  scene.castRays(batch);
+  EXPECT_NEAR(batch.distance(0), 4.5, 1e-12);
+  EXPECT_EQ(batch.body(0), 1);
 }
 
 TEST(RayBatch, OfNoRaysAsksNothing) {
   const Scene scene({{Circle{{1, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
+  const RayFan fan;
   RayBatch batch;
-  batch.begin({0, 0}, 0.5, 5, 0);
-  batch.finish();
+  batch.place(fan, {}, 5);
   scene.castRays(batch);
   EXPECT_EQ(batch.size(), 0u);
 }
@@ -72,9 +93,8 @@ TEST(RayBatch, MayBeUsedAgainForOthers) {
   const Scene scene({{Circle{{2, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
   RayBatch batch;
   for (const double x : {0.0, 1.0, -1.0}) {
-    batch.begin({x, 0}, 0.5, 5, 1);
-    batch.set(0, {x, 0}, {1, 0});
-    batch.finish();
+    const RayFan fan(std::vector<Ray>{Ray::towards({x, 0, 0.5}, 0)});
+    batch.place(fan, {}, 5);
     scene.castRays(batch);
     EXPECT_EQ(batch.distance(0), 1.5 - x);
     EXPECT_EQ(batch.body(0), 0);

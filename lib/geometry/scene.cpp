@@ -1,9 +1,11 @@
 #include "geometry/scene.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "geometry/level_ray.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
@@ -11,45 +13,26 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// How far [m] an owner of a neighbour list goes before it is made anew: some steps of a quick robot; not so far that
+/// the list grows much.
+constexpr double kSkin_m = 0.7;
+/// Of a neighbour list. Where more lie within reach, the nearest ones hide most of the rest.
+constexpr std::size_t kMostNeighbours = 64;
+/// A little less than 1: no number times this grows when it becomes a float.
+constexpr double kRoundDown = 1 - 1e-7;
 
-/// A cell size at which a cell holds less than one solid on average, and that keeps the grid's memory in proportion.
-double cellFor(const Bounds2D& area, std::size_t solids) {
+/// Stationary solids in a cell on average, those aside that reach over its borders: some fill a pack, few need a
+/// second.
+constexpr double kStationaryPerCell = 2.5;
+constexpr double kMovingPerCell = 1;
+
+double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
   const double square_m2 = std::max(1e-6, (area.x_max - area.x_min) * (area.y_max - area.y_min));
-  return std::max(0.25, std::sqrt(square_m2 / (2.0 * static_cast<double>(solids + 4))));
+  return std::max(0.25, std::sqrt(square_m2 * per_cell / static_cast<double>(solids + 4)));
 }
 
 bool better(double distance_m, BodyId body, const Hit& best) {
   return distance_m < best.distance_m || (distance_m == best.distance_m && best.body != kNoBody && body < best.body);
-}
-
-/// Visits the cells that the ray goes through, in its order, until the next one begins at or beyond reach() (Amanatides
-/// & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the rim go on outwards
-/// without end.
-template <typename Reach, typename Visit>
-void alongRay(const GridIndex& grid, const Ray& ray, const Reach& reach, const Visit& visit) {
-  struct Axis {
-    int cell, step, last;
-    double next, delta;  // distance along the ray to the next border, and between borders
-  };
-  const auto axis = [&](double origin, double direction, double low, int cell, int count) {
-    Axis a{cell, direction > 0 ? 1 : -1, direction > 0 ? count - 1 : 0, kInfinity, 0};
-    if (direction != 0) {
-      const double border = low + (cell + (direction > 0 ? 1 : 0)) * grid.cellSize();
-      a.next = (border - origin) / direction;
-      a.delta = grid.cellSize() / std::abs(direction);
-    }
-    if (a.cell == a.last) a.next = kInfinity;
-    return a;
-  };
-  Axis x = axis(ray.origin.x, ray.direction.x, grid.xMin(), grid.column(ray.origin.x), grid.columns());
-  Axis y = axis(ray.origin.y, ray.direction.y, grid.yMin(), grid.row(ray.origin.y), grid.rows());
-  while (true) {
-    visit(x.cell, y.cell);
-    Axis& nearer = x.next <= y.next ? x : y;
-    if (nearer.next >= reach()) return;
-    nearer.cell += nearer.step;
-    nearer.next = nearer.cell == nearer.last ? kInfinity : nearer.next + nearer.delta;
-  }
 }
 
 Bounds2D boundsOf(const Sector& sector, double range_m) {
@@ -81,32 +64,29 @@ bool meet(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-void collectNear(const GridIndex& grid, std::uint32_t first_body, const Bounds2D& area, std::vector<BodyId>& found) {
-  const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  const int right = grid.column(area.x_max);
-  const int top = grid.row(area.y_max);
-  for (int row = grid.row(area.y_min); row <= top; ++row) {
-    for (int column = grid.column(area.x_min); column <= right; ++column) {
-      for (const auto& item : grid.cell(column, row)) {
-        if (meet(item.bounds(), area)) found.push_back(BodyId(first_body + item.index));
-      }
-    }
-  }
-  std::sort(found.begin() + begin, found.end());
-  found.erase(std::unique(found.begin() + begin, found.end()), found.end());
-}
+/// A level ray in single precision, from the middle of the scene.
+struct RoughRay {
+  float x, y, lost_m, dx, dy;
+};
 
-/// Distance along a level ray to where it enters an item at its height, or infinity.
-double enterLevel(const Ray& ray, const GridItem& item) {
-  const double ox = item.x - ray.origin.x;
-  const double oy = item.y - ray.origin.y;
-  const double dx = ray.direction.x;
-  const double dy = ray.direction.y;
-  // Most items of a cell lie aside of the ray; that is seen without a square root or a division.
-  const double across = dx * oy - dy * ox;
-  if (across * across > item.reach_m * item.reach_m) return kInfinity;
-  if (item.is_circle) return enterCircle(ox, oy, dx, dy, item.half_length_m);
-  return enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+/// Which solids of a pack lie on a ray's way nearer than its reach, by the rectangle about each that lies along and
+/// across the ray: bit i for solid i.
+[[gnu::always_inline]] inline std::uint32_t passedBy(const RoughRay& ray, const GridIndex::Pack& pack, float reach_m) {
+  std::uint32_t passed = 0;
+  for (std::size_t i = 0; i < GridIndex::Pack::kMost; ++i) {
+    const float ox = pack.x[i] - ray.x;
+    const float oy = pack.y[i] - ray.y;
+    const float round = pack.round_m[i] + ray.lost_m;
+    const float along = ray.dx * ox + ray.dy * oy;
+    const float across = std::abs(ray.dx * oy - ray.dy * ox);
+    const float slope_a = std::abs(ray.dx * pack.axis_x[i] + ray.dy * pack.axis_y[i]);
+    const float slope_b = std::abs(ray.dy * pack.axis_x[i] - ray.dx * pack.axis_y[i]);
+    const float wide = pack.half_length_m[i] * slope_b + pack.half_width_m[i] * slope_a + round;
+    const float deep = pack.half_length_m[i] * slope_a + pack.half_width_m[i] * slope_b + round;
+    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= reach_m);
+    passed += passes ? kMaskBit[i] : 0;
+  }
+  return passed;
 }
 
 /// Marks which bodies a question has looked at already: a body is listed in every cell it reaches into. One for each
@@ -174,102 +154,217 @@ void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach,
   }
 }
 
+/// Hands a batch what it may meet, a pack at a time.
+template <typename Batch, typename Index>
+class Gathering {
+ public:
+  Gathering(Batch& batch, const Index& index, std::size_t first_body, BodyId except)
+      : batch_(batch),
+        rough_(index.rough().data()),
+        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body),
+                    except == kNoBody ? -1 : static_cast<std::int64_t>(except)} {}
+
+  void add(std::uint32_t index) {
+    pack_.add(rough_[index], index);
+    if (pack_.isFull()) finish();
+  }
+  void finish() {
+    if (pack_.count == 0) return;
+    batch_.meet(candidates_);
+    pack_.count = 0;
+  }
+
+ private:
+  static Candidates::Pack& emptyPack() {
+    static thread_local Candidates::Pack pack;
+    pack.count = 0;
+    return pack;
+  }
+
+  Batch& batch_;
+  const RoughSolid* rough_;
+  Candidates::Pack& pack_ = emptyPack();
+  Candidates candidates_;
+};
+
 }  // namespace
 
-Scene::Scene(std::vector<Solid> stationary, std::size_t moving_count, const Bounds2D& area)
-    : stationary_(std::move(stationary)),
-      moving_(moving_count),
-      stationary_index_(area, cellFor(area, stationary_.size())),
-      moving_index_(area, cellFor(area, moving_count)) {
-  stationary_index_.build(stationary_);
+Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area)
+    : stationary_index_(area, cellFor(area, stationary.size(), kStationaryPerCell)),
+      moving_index_(area, cellFor(area, moving_count, kMovingPerCell), moving_count) {
+  stationary_index_.build(stationary);
   freeze();
 }
 
-const Solid& Scene::solid(BodyId body) const {
+Solid Scene::solid(BodyId body) const {
   const auto i = static_cast<std::size_t>(body);
-  return i < stationary_.size() ? stationary_[i] : moving_[i - stationary_.size()];
+  return (i < stationaryCount() ? stationary_index_.items()[i] : moving_index_.items()[i - stationaryCount()]).solid();
 }
-
-void Scene::freeze() { moving_index_.build(moving_); }
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
-  best.distance_m = range_m;
-  const bool is_level = ray.direction.z == 0;
-  const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
-    alongRay(
-        grid, ray, [&] { return best.distance_m; },
-        [&](int column, int row) {
-          for (const auto& item : grid.cell(column, row)) {
-            const BodyId body{first_body + item.index};
-            if (is_level && !item.heights.contains(ray.origin.z)) continue;
-            const double met = is_level ? enterLevel(ray, item) : intersect(ray, solid(body)).value_or(kInfinity);
-            if (better(met, body, best) && body != except) best = {met, body, {}};
-          }
-        });
-  };
-  if (!stationary_.empty()) cast(stationary_index_, 0);
-  if (!moving_.empty()) cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  if (ray.direction.z == 0) {
+    best = castLevel(ray, range_m, except);
+  } else {
+    best.distance_m = range_m;
+    const auto reach = [&] { return best.distance_m; };
+    const auto cast = [&](BodyId body) {
+      const double met_m = intersect(ray, solid(body)).value_or(kInfinity);
+      if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
+    };
+    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
+      for (const auto i : pack.indices()) cast(BodyId{i});
+    });
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) { cast(movingBody(disc.index)); });
+  }
   if (!best) return {};
   best.point = ray.at(best.distance_m);
   return best;
 }
 
-template <typename Batch>
-void Scene::meetAll(Batch& batch, BodyId except) const {
-  if (batch.size() == 0) return;
-  Seen& seen = Seen::begin(stationary_.size() + moving_.size());
-  const auto cast = [&](const GridIndex& grid, std::uint32_t first_body) {
-    outwards(
-        grid, batch.center(), [&] { return batch.reach(); },
-        [&](int column, int row) {
-          for (const auto& item : grid.cell(column, row)) {
-            const std::uint32_t body = first_body + item.index;
-            if (batch.mayMeet(item) && BodyId(body) != except && seen.isFirst(body)) batch.meet(item, body);
-          }
-        });
+ROBOSIM_VECTOR_CLONES
+Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
+  Hit best;
+  best.distance_m = range_m;
+  const auto reach = [&] { return best.distance_m; };
+  const double dx = ray.direction.x;
+  const double dy = ray.direction.y;
+  const auto cast = [&](const GridItem& item, BodyId body) __attribute__((always_inline)) {
+    if (!item.heights.contains(ray.origin.z)) return;
+    const double ox = item.x - ray.origin.x;
+    const double oy = item.y - ray.origin.y;
+    const double met_m =
+        item.isCircle() ? enterCircle(ox, oy, dx, dy, item.round_m)
+                        : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+    if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
   };
-  if (!stationary_.empty()) cast(stationary_index_, 0);
-  if (!moving_.empty()) cast(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
+  const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(dx), static_cast<float>(dy)};
+  const GridItem* items = stationary_index_.items().data();
+  stationary_index_.visitAlong(
+      ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
+        std::uint32_t passed = passedBy(rough, pack, static_cast<float>(best.distance_m));
+        for (; passed != 0; passed &= passed - 1) {
+          const std::uint32_t i = pack.index[std::countr_zero(passed)];
+          cast(items[i], BodyId{i});
+        }
+      });
+  if (movingCount() > 0) {
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
+      const double across = dx * (disc.y - ray.origin.y) - dy * (disc.x - ray.origin.x);
+      if (std::abs(across) > disc.reach_m) return;
+      cast(moving_index_.items()[disc.index], movingBody(disc.index));
+    });
+  }
+  return best;
 }
 
-void Scene::castRays(RayBatch& batch, BodyId except) const { meetAll(batch, except); }
-void Scene::senseSectors(SectorBatch& batch, BodyId except) const { meetAll(batch, except); }
+template <typename Batch>
+void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
+  if (batch.size() == 0) return;
+  Gathering stationary(batch, stationary_index_, 0, except);
+  const auto reach = [&] { return batch.reach(); };
+  if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i, bool is_sure) {
+        if (is_sure || stationary_index_.items()[i].isWithin(reach(), batch.center())) stationary.add(i);
+      })) {
+    Seen& seen = Seen::begin(stationaryCount());
+    outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
+      for (const auto& pack : stationary_index_.cell(column, row)) {
+        for (const auto i : pack.indices()) {
+          if (seen.isFirst(i)) stationary.add(i);
+        }
+      }
+    });
+  }
+  stationary.finish();
+
+  Gathering moving(batch, moving_index_, stationaryCount(), except);
+  const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
+  visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
+  moving.finish();
+  batch.finish();
+}
+
+void Scene::castRays(RayBatch& batch, BodyId except, const NeighbourList& near) const { meetAll(batch, except, near); }
+void Scene::senseSectors(SectorBatch& batch, BodyId except, const NeighbourList& near) const {
+  meetAll(batch, except, near);
+}
+
+void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) const {
+  if (near.driftTo(at) <= kSkin_m) return;
+  static thread_local std::vector<NeighbourList::Neighbour> found;
+  found.clear();
+  double covered_m = reach_m + kSkin_m;
+  forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](std::uint32_t i) {
+    const double nearest_m = stationary_index_.items()[i].distanceTo(at);
+    if (nearest_m <= covered_m) found.push_back({static_cast<float>(nearest_m * kRoundDown), i});
+  });
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  if (found.size() > kMostNeighbours) {
+    covered_m = found[kMostNeighbours].nearest_m;
+    found.resize(kMostNeighbours);
+  }
+  near.set(at, covered_m, found);
+}
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
   Hit best;
   best.distance_m = range_m;
   const TPoint2D apex(sector.apex.x, sector.apex.y);
   const Bounds2D reach = boundsOf(sector, range_m);
-  const auto sense = [&](const GridIndex& grid, std::uint32_t first_body) {
-    const int right = grid.column(reach.x_max);
-    const int top = grid.row(reach.y_max);
-    for (int row = grid.row(reach.y_min); row <= top; ++row) {
-      for (int column = grid.column(reach.x_min); column <= right; ++column) {
-        const auto listed = grid.cell(column, row);
-        if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-        for (const auto& item : listed) {
-          const BodyId body{first_body + item.index};
-          if (body == except) continue;
-          const auto met = nearestInSector(sector, solid(body));
-          if (met && better(met->distance_m, body, best)) {
-            best = {met->distance_m, body, {met->point.x, met->point.y, sector.apex.z}};
-          }
-        }
-      }
+  const auto sense = [&](BodyId body) {
+    if (body == except) return;
+    const auto met = nearestInSector(sector, solid(body));
+    if (met && better(met->distance_m, body, best)) {
+      best = {met->distance_m, body, {met->point.x, met->point.y, sector.apex.z}};
     }
   };
-  sense(stationary_index_, 0);
-  sense(moving_index_, static_cast<std::uint32_t>(stationary_.size()));
+  const GridIndex& grid = stationary_index_;
+  const int right = grid.column(reach.x_max);
+  const int top = grid.row(reach.y_max);
+  for (int row = grid.row(reach.y_min); row <= top; ++row) {
+    for (int column = grid.column(reach.x_min); column <= right; ++column) {
+      const auto listed = grid.cell(column, row);
+      if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
+      for (const auto& pack : listed) {
+        for (const auto i : pack.indices()) sense(BodyId{i});
+      }
+    }
+  }
+  moving_index_.visitNear(reach, [&](const CenterIndex::Disc& disc) { sense(movingBody(disc.index)); });
   return best ? best : Hit{};
 }
 
+template <typename Visit>
+void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
+  const GridIndex& grid = stationary_index_;
+  const int right = grid.column(area.x_max);
+  const int top = grid.row(area.y_max);
+  for (int row = grid.row(area.y_min); row <= top; ++row) {
+    for (int column = grid.column(area.x_min); column <= right; ++column) {
+      for (const auto& pack : grid.cell(column, row)) {
+        for (const auto i : pack.indices()) visit(i);
+      }
+    }
+  }
+}
+
 void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  collectNear(stationary_index_, 0, area, found);
+  const auto begin = static_cast<std::ptrdiff_t>(found.size());
+  forCells(area, [&](std::uint32_t i) {
+    if (meet(stationary_index_.items()[i].bounds(), area)) found.push_back(BodyId{i});
+  });
+  std::sort(found.begin() + begin, found.end());
+  found.erase(std::unique(found.begin() + begin, found.end()), found.end());
 }
 
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  collectNear(moving_index_, static_cast<std::uint32_t>(stationary_.size()), area, found);
+  const auto begin = static_cast<std::ptrdiff_t>(found.size());
+  moving_index_.visitNear(area, [&](const CenterIndex::Disc& disc) {
+    if (meet(moving_index_.items()[disc.index].bounds(), area)) found.push_back(movingBody(disc.index));
+  });
+  std::sort(found.begin() + begin, found.end());
 }
 
 }  // namespace robosim

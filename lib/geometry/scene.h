@@ -5,7 +5,10 @@
 #include <span>
 #include <vector>
 
+#include "geometry/candidates.h"
+#include "geometry/center_index.h"
 #include "geometry/grid_index.h"
+#include "geometry/neighbour_list.h"
 #include "geometry/path.h"
 #include "geometry/ray.h"
 #include "geometry/ray_batch.h"
@@ -33,28 +36,56 @@ struct Hit {
 class Scene {
  public:
   /// @param area the part of the plane that the index covers well; solids beyond it are found too.
-  Scene(std::vector<Solid> stationary, std::size_t moving_count, const Bounds2D& area);
+  Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area);
 
-  std::size_t stationaryCount() const { return stationary_.size(); }
-  std::size_t movingCount() const { return moving_.size(); }
-  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationary_.size() + i)); }
-  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationary_.size(); }
-  const Solid& solid(BodyId body) const;
+  std::size_t stationaryCount() const { return stationary_index_.items().size(); }
+  std::size_t movingCount() const { return moving_index_.items().size(); }
+  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationaryCount() + i)); }
+  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationaryCount(); }
+  Solid solid(BodyId body) const;
 
   /// Sets where a moving solid is; takes effect for questions with freeze().
-  void place(std::size_t i, const Solid& solid) { moving_[i] = solid; }
-  void freeze();
+  void place(std::size_t i, const Solid& solid) { moving_index_.set(i, solid); }
+  void freeze() { moving_index_.build(); }
 
   /// The nearest solid that the ray meets strictly nearer than `range_m`. A tie goes to the lowest BodyId.
   Hit castRay(const Ray&, double range_m, BodyId except = kNoBody) const;
   /// The nearest point of any solid inside the sector strictly nearer than `range_m`. A tie goes to the lowest BodyId.
   Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
 
-  /// Casts all rays of a batch, as castRay() would one by one.
-  void castRays(RayBatch& batch, BodyId except = kNoBody) const;
+  /// Casts all rays of a batch, as castRay() would one by one. `near`, where its owner has one, saves the search.
+  void castRays(RayBatch& batch, BodyId except = kNoBody, const NeighbourList& near = {}) const;
 
   /// Asks all sectors of a batch, as senseSector() would one by one.
-  void senseSectors(SectorBatch& batch, BodyId except = kNoBody) const;
+  void senseSectors(SectorBatch& batch, BodyId except = kNoBody, const NeighbourList& near = {}) const;
+
+  /// Sees to it that the list holds the stationary solids within `reach_m` of a point (the nearest ones, where there
+  /// are very many).
+  void update(NeighbourList& near, const mrpt::math::TPoint2D& at, double reach_m) const;
+
+  /// Calls visit(body) for every stationary solid within `reach_m` of a point, in no order, maybe more than once, and
+  /// maybe for some beyond.
+  template <typename Visit>
+  void visitStationary(const mrpt::math::TPoint2D& at, double reach_m, const NeighbourList& near,
+                       const Visit& visit) const {
+    const auto reach = [&] { return reach_m; };
+    if (near.visitNear(at, reach, [&](std::uint32_t solid, bool) { visit(BodyId{solid}); })) return;
+    static thread_local std::vector<BodyId> found;
+    found.clear();
+    stationaryNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m}, found);
+    for (const BodyId body : found) visit(body);
+  }
+  /// Calls visit(body) for every moving solid within `reach_m` of a point, each once, and maybe for some beyond.
+  template <typename Visit>
+  void visitMoving(const mrpt::math::TPoint2D& at, double reach_m, const Visit& visit) const {
+    moving_index_.visitNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m},
+                            [&](const CenterIndex::Disc& disc) {
+                              const double dx = disc.x - at.x;
+                              const double dy = disc.y - at.y;
+                              const double far = reach_m + disc.reach_m;
+                              if (dx * dx + dy * dy <= far * far) visit(movingBody(disc.index));
+                            });
+  }
 
   /// Appends the bodies near `area`, in ascending order, each once: all that reach into it, and none whose bounding
   /// rectangle lies beyond it.
@@ -62,12 +93,18 @@ class Scene {
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
+  /// castRay() for a level one, without the point.
+  Hit castLevel(const Ray& ray, double range_m, BodyId except) const;
   /// Holds every body that may matter against a batch, the nearest first.
   template <typename Batch>
-  void meetAll(Batch& batch, BodyId except) const;
+  void meetAll(Batch& batch, BodyId except, const NeighbourList& near) const;
 
-  std::vector<Solid> stationary_, moving_;
-  GridIndex stationary_index_, moving_index_;
+  /// Visits what the cells that meet an area list; what lies in several of them, several times.
+  template <typename Visit>
+  void forCells(const Bounds2D& area, const Visit& visit) const;
+
+  GridIndex stationary_index_;
+  CenterIndex moving_index_;
   Bounds2D area_;
 };
 

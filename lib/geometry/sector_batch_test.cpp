@@ -30,16 +30,17 @@ TEST(SectorBatch, AnswersAsItsSectorsOneByOne) {
         moving > 0 && rng.below(2) ? scene.movingBody(rng.below(static_cast<std::uint32_t>(moving))) : kNoBody;
     const std::size_t count = 1 + rng.below(24);
     std::vector<Sector> sectors;
-    SectorBatch batch;
-    batch.begin(center, z_m, range_m, count);
     for (std::size_t i = 0; i < count; ++i) {
       const double angle = 2 * M_PI * static_cast<double>(i) / static_cast<double>(count);
       const mrpt::math::TPoint3D apex(center.x + ring_m * std::cos(angle), center.y + ring_m * std::sin(angle), z_m);
       sectors.push_back(Sector::towards(apex, angle, rng.uniform(0.01, 1)));
-      batch.set(i, sectors.back());
     }
-    batch.finish();
-    scene.senseSectors(batch, except);
+    const SectorFan fan(sectors);
+    SectorBatch batch;
+    batch.place(fan, {}, range_m);
+    NeighbourList near;
+    if (rng.below(2)) scene.update(near, {center.x + rng.uniform(0, 0.5), center.y}, rng.uniform(0, 6));
+    scene.senseSectors(batch, except, near);
     for (std::size_t i = 0; i < count; ++i) {
       const Hit alone = scene.senseSector(sectors[i], range_m, except);
       ASSERT_EQ(batch.body(i) != SectorBatch::kNothing, static_cast<bool>(alone)) << "seed " << seed << " sector " << i;
@@ -60,8 +61,8 @@ TEST(SectorBatch, AnswersAsItsSectorsOneByOne) {
 TEST(SectorBatch, OfNoSectorsAsksNothing) {
   const Scene scene({{Circle{{1, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
   SectorBatch batch;
-  batch.begin({0, 0}, 0.5, 5, 0);
-  batch.finish();
+  const SectorFan fan;
+  batch.place(fan, {}, 5);
   scene.senseSectors(batch);
   EXPECT_EQ(batch.size(), 0u);
 }

@@ -42,6 +42,12 @@ Beam levelBeam(double x_m, double y_m, double z_m, double angle_rad) {
   return {mrpt::math::TPose3D(x_m, y_m, z_m, std::remainder(angle_rad, 2 * M_PI), 0, 0)};
 }
 
+std::map<double, std::vector<std::size_t>> beamsByHeight(const std::vector<Beam>& beams) {
+  std::map<double, std::vector<std::size_t>> by_height;
+  for (std::size_t i = 0; i < beams.size(); ++i) by_height[originOf(beams[i]).z].push_back(i);
+  return by_height;
+}
+
 mrpt::math::TPoint3D directionOf(const Beam& beam) {
   const auto& pose = beam.robot_from_beam;
   // MRPT's pitch is positive downwards.

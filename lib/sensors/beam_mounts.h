@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <vector>
 
 #include "base/xml_reader.h"
@@ -13,6 +14,9 @@ std::vector<Beam> readBeamMounts(XmlReader& sensor);
 
 /// `robot_from_beam` of a level beam.
 Beam levelBeam(double x_m, double y_m, double z_m, double angle_rad);
+
+/// Which of the beams start at each height: those of one height can be asked together.
+std::map<double, std::vector<std::size_t>> beamsByHeight(const std::vector<Beam>&);
 
 /// Unit vector along which the beam looks, robot frame.
 mrpt::math::TPoint3D directionOf(const Beam&);

@@ -8,8 +8,6 @@
 namespace robosim {
 namespace {
 
-using mrpt::math::TPoint2D;
-
 class Bumper : public Sensor {
  public:
   explicit Bumper(const BumperOptions& options) : options_(options) {
@@ -17,16 +15,18 @@ class Bumper : public Sensor {
     info_.kind = SensorKind::bumper;
     info_.label = options.label;
     info_.beam_width_rad = width_rad;
+    std::vector<Sector> sectors;
     for (int i = 0; i < options.segments; ++i) {
       const double angle = i * width_rad;
       info_.beams.push_back(levelBeam(options.robot_radius_m * std::cos(angle),
                                       options.robot_radius_m * std::sin(angle), options.z_m, angle));
-      sectors_.push_back(Sector::towards({0, 0, options.z_m}, angle, width_rad / 2));
+      sectors.push_back(Sector::towards({0, 0, options.z_m}, angle, width_rad / 2));
     }
+    fan_ = SectorFan(sectors);
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Contacts{std::vector<std::uint8_t>(sectors_.size(), 0)}; }
+  Measurement blank() const override { return Contacts{std::vector<std::uint8_t>(fan_.size(), 0)}; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
@@ -34,15 +34,8 @@ class Bumper : public Sensor {
     const double reach_m = options_.robot_radius_m + options_.travel_m;
     for (const auto robot : robots) {
       auto& pressed = std::get<Contacts>(readings[robot].measurements[slot]).pressed;
-      const RobotFrame& frame = now.frames[robot];
-      const auto center = frame.pointToWorld(sectors_.front().apex);
-      batch.begin({center.x, center.y}, center.z, reach_m, sectors_.size());
-      for (std::size_t i = 0; i < sectors_.size(); ++i) {
-        const Sector& s = sectors_[i];
-        batch.set(i, {center, frame.turnToWorld(s.axis), frame.turnToWorld(s.left), frame.turnToWorld(s.right)});
-      }
-      batch.finish();
-      now.scene.senseSectors(batch, now.bodyOf(robot));
+      batch.place(fan_, now.frames[robot], reach_m);
+      now.scene.senseSectors(batch, now.bodyOf(robot), now.near[robot]);
       for (std::size_t i = 0; i < pressed.size(); ++i) pressed[i] = batch.body(i) == SectorBatch::kNothing ? 0 : 1;
     }
   }
@@ -50,7 +43,7 @@ class Bumper : public Sensor {
  private:
   BumperOptions options_;
   SensorInfo info_;
-  std::vector<Sector> sectors_;  ///< from the robot's centre, robot frame
+  SectorFan fan_;  ///< from the robot's centre, robot frame
 };
 
 }  // namespace

@@ -1,16 +1,11 @@
 #pragma once
 #include <vector>
 
+#include "geometry/ray_batch.h"
 #include "hardware/sensor_info.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
-
-/// What a beam met.
-struct Met {
-  double distance_m = 0;  ///< from the beam's origin; the range when it met nothing
-  BodyId body = kNoBody;
-};
 
 /// Thin level beams of one sensor, cast together.
 class LevelBeams {
@@ -21,15 +16,27 @@ class LevelBeams {
   /// Where a beam starts and looks, robot frame, before panning.
   const Ray& operator[](std::size_t i) const { return beams_[i]; }
 
-  /// Replaces `met` by what each beam of a robot meets nearer than the range, all turned by `pan_rad`.
-  void cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, std::vector<Met>& met) const;
+  /// Casts each beam of a robot, all turned by `pan_rad`, and calls visit(i, distance_m, body) for every one: the range
+  /// and kNoBody where it meets nothing nearer.
+  template <typename Visit>
+  void cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
+    static thread_local RayBatch batch;  // its arrays serve all robots of a thread
+    for (const auto& tier : tiers_) {
+      batch.place(tier.fan, now.frames[robot], range_m, pan_rad);
+      now.scene.castRays(batch, now.bodyOf(robot), now.near[robot]);
+      for (std::size_t k = 0; k < tier.beams.size(); ++k) {
+        const auto body = batch.body(k);
+        visit(tier.beams[k], batch.distance(k),
+              body == RayBatch::kNothing ? kNoBody : BodyId(static_cast<std::uint32_t>(body)));
+      }
+    }
+  }
 
  private:
-  /// Beams of one height: a batch of rays has one.
+  /// Beams of one height: a fan of rays has one.
   struct Tier {
-    double z_m;
-    mrpt::math::TPoint2D middle;  ///< of their origins
     std::vector<std::size_t> beams;
+    RayFan fan;
   };
   std::vector<Ray> beams_;
   std::vector<Tier> tiers_;

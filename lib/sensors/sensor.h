@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "base/sim_time.h"
+#include "geometry/level_frame.h"
 #include "geometry/scene.h"
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
@@ -27,36 +28,13 @@ struct Motion {
   double turn_rad = 0;
 };
 
-/// A robot's frame in the world, its sine and cosine worked out once for all of a robot's beams.
-class RobotFrame {
- public:
-  RobotFrame() = default;
-  /// @param base_z_m height of the frame's origin, the underside of the robot's body
-  RobotFrame(const mrpt::math::TPose2D& world_from_robot, double base_z_m);
-
-  mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const {
-    return {x_ + cos_ * in_robot.x - sin_ * in_robot.y, y_ + sin_ * in_robot.x + cos_ * in_robot.y, z_ + in_robot.z};
-  }
-  mrpt::math::TPoint3D turnToWorld(const mrpt::math::TPoint3D& v) const {
-    return {cos_ * v.x - sin_ * v.y, sin_ * v.x + cos_ * v.y, v.z};
-  }
-  mrpt::math::TPoint2D turnToWorld(const mrpt::math::TPoint2D& v) const {
-    return {cos_ * v.x - sin_ * v.y, sin_ * v.x + cos_ * v.y};
-  }
-  mrpt::math::TPoint3D turnToRobot(const mrpt::math::TPoint3D& v) const {
-    return {cos_ * v.x + sin_ * v.y, cos_ * v.y - sin_ * v.x, v.z};
-  }
-
- private:
-  double x_ = 0, y_ = 0, z_ = 0, cos_ = 1, sin_ = 0;
-};
-
 /// The moment that sensors sense: everything stands still. Arrays are indexed by robot, in the world's order.
 struct Snapshot {
   const Scene& scene;
   std::span<const HeatSource> heat_sources;
   std::span<const mrpt::math::TPose2D> world_from_robot;
-  std::span<const RobotFrame> frames;  ///< the same poses, at the height of the robots' undersides
+  std::span<const LevelFrame> frames;   ///< the same poses, at the height of the robots' undersides
+  std::span<const NeighbourList> near;  ///< what stands around each robot
   std::span<const Motion> last_motion;
   std::span<const float> laser_pan_rad;
   SimTime time;

@@ -6,6 +6,7 @@
 #include "sensors/beam_mounts.h"
 #include "sensors/level_beams.h"
 #include "sensors/position_2005.h"
+#include "sensors/thin_beams.h"
 
 namespace robosim {
 namespace {
@@ -39,7 +40,6 @@ std::vector<TPoint3D> coneDirections(int rays, double half_width_rad) {
 struct MountedSonar {
   TPoint3D origin;
   TPoint3D axis;
-  TPoint2D left, right;        ///< edges of the sector, robot frame
   std::vector<TPoint3D> rays;  ///< of the bundle, robot frame
 };
 
@@ -49,30 +49,37 @@ struct Heard {
   BodyId body = kNoBody;
 };
 
+SensorInfo infoOf(const SonarOptions& options) {
+  return {.kind = SensorKind::sonar,
+          .label = options.label,
+          .beams = options.beams,
+          .range_min_m = options.range_min_m,
+          .range_max_m = options.range_max_m,
+          .no_echo_m = options.no_echo_m,
+          .beam_width_rad = options.beam_width_rad,
+          .noise_std_m = options.noise.range.on ? options.noise.range.std_m : 0,
+          .pans = false};
+}
+
 class Sonar : public Sensor {
  public:
-  explicit Sonar(const SonarOptions& options) : options_(options), axes_(options.beams) {
+  explicit Sonar(const SonarOptions& options) : options_(options), info_(infoOf(options)), axes_(options.beams) {
     const double half_rad = options.beam_width_rad / 2;
     const auto cone = coneDirections(options.rays, half_rad);
     for (const auto& beam : options.beams) {
       const double yaw = beam.robot_from_beam.yaw;
-      MountedSonar sonar{originOf(beam), directionOf(beam), {}, {}, {}};
-      sonar.left = {std::cos(yaw + half_rad), std::sin(yaw + half_rad)};
-      sonar.right = {std::cos(yaw - half_rad), std::sin(yaw - half_rad)};
-      const RobotFrame turned({0, 0, yaw}, 0);
+      MountedSonar sonar{originOf(beam), directionOf(beam), {}};
+      const LevelFrame turned({0, 0, yaw}, 0);
       for (const auto& ray : cone) sonar.rays.push_back(turned.turnToWorld(ray));
       sonars_.push_back(std::move(sonar));
-      one_height_ = one_height_ && sonars_.back().origin.z == sonars_.front().origin.z;
     }
-    info_ = {.kind = SensorKind::sonar,
-             .label = options.label,
-             .beams = options.beams,
-             .range_min_m = options.range_min_m,
-             .range_max_m = options.range_max_m,
-             .no_echo_m = options.no_echo_m,
-             .beam_width_rad = options.beam_width_rad,
-             .noise_std_m = options.noise.range.on ? options.noise.range.std_m : 0,
-             .pans = false};
+    for (const auto& [z_m, sonars] : beamsByHeight(options.beams)) {
+      std::vector<Sector> sectors;
+      for (const auto i : sonars) {
+        sectors.push_back(Sector::towards(sonars_[i].origin, options.beams[i].robot_from_beam.yaw, half_rad));
+      }
+      tiers_.push_back({sonars, SectorFan(sectors)});
+    }
   }
 
   const SensorInfo& info() const override { return info_; }
@@ -82,7 +89,7 @@ class Sonar : public Sensor {
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
-      const RobotFrame& frame = now.frames[robot];
+      const LevelFrame& frame = now.frames[robot];
       static thread_local std::vector<Heard> heard;
       hearAll(now, robot, frame, heard);
       if (options_.noise.range.on) addNoise(now, robot, slot, frame, heard);
@@ -91,37 +98,30 @@ class Sonar : public Sensor {
   }
 
  private:
-  void hearAll(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, std::vector<Heard>& heard) const {
+  void hearAll(const Snapshot& now, std::uint32_t robot, const LevelFrame& frame, std::vector<Heard>& heard) const {
     heard.assign(sonars_.size(), {});
     if (options_.model == SonarModel::rays && options_.rays == 1) {
-      static thread_local std::vector<Met> met;
-      axes_.cast(now, robot, 0, options_.range_max_m, met);
-      for (std::size_t i = 0; i < met.size(); ++i) {
-        if (met[i].body != kNoBody) heard[i] = {met[i].distance_m, sonars_[i].axis, met[i].body};
-      }
+      axes_.cast(now, robot, 0, options_.range_max_m, [&](std::size_t i, double distance_m, BodyId body) {
+        if (body != kNoBody) heard[i] = {distance_m, sonars_[i].axis, body};
+      });
       return;
     }
-    if (options_.model == SonarModel::sector && one_height_) return hearSectors(now, robot, frame, heard);
-    for (std::size_t i = 0; i < sonars_.size(); ++i) heard[i] = hear(now, robot, frame, sonars_[i]);
+    if (options_.model == SonarModel::sector) return hearSectors(now, robot, frame, heard);
+    for (std::size_t i = 0; i < sonars_.size(); ++i) heard[i] = hearBundle(now, robot, frame, sonars_[i]);
   }
 
-  void hearSectors(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, std::vector<Heard>& heard) const {
+  void hearSectors(const Snapshot& now, std::uint32_t robot, const LevelFrame& frame, std::vector<Heard>& heard) const {
     static thread_local SectorBatch batch;  // its arrays serve all robots of a thread
-    const TPoint3D center = frame.pointToWorld(TPoint3D(0, 0, sonars_.front().origin.z));
-    batch.begin({center.x, center.y}, center.z, options_.range_max_m, sonars_.size());
-    for (std::size_t i = 0; i < sonars_.size(); ++i) batch.set(i, sectorOf(frame, sonars_[i]));
-    batch.finish();
-    now.scene.senseSectors(batch, now.bodyOf(robot));
-    for (std::size_t i = 0; i < sonars_.size(); ++i) {
-      if (batch.body(i) == SectorBatch::kNothing) continue;
-      const TPoint3D out = frame.turnToRobot(TPoint3D(batch.towards(i).x, batch.towards(i).y, 0));
-      heard[i] = echoFrom(sonars_[i], batch.distance(i), out, BodyId(static_cast<std::uint32_t>(batch.body(i))));
+    for (const auto& tier : tiers_) {
+      batch.place(tier.fan, frame, options_.range_max_m);
+      now.scene.senseSectors(batch, now.bodyOf(robot), now.near[robot]);
+      for (std::size_t k = 0; k < tier.sonars.size(); ++k) {
+        if (batch.body(k) == SectorBatch::kNothing) continue;
+        const std::size_t i = tier.sonars[k];
+        const TPoint3D out = frame.turnToFrame(TPoint3D(batch.towards(k).x, batch.towards(k).y, 0));
+        heard[i] = echoFrom(sonars_[i], batch.distance(k), out, BodyId(static_cast<std::uint32_t>(batch.body(k))));
+      }
     }
-  }
-
-  static Sector sectorOf(const RobotFrame& frame, const MountedSonar& sonar) {
-    return {frame.pointToWorld(sonar.origin), frame.turnToWorld(TPoint2D(sonar.axis.x, sonar.axis.y)),
-            frame.turnToWorld(sonar.left), frame.turnToWorld(sonar.right)};
   }
 
   /// @param out from the sonar to what it hears, robot frame
@@ -129,18 +129,12 @@ class Sonar : public Sensor {
     return {distance_m, distance_m > 0 ? out * (1 / distance_m) : sonar.axis, body};
   }
 
-  Heard hear(const Snapshot& now, std::uint32_t robot, const RobotFrame& frame, const MountedSonar& sonar) const {
+  Heard hearBundle(const Snapshot& now, std::uint32_t robot, const LevelFrame& frame, const MountedSonar& sonar) const {
     const TPoint3D origin = frame.pointToWorld(sonar.origin);
-    const BodyId self = now.bodyOf(robot);
-    if (options_.model == SonarModel::sector) {
-      const Hit hit = now.scene.senseSector(sectorOf(frame, sonar), options_.range_max_m, self);
-      if (!hit) return {};
-      return echoFrom(sonar, hit.distance_m, frame.turnToRobot(hit.point - origin), hit.body);
-    }
     Heard nearest;
     for (const auto& ray : sonar.rays) {
       const double reach = std::min(nearest.range_m, options_.range_max_m);
-      const Hit hit = now.scene.castRay({origin, frame.turnToWorld(ray)}, reach, self);
+      const Hit hit = now.scene.castRay({origin, frame.turnToWorld(ray)}, reach, now.bodyOf(robot));
       if (hit) nearest = {hit.distance_m, ray, hit.body};
     }
     return nearest;
@@ -157,7 +151,7 @@ class Sonar : public Sensor {
             pointAlong(sonars_[sonar].origin, heard.direction, heard.range_m)};
   }
 
-  void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const RobotFrame& frame,
+  void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const LevelFrame& frame,
                 std::vector<Heard>& heard) const {
     Rng rng = now.noise(robot, slot);
     for (std::size_t i = 0; i < sonars_.size(); ++i) {
@@ -168,7 +162,7 @@ class Sonar : public Sensor {
     if (options_.noise.crosstalk > 0) mixNeighbours(rng, heard);
   }
 
-  bool mirrorsAway(const Snapshot& now, const RobotFrame& frame, const MountedSonar& sonar, const Heard& heard) const {
+  bool mirrorsAway(const Snapshot& now, const LevelFrame& frame, const MountedSonar& sonar, const Heard& heard) const {
     if (options_.noise.specular_rad >= M_PI || heard.range_m <= 0) return false;
     const TPoint3D met = frame.pointToWorld(sonar.origin + heard.direction * heard.range_m);
     const TPoint3D out = frame.turnToWorld(heard.direction);
@@ -188,11 +182,17 @@ class Sonar : public Sensor {
     }
   }
 
+  /// Sonars of one height: a fan of sectors has one.
+  struct Tier {
+    std::vector<std::size_t> sonars;
+    SectorFan fan;
+  };
+
   SonarOptions options_;
   SensorInfo info_;
   std::vector<MountedSonar> sonars_;
-  bool one_height_ = true;  ///< a batch of sectors has one
-  LevelBeams axes_;         ///< for the model of one ray a sonar
+  std::vector<Tier> tiers_;  ///< for the model of sectors
+  LevelBeams axes_;          ///< for the model of one ray a sonar
 };
 
 SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
@@ -254,6 +254,12 @@ SonarOptions SonarOptions::read2005(XmlReader& reader, const Mount& mount) {
   return o;
 }
 
-std::unique_ptr<Sensor> makeSonar(const SonarOptions& options) { return std::make_unique<Sonar>(options); }
+std::unique_ptr<Sensor> makeSonar(const SonarOptions& options) {
+  // One ray without its errors is any thin beam.
+  if (options.model == SonarModel::rays && options.rays == 1 && !options.noise.range.on) {
+    return makeThinBeams(infoOf(options), {});
+  }
+  return std::make_unique<Sonar>(options);
+}
 
 }  // namespace robosim

@@ -11,6 +11,8 @@ namespace {
 
 using mrpt::math::TPoint3D;
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 class ThinBeams : public Sensor {
  public:
   ThinBeams(const SensorInfo& info, const RangeNoise& noise) : info_(info), noise_(noise), beams_(info.beams) {}
@@ -20,29 +22,24 @@ class ThinBeams : public Sensor {
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    static thread_local std::vector<Met> met;
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
       const double pan_rad = info_.pans ? now.laser_pan_rad[robot] : 0;
-      beams_.cast(now, robot, pan_rad, info_.range_max_m, met);
-      const RobotFrame pan({0, 0, pan_rad}, 0);
+      const LevelFrame pan = pan_rad == 0 ? LevelFrame() : LevelFrame({0, 0, pan_rad}, 0);
       Rng rng = now.noise(robot, slot);
-      for (std::size_t i = 0; i < beams_.size(); ++i) {
-        const double range_m = noise_.on ? noise_.apply(rangeOf(met[i]), rng) : rangeOf(met[i]);
+      beams_.cast(now, robot, pan_rad, info_.range_max_m, [&](std::size_t i, double distance_m, BodyId body) {
+        double range_m = distance_m;
+        // Infinite for nothing, which no noise brings back.
+        if (noise_.on) range_m = noise_.apply(body == kNoBody ? kInfinity : distance_m, rng);
         const bool heard = static_cast<float>(range_m) < static_cast<float>(info_.range_max_m);
         const double told_m = heard ? std::max(range_m, info_.range_min_m) : info_.no_echo_m;
-        const TPoint3D direction = info_.pans ? pan.turnToWorld(beams_[i].direction) : beams_[i].direction;
+        const TPoint3D direction = pan_rad != 0 ? pan.turnToWorld(beams_[i].direction) : beams_[i].direction;
         echoes[i] = {static_cast<float>(told_m), pointAlong(beams_[i].origin, direction, heard ? range_m : told_m)};
-      }
+      });
     }
   }
 
  private:
-  /// Infinite for nothing, which no noise brings back.
-  static double rangeOf(const Met& met) {
-    return met.body == kNoBody ? std::numeric_limits<double>::infinity() : met.distance_m;
-  }
-
   SensorInfo info_;
   RangeNoise noise_;
   LevelBeams beams_;

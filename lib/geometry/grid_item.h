@@ -1,0 +1,43 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "geometry/solid.h"
+
+namespace robosim {
+
+/// A solid as the indices of a scene keep it: all that a question asks of it, in one run of memory. A box, or a circle
+/// as a box without sides that is round by its radius: so that most questions are the same sum for both.
+struct GridItem {
+  double x = 0, y = 0;            ///< centre [m]
+  double axis_x = 1, axis_y = 0;  ///< unit vector along the box's length
+  double half_length_m = 0;
+  double half_width_m = 0;
+  double round_m = 0;  ///< radius of a circle; 0 for a box
+  HeightSpan heights;
+
+  static GridItem from(const Solid&);
+  Solid solid() const;
+  bool isCircle() const { return round_m > 0; }
+  /// Radius [m] of the disc about its centre that covers it.
+  double reach() const;
+  Bounds2D bounds() const;
+  /// Whether some of the solid outline lies no further than `far_m` from a point.
+  bool isWithin(double far_m, const mrpt::math::TPoint2D& of) const {
+    return squaredToBox(of) <= (far_m + round_m) * (far_m + round_m);
+  }
+  /// Distance [m] from a point to the solid outline; 0 inside.
+  double distanceTo(const mrpt::math::TPoint2D& p) const { return std::max(0.0, std::sqrt(squaredToBox(p)) - round_m); }
+
+ private:
+  double squaredToBox(const mrpt::math::TPoint2D& p) const {
+    const double ox = p.x - x;
+    const double oy = p.y - y;
+    const double beyond_a = std::max(0.0, std::abs(ox * axis_x + oy * axis_y) - half_length_m);
+    const double beyond_b = std::max(0.0, std::abs(oy * axis_x - ox * axis_y) - half_width_m);
+    return beyond_a * beyond_a + beyond_b * beyond_b;
+  }
+};
+
+}  // namespace robosim

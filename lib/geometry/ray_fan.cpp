@@ -1,0 +1,51 @@
+#include "geometry/ray_fan.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kNarrow_rad = 0.6;
+
+}  // namespace
+
+RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
+  if (rays.empty()) return;
+  z_m_ = rays.front().origin.z;
+  for (const auto& ray : rays) middle_ += {ray.origin.x, ray.origin.y};
+  middle_ *= 1.0 / static_cast<double>(size_);
+  for (const auto& ray : rays) {
+    spread_m_ = std::max(spread_m_, (TPoint2D(ray.origin.x, ray.origin.y) - middle_).norm());
+  }
+
+  const std::size_t padded = (size_ + kBlock - 1) / kBlock * kBlock;
+  for (std::size_t i = 0; i < padded; ++i) {
+    const Ray& ray = rays[std::min(i, size_ - 1)];
+    x_.push_back(ray.origin.x);
+    y_.push_back(ray.origin.y);
+    dx_.push_back(ray.direction.x);
+    dy_.push_back(ray.direction.y);
+  }
+  std::vector<Sector> cones;
+  for (std::size_t first = 0; first < padded; first += kBlock) {
+    const std::size_t last = first + kBlock - 1;
+    TPoint2D axis(dx_[first] + dx_[last], dy_[first] + dy_[last]);
+    if (axis.norm() < 1e-6) axis = {dx_[first], dy_[first]};
+    double half_width_rad = 0;
+    for (std::size_t i = first; i <= last; ++i) {
+      const double across = axis.x * dy_[i] - axis.y * dx_[i];
+      const double along = axis.x * dx_[i] + axis.y * dy_[i];
+      half_width_rad = std::max(half_width_rad, std::abs(std::atan2(across, along)));
+    }
+    // Wider ones are not told from a half-plane; a little more than it is, so that no rounding leaves a ray out.
+    is_narrow_ = is_narrow_ && half_width_rad < kNarrow_rad;
+    cones.push_back(Sector::towards({middle_.x, middle_.y, z_m_}, std::atan2(axis.y, axis.x),
+                                    std::min(half_width_rad, kNarrow_rad) + 1e-6));
+  }
+  cones_ = SectorFan(cones);
+}
+
+}  // namespace robosim

@@ -1,0 +1,46 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include <mrpt/math/TPoint2D.h>
+
+#include "geometry/ray.h"
+#include "geometry/sector_fan.h"
+
+namespace robosim {
+
+/// Level rays of one height that start near one place, in the frame of what carries them: those of a laser, or of a
+/// ring of sonars. What can be worked out once for all times that they are cast (RayBatch) is worked out here. Rays
+/// that are neighbours by direction should be neighbours in the fan: they are looked at in blocks.
+class RayFan {
+ public:
+  static constexpr std::size_t kBlock = 16;
+
+  RayFan() = default;
+  /// @param rays level (direction.z == 0), all of the same origin.z
+  explicit RayFan(std::span<const Ray> rays);
+
+  std::size_t size() const { return size_; }
+  std::size_t blocks() const { return x_.size() / kBlock; }
+  double z() const { return z_m_; }
+  /// In the middle of the rays' origins.
+  const mrpt::math::TPoint2D& middle() const { return middle_; }
+  /// Distance from there to the farthest origin [m].
+  double spread() const { return spread_m_; }
+  /// Whether each block looks much the same way, so that most solids are aside of most whole blocks: a laser, not a
+  /// ring of sonars.
+  bool isNarrow() const { return is_narrow_; }
+
+ private:
+  friend class RayBatch;
+
+  std::size_t size_ = 0;
+  double z_m_ = 0;
+  mrpt::math::TPoint2D middle_;
+  double spread_m_ = 0;
+  bool is_narrow_ = true;
+  std::vector<double> x_, y_, dx_, dy_;  ///< by ray; the last one repeated up to a whole block
+  SectorFan cones_;                      ///< by block: from the middle, all directions of the block's rays
+};
+
+}  // namespace robosim
