@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/vector_clones.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
+
+constexpr std::size_t kBlock = RoughSectors::kBlock;
+static_assert(kBlock <= kMaskBits);
 
 /// Sectors as bare arrays: what the loop below needs to become vector instructions.
 struct Arrays {
@@ -21,41 +24,66 @@ struct Arrays {
   const float* __restrict reach;
 };
 
-/// Looks at all solids for one sector after the other: what is found of each solid gathers in its own lane.
+/// A sector, and a solid, as the loops below look at them one by one.
+struct RoughSector {
+  float x, y, axis_x, axis_y, left_x, left_y, right_x, right_y, reach;
+};
+struct SolidInView {
+  float x, y, axis_x, axis_y, half_length, half_width, round;
+};
+
+[[gnu::always_inline]] inline RoughSector sectorAt(const Arrays& s, std::size_t i) {
+  return {s.x[i], s.y[i], s.axis_x[i], s.axis_y[i], s.left_x[i], s.left_y[i], s.right_x[i], s.right_y[i], s.reach[i]};
+}
+
+[[gnu::always_inline]] inline SolidInView solidAt(const Candidates::Pack& solids, std::size_t k,
+                                                  const RoughPlace& middle) {
+  return {solids.x[k] - middle.x,
+          solids.y[k] - middle.y,
+          solids.axis_x[k],
+          solids.axis_y[k],
+          solids.half_length_m[k],
+          solids.half_width_m[k],
+          solids.round_m[k] + middle.lost_m};
+}
+
+[[gnu::always_inline]] inline bool mayHold(const RoughSector& sector, const SolidInView& solid) {
+  const float ox = solid.x - sector.x;
+  const float oy = solid.y - sector.y;
+  // Half of what the solid is wide across the edges, and long along the axis.
+  const auto half = [&](float dx, float dy) __attribute__((always_inline)) {
+    return solid.half_length * std::abs(dy * solid.axis_x - dx * solid.axis_y) +
+           solid.half_width * std::abs(dx * solid.axis_x + dy * solid.axis_y) + solid.round;
+  };
+  return (sector.right_x * oy - sector.right_y * ox >= -half(sector.right_x, sector.right_y)) &
+         (ox * sector.left_y - oy * sector.left_x >= -half(sector.left_x, sector.left_y)) &
+         (sector.axis_x * ox + sector.axis_y * oy - half(-sector.axis_y, sector.axis_x) <= sector.reach);
+}
+
+/// Of few solids, each is held against all sectors of the block at once.
 ROBOSIM_VECTOR_CLONES
-void findMasks(const Arrays& sectors, std::size_t begin, std::size_t end, const RoughPlace& middle,
-               const Candidates::Pack& solids, std::size_t lanes, std::uint32_t* __restrict masks) {
+void findBySolid(const Arrays& sectors, std::size_t begin, std::size_t end, const RoughPlace& middle,
+                 const Candidates::Pack& solids, std::uint32_t* __restrict masks) {
+  const std::uint32_t all = (std::uint32_t{1} << (end - begin)) - 1;  // what fills the last block up is none
+  for (std::size_t k = 0; k < solids.count; ++k) {
+    const SolidInView solid = solidAt(solids, k, middle);
+    std::uint32_t bits = 0;
+    for (std::size_t i = 0; i < kBlock; ++i) {
+      bits += mayHold(sectorAt(sectors, begin + i), solid) ? kMaskBit[i] : 0;
+    }
+    masks[k] = bits & all;
+  }
+}
+
+/// Of many, all are held against one sector at once: what is found of each gathers in its own lane.
+ROBOSIM_VECTOR_CLONES
+void findBySector(const Arrays& sectors, std::size_t begin, std::size_t end, const RoughPlace& middle,
+                  const Candidates::Pack& solids, std::size_t lanes, std::uint32_t* __restrict masks) {
   for (std::size_t k = 0; k < lanes; ++k) masks[k] = 0;
   for (std::size_t i = begin; i < end; ++i) {
     const std::uint32_t bit = std::uint32_t{1} << (i - begin);
-    const float apex_x = middle.x + sectors.x[i];
-    const float apex_y = middle.y + sectors.y[i];
-    const float axis_x = sectors.axis_x[i];
-    const float axis_y = sectors.axis_y[i];
-    const float left_x = sectors.left_x[i];
-    const float left_y = sectors.left_y[i];
-    const float right_x = sectors.right_x[i];
-    const float right_y = sectors.right_y[i];
-    const float reach = sectors.reach[i];
-    for (std::size_t k = 0; k < lanes; ++k) {
-      const float ox = solids.x[k] - apex_x;
-      const float oy = solids.y[k] - apex_y;
-      const float ux = solids.axis_x[k];
-      const float uy = solids.axis_y[k];
-      const float half_length = solids.half_length_m[k];
-      const float half_width = solids.half_width_m[k];
-      const float round = solids.round_m[k] + middle.lost_m;
-      // Half of what the solid is wide across the edges, and long along the axis.
-      const float right = half_length * std::abs(right_y * ux - right_x * uy) +
-                          half_width * std::abs(right_x * ux + right_y * uy) + round;
-      const float left =
-          half_length * std::abs(left_y * ux - left_x * uy) + half_width * std::abs(left_x * ux + left_y * uy) + round;
-      const float deep =
-          half_length * std::abs(axis_x * ux + axis_y * uy) + half_width * std::abs(axis_y * ux - axis_x * uy) + round;
-      const bool may_hold = (right_x * oy - right_y * ox >= -right) & (ox * left_y - oy * left_x >= -left) &
-                            (axis_x * ox + axis_y * oy - deep <= reach);
-      masks[k] += may_hold ? bit : 0;
-    }
+    const RoughSector sector = sectorAt(sectors, i);
+    for (std::size_t k = 0; k < lanes; ++k) masks[k] += mayHold(sector, solidAt(solids, k, middle)) ? bit : 0;
   }
 }
 
@@ -90,9 +118,15 @@ void RoughSectors::find(const RoughPlace& middle, const Candidates& candidates,
                         std::span<Candidates::Masks> masks) const {
   const Arrays sectors{apex_.x.data(), apex_.y.data(),  axis_.x.data(),  axis_.y.data(), left_.x.data(),
                        left_.y.data(), right_.x.data(), right_.y.data(), reach_.data()};
+  constexpr std::size_t kFew = 8;
   for (std::size_t block = 0; block < blocks(); ++block) {
-    findMasks(sectors, block * kBlock, std::min(size_, (block + 1) * kBlock), middle, candidates.pack,
-              candidates.lanes(), masks[block].of);
+    const std::size_t begin = block * kBlock;
+    const std::size_t end = std::min(size_, begin + kBlock);
+    if (candidates.pack.count < kFew) {
+      findBySolid(sectors, begin, end, middle, candidates.pack, masks[block].of);
+    } else {
+      findBySector(sectors, begin, end, middle, candidates.pack, candidates.lanes(), masks[block].of);
+    }
   }
 }
 

@@ -116,15 +116,12 @@ void tidyVectorRegisters() {}
 struct GzipFile::Compressor {
   Compressor() {
     isal_deflate_init(&stream);
-    stream.level = 1;
-    stream.level_buf = scratch;
-    stream.level_buf_size = sizeof scratch;
+    stream.level = 0;  // a fifth larger than level 1, for half of its time
     stream.gzip_flag = IGZIP_GZIP;
     stream.flush = NO_FLUSH;
   }
 
   isal_zstream stream;
-  std::uint8_t scratch[ISAL_DEF_LVL1_DEFAULT];
   std::uint8_t out[64 * 1024];
 };
 
