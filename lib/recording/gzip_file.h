@@ -10,7 +10,7 @@ namespace robosim {
 /// the name before stays as it was. Destroyed without commit(), it removes the .part; a program that is killed leaves
 /// it behind, and it can be read up to where it ends.
 ///
-/// Compressed by Intel's ISA-L at its level 1: six times as fast as zlib's, and no larger. Every write to the
+/// Compressed by Intel's ISA-L at its level 0, which takes the least time. Every write to the
 /// disk is checked, which MRPT's CFileGZOutputStream leaves out for the last one.
 class GzipFile {
  public:
