@@ -38,11 +38,12 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) 
   return world;
 }
 
-LocalRun::LocalRun(LoadedWorld world, const RunOptions& options)
+LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
     : environment_(std::move(world.world), std::move(world.fleet), options.environment),
       workers_(options.environment.threads) {
   const auto& robots = environment_.fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (!elsewhere.empty() && elsewhere[i]) continue;
     const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
     seats_.push_back(
         std::make_unique<Seat>(environment_, i, makeController(controllerOf(robots[i], options.controller), setup)));
@@ -50,10 +51,14 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options)
 }
 
 void LocalRun::step() {
-  constexpr std::size_t kChunk = 16;
-  workers_.forEach(seats_.size(), kChunk, [&](std::size_t i) { seats_[i]->controller->step(seats_[i]->robot); });
+  decide();
   environment_.step();
   noteOutcome();
+}
+
+void LocalRun::decide() {
+  constexpr std::size_t kChunk = 16;
+  workers_.forEach(seats_.size(), kChunk, [&](std::size_t i) { seats_[i]->controller->step(seats_[i]->robot); });
 }
 
 void LocalRun::noteOutcome() {

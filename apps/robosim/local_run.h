@@ -40,15 +40,22 @@ struct GoldOutcome {
   std::optional<double> all_halted_s;
 };
 
-/// An environment and the controllers of all its robots in this process: where the two towers of the house meet.
+/// An environment and the controllers of its robots in this process: where the two towers of the house meet.
 class LocalRun {
  public:
+  /// @param elsewhere by robot: whether something outside of this process drives it; empty for none
   /// @throws ConfigError for an unknown controller.
-  LocalRun(LoadedWorld world, const RunOptions& options);
+  LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 
   /// Lets every controller decide, then takes one time step.
   void step();
+  /// @name The same in parts, for whoever has the environment step
+  ///@{
+  void decide();
+  void noteOutcome();  ///< after the step
+  ///@}
 
+  Environment& environment() { return environment_; }
   const Environment& environment() const { return environment_; }
   const GoldOutcome& gold() const { return gold_; }
 
@@ -60,7 +67,6 @@ class LocalRun {
     Seat(Environment& environment, std::size_t i, std::unique_ptr<Controller> c)
         : hardware(environment, i), robot(hardware), controller(std::move(c)) {}
   };
-  void noteOutcome();
 
   Environment environment_;
   Workers workers_;

@@ -11,6 +11,8 @@ enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 2 };
 /// input, anything else for a run that failed.
 ///@{
 void addRun(CLI::App& program);
+void addServe(CLI::App& program);
+void addRobot(CLI::App& program);
 void addCheck(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}

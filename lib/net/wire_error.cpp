@@ -1,0 +1,19 @@
+#include "net/wire_error.h"
+
+namespace robosim {
+
+void checkProtocol(std::uint32_t version) {
+  if (version == kProtocolVersion) return;
+  const std::string older = version < kProtocolVersion ? "the caller" : "the environment";
+  throw WireError("the caller speaks version " + std::to_string(version) + " of the protocol, the environment " +
+                  std::to_string(kProtocolVersion) + "; " + older + " is the older program: bring it up to date");
+}
+
+std::string inQuotes(std::string_view text) {
+  constexpr std::size_t kLongest = 60;
+  std::string result = "'";
+  for (const char c : text.substr(0, kLongest)) result += c >= ' ' && c <= '~' ? c : '?';
+  return result + (text.size() > kLongest ? "…'" : "'");
+}
+
+}  // namespace robosim
