@@ -11,7 +11,8 @@ namespace robosim {
 /// else ends the process: one write at a time, none after the end, and an object that lives until gRPC has done with
 /// it. Whoever else holds a stream may go on calling it after its end; nothing happens then.
 template <typename In, typename Out>
-class ServerStream : public grpc::ServerBidiReactor<In, Out>, public std::enable_shared_from_this<ServerStream<In, Out>> {
+class ServerStream : public grpc::ServerBidiReactor<In, Out>,
+                     public std::enable_shared_from_this<ServerStream<In, Out>> {
  public:
   explicit ServerStream(grpc::CallbackServerContext* context) : context_(context) {}
 
@@ -36,6 +37,12 @@ class ServerStream : public grpc::ServerBidiReactor<In, Out>, public std::enable
     writeNext();
   }
   ///@}
+
+  /// Whether nothing is posted or being written.
+  bool isIdle() {
+    const std::lock_guard lock(mutex_);
+    return !posted_ && !writing_;
+  }
 
   /// Ends the stream: what is posted still goes out if all is well, and a peer that does not take what is being written
   /// is cut off if not.

@@ -4,8 +4,10 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
 #include "server/run_switch.h"
+#include "server/viewer_conversation.h"
 
 namespace robosim {
 namespace {
@@ -15,7 +17,9 @@ using Clock = Lobby::Clock;
 /// An interrupt wakes nobody, so all waiting is cut into naps.
 constexpr std::chrono::milliseconds kNap(50);
 
-Clock::duration seconds(double s) { return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s)); }
+Clock::duration seconds(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
 
 }  // namespace
 
@@ -23,6 +27,8 @@ struct EnvironmentServer::Impl {
   Lobby lobby;
   RunSwitch run_switch;
   RobotConversation robots{lobby};
+  ViewerConversation viewers{lobby};
+  GeometryConversation geometry{lobby};
   std::vector<std::unique_ptr<grpc::Server>> servers;
   std::vector<int> ports;
 
@@ -33,12 +39,32 @@ struct EnvironmentServer::Impl {
     lobby.exhibit = std::move(exhibit);
     run_switch.is_paused = options.is_paused;
     run_switch.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
-    robots.show();
-    listen({{options.listen.robots, &robots}});
+    show();
+    listen(
+        {{options.listen.viewers, &viewers}, {options.listen.robots, &robots}, {options.listen.geometry, &geometry}});
   }
 
   ~Impl() {
     for (const auto& server : servers) server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
+  }
+
+  void show() {
+    robots.show();
+    viewers.show();
+    geometry.show();
+  }
+
+  /// Has everyone who has come by now take part.
+  void admit() {
+    robots.admit();
+    geometry.admit();
+    viewers.tell();
+  }
+
+  void sayGoodbye() {
+    robots.sayGoodbye();
+    viewers.sayGoodbye();
+    geometry.sayGoodbye();
   }
 
   /// A server for each address, with the services that are to be found there.
@@ -84,15 +110,28 @@ struct EnvironmentServer::Impl {
     return run_switch.stop;
   }
 
+  bool mayStep() {
+    const std::lock_guard lock(lobby.mutex);
+    return run_switch.mayStep();
+  }
+
+  /// @param due when the step that was taken was due
+  /// @return when the next one is
+  Clock::time_point noteStep(Clock::time_point due, double period_s) {
+    const std::lock_guard lock(lobby.mutex);
+    if (run_switch.steps_left > 0) --run_switch.steps_left;
+    return run_switch.speed > 0 ? due + seconds(period_s / run_switch.speed) : due;
+  }
+
   bool serve(ServedRun& run, const std::function<bool()>& interrupted) {
     bool everyone_came = false;
     Clock::time_point due;
     while (!run.isOver()) {
       if (interrupted() || stopAsked()) return false;
-      robots.admit();
-      if (!everyone_came) {
-        everyone_came = robots.everyoneCame();
-        if (!everyone_came) nap();
+      admit();
+      if (!everyone_came) everyone_came = robots.everyoneCame();
+      if (!everyone_came || !mayStep()) {
+        nap();
         due = Clock::now();
         continue;
       }
@@ -101,10 +140,11 @@ struct EnvironmentServer::Impl {
       if (!is_time) continue;
       robots.handOver(run.environment());
       run.decide();
-      run.environment().step();
+      geometry.step(run.environment());
       run.stepped();
       robots.tell();
-      if (run_switch.speed > 0) due += seconds(run.environment().time().period_s / run_switch.speed);
+      viewers.tell();
+      due = noteStep(due, run.environment().time().period_s);
     }
     return true;
   }
@@ -119,7 +159,7 @@ std::vector<int> EnvironmentServer::ports() const { return impl_->ports; }
 
 bool EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
   const bool is_over = impl_->serve(run, interrupted);
-  impl_->robots.sayGoodbye();
+  impl_->sayGoodbye();
   return is_over;
 }
 

@@ -1,0 +1,132 @@
+#include "server/viewer_conversation.h"
+
+#include <algorithm>
+
+#include "net/server_stream.h"
+#include "net/wire_error.h"
+#include "server/world_wire.h"
+
+namespace robosim {
+namespace {
+
+/// What a viewer sees of a robot.
+struct Look {
+  mrpt::math::TPose2D world_from_robot;
+  float laser_pan_rad = 0;
+  bool stalled = false;
+  Activity activity = Activity::active;
+  bool operator==(const Look&) const = default;
+};
+
+Look lookOf(const State& state, std::size_t i) {
+  return {state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0, state.activity[i]};
+}
+
+void encode(const Look& look, std::size_t robot, wire::RobotView& out) {
+  out.set_robot(static_cast<std::uint32_t>(robot));
+  out.set_x_m(look.world_from_robot.x);
+  out.set_y_m(look.world_from_robot.y);
+  out.set_phi_rad(look.world_from_robot.phi);
+  out.set_laser_pan_rad(look.laser_pan_rad);
+  out.set_stalled(look.stalled);
+  out.set_activity(static_cast<wire::Activity>(look.activity));
+}
+
+}  // namespace
+
+/// One viewer. What is below is touched with the lobby's mutex held.
+class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest, wire::Frame> {
+ public:
+  Stream(ViewerConversation& owner, grpc::CallbackServerContext* context) : ServerStream(context), owner_(owner) {}
+
+  void received(const wire::FrameRequest& message) override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    try {
+      if (!is_known) checkProtocol(message.protocol());
+      is_known = true;
+      asks = true;
+      owner_.lobby_.bell.notify_all();
+    } catch (const WireError& error) {
+      owner_.lobby_.log("viewer " + context()->peer() + ": refused: " + error.what());
+      end({grpc::StatusCode::INVALID_ARGUMENT, error.what()});
+    }
+  }
+
+  void ended() override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    std::erase_if(owner_.streams_, [&](const auto& stream) { return stream.get() == this; });
+  }
+
+ private:
+  ViewerConversation& owner_;
+
+ public:
+  bool is_known = false;     ///< it has said which protocol it speaks
+  bool asks = false;         ///< for a frame
+  bool wants_world = true;   ///< the next frame is a whole one
+  std::uint64_t step = 0;    ///< of the last frame sent
+  std::vector<Look> looked;  ///< what the viewer knows
+};
+
+ViewerConversation::ViewerConversation(Lobby& lobby) : lobby_(lobby) {}
+ViewerConversation::~ViewerConversation() = default;
+
+grpc::ServerBidiReactor<wire::FrameRequest, wire::Frame>* ViewerConversation::Watch(
+    grpc::CallbackServerContext* context) {
+  auto stream = std::make_shared<Stream>(*this, context);
+  {
+    const std::lock_guard lock(lobby_.mutex);
+    streams_.push_back(stream);
+  }
+  stream->begin();
+  return stream.get();
+}
+
+void ViewerConversation::show() {
+  const std::lock_guard lock(lobby_.mutex);
+  for (const auto& stream : streams_) stream->wants_world = true;
+}
+
+void ViewerConversation::tell() {
+  const std::lock_guard lock(lobby_.mutex);
+  const std::uint64_t step = lobby_.exhibit->environment.time().step;
+  for (const auto& stream : streams_) {
+    if (stream->asks && (stream->wants_world || stream->step != step) && stream->isIdle()) send(*stream);
+  }
+}
+
+void ViewerConversation::send(Stream& stream) {
+  const Exhibit& exhibit = *lobby_.exhibit;
+  const State& state = exhibit.environment.state();
+  wire::Frame& frame = stream.draft();
+  frame.Clear();
+  if (stream.wants_world) {
+    encode(exhibit.source, *frame.mutable_world());
+    frame.set_world_version(exhibit.world_version);
+  }
+  frame.set_step(state.time.step);
+  frame.set_time_s(state.time.seconds());
+  stream.looked.resize(exhibit.robot_names.size());
+  for (std::size_t i = 0; i < stream.looked.size(); ++i) {
+    const Look look = lookOf(state, i);
+    if (look == stream.looked[i] && !stream.wants_world) continue;
+    stream.looked[i] = look;
+    encode(look, i, *frame.add_robots());
+  }
+  stream.wants_world = false;
+  stream.asks = false;
+  stream.step = state.time.step;
+  stream.post();
+}
+
+void ViewerConversation::sayGoodbye() {
+  const std::lock_guard lock(lobby_.mutex);
+  for (const auto& stream : streams_) stream->end(grpc::Status::OK);
+}
+
+std::size_t ViewerConversation::count() const {
+  const std::lock_guard lock(lobby_.mutex);
+  return streams_.size();
+}
+
+}  // namespace robosim
