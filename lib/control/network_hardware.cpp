@@ -61,8 +61,7 @@ class FarRobot final : public Hardware {
 }  // namespace
 
 struct NetworkHardware::Impl {
-  std::string address;
-  std::shared_ptr<grpc::Channel> channel;
+  DialOptions dialled;
   std::unique_ptr<wire::Robots::Stub> stub;
   grpc::ClientContext context;
   std::unique_ptr<grpc::ClientReaderWriter<wire::FromRobots, wire::ToRobots>> stream;
@@ -74,7 +73,9 @@ struct NetworkHardware::Impl {
   std::uint64_t step = 0;
 
   Impl(const DialOptions& options, const std::vector<std::string>& names)
-      : address(options.address), channel(dial(options)), stub(wire::Robots::NewStub(channel)), stream(stub->Drive(&context)) {
+      : dialled(options), stub(wire::Robots::NewStub(dial(options))) {
+    showToken(context, options);
+    stream = stub->Drive(&context);
     auto& hello = *out.mutable_hello();
     hello.set_protocol(kProtocolVersion);
     for (const auto& name : names) hello.add_names(name);
@@ -118,8 +119,8 @@ struct NetworkHardware::Impl {
 
   [[noreturn]] void fail() {
     const grpc::Status status = finish();
-    if (status.ok()) throw ConnectionError({grpc::StatusCode::UNAVAILABLE, "the run is over"}, address);
-    throw ConnectionError(status, address);
+    if (status.ok()) throw ConnectionError({grpc::StatusCode::UNAVAILABLE, "the run is over"}, dialled);
+    throw ConnectionError(status, dialled);
   }
 
   bool nextStep() {
@@ -131,7 +132,7 @@ struct NetworkHardware::Impl {
     stream->Write(out);
     if (readStep()) return true;
     const grpc::Status status = finish();
-    if (!status.ok()) throw ConnectionError(status, address);
+    if (!status.ok()) throw ConnectionError(status, dialled);
     return false;
   }
 };

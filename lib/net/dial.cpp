@@ -1,27 +1,49 @@
 #include "net/dial.h"
 
+#include "base/error_list.h"
+#include "net/access.h"
+#include "net/listen.h"
+#include "net/tls.h"
+
 namespace robosim {
 namespace {
 
-std::string told(const grpc::Status& status, const std::string& address) {
-  switch (status.error_code()) {
-    case grpc::StatusCode::UNAVAILABLE:
-      return "no environment answers at " + address + " (" + status.error_message() +
-             "); is 'robosim serve' running, and is this its address?";
-    default:
-      return "the environment at " + address + ": " + status.error_message();
+std::string told(const grpc::Status& status, const DialOptions& dialled) {
+  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) {
+    return "the environment at " + dialled.address + ": " + status.error_message();
   }
+  const std::string why = dialled.tls ? whyTlsFails(dialled.address, dialled.trusted_pem) : "";
+  if (!why.empty()) {
+    return "no TLS with the environment at " + dialled.address + ": " + why +
+           "; is it started with --tls-cert, is that certificate in date and for this address, and does --tls-ca name "
+           "it "
+           "or who signed it?";
+  }
+  return "no environment answers at " + dialled.address + " (" + status.error_message() +
+         "); is 'robosim serve' running, and is this its address?" +
+         (dialled.tls ? "" : " If it is started with --tls-cert, add --tls-ca");
 }
 
 }  // namespace
 
-ConnectionError::ConnectionError(const grpc::Status& status, const std::string& address)
-    : std::runtime_error(told(status, address)), code_(status.error_code()) {}
+ConnectionError::ConnectionError(const grpc::Status& status, const DialOptions& dialled)
+    : std::runtime_error(told(status, dialled)), code_(status.error_code()) {}
 
 std::shared_ptr<grpc::Channel> dial(const DialOptions& options) {
+  if (!options.token.empty() && !options.tls && !options.insecure && !isLoopback(options.address)) {
+    throw ConfigError("the token would go to " + options.address +
+                      " for anyone on the way to read; add --tls-ca FILE, or --insecure if the way is safe");
+  }
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(-1);  // what the environment sends is as large as its world
-  return grpc::CreateCustomChannel(options.address, grpc::InsecureChannelCredentials(), arguments);
+  if (!options.tls) return grpc::CreateCustomChannel(options.address, grpc::InsecureChannelCredentials(), arguments);
+  grpc::SslCredentialsOptions trust;
+  trust.pem_root_certs = options.trusted_pem;
+  return grpc::CreateCustomChannel(options.address, grpc::SslCredentials(trust), arguments);
+}
+
+void showToken(grpc::ClientContext& call, const DialOptions& options) {
+  if (!options.token.empty()) call.AddMetadata(kTokenKey, std::string(kTokenPrefix) + options.token);
 }
 
 }  // namespace robosim

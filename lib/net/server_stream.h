@@ -4,32 +4,38 @@
 #include <utility>
 
 #include <grpcpp/grpcpp.h>
+#include <grpcpp/impl/codegen/proto_utils.h>
+
+#include "net/wire_error.h"
 
 namespace robosim {
+
+/// What gRPC calls a two-way stream whose messages it leaves to us to read and write. It would only say that the
+/// stream has ended where a message cannot be read, and the peer would never hear why.
+using RawStream = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
 
 /// The environment's end of a two-way stream. gRPC calls it from threads of its own; this keeps what gRPC demands, or
 /// else ends the process: one write at a time, none after the end, and an object that lives until gRPC has done with
 /// it. Whoever else holds a stream may go on calling it after its end; nothing happens then.
 template <typename In, typename Out>
-class ServerStream : public grpc::ServerBidiReactor<In, Out>,
-                     public std::enable_shared_from_this<ServerStream<In, Out>> {
+class ServerStream : public RawStream, public std::enable_shared_from_this<ServerStream<In, Out>> {
  public:
   explicit ServerStream(grpc::CallbackServerContext* context) : context_(context) {}
 
   /// Call once it is fully made, by make_shared.
   void begin() {
     self_ = this->shared_from_this();
-    this->StartRead(&in_);
+    StartRead(&bytes_read_);
   }
 
   /// @name Sending: one thread at a time
-  /// Fill the draft, then post it. It goes out once the write before it is done. A draft posted before that has not
-  /// gone out yet is taken back, and stands in the draft as it was.
+  /// Fill the draft, which stands as it was last left, then post it. It goes out once the write before it is done. A
+  /// draft posted before that has not gone out yet is taken back.
   ///@{
   Out& draft() {
     const std::lock_guard lock(mutex_);
     posted_ = false;
-    return *draft_;
+    return draft_;
   }
   void post() {
     const std::lock_guard lock(mutex_);
@@ -61,8 +67,11 @@ class ServerStream : public grpc::ServerBidiReactor<In, Out>,
  protected:
   ~ServerStream() override = default;
 
-  /// A message came. Called from one of gRPC's threads, one message at a time. What it throws must be caught inside.
+  /// A message came. Called from one of gRPC's threads, one message at a time.
+  /// @throws WireError for one that makes no sense, and nothing else.
   virtual void received(const In&) = 0;
+  /// Hangs up on a peer that sent what makes no sense.
+  virtual void refuse(const WireError&) = 0;
   /// The peer has hung up, or is lost. Followed by no other call.
   virtual void ended() = 0;
 
@@ -75,11 +84,12 @@ class ServerStream : public grpc::ServerBidiReactor<In, Out>,
     if (posted_) {
       posted_ = false;
       writing_ = true;
-      std::swap(draft_, being_written_);
-      this->StartWrite(being_written_.get());
+      bool owns_bytes = false;
+      grpc::SerializationTraits<Out>::Serialize(draft_, &bytes_written_, &owns_bytes);
+      StartWrite(&bytes_written_);
     } else if (ending_) {
       finished_ = true;
-      this->Finish(status_);
+      Finish(status_);
     }
   }
 
@@ -88,9 +98,16 @@ class ServerStream : public grpc::ServerBidiReactor<In, Out>,
       end(grpc::Status::OK);
       return;
     }
-    received(in_);
+    try {
+      if (!grpc::SerializationTraits<In>::Deserialize(&bytes_read_, &in_).ok()) {
+        throw WireError("a message that is no " + in_.GetTypeName() + "; doc/protocol.md tells what is");
+      }
+      received(in_);
+    } catch (const WireError& error) {
+      refuse(error);
+    }
     const std::lock_guard lock(mutex_);
-    if (!finished_) this->StartRead(&in_);
+    if (!finished_) StartRead(&bytes_read_);
   }
 
   void OnWriteDone(bool ok) final {
@@ -110,10 +127,11 @@ class ServerStream : public grpc::ServerBidiReactor<In, Out>,
 
   std::shared_ptr<ServerStream> self_;
   grpc::CallbackServerContext* context_;
+  grpc::ByteBuffer bytes_read_;
   In in_;
   std::mutex mutex_;
-  std::unique_ptr<Out> draft_ = std::make_unique<Out>();
-  std::unique_ptr<Out> being_written_ = std::make_unique<Out>();
+  Out draft_;
+  grpc::ByteBuffer bytes_written_;
   bool posted_ = false;   ///< the draft is to be written next
   bool writing_ = false;  ///< between StartWrite and OnWriteDone
   bool ending_ = false;

@@ -3,17 +3,22 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "environment/environment.h"
+#include "net/access.h"
 #include "net/listen.h"
+#include "net/tls.h"
 #include "server/lobby.h"
 
 namespace robosim {
 
 struct ServerOptions {
   ListenAddresses listen = ListenAddresses::parse(kDefaultListen);
+  Access access;                                  ///< who may do what
+  std::optional<TlsIdentity> tls;                 ///< absent: without TLS
   std::chrono::milliseconds step_deadline{1000};  ///< how long a step waits for anybody
   Pace pace = Pace::lockstep;
   double speed = 0;  ///< simulated seconds a second; 0: as fast as it can, in lockstep only

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "net/robot_wire.h"
-#include "net/server_stream.h"
 #include "server/geometry_wire.h"
 #include "server/world_wire.h"
 
@@ -18,11 +17,12 @@ class GeometryConversation::Stream final : public ServerStream<wire::FromWorker,
   void received(const wire::FromWorker& message) override {
     const std::lock_guard lock(owner_.lobby_.mutex);
     if (state == State::gone) return;
-    try {
-      owner_.received(*this, message);
-    } catch (const WireError& error) {
-      owner_.expel(*this, {grpc::StatusCode::INVALID_ARGUMENT, error.what()});
-    }
+    owner_.received(*this, message);
+  }
+
+  void refuse(const WireError& error) override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    if (state != State::gone) owner_.expel(*this, {grpc::StatusCode::INVALID_ARGUMENT, error.what()});
   }
 
   void ended() override {
@@ -49,10 +49,11 @@ class GeometryConversation::Stream final : public ServerStream<wire::FromWorker,
 GeometryConversation::GeometryConversation(Lobby& lobby) : lobby_(lobby) {}
 GeometryConversation::~GeometryConversation() = default;
 
-grpc::ServerBidiReactor<wire::FromWorker, wire::ToWorker>* GeometryConversation::Work(
-    grpc::CallbackServerContext* context) {
+RawStream* GeometryConversation::Work(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
+  const std::lock_guard lock(lobby_.mutex);
+  if (const auto status = lobby_.access.check(*context, Right::work); !status.ok()) expel(*stream, status);
   return stream.get();
 }
 

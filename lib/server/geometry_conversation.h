@@ -6,6 +6,7 @@
 
 #include "environment/environment.h"
 #include "net/geometry.grpc.pb.h"
+#include "net/server_stream.h"
 #include "server/lobby.h"
 
 namespace robosim {
@@ -15,13 +16,13 @@ namespace robosim {
 /// stalls or makes no sense: so the run is the same with any number of workers.
 ///
 /// Except for Work(), all is called by the thread that steps the environment.
-class GeometryConversation final : public wire::Geometry::CallbackService {
+class GeometryConversation final : public wire::Geometry::WithRawCallbackMethod_Work<wire::Geometry::Service> {
  public:
   explicit GeometryConversation(Lobby& lobby);
   ~GeometryConversation() override;
 
   /// gRPC calls this when a worker connects.
-  grpc::ServerBidiReactor<wire::FromWorker, wire::ToWorker>* Work(grpc::CallbackServerContext*) override;
+  RawStream* Work(grpc::CallbackServerContext*) override;
 
   /// Another world is shown from now on: every worker needs another replica.
   void show();

@@ -55,6 +55,7 @@ void workForEnvironment(const DialOptions& dial_options, int threads,
                         const std::function<void(const std::string&)>& log) {
   const auto stub = wire::Geometry::NewStub(dial(dial_options));
   grpc::ClientContext context;
+  showToken(context, dial_options);
   const auto stream = stub->Work(&context);
   wire::FromWorker out;
   out.mutable_hello()->set_protocol(kProtocolVersion);
@@ -90,7 +91,7 @@ void workForEnvironment(const DialOptions& dial_options, int threads,
     }
   }
   const grpc::Status status = stream->Finish();
-  if (!status.ok()) throw ConnectionError(status, dial_options.address);
+  if (!status.ok()) throw ConnectionError(status, dial_options);
 }
 
 }  // namespace robosim

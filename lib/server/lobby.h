@@ -6,6 +6,7 @@
 #include <mutex>
 #include <string>
 
+#include "net/access.h"
 #include "server/exhibit.h"
 
 namespace robosim {
@@ -26,6 +27,7 @@ struct Lobby {
   std::function<void(const std::string&)> log;  ///< takes one line; called with the mutex held
   Clock::duration step_deadline = std::chrono::seconds(1);
   Pace pace = Pace::lockstep;
+  Access access;                           ///< constant once the server listens
   std::shared_ptr<const Exhibit> exhibit;  ///< never null once the server listens
 };
 

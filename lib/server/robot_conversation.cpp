@@ -4,7 +4,6 @@
 
 #include "base/error_list.h"
 #include "net/robot_wire.h"
-#include "net/server_stream.h"
 
 namespace robosim {
 namespace {
@@ -22,20 +21,25 @@ class RobotConversation::Stream final : public ServerStream<wire::FromRobots, wi
   void received(const wire::FromRobots& message) override {
     const std::lock_guard lock(owner_.lobby_.mutex);
     if (state == State::gone) return;
-    try {
-      if (state == State::silent) {
-        owner_.hello(*this, message);
-      } else {
-        owner_.answer(*this, message);
-      }
-    } catch (const WireError& error) {
-      owner_.expel(*this, badInput(error.what()));
+    if (state == State::silent) {
+      owner_.hello(*this, message);
+    } else {
+      owner_.answer(*this, message);
     }
+  }
+
+  void refuse(const WireError& error) override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    if (state != State::gone) owner_.expel(*this, badInput(error.what()));
   }
 
   void ended() override {
     const std::lock_guard lock(owner_.lobby_.mutex);
     owner_.leave(*this, "has left");
+  }
+
+  grpc::Status mayDrive(const std::vector<std::string>& robots_named) const {
+    return owner_.lobby_.access.check(*context(), Right::drive, robots_named);
   }
 
   std::string who() const {
@@ -64,10 +68,11 @@ class RobotConversation::Stream final : public ServerStream<wire::FromRobots, wi
 RobotConversation::RobotConversation(Lobby& lobby) : lobby_(lobby) {}
 RobotConversation::~RobotConversation() = default;
 
-grpc::ServerBidiReactor<wire::FromRobots, wire::ToRobots>* RobotConversation::Drive(
-    grpc::CallbackServerContext* context) {
+RawStream* RobotConversation::Drive(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
+  const std::lock_guard lock(lobby_.mutex);
+  if (const auto status = lobby_.access.check(*context, Right::drive); !status.ok()) expel(*stream, status);
   return stream.get();
 }
 
@@ -95,7 +100,11 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
   }
   if (hello.names().empty()) throw WireError("a hello without a robot's name");
   std::vector<std::size_t> robots;
-  std::vector<std::string> names;
+  std::vector<std::string> names(hello.names().begin(), hello.names().end());
+  if (const auto status = stream.mayDrive(names); !status.ok()) {
+    expel(stream, status);
+    return;
+  }
   for (const auto& name : hello.names()) {
     const auto found = exhibit.robot_named.find(name);
     if (found == exhibit.robot_named.end()) {
@@ -104,7 +113,8 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
     }
     const std::size_t robot = found->second;
     if (!exhibit.is_networked[robot]) {
-      throw WireError("robot " + inQuotes(name) + " is driven by a controller in the environment; start the environment "
+      throw WireError("robot " + inQuotes(name) +
+                      " is driven by a controller in the environment; start the environment "
                       "with --wait-for-robots to leave it to a process of its own");
     }
     if (std::find(robots.begin(), robots.end(), robot) != robots.end()) {
@@ -114,7 +124,6 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
       throw WireError("robot " + inQuotes(name) + " is driven by another process already, at " + other->peer);
     }
     robots.push_back(robot);
-    names.push_back(name);
   }
   for (const auto robot : robots) driver_of_[robot] = &stream;
   stream.robots = std::move(robots);
@@ -126,8 +135,7 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
 
 void RobotConversation::answer(Stream& stream, const wire::FromRobots& message) {
   if (stream.state != Stream::State::admitted) throw WireError("an answer before there was a step to answer");
-  if (message.step() > stream.asked_step ||
-      (stream.has_answered_before && message.step() <= stream.answered_step)) {
+  if (message.step() > stream.asked_step || (stream.has_answered_before && message.step() <= stream.answered_step)) {
     throw WireError("an answer to step " + std::to_string(message.step()) + " when step " +
                     std::to_string(stream.asked_step) + " was asked; answer each step once, in order");
   }
@@ -228,9 +236,9 @@ void RobotConversation::evictLate() {
   for (const auto& stream : streams) {
     if (!stream->owes_answer || now - stream->asked_at < lobby_.step_deadline) continue;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(lobby_.step_deadline).count();
-    expel(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED,
-                    "no answer to step " + std::to_string(stream->asked_step) + " within the step deadline of " +
-                        std::to_string(ms) + " ms; connect again to go on"});
+    expel(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED, "no answer to step " + std::to_string(stream->asked_step) +
+                                                             " within the step deadline of " + std::to_string(ms) +
+                                                             " ms; connect again to go on"});
   }
 }
 

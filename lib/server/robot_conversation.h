@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "net/robots.grpc.pb.h"
+#include "net/server_stream.h"
 #include "server/lobby.h"
 
 namespace robosim {
@@ -14,13 +15,13 @@ namespace robosim {
 /// its robots stand still; they may come back under their names.
 ///
 /// Except for Drive(), all is called by the thread that steps the environment, between steps.
-class RobotConversation final : public wire::Robots::CallbackService {
+class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive<wire::Robots::Service> {
  public:
   explicit RobotConversation(Lobby& lobby);
   ~RobotConversation() override;
 
   /// gRPC calls this when a process connects.
-  grpc::ServerBidiReactor<wire::FromRobots, wire::ToRobots>* Drive(grpc::CallbackServerContext*) override;
+  RawStream* Drive(grpc::CallbackServerContext*) override;
 
   /// Another world is shown from now on: whoever drives robots of the last is told so, and hung up on.
   void show();
@@ -39,9 +40,9 @@ class RobotConversation final : public wire::Robots::CallbackService {
   /// The run is over.
   void sayGoodbye();
 
-  std::size_t connected() const;             ///< robots
-  std::vector<std::string> absent() const;   ///< networked robots that are not connected
-  std::uint64_t late() const;                ///< robot-steps whose command came too late, at the pace of real time
+  std::size_t connected() const;            ///< robots
+  std::vector<std::string> absent() const;  ///< networked robots that are not connected
+  std::uint64_t late() const;               ///< robot-steps whose command came too late, at the pace of real time
 
  private:
   class Stream;

@@ -1,8 +1,7 @@
 #include "server/viewer_conversation.h"
 
-#include <algorithm>
+#include <utility>
 
-#include "net/server_stream.h"
 #include "net/wire_error.h"
 #include "server/world_wire.h"
 
@@ -41,15 +40,21 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
 
   void received(const wire::FrameRequest& message) override {
     const std::lock_guard lock(owner_.lobby_.mutex);
-    try {
-      if (!is_known) checkProtocol(message.protocol());
-      is_known = true;
-      asks = true;
-      owner_.lobby_.bell.notify_all();
-    } catch (const WireError& error) {
-      owner_.lobby_.log("viewer " + context()->peer() + ": refused: " + error.what());
-      end({grpc::StatusCode::INVALID_ARGUMENT, error.what()});
-    }
+    if (!is_known) checkProtocol(message.protocol());
+    is_known = true;
+    asks = true;
+    owner_.lobby_.bell.notify_all();
+  }
+
+  void refuse(const WireError& error) override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    hangUp({grpc::StatusCode::INVALID_ARGUMENT, error.what()});
+  }
+
+  void hangUp(const grpc::Status& status) {
+    if (std::exchange(is_gone, true)) return;
+    owner_.lobby_.log("viewer " + context()->peer() + ": hung up on: " + status.error_message());
+    end(status);
   }
 
   void ended() override {
@@ -61,6 +66,7 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
   ViewerConversation& owner_;
 
  public:
+  bool is_gone = false;
   bool is_known = false;     ///< it has said which protocol it speaks
   bool asks = false;         ///< for a frame
   bool wants_world = true;   ///< the next frame is a whole one
@@ -71,14 +77,16 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
 ViewerConversation::ViewerConversation(Lobby& lobby) : lobby_(lobby) {}
 ViewerConversation::~ViewerConversation() = default;
 
-grpc::ServerBidiReactor<wire::FrameRequest, wire::Frame>* ViewerConversation::Watch(
-    grpc::CallbackServerContext* context) {
+RawStream* ViewerConversation::Watch(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
-  {
-    const std::lock_guard lock(lobby_.mutex);
-    streams_.push_back(stream);
-  }
   stream->begin();
+  const std::lock_guard lock(lobby_.mutex);
+  const grpc::Status status = lobby_.access.check(*context, Right::look);
+  if (status.ok()) {
+    streams_.push_back(stream);
+  } else {
+    stream->hangUp(status);
+  }
   return stream.get();
 }
 

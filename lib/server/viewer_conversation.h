@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "net/server_stream.h"
 #include "net/viewing.grpc.pb.h"
 #include "server/lobby.h"
 
@@ -11,13 +12,13 @@ namespace robosim {
 /// since the frame before. A slow one misses frames and delays nobody.
 ///
 /// Except for Watch(), all is called by the thread that steps the environment, between steps.
-class ViewerConversation final : public wire::Viewing::CallbackService {
+class ViewerConversation final : public wire::Viewing::WithRawCallbackMethod_Watch<wire::Viewing::Service> {
  public:
   explicit ViewerConversation(Lobby& lobby);
   ~ViewerConversation() override;
 
   /// gRPC calls this when a viewer connects.
-  grpc::ServerBidiReactor<wire::FrameRequest, wire::Frame>* Watch(grpc::CallbackServerContext*) override;
+  RawStream* Watch(grpc::CallbackServerContext*) override;
 
   /// Another world is shown from now on: every viewer's next frame is a whole one.
   void show();
