@@ -74,7 +74,10 @@ struct NetworkHardware::Impl {
   std::uint64_t step = 0;
 
   Impl(const DialOptions& options, const std::vector<std::string>& names)
-      : address(options.address), channel(dial(options)), stub(wire::Robots::NewStub(channel)), stream(stub->Drive(&context)) {
+      : address(options.address),
+        channel(dial(options)),
+        stub(wire::Robots::NewStub(channel)),
+        stream(stub->Drive(&context)) {
     auto& hello = *out.mutable_hello();
     hello.set_protocol(kProtocolVersion);
     for (const auto& name : names) hello.add_names(name);

@@ -6,8 +6,8 @@
 namespace robosim {
 namespace {
 
-static_assert(static_cast<int>(Activity::active) == wire::ACTIVE && static_cast<int>(Activity::halted) == wire::HALTED &&
-              static_cast<int>(Activity::found) == wire::FOUND);
+static_assert(static_cast<int>(Activity::active) == wire::ACTIVE &&
+              static_cast<int>(Activity::halted) == wire::HALTED && static_cast<int>(Activity::found) == wire::FOUND);
 
 void checkRobot(std::uint32_t robot, std::size_t robots, const char* what) {
   if (robot < robots) return;

@@ -13,7 +13,8 @@ namespace robosim {
 /// What the conversations show to their clients: an environment, and what is constant over its run.
 struct Exhibit {
   /// @param is_networked by robot: whether a process drives it, not a controller of the environment's own
-  Exhibit(const Environment& environment, WorldSource source, std::uint64_t seed, std::vector<std::uint8_t> is_networked);
+  Exhibit(const Environment& environment, WorldSource source, std::uint64_t seed,
+          std::vector<std::uint8_t> is_networked);
 
   const Environment& environment;  ///< gRPC's threads may ask it for what is constant: its world and fleet
   WorldSource source;

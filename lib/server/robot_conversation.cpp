@@ -104,7 +104,8 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
     }
     const std::size_t robot = found->second;
     if (!exhibit.is_networked[robot]) {
-      throw WireError("robot " + inQuotes(name) + " is driven by a controller in the environment; start the environment "
+      throw WireError("robot " + inQuotes(name) +
+                      " is driven by a controller in the environment; start the environment "
                       "with --wait-for-robots to leave it to a process of its own");
     }
     if (std::find(robots.begin(), robots.end(), robot) != robots.end()) {
@@ -126,8 +127,7 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
 
 void RobotConversation::answer(Stream& stream, const wire::FromRobots& message) {
   if (stream.state != Stream::State::admitted) throw WireError("an answer before there was a step to answer");
-  if (message.step() > stream.asked_step ||
-      (stream.has_answered_before && message.step() <= stream.answered_step)) {
+  if (message.step() > stream.asked_step || (stream.has_answered_before && message.step() <= stream.answered_step)) {
     throw WireError("an answer to step " + std::to_string(message.step()) + " when step " +
                     std::to_string(stream.asked_step) + " was asked; answer each step once, in order");
   }
@@ -228,9 +228,9 @@ void RobotConversation::evictLate() {
   for (const auto& stream : streams) {
     if (!stream->owes_answer || now - stream->asked_at < lobby_.step_deadline) continue;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(lobby_.step_deadline).count();
-    expel(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED,
-                    "no answer to step " + std::to_string(stream->asked_step) + " within the step deadline of " +
-                        std::to_string(ms) + " ms; connect again to go on"});
+    expel(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED, "no answer to step " + std::to_string(stream->asked_step) +
+                                                             " within the step deadline of " + std::to_string(ms) +
+                                                             " ms; connect again to go on"});
   }
 }
 

@@ -39,9 +39,9 @@ class RobotConversation final : public wire::Robots::CallbackService {
   /// The run is over.
   void sayGoodbye();
 
-  std::size_t connected() const;             ///< robots
-  std::vector<std::string> absent() const;   ///< networked robots that are not connected
-  std::uint64_t late() const;                ///< robot-steps whose command came too late, at the pace of real time
+  std::size_t connected() const;            ///< robots
+  std::vector<std::string> absent() const;  ///< networked robots that are not connected
+  std::uint64_t late() const;               ///< robot-steps whose command came too late, at the pace of real time
 
  private:
   class Stream;
