@@ -60,7 +60,7 @@ class WorldRun final : public ServedRun {
 
   void keep() { outputs_.keep(run_.environment()); }
   void finish(double wall_s, bool came_to_its_end) {
-    const EndedBy ended_by = !came_to_its_end                ? EndedBy::interrupt
+    const EndedBy ended_by = !came_to_its_end           ? EndedBy::interrupt
                              : run_.gold().all_halted_s ? EndedBy::all_halted
                                                         : EndedBy::time_limit;
     outputs_.finish(run_, wall_s, ended_by);

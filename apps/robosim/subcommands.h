@@ -18,8 +18,9 @@ void addCheck(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 
-/// `robosim bench gold` and `robosim bench speed`
+/// `robosim bench gold`, `robosim bench network` and `robosim bench speed`
 void addBenchGold(CLI::App& bench);
+void addBenchNetwork(CLI::App& bench);
 void addBenchSpeed(CLI::App& bench);
 
 /// The way for a subcommand to end with a code of its own, after it has said why.
