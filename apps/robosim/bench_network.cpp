@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/error_list.h"
 #include "robosim/arguments.h"
 #include "robosim/progress.h"
 #include "robosim/subcommands.h"
@@ -85,7 +86,7 @@ class MeasuredRun final : public ServedRun {
         arguments_(arguments) {}
 
   Environment& environment() override { return environment_; }
-  std::shared_ptr<const Exhibit> exhibit() override { return exhibit_; }
+  std::shared_ptr<const Exhibit> exhibit() const override { return exhibit_; }
   void decide() override {
     if (environment_.time().step == 0) window_start_ = Clock::now();
   }
@@ -99,6 +100,7 @@ class MeasuredRun final : public ServedRun {
     window_start_ = Clock::now();
   }
   bool isOver() const override { return static_cast<int>(steps_per_s_.size()) == arguments_.windows; }
+  void load(const WorldSource&) override { throw ConfigError("a benchmark keeps its world"); }
 
   double medianStepsPerSecond() {
     const auto middle = steps_per_s_.begin() + static_cast<std::ptrdiff_t>(steps_per_s_.size() / 2);

@@ -1,6 +1,6 @@
 #include <iostream>
 
-#include "net/listen.h"
+#include "robosim/connection.h"
 #include "robosim/subcommands.h"
 #include "server/geometry_worker.h"
 
@@ -8,12 +8,12 @@ namespace robosim {
 namespace {
 
 struct Arguments {
-  std::string environment = kDefaultListen;
+  ConnectionArguments connection;
   int threads = 1;
 };
 
 void work(const Arguments& arguments) {
-  workForEnvironment({.address = hostAndPort(arguments.environment)}, arguments.threads,
+  workForEnvironment(arguments.connection.dialOptions(), arguments.threads,
                      [](const std::string& line) { std::cout << line << std::endl; });
   std::cout << "the run is over" << std::endl;
 }
@@ -24,9 +24,7 @@ void addGeometry(CLI::App& program) {
   auto* command =
       program.add_subcommand("geometry", "Help an environment elsewhere: work out its robots' moves and readings");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--environment", a->environment, "where 'robosim serve' listens")
-      ->type_name("HOST:PORT")
-      ->capture_default_str();
+  addConnectionOptions(*command, a->connection);
   command->add_option("--threads", a->threads, "the run is the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();

@@ -5,6 +5,16 @@
 #include "maze/controllers.h"
 
 namespace robosim {
+namespace {
+
+void checkToRun(const LoadedWorld& world, const std::string& file, const std::string& instead) {
+  ErrorList errors;
+  checkControllers(world, file, instead, errors);
+  errors.throwIfAny();
+  if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+}
+
+}  // namespace
 
 std::string controllerOf(const FleetRobot& robot, const std::string& instead) {
   if (!instead.empty()) return instead;
@@ -31,10 +41,13 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
   LoadedWorld world = loadWorld(file, controllerNames());
-  ErrorList errors;
-  checkControllers(world, file, instead, errors);
-  errors.throwIfAny();
-  if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+  checkToRun(world, file, instead);
+  return world;
+}
+
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead) {
+  LoadedWorld world = loadWorld(source, controllerNames());
+  checkToRun(world, source.file, instead);
   return world;
 }
 

@@ -9,6 +9,7 @@
 #include "environment/environment.h"
 #include "environment/local_hardware.h"
 #include "robots/fleet.h"
+#include "robots/world_source.h"
 
 namespace robosim {
 
@@ -32,6 +33,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 /// Reads a world that is to be run: as loadWorld(), with checkControllers(), and there must be a robot.
 /// @throws ConfigError with every fault found.
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead);
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead);
 
 /// When and by whom the gold was found, and when all had stopped; simulated seconds.
 struct GoldOutcome {

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
   robosim::addServe(program);
   robosim::addRobot(program);
   robosim::addGeometry(program);
+  robosim::addControl(program);
   robosim::addCheck(program);
   robosim::addBench(program);
 

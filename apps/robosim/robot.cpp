@@ -2,7 +2,7 @@
 
 #include "control/network_hardware.h"
 #include "maze/controllers.h"
-#include "net/listen.h"
+#include "robosim/connection.h"
 #include "robosim/local_run.h"
 #include "robosim/subcommands.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> names;
-  std::string environment = kDefaultListen;
+  ConnectionArguments connection;
   std::string controller;
 };
 
@@ -26,7 +26,7 @@ std::string controllerOf(const NetworkHardware& robots, std::size_t i, const std
 }
 
 void driveRobots(const Arguments& arguments) {
-  NetworkHardware robots({.address = hostAndPort(arguments.environment)}, arguments.names);
+  NetworkHardware robots(arguments.connection.dialOptions(), arguments.names);
   std::vector<Seat> seats;
   for (std::size_t i = 0; i < arguments.names.size(); ++i) {
     const ControllerSetup setup{robots.seed(), static_cast<std::uint32_t>(robots.place(i))};
@@ -44,9 +44,7 @@ void addRobot(CLI::App& program) {
   auto* command = program.add_subcommand("robot", "Drive one or many robots of an environment elsewhere");
   auto a = std::make_shared<Arguments>();
   command->add_option("NAME", a->names, "robots of the environment's world")->required();
-  command->add_option("--environment", a->environment, "where 'robosim serve' listens")
-      ->type_name("HOST:PORT")
-      ->capture_default_str();
+  addConnectionOptions(*command, a->connection);
   command->add_option("--controller", a->controller, "for all these robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
   command->callback([a] { driveRobots(*a); });

@@ -15,6 +15,8 @@ const char* nameOf(EndedBy why) {
       return "time_limit";
     case EndedBy::interrupt:
       return "interrupt";
+    case EndedBy::control_panel:
+      return "control_panel";
   }
   return "";
 }
@@ -30,6 +32,7 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
   if (gold.all_halted_s) text += "; all robots halted after " + fixed(*gold.all_halted_s, 1) + " s";
   if (why == EndedBy::time_limit) text += "; ended by the time limit";
   if (why == EndedBy::interrupt) text += "; ended by an interrupt";
+  if (why == EndedBy::control_panel) text += "; ended from a control panel";
   return text;
 }
 

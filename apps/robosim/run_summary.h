@@ -8,7 +8,7 @@
 namespace robosim {
 
 /// Why a run came to its end.
-enum class EndedBy { all_halted, time_limit, interrupt };
+enum class EndedBy { all_halted, time_limit, interrupt, control_panel };
 
 /// What is told at the end of a run.
 struct RunSummary {

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <iostream>
-#include <mutex>
 
+#include "base/error_list.h"
 #include "maze/controllers.h"
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"
@@ -21,6 +23,8 @@ struct Arguments {
   std::string pace = "lockstep";
   double step_deadline_s = 1;
   bool paused = false;
+  std::string tls_cert, tls_key, tokens;
+  bool insecure = false;
 };
 
 /// Which robots a process of their own drives: all, if the environment is to wait for them; otherwise those that nobody
@@ -34,49 +38,95 @@ std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const Arguments& a
   return networked;
 }
 
-/// The run of one world, its outputs, and its own controllers.
+/// "run.rawlog" → "run_2.rawlog" for the second run; an empty name stays empty.
+std::string numbered(const std::string& file, int number) {
+  if (file.empty() || number == 1) return file;
+  const std::filesystem::path path(file);
+  return (path.parent_path() / (path.stem().string() + "_" + std::to_string(number) + path.extension().string()))
+      .string();
+}
+
+/// One run of one world: its own controllers, its outputs, and what is shown of it.
+struct Stage {
+  RunArguments arguments;
+  std::vector<std::uint8_t> networked;
+  LocalRun run;
+  Exhibit exhibit;
+  RunOutputs outputs;
+  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+
+  Stage(LoadedWorld world, const WorldSource& source, const Arguments& a, RunArguments of_this_run)
+      : arguments(std::move(of_this_run)),
+        networked(networkedRobots(world.fleet, a)),
+        run(std::move(world), arguments.run, networked),
+        exhibit(run.environment(), source, arguments.run.environment.seed, networked),
+        outputs(arguments, run.environment()) {
+    outputs.observe(run.environment());
+  }
+
+  void finish(EndedBy ended_by) {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
+    outputs.finish(run, wall.count(), ended_by);
+  }
+};
+
+/// The runs of one program: a control panel that loads another world begins the next. Each has outputs of its own.
 class WorldRun final : public ServedRun {
  public:
-  WorldRun(LoadedWorld world, WorldSource source, const Arguments& arguments)
-      : arguments_(arguments.of_run),
-        networked_(networkedRobots(world.fleet, arguments)),
-        run_(std::move(world), arguments_.run, networked_),
-        exhibit_(std::make_shared<Exhibit>(run_.environment(), std::move(source), arguments_.run.environment.seed,
-                                           networked_)),
-        outputs_(arguments_, run_.environment()) {
-    outputs_.observe(run_.environment());
+  explicit WorldRun(const Arguments& arguments) : arguments_(arguments) {
+    stage_ = stageOf(readWorldSource(arguments.of_run.world), 1);
   }
 
-  Environment& environment() override { return run_.environment(); }
-  std::shared_ptr<const Exhibit> exhibit() override { return exhibit_; }
-  void decide() override { run_.decide(); }
+  Environment& environment() override { return stage_->run.environment(); }
+  /// Keeps the run alive for as long as anyone looks at it.
+  std::shared_ptr<const Exhibit> exhibit() const override { return {stage_, &stage_->exhibit}; }
+  void decide() override { stage_->run.decide(); }
   void stepped() override {
-    run_.noteOutcome();
-    outputs_.observe(run_.environment());
+    stage_->run.noteOutcome();
+    stage_->outputs.observe(stage_->run.environment());
   }
   bool isOver() const override {
-    return run_.gold().all_halted_s.has_value() || arguments_.timeIsUp(run_.environment().time());
+    return stage_->run.gold().all_halted_s.has_value() || arguments_.of_run.timeIsUp(stage_->run.environment().time());
+  }
+  void load(const WorldSource& source) override {
+    auto next = stageOf(source, number_ + 1);
+    ++number_;
+    stage_->finish(EndedBy::control_panel);
+    stage_ = std::move(next);
   }
 
-  void keep() { outputs_.keep(run_.environment()); }
-  void finish(double wall_s, bool came_to_its_end) {
-    const EndedBy ended_by = !came_to_its_end           ? EndedBy::interrupt
-                             : run_.gold().all_halted_s ? EndedBy::all_halted
-                                                        : EndedBy::time_limit;
-    outputs_.finish(run_, wall_s, ended_by);
+  void keep() { stage_->outputs.keep(stage_->run.environment()); }
+  void finish(Served how) {
+    stage_->finish(how == Served::interrupted                ? EndedBy::interrupt
+                   : how == Served::stopped                  ? EndedBy::control_panel
+                   : stage_->run.gold().all_halted_s.has_value() ? EndedBy::all_halted
+                                                             : EndedBy::time_limit);
   }
 
  private:
-  RunArguments arguments_;
-  std::vector<std::uint8_t> networked_;
-  LocalRun run_;
-  std::shared_ptr<const Exhibit> exhibit_;
-  RunOutputs outputs_;
+  std::shared_ptr<Stage> stageOf(const WorldSource& source, int number) const {
+    RunArguments of_this_run = arguments_.of_run;
+    of_this_run.world = source.file;
+    of_this_run.record = numbered(of_this_run.record, number);
+    of_this_run.picture = numbered(of_this_run.picture, number);
+    LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller);
+    return std::make_shared<Stage>(std::move(world), source, arguments_, std::move(of_this_run));
+  }
+
+  const Arguments& arguments_;
+  std::shared_ptr<Stage> stage_;
+  int number_ = 1;
 };
 
 ServerOptions serverOptions(const Arguments& arguments) {
   ServerOptions options;
   options.listen = ListenAddresses::parse(arguments.listen);
+  if (arguments.tls_cert.empty() != arguments.tls_key.empty()) {
+    throw ConfigError("--tls-cert and --tls-key belong together: give both, or neither");
+  }
+  if (!arguments.tls_cert.empty()) options.tls = TlsIdentity::read(arguments.tls_cert, arguments.tls_key);
+  if (!arguments.tokens.empty()) options.access = Access::read(arguments.tokens);
+  if (!arguments.insecure) refuseExposure(options.listen, options.tls.has_value(), !options.access.isOpen());
   options.step_deadline = std::chrono::milliseconds(std::llround(arguments.step_deadline_s * 1000));
   options.pace = arguments.pace == "realtime" ? Pace::realtime : Pace::lockstep;
   options.speed = arguments.of_run.speedNumber();
@@ -85,25 +135,38 @@ ServerOptions serverOptions(const Arguments& arguments) {
   return options;
 }
 
+/// Says where the environment listens: what a script, or a person who let the system choose a port, waits for.
+void tellPorts(const ServerOptions& options, const std::vector<int>& ports) {
+  constexpr const char* clients[] = {"viewers", "robots", "geometry workers", "control panels"};
+  const auto addresses = options.listen.all();
+  const auto at = [&](std::size_t i) {
+    return addresses[i].substr(0, addresses[i].rfind(':') + 1) + std::to_string(ports[i]);
+  };
+  std::string line = "robosim serve: listening on " + at(0);
+  if (std::count(addresses.begin(), addresses.end(), addresses[0]) < 4) {
+    line = "robosim serve: listening";
+    for (std::size_t i = 0; i < 4; ++i) line += (i == 0 ? " for " : ", for ") + (clients[i] + (" on " + at(i)));
+  }
+  std::cerr << line << std::endl;
+}
+
 void serveWorld(const Arguments& arguments) {
   const Interrupt interrupt;
   arguments.of_run.check();
-  const std::string& file = arguments.of_run.world;
-  WorldRun run(loadWorldToRun(file, arguments.of_run.run.controller), readWorldSource(file), arguments);
-  EnvironmentServer server(serverOptions(arguments), run.exhibit());
-  std::cerr << "robosim serve: listening on port " << server.ports().front() << std::endl;
-  const auto start = std::chrono::steady_clock::now();
-  bool came_to_its_end = false;
+  const ServerOptions options = serverOptions(arguments);
+  WorldRun run(arguments);
+  EnvironmentServer server(options, run.exhibit());
+  tellPorts(options, server.ports());
+  Served how = Served::interrupted;
   try {
-    came_to_its_end = server.serve(run, [&] { return interrupt.asked(); });
+    how = server.serve(run, [&] { return interrupt.asked(); });
   } catch (const RecordingError&) {
     throw;
   } catch (...) {
     run.keep();
     throw;
   }
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-  run.finish(wall.count(), came_to_its_end);
+  run.finish(how);
 }
 
 }  // namespace
@@ -127,6 +190,18 @@ void addServe(CLI::App& program) {
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_flag("--paused", a->paused, "take no step until a control panel says start");
+  command->add_option("--tls-cert", a->tls_cert, "speak TLS, with this certificate (PEM)")
+      ->type_name("FILE")
+      ->check(fileName());
+  command->add_option("--tls-key", a->tls_key, "its private key (PEM), which nobody but its owner may read")
+      ->type_name("FILE")
+      ->check(fileName());
+  command
+      ->add_option("--tokens", a->tokens,
+                   "who may come in: a line 'TOKEN viewer', 'TOKEN robot NAME...' or 'TOKEN operator' for each")
+      ->type_name("FILE")
+      ->check(fileName());
+  command->add_flag("--insecure", a->insecure, "listen to other machines also without TLS and tokens");
   command->footer(controllersHelp());
   command->callback([a] { serveWorld(*a); });
 }

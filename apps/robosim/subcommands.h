@@ -14,6 +14,7 @@ void addRun(CLI::App& program);
 void addServe(CLI::App& program);
 void addRobot(CLI::App& program);
 void addGeometry(CLI::App& program);
+void addControl(CLI::App& program);
 void addCheck(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}

@@ -56,7 +56,7 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
     const std::lock_guard lock(mutex_);
     if (ending_) return;
     ending_ = true;
-    status_ = status;
+    status_ = {status.error_code(), fitForStatus(status.error_message())};
     if (!status.ok()) {
       posted_ = false;
       if (writing_) context_->TryCancel();

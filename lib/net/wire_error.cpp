@@ -2,6 +2,14 @@
 
 namespace robosim {
 
+std::string fitForStatus(const std::string& text) {
+  constexpr std::size_t kLongest = 2000;
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter of UTF-8
+  return text.substr(0, end) + " …";
+}
+
 void checkProtocol(std::uint32_t version) {
   if (version == kProtocolVersion) return;
   const std::string older = version < kProtocolVersion ? "the caller" : "the environment";

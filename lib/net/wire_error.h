@@ -16,6 +16,10 @@ class WireError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A text of any length, fit for the status with which a call ends: cut short after 2000 bytes, for gRPC drops a longer
+/// status and tells of that instead.
+std::string fitForStatus(const std::string& text);
+
 /// @throws WireError unless the peer speaks our version.
 void checkProtocol(std::uint32_t version);
 

@@ -1,12 +1,13 @@
 #include "server/environment_server.h"
 
+#include <algorithm>
 #include <map>
 
 #include <grpcpp/grpcpp.h>
 
+#include "server/control_panel_conversation.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
-#include "server/run_switch.h"
 #include "server/viewer_conversation.h"
 
 namespace robosim {
@@ -21,34 +22,71 @@ Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
 }
 
+/// How many steps a second the run takes of late.
+class StepRate {
+ public:
+  void note(Clock::time_point now) {
+    ++steps_;
+    const std::chrono::duration<double> passed = now - since_;
+    if (passed.count() < 1) return;
+    rate_ = static_cast<double>(steps_) / passed.count();
+    steps_ = 0;
+    since_ = now;
+  }
+  /// Nobody steps at the moment, and that time does not count.
+  void rest(Clock::time_point now) {
+    steps_ = 0;
+    since_ = now;
+  }
+  double stepsPerSecond() const { return rate_; }
+
+ private:
+  Clock::time_point since_ = Clock::now();
+  std::uint64_t steps_ = 0;
+  double rate_ = 0;
+};
+
 }  // namespace
 
 struct EnvironmentServer::Impl {
   Lobby lobby;
-  RunSwitch run_switch;
+  PanelDesk desk;
+  RunSwitch& run_switch = desk.run_switch;
   RobotConversation robots{lobby};
   ViewerConversation viewers{lobby};
   GeometryConversation geometry{lobby};
+  ControlPanelConversation panels{lobby};
   std::vector<std::unique_ptr<grpc::Server>> servers;
   std::vector<int> ports;
+  bool everyone_came = false;  ///< every networked robot has been here
+  bool is_over = false;
+  Clock::time_point due;  ///< when the next step is
+  StepRate rate;
 
   Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit) {
     lobby.log = options.log;
     lobby.step_deadline = options.step_deadline;
     lobby.pace = options.pace;
-    lobby.exhibit = std::move(exhibit);
+    lobby.access = options.access;
+    desk.describe = [](wire::RunStatus&) {};
     run_switch.is_paused = options.is_paused;
     run_switch.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
-    show();
-    listen(
-        {{options.listen.viewers, &viewers}, {options.listen.robots, &robots}, {options.listen.geometry, &geometry}});
+    show(std::move(exhibit));
+    listen(options, {{options.listen.viewers, &viewers},
+                     {options.listen.robots, &robots},
+                     {options.listen.geometry, &geometry},
+                     {options.listen.control, &panels}});
   }
 
   ~Impl() {
+    desk.describe = [](wire::RunStatus&) {};
+    sayGoodbye();  // a call that is never answered would be waited for
     for (const auto& server : servers) server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
   }
 
-  void show() {
+  void show(std::shared_ptr<const Exhibit> exhibit) {
+    const std::lock_guard lock(lobby.mutex);
+    lobby.exhibit = std::move(exhibit);
     robots.show();
     viewers.show();
     geometry.show();
@@ -61,14 +99,51 @@ struct EnvironmentServer::Impl {
     viewers.tell();
   }
 
+  /// Another world in place of the one that is run. What gRPC's threads are shown stays until they are shown the other.
+  void load(ServedRun& run, const WorldSource& source) {
+    const auto shown_until_now = run.exhibit();
+    run.load(source);
+    show(run.exhibit());
+    everyone_came = false;
+  }
+
+  void describe(const ServedRun& run, wire::RunStatus& status) const {
+    const Exhibit& exhibit = *run.exhibit();
+    const State& state = exhibit.environment.state();
+    const bool goes_on = everyone_came && run_switch.mayStep();
+    status.Clear();
+    status.set_phase(is_over          ? wire::ENDED
+                     : !everyone_came ? wire::WAITING
+                     : goes_on        ? wire::RUNNING
+                                      : wire::PAUSED);
+    status.set_world(exhibit.environment.world().name);
+    status.set_world_version(exhibit.world_version);
+    status.set_step(state.time.step);
+    status.set_time_s(state.time.seconds());
+    status.set_speed(run_switch.speed);
+    status.set_steps_per_s(goes_on ? rate.stepsPerSecond() : 0);
+    status.set_robots(static_cast<std::uint32_t>(exhibit.robot_names.size()));
+    status.set_robots_connected(static_cast<std::uint32_t>(robots.connected()));
+    constexpr std::size_t most_named = 100;
+    std::vector<std::string> absent = robots.absent();
+    absent.resize(std::min(absent.size(), most_named));
+    status.mutable_robots_absent()->Assign(absent.begin(), absent.end());
+    status.set_robots_active(
+        static_cast<std::uint32_t>(std::count(state.activity.begin(), state.activity.end(), Activity::active)));
+    status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
+    status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
+    status.set_late(robots.late());
+  }
+
   void sayGoodbye() {
+    panels.sayGoodbye(desk);
     robots.sayGoodbye();
     viewers.sayGoodbye();
     geometry.sayGoodbye();
   }
 
   /// A server for each address, with the services that are to be found there.
-  void listen(const std::vector<std::pair<std::string, grpc::Service*>>& services) {
+  void listen(const ServerOptions& options, const std::vector<std::pair<std::string, grpc::Service*>>& services) {
     std::map<std::string, std::vector<std::size_t>> at;
     for (std::size_t i = 0; i < services.size(); ++i) at[services[i].first].push_back(i);
     ports.resize(services.size());
@@ -77,7 +152,8 @@ struct EnvironmentServer::Impl {
       int port = 0;
       // Without this two environments could share a port unknowingly, and each robot reach either.
       builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-      builder.AddListeningPort(address, grpc::InsecureServerCredentials(), &port);
+      builder.AddListeningPort(address, options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(),
+                               &port);
       for (const auto i : indices) builder.RegisterService(services[i].second);
       auto server = builder.BuildAndStart();
       if (!server || port == 0) {
@@ -91,51 +167,49 @@ struct EnvironmentServer::Impl {
 
   /// Waits for the robots' answers and for the step's time, but no longer than a nap.
   /// @return whether it is time to step
-  bool isTimeToStep(Clock::time_point due) {
+  bool isTimeToStep() {
     const auto now = Clock::now();
     const auto until = due > now ? std::min(due, now + kNap) : now + kNap;
     std::unique_lock lock(lobby.mutex);
     const auto is_time = [&] { return Clock::now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
-    lobby.bell.wait_until(lock, until, [&] { return run_switch.stop || is_time(); });
+    lobby.bell.wait_until(lock, until, [&] { return panels.isAsked() || is_time(); });
     return is_time();
   }
 
   void nap() {
     std::unique_lock lock(lobby.mutex);
-    lobby.bell.wait_for(lock, kNap);
+    if (!panels.isAsked()) lobby.bell.wait_for(lock, kNap);
   }
 
-  bool stopAsked() {
-    const std::lock_guard lock(lobby.mutex);
-    return run_switch.stop;
+  /// Does what the control panels ask.
+  void obeyPanels() {
+    const double speed = run_switch.speed;
+    panels.obey(desk);
+    if (run_switch.speed != speed) due = Clock::now();
   }
 
-  bool mayStep() {
-    const std::lock_guard lock(lobby.mutex);
-    return run_switch.mayStep();
-  }
-
-  /// @param due when the step that was taken was due
-  /// @return when the next one is
-  Clock::time_point noteStep(Clock::time_point due, double period_s) {
-    const std::lock_guard lock(lobby.mutex);
+  void noteStep(double period_s) {
     if (run_switch.steps_left > 0) --run_switch.steps_left;
-    return run_switch.speed > 0 ? due + seconds(period_s / run_switch.speed) : due;
+    if (run_switch.speed > 0) due += seconds(period_s / run_switch.speed);
+    rate.note(Clock::now());
   }
 
-  bool serve(ServedRun& run, const std::function<bool()>& interrupted) {
-    bool everyone_came = false;
-    Clock::time_point due;
+  Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
+    desk.load = [&](const WorldSource& source) { load(run, source); };
+    desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
     while (!run.isOver()) {
-      if (interrupted() || stopAsked()) return false;
+      obeyPanels();
+      if (run_switch.stop) return Served::stopped;
+      if (interrupted()) return Served::interrupted;
       admit();
       if (!everyone_came) everyone_came = robots.everyoneCame();
-      if (!everyone_came || !mayStep()) {
+      if (!everyone_came || !run_switch.mayStep()) {
         nap();
         due = Clock::now();
+        rate.rest(due);
         continue;
       }
-      const bool is_time = isTimeToStep(due);
+      const bool is_time = isTimeToStep();
       if (!is_time || lobby.pace == Pace::realtime) robots.evictLate();
       if (!is_time) continue;
       robots.handOver(run.environment());
@@ -144,9 +218,9 @@ struct EnvironmentServer::Impl {
       run.stepped();
       robots.tell();
       viewers.tell();
-      due = noteStep(due, run.environment().time().period_s);
+      noteStep(run.environment().time().period_s);
     }
-    return true;
+    return Served::to_its_end;
   }
 };
 
@@ -157,10 +231,11 @@ EnvironmentServer::~EnvironmentServer() = default;
 
 std::vector<int> EnvironmentServer::ports() const { return impl_->ports; }
 
-bool EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
-  const bool is_over = impl_->serve(run, interrupted);
+Served EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
+  const Served how = impl_->serve(run, interrupted);
+  impl_->is_over = true;
   impl_->sayGoodbye();
-  return is_over;
+  return how;
 }
 
 }  // namespace robosim

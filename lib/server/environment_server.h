@@ -32,12 +32,22 @@ class ServedRun {
   virtual ~ServedRun() = default;
   virtual Environment& environment() = 0;
   /// What is shown of it.
-  virtual std::shared_ptr<const Exhibit> exhibit() = 0;
+  virtual std::shared_ptr<const Exhibit> exhibit() const = 0;
   /// Lets the environment's own controllers decide; just before a step.
   virtual void decide() = 0;
   /// A step was taken: records it, say.
   virtual void stepped() = 0;
   virtual bool isOver() const = 0;
+  /// Begins another run, with another world. Whoever holds the exhibit so far may go on looking at it.
+  /// @throws ConfigError when the world is no good; this run then goes on.
+  virtual void load(const WorldSource& world) = 0;
+};
+
+/// How serving came to its end.
+enum class Served {
+  to_its_end,   ///< the run's own
+  stopped,      ///< from a control panel
+  interrupted,  ///< by whoever started it
 };
 
 /// Shows one environment to its clients: robots, viewers, geometry workers and control panels; and lets it step, in
@@ -56,8 +66,7 @@ class EnvironmentServer {
 
   /// Waits for the networked robots, then steps until the run is over, a control panel stops it, or `interrupted` says
   /// so (asked 20 times a second at least); then says goodbye to everyone.
-  /// @return whether the run came to its own end
-  bool serve(ServedRun& run, const std::function<bool()>& interrupted);
+  Served serve(ServedRun& run, const std::function<bool()>& interrupted);
 
  private:
   struct Impl;

@@ -58,7 +58,6 @@ RawStream* GeometryConversation::Work(grpc::CallbackServerContext* context) {
 }
 
 void GeometryConversation::show() {
-  const std::lock_guard lock(lobby_.mutex);
   for (const auto& stream : streams_) stream->state = Stream::State::waiting;
   told_.assign(lobby_.exhibit->robot_names.size(), Command{});
 }

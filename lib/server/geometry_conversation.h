@@ -25,6 +25,7 @@ class GeometryConversation final : public wire::Geometry::WithRawCallbackMethod_
   RawStream* Work(grpc::CallbackServerContext*) override;
 
   /// Another world is shown from now on: every worker needs another replica.
+  /// Call with the lobby's mutex held, so that nobody meets one world's list with the other.
   void show();
   /// Sends the world to the workers that have come.
   void admit();

@@ -77,7 +77,6 @@ RawStream* RobotConversation::Drive(grpc::CallbackServerContext* context) {
 }
 
 void RobotConversation::show() {
-  const std::lock_guard lock(lobby_.mutex);
   while (!streams_.empty()) {
     expel(*streams_.back(), {grpc::StatusCode::ABORTED, "another world was loaded; connect anew"});
   }

@@ -24,6 +24,7 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
   RawStream* Drive(grpc::CallbackServerContext*) override;
 
   /// Another world is shown from now on: whoever drives robots of the last is told so, and hung up on.
+  /// Call with the lobby's mutex held, so that nobody meets one world's list with the other.
   void show();
   /// Welcomes the processes that have come, and sends them the readings of the step that stands.
   void admit();

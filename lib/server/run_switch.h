@@ -1,13 +1,10 @@
 #pragma once
 #include <cstdint>
-#include <functional>
-
-#include "server/lobby.h"
 
 namespace robosim {
 
-/// What the people at control panels want of the run: whether it goes on, how fast, and whether it ends. Asked from
-/// any thread; obeyed by the one that steps the environment. All is touched with the lobby's mutex held.
+/// What the people at control panels want of the run: whether it goes on, how fast, and whether it ends. Belongs to the
+/// thread that steps the environment.
 struct RunSwitch {
   bool is_paused = false;
   std::uint64_t steps_left = 0;  ///< to take although it is paused

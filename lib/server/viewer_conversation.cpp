@@ -91,7 +91,6 @@ RawStream* ViewerConversation::Watch(grpc::CallbackServerContext* context) {
 }
 
 void ViewerConversation::show() {
-  const std::lock_guard lock(lobby_.mutex);
   for (const auto& stream : streams_) stream->wants_world = true;
 }
 

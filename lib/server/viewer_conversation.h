@@ -21,6 +21,7 @@ class ViewerConversation final : public wire::Viewing::WithRawCallbackMethod_Wat
   RawStream* Watch(grpc::CallbackServerContext*) override;
 
   /// Another world is shown from now on: every viewer's next frame is a whole one.
+  /// Call with the lobby's mutex held, so that nobody meets one world's list with the other.
   void show();
   /// Sends the step that stands to whoever asks and has not seen it.
   void tell();
