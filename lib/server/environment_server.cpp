@@ -1,9 +1,11 @@
 #include "server/environment_server.h"
 
 #include <map>
+#include <optional>
 
 #include <grpcpp/grpcpp.h>
 
+#include "base/error_list.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
 #include "server/run_switch.h"
@@ -31,6 +33,7 @@ struct EnvironmentServer::Impl {
   GeometryConversation geometry{lobby};
   std::vector<std::unique_ptr<grpc::Server>> servers;
   std::vector<int> ports;
+  std::optional<std::vector<std::string>> waited_for;  ///< robots that had not come yet; nullopt: not asked yet
 
   Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit) {
     lobby.log = options.log;
@@ -49,6 +52,7 @@ struct EnvironmentServer::Impl {
   }
 
   void show() {
+    waited_for.reset();
     robots.show();
     viewers.show();
     geometry.show();
@@ -89,6 +93,18 @@ struct EnvironmentServer::Impl {
     }
   }
 
+  /// Whether all networked robots have been here; says who is missing, each time that changes.
+  bool isEveryoneHere() {
+    if (waited_for && waited_for->empty()) return true;
+    auto missing = robots.notYetHere();
+    if (missing == waited_for) return false;
+    const std::lock_guard lock(lobby.mutex);
+    if (!missing.empty()) lobby.log("waiting for " + listed(missing));
+    if (missing.empty() && waited_for) lobby.log("all robots are here");
+    waited_for = std::move(missing);
+    return waited_for->empty();
+  }
+
   /// Waits for the robots' answers and for the step's time, but no longer than a nap.
   /// @return whether it is time to step
   bool isTimeToStep(Clock::time_point due) {
@@ -124,13 +140,11 @@ struct EnvironmentServer::Impl {
   }
 
   bool serve(ServedRun& run, const std::function<bool()>& interrupted) {
-    bool everyone_came = false;
     Clock::time_point due;
     while (!run.isOver()) {
       if (interrupted() || stopAsked()) return false;
       admit();
-      if (!everyone_came) everyone_came = robots.everyoneCame();
-      if (!everyone_came || !mayStep()) {
+      if (!isEveryoneHere() || !mayStep()) {
         nap();
         due = Clock::now();
         continue;
