@@ -90,6 +90,11 @@ struct Encoder {
   }
 };
 
+void encode(const RobotMessage& letter, wire::InboxLetter& out) {
+  out.set_from(letter.from);
+  out.set_text(letter.text);
+}
+
 }  // namespace
 
 void encode(const Command& command, std::uint32_t robot, wire::RobotCommand& out) {
@@ -139,11 +144,14 @@ void encode(const Readings& readings, wire::RobotReadings& out) {
   for (const auto& measurement : readings.measurements) encode(measurement, *out.add_measurements());
   out.set_stalled(readings.stalled);
   out.set_laser_pan_rad(readings.laser_pan_rad);
-  for (const auto& message : readings.inbox) {
-    auto& letter = *out.add_inbox();
-    letter.set_from(message.from);
-    letter.set_text(message.text);
-  }
+  for (const auto& letter : readings.inbox) encode(letter, *out.add_inbox());
+}
+
+void encodeInbox(const std::vector<RobotMessage>& letters, wire::RobotReadings& out) {
+  const google::protobuf::RepeatedPtrField<wire::InboxLetter> later = out.inbox();
+  out.clear_inbox();
+  for (const auto& letter : letters) encode(letter, *out.add_inbox());
+  for (const auto& letter : later) *out.add_inbox() = letter;
 }
 
 void decode(const wire::RobotReadings& in, const std::string& to, Readings& out) {

@@ -46,6 +46,8 @@ void encode(const Measurement& measurement, wire::Measurement& out);
 void decode(const wire::Measurement& in, Measurement& out);
 
 void encode(const Readings& readings, wire::RobotReadings& out);
+/// Puts these letters before the ones that are in the inbox.
+void encodeInbox(const std::vector<RobotMessage>& letters, wire::RobotReadings& out);
 /// @param out holds measurements of the right kinds and sizes: blankReadings()
 /// @param to the robot's name, for its inbox
 void decode(const wire::RobotReadings& in, const std::string& to, Readings& out);

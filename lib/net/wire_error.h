@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include <grpcpp/support/status.h>
+
 namespace robosim {
 
 /// The version of the protocol that both ends must speak.
@@ -13,7 +15,12 @@ constexpr std::uint32_t kProtocolVersion = 1;
 /// else anything.
 class WireError : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit WireError(const std::string& what, grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT)
+      : std::runtime_error(what), code_(code) {}
+  grpc::StatusCode code() const { return code_; }
+
+ private:
+  grpc::StatusCode code_;
 };
 
 /// A text of any length, fit for the status with which a call ends: cut short after 2000 bytes, for gRPC drops a longer

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include <grpcpp/grpcpp.h>
 
+#include "base/error_list.h"
 #include "server/control_panel_conversation.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
@@ -58,7 +60,7 @@ struct EnvironmentServer::Impl {
   ControlPanelConversation panels{lobby};
   std::vector<std::unique_ptr<grpc::Server>> servers;
   std::vector<int> ports;
-  bool everyone_came = false;  ///< every networked robot has been here
+  std::optional<std::vector<std::string>> waited_for;  ///< robots that had not come yet; nullopt: not asked yet
   bool is_over = false;
   Clock::time_point due;  ///< when the next step is
   StepRate rate;
@@ -87,6 +89,7 @@ struct EnvironmentServer::Impl {
   void show(std::shared_ptr<const Exhibit> exhibit) {
     const std::lock_guard lock(lobby.mutex);
     lobby.exhibit = std::move(exhibit);
+    waited_for.reset();
     robots.show();
     viewers.show();
     geometry.show();
@@ -104,18 +107,16 @@ struct EnvironmentServer::Impl {
     const auto shown_until_now = run.exhibit();
     run.load(source);
     show(run.exhibit());
-    everyone_came = false;
+    isEveryoneHere();
   }
 
   void describe(const ServedRun& run, wire::RunStatus& status) const {
     const Exhibit& exhibit = *run.exhibit();
     const State& state = exhibit.environment.state();
-    const bool goes_on = everyone_came && run_switch.mayStep();
+    const bool waits = !waited_for || !waited_for->empty();
+    const bool goes_on = !waits && run_switch.mayStep();
     status.Clear();
-    status.set_phase(is_over          ? wire::ENDED
-                     : !everyone_came ? wire::WAITING
-                     : goes_on        ? wire::RUNNING
-                                      : wire::PAUSED);
+    status.set_phase(is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
     status.set_world(exhibit.environment.world().name);
     status.set_world_version(exhibit.world_version);
     status.set_step(state.time.step);
@@ -165,6 +166,18 @@ struct EnvironmentServer::Impl {
     }
   }
 
+  /// Whether all networked robots have been here; says who is missing, each time that changes.
+  bool isEveryoneHere() {
+    if (waited_for && waited_for->empty()) return true;
+    auto missing = robots.notYetHere();
+    if (missing == waited_for) return false;
+    const std::lock_guard lock(lobby.mutex);
+    if (!missing.empty()) lobby.log("waiting for " + listed(missing));
+    if (missing.empty() && waited_for) lobby.log("all robots are here");
+    waited_for = std::move(missing);
+    return waited_for->empty();
+  }
+
   /// Waits for the robots' answers and for the step's time, but no longer than a nap.
   /// @return whether it is time to step
   bool isTimeToStep() {
@@ -202,8 +215,7 @@ struct EnvironmentServer::Impl {
       if (run_switch.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       admit();
-      if (!everyone_came) everyone_came = robots.everyoneCame();
-      if (!everyone_came || !run_switch.mayStep()) {
+      if (!isEveryoneHere() || !run_switch.mayStep()) {
         nap();
         due = Clock::now();
         rate.rest(due);

@@ -28,8 +28,8 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
   void show();
   /// Welcomes the processes that have come, and sends them the readings of the step that stands.
   void admit();
-  /// Whether every networked robot has been here since show().
-  bool everyoneCame() const;
+  /// The networked robots that have not been here since show().
+  std::vector<std::string> notYetHere() const;
   /// Whether all that were told of this step have answered: call with the lobby's mutex held.
   bool allAnswered() const;
   /// Hangs up on whoever has let the deadline pass.
@@ -47,14 +47,23 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
 
  private:
   class Stream;
+  /// @name Called with the lobby's mutex held
+  ///@{
   void hello(Stream& stream, const wire::FromRobots& message);
-  void answer(Stream& stream, const wire::FromRobots& message);
+  void answer(Stream& stream);
   void leave(Stream& stream, const std::string& why);
   void expel(Stream& stream, const grpc::Status& status);
+  void hangUpOnSilent();
+  void ask(Stream& stream);  ///< it is about to be sent readings
+  ///@}
+  void sendWelcome(Stream& stream);
   void sendReadings(Stream& stream);
+  void holdLetters(Stream& stream);
 
   Lobby& lobby_;
+  std::vector<std::shared_ptr<Stream>> silent_;   ///< those that have not said hello, first come first
   std::vector<std::shared_ptr<Stream>> streams_;  ///< those whose hello was good
+  std::vector<std::shared_ptr<Stream>> told_;     ///< working memory of tell()
   std::vector<Stream*> driver_of_;                ///< by robot; null for nobody
   std::vector<std::uint8_t> has_been_here_;       ///< by robot
   std::vector<std::size_t> left_;                 ///< robots that are to stop
