@@ -99,7 +99,7 @@ class ControlPanelConversation::LoadCall final : public ReactingCall<grpc::Serve
       bytes_ += piece_.piece();
       StartRead(&piece_);
     } catch (const WireError& error) {
-      answer(badInput(error.what()));
+      answer({error.code(), error.what()});
     }
   }
 
@@ -130,7 +130,7 @@ class ControlPanelConversation::Watcher final : public ServerStream<wire::PanelR
     asks = true;
     owner_.lobby_.bell.notify_all();
   }
-  void refuse(const WireError& error) override { end(badInput(error.what())); }
+  void refuse(const WireError& error) override { end({error.code(), error.what()}); }
   void ended() override {
     const std::lock_guard lock(owner_.lobby_.mutex);
     std::erase_if(owner_.watchers_, [&](const auto& watcher) { return watcher.get() == this; });
@@ -155,7 +155,7 @@ grpc::ServerUnaryReactor* ControlPanelConversation::take(grpc::CallbackServerCon
   try {
     if (status.ok()) checkProtocol(protocol);
   } catch (const WireError& error) {
-    status = badInput(error.what());
+    status = {error.code(), error.what()};
   }
   if (status.ok()) {
     queue(call);

@@ -3,32 +3,14 @@
 #include <utility>
 
 #include "net/wire_error.h"
+#include "server/viewer.h"
 #include "server/world_wire.h"
 
 namespace robosim {
 namespace {
 
-/// What a viewer sees of a robot.
-struct Look {
-  mrpt::math::TPose2D world_from_robot;
-  float laser_pan_rad = 0;
-  bool stalled = false;
-  Activity activity = Activity::active;
-  bool operator==(const Look&) const = default;
-};
-
-Look lookOf(const State& state, std::size_t i) {
+RobotLook lookOf(const State& state, std::size_t i) {
   return {state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0, state.activity[i]};
-}
-
-void encode(const Look& look, std::size_t robot, wire::RobotView& out) {
-  out.set_robot(static_cast<std::uint32_t>(robot));
-  out.set_x_m(look.world_from_robot.x);
-  out.set_y_m(look.world_from_robot.y);
-  out.set_phi_rad(look.world_from_robot.phi);
-  out.set_laser_pan_rad(look.laser_pan_rad);
-  out.set_stalled(look.stalled);
-  out.set_activity(static_cast<wire::Activity>(look.activity));
 }
 
 }  // namespace
@@ -48,7 +30,7 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
 
   void refuse(const WireError& error) override {
     const std::lock_guard lock(owner_.lobby_.mutex);
-    hangUp({grpc::StatusCode::INVALID_ARGUMENT, error.what()});
+    hangUp({error.code(), error.what()});
   }
 
   void hangUp(const grpc::Status& status) {
@@ -71,7 +53,7 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
   bool asks = false;         ///< for a frame
   bool wants_world = true;   ///< the next frame is a whole one
   std::uint64_t step = 0;    ///< of the last frame sent
-  std::vector<Look> looked;  ///< what the viewer knows
+  std::vector<RobotLook> looked;  ///< what the viewer knows
 };
 
 ViewerConversation::ViewerConversation(Lobby& lobby) : lobby_(lobby) {}
@@ -115,7 +97,7 @@ void ViewerConversation::send(Stream& stream) {
   frame.set_time_s(state.time.seconds());
   stream.looked.resize(exhibit.robot_names.size());
   for (std::size_t i = 0; i < stream.looked.size(); ++i) {
-    const Look look = lookOf(state, i);
+    const RobotLook look = lookOf(state, i);
     if (look == stream.looked[i] && !stream.wants_world) continue;
     stream.looked[i] = look;
     encode(look, i, *frame.add_robots());
