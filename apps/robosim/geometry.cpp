@@ -1,6 +1,8 @@
 #include <iostream>
 
 #include "net/listen.h"
+#include "net/redial.h"
+#include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "server/geometry_worker.h"
 
@@ -10,11 +12,18 @@ namespace {
 struct Arguments {
   std::string environment = kDefaultListen;
   int threads = 1;
+  double patience_s = 10;
 };
 
 void work(const Arguments& arguments) {
-  workForEnvironment({.address = hostAndPort(arguments.environment)}, arguments.threads,
-                     [](const std::string& line) { std::cout << line << std::endl; });
+  DialOptions dial_options;
+  dial_options.address = hostAndPort(arguments.environment);
+  GeometryWorker worker(dial_options, arguments.threads);
+  worker.connect();
+  std::cout << "at work on the world " << worker.world().name << std::endl;
+  Redial redial(std::chrono::duration<double>(arguments.patience_s),
+                [](const std::string& line) { std::cerr << "robosim geometry: " + line + "\n"; });
+  redial.keepTalking([&] { worker.work(); }, [&] { worker.connect(); });
   std::cout << "the run is over" << std::endl;
 }
 
@@ -30,6 +39,7 @@ void addGeometry(CLI::App& program) {
   command->add_option("--threads", a->threads, "the run is the same for any number")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
+  addPatience(*command, a->patience_s);
   command->callback([a] { work(*a); });
 }
 
