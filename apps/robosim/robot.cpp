@@ -1,7 +1,10 @@
+#include <chrono>
 #include <iostream>
 
 #include "control/network_hardware.h"
 #include "maze/controllers.h"
+#include "net/redial.h"
+#include "robosim/arguments.h"
 #include "robosim/connection.h"
 #include "robosim/local_run.h"
 #include "robosim/subcommands.h"
@@ -13,6 +16,7 @@ struct Arguments {
   std::vector<std::string> names;
   ConnectionArguments connection;
   std::string controller;
+  double patience_s = 10;
 };
 
 struct Seat {
@@ -25,17 +29,36 @@ std::string controllerOf(const NetworkHardware& robots, std::size_t i, const std
   return robots.controller(i).empty() ? kDefaultController : robots.controller(i);
 }
 
-void driveRobots(const Arguments& arguments) {
-  NetworkHardware robots(arguments.connection.dialOptions(), arguments.names);
-  std::vector<Seat> seats;
-  for (std::size_t i = 0; i < arguments.names.size(); ++i) {
-    const ControllerSetup setup{robots.seed(), static_cast<std::uint32_t>(robots.place(i))};
-    seats.push_back({Robot(robots.robot(i)), makeController(controllerOf(robots, i, arguments.controller), setup)});
+/// The robots of this process, and who drives them.
+class Crew {
+ public:
+  Crew(const DialOptions& dial_options, const Arguments& arguments) : robots_(arguments.connection.dialOptions(), arguments.names) {
+    for (std::size_t i = 0; i < arguments.names.size(); ++i) {
+      const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
+      seats_.push_back(
+          {Robot(robots_.robot(i)), makeController(controllerOf(robots_, i, arguments.controller), setup)});
+    }
   }
-  do {
-    for (auto& seat : seats) seat.controller->step(seat.robot);
-  } while (robots.nextStep());
-  std::cout << "the run is over after " << seats.front().robot.stepNumber() << " steps" << std::endl;
+
+  void drive() {
+    do {
+      for (auto& seat : seats_) seat.controller->step(seat.robot);
+    } while (robots_.nextStep());
+  }
+  void rejoin() { robots_.rejoin(); }
+  std::uint64_t stepNumber() const { return seats_.front().robot.stepNumber(); }
+
+ private:
+  NetworkHardware robots_;
+  std::vector<Seat> seats_;
+};
+
+void driveRobots(const Arguments& arguments) {
+  Crew crew(arguments.connection.dialOptions(), arguments);
+  Redial redial(std::chrono::duration<double>(arguments.patience_s),
+                [](const std::string& line) { std::cerr << "robosim robot: " + line + "\n"; });
+  redial.keepTalking([&] { crew.drive(); }, [&] { crew.rejoin(); });
+  std::cout << "the run is over after " << crew.stepNumber() << " steps" << std::endl;
 }
 
 }  // namespace
@@ -47,6 +70,7 @@ void addRobot(CLI::App& program) {
   addConnectionOptions(*command, a->connection);
   command->add_option("--controller", a->controller, "for all these robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
+  addPatience(*command, a->patience_s);
   command->callback([a] { driveRobots(*a); });
 }
 

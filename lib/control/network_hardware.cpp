@@ -1,7 +1,6 @@
 #include "control/network_hardware.h"
 
 #include <algorithm>
-#include <optional>
 #include <unordered_set>
 
 #include "net/robot_wire.h"
@@ -18,7 +17,10 @@ class FarRobot final : public Hardware {
 
   const RobotInfo& info() const override { return info_; }
   const Readings& readings() const override { return readings_; }
-  void command(const Command& command) override { command_ = command; }
+  void command(const Command& command) override {
+    command_ = command;
+    is_command_new_ = was_commanded_ = true;
+  }
   void send(const std::string& to, const std::string& text) override {
     if (!everyone_.contains(to)) {
       throw std::invalid_argument("a message from '" + info_.name + "' to '" + to +
@@ -34,10 +36,13 @@ class FarRobot final : public Hardware {
 
   Readings& mutableReadings() { return readings_; }
 
+  /// The environment has let the robot stop meanwhile, and its controller may still count on its last command.
+  void commandAgain() { is_command_new_ = was_commanded_; }
+
   /// Adds what it was told to an answer, and forgets it.
   void flush(std::uint32_t index, wire::FromRobots& out) {
-    if (command_) encode(*command_, index, *out.add_commands());
-    command_.reset();
+    if (is_command_new_) encode(command_, index, *out.add_commands());
+    is_command_new_ = false;
     for (auto& letter : letters_) {
       auto& sent = *out.add_letters();
       sent.set_robot(index);
@@ -54,17 +59,25 @@ class FarRobot final : public Hardware {
   RobotInfo info_;
   const std::unordered_set<std::string>& everyone_;
   Readings readings_;
-  std::optional<Command> command_;
+  Command command_;
+  bool is_command_new_ = false;
+  bool was_commanded_ = false;
   std::vector<Letter> letters_;
 };
 
 }  // namespace
 
 struct NetworkHardware::Impl {
+  /// One connection; gRPC's context serves for one call only.
+  struct Call {
+    grpc::ClientContext context;
+    std::unique_ptr<grpc::ClientReaderWriter<wire::FromRobots, wire::ToRobots>> stream;
+  };
+
   DialOptions dialled;
+  std::vector<std::string> names;
   std::unique_ptr<wire::Robots::Stub> stub;
-  grpc::ClientContext context;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FromRobots, wire::ToRobots>> stream;
+  std::unique_ptr<Call> call;  ///< null when there is no connection
   wire::FromRobots out;
   wire::ToRobots in;
   RobotsWelcome welcome;
@@ -72,32 +85,54 @@ struct NetworkHardware::Impl {
   std::vector<std::unique_ptr<FarRobot>> robots;
   std::uint64_t step = 0;
 
-  Impl(const DialOptions& options, const std::vector<std::string>& names)
-      : dialled(options), stub(wire::Robots::NewStub(dial(options))) {
-    showToken(context, options);
-    stream = stub->Drive(&context);
-    auto& hello = *out.mutable_hello();
-    hello.set_protocol(kProtocolVersion);
-    for (const auto& name : names) hello.add_names(name);
-    stream->Write(out);
-    out.clear_hello();
-    if (!stream->Read(&in)) fail();
-    welcome = decode(in.welcome());
-    if (welcome.seats.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
+  Impl(const DialOptions& options, const std::vector<std::string>& the_names)
+      : dialled(options), names(the_names), stub(wire::Robots::NewStub(dial(options))) {
+    welcome = join("");
     everyone.insert(welcome.everyone.begin(), welcome.everyone.end());
     for (const auto& seat : welcome.seats) robots.push_back(std::make_unique<FarRobot>(seat.info, everyone));
-    if (!readStep()) fail();
+    readFirstStep();
   }
 
-  ~Impl() {
-    if (!stream) return;
-    context.TryCancel();
-    stream->Finish();
+  ~Impl() { hangUp(); }
+
+  void hangUp() {
+    if (!call) return;
+    call->context.TryCancel();
+    call->stream->Finish();
+    call.reset();
+  }
+
+  /// Says hello, and is welcomed.
+  RobotsWelcome join(const std::string& world_version) {
+    call = std::make_unique<Call>();
+    showToken(call->context, dialled);
+    call->stream = stub->Drive(&call->context);
+    wire::FromRobots first;
+    auto& hello = *first.mutable_hello();
+    hello.set_protocol(kProtocolVersion);
+    hello.set_world_version(world_version);
+    for (const auto& name : names) hello.add_names(name);
+    call->stream->Write(first);
+    if (!call->stream->Read(&in)) fail();
+    RobotsWelcome welcomed = decode(in.welcome());
+    if (welcomed.seats.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
+    return welcomed;
+  }
+
+  void rejoin() {
+    hangUp();
+    const std::uint64_t last_step = step;
+    const RobotsWelcome again = join(welcome.world_version);
+    readFirstStep();
+    if (step < last_step || again.seed != welcome.seed || again.period_s != welcome.period_s) {
+      fail({grpc::StatusCode::ABORTED, "another run has begun there; start the robots' program anew"});
+    }
+    for (auto& robot : robots) robot->commandAgain();
   }
 
   /// @return false when the stream has ended
   bool readStep() {
-    if (!stream->Read(&in)) return false;
+    if (!call->stream->Read(&in)) return false;
     if (static_cast<std::size_t>(in.robots_size()) != robots.size()) {
       throw WireError("readings of " + std::to_string(in.robots_size()) + " robots for " +
                       std::to_string(robots.size()));
@@ -111,16 +146,24 @@ struct NetworkHardware::Impl {
     return true;
   }
 
+  void readFirstStep() {
+    if (!readStep()) fail();
+  }
+
   grpc::Status finish() {
-    const grpc::Status status = stream->Finish();
-    stream.reset();
+    const grpc::Status status = call->stream->Finish();
+    call.reset();
     return status;
+  }
+
+  [[noreturn]] void fail(const grpc::Status& status) {
+    hangUp();
+    throw ConnectionError(status, dialled);
   }
 
   [[noreturn]] void fail() {
     const grpc::Status status = finish();
-    if (status.ok()) throw ConnectionError({grpc::StatusCode::UNAVAILABLE, "the run is over"}, dialled);
-    throw ConnectionError(status, dialled);
+    fail(status.ok() ? grpc::Status(grpc::StatusCode::CANCELLED, "the run is over") : status);
   }
 
   bool nextStep() {
@@ -129,10 +172,10 @@ struct NetworkHardware::Impl {
     out.clear_letters();
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
     // A stream that has broken says why when it is read.
-    stream->Write(out);
+    call->stream->Write(out);
     if (readStep()) return true;
     const grpc::Status status = finish();
-    if (!status.ok()) throw ConnectionError(status, dialled);
+    if (!status.ok()) fail(status);
     return false;
   }
 };
@@ -147,5 +190,6 @@ std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.
 const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.seats[i].controller; }
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }
+void NetworkHardware::rejoin() { impl_->rejoin(); }
 
 }  // namespace robosim

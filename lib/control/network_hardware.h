@@ -32,8 +32,13 @@ class NetworkHardware {
 
   /// Sends what the robots were told since the last step, and waits for the next step's readings.
   /// @return false when the run is over
-  /// @throws ConnectionError when the environment hangs up, or is gone.
+  /// @throws ConnectionError when the environment hangs up, or is gone. Then rejoin(), or give up.
   bool nextStep();
+
+  /// Connects anew under the same names, and waits for the readings of the step that stands: the robots and whoever
+  /// holds them go on as if a few steps had been missed. What robots had said since the last step is said again.
+  /// @throws ConnectionError as the constructor, and when another world or another run is there now.
+  void rejoin();
 
  private:
   struct Impl;

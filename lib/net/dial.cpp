@@ -29,6 +29,11 @@ std::string told(const grpc::Status& status, const DialOptions& dialled) {
 ConnectionError::ConnectionError(const grpc::Status& status, const DialOptions& dialled)
     : std::runtime_error(told(status, dialled)), code_(status.error_code()) {}
 
+bool ConnectionError::mayPass() const {
+  return code_ == grpc::StatusCode::UNAVAILABLE || code_ == grpc::StatusCode::DEADLINE_EXCEEDED ||
+         code_ == grpc::StatusCode::ALREADY_EXISTS;
+}
+
 std::shared_ptr<grpc::Channel> dial(const DialOptions& options) {
   if (!options.token.empty() && !options.tls && !options.insecure && !isLoopback(options.address)) {
     throw ConfigError("the token would go to " + options.address +
@@ -36,6 +41,11 @@ std::shared_ptr<grpc::Channel> dial(const DialOptions& options) {
   }
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(-1);  // what the environment sends is as large as its world
+  // gRPC would wait longer and longer before it tries a broken connection again, up to two minutes.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   if (!options.tls) return grpc::CreateCustomChannel(options.address, grpc::InsecureChannelCredentials(), arguments);
   grpc::SslCredentialsOptions trust;
   trust.pem_root_certs = options.trusted_pem;

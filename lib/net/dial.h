@@ -7,6 +7,11 @@
 
 namespace robosim {
 
+/// After so long without a word each end of a connection asks whether the other's machine is still there, and after as
+/// long again takes it for dead. (A process that has died is noticed at once, and one that stalls by the step
+/// deadline.)
+constexpr int kKeepaliveMs = 20000;
+
 /// Whom a client calls, and how.
 struct DialOptions {
   std::string address = "127.0.0.1:3000";  ///< "host:port"
@@ -21,6 +26,9 @@ class ConnectionError : public std::runtime_error {
  public:
   ConnectionError(const grpc::Status& status, const DialOptions& dialled);
   grpc::StatusCode code() const { return code_; }
+  /// Whether another call may fare better, with nothing mended: the connection broke, the caller was too late for a
+  /// step, or its robots are still held by a connection of before.
+  bool mayPass() const;
 
  private:
   grpc::StatusCode code_;

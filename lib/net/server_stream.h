@@ -85,6 +85,7 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
       posted_ = false;
       writing_ = true;
       bool owns_bytes = false;
+      bytes_written_.Clear();
       grpc::SerializationTraits<Out>::Serialize(draft_, &bytes_written_, &owns_bytes);
       StartWrite(&bytes_written_);
     } else if (ending_) {

@@ -7,6 +7,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "base/error_list.h"
+#include "net/dial.h"
 #include "server/control_panel_conversation.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
@@ -153,6 +154,10 @@ struct EnvironmentServer::Impl {
       int port = 0;
       // Without this two environments could share a port unknowingly, and each robot reach either.
       builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+      builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+      // Clients may ask as often; unless told, gRPC would hang up on them for it.
+      builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kKeepaliveMs / 2);
+      builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
       builder.AddListeningPort(address, options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(),
                                &port);
       for (const auto i : indices) builder.RegisterService(services[i].second);

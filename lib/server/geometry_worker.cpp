@@ -51,30 +51,77 @@ void doTask(const wire::Task& task, Environment& environment) {
 
 }  // namespace
 
-void workForEnvironment(const DialOptions& dial_options, int threads,
-                        const std::function<void(const std::string&)>& log) {
-  const auto stub = wire::Geometry::NewStub(dial(dial_options));
-  grpc::ClientContext context;
-  showToken(context, dial_options);
-  const auto stream = stub->Work(&context);
-  wire::FromWorker out;
-  out.mutable_hello()->set_protocol(kProtocolVersion);
-  stream->Write(out);
-  out.Clear();
+struct GeometryWorker::Impl {
+  /// One connection; gRPC's context serves for one call only.
+  struct Call {
+    grpc::ClientContext context;
+    std::unique_ptr<grpc::ClientReaderWriter<wire::FromWorker, wire::ToWorker>> stream;
+  };
 
-  std::unique_ptr<Environment> replica;
+  DialOptions dialled;
+  int threads;
+  std::unique_ptr<wire::Geometry::Stub> stub;
+  std::unique_ptr<Call> call;  ///< null when there is no connection
+  wire::FromWorker out;
   wire::ToWorker in;
-  while (stream->Read(&in)) {
-    if (in.has_replica()) {
-      replica = replicaOf(in.replica(), threads);
-      out.set_world_version(versionOf(decode(in.replica().world())));
-      stream->Write(out);
-      out.Clear();
-      log("the world " + replica->world().name + " stands, with " + std::to_string(replica->robotCount()) + " robots");
-      continue;
+  std::unique_ptr<Environment> replica;
+
+  Impl(const DialOptions& options, int the_threads)
+      : dialled(options), threads(the_threads), stub(wire::Geometry::NewStub(dial(options))) {}
+
+  ~Impl() { hangUp(); }
+
+  void hangUp() {
+    if (!call) return;
+    call->context.TryCancel();
+    call->stream->Finish();
+    call.reset();
+  }
+
+  void connect() {
+    hangUp();
+    call = std::make_unique<Call>();
+    showToken(call->context, dialled);
+    call->stream = stub->Work(&call->context);
+    out.Clear();
+    out.mutable_hello()->set_protocol(kProtocolVersion);
+    call->stream->Write(out);
+    if (!call->stream->Read(&in)) {
+      finish();
+      throw ConnectionError({grpc::StatusCode::CANCELLED, "the run is over"}, dialled);
     }
-    if (!replica) throw WireError("the environment gave a task before a world");
-    doTask(in.task(), *replica);
+    build();
+  }
+
+  /// @throws ConnectionError unless the run has come to its end.
+  void finish() {
+    const grpc::Status status = call->stream->Finish();
+    call.reset();
+    if (!status.ok()) throw ConnectionError(status, dialled);
+  }
+
+  void build() {
+    if (!in.has_replica()) throw WireError("the environment gave a task before a world");
+    replica = replicaOf(in.replica(), threads);
+    out.Clear();
+    out.set_world_version(versionOf(decode(in.replica().world())));
+    call->stream->Write(out);
+    out.Clear();
+  }
+
+  void work() {
+    while (call->stream->Read(&in)) {
+      if (in.has_replica()) {
+        build();
+      } else {
+        doTask(in.task(), *replica);
+        answer();
+      }
+    }
+    finish();
+  }
+
+  void answer() {
     auto& result = *out.mutable_result();
     result.set_step(in.task().step());
     result.set_part(in.task().part());
@@ -86,12 +133,19 @@ void workForEnvironment(const DialOptions& dial_options, int threads,
       const auto many = std::max<std::size_t>(1, kPieceBytes / std::max<std::size_t>(1, result.ByteSizeLong()));
       result.set_end(static_cast<std::uint32_t>(std::min<std::size_t>(begin + many, in.task().end())));
       encode(*replica, result);
-      stream->Write(out);
+      call->stream->Write(out);
       begin = result.end();
     }
   }
-  const grpc::Status status = stream->Finish();
-  if (!status.ok()) throw ConnectionError(status, dial_options);
-}
+};
+
+GeometryWorker::GeometryWorker(const DialOptions& dial_options, int threads)
+    : impl_(std::make_unique<Impl>(dial_options, threads)) {}
+
+GeometryWorker::~GeometryWorker() = default;
+
+void GeometryWorker::connect() { impl_->connect(); }
+void GeometryWorker::work() { impl_->work(); }
+const World& GeometryWorker::world() const { return impl_->replica->world(); }
 
 }  // namespace robosim
