@@ -32,7 +32,7 @@ std::string controllerOf(const NetworkHardware& robots, std::size_t i, const std
 /// The robots of this process, and who drives them.
 class Crew {
  public:
-  Crew(const DialOptions& dial_options, const Arguments& arguments) : robots_(arguments.connection.dialOptions(), arguments.names) {
+  Crew(const DialOptions& dial_options, const Arguments& arguments) : robots_(dial_options, arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
       seats_.push_back(

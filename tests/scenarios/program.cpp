@@ -81,6 +81,7 @@ void StartedProgram::signal(int number) {
   if (isRunning()) kill(process_, number);
 }
 
+std::string StartedProgram::output() const { return textOf(stem_ + ".out"); }
 std::string StartedProgram::error() const { return textOf(stem_ + ".err"); }
 
 void StartedProgram::waitFor(const char* stream, const std::string& text) {

@@ -35,7 +35,8 @@ class StartedProgram {
   void waitForOutput(const std::string& text) { waitFor(".out", text); }
   void waitForError(const std::string& text) { waitFor(".err", text); }
   ///@}
-  std::string error() const;  ///< standard error so far
+  std::string output() const;  ///< standard output so far
+  std::string error() const;   ///< standard error so far
   Ended wait();
 
  private:
