@@ -16,6 +16,20 @@
 namespace robosim {
 namespace {
 
+constexpr const char* kSession =
+    "A session in three terminals:\n"
+    "  robosim serve worlds/small_maze.xml --wait-for-robots --speed 10\n"
+    "  robosim robot Pioneer1 Scout1\n"
+    "  robosim control status --watch       (also: pause, step 10, start, speed 2, load FILE, stop)\n"
+    "The same from another machine: make a certificate and a token for each client,\n"
+    "  openssl req -x509 -newkey rsa:2048 -nodes -keyout key.pem -out cert.pem -days 365 \\\n"
+    "      -subj /CN=sim -addext subjectAltName=DNS:sim.example.org\n"
+    "  (umask 077; echo \"$(openssl rand -hex 16) operator\" >tokens)\n"
+    "  robosim serve WORLD --listen 0.0.0.0:3000 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
+    "and there, with cert.pem and the token alone in a file of mode 600:\n"
+    "  robosim control sim.example.org:3000 status --tls-ca cert.pem --token-file token\n"
+    "With a control panel's load the next run begins; its recording and picture get a number: run_2.rawlog.\n";
+
 struct Arguments {
   RunArguments of_run;
   bool wait_for_robots = false;
@@ -205,7 +219,7 @@ void addServe(CLI::App& program) {
       ->type_name("FILE")
       ->check(fileName());
   command->add_flag("--insecure", a->insecure, "listen to other machines also without TLS and tokens");
-  command->footer(controllersHelp());
+  command->footer(std::string(kSession) + "\n" + controllersHelp());
   command->callback([a] { serveWorld(*a); });
 }
 

@@ -9,6 +9,10 @@ namespace robosim {
 namespace {
 
 std::string told(const grpc::Status& status, const DialOptions& dialled) {
+  if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
+    return "the environment at " + dialled.address +
+           " has nothing of the kind; is this the port for what you want of it? (serve --listen viewers=…,robots=…)";
+  }
   if (status.error_code() != grpc::StatusCode::UNAVAILABLE) {
     return "the environment at " + dialled.address + ": " + status.error_message();
   }
@@ -21,7 +25,7 @@ std::string told(const grpc::Status& status, const DialOptions& dialled) {
   }
   return "no environment answers at " + dialled.address + " (" + status.error_message() +
          "); is 'robosim serve' running, and is this its address?" +
-         (dialled.tls ? "" : " If it is started with --tls-cert, add --tls-ca");
+         (dialled.tls ? "" : " And if it is started with --tls-cert, add --tls-ca");
 }
 
 }  // namespace

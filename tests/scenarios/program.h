@@ -35,7 +35,8 @@ class StartedProgram {
   void waitForOutput(const std::string& text) { waitFor(".out", text); }
   void waitForError(const std::string& text) { waitFor(".err", text); }
   ///@}
-  std::string error() const;  ///< standard error so far
+  std::string output() const;  ///< standard output so far
+  std::string error() const;   ///< standard error so far
   Ended wait();
 
  private:
@@ -49,6 +50,9 @@ class StartedProgram {
 
 /// A new, empty folder of the running test's own.
 std::filesystem::path emptyFolder();
+
+/// How often a text has another in it.
+std::size_t countOf(const std::string& part, const std::string& text);
 
 std::string textOf(const std::filesystem::path& file);
 
