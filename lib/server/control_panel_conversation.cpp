@@ -29,7 +29,8 @@ void checkSpeed(double speed, Pace pace) {
     throw WireError("at the pace of real time a run cannot go as fast as it can; give a speed, 1 being real time");
   }
   if (speed == 0 || (speed >= 0.001 && speed <= 1e6)) return;
-  throw WireError("a speed of " + std::to_string(speed) + "; must lie in [0.001, 1000000], or be 0 for as fast as it can");
+  throw WireError("a speed of " + std::to_string(speed) +
+                  "; must lie in [0.001, 1000000], or be 0 for as fast as it can");
 }
 
 }  // namespace

@@ -40,7 +40,8 @@ class ControlPanelConversation final : public ControlPanelService {
   grpc::ServerUnaryReactor* Start(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Pause(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Step(grpc::CallbackServerContext*, const wire::StepRequest*, wire::RunStatus*) override;
-  grpc::ServerUnaryReactor* SetSpeed(grpc::CallbackServerContext*, const wire::SpeedRequest*, wire::RunStatus*) override;
+  grpc::ServerUnaryReactor* SetSpeed(grpc::CallbackServerContext*, const wire::SpeedRequest*,
+                                     wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Status(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   RawStream* Watch(grpc::CallbackServerContext*) override;
