@@ -35,6 +35,13 @@ CLI::Validator fileName() {
   return {[](std::string& text) -> std::string { return text.empty() ? "the file's name is empty" : ""; }, ""};
 }
 
+void addPatience(CLI::App& command, double& patience_s) {
+  command.add_option("--patience", patience_s, "how long to call again when the connection breaks")
+      ->check(numberIn(0, 1e6))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+}
+
 void refuseSameFile(const std::vector<std::pair<std::string, std::filesystem::path>>& files) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {

@@ -15,6 +15,9 @@ CLI::Validator seedNumber();
 /// Refuses an empty text, as an unset shell variable leaves behind.
 CLI::Validator fileName();
 
+/// Adds `--patience SECONDS`: how long a client calls again when its connection breaks.
+void addPatience(CLI::App& command, double& patience_s);
+
 /// Refuses that two of a command's files are one and the same, so that none is written over another.
 /// @param files what each is, as the user knows it, and its path; empty paths count for nothing
 /// @throws ConfigError

@@ -9,6 +9,16 @@
 #include "maze/controllers.h"
 
 namespace robosim {
+namespace {
+
+void checkToRun(const LoadedWorld& world, const std::string& file, const std::string& instead) {
+  ErrorList errors;
+  checkControllers(world, file, instead, errors);
+  errors.throwIfAny();
+  if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+}
+
+}  // namespace
 
 std::string controllerOf(const FleetRobot& robot, const std::string& instead) {
   if (!instead.empty()) return instead;
@@ -35,10 +45,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
   LoadedWorld world = loadWorld(file, controllerNames());
-  ErrorList errors;
-  checkControllers(world, file, instead, errors);
-  errors.throwIfAny();
-  if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+  checkToRun(world, file, instead);
 #ifdef __GLIBC__
   // Reading a file takes several times the memory of the world that comes of it. It is free by now, but strewn with
   // what is kept, so that the process would hold on to it.
@@ -47,11 +54,18 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) 
   return world;
 }
 
-LocalRun::LocalRun(LoadedWorld world, const RunOptions& options)
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead) {
+  LoadedWorld world = loadWorld(source, controllerNames());
+  checkToRun(world, source.file, instead);
+  return world;
+}
+
+LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
     : environment_(std::move(world.world), std::move(world.fleet), options.environment),
       workers_(options.environment.threads) {
   const auto& robots = environment_.fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (!elsewhere.empty() && elsewhere[i]) continue;
     const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
     seats_.push_back(
         std::make_unique<Seat>(environment_, i, makeController(controllerOf(robots[i], options.controller), setup)));
@@ -59,10 +73,14 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options)
 }
 
 void LocalRun::step() {
-  constexpr std::size_t kChunk = 16;
-  workers_.forEach(seats_.size(), kChunk, [&](std::size_t i) { seats_[i]->controller->step(seats_[i]->robot); });
+  decide();
   environment_.step();
   noteOutcome();
+}
+
+void LocalRun::decide() {
+  constexpr std::size_t kChunk = 16;
+  workers_.forEach(seats_.size(), kChunk, [&](std::size_t i) { seats_[i]->controller->step(seats_[i]->robot); });
 }
 
 void LocalRun::noteOutcome() {

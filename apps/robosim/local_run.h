@@ -9,6 +9,7 @@
 #include "environment/environment.h"
 #include "environment/local_hardware.h"
 #include "robots/fleet.h"
+#include "robots/world_source.h"
 
 namespace robosim {
 
@@ -32,6 +33,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 /// Reads a world that is to be run: as loadWorld(), with checkControllers(), and there must be a robot.
 /// @throws ConfigError with every fault found.
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead);
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead);
 
 /// When and by whom the gold was found, and when all had stopped; simulated seconds.
 struct GoldOutcome {
@@ -40,15 +42,22 @@ struct GoldOutcome {
   std::optional<double> all_halted_s;
 };
 
-/// An environment and the controllers of all its robots in this process: where the two towers of the house meet.
+/// An environment and the controllers of its robots in this process: where the two towers of the house meet.
 class LocalRun {
  public:
+  /// @param elsewhere by robot: whether something outside of this process drives it; empty for none
   /// @throws ConfigError for an unknown controller.
-  LocalRun(LoadedWorld world, const RunOptions& options);
+  LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 
   /// Lets every controller decide, then takes one time step.
   void step();
+  /// @name The same in parts, for whoever has the environment step
+  ///@{
+  void decide();
+  void noteOutcome();  ///< after the step
+  ///@}
 
+  Environment& environment() { return environment_; }
   const Environment& environment() const { return environment_; }
   const GoldOutcome& gold() const { return gold_; }
 
@@ -60,7 +69,6 @@ class LocalRun {
     Seat(Environment& environment, std::size_t i, std::unique_ptr<Controller> c)
         : hardware(environment, i), robot(hardware), controller(std::move(c)) {}
   };
-  void noteOutcome();
 
   Environment environment_;
   Workers workers_;

@@ -27,6 +27,10 @@ int main(int argc, char** argv) {
       "Try:  robosim run worlds/opho2_1.xml --picture run.png\n"
       "Exit: 0 done, 1 bad input, 2 the run itself failed.");
   robosim::addRun(program);
+  robosim::addServe(program);
+  robosim::addRobot(program);
+  robosim::addGeometry(program);
+  robosim::addControl(program);
   robosim::addCheck(program);
   robosim::addBench(program);
 

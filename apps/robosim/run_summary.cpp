@@ -15,6 +15,8 @@ const char* nameOf(EndedBy why) {
       return "time_limit";
     case EndedBy::interrupt:
       return "interrupt";
+    case EndedBy::control_panel:
+      return "control_panel";
   }
   return "";
 }
@@ -30,6 +32,7 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
   if (gold.all_halted_s) text += "; all robots halted after " + fixed(*gold.all_halted_s, 1) + " s";
   if (why == EndedBy::time_limit) text += "; ended by the time limit";
   if (why == EndedBy::interrupt) text += "; ended by an interrupt";
+  if (why == EndedBy::control_panel) text += "; ended from a control panel";
   return text;
 }
 
@@ -66,20 +69,22 @@ nlohmann::ordered_json RunSummary::json() const {
           {"all_halted_time_s", orNull(gold.all_halted_s)},
           {"driven_m", driven_m},
           {"stalls", stalls},
-          {"messages", messages}};
+          {"messages", messages},
+          {"late", orNull(late)}};
 }
 
 std::string RunSummary::text() const {
-  return world + ": " + sentenceOn(gold, ended_by) + "\n" +
-         listing({{"robots", std::to_string(robots)},
-                  {"simulated", fixed(sim_time_s, 1) + " s in " + withCommas(steps) + " steps"},
-                  {"took", fixed(wall_s, 3) + " s, " + withCommas(static_cast<std::uint64_t>(realTimeFactor())) +
-                               " times real time"},
-                  {"driven", fixed(driven_m, 1) + " m"},
-                  {"stalls", withCommas(stalls)},
-                  {"messages", withCommas(messages)},
-                  {"seed", std::to_string(seed)},
-                  {"digest", digest}});
+  Rows rows{{"robots", std::to_string(robots)},
+            {"simulated", fixed(sim_time_s, 1) + " s in " + withCommas(steps) + " steps"},
+            {"took",
+             fixed(wall_s, 3) + " s, " + withCommas(static_cast<std::uint64_t>(realTimeFactor())) + " times real time"},
+            {"driven", fixed(driven_m, 1) + " m"},
+            {"stalls", withCommas(stalls)},
+            {"messages", withCommas(messages)}};
+  if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
+  rows.push_back({"seed", std::to_string(seed)});
+  rows.push_back({"digest", digest});
+  return world + ": " + sentenceOn(gold, ended_by) + "\n" + listing(rows);
 }
 
 }  // namespace robosim

@@ -11,12 +11,17 @@ enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 2 };
 /// input, anything else for a run that failed.
 ///@{
 void addRun(CLI::App& program);
+void addServe(CLI::App& program);
+void addRobot(CLI::App& program);
+void addGeometry(CLI::App& program);
+void addControl(CLI::App& program);
 void addCheck(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 
-/// `robosim bench gold` and `robosim bench speed`
+/// `robosim bench gold`, `robosim bench network` and `robosim bench speed`
 void addBenchGold(CLI::App& bench);
+void addBenchNetwork(CLI::App& bench);
 void addBenchSpeed(CLI::App& bench);
 
 /// The way for a subcommand to end with a code of its own, after it has said why.

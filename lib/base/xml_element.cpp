@@ -129,7 +129,7 @@ XmlElement parseXml(const std::string& text, const std::string& file) {
   return copied(*document.RootElement(), file);
 }
 
-XmlElement readXmlFile(const std::filesystem::path& file) {
+std::string readXmlText(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   const std::string name = file.string();
@@ -146,8 +146,10 @@ XmlElement readXmlFile(const std::filesystem::path& file) {
                         " MiB, the most that is read; is it a world file?");
     }
   }
-  return parseXml(text, name);
+  return text;
 }
+
+XmlElement readXmlFile(const std::filesystem::path& file) { return parseXml(readXmlText(file), file.string()); }
 
 std::string toXml(const XmlElement& root) {
   IndentedByTwo printer;

@@ -36,6 +36,8 @@ constexpr std::size_t kMaxXmlFileBytes = 128u << 20;
 /// not well-formed, deeper than 98 elements, bloated (more than 4 million elements, or 1000 attributes of one), or has
 /// a DOCTYPE (entities of its own are refused, never expanded).
 XmlElement readXmlFile(const std::filesystem::path& file);
+/// The text alone. @throws ConfigError as far as that needs no look inside.
+std::string readXmlText(const std::filesystem::path& file);
 /// The same from text; `file` names it in errors.
 XmlElement parseXml(const std::string& text, const std::string& file);
 

@@ -17,17 +17,34 @@ Authority::Authority(std::vector<Mover> movers, const Bounds2D& surface)
   for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
-void Authority::authorise(const Scene& scene, std::span<const NeighbourList> near, const Workers& workers,
-                          std::span<Path> paths, std::span<std::uint8_t> stalled) {
+void Authority::begin(std::span<const Path> paths) {
   length_max_m_ = 0;
   for (const auto& path : paths) length_max_m_ = std::max(length_max_m_, std::abs(path.length_m));
+}
 
-  workers.forEach(paths.size(), kChunk, [&](std::size_t i) {
+void Authority::clip(const Scene& scene, std::span<const NeighbourList> near, const Workers& workers, RobotRange range,
+                     std::span<Path> paths) {
+  workers.forEach(range.end - range.begin, kChunk, [&](std::size_t k) {
+    const std::size_t i = range.begin + k;
     has_company_[i] = 0;
     if (paths[i].length_m != 0) clip(scene, near[i], i, paths);
   });
-  // All pairs are judged on the clipped paths of both before any is shortened further: no order decides.
-  workers.forEach(paths.size(), kChunk, [&](std::size_t i) { stays_[i] = meetsAnother(scene, i, paths) ? 1 : 0; });
+}
+
+void Authority::putClipped(std::size_t robot, double end_fraction, std::span<Path> paths) {
+  paths[robot].end_fraction = end_fraction;
+  has_company_[robot] = 1;  // perhaps it has none; then judge() finds out
+}
+
+// All pairs are judged on the clipped paths of both before any is shortened further: no order decides.
+void Authority::judge(const Scene& scene, const Workers& workers, RobotRange range, std::span<const Path> paths) {
+  workers.forEach(range.end - range.begin, kChunk, [&](std::size_t k) {
+    const std::size_t i = range.begin + k;
+    stays_[i] = meetsAnother(scene, i, paths) ? 1 : 0;
+  });
+}
+
+void Authority::conclude(const Workers& workers, std::span<Path> paths, std::span<std::uint8_t> stalled) {
   workers.forEach(paths.size(), kChunk, [&](std::size_t i) {
     if (stays_[i]) paths[i].end_fraction = 0;
     stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "environment/robot_range.h"
 #include "geometry/path.h"
 #include "geometry/scene.h"
 
@@ -15,17 +16,27 @@ struct Mover {
   HeightSpan heights;
 };
 
-/// Decides how far each robot may go (the rule is in environment.h). Keeps its working memory from step to step.
+/// Decides how far each robot may go (the rule is in environment.h): begin(), then clip() all, then judge() all, then
+/// conclude(). Keeps its working memory from step to step. `scene` is frozen where the robots stand now, and `paths`
+/// are all robots' in each call.
 class Authority {
  public:
   Authority(std::vector<Mover> movers, const Bounds2D& surface);
 
-  /// Shortens the robots' paths in place until no two bodies can overlap.
-  /// @param scene frozen where the robots stand now
+  void begin(std::span<const Path> paths);
+  /// Rule (a): cuts the paths of some robots at their first contact.
   /// @param near what stands around each robot
+  void clip(const Scene& scene, std::span<const NeighbourList> near, const Workers& workers, RobotRange range,
+            std::span<Path> paths);
+  /// The same for one robot that somebody else has clipped.
+  void putClipped(std::size_t robot, double end_fraction, std::span<Path> paths);
+  /// Rule (b): finds out which of some robots stay where they started.
+  void judge(const Scene& scene, const Workers& workers, RobotRange range, std::span<const Path> paths);
+  /// The outcome of judge(), to be read, or to be put by somebody else who has judged: 1 for a robot that stays.
+  std::span<std::uint8_t> stays() { return stays_; }
+  /// Cuts the paths of those that stay.
   /// @param stalled set to 1 for each robot whose path was cut short
-  void authorise(const Scene& scene, std::span<const NeighbourList> near, const Workers& workers, std::span<Path> paths,
-                 std::span<std::uint8_t> stalled);
+  void conclude(const Workers& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
 
  private:
   void clip(const Scene& scene, const NeighbourList& near, std::size_t robot, std::span<Path> paths);

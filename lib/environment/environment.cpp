@@ -35,6 +35,12 @@ std::vector<std::string> namesOf(const Fleet& fleet) {
   return names;
 }
 
+/// Which sensors are to sense: see Sensor::remembers().
+struct SensorChoice {
+  bool with_memory = false;
+  bool without_memory = false;
+};
+
 /// Robots that carry the same sensors.
 struct Group {
   const RobotModel* model;
@@ -122,8 +128,8 @@ struct Environment::Impl {
     }
     for (std::size_t i = 0; i < n; ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
     placeBodies();
-    sense();
-    digest.add(state, workers);
+    sense(everyRobot(), {.without_memory = true});
+    finish();
   }
 
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
@@ -164,7 +170,7 @@ struct Environment::Impl {
   }
 
   void move() {
-    authority.authorise(scene, near, workers, paths, state.stalled);
+    authority.conclude(workers, paths, state.stalled);
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
@@ -176,7 +182,16 @@ struct Environment::Impl {
     placeBodies();
   }
 
-  void sense() {
+  RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
+
+  /// Those of a group's robots that lie in a range.
+  static std::span<const std::uint32_t> within(const Group& group, RobotRange range) {
+    const auto begin = std::lower_bound(group.robots.begin(), group.robots.end(), range.begin);
+    return {begin, std::lower_bound(begin, group.robots.end(), range.end)};
+  }
+
+  /// @param which sensors: those that SensorChoice names
+  void sense(RobotRange range, SensorChoice which) {
     const Snapshot now{.scene = scene,
                        .heat_sources = heat_sources,
                        .world_from_robot = state.world_from_robot,
@@ -187,30 +202,48 @@ struct Environment::Impl {
                        .time = state.time,
                        .seed = options.seed};
     for (const auto& group : groups) {
-      workers.forChunks(group.robots.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        const std::span robots(group.robots.data() + begin, end - begin);
+      const auto of_group = within(group, range);
+      workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+        const auto robots = of_group.subspan(begin, end - begin);
         for (const auto i : robots) {
           scene.update(near[i], {state.world_from_robot[i].x, state.world_from_robot[i].y}, group.reach_m);
         }
         for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
-          group.model->sensors[slot]->sense(now, robots, slot, state.readings);
-        }
-        for (const auto i : robots) {
-          state.readings[i].time = state.time;
-          state.readings[i].stalled = state.stalled[i] != 0;
-          state.readings[i].laser_pan_rad = state.laser_pan_rad[i];
+          const Sensor& sensor = *group.model->sensors[slot];
+          if (sensor.remembers() ? which.with_memory : which.without_memory) {
+            sensor.sense(now, robots, slot, state.readings);
+          }
         }
       });
     }
   }
 
-  void step() {
+  void begin() {
     ++state.time.step;
     takeCommands();
-    move();
+    authority.begin(paths);
+  }
+
+  /// What is left when all have sensed.
+  void finish() {
     state.messages_delivered += mail.deliver(state.time, state.world_from_robot, state.readings);
-    sense();
+    sense(everyRobot(), {.with_memory = true});
+    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+      state.readings[i].time = state.time;
+      state.readings[i].stalled = state.stalled[i] != 0;
+      state.readings[i].laser_pan_rad = state.laser_pan_rad[i];
+    });
     digest.add(state, workers);
+  }
+
+  void resume(const Moment& moment) {
+    state.time.step = moment.step;
+    state.world_from_robot = moment.world_from_robot;
+    state.speed_mps = moment.speed_mps;
+    state.turn_radps = moment.turn_radps;
+    state.activity = moment.activity;
+    commands = moment.commands;
+    placeBodies();
   }
 };
 
@@ -231,7 +264,41 @@ void Environment::send(std::size_t from, const std::string& to, const std::strin
   impl_->mail.send(from, to, text);
 }
 
-void Environment::step() { impl_->step(); }
+void Environment::step() {
+  const RobotRange every = impl_->everyRobot();
+  begin();
+  clip(every);
+  judge(every);
+  move();
+  sense(every);
+  finish();
+}
+
+void Environment::begin() { impl_->begin(); }
+void Environment::clip(RobotRange range) {
+  impl_->authority.clip(impl_->scene, impl_->near, impl_->workers, range, impl_->paths);
+}
+void Environment::judge(RobotRange range) { impl_->authority.judge(impl_->scene, impl_->workers, range, impl_->paths); }
+void Environment::move() { impl_->move(); }
+void Environment::sense(RobotRange range) { impl_->sense(range, {.without_memory = true}); }
+void Environment::finish() { impl_->finish(); }
+
+double Environment::clipped(std::size_t robot) const { return impl_->paths[robot].end_fraction; }
+void Environment::putClipped(std::size_t robot, double fraction) {
+  impl_->authority.putClipped(robot, fraction, impl_->paths);
+}
+bool Environment::stays(std::size_t robot) const { return impl_->authority.stays()[robot] != 0; }
+void Environment::putStays(std::size_t robot, bool stays) { impl_->authority.stays()[robot] = stays ? 1 : 0; }
+Measurement& Environment::measurement(std::size_t robot, std::size_t slot) {
+  return impl_->state.readings[robot].measurements[slot];
+}
+
+Moment Environment::moment() const {
+  const State& now = impl_->state;
+  return {now.time.step, now.world_from_robot, now.speed_mps, now.turn_radps, now.activity, impl_->commands};
+}
+void Environment::resume(const Moment& moment) { impl_->resume(moment); }
+const Command& Environment::command(std::size_t robot) const { return impl_->commands[robot]; }
 
 bool Environment::allHalted() const {
   const auto& activity = impl_->state.activity;

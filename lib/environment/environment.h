@@ -8,6 +8,7 @@
 #include "base/digest.h"
 #include "base/parallel.h"
 #include "base/sim_time.h"
+#include "environment/robot_range.h"
 #include "environment/state.h"
 #include "geometry/scene.h"
 #include "hardware/command.h"
@@ -16,6 +17,17 @@
 #include "world/world.h"
 
 namespace robosim {
+
+/// All that the moves and readings of coming steps depend on, but for what sensors remember: what a replica of an
+/// environment begins from. Arrays are indexed by robot.
+struct Moment {
+  std::uint64_t step = 0;
+  std::vector<mrpt::math::TPose2D> world_from_robot;
+  std::vector<double> speed_mps;
+  std::vector<double> turn_radps;
+  std::vector<Activity> activity;
+  std::vector<Command> commands;
+};
 
 struct EnvironmentOptions {
   std::uint64_t seed = 1;
@@ -56,6 +68,31 @@ class Environment {
   void send(std::size_t from, const std::string& to, const std::string& text);
 
   void step();
+
+  /// @name A step in parts
+  /// For whoever shares a step out among processes that each hold a replica of this environment: step() is begin(),
+  /// clip(), judge(), move(), sense(), finish(). The work of clip(), judge() and sense() is done range by range, here
+  /// or elsewhere, in any order: what a replica has worked out is read there and put here, and is the same, bit for
+  /// bit. Each must be done, or put, for all robots before the next part. A replica needs no finish().
+  ///@{
+  void begin();                             ///< takes the commands
+  void clip(RobotRange range);              ///< move rule (a)
+  double clipped(std::size_t robot) const;  ///< the part of its way that it can go, [0, 1]
+  void putClipped(std::size_t robot, double fraction);
+  void judge(RobotRange range);  ///< move rule (b)
+  bool stays(std::size_t robot) const;
+  void putStays(std::size_t robot, bool stays);
+  void move();
+  void sense(RobotRange range);  ///< with all sensors that remember nothing
+  /// For a sensor that remembers nothing: what it measured, to be read or put.
+  Measurement& measurement(std::size_t robot, std::size_t slot);
+  void finish();  ///< delivers messages; the remaining sensors sense
+
+  const Command& command(std::size_t robot) const;  ///< the last one
+  Moment moment() const;                            ///< between steps
+  /// Goes on from there. @pre `moment` is of an environment with the same world, fleet and options.
+  void resume(const Moment& moment);
+  ///@}
 
   /// Whether every robot has halted or found what it looked for.
   bool allHalted() const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include <mrpt/math/wrap2pi.h>
 
@@ -32,23 +31,13 @@ FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotMode
   return robot;
 }
 
-std::filesystem::path worldsFolder() {
-  const char* instead = std::getenv("ROBOSIM_WORLDS");
-  return instead && *instead ? instead : ROBOSIM_WORLDS_DIR;
-}
-
 }  // namespace
 
-std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file) {
-  return {world_file.parent_path() / "robots", worldsFolder() / "robots"};
-}
-
-Fleet buildFleet(const World& world, const std::string& world_file,
-                 const std::vector<std::filesystem::path>& type_folders, const std::vector<std::string>& controllers,
-                 ErrorList& errors) {
+Fleet buildFleet(const World& world, const std::string& world_file, const RobotTypes& types,
+                 const std::vector<std::string>& controllers, ErrorList& errors) {
   // Where a place or a size could not be read, something harmless stands, and whether that overlaps is no news.
   const bool places_are_known = errors.empty();
-  ModelShelf shelf(world, world_file, type_folders, errors);
+  ModelShelf shelf(world, world_file, types, errors);
   Fleet fleet;
   std::vector<RobotStart> starts;
   for (const auto& placement : world.robots) {
@@ -73,7 +62,7 @@ LoadedWorld loadWorld(const std::filesystem::path& file, const std::vector<std::
   ErrorList errors;
   LoadedWorld loaded;
   loaded.world = readWorld(file, errors);
-  loaded.fleet = buildFleet(loaded.world, file.string(), robotTypeFolders(file), controllers, errors);
+  loaded.fleet = buildFleet(loaded.world, file.string(), robotTypesIn(robotTypeFolders(file)), controllers, errors);
   errors.throwIfAny();
   return loaded;
 }

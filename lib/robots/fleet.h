@@ -6,6 +6,7 @@
 
 #include "base/error_list.h"
 #include "robots/robot_model.h"
+#include "robots/robot_types.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -24,14 +25,10 @@ struct Fleet {
   std::vector<FleetRobot> robots;
 };
 
-/// Where robot types are looked for: `robots/` beside the world file, then `robots/` in the folder of worlds that came
-/// with RoboSim, or in the one that the environment variable ROBOSIM_WORLDS names instead.
-std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file);
-
 /// Makes each placed robot's model, and checks the start: adds to `errors` every unknown model, wrong sensor, unknown
 /// controller (not in `controllers`; an empty list accepts all), robot outside the bounds, and robot that overlaps
 /// an object or another robot. `world_file` names the file in errors.
-Fleet buildFleet(const World&, const std::string& world_file, const std::vector<std::filesystem::path>& type_folders,
+Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& types,
                  const std::vector<std::string>& controllers, ErrorList& errors);
 
 /// A world and its robots.

@@ -39,7 +39,7 @@ std::string of2005(const std::string& name, double x, const std::string& sensors
 
 Fleet fleetOf(const std::string& text, ErrorList& errors) {
   const World world = parseWorld(text, "w.xml", errors);
-  return buildFleet(world, "w.xml", kTypes, kControllers, errors);
+  return buildFleet(world, "w.xml", robotTypesIn(kTypes), kControllers, errors);
 }
 
 Fleet fleetOf(const std::string& text) {

@@ -39,18 +39,9 @@ bool alike(const RobotPlacement& a, const RobotPlacement& b) {
 
 }  // namespace
 
-ModelShelf::ModelShelf(const World& world, std::string world_file,
-                       const std::vector<std::filesystem::path>& type_folders, ErrorList& errors)
+ModelShelf::ModelShelf(const World& world, std::string world_file, const RobotTypes& types, ErrorList& errors)
     : world_(world), world_file_(std::move(world_file)), errors_(errors) {
-  for (const auto& folder : type_folders) {
-    std::error_code none;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
-      const auto& file = entry.path();
-      if (file.extension() != ".xml") continue;
-      const auto [type, is_new] = types_.try_emplace(file.stem().string());
-      if (is_new) type->second.file = file;
-    }
-  }
+  for (const auto& [name, file] : types) types_[name].file = &file;
 }
 
 std::shared_ptr<const RobotModel> ModelShelf::modelFor(const RobotPlacement& robot) {
@@ -80,8 +71,8 @@ const ModelShelf::Type* ModelShelf::typeOf(const RobotPlacement& robot) {
     type.was_read = true;
     const std::size_t faults = errors_.count();
     try {
-      type.root = readXmlFile(type.file);
-      RobotModel model = modelOf(type.root, type.file.string(), {}, errors_);
+      type.root = type.file->read();
+      RobotModel model = modelOf(type.root, type.file->file.string(), {}, errors_);
       if (errors_.count() == faults) type.model = std::make_shared<const RobotModel>(std::move(model));
     } catch (const ConfigError& error) {
       errors_.add(error);
@@ -102,7 +93,7 @@ std::shared_ptr<const RobotModel> ModelShelf::make(const RobotPlacement& robot) 
   if (!type) return nullptr;
   if (!robot.sensors.empty()) description.sensors = &robot.sensors;
   if (!description.body && !description.sensors) return type->model;
-  return std::make_shared<const RobotModel>(modelOf(type->root, type->file.string(), description, errors_));
+  return std::make_shared<const RobotModel>(modelOf(type->root, type->file->file.string(), description, errors_));
 }
 
 }  // namespace robosim

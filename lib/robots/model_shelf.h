@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "base/error_list.h"
 #include "robots/robot_model.h"
+#include "robots/robot_types.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -16,17 +16,15 @@ namespace robosim {
 /// sensors) the same model.
 class ModelShelf {
  public:
-  /// @param world_file names the world's file in errors. The types are the `*.xml` in the folders; of two with the same
-  /// name, the earlier folder's counts. World and errors must outlive this.
-  ModelShelf(const World& world, std::string world_file, const std::vector<std::filesystem::path>& type_folders,
-             ErrorList& errors);
+  /// @param world_file names the world's file in errors. World, types and errors must outlive this.
+  ModelShelf(const World& world, std::string world_file, const RobotTypes& types, ErrorList& errors);
 
   /// The robot's model; null, and an error, for an unknown type or one that cannot be read.
   std::shared_ptr<const RobotModel> modelFor(const RobotPlacement&);
 
  private:
   struct Type {
-    std::filesystem::path file;
+    const RobotTypeFile* file = nullptr;
     bool was_read = false;
     XmlElement root;
     std::shared_ptr<const RobotModel> model;  ///< of a robot that the world file describes no further; null when faulty

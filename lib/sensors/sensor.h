@@ -56,6 +56,9 @@ class Sensor {
   virtual const SensorInfo& info() const = 0;
   /// A measurement of the right kind and size, as before the first step.
   virtual Measurement blank() const = 0;
+  /// Whether a measurement depends on the step before's. Such a sensor senses in the process that keeps the readings;
+  /// any other may sense in a replica.
+  virtual bool remembers() const { return false; }
   /// Replaces readings[r].measurements[slot] for each r of `robots`; what stood there is the step before's.
   virtual void sense(const Snapshot&, std::span<const std::uint32_t> robots, std::size_t slot,
                      std::span<Readings> readings) const = 0;

@@ -120,7 +120,7 @@ TEST(BenchSpeed, EndsWhenInterrupted) {
   std::vector<std::string> arguments{"bench", "speed", "--json", "--workload", "sonar"};
   for (int i = 0; i < 1000; ++i) arguments.insert(arguments.end(), {"--robots", "10"});
   StartedProgram bench(arguments);
-  while (bench.outSoFar().empty() && bench.isRunning()) std::this_thread::yield();
+  while (bench.output().empty() && bench.isRunning()) std::this_thread::yield();
   bench.interrupt();
   const Ended ended = bench.wait();
   EXPECT_EQ(ended.exit_code, 2);

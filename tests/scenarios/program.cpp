@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -19,6 +20,12 @@ std::string textOf(const std::filesystem::path& file) {
   return text.str();
 }
 
+std::size_t countOf(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 std::filesystem::path emptyFolder() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   auto folder = std::filesystem::path(testing::TempDir()) /
@@ -30,10 +37,15 @@ std::filesystem::path emptyFolder() {
 
 namespace {
 
-/// Where a run's output goes.
+/// Where the output of the test's next program goes.
 std::string outputStem() {
+  static int programs = 0;
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return testing::TempDir() + "/robosim_program_" + test->test_suite_name() + "_" + test->name();
+  const std::string stem = testing::TempDir() + "/robosim_program_" + test->test_suite_name() + "_" + test->name() +
+                           "_" + std::to_string(++programs);
+  std::filesystem::remove(stem + ".out");
+  std::filesystem::remove(stem + ".err");
+  return stem;
 }
 
 Ended ended(int status, const std::string& stem) {
@@ -42,8 +54,12 @@ Ended ended(int status, const std::string& stem) {
 
 }  // namespace
 
-StartedProgram::StartedProgram(const std::vector<std::string>& arguments) : process_(-1), stem_(outputStem()) {
-  std::vector<char*> words{const_cast<char*>(ROBOSIM_PROGRAM)};
+StartedProgram::StartedProgram(const std::vector<std::string>& arguments)
+    : StartedProgram(ROBOSIM_PROGRAM, arguments) {}
+
+StartedProgram::StartedProgram(const std::string& program, const std::vector<std::string>& arguments)
+    : process_(-1), stem_(outputStem()) {
+  std::vector<char*> words{const_cast<char*>(program.c_str())};
   for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   std::filesystem::remove(stem_ + ".out");  // of an earlier test run
@@ -51,7 +67,7 @@ StartedProgram::StartedProgram(const std::vector<std::string>& arguments) : proc
   if (process_ != 0) return;
   const bool ready = chdir(ROBOSIM_SOURCE_DIR) == 0 && std::freopen((stem_ + ".out").c_str(), "w", stdout) &&
                      std::freopen((stem_ + ".err").c_str(), "w", stderr);
-  if (ready) execv(ROBOSIM_PROGRAM, words.data());
+  if (ready) execv(program.c_str(), words.data());
   _exit(127);
 }
 
@@ -66,11 +82,26 @@ bool StartedProgram::isRunning() {
   return !ended_;
 }
 
-void StartedProgram::interrupt() {
-  if (isRunning()) kill(process_, SIGINT);
+void StartedProgram::interrupt() { signal(SIGINT); }
+
+void StartedProgram::signal(int number) {
+  if (isRunning()) kill(process_, number);
 }
 
-std::string StartedProgram::outSoFar() const { return textOf(stem_ + ".out"); }
+std::string StartedProgram::output() const { return textOf(stem_ + ".out"); }
+std::string StartedProgram::error() const { return textOf(stem_ + ".err"); }
+
+void StartedProgram::waitFor(const char* stream, const std::string& text) {
+  const auto is_there = [&] { return textOf(stem_ + stream).find(text) != std::string::npos; };
+  while (!is_there()) {
+    if (!isRunning() && !is_there()) {
+      ADD_FAILURE() << "the program ended without saying '" << text << "'\n" << textOf(stem_ + stream) << error();
+      return;
+    }
+    std::this_thread::yield();
+  }
+}
+
 
 Ended StartedProgram::wait() {
   if (!ended_) waitpid(process_, &status_, 0);

@@ -1,0 +1,64 @@
+#include "robosim/connection.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
+
+#include "base/error_list.h"
+#include "net/private_file.h"
+#include "net/tls.h"
+#include "robosim/arguments.h"
+
+namespace robosim {
+namespace {
+
+/// The first word of the file. @throws ConfigError when there is none, or more.
+std::string tokenIn(const std::string& file) {
+  std::istringstream words(readPrivateFile(file, "the file of your token"));
+  std::string token, more;
+  if (!(words >> token) || words >> more) throw ConfigError(file + ": must have your token and nothing else");
+  return token;
+}
+
+}  // namespace
+
+DialOptions ConnectionArguments::dialOptions() const {
+  DialOptions options;
+  options.address = hostAndPort(environment);
+  options.tls = tls || !tls_ca.empty();
+  if (!tls_ca.empty()) options.trusted_pem = readTrustedCertificates(tls_ca);
+  const char* from_variable = std::getenv("ROBOSIM_TOKEN");
+  if (!token_file.empty()) {
+    options.token = tokenIn(token_file);
+  } else if (from_variable) {
+    options.token = from_variable;
+  }
+  if (!std::all_of(options.token.begin(), options.token.end(), [](char c) { return c > ' ' && c <= '~'; })) {
+    throw ConfigError("your token has characters that no token has; look at " +
+                      (token_file.empty() ? "the environment variable ROBOSIM_TOKEN" : token_file));
+  }
+  options.insecure = insecure;
+  return options;
+}
+
+void addConnectionOptions(CLI::App& command, ConnectionArguments& a) {
+  command.add_option("--environment", a.environment, "where 'robosim serve' listens")
+      ->type_name("HOST:PORT")
+      ->capture_default_str();
+  addSecurityOptions(command, a);
+}
+
+void addSecurityOptions(CLI::App& command, ConnectionArguments& a) {
+  command
+      .add_option("--tls-ca", a.tls_ca,
+                  "speak TLS, and trust this certificate (PEM): the environment's, or its signer's")
+      ->type_name("FILE")
+      ->check(fileName());
+  command.add_flag("--tls", a.tls, "speak TLS, and trust whom this system trusts");
+  command.add_option("--token-file", a.token_file, "your token, if the environment asks for one; or set ROBOSIM_TOKEN")
+      ->type_name("FILE")
+      ->check(fileName());
+  command.add_flag("--insecure", a.insecure, "send the token to another machine also without TLS");
+}
+
+}  // namespace robosim

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "net/dial.h"
+#include "net/listen.h"
+
+namespace robosim {
+
+/// How a person says to which environment a program connects, and with which right.
+struct ConnectionArguments {
+  std::string environment = kDefaultListen;
+  bool tls = false;
+  std::string tls_ca, token_file;
+  bool insecure = false;
+
+  /// Reads the files; the token is in the file, or else in the environment variable ROBOSIM_TOKEN: never on the command
+  /// line, where `ps` shows it to everyone.
+  /// @throws ConfigError
+  DialOptions dialOptions() const;
+};
+
+/// Adds `--environment ADDRESS`, and what addSecurityOptions() adds.
+void addConnectionOptions(CLI::App& command, ConnectionArguments& arguments);
+void addSecurityOptions(CLI::App& command, ConnectionArguments& arguments);
+
+}  // namespace robosim

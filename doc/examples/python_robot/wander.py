@@ -1,0 +1,52 @@
+"""Drives robots of a RoboSim environment from Python: each goes ahead until its sonars hear something near, and turns.
+
+    /usr/bin/python3 wander.py HOST:PORT NAME...
+
+The token, if the environment asks for one, is in ROBOSIM_TOKEN. README.md tells how to make the modules in `net`.
+"""
+import os
+import queue
+import sys
+
+import grpc
+from net import robots_pb2 as wire
+from net import robots_pb2_grpc
+
+NEAR_M = 0.6
+
+
+def nearest_m(readings, sensors):
+    """The smallest range that any sonar reads."""
+    ranges = [r for reading, sensor in zip(readings.measurements, sensors)
+              if sensor.kind == wire.SONAR for r in reading.echoes[::4]]
+    return min(ranges, default=float("inf"))
+
+
+def decide(i, readings, sensors):
+    if nearest_m(readings, sensors) < NEAR_M or readings.stalled:
+        return wire.RobotCommand(robot=i, speed_mps=0, turn_radps=0.8)
+    return wire.RobotCommand(robot=i, speed_mps=0.3)
+
+
+def drive(address, names):
+    answers = queue.SimpleQueue()
+    answers.put(wire.FromRobots(hello=wire.RobotsHello(protocol=1, names=names)))
+    token = os.environ.get("ROBOSIM_TOKEN")
+    metadata = [("authorization", "Bearer " + token)] if token else []
+    with grpc.insecure_channel(address) as channel:
+        stream = robots_pb2_grpc.RobotsStub(channel).Drive(iter(answers.get, None), metadata=metadata)
+        welcome = next(stream).welcome
+        sensors = [welcome.sensor_sets[robot.sensor_set].sensors for robot in welcome.robots]
+        steps = 0
+        for message in stream:
+            commands = [decide(i, readings, sensors[i]) for i, readings in enumerate(message.robots)]
+            answers.put(wire.FromRobots(step=message.step, commands=commands))
+            steps = message.step
+        print("the run is over after step", steps)
+
+
+if __name__ == "__main__":
+    try:
+        drive(sys.argv[1], sys.argv[2:])
+    except grpc.RpcError as error:
+        sys.exit("the environment says: " + error.details())

@@ -1,0 +1,11 @@
+#pragma once
+#include <cstddef>
+
+namespace robosim {
+
+/// Some robots: [begin, end) of the world's list.
+struct RobotRange {
+  std::size_t begin = 0, end = 0;
+};
+
+}  // namespace robosim

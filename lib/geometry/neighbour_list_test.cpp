@@ -1,0 +1,86 @@
+#include "geometry/neighbour_list.h"
+
+#include <algorithm>
+#include <set>
+
+#include <gtest/gtest.h>
+
+#include "geometry/random_scene.h"
+#include "geometry/scene.h"
+
+namespace robosim {
+namespace {
+
+struct Found {
+  std::vector<std::uint32_t> solids;
+  bool was_all = false;
+};
+
+Found near(const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
+  Found found;
+  found.was_all = list.visitNear(
+      from, [&] { return reach_m; }, [&](std::uint32_t solid, bool) { found.solids.push_back(solid); });
+  return found;
+}
+
+/// Pillars of radius 0.5 m whose rims lie 1, 2, 3 and 20 m ahead of the origin.
+Scene pillarsAhead() {
+  std::vector<Solid> solids;
+  for (const double rim_m : {3.0, 1.0, 20.0, 2.0}) solids.push_back({Circle{{rim_m + 0.5, 0}, 0.5}, {0, 1}});
+  return Scene(solids, 0, {-30, 30, -30, 30});
+}
+
+TEST(NeighbourList, ThatIsEmptyKnowsNothingAndSaysSo) {
+  const Found found = near(NeighbourList(), {0, 0}, 0.1);
+  EXPECT_TRUE(found.solids.empty());
+  EXPECT_FALSE(found.was_all);
+}
+
+TEST(NeighbourList, NamesTheNearestFirstAsFarAsOneReaches) {
+  const Scene scene = pillarsAhead();
+  NeighbourList list;
+  scene.update(list, {0, 0}, 5);
+  EXPECT_EQ(near(list, {0, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3}));
+  EXPECT_EQ(near(list, {0, 0}, 5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
+  EXPECT_TRUE(near(list, {0, 0}, 5).was_all);
+  EXPECT_FALSE(near(list, {0, 0}, 19).was_all) << "it was made for 5 m";
+}
+
+TEST(NeighbourList, StaysTrueWhileItsOwnerMovesAndIsMadeAnewFartherOff) {
+  const Scene scene = pillarsAhead();
+  NeighbourList list;
+  scene.update(list, {0, 0}, 2.5);
+  EXPECT_TRUE(near(list, {0.6, 0}, 2.5).was_all) << "within the skin";
+  EXPECT_EQ(near(list, {0.6, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
+  EXPECT_FALSE(near(list, {17, 0}, 2.5).was_all);
+  scene.update(list, {17, 0}, 2.5);
+  EXPECT_TRUE(near(list, {17, 0}, 2.5).was_all);
+  EXPECT_EQ(near(list, {17, 0}, 3.5).solids, (std::vector<std::uint32_t>{2}));
+}
+
+TEST(NeighbourList, LeavesOutNothingThatLiesWithinReach) {
+  for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+    Rng rng(seed);
+    const SolidSpread spread{.area = {-20, 20, -20, 20}};
+    const auto solids = randomSolids(rng, rng.below(400), spread);
+    const Scene scene(solids, 0, spread.area);
+    NeighbourList list;
+    mrpt::math::TPoint2D at = randomPoint(rng, spread.area);
+    const double reach_m = rng.uniform(0, 12);
+    for (int step = 0; step < 20; ++step) {
+      at += {rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3)};
+      scene.update(list, at, reach_m);
+      const Found found = near(list, at, reach_m);
+      if (!found.was_all) continue;  // very many: the nearest of them are known, and that there are more
+      const std::set<std::uint32_t> listed(found.solids.begin(), found.solids.end());
+      ASSERT_EQ(listed.size(), found.solids.size()) << "each once, seed " << seed;
+      for (std::uint32_t i = 0; i < solids.size(); ++i) {
+        if (distance(solids[i].outline, at) > reach_m) continue;
+        ASSERT_TRUE(listed.contains(i)) << "solid " << i << ", seed " << seed << ", step " << step;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,129 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "net/robot_wire.h"
+
+namespace robosim {
+namespace {
+
+static_assert(static_cast<int>(SensorKind::sonar) == wire::SONAR &&
+              static_cast<int>(SensorKind::compass) == wire::COMPASS && wire::SensorKind_ARRAYSIZE == 7);
+
+void checkFinite(std::initializer_list<double> values) {
+  if (std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) return;
+  throw WireError("the environment's welcome has a number that is not finite");
+}
+
+void encode(const SensorInfo& sensor, wire::SensorDescription& out) {
+  out.set_kind(static_cast<wire::SensorKind>(sensor.kind));
+  out.set_label(sensor.label);
+  for (const auto& beam : sensor.beams) {
+    const auto& b = beam.robot_from_beam;
+    for (const double number : {b.x, b.y, b.z, b.yaw, b.pitch, b.roll}) out.add_beams(number);
+  }
+  out.set_range_min_m(sensor.range_min_m);
+  out.set_range_max_m(sensor.range_max_m);
+  out.set_no_echo_m(sensor.no_echo_m);
+  out.set_beam_width_rad(sensor.beam_width_rad);
+  out.set_noise_std_m(sensor.noise_std_m);
+  out.set_pans(sensor.pans);
+}
+
+SensorInfo decode(const wire::SensorDescription& in) {
+  if (!wire::SensorKind_IsValid(in.kind())) {
+    throw WireError("the environment has a sensor of the unknown kind " + std::to_string(in.kind()) +
+                    "; bring this program up to date");
+  }
+  if (in.beams_size() % 6 != 0) throw WireError("a sensor's beams have six numbers each");
+  SensorInfo sensor;
+  sensor.kind = static_cast<SensorKind>(in.kind());
+  sensor.label = in.label();
+  for (int i = 0; i < in.beams_size(); i += 6) {
+    const double* b = in.beams().data() + i;
+    checkFinite({b[0], b[1], b[2], b[3], b[4], b[5]});
+    sensor.beams.push_back({{b[0], b[1], b[2], b[3], b[4], b[5]}});
+  }
+  checkFinite({in.range_min_m(), in.range_max_m(), in.no_echo_m(), in.beam_width_rad(), in.noise_std_m()});
+  sensor.range_min_m = in.range_min_m();
+  sensor.range_max_m = in.range_max_m();
+  sensor.no_echo_m = in.no_echo_m();
+  sensor.beam_width_rad = in.beam_width_rad();
+  sensor.noise_std_m = in.noise_std_m();
+  sensor.pans = in.pans();
+  return sensor;
+}
+
+void encode(const RobotsWelcome::Seat& seat, std::uint32_t sensor_set, wire::RobotDescription& out) {
+  const RobotInfo& info = seat.info;
+  out.set_name(info.name);
+  out.set_model(info.model);
+  out.set_neighbour(info.neighbour);
+  out.set_radius_m(info.radius_m);
+  out.set_height_m(info.height_m);
+  out.set_speed_max_mps(info.limits.speed_max_mps);
+  out.set_turn_max_radps(info.limits.turn_max_radps);
+  out.set_accel_mps2(info.limits.accel_mps2);
+  out.set_decel_mps2(info.limits.decel_mps2);
+  out.set_turn_accel_radps2(info.limits.turn_accel_radps2);
+  out.set_sensor_set(sensor_set);
+  out.set_place(seat.place);
+  out.set_controller(seat.controller);
+}
+
+using SensorSets = std::vector<std::shared_ptr<const std::vector<SensorInfo>>>;
+
+RobotsWelcome::Seat decode(const wire::RobotDescription& in, const SensorSets& sets) {
+  if (in.sensor_set() >= sets.size()) throw WireError("a robot has a set of sensors that is not there");
+  const MotionLimits limits{.speed_max_mps = in.speed_max_mps(),
+                            .turn_max_radps = in.turn_max_radps(),
+                            .accel_mps2 = in.accel_mps2(),
+                            .decel_mps2 = in.decel_mps2(),
+                            .turn_accel_radps2 = in.turn_accel_radps2()};
+  checkFinite({in.radius_m(), in.height_m(), limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
+               limits.decel_mps2, limits.turn_accel_radps2});
+  return {{in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()]},
+          in.place(),
+          in.controller()};
+}
+
+}  // namespace
+
+void encode(const RobotsWelcome& welcome, wire::RobotsWelcome& out) {
+  out.Clear();
+  out.set_world(welcome.world);
+  out.set_world_version(welcome.world_version);
+  out.set_seed(welcome.seed);
+  out.set_period_s(welcome.period_s);
+  std::map<const std::vector<SensorInfo>*, std::uint32_t> set_of;
+  for (const auto& seat : welcome.seats) {
+    const auto* sensors = seat.info.sensors.get();
+    const auto [found, is_new] = set_of.emplace(sensors, static_cast<std::uint32_t>(set_of.size()));
+    if (is_new) {
+      auto& set = *out.add_sensor_sets();
+      for (const auto& sensor : *sensors) encode(sensor, *set.add_sensors());
+    }
+    encode(seat, found->second, *out.add_robots());
+  }
+  for (const auto& name : welcome.everyone) out.add_everyone(name);
+}
+
+RobotsWelcome decode(const wire::RobotsWelcome& in) {
+  if (!(in.period_s() > 0 && in.period_s() <= 1)) throw WireError("the environment's time step is not in (0, 1] s");
+  RobotsWelcome welcome;
+  welcome.world = in.world();
+  welcome.world_version = in.world_version();
+  welcome.seed = in.seed();
+  welcome.period_s = in.period_s();
+  SensorSets sets;
+  for (const auto& set : in.sensor_sets()) {
+    auto sensors = std::make_shared<std::vector<SensorInfo>>();
+    for (const auto& sensor : set.sensors()) sensors->push_back(decode(sensor));
+    sets.push_back(std::move(sensors));
+  }
+  for (const auto& robot : in.robots()) welcome.seats.push_back(decode(robot, sets));
+  welcome.everyone.assign(in.everyone().begin(), in.everyone().end());
+  return welcome;
+}
+
+}  // namespace robosim

@@ -1,0 +1,37 @@
+#include "net/wire_error.h"
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+TEST(WireError, TellsWhichOfTwoProgramsIsTheOlder) {
+  EXPECT_NO_THROW(checkProtocol(kProtocolVersion));
+  for (const std::uint32_t version : {0u, 2u}) {
+    try {
+      checkProtocol(version);
+      ADD_FAILURE();
+    } catch (const WireError& error) {
+      EXPECT_EQ(error.code(), grpc::StatusCode::FAILED_PRECONDITION);
+      const std::string older = version < kProtocolVersion ? "the caller is the older" : "the environment is the older";
+      EXPECT_NE(std::string(error.what()).find(older), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST(WireError, QuotesAStrangersTextInOneShortLine) {
+  EXPECT_EQ(inQuotes("Robo"), "'Robo'");
+  EXPECT_EQ(inQuotes("a\nb\x1b[2J\xff"), "'a?b?[2J?'");
+  EXPECT_LT(inQuotes(std::string(1 << 20, 'x')).size(), 70u);
+}
+
+TEST(WireError, CutsALongTextBetweenItsLetters) {
+  EXPECT_EQ(fitForStatus("short"), "short");
+  std::string text;
+  while (text.size() < 3000) text += "é";
+  const std::string cut = fitForStatus("x" + text);
+  EXPECT_EQ(cut, "x" + text.substr(0, 1998) + " …") << "the letter across byte 2000 is left out";
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,31 @@
+#include "robots/robot_types.h"
+
+#include <cstdlib>
+
+namespace robosim {
+namespace {
+
+std::filesystem::path worldsFolder() {
+  const char* instead = std::getenv("ROBOSIM_WORLDS");
+  return instead && *instead ? instead : ROBOSIM_WORLDS_DIR;
+}
+
+}  // namespace
+
+std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file) {
+  return {world_file.parent_path() / "robots", worldsFolder() / "robots"};
+}
+
+RobotTypes robotTypesIn(const std::vector<std::filesystem::path>& folders) {
+  RobotTypes types;
+  for (const auto& folder : folders) {
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+      const auto& file = entry.path();
+      if (file.extension() == ".xml") types.try_emplace(file.stem().string(), RobotTypeFile{file, std::nullopt});
+    }
+  }
+  return types;
+}
+
+}  // namespace robosim

@@ -1,0 +1,50 @@
+#include "robots/world_source.h"
+
+#include "base/digest.h"
+#include "world/world_file.h"
+
+namespace robosim {
+namespace {
+
+void add(Digest& digest, const std::string& text) {
+  digest.add(text.size());
+  digest.addBytes(text.data(), text.size());
+}
+
+}  // namespace
+
+WorldSource readWorldSource(const std::filesystem::path& file) {
+  WorldSource source;
+  source.file = file.string();
+  source.text = readXmlText(file);
+  ErrorList told_by_load_world;
+  const World world = parseWorld(source.text, source.file, told_by_load_world);
+  const RobotTypes known = robotTypesIn(robotTypeFolders(file));
+  for (const auto& robot : world.robots) {
+    const auto type = known.find(robot.model);
+    if (type == known.end() || source.robot_types.count(robot.model)) continue;
+    source.robot_types[robot.model] = {type->second.file, readXmlText(type->second.file)};
+  }
+  return source;
+}
+
+LoadedWorld loadWorld(const WorldSource& source, const std::vector<std::string>& controllers) {
+  ErrorList errors;
+  LoadedWorld loaded;
+  loaded.world = parseWorld(source.text, source.file, errors);
+  loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, controllers, errors);
+  errors.throwIfAny();
+  return loaded;
+}
+
+std::string versionOf(const WorldSource& source) {
+  Digest digest;
+  add(digest, source.text);
+  for (const auto& [name, type] : source.robot_types) {
+    add(digest, name);
+    add(digest, type.text.value_or(""));
+  }
+  return digest.text();
+}
+
+}  // namespace robosim

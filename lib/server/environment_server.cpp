@@ -1,0 +1,258 @@
+#include "server/environment_server.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include <grpcpp/grpcpp.h>
+
+#include "base/error_list.h"
+#include "net/dial.h"
+#include "server/control_panel_conversation.h"
+#include "server/geometry_conversation.h"
+#include "server/robot_conversation.h"
+#include "server/viewer_conversation.h"
+
+namespace robosim {
+namespace {
+
+using Clock = Lobby::Clock;
+
+/// An interrupt wakes nobody, so all waiting is cut into naps.
+constexpr std::chrono::milliseconds kNap(50);
+
+Clock::duration seconds(double s) {
+  return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
+
+/// How many steps a second the run takes of late.
+class StepRate {
+ public:
+  void note(Clock::time_point now) {
+    ++steps_;
+    const std::chrono::duration<double> passed = now - since_;
+    if (passed.count() < 1) return;
+    rate_ = static_cast<double>(steps_) / passed.count();
+    steps_ = 0;
+    since_ = now;
+  }
+  /// Nobody steps at the moment, and that time does not count.
+  void rest(Clock::time_point now) {
+    steps_ = 0;
+    since_ = now;
+  }
+  double stepsPerSecond() const { return rate_; }
+
+ private:
+  Clock::time_point since_ = Clock::now();
+  std::uint64_t steps_ = 0;
+  double rate_ = 0;
+};
+
+}  // namespace
+
+struct EnvironmentServer::Impl {
+  Lobby lobby;
+  PanelDesk desk;
+  RunSwitch& run_switch = desk.run_switch;
+  RobotConversation robots{lobby};
+  ViewerConversation viewers{lobby};
+  GeometryConversation geometry{lobby};
+  ControlPanelConversation panels{lobby};
+  std::vector<std::unique_ptr<grpc::Server>> servers;
+  std::vector<int> ports;
+  std::optional<std::vector<std::string>> waited_for;  ///< robots that had not come yet; nullopt: not asked yet
+  bool is_over = false;
+  Clock::time_point due;  ///< when the next step is
+  StepRate rate;
+
+  Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit) {
+    lobby.log = options.log;
+    lobby.step_deadline = options.step_deadline;
+    lobby.pace = options.pace;
+    lobby.access = options.access;
+    desk.describe = [](wire::RunStatus&) {};
+    run_switch.is_paused = options.is_paused;
+    run_switch.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
+    show(std::move(exhibit));
+    listen(options, {{options.listen.viewers, &viewers},
+                     {options.listen.robots, &robots},
+                     {options.listen.geometry, &geometry},
+                     {options.listen.control, &panels}});
+  }
+
+  ~Impl() {
+    desk.describe = [](wire::RunStatus&) {};
+    sayGoodbye();  // a call that is never answered would be waited for
+    for (const auto& server : servers) server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
+  }
+
+  void show(std::shared_ptr<const Exhibit> exhibit) {
+    const std::lock_guard lock(lobby.mutex);
+    lobby.exhibit = std::move(exhibit);
+    waited_for.reset();
+    robots.show();
+    viewers.show();
+    geometry.show();
+  }
+
+  /// Has everyone who has come by now take part.
+  void admit() {
+    robots.admit();
+    geometry.admit();
+    viewers.tell();
+  }
+
+  /// Another world in place of the one that is run. What gRPC's threads are shown stays until they are shown the other.
+  void load(ServedRun& run, const WorldSource& source) {
+    const auto shown_until_now = run.exhibit();
+    run.load(source);
+    show(run.exhibit());
+    isEveryoneHere();
+  }
+
+  void describe(const ServedRun& run, wire::RunStatus& status) const {
+    const Exhibit& exhibit = *run.exhibit();
+    const State& state = exhibit.environment.state();
+    const bool waits = !waited_for || !waited_for->empty();
+    const bool goes_on = !waits && run_switch.mayStep();
+    status.Clear();
+    status.set_phase(is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
+    status.set_world(exhibit.environment.world().name);
+    status.set_world_version(exhibit.world_version);
+    status.set_step(state.time.step);
+    status.set_time_s(state.time.seconds());
+    status.set_speed(run_switch.speed);
+    status.set_steps_per_s(goes_on ? rate.stepsPerSecond() : 0);
+    status.set_robots(static_cast<std::uint32_t>(exhibit.robot_names.size()));
+    status.set_robots_connected(static_cast<std::uint32_t>(robots.connected()));
+    constexpr std::size_t most_named = 100;
+    std::vector<std::string> absent = robots.absent();
+    absent.resize(std::min(absent.size(), most_named));
+    status.mutable_robots_absent()->Assign(absent.begin(), absent.end());
+    status.set_robots_active(
+        static_cast<std::uint32_t>(std::count(state.activity.begin(), state.activity.end(), Activity::active)));
+    status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
+    status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
+    status.set_late(robots.late());
+  }
+
+  void sayGoodbye() {
+    panels.sayGoodbye(desk);
+    robots.sayGoodbye();
+    viewers.sayGoodbye();
+    geometry.sayGoodbye();
+  }
+
+  /// A server for each address, with the services that are to be found there.
+  void listen(const ServerOptions& options, const std::vector<std::pair<std::string, grpc::Service*>>& services) {
+    std::map<std::string, std::vector<std::size_t>> at;
+    for (std::size_t i = 0; i < services.size(); ++i) at[services[i].first].push_back(i);
+    ports.resize(services.size());
+    for (const auto& [address, indices] : at) {
+      grpc::ServerBuilder builder;
+      int port = 0;
+      // Without this two environments could share a port unknowingly, and each robot reach either.
+      builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
+      builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+      // Clients may ask as often; unless told, gRPC would hang up on them for it.
+      builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kKeepaliveMs / 2);
+      builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+      builder.AddListeningPort(address, options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(),
+                               &port);
+      for (const auto i : indices) builder.RegisterService(services[i].second);
+      auto server = builder.BuildAndStart();
+      if (!server || port == 0) {
+        throw std::runtime_error("cannot listen on " + address +
+                                 ": is another program using the port? Name another with --listen, or :0 for any");
+      }
+      for (const auto i : indices) ports[i] = port;
+      servers.push_back(std::move(server));
+    }
+  }
+
+  /// Whether all networked robots have been here; says who is missing, each time that changes.
+  bool isEveryoneHere() {
+    if (waited_for && waited_for->empty()) return true;
+    auto missing = robots.notYetHere();
+    if (missing == waited_for) return false;
+    const std::lock_guard lock(lobby.mutex);
+    if (!missing.empty()) lobby.log("waiting for " + listed(missing));
+    if (missing.empty() && waited_for) lobby.log("all robots are here");
+    waited_for = std::move(missing);
+    return waited_for->empty();
+  }
+
+  /// Waits for the robots' answers and for the step's time, but no longer than a nap.
+  /// @return whether it is time to step
+  bool isTimeToStep() {
+    const auto now = Clock::now();
+    const auto until = due > now ? std::min(due, now + kNap) : now + kNap;
+    std::unique_lock lock(lobby.mutex);
+    const auto is_time = [&] { return Clock::now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
+    lobby.bell.wait_until(lock, until, [&] { return panels.isAsked() || is_time(); });
+    return is_time();
+  }
+
+  void nap() {
+    std::unique_lock lock(lobby.mutex);
+    if (!panels.isAsked()) lobby.bell.wait_for(lock, kNap);
+  }
+
+  /// Does what the control panels ask.
+  void obeyPanels() {
+    const double speed = run_switch.speed;
+    panels.obey(desk);
+    if (run_switch.speed != speed) due = Clock::now();
+  }
+
+  void noteStep(double period_s) {
+    if (run_switch.steps_left > 0) --run_switch.steps_left;
+    if (run_switch.speed > 0) due += seconds(period_s / run_switch.speed);
+    rate.note(Clock::now());
+  }
+
+  Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
+    desk.load = [&](const WorldSource& source) { load(run, source); };
+    desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
+    while (!run.isOver()) {
+      obeyPanels();
+      if (run_switch.stop) return Served::stopped;
+      if (interrupted()) return Served::interrupted;
+      admit();
+      if (!isEveryoneHere() || !run_switch.mayStep()) {
+        nap();
+        due = Clock::now();
+        rate.rest(due);
+        continue;
+      }
+      const bool is_time = isTimeToStep();
+      if (!is_time || lobby.pace == Pace::realtime) robots.evictLate();
+      if (!is_time) continue;
+      const std::size_t late = robots.handOver(run.environment());
+      run.decide();
+      geometry.step(run.environment());
+      run.stepped(late);
+      robots.tell();
+      viewers.tell();
+      noteStep(run.environment().time().period_s);
+    }
+    return Served::to_its_end;
+  }
+};
+
+EnvironmentServer::EnvironmentServer(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit)
+    : impl_(std::make_unique<Impl>(options, std::move(exhibit))) {}
+
+EnvironmentServer::~EnvironmentServer() = default;
+
+std::vector<int> EnvironmentServer::ports() const { return impl_->ports; }
+
+Served EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
+  const Served how = impl_->serve(run, interrupted);
+  impl_->is_over = true;
+  impl_->sayGoodbye();
+  return how;
+}
+
+}  // namespace robosim

@@ -1,0 +1,121 @@
+#include "server/viewer_conversation.h"
+
+#include <utility>
+
+#include "net/wire_error.h"
+#include "server/viewer.h"
+#include "server/world_wire.h"
+
+namespace robosim {
+namespace {
+
+RobotLook lookOf(const State& state, std::size_t i) {
+  return {state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0, state.activity[i]};
+}
+
+}  // namespace
+
+/// One viewer. What is below is touched with the lobby's mutex held.
+class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest, wire::Frame> {
+ public:
+  Stream(ViewerConversation& owner, grpc::CallbackServerContext* context) : ServerStream(context), owner_(owner) {}
+
+  void received(const wire::FrameRequest& message) override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    if (!is_known) checkProtocol(message.protocol());
+    is_known = true;
+    asks = true;
+    owner_.lobby_.bell.notify_all();
+  }
+
+  void refuse(const WireError& error) override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    hangUp({error.code(), error.what()});
+  }
+
+  void hangUp(const grpc::Status& status) {
+    if (std::exchange(is_gone, true)) return;
+    owner_.lobby_.log("viewer " + context()->peer() + ": hung up on: " + status.error_message());
+    end(status);
+  }
+
+  void ended() override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    std::erase_if(owner_.streams_, [&](const auto& stream) { return stream.get() == this; });
+  }
+
+ private:
+  ViewerConversation& owner_;
+
+ public:
+  bool is_gone = false;
+  bool is_known = false;          ///< it has said which protocol it speaks
+  bool asks = false;              ///< for a frame
+  bool wants_world = true;        ///< the next frame is a whole one
+  std::uint64_t step = 0;         ///< of the last frame sent
+  std::vector<RobotLook> looked;  ///< what the viewer knows
+};
+
+ViewerConversation::ViewerConversation(Lobby& lobby) : lobby_(lobby) {}
+ViewerConversation::~ViewerConversation() = default;
+
+RawStream* ViewerConversation::Watch(grpc::CallbackServerContext* context) {
+  auto stream = std::make_shared<Stream>(*this, context);
+  stream->begin();
+  const std::lock_guard lock(lobby_.mutex);
+  const grpc::Status status = lobby_.access.check(*context, Right::look);
+  if (status.ok()) {
+    streams_.push_back(stream);
+  } else {
+    stream->hangUp(status);
+  }
+  return stream.get();
+}
+
+void ViewerConversation::show() {
+  for (const auto& stream : streams_) stream->wants_world = true;
+}
+
+void ViewerConversation::tell() {
+  const std::lock_guard lock(lobby_.mutex);
+  const std::uint64_t step = lobby_.exhibit->environment.time().step;
+  for (const auto& stream : streams_) {
+    if (stream->asks && (stream->wants_world || stream->step != step) && stream->isIdle()) send(*stream);
+  }
+}
+
+void ViewerConversation::send(Stream& stream) {
+  const Exhibit& exhibit = *lobby_.exhibit;
+  const State& state = exhibit.environment.state();
+  wire::Frame& frame = stream.draft();
+  frame.Clear();
+  if (stream.wants_world) {
+    encode(exhibit.source, *frame.mutable_world());
+    frame.set_world_version(exhibit.world_version);
+  }
+  frame.set_step(state.time.step);
+  frame.set_time_s(state.time.seconds());
+  stream.looked.resize(exhibit.robot_names.size());
+  for (std::size_t i = 0; i < stream.looked.size(); ++i) {
+    const RobotLook look = lookOf(state, i);
+    if (look == stream.looked[i] && !stream.wants_world) continue;
+    stream.looked[i] = look;
+    encode(look, i, *frame.add_robots());
+  }
+  stream.wants_world = false;
+  stream.asks = false;
+  stream.step = state.time.step;
+  stream.post();
+}
+
+void ViewerConversation::sayGoodbye() {
+  const std::lock_guard lock(lobby_.mutex);
+  for (const auto& stream : streams_) stream->end(grpc::Status::OK);
+}
+
+std::size_t ViewerConversation::count() const {
+  const std::lock_guard lock(lobby_.mutex);
+  return streams_.size();
+}
+
+}  // namespace robosim

@@ -1,0 +1,10 @@
+// A world that a control panel sends.
+#include "server/world_wire.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace robosim;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzzMessage<wire::WorldSource>(
+      data, size, [](const wire::WorldSource& message) { loadWorld(decode(message), {"gold_finder"}); });
+}

@@ -1,0 +1,21 @@
+// What a process of robots sends: a hello, or commands and letters.
+#include <cmath>
+#include <cstdlib>
+
+#include "net/robot_wire.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace robosim;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzzMessage<wire::FromRobots>(data, size, [](const wire::FromRobots& message) {
+    checkProtocol(message.has_hello() ? message.hello().protocol() : kProtocolVersion);
+    for (const auto& name : message.hello().names()) inQuotes(name);
+    constexpr std::size_t robots = 3;
+    RobotsAnswer answer;
+    decode(message, robots, answer);
+    for (const auto& order : answer.orders) {
+      if (order.robot >= robots || !std::isfinite(order.command.speed_mps)) std::abort();
+    }
+  });
+}

@@ -1,0 +1,14 @@
+// A world file, with the types of robot that come with RoboSim.
+#include "robots/world_source.h"
+#include "tests/fuzz/fuzz.h"
+
+using namespace robosim;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const RobotTypes types = readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml").robot_types;
+  try {
+    loadWorld(WorldSource{"world.xml", std::string(reinterpret_cast<const char*>(data), size), types}, {"gold_finder"});
+  } catch (const ConfigError&) {
+  }
+  return 0;
+}

@@ -1,0 +1,162 @@
+// The control panel, and what a person meets who works it.
+#include <future>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "control/network_hardware.h"
+#include "tests/scenarios/panel.h"
+#include "tests/scenarios/program.h"
+#include "tests/scenarios/served_world.h"
+#include "tests/scenarios/serving.h"
+
+namespace robosim {
+namespace {
+
+ServedWorld::Options paused() {
+  ServedWorld::Options options;
+  options.server.is_paused = true;
+  return options;
+}
+
+TEST(ControlPanel, StepsAPausedRunAndWaitsUntilTheStepsAreDone) {
+  ServedWorld world(paused());
+  Panel panel(world);
+  EXPECT_EQ(panel.status().phase(), wire::PAUSED);
+  EXPECT_EQ(panel.step(1).step(), 1u);
+  const wire::RunStatus status = panel.step(30);
+  EXPECT_EQ(status.step(), 31u);
+  EXPECT_DOUBLE_EQ(status.time_s(), 3.1);
+  EXPECT_EQ(status.phase(), wire::PAUSED);
+  EXPECT_EQ(panel.status().step(), 31u);
+}
+
+TEST(ControlPanel, SteppedRunsAreTheSameAsRunsAtAStretch) {
+  ServedWorld::Options options = paused();
+  options.last_step = 200;
+  ServedWorld stepped(options), at_a_stretch(options);
+  for (const int n : {1, 2, 50, 100}) Panel(stepped).step(static_cast<std::uint64_t>(n));
+  Panel(stepped).start();
+  Panel(at_a_stretch).start();
+  EXPECT_EQ(stepped.wait(), Served::to_its_end);
+  EXPECT_EQ(at_a_stretch.wait(), Served::to_its_end);
+  EXPECT_EQ(stepped.digest(), at_a_stretch.digest());
+}
+
+TEST(ControlPanel, StartsPausesAndStops) {
+  ServedWorld world(paused());
+  Panel panel(world);
+  EXPECT_EQ(panel.start().phase(), wire::RUNNING);
+  while (panel.status().step() < 10) {
+  }
+  const wire::RunStatus still = panel.pause();
+  EXPECT_EQ(still.phase(), wire::PAUSED);
+  EXPECT_EQ(panel.status().step(), still.step());
+  panel.stop();
+  EXPECT_EQ(world.wait(), Served::stopped);
+}
+
+TEST(ControlPanel, TellsWhoWaitsForStepsThatAnotherPanelPaused) {
+  ServedWorld::Options options = paused();
+  options.server.speed = 1;  // a step takes a tenth of a second, so the other panel comes in time
+  ServedWorld world(options);
+  auto waiting = std::async(std::launch::async, [&] {
+    wire::StepRequest request;
+    request.set_protocol(kProtocolVersion);
+    request.set_steps(1'000'000);
+    wire::RunStatus status;
+    return Panel(world).call(&wire::ControlPanel::Stub::Step, request, status);
+  });
+  world.waitForLog(": step");
+  Panel(world).pause();
+  const grpc::Status status = waiting.get();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::ABORTED);
+  EXPECT_NE(status.error_message().find("another control panel has paused the run"), std::string::npos);
+}
+
+TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheOldOneIfItIsNoGood) {
+  ServedWorld world(paused());
+  Panel panel(world);
+  panel.step(5);
+  wire::RunStatus status;
+  EXPECT_EQ(panel.loadBytes("\x0a\x05x.xml\x12\x03<a>", 1, status).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(panel.status().step(), 5u);
+  status = panel.load("worlds/open_100.xml");
+  EXPECT_EQ(status.world(), "open_100");
+  EXPECT_EQ(status.robots(), 100u);
+  EXPECT_EQ(status.step(), 0u);
+  EXPECT_EQ(status.phase(), wire::PAUSED);
+  EXPECT_EQ(panel.step(2).step(), 2u);
+}
+
+TEST(ControlPanel, TellsWhichRobotsAreAbsent) {
+  ServedWorld::Options options;
+  options.robots_elsewhere = true;
+  ServedWorld world(options);
+  Panel panel(world);
+  const NetworkHardware robot(world.dialOptions(), {"Scout1"});
+  const wire::RunStatus status = panel.status();
+  EXPECT_EQ(status.phase(), wire::WAITING);
+  EXPECT_EQ(status.robots_connected(), 1u);
+  ASSERT_EQ(status.robots_absent_size(), 1);
+  EXPECT_EQ(status.robots_absent(0), "Pioneer1");
+}
+
+TEST(ControlPanel, ReportsToWhoWatchesUntilTheRunIsOver) {
+  ServedWorld world(paused());
+  const auto stub = wire::ControlPanel::NewStub(dial(world.dialOptions()));
+  grpc::ClientContext context;
+  const auto stream = stub->Watch(&context);
+  wire::PanelRequest request;
+  request.set_protocol(kProtocolVersion);
+  wire::RunStatus status;
+  ASSERT_TRUE(stream->Write(request) && stream->Read(&status));
+  EXPECT_EQ(status.step(), 0u);
+  Panel(world).step(3);
+  ASSERT_TRUE(stream->Write(request) && stream->Read(&status));
+  EXPECT_EQ(status.step(), 3u);
+  Panel(world).stop();
+  ASSERT_TRUE(stream->Read(&status));
+  EXPECT_EQ(status.phase(), wire::ENDED);
+  EXPECT_FALSE(stream->Read(&status));
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST(Control, WorksARunFromTheCommandLine) {
+  Serving serving({"--paused", "--controller", "wander", "--json"});
+  const auto control = [&](const std::string& what) {
+    const Ended ended = runProgram("control " + serving.address() + " " + what);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return ended.out;
+  };
+  EXPECT_NE(control("status").find("paused at step 0"), std::string::npos);
+  EXPECT_NE(control("step 12").find("step 12 (1.2 s): paused"), std::string::npos);
+  EXPECT_NE(control("load worlds/opho2_1.xml").find("step 0 (0.0 s): paused"), std::string::npos);
+  EXPECT_NE(control("status").find("opho2_1"), std::string::npos);
+  control("speed 5");
+  EXPECT_NE(control("start").find("running"), std::string::npos);
+  StartedProgram watch({"control", serving.address(), "status", "--watch", "--every", "0.01"});
+  watch.waitForOutput("running");
+  control("stop");
+  const Ended watched = watch.wait();
+  EXPECT_EQ(watched.exit_code, 0) << watched.err;
+  EXPECT_NE(watched.out.find(": ended"), std::string::npos) << watched.out;
+  const Ended served = serving.program().wait();
+  EXPECT_EQ(served.exit_code, 0) << served.err;
+  EXPECT_NE(served.out.find("\"ended_by\": \"control_panel\""), std::string::npos) << served.out;
+}
+
+TEST(Control, NumbersTheRecordingsOfLaterRuns) {
+  const auto folder = emptyFolder();
+  Serving serving({"--paused", "--record", (folder / "run.rawlog").string()});
+  runProgram("control " + serving.address() + " step 3");
+  runProgram("control " + serving.address() + " load worlds/opho2_1.xml");
+  runProgram("control " + serving.address() + " step 3");
+  runProgram("control " + serving.address() + " stop");
+  EXPECT_EQ(serving.program().wait().exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(folder / "run.rawlog"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "run_2.rawlog"));
+}
+
+}  // namespace
+}  // namespace robosim

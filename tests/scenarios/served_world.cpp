@@ -1,0 +1,74 @@
+#include "tests/scenarios/served_world.h"
+
+#include "maze/controllers.h"
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+RunOptions runOptions(const std::string& controller) {
+  RunOptions options;
+  options.controller = controller;
+  return options;
+}
+
+}  // namespace
+
+ServedWorld::Stage::Stage(LoadedWorld world, const WorldSource& source, const Options& options)
+    : networked(world.fleet.robots.size(), options.robots_elsewhere ? 1 : 0),
+      run(std::move(world), runOptions(options.controller), networked),
+      exhibit(run.environment(), source, 1, networked) {}
+
+ServedWorld::ServedWorld(const Options& options) : options_(options) {
+  load(readWorldSource(ROBOSIM_SOURCE_DIR "/" + options.world));
+  options_.server.listen = ListenAddresses::parse("127.0.0.1:0");
+  options_.server.log = [this](const std::string& line) {
+    const std::lock_guard lock(mutex_);
+    log_ += line + "\n";
+    bell_.notify_all();
+  };
+  server_ = std::make_unique<EnvironmentServer>(options_.server, exhibit());
+  thread_ = std::thread([this] {
+    how_ = server_->serve(*this, [this] {
+      const std::lock_guard lock(mutex_);
+      return is_asked_to_end_;
+    });
+  });
+}
+
+ServedWorld::~ServedWorld() { end(); }
+
+DialOptions ServedWorld::dialOptions() const {
+  DialOptions options;
+  options.address = "127.0.0.1:" + std::to_string(port());
+  return options;
+}
+
+Served ServedWorld::end() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_asked_to_end_ = true;
+  }
+  return wait();
+}
+
+Served ServedWorld::wait() {
+  if (thread_.joinable()) thread_.join();
+  return how_;
+}
+
+std::string ServedWorld::log() const {
+  const std::lock_guard lock(mutex_);
+  return log_;
+}
+
+void ServedWorld::waitForLog(const std::string& text, std::size_t times) {
+  std::unique_lock lock(mutex_);
+  bell_.wait(lock, [&] { return countOf(text, log_) >= times; });
+}
+
+void ServedWorld::load(const WorldSource& source) {
+  stage_ = std::make_shared<Stage>(loadWorld(source, controllerNames()), source, options_);
+}
+
+}  // namespace robosim

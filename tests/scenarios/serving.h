@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+
+/// `robosim serve` of the small maze, on a port of the system's choice, when it listens.
+class Serving {
+ public:
+  explicit Serving(std::vector<std::string> arguments) : program_(words(std::move(arguments))) {
+    const std::string says = "listening on ";
+    program_.waitForError(says);
+    const std::string text = program_.error();
+    const auto at = text.find(says) + says.size();
+    address_ = text.substr(at, text.find('\n', at) - at);
+  }
+
+  const std::string& address() const { return address_; }
+  StartedProgram& program() { return program_; }
+
+ private:
+  static std::vector<std::string> words(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"serve", "worlds/small_maze.xml", "--listen", ":0"});
+    return arguments;
+  }
+
+  StartedProgram program_;
+  std::string address_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,83 @@
+// A step whose parts are worked out by replicas is the step of one environment, bit for bit.
+#include <gtest/gtest.h>
+
+#include "maze/controllers.h"
+#include "robosim/local_run.h"
+
+namespace robosim {
+namespace {
+
+const char* const kWorld = ROBOSIM_SOURCE_DIR "/worlds/open_100.xml";
+constexpr int kSteps = 120;
+
+LocalRun startRun() { return {loadWorld(kWorld, controllerNames()), RunOptions{}}; }
+
+std::string digestAlone() {
+  LocalRun run = startRun();
+  for (int i = 0; i < kSteps; ++i) run.step();
+  return run.environment().digest();
+}
+
+/// What a replica has worked out of a part, taken over.
+void takeClips(const Environment& from, Environment& to, RobotRange range) {
+  for (std::size_t i = range.begin; i < range.end; ++i) to.putClipped(i, from.clipped(i));
+}
+void takeStays(const Environment& from, Environment& to, RobotRange range) {
+  for (std::size_t i = range.begin; i < range.end; ++i) to.putStays(i, from.stays(i));
+}
+void takeReadings(Environment& from, Environment& to, RobotRange range) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const auto& sensors = to.fleet().robots[i].model->sensors;
+    for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+      if (!sensors[slot]->remembers()) to.measurement(i, slot) = from.measurement(i, slot);
+    }
+  }
+}
+
+/// A step of which the replica does the robots of `share`, and the owner all others.
+void stepTogether(Environment& owner, Environment& replica, RobotRange share) {
+  const RobotRange every{0, owner.robotCount()};
+  const RobotRange others[] = {{0, share.begin}, {share.end, every.end}};
+  for (std::size_t i = 0; i < every.end; ++i) replica.setCommand(i, owner.command(i));
+  owner.begin();
+  replica.begin();
+
+  replica.clip(share);
+  for (const auto range : others) owner.clip(range);
+  takeClips(replica, owner, share);
+  for (const auto range : others) takeClips(owner, replica, range);
+
+  replica.judge(share);
+  for (const auto range : others) owner.judge(range);
+  takeStays(replica, owner, share);
+  for (const auto range : others) takeStays(owner, replica, range);
+
+  owner.move();
+  replica.move();
+  replica.sense(share);
+  for (const auto range : others) owner.sense(range);
+  takeReadings(replica, owner, share);
+  owner.finish();
+}
+
+TEST(SharedStep, IsTheStepOfOneEnvironmentWhoeverDoesWhichRobots) {
+  LocalRun run = startRun();
+  Environment& owner = run.environment();
+  // The replica's seed is the owner's; where its robots stand it learns when it joins, in the middle of the run.
+  LoadedWorld world = loadWorld(kWorld, controllerNames());
+  Environment replica(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
+  for (int i = 0; i < kSteps; ++i) {
+    run.decide();
+    if (i < 20) {
+      owner.step();
+      continue;
+    }
+    if (i == 20) replica.resume(owner.moment());
+    const std::size_t begin = static_cast<std::size_t>(i) % 60;
+    stepTogether(owner, replica, {begin, begin + 40});
+  }
+  EXPECT_EQ(owner.digest(), digestAlone());
+}
+
+}  // namespace
+}  // namespace robosim
