@@ -22,7 +22,7 @@ class GeometryConversation::Stream final : public ServerStream<wire::FromWorker,
 
   void refuse(const WireError& error) override {
     const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state != State::gone) owner_.expel(*this, {grpc::StatusCode::INVALID_ARGUMENT, error.what()});
+    if (state != State::gone) owner_.expel(*this, {error.code(), error.what()});
   }
 
   void ended() override {

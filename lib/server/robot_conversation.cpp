@@ -308,6 +308,9 @@ void RobotConversation::handOver(Environment& environment) {
         environment.setCommand(stream->robots[order.robot], order.command);
       }
       for (const auto& letter : stream->answer.letters) {
+        if (!lobby_.exhibit->robot_named.contains(letter.to)) {
+          throw std::invalid_argument("a letter to " + inQuotes(letter.to) + ": there is no robot of that name");
+        }
         environment.send(stream->robots[letter.robot], letter.to, letter.text);
       }
     } catch (const std::invalid_argument& error) {

@@ -79,6 +79,9 @@ TEST(Security, SpeaksTlsWithWhoTrustsItsCertificate) {
   expectComplaint(status, kFailed, {serving.address(), "if it is started with --tls-cert, add --tls-ca"});
   expectComplaint(status + "--tls-ca " + (folder / "other.pem").string(), kFailed,
                   {"no TLS with the environment at " + serving.address(), "self-signed certificate"});
+  StartedProgram elsewhere({"serve", "worlds/small_maze.xml", "--paused", "--listen", "127.0.0.2" + port, "--tls-cert", cert,
+                            "--tls-key", folder / "key.pem"});
+  elsewhere.waitForError("listening on");
   expectComplaint("control 127.0.0.2" + port + " status --tls-ca " + cert, kFailed, {"IP address mismatch"});
 
   const Ended robots = runProgram("robot Pioneer1 Scout1 --controller still --environment " + serving.address() +
@@ -100,7 +103,7 @@ TEST(Security, TellsThatACertificateHasExpired) {
                       (folder / "key.pem").string(),
                   kBad, {"old.pem: the certificate expired on ", "new one"});
   // An environment may outlive its certificate; another server stands in for that one.
-  StartedProgram server("/usr/bin/openssl", {"s_server", "-accept", "127.0.0.1:0", "-alpn", "h2", "-cert", folder / "old.pem",
+  StartedProgram server("/usr/bin/openssl", {"s_server", "-www", "-accept", "127.0.0.1:0", "-alpn", "h2", "-cert", folder / "old.pem",
                                              "-key", folder / "key.pem"});
   server.waitForOutput("ACCEPT 127.0.0.1:");
   const std::string text = server.output();
