@@ -90,7 +90,7 @@ class MeasuredRun final : public ServedRun {
   void decide() override {
     if (environment_.time().step == 0) window_start_ = Clock::now();
   }
-  void stepped() override {
+  void stepped(std::size_t /*late*/) override {
     ++steps_;
     const std::chrono::duration<double> passed = Clock::now() - window_start_;
     if (passed.count() < arguments_.window_s) return;

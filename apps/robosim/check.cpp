@@ -25,7 +25,8 @@ struct Checked {
 void checkWorld(const std::string& file, Checked& checked) {
   LoadedWorld loaded;
   loaded.world = readWorld(file, checked.errors);
-  loaded.fleet = buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), controllerNames(), checked.errors);
+  loaded.fleet =
+      buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), controllerNames(), checked.errors);
   if (checked.errors.empty()) checkControllers(loaded, file, "", checked.errors);
   const World& world = loaded.world;
   const Fleet& fleet = loaded.fleet;

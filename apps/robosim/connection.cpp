@@ -49,7 +49,9 @@ void addConnectionOptions(CLI::App& command, ConnectionArguments& a) {
 }
 
 void addSecurityOptions(CLI::App& command, ConnectionArguments& a) {
-  command.add_option("--tls-ca", a.tls_ca, "speak TLS, and trust this certificate (PEM): the environment's, or its signer's")
+  command
+      .add_option("--tls-ca", a.tls_ca,
+                  "speak TLS, and trust this certificate (PEM): the environment's, or its signer's")
       ->type_name("FILE")
       ->check(fileName());
   command.add_flag("--tls", a.tls, "speak TLS, and trust whom this system trusts");

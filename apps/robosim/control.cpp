@@ -67,7 +67,8 @@ std::string pageOn(const wire::RunStatus& status) {
 /// A panel's end of the connection: makes one call after the other.
 class Panel {
  public:
-  explicit Panel(DialOptions options) : options_(std::move(options)), stub_(wire::ControlPanel::NewStub(dial(options_))) {}
+  explicit Panel(DialOptions options)
+      : options_(std::move(options)), stub_(wire::ControlPanel::NewStub(dial(options_))) {}
 
   /// Calls, say, &Stub::Start with a request. @throws ConnectionError
   template <typename Method, typename Request>
@@ -170,9 +171,10 @@ void addControl(CLI::App& program) {
     add(name, help, [a, method] { showLine(Panel(a->connection.dialOptions()).call(method, wire::PanelRequest())); });
   };
 
-  add("load", "end the run, and begin another with this world, paused", [a] {
-    showLine(Panel(a->connection.dialOptions()).load(readWorldSource(a->world)));
-  })->add_option("FILE", a->world, "world file")->required();
+  add("load", "end the run, and begin another with this world, paused",
+      [a] { showLine(Panel(a->connection.dialOptions()).load(readWorldSource(a->world))); })
+      ->add_option("FILE", a->world, "world file")
+      ->required();
   addPlain("start", "let the run go on", &wire::ControlPanel::Stub::Start);
   addPlain("pause", "halt after the step that is being taken", &wire::ControlPanel::Stub::Pause);
   add("step", "take so many steps, then pause; returns when they are done", [a] { step(*a); })

@@ -32,7 +32,7 @@ std::string controllerOf(const NetworkHardware& robots, std::size_t i, const std
 /// The robots of this process, and who drives them.
 class Crew {
  public:
-  Crew(const DialOptions& dial_options, const Arguments& arguments) : robots_(dial_options, arguments.names) {
+  explicit Crew(const Arguments& arguments) : robots_(arguments.connection.dialOptions(), arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
       seats_.push_back(
@@ -54,7 +54,7 @@ class Crew {
 };
 
 void driveRobots(const Arguments& arguments) {
-  Crew crew(arguments.connection.dialOptions(), arguments);
+  Crew crew(arguments);
   Redial redial(std::chrono::duration<double>(arguments.patience_s),
                 [](const std::string& line) { std::cerr << "robosim robot: " + line + "\n"; });
   redial.keepTalking([&] { crew.drive(); }, [&] { crew.rejoin(); });

@@ -57,7 +57,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
       ->check(fileName());
   command
       .add_option("--rawlog-format", a.rawlog_format,
-                   "obs: observations; sf: pairs of action and sensory frame, one file a robot")
+                  "obs: observations; sf: pairs of action and sensory frame, one file a robot")
       ->check(CLI::IsMember({"obs", "sf"}))
       ->capture_default_str();
   command.add_option("--seed", a.run.environment.seed, "of everything that is left to chance")
@@ -65,7 +65,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
       ->capture_default_str();
   command
       .add_option("--time", a.time_s,
-                   "simulated seconds after which the run ends; it ends sooner when all robots have halted")
+                  "simulated seconds after which the run ends; it ends sooner when all robots have halted")
       ->check(numberIn(1e-3, 1e9))
       ->type_name("SECONDS")
       ->capture_default_str();
@@ -111,13 +111,14 @@ void RunOutputs::keep(const Environment& environment) {
   if (recording_ && environment.time().step > 0) recording_->close();
 }
 
-void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by) {
+void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late) {
   if (recording_) recording_->close();
   RunSummary summary = RunSummary::of(run);
   summary.wall_s = wall_s;
   summary.world = arguments_.world;
   summary.seed = arguments_.run.environment.seed;
   summary.ended_by = ended_by;
+  summary.late = late;
   if (arguments_.json) {
     std::cout << summary.json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
   } else {

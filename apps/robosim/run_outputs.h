@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -46,7 +47,8 @@ class RunOutputs {
   /// Closes the recording of a run that failed: what there is of it is what one wants to look at.
   void keep(const Environment& environment);
   /// Closes the recording, prints the summary, and draws the picture.
-  void finish(const LocalRun& run, double wall_s, EndedBy ended_by);
+  /// @param late robot-steps whose command came too late; nullopt for a run that waits
+  void finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late = {});
 
  private:
   const RunArguments& arguments_;

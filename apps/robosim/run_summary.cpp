@@ -69,20 +69,22 @@ nlohmann::ordered_json RunSummary::json() const {
           {"all_halted_time_s", orNull(gold.all_halted_s)},
           {"driven_m", driven_m},
           {"stalls", stalls},
-          {"messages", messages}};
+          {"messages", messages},
+          {"late", orNull(late)}};
 }
 
 std::string RunSummary::text() const {
-  return world + ": " + sentenceOn(gold, ended_by) + "\n" +
-         listing({{"robots", std::to_string(robots)},
-                  {"simulated", fixed(sim_time_s, 1) + " s in " + withCommas(steps) + " steps"},
-                  {"took", fixed(wall_s, 3) + " s, " + withCommas(static_cast<std::uint64_t>(realTimeFactor())) +
-                               " times real time"},
-                  {"driven", fixed(driven_m, 1) + " m"},
-                  {"stalls", withCommas(stalls)},
-                  {"messages", withCommas(messages)},
-                  {"seed", std::to_string(seed)},
-                  {"digest", digest}});
+  Rows rows{{"robots", std::to_string(robots)},
+            {"simulated", fixed(sim_time_s, 1) + " s in " + withCommas(steps) + " steps"},
+            {"took",
+             fixed(wall_s, 3) + " s, " + withCommas(static_cast<std::uint64_t>(realTimeFactor())) + " times real time"},
+            {"driven", fixed(driven_m, 1) + " m"},
+            {"stalls", withCommas(stalls)},
+            {"messages", withCommas(messages)}};
+  if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
+  rows.push_back({"seed", std::to_string(seed)});
+  rows.push_back({"digest", digest});
+  return world + ": " + sentenceOn(gold, ended_by) + "\n" + listing(rows);
 }
 
 }  // namespace robosim

@@ -24,6 +24,7 @@ struct RunSummary {
   double driven_m = 0;  ///< by all robots together
   std::uint64_t stalls = 0;
   std::uint64_t messages = 0;
+  std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late; nullopt for a run that waits
 
   /// Everything that the run itself can tell; the rest is the caller's.
   static RunSummary of(const LocalRun& run);

@@ -67,6 +67,7 @@ struct Stage {
   LocalRun run;
   Exhibit exhibit;
   RunOutputs outputs;
+  std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late; at the pace of real time only
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
   Stage(LoadedWorld world, const WorldSource& source, const Arguments& a, RunArguments of_this_run)
@@ -76,11 +77,12 @@ struct Stage {
         exhibit(run.environment(), source, arguments.run.environment.seed, networked),
         outputs(arguments, run.environment()) {
     outputs.observe(run.environment());
+    if (a.pace == "realtime") late = 0;
   }
 
   void finish(EndedBy ended_by) {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    outputs.finish(run, wall.count(), ended_by);
+    outputs.finish(run, wall.count(), ended_by, late);
   }
 };
 
@@ -95,7 +97,8 @@ class WorldRun final : public ServedRun {
   /// Keeps the run alive for as long as anyone looks at it.
   std::shared_ptr<const Exhibit> exhibit() const override { return {stage_, &stage_->exhibit}; }
   void decide() override { stage_->run.decide(); }
-  void stepped() override {
+  void stepped(std::size_t late) override {
+    if (stage_->late) *stage_->late += late;
     stage_->run.noteOutcome();
     stage_->outputs.observe(stage_->run.environment());
   }
@@ -111,10 +114,10 @@ class WorldRun final : public ServedRun {
 
   void keep() { stage_->outputs.keep(stage_->run.environment()); }
   void finish(Served how) {
-    stage_->finish(how == Served::interrupted                ? EndedBy::interrupt
-                   : how == Served::stopped                  ? EndedBy::control_panel
+    stage_->finish(how == Served::interrupted                    ? EndedBy::interrupt
+                   : how == Served::stopped                      ? EndedBy::control_panel
                    : stage_->run.gold().all_halted_s.has_value() ? EndedBy::all_halted
-                                                             : EndedBy::time_limit);
+                                                                 : EndedBy::time_limit);
   }
 
  private:

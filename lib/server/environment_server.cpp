@@ -229,10 +229,10 @@ struct EnvironmentServer::Impl {
       const bool is_time = isTimeToStep();
       if (!is_time || lobby.pace == Pace::realtime) robots.evictLate();
       if (!is_time) continue;
-      robots.handOver(run.environment());
+      const std::size_t late = robots.handOver(run.environment());
       run.decide();
       geometry.step(run.environment());
-      run.stepped();
+      run.stepped(late);
       robots.tell();
       viewers.tell();
       noteStep(run.environment().time().period_s);

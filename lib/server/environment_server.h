@@ -35,8 +35,8 @@ class ServedRun {
   virtual std::shared_ptr<const Exhibit> exhibit() const = 0;
   /// Lets the environment's own controllers decide; just before a step.
   virtual void decide() = 0;
-  /// A step was taken: records it, say.
-  virtual void stepped() = 0;
+  /// A step was taken, for which the commands of `late` robots came too late: records it, say.
+  virtual void stepped(std::size_t late) = 0;
   virtual bool isOver() const = 0;
   /// Begins another run, with another world. Whoever holds the exhibit so far may go on looking at it.
   /// @throws ConfigError when the world is no good; this run then goes on.

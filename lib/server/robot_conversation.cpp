@@ -294,13 +294,14 @@ void RobotConversation::evictLate() {
   }
 }
 
-void RobotConversation::handOver(Environment& environment) {
+std::size_t RobotConversation::handOver(Environment& environment) {
+  std::size_t late_now = 0;
   const std::lock_guard lock(lobby_.mutex);
   for (const auto robot : left_) environment.setCommand(robot, {});
   left_.clear();
   const auto streams = streams_;
   for (const auto& stream : streams) {
-    if (lobby_.pace == Pace::realtime && stream->owes_answer) late_ += stream->robots.size();
+    if (lobby_.pace == Pace::realtime && stream->owes_answer) late_now += stream->robots.size();
     if (!stream->has_answer) continue;
     stream->has_answer = false;
     try {
@@ -317,6 +318,8 @@ void RobotConversation::handOver(Environment& environment) {
       expel(*stream, {grpc::StatusCode::INVALID_ARGUMENT, error.what()});
     }
   }
+  late_ += late_now;
+  return late_now;
 }
 
 void RobotConversation::tell() {

@@ -35,7 +35,8 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
   /// Hangs up on whoever has let the deadline pass.
   void evictLate();
   /// Hands the answers to the environment; robots whose process has left stop.
-  void handOver(Environment& environment);
+  /// @return how many robots' commands have come too late for this step, at the pace of real time
+  std::size_t handOver(Environment& environment);
   /// Sends everyone the readings of the new step.
   void tell();
   /// The run is over.
@@ -43,7 +44,7 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
 
   std::size_t connected() const;            ///< robots
   std::vector<std::string> absent() const;  ///< networked robots that are not connected
-  std::uint64_t late() const;               ///< robot-steps whose command came too late, at the pace of real time
+  std::uint64_t late() const;               ///< what handOver() returned, summed over the run
 
  private:
   class Stream;

@@ -20,6 +20,12 @@ std::string textOf(const std::filesystem::path& file) {
   return text.str();
 }
 
+std::size_t countOf(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
 std::filesystem::path emptyFolder() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
   auto folder = std::filesystem::path(testing::TempDir()) /

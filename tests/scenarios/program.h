@@ -51,6 +51,9 @@ class StartedProgram {
 /// A new, empty folder of the running test's own.
 std::filesystem::path emptyFolder();
 
+/// How often a text has another in it.
+std::size_t countOf(const std::string& part, const std::string& text);
+
 std::string textOf(const std::filesystem::path& file);
 
 }  // namespace robosim

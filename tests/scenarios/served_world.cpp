@@ -1,6 +1,7 @@
 #include "tests/scenarios/served_world.h"
 
 #include "maze/controllers.h"
+#include "tests/scenarios/program.h"
 
 namespace robosim {
 namespace {
@@ -61,9 +62,9 @@ std::string ServedWorld::log() const {
   return log_;
 }
 
-void ServedWorld::waitForLog(const std::string& text) {
+void ServedWorld::waitForLog(const std::string& text, std::size_t times) {
   std::unique_lock lock(mutex_);
-  bell_.wait(lock, [&] { return log_.find(text) != std::string::npos; });
+  bell_.wait(lock, [&] { return countOf(text, log_) >= times; });
 }
 
 void ServedWorld::load(const WorldSource& source) {

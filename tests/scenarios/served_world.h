@@ -26,19 +26,20 @@ class ServedWorld final : private ServedRun {
   ~ServedWorld() override;  ///< ends the run
 
   DialOptions dialOptions() const;
+  const std::vector<std::string>& robotNames() const { return stage_->exhibit.robot_names; }
   int port() const { return server_->ports().front(); }
 
   /// Ends the run unless it has ended, and waits for its end.
   Served end();
   /// Waits for the run's own end, or that a control panel stops it.
   Served wait();
-  /// After the end.
+  /// After the end, or while the run is paused.
   std::string digest() const { return stage_->run.environment().digest(); }
   const State& state() const { return stage_->run.environment().state(); }
 
   std::string log() const;
-  /// Waits until the log has a line with `text`.
-  void waitForLog(const std::string& text);
+  /// Waits until the log has `text`, so many times.
+  void waitForLog(const std::string& text, std::size_t times = 1);
 
  private:
   struct Stage {
@@ -50,7 +51,7 @@ class ServedWorld final : private ServedRun {
   Environment& environment() override { return stage_->run.environment(); }
   std::shared_ptr<const Exhibit> exhibit() const override { return {stage_, &stage_->exhibit}; }
   void decide() override { stage_->run.decide(); }
-  void stepped() override {}
+  void stepped(std::size_t) override {}
   bool isOver() const override { return stage_->run.environment().time().step >= options_.last_step; }
   void load(const WorldSource& source) override;
 
