@@ -50,8 +50,8 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
     return !posted_ && !writing_;
   }
 
-  /// Ends the stream: what is posted still goes out if all is well. A peer that is too late may never take what is being
-  /// written, and is cut off; any other is told the status after that.
+  /// Ends the stream: what is posted still goes out if all is well. A peer that is too late may never take what is
+  /// being written, and is cut off; any other is told the status after that.
   void end(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (ending_) return;

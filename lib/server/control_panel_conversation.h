@@ -40,7 +40,8 @@ class ControlPanelConversation final : public ControlPanelService {
   grpc::ServerUnaryReactor* Start(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Pause(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Step(grpc::CallbackServerContext*, const wire::StepRequest*, wire::RunStatus*) override;
-  grpc::ServerUnaryReactor* SetSpeed(grpc::CallbackServerContext*, const wire::SpeedRequest*, wire::RunStatus*) override;
+  grpc::ServerUnaryReactor* SetSpeed(grpc::CallbackServerContext*, const wire::SpeedRequest*,
+                                     wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   grpc::ServerUnaryReactor* Status(grpc::CallbackServerContext*, const wire::PanelRequest*, wire::RunStatus*) override;
   RawStream* Watch(grpc::CallbackServerContext*) override;
@@ -60,6 +61,7 @@ class ControlPanelConversation final : public ControlPanelService {
   class LoadCall;
   class Watcher;
   using Wish = std::function<void(PanelDesk&, Call&)>;
+  grpc::Status mayEnter(grpc::CallbackServerContext* context, Right right) const;
   grpc::ServerUnaryReactor* take(grpc::CallbackServerContext* context, Right right, std::uint32_t protocol,
                                  wire::RunStatus* reply, const char* what, Wish wish);
   void queue(const std::shared_ptr<Call>& call);
@@ -69,7 +71,6 @@ class ControlPanelConversation final : public ControlPanelService {
   Lobby& lobby_;
   std::vector<std::shared_ptr<Call>> calls_;        ///< not yet obeyed; with the lobby's mutex held
   std::vector<std::shared_ptr<Watcher>> watchers_;  ///< with the lobby's mutex held
-  bool is_over_ = false;                            ///< with the lobby's mutex held
   std::vector<std::shared_ptr<Call>> steppers_;     ///< obeyed, and waiting for their last step
 };
 

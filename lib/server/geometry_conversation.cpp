@@ -53,7 +53,7 @@ RawStream* GeometryConversation::Work(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.access.check(*context, Right::work); !status.ok()) expel(*stream, status);
+  if (const auto status = lobby_.mayEnter(*context, Right::work); !status.ok()) expel(*stream, status);
   return stream.get();
 }
 

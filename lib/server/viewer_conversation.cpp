@@ -49,10 +49,10 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
 
  public:
   bool is_gone = false;
-  bool is_known = false;     ///< it has said which protocol it speaks
-  bool asks = false;         ///< for a frame
-  bool wants_world = true;   ///< the next frame is a whole one
-  std::uint64_t step = 0;    ///< of the last frame sent
+  bool is_known = false;          ///< it has said which protocol it speaks
+  bool asks = false;              ///< for a frame
+  bool wants_world = true;        ///< the next frame is a whole one
+  std::uint64_t step = 0;         ///< of the last frame sent
   std::vector<RobotLook> looked;  ///< what the viewer knows
 };
 
@@ -63,7 +63,7 @@ RawStream* ViewerConversation::Watch(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
-  const grpc::Status status = lobby_.access.check(*context, Right::look);
+  const grpc::Status status = lobby_.mayEnter(*context, Right::look);
   if (status.ok()) {
     streams_.push_back(stream);
   } else {

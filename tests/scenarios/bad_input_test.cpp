@@ -31,7 +31,8 @@ class BadInput : public testing::Test {
   static ServedWorld::Options options() {
     ServedWorld::Options options;
     options.robots_elsewhere = true;
-    options.server.step_deadline = std::chrono::minutes(1);  // the good one takes its time while the other makes trouble
+    options.server.step_deadline =
+        std::chrono::minutes(1);  // the good one takes its time while the other makes trouble
     return options;
   }
 

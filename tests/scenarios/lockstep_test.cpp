@@ -21,8 +21,8 @@ ServedWorld::Options robotsElsewhere(const std::string& world, std::uint64_t las
 }
 
 std::string digestInOneProcess(const std::string& world, int steps, const std::string& controller) {
-  const Ended run = runProgram("run " + world + " --json --controller " + controller + " --time " +
-                               std::to_string(steps / 10));
+  const Ended run =
+      runProgram("run " + world + " --json --controller " + controller + " --time " + std::to_string(steps / 10));
   return nlohmann::json::parse(run.out)["digest"];
 }
 
