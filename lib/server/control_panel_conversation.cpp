@@ -330,7 +330,7 @@ void ControlPanelConversation::sayGoodbye(PanelDesk& desk) {
   for (const auto& call : std::exchange(steppers_, {})) {
     call->answer({grpc::StatusCode::ABORTED, "the run has ended before step " + std::to_string(*call->until_step)});
   }
-  for (const auto& watcher : watchers_) {
+  for (const auto& watcher : std::exchange(watchers_, {})) {
     watcher->draft() = last;
     watcher->post();
     watcher->end(grpc::Status::OK);
