@@ -28,7 +28,7 @@ class GeometryConversation::Stream final : public ServerStream<wire::FromWorker,
   void ended() override {
     const std::lock_guard lock(owner_.lobby_.mutex);
     if (state == State::gone) return;
-    owner_.lobby_.log("geometry worker " + peer + ": has left");
+    if (state != State::silent) owner_.lobby_.log("geometry worker " + peer + ": has left");
     owner_.leave(*this);
   }
 
@@ -39,6 +39,7 @@ class GeometryConversation::Stream final : public ServerStream<wire::FromWorker,
   enum class State { silent, waiting, building, ready, gone };
   State state = State::silent;
   std::string peer;
+  int replicas_owed = 0;  ///< sent, and not yet said to stand
   bool needs_moment = true;
   bool owes_result = false;
   wire::StepPart part = wire::CLIP;
@@ -53,7 +54,11 @@ RawStream* GeometryConversation::Work(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.mayEnter(*context, Right::work); !status.ok()) expel(*stream, status);
+  if (const auto status = lobby_.mayEnter(*context, Right::work); !status.ok()) {
+    expel(*stream, status);
+  } else if (stream->state == Stream::State::silent) {
+    newcomers_.add(stream);
+  }
   return stream.get();
 }
 
@@ -69,10 +74,14 @@ void GeometryConversation::received(Stream& stream, const wire::FromWorker& mess
       if (!message.has_hello()) throw WireError("the first message of a geometry worker must be its hello");
       checkProtocol(message.hello().protocol());
       stream.state = Stream::State::waiting;
+      newcomers_.remove(stream);
       streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
       lobby_.bell.notify_all();
       break;
+    case Stream::State::waiting:
     case Stream::State::building:
+      if (stream.replicas_owed == 0) throw WireError("a message of a geometry worker that owes none");
+      if (--stream.replicas_owed > 0 || stream.state == Stream::State::waiting) break;  // of a world before this one
       if (message.world_version() != version) {
         throw WireError("the worker has built version " + inQuotes(message.world_version()) +
                         " of the world, and here is version " + version);
@@ -84,7 +93,7 @@ void GeometryConversation::received(Stream& stream, const wire::FromWorker& mess
     case Stream::State::ready:
       takeResult(stream, message.result());
       break;
-    default:  // a word on the world before this one
+    case Stream::State::gone:
       break;
   }
 }
@@ -104,6 +113,7 @@ void GeometryConversation::takeResult(Stream& stream, const wire::TaskResult& re
 
 void GeometryConversation::leave(Stream& stream) {
   stream.state = Stream::State::gone;
+  newcomers_.remove(stream);
   std::erase_if(streams_, [&](const auto& s) { return s.get() == &stream; });
   lobby_.bell.notify_all();
 }
@@ -117,6 +127,7 @@ void GeometryConversation::expel(Stream& stream, const grpc::Status& status) {
 
 void GeometryConversation::admit() {
   const std::lock_guard lock(lobby_.mutex);
+  while (const auto silent = newcomers_.overdue()) expel(*silent, Newcomers<Stream>::tooLate());
   for (const auto& stream : streams_) {
     if (stream->state != Stream::State::waiting || !stream->isIdle()) continue;
     const Exhibit& exhibit = *lobby_.exhibit;
@@ -129,6 +140,7 @@ void GeometryConversation::admit() {
     replica.set_period_s(exhibit.environment.time().period_s);
     stream->post();
     stream->state = Stream::State::building;
+    ++stream->replicas_owed;
   }
 }
 
@@ -230,7 +242,11 @@ void GeometryConversation::sharePart(Environment& environment, Streams& crew, co
 
 void GeometryConversation::sayGoodbye() {
   const std::lock_guard lock(lobby_.mutex);
-  for (const auto& stream : streams_) stream->end(grpc::Status::OK);
+  for (const auto& stream : streams_) {
+    stream->state = Stream::State::gone;
+    stream->end(grpc::Status::OK);
+  }
+  streams_.clear();
 }
 
 std::size_t GeometryConversation::count() const {

@@ -8,6 +8,7 @@
 #include "net/geometry.grpc.pb.h"
 #include "net/server_stream.h"
 #include "server/lobby.h"
+#include "server/newcomers.h"
 
 namespace robosim {
 
@@ -50,6 +51,7 @@ class GeometryConversation final : public wire::Geometry::WithRawCallbackMethod_
                  const std::function<void(RobotRange)>& do_here, RobotRange own);
 
   Lobby& lobby_;
+  Newcomers<Stream> newcomers_;
   Streams streams_;
   Environment* environment_ = nullptr;  ///< while results may be put into it
   std::vector<Command> told_;           ///< by robot: the last command that replicas know

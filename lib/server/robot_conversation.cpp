@@ -6,16 +6,6 @@
 #include "net/robot_wire.h"
 
 namespace robosim {
-namespace {
-
-/// Who connects says hello at once. This is for slow machines, and for programs that are none of ours.
-constexpr std::chrono::seconds kHelloDeadline(10);
-
-std::string milliseconds(Lobby::Clock::duration duration) {
-  return std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(duration).count()) + " ms";
-}
-
-}  // namespace
 
 /// One process.
 class RobotConversation::Stream final : public ServerStream<wire::FromRobots, wire::ToRobots> {
@@ -67,8 +57,8 @@ class RobotConversation::Stream final : public ServerStream<wire::FromRobots, wi
   std::vector<std::size_t> robots;  ///< their places in the world
   bool owes_answer = false;
   std::uint64_t asked_step = 0;
-  Lobby::Clock::time_point since = Lobby::Clock::now();  ///< it owes an answer, or came and said nothing
-  bool has_answer = false;                               ///< one to hand over
+  Lobby::Clock::time_point since;  ///< it owes an answer
+  bool has_answer = false;         ///< one to hand over
   RobotsAnswer answer;
   ///@}
   RobotsAnswer incoming;  ///< touched by gRPC's thread only
@@ -86,7 +76,7 @@ RawStream* RobotConversation::Drive(grpc::CallbackServerContext* context) {
   if (const auto status = lobby_.mayEnter(*context, Right::drive); !status.ok()) {
     expel(*stream, status);
   } else if (stream->state == Stream::State::silent) {
-    silent_.push_back(stream);
+    newcomers_.add(stream);
   }
   return stream.get();
 }
@@ -148,7 +138,7 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
   stream.names = std::move(names);
   stream.held_letters.resize(stream.robots.size());
   stream.state = Stream::State::waiting;
-  std::erase_if(silent_, [&](const auto& s) { return s.get() == &stream; });
+  newcomers_.remove(stream);
   streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
   lobby_.bell.notify_all();
 }
@@ -172,7 +162,7 @@ void RobotConversation::answer(Stream& stream) {
 
 void RobotConversation::leave(Stream& stream, const std::string& why) {
   const auto state = std::exchange(stream.state, Stream::State::gone);
-  std::erase_if(silent_, [&](const auto& s) { return s.get() == &stream; });
+  newcomers_.remove(stream);
   if (state == Stream::State::silent || state == Stream::State::gone) return;
   if (stream.owes_answer) --missing_;
   stream.owes_answer = false;
@@ -201,7 +191,7 @@ void RobotConversation::admit() {
   std::vector<std::shared_ptr<Stream>> admitted;
   {
     const std::lock_guard lock(lobby_.mutex);
-    hangUpOnSilent();
+    while (const auto silent = newcomers_.overdue()) expel(*silent, Newcomers<Stream>::tooLate());
     for (const auto& stream : streams_) {
       if (stream->state != Stream::State::waiting) continue;
       stream->state = Stream::State::admitted;
@@ -214,14 +204,6 @@ void RobotConversation::admit() {
   for (const auto& stream : admitted) {
     sendWelcome(*stream);
     sendReadings(*stream);
-  }
-}
-
-void RobotConversation::hangUpOnSilent() {
-  const auto now = Lobby::Clock::now();
-  while (!silent_.empty() && now - silent_.front()->since >= kHelloDeadline) {
-    expel(*silent_.front(), {grpc::StatusCode::DEADLINE_EXCEEDED,
-                             "no hello within " + milliseconds(kHelloDeadline) + " of connecting; send it at once"});
   }
 }
 

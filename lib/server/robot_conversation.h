@@ -7,6 +7,7 @@
 #include "net/robots.grpc.pb.h"
 #include "net/server_stream.h"
 #include "server/lobby.h"
+#include "server/newcomers.h"
 
 namespace robosim {
 
@@ -54,7 +55,6 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
   void answer(Stream& stream);
   void leave(Stream& stream, const std::string& why);
   void expel(Stream& stream, const grpc::Status& status);
-  void hangUpOnSilent();
   void ask(Stream& stream);  ///< it is about to be sent readings
   ///@}
   void sendWelcome(Stream& stream);
@@ -62,7 +62,7 @@ class RobotConversation final : public wire::Robots::WithRawCallbackMethod_Drive
   void holdLetters(Stream& stream);
 
   Lobby& lobby_;
-  std::vector<std::shared_ptr<Stream>> silent_;   ///< those that have not said hello, first come first
+  Newcomers<Stream> newcomers_;
   std::vector<std::shared_ptr<Stream>> streams_;  ///< those whose hello was good
   std::vector<std::shared_ptr<Stream>> told_;     ///< working memory of tell()
   std::vector<Stream*> driver_of_;                ///< by robot; null for nobody

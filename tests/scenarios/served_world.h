@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <condition_variable>
 #include <memory>
 #include <mutex>
@@ -29,6 +30,9 @@ class ServedWorld final : private ServedRun {
   const std::vector<std::string>& robotNames() const { return stage_->exhibit.robot_names; }
   int port() const { return server_->ports().front(); }
 
+  /// Whether a step is being taken, and not yet done.
+  bool isStepping() const { return is_stepping_; }
+
   /// Ends the run unless it has ended, and waits for its end.
   Served end();
   /// Waits for the run's own end, or that a control panel stops it.
@@ -50,8 +54,11 @@ class ServedWorld final : private ServedRun {
   };
   Environment& environment() override { return stage_->run.environment(); }
   std::shared_ptr<const Exhibit> exhibit() const override { return {stage_, &stage_->exhibit}; }
-  void decide() override { stage_->run.decide(); }
-  void stepped(std::size_t) override {}
+  void decide() override {
+    stage_->run.decide();
+    is_stepping_ = true;
+  }
+  void stepped(std::size_t) override { is_stepping_ = false; }
   bool isOver() const override { return stage_->run.environment().time().step >= options_.last_step; }
   void load(const WorldSource& source) override;
 
@@ -60,6 +67,7 @@ class ServedWorld final : private ServedRun {
   std::condition_variable bell_;
   std::string log_;
   bool is_asked_to_end_ = false;
+  std::atomic<bool> is_stepping_{false};
   std::shared_ptr<Stage> stage_;
   std::unique_ptr<EnvironmentServer> server_;
   Served how_ = Served::to_its_end;
