@@ -17,8 +17,8 @@ struct Mover {
 };
 
 /// Decides how far each robot may go (the rule is in environment.h): begin(), then clip() all, then judge() all, then
-/// conclude(). Keeps its working memory from step to step. `scene` is frozen where the robots stand now, and `paths` are
-/// all robots' in each call.
+/// conclude(). Keeps its working memory from step to step. `scene` is frozen where the robots stand now, and `paths`
+/// are all robots' in each call.
 class Authority {
  public:
   Authority(std::vector<Mover> movers, const Bounds2D& surface);

@@ -71,25 +71,25 @@ class Environment {
 
   /// @name A step in parts
   /// For whoever shares a step out among processes that each hold a replica of this environment: step() is begin(),
-  /// clip(), judge(), move(), sense(), finish(). The work of clip(), judge() and sense() is done range by range, here or
-  /// elsewhere, in any order: what a replica has worked out is read there and put here, and is the same, bit for bit.
-  /// Each must be done, or put, for all robots before the next part. A replica needs no finish().
+  /// clip(), judge(), move(), sense(), finish(). The work of clip(), judge() and sense() is done range by range, here
+  /// or elsewhere, in any order: what a replica has worked out is read there and put here, and is the same, bit for
+  /// bit. Each must be done, or put, for all robots before the next part. A replica needs no finish().
   ///@{
-  void begin();                                            ///< takes the commands
-  void clip(RobotRange range);                             ///< move rule (a)
-  double clipped(std::size_t robot) const;                 ///< the part of its way that it can go, [0, 1]
+  void begin();                             ///< takes the commands
+  void clip(RobotRange range);              ///< move rule (a)
+  double clipped(std::size_t robot) const;  ///< the part of its way that it can go, [0, 1]
   void putClipped(std::size_t robot, double fraction);
-  void judge(RobotRange range);                            ///< move rule (b)
+  void judge(RobotRange range);  ///< move rule (b)
   bool stays(std::size_t robot) const;
   void putStays(std::size_t robot, bool stays);
   void move();
-  void sense(RobotRange range);                            ///< with all sensors that remember nothing
+  void sense(RobotRange range);  ///< with all sensors that remember nothing
   /// For a sensor that remembers nothing: what it measured, to be read or put.
   Measurement& measurement(std::size_t robot, std::size_t slot);
-  void finish();                                           ///< delivers messages; the remaining sensors sense
+  void finish();  ///< delivers messages; the remaining sensors sense
 
-  const Command& command(std::size_t robot) const;         ///< the last one
-  Moment moment() const;                                   ///< between steps
+  const Command& command(std::size_t robot) const;  ///< the last one
+  Moment moment() const;                            ///< between steps
   /// Goes on from there. @pre `moment` is of an environment with the same world, fleet and options.
   void resume(const Moment& moment);
   ///@}

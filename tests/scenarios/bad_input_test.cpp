@@ -74,12 +74,12 @@ class BadInput : public testing::Test {
 
   /// A process that does as it should has the other robot now, and steps go on for both.
   void expectTheOthersNoticeNothing() {
-    const auto takeSteps = [](NetworkHardware& robots) {
+    const auto take_steps = [](NetworkHardware& robots) {
       for (int i = 0; i < 3; ++i) EXPECT_TRUE(robots.nextStep());
     };
     NetworkHardware other(world_.dialOptions(), {"Scout1"});
-    auto others_steps = std::async(std::launch::async, [&] { takeSteps(other); });
-    takeSteps(good_);
+    auto others_steps = std::async(std::launch::async, [&] { take_steps(other); });
+    take_steps(good_);
     others_steps.get();
   }
 
@@ -132,7 +132,7 @@ TEST_F(BadInput, OfHugeNamesLettersAndMessages) {
 TEST_F(BadInput, OfMessagesThatAreNone) {
   // A field of text that is no UTF-8, and bytes that are no fields: as bytes of another message they pass our own end.
   wire::FromRobots no_text;
-  no_text.GetReflection()->MutableUnknownFields(&no_text)->AddLengthDelimited(4, "\x12\x02\xff\xfe");
+  wire::FromRobots::GetReflection()->MutableUnknownFields(&no_text)->AddLengthDelimited(4, "\x12\x02\xff\xfe");
   expectError(afterHello(no_text), grpc::StatusCode::INVALID_ARGUMENT, "is no robosim.wire.FromRobots");
   expectTheOthersNoticeNothing();
 }

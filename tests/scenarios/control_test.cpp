@@ -140,7 +140,7 @@ TEST(Control, WorksARunFromTheCommandLine) {
   control("stop");
   const Ended watched = watch.wait();
   EXPECT_EQ(watched.exit_code, 0) << watched.err;
-  const std::string last_line = watched.out.substr(watched.out.rfind("step"));
+  const std::string last_line = watched.out.substr(watched.out.rfind("\nstep"));
   EXPECT_NE(last_line.find(": ended"), std::string::npos) << watched.out;
   const Ended served = serving.program().wait();
   EXPECT_EQ(served.exit_code, 0) << served.err;
