@@ -44,17 +44,19 @@ struct Arguments {
   std::vector<std::string> crowds;
   int windows = 5;
   double window_s = 1;
+  std::string tls_cert, tls_key;  ///< empty: without TLS
   bool json = false;
 };
 
 /// `robosim robot` in a process of its own, which ends with this.
 class RobotProcess {
  public:
-  RobotProcess(const std::vector<std::string>& names, int port) {
+  RobotProcess(const std::vector<std::string>& names, int port, const std::string& trusted_certificate) {
     std::vector<std::string> words{"robosim", "robot"};
     words.insert(words.end(), names.begin(), names.end());
     for (const auto& word : {"--environment", "", "--controller", "wander"}) words.emplace_back(word);
     words[words.size() - 3] = std::to_string(port);
+    if (!trusted_certificate.empty()) words.insert(words.end(), {"--tls-ca", trusted_certificate});
     std::vector<char*> argv;
     for (auto& word : words) argv.push_back(word.data());
     argv.push_back(nullptr);
@@ -120,17 +122,18 @@ class MeasuredRun final : public ServedRun {
 
 double measure(const Crowd& crowd, const Arguments& arguments) {
   const std::size_t robots = crowd.processes * crowd.robots_each;
-  MeasuredRun run(makeWorld(kLoad, robots, 1), arguments);
+  MeasuredRun run(makeWorldToRun(kLoad, robots, 1), arguments);
   ServerOptions options;
   options.listen = ListenAddresses::parse("127.0.0.1:0");
   options.step_deadline = std::chrono::minutes(1);
+  if (!arguments.tls_cert.empty()) options.tls = TlsIdentity::read(arguments.tls_cert, arguments.tls_key);
   options.log = [](const std::string&) {};
   EnvironmentServer server(options, run.exhibit());
   std::vector<std::unique_ptr<RobotProcess>> processes;
   for (std::size_t p = 0; p < crowd.processes; ++p) {
     const auto first = run.exhibit()->robot_names.begin() + static_cast<std::ptrdiff_t>(p * crowd.robots_each);
     const std::vector<std::string> names(first, first + static_cast<std::ptrdiff_t>(crowd.robots_each));
-    processes.push_back(std::make_unique<RobotProcess>(names, server.ports().front()));
+    processes.push_back(std::make_unique<RobotProcess>(names, server.ports().front(), arguments.tls_cert));
   }
   server.serve(run, [] { return false; });
   return run.medianStepsPerSecond();
@@ -189,6 +192,11 @@ void addBenchNetwork(CLI::App& bench) {
       ->check(numberIn(1e-6, 3600))
       ->type_name("SECONDS")
       ->capture_default_str();
+  auto* cert = command->add_option("--tls-cert", a->tls_cert, "measure with TLS: a certificate for 127.0.0.1")
+                   ->type_name("FILE")
+                   ->check(fileName());
+  command->add_option("--tls-key", a->tls_key, "its key")->type_name("FILE")->check(fileName())->needs(cert);
+  cert->needs("--tls-key");
   command->add_flag("--json", a->json, "print one JSON object a line");
   command->footer(
       "Each process is a 'robosim robot' on this machine, whose robots wander with 16 sonars and 30 infrareds.");

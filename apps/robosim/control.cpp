@@ -167,7 +167,7 @@ void addControl(CLI::App& program) {
     command->callback(act);
     return command;
   };
-  const auto addPlain = [&](const char* name, const char* help, auto method) {
+  const auto add_plain = [&](const char* name, const char* help, auto method) {
     add(name, help, [a, method] { showLine(Panel(a->connection.dialOptions()).call(method, wire::PanelRequest())); });
   };
 
@@ -175,8 +175,8 @@ void addControl(CLI::App& program) {
       [a] { showLine(Panel(a->connection.dialOptions()).load(readWorldSource(a->world))); })
       ->add_option("FILE", a->world, "world file")
       ->required();
-  addPlain("start", "let the run go on", &wire::ControlPanel::Stub::Start);
-  addPlain("pause", "halt after the step that is being taken", &wire::ControlPanel::Stub::Pause);
+  add_plain("start", "let the run go on", &wire::ControlPanel::Stub::Start);
+  add_plain("pause", "halt after the step that is being taken", &wire::ControlPanel::Stub::Pause);
   add("step", "take so many steps, then pause; returns when they are done", [a] { step(*a); })
       ->add_option("N", a->steps)
       ->check(CLI::Range(1, 1'000'000'000))
@@ -185,7 +185,7 @@ void addControl(CLI::App& program) {
       ->add_option("X", a->speed)
       ->type_name("X|max")
       ->required();
-  addPlain("stop", "end the run, and the program that serves it", &wire::ControlPanel::Stub::Stop);
+  add_plain("stop", "end the run, and the program that serves it", &wire::ControlPanel::Stub::Stop);
   auto* status = add("status", "how the run stands", [a] { showStatus(*a); });
   status->add_flag("--watch", a->watch, "keep printing, a line for each report, until the run is over");
   status->add_option("--every", a->period_s, "with --watch: how long from one report to the next")

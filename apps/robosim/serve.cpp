@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include <google/protobuf/stubs/logging.h>
+
 #include "base/error_list.h"
 #include "maze/controllers.h"
 #include "recording/recording_error.h"
@@ -170,6 +172,7 @@ void tellPorts(const ServerOptions& options, const std::vector<int>& ports) {
 void serveWorld(const Arguments& arguments) {
   const Interrupt interrupt;
   arguments.of_run.check();
+  google::protobuf::SetLogHandler(nullptr);  // what a client sends amiss, our own log tells
   const ServerOptions options = serverOptions(arguments);
   WorldRun run(arguments);
   EnvironmentServer server(options, run.exhibit());

@@ -16,8 +16,8 @@ constexpr int kKeepaliveMs = 20000;
 struct DialOptions {
   std::string address = "127.0.0.1:3000";  ///< "host:port"
   bool tls = false;
-  std::string trusted_pem{}; ///< with TLS, the certificates to trust; empty for the system's authorities
-  std::string token{};      ///< shown with every call; empty for none
+  std::string trusted_pem{};  ///< with TLS, the certificates to trust; empty for the system's authorities
+  std::string token{};        ///< shown with every call; empty for none
   bool insecure = false;  ///< show the token without TLS to other machines as well, where anyone on the way can read it
 };
 

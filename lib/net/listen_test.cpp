@@ -41,7 +41,8 @@ TEST(Listen, SaysWhatAnAddressIs) {
 
 TEST(Listen, KnowsItsOwnMachine) {
   for (const char* own : {"127.0.0.1:1", "127.9.8.7:1", "localhost:1", "[::1]:1"}) EXPECT_TRUE(isLoopback(own)) << own;
-  for (const char* open : {"0.0.0.0:1", "[::]:1", "192.0.2.7:1", "127.0.0.1.example.org:1", "example.org:1", "128.0.0.1:1"}) {
+  for (const char* open :
+       {"0.0.0.0:1", "[::]:1", "192.0.2.7:1", "127.0.0.1.example.org:1", "example.org:1", "128.0.0.1:1"}) {
     EXPECT_FALSE(isLoopback(open)) << open;
   }
 }

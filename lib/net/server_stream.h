@@ -50,17 +50,15 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
     return !posted_ && !writing_;
   }
 
-  /// Ends the stream: what is posted still goes out if all is well, and a peer that does not take what is being written
-  /// is cut off if not.
+  /// Ends the stream: what is posted still goes out if all is well. A peer that is too late may never take what is
+  /// being written, and is cut off; any other is told the status after that.
   void end(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (ending_) return;
     ending_ = true;
     status_ = {status.error_code(), fitForStatus(status.error_message())};
-    if (!status.ok()) {
-      posted_ = false;
-      if (writing_) context_->TryCancel();
-    }
+    if (!status.ok()) posted_ = false;
+    if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED && writing_) context_->TryCancel();
     writeNext();
   }
 

@@ -14,7 +14,7 @@ void checkProtocol(std::uint32_t version) {
   if (version == kProtocolVersion) return;
   const std::string older = version < kProtocolVersion ? "the caller" : "the environment";
   throw WireError("the caller speaks version " + std::to_string(version) + " of the protocol, the environment " +
-                  std::to_string(kProtocolVersion) + "; " + older + " is the older program: bring it up to date",
+                      std::to_string(kProtocolVersion) + "; " + older + " is the older program: bring it up to date",
                   grpc::StatusCode::FAILED_PRECONDITION);
 }
 

@@ -16,8 +16,8 @@ struct WorldSource {
   RobotTypes robot_types;  ///< those that the world names, each with its text
 };
 
-/// @throws ConfigError when the world's file, or that of a robot type, cannot be read. What is wrong inside, loadWorld()
-/// tells.
+/// @throws ConfigError when the world's file, or that of a robot type, cannot be read. What is wrong inside,
+/// loadWorld() tells.
 WorldSource readWorldSource(const std::filesystem::path& file);
 
 /// As loadWorld() of a file.

@@ -17,8 +17,6 @@ constexpr std::size_t kMostWorldBytes = 256u << 20;
 
 grpc::Status badInput(const std::string& what) { return {grpc::StatusCode::INVALID_ARGUMENT, what}; }
 
-grpc::Status runIsOver() { return {grpc::StatusCode::UNAVAILABLE, "the run is over"}; }
-
 void checkSteps(std::uint64_t steps) {
   if (steps >= 1 && steps <= kMostSteps) return;
   throw WireError(std::to_string(steps) + " steps; must lie in [1, " + std::to_string(kMostSteps) + "]");
@@ -147,12 +145,17 @@ class ControlPanelConversation::Watcher final : public ServerStream<wire::PanelR
 ControlPanelConversation::ControlPanelConversation(Lobby& lobby) : lobby_(lobby) {}
 ControlPanelConversation::~ControlPanelConversation() = default;
 
+grpc::Status ControlPanelConversation::mayEnter(grpc::CallbackServerContext* context, Right right) const {
+  const std::lock_guard lock(lobby_.mutex);
+  return lobby_.mayEnter(*context, right);
+}
+
 grpc::ServerUnaryReactor* ControlPanelConversation::take(grpc::CallbackServerContext* context, Right right,
                                                          std::uint32_t protocol, wire::RunStatus* reply,
                                                          const char* what, Wish wish) {
   auto call = std::make_shared<ReactingCall<grpc::ServerUnaryReactor>>(context->peer(), what, reply, std::move(wish));
   call->begin(call);
-  grpc::Status status = lobby_.access.check(*context, right);
+  grpc::Status status = mayEnter(context, right);
   try {
     if (status.ok()) checkProtocol(protocol);
   } catch (const WireError& error) {
@@ -170,8 +173,8 @@ grpc::ServerUnaryReactor* ControlPanelConversation::take(grpc::CallbackServerCon
 
 void ControlPanelConversation::queue(const std::shared_ptr<Call>& call) {
   const std::lock_guard lock(lobby_.mutex);
-  if (is_over_) {
-    call->answer(runIsOver());
+  if (lobby_.is_over) {
+    call->answer(Lobby::runIsOver());
     return;
   }
   calls_.push_back(call);
@@ -182,7 +185,7 @@ grpc::ServerReadReactor<wire::WorldPiece>* ControlPanelConversation::Load(grpc::
                                                                           wire::RunStatus* reply) {
   auto call = std::make_shared<LoadCall>(*this, context->peer(), reply);
   call->begin(call);
-  const grpc::Status status = lobby_.access.check(*context, Right::operate);
+  const grpc::Status status = mayEnter(context, Right::operate);
   if (status.ok()) {
     call->read();
   } else {
@@ -243,14 +246,11 @@ grpc::ServerUnaryReactor* ControlPanelConversation::Status(grpc::CallbackServerC
 RawStream* ControlPanelConversation::Watch(grpc::CallbackServerContext* context) {
   auto watcher = std::make_shared<Watcher>(*this, context);
   watcher->begin();
-  const grpc::Status status = lobby_.access.check(*context, Right::look);
   const std::lock_guard lock(lobby_.mutex);
-  if (!status.ok()) {
-    watcher->end(status);
-  } else if (is_over_) {
-    watcher->end(runIsOver());
-  } else {
+  if (const auto status = lobby_.mayEnter(*context, Right::look); status.ok()) {
     watchers_.push_back(watcher);
+  } else {
+    watcher->end(status);
   }
   return watcher.get();
 }
@@ -326,12 +326,11 @@ void ControlPanelConversation::sayGoodbye(PanelDesk& desk) {
   wire::RunStatus last;
   desk.describe(last);
   const std::lock_guard lock(lobby_.mutex);
-  is_over_ = true;
-  for (const auto& call : std::exchange(calls_, {})) call->answer(runIsOver());
+  for (const auto& call : std::exchange(calls_, {})) call->answer(Lobby::runIsOver());
   for (const auto& call : std::exchange(steppers_, {})) {
     call->answer({grpc::StatusCode::ABORTED, "the run has ended before step " + std::to_string(*call->until_step)});
   }
-  for (const auto& watcher : watchers_) {
+  for (const auto& watcher : std::exchange(watchers_, {})) {
     watcher->draft() = last;
     watcher->post();
     watcher->end(grpc::Status::OK);

@@ -61,6 +61,7 @@ class ControlPanelConversation final : public ControlPanelService {
   class LoadCall;
   class Watcher;
   using Wish = std::function<void(PanelDesk&, Call&)>;
+  grpc::Status mayEnter(grpc::CallbackServerContext* context, Right right) const;
   grpc::ServerUnaryReactor* take(grpc::CallbackServerContext* context, Right right, std::uint32_t protocol,
                                  wire::RunStatus* reply, const char* what, Wish wish);
   void queue(const std::shared_ptr<Call>& call);
@@ -70,7 +71,6 @@ class ControlPanelConversation final : public ControlPanelService {
   Lobby& lobby_;
   std::vector<std::shared_ptr<Call>> calls_;        ///< not yet obeyed; with the lobby's mutex held
   std::vector<std::shared_ptr<Watcher>> watchers_;  ///< with the lobby's mutex held
-  bool is_over_ = false;                            ///< with the lobby's mutex held
   std::vector<std::shared_ptr<Call>> steppers_;     ///< obeyed, and waiting for their last step
 };
 

@@ -62,8 +62,7 @@ struct EnvironmentServer::Impl {
   std::vector<std::unique_ptr<grpc::Server>> servers;
   std::vector<int> ports;
   std::optional<std::vector<std::string>> waited_for;  ///< robots that had not come yet; nullopt: not asked yet
-  bool is_over = false;
-  Clock::time_point due;  ///< when the next step is
+  Clock::time_point due;                               ///< when the next step is
   StepRate rate;
 
   Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit) {
@@ -117,7 +116,7 @@ struct EnvironmentServer::Impl {
     const bool waits = !waited_for || !waited_for->empty();
     const bool goes_on = !waits && run_switch.mayStep();
     status.Clear();
-    status.set_phase(is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
+    status.set_phase(lobby.is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
     status.set_world(exhibit.environment.world().name);
     status.set_world_version(exhibit.world_version);
     status.set_step(state.time.step);
@@ -138,6 +137,10 @@ struct EnvironmentServer::Impl {
   }
 
   void sayGoodbye() {
+    {
+      const std::lock_guard lock(lobby.mutex);
+      lobby.is_over = true;
+    }
     panels.sayGoodbye(desk);
     robots.sayGoodbye();
     viewers.sayGoodbye();
@@ -250,7 +253,6 @@ std::vector<int> EnvironmentServer::ports() const { return impl_->ports; }
 
 Served EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
   const Served how = impl_->serve(run, interrupted);
-  impl_->is_over = true;
   impl_->sayGoodbye();
   return how;
 }

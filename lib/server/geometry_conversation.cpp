@@ -22,7 +22,7 @@ class GeometryConversation::Stream final : public ServerStream<wire::FromWorker,
 
   void refuse(const WireError& error) override {
     const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state != State::gone) owner_.expel(*this, {grpc::StatusCode::INVALID_ARGUMENT, error.what()});
+    if (state != State::gone) owner_.expel(*this, {error.code(), error.what()});
   }
 
   void ended() override {
@@ -54,7 +54,7 @@ RawStream* GeometryConversation::Work(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.access.check(*context, Right::work); !status.ok()) {
+  if (const auto status = lobby_.mayEnter(*context, Right::work); !status.ok()) {
     expel(*stream, status);
   } else if (stream->state == Stream::State::silent) {
     newcomers_.add(stream);

@@ -28,7 +28,15 @@ struct Lobby {
   Clock::duration step_deadline = std::chrono::seconds(1);
   Pace pace = Pace::lockstep;
   Access access;                           ///< constant once the server listens
+  bool is_over = false;                    ///< everyone was told goodbye: who comes now is sent away
   std::shared_ptr<const Exhibit> exhibit;  ///< never null once the server listens
+
+  /// Whether a client may have this conversation: asked first of all, with the mutex held.
+  grpc::Status mayEnter(const grpc::ServerContextBase& client, Right right) const {
+    const grpc::Status status = access.check(client, right);
+    return status.ok() && is_over ? runIsOver() : status;
+  }
+  static grpc::Status runIsOver() { return {grpc::StatusCode::UNAVAILABLE, "the run is over"}; }
 };
 
 }  // namespace robosim

@@ -73,7 +73,7 @@ RawStream* RobotConversation::Drive(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.access.check(*context, Right::drive); !status.ok()) {
+  if (const auto status = lobby_.mayEnter(*context, Right::drive); !status.ok()) {
     expel(*stream, status);
   } else if (stream->state == Stream::State::silent) {
     newcomers_.add(stream);
@@ -149,6 +149,10 @@ void RobotConversation::answer(Stream& stream) {
         stream.owes_answer ? "step " + std::to_string(stream.asked_step) + " was asked" : "nothing was asked";
     throw WireError("an answer to step " + std::to_string(stream.incoming.step) + " when " + asked +
                     "; answer each step once, when its readings have come");
+  }
+  for (const auto& letter : stream.incoming.letters) {
+    if (lobby_.exhibit->robot_named.contains(letter.to)) continue;
+    throw WireError("a letter to " + inQuotes(letter.to) + ", and there is no robot of that name");
   }
   std::swap(stream.answer, stream.incoming);
   stream.has_answer = true;
@@ -281,20 +285,15 @@ std::size_t RobotConversation::handOver(Environment& environment) {
   const std::lock_guard lock(lobby_.mutex);
   for (const auto robot : left_) environment.setCommand(robot, {});
   left_.clear();
-  const auto streams = streams_;
-  for (const auto& stream : streams) {
+  for (const auto& stream : streams_) {
     if (lobby_.pace == Pace::realtime && stream->owes_answer) late_now += stream->robots.size();
     if (!stream->has_answer) continue;
     stream->has_answer = false;
-    try {
-      for (const auto& order : stream->answer.orders) {
-        environment.setCommand(stream->robots[order.robot], order.command);
-      }
-      for (const auto& letter : stream->answer.letters) {
-        environment.send(stream->robots[letter.robot], letter.to, letter.text);
-      }
-    } catch (const std::invalid_argument& error) {
-      expel(*stream, {grpc::StatusCode::INVALID_ARGUMENT, error.what()});
+    for (const auto& order : stream->answer.orders) {
+      environment.setCommand(stream->robots[order.robot], order.command);
+    }
+    for (const auto& letter : stream->answer.letters) {
+      environment.send(stream->robots[letter.robot], letter.to, letter.text);
     }
   }
   late_ += late_now;

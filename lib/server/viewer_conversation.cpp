@@ -63,7 +63,7 @@ RawStream* ViewerConversation::Watch(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
-  const grpc::Status status = lobby_.access.check(*context, Right::look);
+  const grpc::Status status = lobby_.mayEnter(*context, Right::look);
   if (status.ok()) {
     streams_.push_back(stream);
   } else {

@@ -7,6 +7,7 @@
 #include "net/wire_error.h"
 
 /// What libFuzzer, or replay.cpp, calls with one input. It must come back, whatever the input is.
+// NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace robosim {

@@ -1,8 +1,8 @@
 // TLS, tokens, and the errors that a person meets on the way into an environment: each says what, where and the mend.
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 
-#include <csignal>
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/program.h"
@@ -11,12 +11,13 @@
 namespace robosim {
 namespace {
 
-/// A folder with cert.pem and key.pem for this machine's loopback, old.pem, which expired yesterday, and other.pem, which
-/// is somebody else's.
+/// A folder with cert.pem and key.pem for this machine's loopback, old.pem, which expired yesterday, and other.pem,
+/// which is somebody else's.
 std::filesystem::path certificates() {
   const auto folder = emptyFolder();
   const std::string about = "-subj /CN=localhost -addext subjectAltName=DNS:localhost,IP:127.0.0.1";
-  const std::string make = "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 30 " + about;
+  const std::string make =
+      "openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 30 " + about;
   const std::string script = "cd '" + folder.string() + "' && ( " + make + " -keyout key.pem -out cert.pem && " + make +
                              " -keyout other_key.pem -out other.pem && openssl req -new -key key.pem " + about +
                              " -out request.pem && openssl x509 -req -in request.pem -signkey key.pem -days -1 "
@@ -46,8 +47,10 @@ TEST(Security, RefusesToListenToOtherMachinesUnprotectedAndSaysWhatToAdd) {
   const auto folder = certificates();
   const auto tokens = privateFile(folder / "tokens", std::string(kOperator) + " operator\n");
   const std::string serve = "serve worlds/small_maze.xml --listen 0.0.0.0:0 ";
-  const std::string tls = "--tls-cert " + (folder / "cert.pem").string() + " --tls-key " + (folder / "key.pem").string();
-  expectComplaint(serve, kBad, {"--listen 0.0.0.0:0 is open to other machines: add --tls-cert", "and --tokens", "--insecure"});
+  const std::string tls =
+      "--tls-cert " + (folder / "cert.pem").string() + " --tls-key " + (folder / "key.pem").string();
+  expectComplaint(serve, kBad,
+                  {"--listen 0.0.0.0:0 is open to other machines: add --tls-cert", "and --tokens", "--insecure"});
   expectComplaint(serve + tls, kBad, {"add --tokens FILE", "--insecure"});
   expectComplaint(serve + "--tokens " + tokens.string(), kBad, {"add --tls-cert FILE and --tls-key FILE"});
   expectComplaint("serve worlds/small_maze.xml --listen robots=0.0.0.0:0", kBad, {"--listen 0.0.0.0:0"});
@@ -57,8 +60,8 @@ TEST(Security, ListensToOtherMachinesWithTlsAndTokensOrWhenToldThatItIsInsecure)
   const auto folder = certificates();
   const auto tokens = privateFile(folder / "tokens", std::string(kOperator) + " operator\n");
   for (const auto& options :
-       {std::vector<std::string>{"--insecure"},
-        std::vector<std::string>{"--tls-cert", folder / "cert.pem", "--tls-key", folder / "key.pem", "--tokens", tokens}}) {
+       {std::vector<std::string>{"--insecure"}, std::vector<std::string>{"--tls-cert", folder / "cert.pem", "--tls-key",
+                                                                         folder / "key.pem", "--tokens", tokens}}) {
     std::vector<std::string> words{"serve", "worlds/small_maze.xml", "--listen", "0.0.0.0:0", "--paused"};
     words.insert(words.end(), options.begin(), options.end());
     StartedProgram program(words);
@@ -79,10 +82,13 @@ TEST(Security, SpeaksTlsWithWhoTrustsItsCertificate) {
   expectComplaint(status, kFailed, {serving.address(), "if it is started with --tls-cert, add --tls-ca"});
   expectComplaint(status + "--tls-ca " + (folder / "other.pem").string(), kFailed,
                   {"no TLS with the environment at " + serving.address(), "self-signed certificate"});
+  StartedProgram elsewhere({"serve", "worlds/small_maze.xml", "--paused", "--listen", "127.0.0.2" + port, "--tls-cert",
+                            cert, "--tls-key", folder / "key.pem"});
+  elsewhere.waitForError("listening on");
   expectComplaint("control 127.0.0.2" + port + " status --tls-ca " + cert, kFailed, {"IP address mismatch"});
 
-  const Ended robots = runProgram("robot Pioneer1 Scout1 --controller still --environment " + serving.address() +
-                                  " --tls-ca " + cert);
+  const Ended robots =
+      runProgram("robot Pioneer1 Scout1 --controller still --environment " + serving.address() + " --tls-ca " + cert);
   EXPECT_EQ(robots.exit_code, 0) << robots.err;
   EXPECT_EQ(serving.program().wait().exit_code, 0);
 }
@@ -100,14 +106,14 @@ TEST(Security, TellsThatACertificateHasExpired) {
                       (folder / "key.pem").string(),
                   kBad, {"old.pem: the certificate expired on ", "new one"});
   // An environment may outlive its certificate; another server stands in for that one.
-  StartedProgram server("/usr/bin/openssl", {"s_server", "-accept", "127.0.0.1:0", "-alpn", "h2", "-cert", folder / "old.pem",
-                                             "-key", folder / "key.pem"});
+  StartedProgram server("/usr/bin/openssl", {"s_server", "-www", "-accept", "127.0.0.1:0", "-alpn", "h2", "-cert",
+                                             folder / "old.pem", "-key", folder / "key.pem"});
   server.waitForOutput("ACCEPT 127.0.0.1:");
   const std::string text = server.output();
   const auto at = text.find("127.0.0.1:");
-  expectComplaint("control " + text.substr(at, text.find('\n', at) - at) + " status --tls-ca " +
-                      (folder / "old.pem").string(),
-                  kFailed, {"no TLS with the environment at 127.0.0.1:", "certificate has expired"});
+  expectComplaint(
+      "control " + text.substr(at, text.find('\n', at) - at) + " status --tls-ca " + (folder / "old.pem").string(),
+      kFailed, {"no TLS with the environment at 127.0.0.1:", "certificate has expired"});
 }
 
 TEST(Security, RefusesFilesThatMakeNoIdentity) {
@@ -137,8 +143,10 @@ TEST(Security, LetsEachTokenDoWhatItsRoleMayAndNeverTellsIt) {
   const std::string control = "control " + serving.address() + " ";
   const std::string at = " --controller still --environment " + serving.address();
 
-  expectComplaint(control + "status", kFailed, {serving.address(), "asks for a token", "--token-file", "ROBOSIM_TOKEN"});
-  expectComplaint(control + "status" + with("wrong-0123456789abcdef"), kFailed, {"the token is none of those known here"});
+  expectComplaint(control + "status", kFailed,
+                  {serving.address(), "asks for a token", "--token-file", "ROBOSIM_TOKEN"});
+  expectComplaint(control + "status" + with("wrong-0123456789abcdef"), kFailed,
+                  {"the token is none of those known here"});
   expectComplaint(control + "status" + with(kPioneer), kFailed, {"the token is a robot's"});
   EXPECT_EQ(runProgram(control + "status" + with(kViewer)).exit_code, 0);
   expectComplaint(control + "stop" + with(kViewer), kFailed, {"the token is a viewer's"});

@@ -6,10 +6,11 @@
 
 namespace robosim {
 
-/// `robosim serve` of the small maze, on a port of the system's choice, when it listens.
+/// `robosim serve`, on a port of the system's choice, when it listens.
 class Serving {
  public:
-  explicit Serving(std::vector<std::string> arguments) : program_(words(std::move(arguments))) {
+  explicit Serving(std::vector<std::string> arguments, const std::string& world = "worlds/small_maze.xml")
+      : program_(words(std::move(arguments), world)) {
     const std::string says = "listening on ";
     program_.waitForError(says);
     const std::string text = program_.error();
@@ -21,8 +22,8 @@ class Serving {
   StartedProgram& program() { return program_; }
 
  private:
-  static std::vector<std::string> words(std::vector<std::string> arguments) {
-    arguments.insert(arguments.begin(), {"serve", "worlds/small_maze.xml", "--listen", ":0"});
+  static std::vector<std::string> words(std::vector<std::string> arguments, const std::string& world) {
+    arguments.insert(arguments.begin(), {"serve", world, "--listen", ":0"});
     return arguments;
   }
 

@@ -107,7 +107,8 @@ TEST(Viewing, DelaysNobodyForAViewerThatNeverReads) {
     EXPECT_EQ(viewer.sight().step, 20u * static_cast<unsigned>(i));
   }
   EXPECT_EQ(deaf.read().step(), 0u);
-  // What it asked for, and left lying, is the step that was new then. After that it is up to date.
+  // What it asked for, and left lying, was new then. With what it asks for now it is up to date.
+  deaf.ask();
   while (deaf.read().step() != 200u) {
   }
 }

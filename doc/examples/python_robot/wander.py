@@ -1,4 +1,4 @@
-"""Drives robots of a RoboSim environment from Python: each goes ahead until its sonars hear something near, and turns.
+"""Drives robots of a RoboSim environment from Python: each goes ahead until its sonars hear something in its way, and turns.
 
     /usr/bin/python3 wander.py HOST:PORT NAME...
 
@@ -12,18 +12,19 @@ import grpc
 from net import robots_pb2 as wire
 from net import robots_pb2_grpc
 
-NEAR_M = 0.6
-
-
-def nearest_m(readings, sensors):
-    """The smallest range that any sonar reads."""
-    ranges = [r for reading, sensor in zip(readings.measurements, sensors)
-              if sensor.kind == wire.SONAR for r in reading.echoes[::4]]
-    return min(ranges, default=float("inf"))
+def free_m(readings, sensors):
+    """How far the sonars hear nothing within the robot's width, ahead of its centre."""
+    way = float("inf")
+    for reading, sensor in zip(readings.measurements, sensors):
+        if sensor.kind == wire.SONAR:
+            for x_m, y_m in zip(reading.echoes[1::4], reading.echoes[2::4]):
+                if x_m > 0 and abs(y_m) < 0.3:
+                    way = min(way, x_m)
+    return way
 
 
 def decide(i, readings, sensors):
-    if nearest_m(readings, sensors) < NEAR_M or readings.stalled:
+    if readings.stalled or free_m(readings, sensors) < 0.6:
         return wire.RobotCommand(robot=i, speed_mps=0, turn_radps=0.8)
     return wire.RobotCommand(robot=i, speed_mps=0.3)
 

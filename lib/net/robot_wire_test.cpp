@@ -1,0 +1,214 @@
+#include "net/robot_wire.h"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+const double kNan = std::numeric_limits<double>::quiet_NaN();
+const double kInf = std::numeric_limits<double>::infinity();
+
+std::vector<SensorInfo> everySensor() {
+  std::vector<SensorInfo> sensors;
+  for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared, SensorKind::heat,
+                          SensorKind::bumper, SensorKind::odometry, SensorKind::compass}) {
+    SensorInfo sensor;
+    sensor.kind = kind;
+    sensor.label = nameOf(kind);
+    sensor.range_max_m = 5;
+    if (kind != SensorKind::heat && kind != SensorKind::odometry && kind != SensorKind::compass) {
+      sensor.beams = {{{0.1, 0.2, 0.3, 0.4, 0, 0}}, {{0.5, 0, 0, -1, 0.1, 0.2}}};
+    }
+    sensors.push_back(sensor);
+  }
+  return sensors;
+}
+
+Readings someReadings() {
+  Readings readings = blankReadings(everySensor());
+  std::get<Echoes>(readings.measurements[0]) = {{1.5f, {1, 2, 3}}, {2.5f, {-1, 0, 0.5f}}};
+  std::get<Scalar>(readings.measurements[3]).value = 12.25;
+  std::get<Contacts>(readings.measurements[4]).pressed = {0, 1};
+  std::get<Odometry>(readings.measurements[5]) = {{1, -2, 0.5}, 0.25, -0.125};
+  readings.stalled = true;
+  readings.laser_pan_rad = 0.5f;
+  readings.inbox = {{"Scout1", "Pioneer1", "GOLD"}};
+  return readings;
+}
+
+/// What is said of a message that is refused.
+std::string complaint(const std::function<void()>& read) {
+  try {
+    read();
+  } catch (const WireError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string complaintOf(const wire::FromRobots& message) {
+  RobotsAnswer answer;
+  return complaint([&] { decode(message, 2, answer); });
+}
+
+TEST(RobotWire, CarriesReadingsBitForBit) {
+  const Readings sent = someReadings();
+  wire::RobotReadings wire;
+  encode(sent, wire);
+  Readings heard = blankReadings(everySensor());
+  decode(wire, "Pioneer1", heard);
+  EXPECT_EQ(heard.measurements, sent.measurements);
+  EXPECT_EQ(heard.stalled, sent.stalled);
+  EXPECT_EQ(heard.laser_pan_rad, sent.laser_pan_rad);
+  EXPECT_EQ(heard.inbox, sent.inbox);
+}
+
+TEST(RobotWire, LeavesNothingOfTheStepBeforeInAMessageThatIsUsedAgain) {
+  wire::RobotReadings again, anew;
+  encode(someReadings(), again);
+  const Readings blank = blankReadings(everySensor());
+  encode(blank, again);
+  encode(blank, anew);
+  EXPECT_EQ(again.SerializeAsString(), anew.SerializeAsString());
+}
+
+TEST(RobotWire, PutsHeldLettersBeforeTheNewestOnes) {
+  wire::RobotReadings wire;
+  encode(someReadings(), wire);
+  encodeInbox({{"A", "Pioneer1", "first"}, {"B", "Pioneer1", "second"}}, wire);
+  Readings heard = blankReadings(everySensor());
+  decode(wire, "Pioneer1", heard);
+  const std::vector<RobotMessage> expected{
+      {"A", "Pioneer1", "first"}, {"B", "Pioneer1", "second"}, {"Scout1", "Pioneer1", "GOLD"}};
+  EXPECT_EQ(heard.inbox, expected);
+}
+
+TEST(RobotWire, CarriesCommandsAndLetters) {
+  const Command command{0.5, -0.25, 0.125f, Activity::found};
+  wire::FromRobots message;
+  message.set_step(7);
+  encode(command, 1, *message.add_commands());
+  message.add_letters()->set_to("Scout1");
+  message.mutable_letters(0)->set_text(std::string(kMaxMessageBytes, '\0'));
+  RobotsAnswer answer;
+  decode(message, 2, answer);
+  EXPECT_EQ(answer.step, 7u);
+  ASSERT_EQ(answer.orders.size(), 1u);
+  EXPECT_EQ(answer.orders[0].robot, 1u);
+  EXPECT_EQ(answer.orders[0].command, command);
+  ASSERT_EQ(answer.letters.size(), 1u);
+  EXPECT_EQ(answer.letters[0].to, "Scout1");
+  EXPECT_EQ(answer.letters[0].text.size(), kMaxMessageBytes);
+}
+
+TEST(RobotWire, RefusesSpeedsThatAreNotFinite) {
+  for (const double bad : {kNan, kInf, -kInf}) {
+    wire::FromRobots message;
+    message.add_commands()->set_speed_mps(bad);
+    EXPECT_NE(complaintOf(message).find("has a speed_mps of "), std::string::npos) << complaintOf(message);
+    message.mutable_commands(0)->set_speed_mps(0);
+    message.mutable_commands(0)->set_turn_radps(bad);
+    EXPECT_NE(complaintOf(message).find("has a turn_radps of "), std::string::npos);
+    message.mutable_commands(0)->set_turn_radps(0);
+    message.mutable_commands(0)->set_laser_pan_rad(static_cast<float>(bad));
+    EXPECT_NE(complaintOf(message).find("has a laser_pan_rad of "), std::string::npos);
+  }
+}
+
+TEST(RobotWire, RefusesUnknownActivitiesOtherProcessesRobotsAndLongLetters) {
+  wire::FromRobots message;
+  message.add_commands()->set_activity(static_cast<wire::Activity>(3));
+  EXPECT_EQ(complaintOf(message),
+            "the command for robot 0 has the activity 3; there are 0 (active), 1 (halted) and 2 "
+            "(found)");
+  message.Clear();
+  message.add_commands()->set_robot(2);
+  EXPECT_EQ(complaintOf(message),
+            "a command for robot 2 of 2; a connection speaks only for the robots of its hello, counted from 0");
+  message.Clear();
+  message.add_letters()->set_robot(0xFFFFFFFF);
+  EXPECT_NE(complaintOf(message).find("a letter for robot 4294967295 of 2"), std::string::npos);
+  message.Clear();
+  message.add_letters()->set_text(std::string(kMaxMessageBytes + 1, 'x'));
+  EXPECT_EQ(complaintOf(message), "a letter of 4097 bytes; the most is 4096");
+}
+
+TEST(RobotWire, RefusesReadingsOfAnotherSizeOrThatAreNoNumbers) {
+  wire::RobotReadings good;
+  encode(someReadings(), good);
+  const auto complaintAfter = [&](const std::function<void(wire::RobotReadings&)>& spoil) {
+    wire::RobotReadings bad = good;
+    spoil(bad);
+    Readings heard = blankReadings(everySensor());
+    return complaint([&] { decode(bad, "Pioneer1", heard); });
+  };
+  EXPECT_EQ(complaintAfter([](auto&) {}), "");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements()->RemoveLast(); }),
+            "readings of 6 sensors for a robot that has 7");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(0)->add_echoes(1); }),
+            "a reading of 9 floats for 2 beams; each has four");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(0)->set_echoes(3, std::nanf("")); }),
+            "an echo is not a number");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(3)->clear_numbers(); }),
+            "a reading of 0 numbers where 1 belong");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(5)->set_numbers(2, kInf); }),
+            "a reading that is not a finite number");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1"); }),
+            "a reading of 1 segments for a bumper of 2");
+  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1\2"); }),
+            "a bumper's segment that is neither 0 nor 1");
+}
+
+RobotsWelcome someWelcome() {
+  const auto sensors = std::make_shared<const std::vector<SensorInfo>>(everySensor());
+  RobotsWelcome welcome{.world = "maze", .world_version = "1", .seed = 5, .period_s = 0.1, .seats = {}, .everyone = {}};
+  for (const char* name : {"Pioneer1", "Pioneer2"}) {
+    RobotInfo info{name, "pioneer3dx", "Scout1", 0.25, 0.3, {.speed_max_mps = 1, .turn_max_radps = 2}, sensors};
+    welcome.seats.push_back({info, 3, "wander"});
+  }
+  welcome.everyone = {"Pioneer1", "Pioneer2", "Scout1"};
+  return welcome;
+}
+
+TEST(RobotWire, CarriesAWelcomeAndRobotsOfAModelShareTheirSensorsAgain) {
+  wire::RobotsWelcome wire;
+  encode(someWelcome(), wire);
+  EXPECT_EQ(wire.sensor_sets_size(), 1);
+  const RobotsWelcome heard = decode(wire);
+  ASSERT_EQ(heard.seats.size(), 2u);
+  EXPECT_EQ(heard.seats[1].info.name, "Pioneer2");
+  EXPECT_EQ(heard.seats[1].info.limits.turn_max_radps, 2);
+  EXPECT_EQ(heard.seats[1].controller, "wander");
+  EXPECT_EQ(heard.seats[0].info.sensors, heard.seats[1].info.sensors);
+  EXPECT_EQ(heard.everyone, someWelcome().everyone);
+  wire::RobotsWelcome again;
+  encode(heard, again);
+  EXPECT_EQ(again.SerializeAsString(), wire.SerializeAsString());
+}
+
+TEST(RobotWire, RefusesAWelcomeThatMakesNoSense) {
+  wire::RobotsWelcome good;
+  encode(someWelcome(), good);
+  const auto complaintAfter = [&](const std::function<void(wire::RobotsWelcome&)>& spoil) {
+    wire::RobotsWelcome bad = good;
+    spoil(bad);
+    return complaint([&] { decode(bad); });
+  };
+  EXPECT_EQ(complaintAfter([](auto&) {}), "");
+  EXPECT_NE(complaintAfter([](auto& bad) { bad.set_period_s(kNan); }), "");
+  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_robots(0)->set_sensor_set(1); }), "");
+  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_robots(1)->set_radius_m(kInf); }), "");
+  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams(1); }), "");
+  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_beams(0, kNan); }), "");
+  EXPECT_NE(complaintAfter([](auto& bad) {
+              bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind(static_cast<wire::SensorKind>(7));
+            }),
+            "");
+}
+
+}  // namespace
+}  // namespace robosim
