@@ -6,7 +6,6 @@
 #include "base/random.h"
 #include "base/xml_element.h"
 #include "geometry/scene.h"
-#include "robosim/scratch_folder.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -132,11 +131,10 @@ const Workload& workloadNamed(const std::string& name) {
 }
 
 LoadedWorld makeWorldToRun(const Workload& workload, std::size_t robots, std::uint64_t seed) {
-  const ScratchFolder types;
-  write(types.path() / (std::string(workload.name) + ".xml"), robotTypeText(workload));
+  const RobotTypes types{{workload.name, {std::string(workload.name) + ".xml", robotTypeText(workload)}}};
   LoadedWorld made{makeWorld(workload, robots, seed), {}};
   ErrorList errors;
-  made.fleet = buildFleet(made.world, workload.name, {types.path()}, {}, errors);
+  made.fleet = buildFleet(made.world, workload.name, types, {}, errors);
   errors.throwIfAny();
   return made;
 }
