@@ -140,26 +140,26 @@ TEST(RobotWire, RefusesUnknownActivitiesOtherProcessesRobotsAndLongLetters) {
 TEST(RobotWire, RefusesReadingsOfAnotherSizeOrThatAreNoNumbers) {
   wire::RobotReadings good;
   encode(someReadings(), good);
-  const auto complaintAfter = [&](const std::function<void(wire::RobotReadings&)>& spoil) {
+  const auto complaint_after = [&](const std::function<void(wire::RobotReadings&)>& spoil) {
     wire::RobotReadings bad = good;
     spoil(bad);
     Readings heard = blankReadings(everySensor());
     return complaint([&] { decode(bad, "Pioneer1", heard); });
   };
-  EXPECT_EQ(complaintAfter([](auto&) {}), "");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements()->RemoveLast(); }),
+  EXPECT_EQ(complaint_after([](auto&) {}), "");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements()->RemoveLast(); }),
             "readings of 6 sensors for a robot that has 7");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(0)->add_echoes(1); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(0)->add_echoes(1); }),
             "a reading of 9 floats for 2 beams; each has four");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(0)->set_echoes(3, std::nanf("")); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(0)->set_echoes(3, std::nanf("")); }),
             "an echo is not a number");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(3)->clear_numbers(); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(3)->clear_numbers(); }),
             "a reading of 0 numbers where 1 belong");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(5)->set_numbers(2, kInf); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(5)->set_numbers(2, kInf); }),
             "a reading that is not a finite number");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1"); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1"); }),
             "a reading of 1 segments for a bumper of 2");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1\2"); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1\2"); }),
             "a bumper's segment that is neither 0 nor 1");
 }
 
@@ -193,18 +193,18 @@ TEST(RobotWire, CarriesAWelcomeAndRobotsOfAModelShareTheirSensorsAgain) {
 TEST(RobotWire, RefusesAWelcomeThatMakesNoSense) {
   wire::RobotsWelcome good;
   encode(someWelcome(), good);
-  const auto complaintAfter = [&](const std::function<void(wire::RobotsWelcome&)>& spoil) {
+  const auto complaint_after = [&](const std::function<void(wire::RobotsWelcome&)>& spoil) {
     wire::RobotsWelcome bad = good;
     spoil(bad);
     return complaint([&] { decode(bad); });
   };
-  EXPECT_EQ(complaintAfter([](auto&) {}), "");
-  EXPECT_NE(complaintAfter([](auto& bad) { bad.set_period_s(kNan); }), "");
-  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_robots(0)->set_sensor_set(1); }), "");
-  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_robots(1)->set_radius_m(kInf); }), "");
-  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams(1); }), "");
-  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_beams(0, kNan); }), "");
-  EXPECT_NE(complaintAfter([](auto& bad) {
+  EXPECT_EQ(complaint_after([](auto&) {}), "");
+  EXPECT_NE(complaint_after([](auto& bad) { bad.set_period_s(kNan); }), "");
+  EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_robots(0)->set_sensor_set(1); }), "");
+  EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_robots(1)->set_radius_m(kInf); }), "");
+  EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams(1); }), "");
+  EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_beams(0, kNan); }), "");
+  EXPECT_NE(complaint_after([](auto& bad) {
               bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind(static_cast<wire::SensorKind>(7));
             }),
             "");

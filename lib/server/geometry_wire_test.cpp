@@ -55,18 +55,18 @@ TEST(GeometryWire, CarriesAMomentBitForBit) {
 TEST(GeometryWire, RefusesAMomentOfAnotherWorldOrThatIsNotFinite) {
   wire::Moment good;
   encode(maze()->moment(), good);
-  const auto complaintAfter = [&](const std::function<void(wire::Moment&)>& spoil) {
+  const auto complaint_after = [&](const std::function<void(wire::Moment&)>& spoil) {
     wire::Moment bad = good;
     spoil(bad);
     return complaint([&] { decode(bad, 2); });
   };
-  EXPECT_EQ(complaintAfter([](auto&) {}), "");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.add_robots(); }), "a moment of another world");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_robots(1)->set_phi_rad(kNan); }),
+  EXPECT_EQ(complaint_after([](auto&) {}), "");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.add_robots(); }), "a moment of another world");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(1)->set_phi_rad(kNan); }),
             "a robot's state that is not finite");
-  EXPECT_EQ(complaintAfter([](auto& bad) { bad.mutable_robots(0)->set_activity(static_cast<wire::Activity>(9)); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(0)->set_activity(static_cast<wire::Activity>(9)); }),
             "a moment with an unknown activity");
-  EXPECT_NE(complaintAfter([](auto& bad) { bad.mutable_robots(0)->mutable_command()->set_speed_mps(kNan); }), "");
+  EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_robots(0)->mutable_command()->set_speed_mps(kNan); }), "");
 }
 
 TEST(GeometryWire, CarriesWhatWasSensed) {
@@ -89,30 +89,30 @@ TEST(GeometryWire, CarriesWhatWasSensed) {
 TEST(GeometryWire, RefusesResultsOfAnotherSizeForOtherRobotsOrOutOfRange) {
   const auto environment = maze();
   environment->begin();
-  const auto complaintOf = [&](const wire::TaskResult& result) {
+  const auto complaint_of = [&](const wire::TaskResult& result) {
     return complaint([&] { put(result, *environment); });
   };
 
   wire::TaskResult clips = emptyResult(wire::CLIP, 0, 2);
   clips.add_fractions(1);
-  EXPECT_EQ(complaintOf(clips), "a result of another size than its range");
+  EXPECT_EQ(complaint_of(clips), "a result of another size than its range");
   for (const double bad : {kNan, -0.01, 1.01}) {
     wire::TaskResult wrong = clips;
     wrong.add_fractions(bad);
-    EXPECT_EQ(complaintOf(wrong), "a part of a way that is not in [0, 1]");
+    EXPECT_EQ(complaint_of(wrong), "a part of a way that is not in [0, 1]");
   }
   wire::TaskResult stay = emptyResult(wire::JUDGE, 0, 1);
   stay.add_stay(1);
-  EXPECT_EQ(complaintOf(stay), "a robot of the number 1 where those of [0, 1) are meant");
+  EXPECT_EQ(complaint_of(stay), "a robot of the number 1 where those of [0, 1) are meant");
 
   wire::TaskResult sensed = emptyResult(wire::SENSE, 0, 1);
   encode(*environment, sensed);
-  EXPECT_EQ(complaintOf(sensed), "");
+  EXPECT_EQ(complaint_of(sensed), "");
   wire::TaskResult more = sensed, fewer = sensed;
   more.add_measurements();
   fewer.mutable_measurements()->RemoveLast();
-  EXPECT_EQ(complaintOf(more), "a result with too many measurements");
-  EXPECT_EQ(complaintOf(fewer), "a result with too few measurements");
+  EXPECT_EQ(complaint_of(more), "a result with too many measurements");
+  EXPECT_EQ(complaint_of(fewer), "a result with too few measurements");
 }
 
 TEST(GeometryWire, CarriesTheOutcomeOfThePartBefore) {

@@ -1,6 +1,7 @@
 // What may go wrong with robots' processes, geometry workers and the recording environment: nobody else is held up for
 // longer than a deadline, the run goes on, whoever is absent stands still and may come back, and one line tells of it.
 #include <csignal>
+#include <fstream>
 #include <future>
 
 #include <gtest/gtest.h>
@@ -78,10 +79,10 @@ TEST(Faults, OfARobotsProcessKilledStopItsRobotAndItComesBackInAnotherProcess) {
 TEST(Faults, OfARobotsProcessFrozenCostOneDeadlineAndItComesBackByItselfWhenItThaws) {
   TwoRobots two(2s);
   two.pioneer->signal(SIGSTOP);
-  EXPECT_EQ(two.panel.step(1).step(), 11u);
+  // It may have answered the tenth step before it froze, and cannot answer both.
+  EXPECT_EQ(two.panel.step(2).step(), 12u);
   EXPECT_NE(two.lineWith("hung up on").find("robot Pioneer1 (ipv4:"), std::string::npos) << two.world.log();
-  EXPECT_NE(two.lineWith("hung up on").find("no answer to step 10 within the step deadline of 2000 ms"),
-            std::string::npos);
+  EXPECT_NE(two.lineWith("hung up on").find("within the step deadline of 2000 ms"), std::string::npos);
   two.expectThatOnlyThePioneerStops();
   two.pioneer->signal(SIGCONT);
   two.expectThatThePioneerComesBack();
@@ -270,6 +271,18 @@ TEST(Faults, OfAnEnvironmentKilledEndItsRobotsWhenTheirPatienceHasEnded) {
   const Ended ended = robots.wait();
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("robosim: no environment answers at " + serving.address()), std::string::npos) << ended.err;
+}
+
+TEST(Faults, OfNamesThatAreNotUtf8AreToldBeforeAnyoneConnects) {
+  const auto world = emptyFolder() / "latin_1.xml";
+  std::string text = textOf(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml");
+  for (auto at = text.find("Scout1"); at != std::string::npos; at = text.find("Scout1")) {
+    text.replace(at, 6, "Pr\xF9zkumn\xEDk");
+  }
+  std::ofstream(world, std::ios::binary) << text;
+  const Ended ended = runProgram("serve '" + world.string() + "' --listen :0");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("the name of the robot 'Pr?zkumn?k' is not UTF-8"), std::string::npos) << ended.err;
 }
 
 TEST(Realtime, LetsALateRobotKeepItsLastCommandAndSaysHowOften) {

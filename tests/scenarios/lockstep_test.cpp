@@ -30,7 +30,7 @@ std::string digestInOneProcess(const std::string& world, int steps, const std::s
 std::vector<std::unique_ptr<StartedProgram>> startAllRobots(const ServedWorld& world, std::size_t processes,
                                                             const std::string& controller) {
   std::vector<std::vector<std::string>> hands(processes);
-  const auto names = world.robotNames();
+  const auto& names = world.robotNames();
   for (std::size_t i = 0; i < names.size(); ++i) hands[i % processes].push_back(names[i]);
   std::vector<std::unique_ptr<StartedProgram>> started;
   for (const auto& hand : hands) started.push_back(startRobots(hand, world.dialOptions().address, controller));
