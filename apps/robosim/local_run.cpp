@@ -46,6 +46,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
   LoadedWorld world = loadWorld(file, controllerNames());
   checkToRun(world, file, instead);
+  world.world.robots = {};  // the fleet has made of them what runs
 #ifdef __GLIBC__
   // Reading a file takes several times the memory of the world that comes of it. It is free by now, but strewn with
   // what is kept, so that the process would hold on to it.

@@ -94,16 +94,25 @@ void findPassing(const RoughRays& rays, const RoughPlace& place, const Candidate
 }  // namespace
 
 void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double range_m, double pan_rad) {
-  const LevelFrame& frame = world_from_fan;
   fan_ = &fan;
-  center_ = frame.pointToWorld(fan.middle());
-  z_m_ = frame.z() + fan.z();
+  world_from_fan_ = world_from_fan;
+  pan_rad_ = pan_rad;
+  is_laid_out_ = false;
+  center_ = world_from_fan.pointToWorld(fan.middle());
+  z_m_ = world_from_fan.z() + fan.z();
   spread_m_ = fan.spread() + kSlack_m;
   farthest_m_ = range_m;
+}
+
+void RayBatch::layOut() {
+  is_laid_out_ = true;
+  const RayFan& fan = *fan_;
+  const LevelFrame& frame = world_from_fan_;
+  const double range_m = farthest_m_;
   const std::size_t rays = fan.x_.size();
   for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(rays);
   transform(fan.x_.data(), fan.y_.data(), rays, frame.x(), frame.y(), frame.cos(), frame.sin(), x_.data(), y_.data());
-  const LevelFrame panned(frame, pan_rad);
+  const LevelFrame panned(frame, pan_rad_);
   transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, panned.cos(), panned.sin(), dx_.data(), dy_.data());
   distance_.assign(rays, range_m);
   body_.assign(rays, kNothing);
@@ -124,6 +133,7 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
 }
 
 void RayBatch::meet(const Candidates& candidates) {
+  if (!is_laid_out_) layOut();
   if (fan_->isNarrow()) {
     meetByBlock(candidates);
   } else {

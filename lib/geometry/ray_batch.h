@@ -34,20 +34,26 @@ class RayBatch {
   void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
   void finish() {
-    if (!fan_->isNarrow()) settle();
+    if (is_laid_out_ && !fan_->isNarrow()) settle();
   }
 
   /// Distance [m] from the origin of ray `i` to what it met, or the range.
-  double distance(std::size_t i) const { return distance_[i]; }
-  std::int64_t body(std::size_t i) const { return body_[i]; }
+  double distance(std::size_t i) const { return is_laid_out_ ? distance_[i] : farthest_m_; }
+  std::int64_t body(std::size_t i) const { return is_laid_out_ ? body_[i] : kNothing; }
 
  private:
+  /// Works out where each ray is; put off until there is something to meet, for most short-sighted sensors meet
+  /// nothing.
+  void layOut();
   void meetByRay(const Candidates& candidates);
   void meetByBlock(const Candidates& candidates);
   void meetBlock(const GridItem& item, std::int64_t body, std::size_t block);
   void settle();
 
   const RayFan* fan_ = nullptr;
+  LevelFrame world_from_fan_;
+  double pan_rad_ = 0;
+  bool is_laid_out_ = false;
   mrpt::math::TPoint2D center_;
   double z_m_ = 0;
   double spread_m_ = 0;                  ///< farthest origin from the centre
