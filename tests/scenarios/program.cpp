@@ -102,7 +102,6 @@ void StartedProgram::waitFor(const char* stream, const std::string& text) {
   }
 }
 
-
 Ended StartedProgram::wait() {
   if (!ended_) waitpid(process_, &status_, 0);
   ended_ = true;
