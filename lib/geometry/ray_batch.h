@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/candidates.h"
+#include "geometry/front.h"
 #include "geometry/level_frame.h"
 #include "geometry/ray_fan.h"
 #include "geometry/ray_pairs.h"
@@ -29,6 +30,9 @@ class RayBatch {
   double z() const { return z_m_; }
   /// Nothing further than this from the centre can change what is known so far [m].
   double reach() const { return farthest_m_ + spread_m_; }
+
+  /// No ray goes anywhere else.
+  Front front() const;
 
   /// Holds solids against all rays they may meet.
   void meet(const Candidates& candidates);
@@ -63,9 +67,7 @@ class RayBatch {
   std::vector<std::int64_t> body_;
   std::vector<Candidates::Masks> passing_;  ///< which rays, or cones, candidates pass
 
-  // A narrow fan's, by block of rays: the cone that holds their directions, and how far the farthest still reaches.
-  RoughSectors cones_;
-  std::vector<double> farthest_;
+  RoughSectors cones_;  ///< a narrow fan's, by block of rays: what holds their directions
 
   // Any other fan's, by ray, as seen from the centre.
   std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;
