@@ -41,6 +41,8 @@ class RayBatch {
     if (is_laid_out_ && !fan_->isNarrow()) settle();
   }
 
+  /// Whether there was nothing to hold against any ray.
+  bool isUntouched() const { return !is_laid_out_; }
   /// Distance [m] from the origin of ray `i` to what it met, or the range.
   double distance(std::size_t i) const { return is_laid_out_ ? distance_[i] : farthest_m_; }
   std::int64_t body(std::size_t i) const { return is_laid_out_ ? body_[i] : kNothing; }
