@@ -6,11 +6,10 @@
 
 namespace robosim {
 
-/// The reading that an observation of this sensor records. What cannot come back:
-///  * an echo's point is put on the beam's axis, at the recorded range. A thin beam's point is there anyway, but for
-///    rounding (1e-6 m); a wide sonar's nearest point may have been off the axis by up to half the beam's width;
-///  * heat keeps single precision.
+/// The reading that an observation of this sensor records, bit for bit. An echo's point is put on the beam's axis, at
+/// the recorded range; where it came from elsewhere, takePoints() (unsensed.h) tells.
+/// @param laser_pan_rad where the turnable sensors looked
 /// @throws RecordingError when the observation's class or size is not what this sensor would have recorded.
-Measurement measurementFrom(const mrpt::obs::CObservation&, const SensorInfo&);
+Measurement measurementFrom(const mrpt::obs::CObservation&, const SensorInfo&, float laser_pan_rad);
 
 }  // namespace robosim

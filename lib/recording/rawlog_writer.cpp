@@ -12,12 +12,14 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include "base/error_list.h"
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
+#include "recording/unsensed.h"
 
 namespace robosim {
 namespace {
@@ -32,13 +34,14 @@ constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
-  explicit Track(const RobotInfo& robot) : observations(robot) {
+  explicit Track(const RobotInfo& robot) : observations(robot), unsensed(robot) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
   }
 
   RobotObservations observations;
+  Unsensed unsensed;
   std::optional<std::size_t> odometry_slot;
   std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
 };
@@ -78,7 +81,8 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   return files;
 }
 
-void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth, ByteArchive& archive) {
+void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth,
+                const std::optional<Command>& command, ByteArchive& archive) {
   const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
@@ -91,6 +95,9 @@ void appendPair(Track& track, const Readings& readings, const std::optional<TPos
 
   mrpt::obs::CSensoryFrame frame;
   for (const auto& observation : track.observations.of(readings, truth)) frame.push_back(observation);
+  if (command) {
+    for (const auto& observation : track.unsensed.of(readings, *command)) frame.push_back(observation);
+  }
   archive << actions << frame;
 }
 
@@ -102,16 +109,19 @@ struct RawlogWriter::Impl {
   struct Step {
     std::vector<Readings> readings;
     std::vector<TPose2D> world_from_robot;
+    std::vector<Command> commands;
   };
 
   void handOver();
   void record(const Step&);
+  void comment(const std::string& text);
 
   RawlogFormat format;
   std::deque<Track> tracks;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
+  SimTime last;                  ///< of what was written
   std::future<void> background;  ///< at work on `recording`; the first to be destroyed, which waits for it
 };
 
@@ -128,16 +138,29 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     Track& track = tracks[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
+    const auto command = step.commands.empty() ? std::nullopt : std::make_optional(step.commands[i]);
     if (format == RawlogFormat::observations) {
       track.observations.write(step.readings[i], truth, outputs[0]->archive);
+      if (command) track.unsensed.write(step.readings[i], *command, outputs[0]->archive);
     } else {
-      appendPair(track, step.readings[i], truth, outputs[i]->archive);
+      appendPair(track, step.readings[i], truth, command, outputs[i]->archive);
     }
   }
   for (auto& output : outputs) output->flush(kChunkBytes);
 }
 
-RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format)
+/// Only while the background is not at work.
+void RawlogWriter::Impl::comment(const std::string& text) {
+  if (text.empty()) return;
+  mrpt::obs::CObservationComment comment;
+  comment.timestamp = timestampOf(last);
+  comment.sensorLabel = kNote;
+  comment.text = text;
+  for (auto& output : outputs) output->archive << comment;
+}
+
+RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
+                           const std::string& note)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
   impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
@@ -151,22 +174,28 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
     }
   }
   for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
+  impl_->comment(note);
 }
 
 RawlogWriter::~RawlogWriter() = default;
 
-void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot) {
+void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot,
+                         std::span<const Command> commands) {
   assert(readings.size() == impl_->tracks.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
+  assert(commands.empty() || commands.size() == readings.size());
   Impl::Step& step = impl_->filling[impl_->filled++];
   step.readings.assign(readings.begin(), readings.end());
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
+  step.commands.assign(commands.begin(), commands.end());
+  if (!readings.empty()) impl_->last = readings[0].time;
   if (impl_->filled == impl_->filling.size()) impl_->handOver();
 }
 
-void RawlogWriter::close() {
+void RawlogWriter::close(const std::string& note) {
   impl_->handOver();
   impl_->background.get();
+  impl_->comment(note);
   for (auto& output : impl_->outputs) output->flush(0);
   for (auto& output : impl_->outputs) output->file.commit();
 }

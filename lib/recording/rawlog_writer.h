@@ -6,6 +6,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
 
@@ -21,9 +22,9 @@ enum class RawlogFormat {
 /// does.
 ///
 /// A step's observations are written robot by robot, as the robots were given; of each robot ground truth, odometry,
-/// then its other sensors in their order. Of a pair, the action is the odometry's increment since the pair before (0
-/// for the first) under MRPT's default motion model, and the frame holds all the robot's observations, odometry and
-/// ground truth too.
+/// its other sensors in their order, then what no sensor measures (Unsensed). Of a pair, the action is the odometry's
+/// increment since the pair before (0 for the first) under MRPT's default motion model, and the frame holds all the
+/// robot's observations, odometry and ground truth too.
 ///
 /// All but copying the readings happens in a thread in the background, so that a run that has a processor to spare is
 /// hardly slower for being recorded.
@@ -32,19 +33,23 @@ enum class RawlogFormat {
 /// recording. A caller that is interrupted, or whose run fails, calls close() to keep what there is.
 class RawlogWriter {
  public:
+  /// @param note stands first in each file, as a CObservationComment; empty for none
   /// @throws ConfigError when a file cannot be made, or a robot has no odometry for its actions.
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
-               RawlogFormat format = RawlogFormat::observations);
+               RawlogFormat format = RawlogFormat::observations, const std::string& note = "");
   ~RawlogWriter();
 
   /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.
   /// @param readings one per robot, in the order of the constructor's.
   /// @param world_from_robot where each robot really is; empty when nobody knows.
+  /// @param commands what each robot was told to do in this step; empty when nobody knows.
   /// @throws RecordingError when the disk is full, or fails. Whatever had the file's name before is still there.
-  void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot);
+  void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
+             std::span<const Command> commands = {});
   /// Finishes the recording, and gives it its name.
+  /// @param note stands last in each file; empty for none
   /// @throws RecordingError as write() does.
-  void close();
+  void close(const std::string& note = "");
 
   /// The recording's files: one, or one per robot.
   std::vector<std::filesystem::path> files() const;

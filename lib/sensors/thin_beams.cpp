@@ -35,9 +35,10 @@ class ThinBeams : public Sensor {
       if (pan_rad != 0) {
         for (std::size_t i = 0; i < echoes.size(); ++i) echoes[i] = silence(i, direction(i));
       }
-      const auto hear = [&](std::size_t i, double range_m) {
-        if (static_cast<float>(range_m) >= static_cast<float>(info_.range_max_m)) return;
-        echoes[i] = {static_cast<float>(std::max(range_m, info_.range_min_m)),
+      const auto hear = [&](std::size_t i, double distance_m) {
+        const auto range_m = static_cast<float>(distance_m);
+        if (range_m >= static_cast<float>(info_.range_max_m)) return;
+        echoes[i] = {std::max(range_m, static_cast<float>(info_.range_min_m)),
                      pointAlong(beams_[i].origin, direction(i), range_m)};
       };
       if (noise_.on) {
@@ -61,7 +62,8 @@ class ThinBeams : public Sensor {
   }
   /// What beam `i` tells when nothing is in range.
   Echo silence(std::size_t i, const TPoint3D& direction) const {
-    return {static_cast<float>(info_.no_echo_m), pointAlong(beams_[i].origin, direction, info_.no_echo_m)};
+    const auto no_echo_m = static_cast<float>(info_.no_echo_m);
+    return {no_echo_m, pointAlong(beams_[i].origin, direction, no_echo_m)};
   }
 
   SensorInfo info_;
