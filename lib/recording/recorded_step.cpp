@@ -23,6 +23,9 @@ CObservation::Ptr find(const std::vector<std::pair<std::string, CObservation::Pt
   return at == observations.end() ? nullptr : at->second;
 }
 
+/// Whether a recording has nothing of a sensor in steps in which it told nothing.
+bool tellsNowAndThen(SensorKind kind) { return kind == SensorKind::camera || kind == SensorKind::blob_finder; }
+
 }  // namespace
 
 RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s)
@@ -88,7 +91,11 @@ std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Ob
   }
   for (const auto& sensor : *robot.sensors) {
     const auto observation = find(observations, sensor.label);
-    if (!observation) return std::nullopt;
+    if (!observation) {
+      if (!tellsNowAndThen(sensor.kind)) return std::nullopt;
+      readings.measurements.push_back(sensor.kind == SensorKind::camera ? Measurement(Image{}) : Measurement(Blobs{}));
+      continue;
+    }
     readings.measurements.push_back(measurementFrom(*observation, sensor, readings.laser_pan_rad));
     auto* const echoes = std::get_if<Echoes>(&readings.measurements.back());
     const auto points = find(observations, sensor.label + "/" + kPoints);
