@@ -76,7 +76,7 @@ bool looksLikeRawlog(gzFile file) {
 }  // namespace
 
 struct RawlogReader::Impl {
-  Impl(gzFile opened, std::string name) : file(opened), archive(opened), name(std::move(name)) {}
+  Impl(gzFile opened, std::string called) : file(opened), archive(opened), name(std::move(called)) {}
   ~Impl() { gzclose(file); }
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
@@ -123,8 +123,8 @@ void RawlogReader::Impl::readEntry() {
 }
 
 void RawlogReader::Impl::take(const mrpt::serialization::CSerializable::Ptr& object) {
-  if (auto observation = std::dynamic_pointer_cast<CObservation>(object)) {
-    ready.push_back(observation);
+  if (auto one = std::dynamic_pointer_cast<CObservation>(object)) {
+    ready.push_back(one);
   } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
     for (const auto& observation : *frame) ready.push_back(observation);
   } else if (const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {

@@ -93,7 +93,8 @@ std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Ob
     const auto observation = find(observations, sensor.label);
     if (!observation) {
       if (!tellsNowAndThen(sensor.kind)) return std::nullopt;
-      readings.measurements.push_back(sensor.kind == SensorKind::camera ? Measurement(Image{}) : Measurement(Blobs{}));
+      readings.measurements.push_back(sensor.kind == SensorKind::camera ? Measurement(Image{})
+                                                                        : Measurement(blankBlobs(sensor)));
       continue;
     }
     readings.measurements.push_back(measurementFrom(*observation, sensor, readings.laser_pan_rad));
