@@ -64,9 +64,9 @@ RunNote RunNote::of(const std::string& rawlog) {
   if (first && first->sensorLabel == kNote) {
     if (auto note = parse(first->text)) return *note;
   }
-  throw ConfigError(rawlog +
-                    ": does not say which world it is of, for RoboSim did not record it (or an older one did); it can "
-                    "be summarised and looked at, not run again");
+  throw NotOfRoboSim(rawlog +
+                     ": does not say which world it is of, for RoboSim did not record it (or an older one did); it can "
+                     "be summarised and looked at, not run again");
 }
 
 RunNote noteOf(const WorldSource& source, const LocalRun& run, const RunOptions& options,

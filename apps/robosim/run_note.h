@@ -5,10 +5,17 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error_list.h"
 #include "robosim/local_run.h"
 #include "robots/world_source.h"
 
 namespace robosim {
+
+/// A recording that does not say what it is of.
+class NotOfRoboSim : public ConfigError {
+ public:
+  using ConfigError::ConfigError;
+};
 
 /// What a recording says of the run that it is of: all that is needed to run it again. Kept as JSON in a
 /// CObservationComment, at the recording's beginning, and once more, with the outcome, at its end (doc/rawlog.md).
@@ -25,7 +32,7 @@ struct RunNote {
   /// nullopt for what is no such note.
   static std::optional<RunNote> parse(const std::string& text);
   /// The first note of a recording.
-  /// @throws ConfigError when the recording has none: it is somebody else's.
+  /// @throws NotOfRoboSim when the recording has none: it is somebody else's.
   static RunNote of(const std::string& rawlog);
 };
 
