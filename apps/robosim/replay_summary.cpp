@@ -149,6 +149,8 @@ void print(const Contents& contents, const ReplayArguments& arguments, const Raw
     }
   }
   for (const auto& [robot, driven_m] : contents.driven_m) {
+    // In the form of pairs, actions tell the odometry of a robot that has a name in its frames.
+    if (robot.empty() && contents.driven_m.size() > 1) continue;
     head.push_back({"driven", fixed(driven_m, 2) + " m" + (robot.empty() ? "" : " by " + robot)});
   }
   std::cout << listing(head) << '\n';

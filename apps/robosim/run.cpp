@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "recording/recording_error.h"
+#include "robosim/arguments.h"
 #include "robosim/interrupt.h"
 #include "robosim/local_run.h"
 #include "robosim/progress.h"

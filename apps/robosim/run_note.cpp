@@ -5,7 +5,6 @@
 #include <mrpt/obs/CObservationComment.h>
 
 #include "base/error_list.h"
-#include "recording/observations.h"
 #include "recording/rawlog_reader.h"
 
 namespace robosim {
@@ -61,7 +60,7 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
 RunNote RunNote::of(const std::string& rawlog) {
   RawlogReader reader(rawlog);
   const auto first = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(reader.next());
-  if (first && first->sensorLabel == kNote) {
+  if (first) {
     if (auto note = parse(first->text)) return *note;
   }
   throw NotOfRoboSim(rawlog +

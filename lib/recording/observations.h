@@ -31,8 +31,6 @@ double secondsSinceStart(mrpt::Clock::time_point);
 std::string sensorLabel(const std::string& robot, const std::string& sensor);
 /// The label's second half for where a robot really was.
 inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
-/// The label of what a recording says of itself.
-inline constexpr const char* kNote = "ROBOSIM";
 
 /// One robot's readings as stock MRPT observations (the table is in doc/rawlog.md):
 ///

@@ -154,7 +154,6 @@ void RawlogWriter::Impl::comment(const std::string& text) {
   if (text.empty()) return;
   mrpt::obs::CObservationComment comment;
   comment.timestamp = timestampOf(last);
-  comment.sensorLabel = kNote;
   comment.text = text;
   for (auto& output : outputs) output->archive << comment;
 }

@@ -79,7 +79,8 @@ TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
         for (std::size_t slot = 0; slot < sensors; ++slot) {
           const SensorInfo& sensor = (*run.robots[r].sensors)[slot];
           if (read->sensorLabel != sensorLabel(run.robots[r].name, sensor.label)) continue;
-          expectSameReading(measurementFrom(*read, sensor, readings[r].laser_pan_rad), readings[r].measurements[slot], read->sensorLabel);
+          expectSameReading(measurementFrom(*read, sensor, readings[r].laser_pan_rad), readings[r].measurements[slot],
+                            read->sensorLabel);
         }
       }
     }

@@ -36,7 +36,7 @@ RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots
 CObservation::Ptr RecordedSteps::nextOfRobots() {
   while (auto observation = reader_.next()) {
     if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(observation)) {
-      if (comment->sensorLabel == kNote) note_ = comment->text;
+      note_ = comment->text;
     } else if (!partsOf(observation->sensorLabel).robot.empty()) {
       return observation;
     }
@@ -65,11 +65,12 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
     if (tries == robots_.size()) continue;
     by_robot[robot].emplace_back(label.substr(robots_[robot].name.size() + 1), ahead_);
   }
+  // Of a file that was cut off nobody knows what the last step would have had.
+  if (!ahead_ && reader_.trouble()) return std::nullopt;
   std::vector<RecordedRobot> robots;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
     auto whole = put(robots_[i], by_robot[i], step);
     if (!whole) {
-      if (!ahead_ && reader_.trouble()) return std::nullopt;
       throw RecordingError("robot \"" + robots_[i].name + "\" is not whole in step " + std::to_string(step) +
                            " of the recording; give the world that it was made with");
     }

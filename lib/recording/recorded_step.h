@@ -31,7 +31,7 @@ class RecordedSteps {
   /// @throws RecordingError for an observation that such robots would not have recorded.
   std::optional<std::vector<RecordedRobot>> next();
 
-  /// The last note so far (kNote); empty for none.
+  /// The last note so far; empty for none.
   const std::string& note() const { return note_; }
 
  private:

@@ -36,6 +36,7 @@ class RecordedStepsTest : public TestFolder {
   std::vector<Readings> readingsAt(std::size_t step) const {
     std::vector<Readings> readings{withoutPictures(sampleReadings(robots[0], step)),
                                    withoutPictures(sampleReadings(robots[1], step + 1000))};
+    readings[1].time.step = step;
     readings[0].stalled = step % 3 == 0;
     if (step % 4 == 1) readings[1].inbox = {{"a", "b", "GOLD"}, {"a", "b", std::string("\0\xff", 2)}};
     return readings;
@@ -157,7 +158,7 @@ TEST_F(RecordedStepsTest, ADamagedEntryEndsTheReadingWithAWordOnWhereAndWhy) {
   archive << odometry;
   const std::size_t first = archive.bytes.size();
   archive << odometry;
-  archive.bytes[first + 3] ^= 0x55;  // in the second's class name
+  archive.bytes[first + 20] ^= 0x55;  // in the second's class name
   std::ofstream(file, std::ios::binary)
       .write(reinterpret_cast<const char*>(archive.bytes.data()), static_cast<std::streamsize>(archive.bytes.size()));
   RawlogReader reader(file);
