@@ -18,7 +18,9 @@ std::string unitOf(const std::string& setting) {
                                                        {"_m", " metres"},
                                                        {"_deg", " degrees"},
                                                        {"_s", " seconds"},
-                                                       {"_rad", " radians"}};
+                                                       {"_rad", " radians"},
+                                                       {"_px", " pixels"},
+                                                       {"_hz", " hertz"}};
   for (const auto& [ending, unit] : units) {
     if (setting.ends_with(ending)) return unit;
   }

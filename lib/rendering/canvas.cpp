@@ -30,12 +30,6 @@ TextStyle styleOf(double size_px) {
 
 }  // namespace
 
-Color mix(const Color& a, const Color& b, float share_of_b) {
-  Color mixed;
-  for (std::size_t i = 0; i < 3; ++i) mixed[i] = a[i] + (b[i] - a[i]) * share_of_b;
-  return mixed;
-}
-
 Canvas::Canvas(const PlanView& view, const Color& background)
     : view_(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
 

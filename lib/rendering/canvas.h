@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <span>
 #include <string>
 #include <vector>
@@ -8,13 +7,10 @@
 #include <opencv2/core/mat.hpp>
 
 #include "geometry/solid.h"
+#include "rendering/color.h"
 #include "rendering/plan_view.h"
 
 namespace robosim {
-
-/// Red, green, blue, each in [0, 1].
-using Color = std::array<float, 3>;
-Color mix(const Color& a, const Color& b, float share_of_b);
 
 /// Draws on a PlanView. Places are pixels of the finished picture (PlanView::toPixel()) or outlines in the world frame;
 /// widths and radii are pixels. Works at twice the resolution, which smooths what OpenCV's own smoothing leaves rough.
