@@ -11,7 +11,7 @@ namespace robosim {
 /// A colour camera. Its pictures come from the Snapshot's ImageSource; without one it takes none.
 struct CameraOptions {
   std::string label = "camera";
-  CameraView view{.info = {.width_px = 320, .height_px = 240, .field_of_view_rad = M_PI / 3, .rate_hz = 10},
+  CameraView view{.info = {.width_px = 320, .height_px = 240, .field_of_view_rad = 60 * (M_PI / 180), .rate_hz = 10},
                   .robot_from_camera = {},
                   .jpeg_quality = 85};
 
