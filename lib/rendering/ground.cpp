@@ -27,25 +27,36 @@ void addLevel(Mesh& mesh, double west, double east, double south, double north) 
   addPolygon(mesh, corners, {});
 }
 
-/// Small pieces where things happen, for the depth inside a piece of kilometres is told to millimetres only; large ones
-/// around. These reach a little under the small ones: the same ground twice looks like ground.
+/// Small pieces where things happen, larger and larger ones around: of the depth inside a piece of kilometres, which is
+/// worked out in single precision, the metres would be wrong. Each ring reaches a little under what it surrounds: the
+/// same ground twice looks like ground.
 Mesh groundMesh(const Bounds2D& bounds) {
-  constexpr double kPiece_m = 4, kPiecesMost = 32, kUnder_m = 0.1;
+  constexpr double kPiece_m = 4, kPiecesMost = 32, kGrowth = 2, kUnder_m = 0.05;
   const double piece_m =
       std::max({kPiece_m, (bounds.x_max - bounds.x_min) / kPiecesMost, (bounds.y_max - bounds.y_min) / kPiecesMost});
-  const double west = bounds.x_min - piece_m, south = bounds.y_min - piece_m;
-  double east = west, north = south;
-  while (east < bounds.x_max + piece_m) east += piece_m;
-  while (north < bounds.y_max + piece_m) north += piece_m;
+  Bounds2D inner{bounds.x_min - piece_m, bounds.x_min - piece_m, bounds.y_min - piece_m, bounds.y_min - piece_m};
+  while (inner.x_max < bounds.x_max + piece_m) inner.x_max += piece_m;
+  while (inner.y_max < bounds.y_max + piece_m) inner.y_max += piece_m;
   Mesh mesh;
-  for (double x = west; x < east - piece_m / 2; x += piece_m) {
-    for (double y = south; y < north - piece_m / 2; y += piece_m) addLevel(mesh, x, x + piece_m, y, y + piece_m);
+  for (double x = inner.x_min; x < inner.x_max - piece_m / 2; x += piece_m) {
+    for (double y = inner.y_min; y < inner.y_max - piece_m / 2; y += piece_m) {
+      addLevel(mesh, x, x + piece_m, y, y + piece_m);
+    }
   }
-  const double far = kGroundReach_m, under = kUnder_m;
-  addLevel(mesh, west - far, west + under, south - far, north + far);
-  addLevel(mesh, east - under, east + far, south - far, north + far);
-  addLevel(mesh, west, east, south - far, south + under);
-  addLevel(mesh, west, east, north - under, north + far);
+  const Bounds2D middle = inner;
+  for (double reach_m = 2 * piece_m; reach_m < kGrowth * kGroundReach_m; reach_m *= kGrowth) {
+    const double r = std::min(reach_m, kGroundReach_m), under = kUnder_m;
+    const Bounds2D outer{middle.x_min - r, middle.x_max + r, middle.y_min - r, middle.y_max + r};
+    addLevel(mesh, outer.x_min, inner.x_min + under, outer.y_min, inner.y_min + under);
+    addLevel(mesh, outer.x_min, inner.x_min + under, inner.y_min, inner.y_max);
+    addLevel(mesh, outer.x_min, inner.x_min + under, inner.y_max - under, outer.y_max);
+    addLevel(mesh, inner.x_max - under, outer.x_max, outer.y_min, inner.y_min + under);
+    addLevel(mesh, inner.x_max - under, outer.x_max, inner.y_min, inner.y_max);
+    addLevel(mesh, inner.x_max - under, outer.x_max, inner.y_max - under, outer.y_max);
+    addLevel(mesh, inner.x_min, inner.x_max, outer.y_min, inner.y_min + under);
+    addLevel(mesh, inner.x_min, inner.x_max, inner.y_max - under, outer.y_max);
+    inner = outer;
+  }
   return mesh;
 }
 

@@ -4,10 +4,10 @@
 #include <optional>
 #include <vector>
 
-#include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "rendering/picture_target.h"
 #include "rendering/render_thread.h"
 #include "rendering/shaders.h"
 #include "rendering/world_scene.h"
@@ -34,6 +34,13 @@ mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from
   camera.setProjectiveFromPinhole(pinhole);
   camera.setPose(world_from_camera + CPose3D(0, 0, 0, -M_PI / 2, 0, -M_PI / 2));
   return camera;
+}
+
+/// What the depth buffer says of a pixel, in metres; 0 where nothing was drawn.
+float metresAhead(float depth) {
+  if (depth >= 1) return 0;
+  constexpr double n = kNearest_m, f = kFarthest_m;
+  return static_cast<float>(n * f / (f - depth * (f - n)));
 }
 
 }  // namespace
@@ -112,10 +119,12 @@ cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_
     auto& target = targets.ofSize(camera.width_px, camera.height_px);
     impl_->world->place(world_from_robot);
     target.setCamera(*impl_->scene, cameraAt(camera, CPose3D(world_from_camera)));
-    mrpt::math::CMatrixFloat drawn;
-    target.render_depth(*impl_->scene, drawn);
+    mrpt::img::CImage picture;
+    target.render_RGB(*impl_->scene, picture);
+    const auto drawn = target.lastDepths();
     for (int row = 0; row < depths.rows; ++row) {
-      for (int column = 0; column < depths.cols; ++column) depths(row, column) = drawn(row, column);
+      const auto from_bottom = drawn.begin() + std::ptrdiff_t{depths.rows - 1 - row} * depths.cols;
+      std::transform(from_bottom, from_bottom + depths.cols, depths[row], metresAhead);
     }
   });
   return depths;

@@ -7,33 +7,35 @@
 #include <mutex>
 #include <thread>
 
-#include <mrpt/opengl/CFBORender.h>
+#include <GL/gl.h>
 
 #include "base/error_list.h"
+#include "rendering/picture_target.h"
 
 namespace robosim {
 namespace {
 
-using mrpt::opengl::CFBORender;
-
 /// The first target makes the context in which all of them draw, so it is the last to go.
 class ContextTargets : public RenderThread::Targets {
  public:
-  ContextTargets() : context_(16, 16) {}
+  ContextTargets() : context_(16, 16) {
+    // MRPT's pictures have no gaps between their rows, and OpenGL would write some.
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+  }
 
-  CFBORender& ofSize(unsigned width_px, unsigned height_px) override {
+  PictureTarget& ofSize(unsigned width_px, unsigned height_px) override {
     auto& target = of_size_[{width_px, height_px}];
     if (!target) {
-      CFBORender::Parameters parameters(width_px, height_px);
+      PictureTarget::Parameters parameters(width_px, height_px);
       parameters.create_EGL_context = false;
-      target = std::make_unique<CFBORender>(parameters);
+      target = std::make_unique<PictureTarget>(parameters);
     }
     return *target;
   }
 
  private:
-  CFBORender context_;
-  std::map<std::pair<unsigned, unsigned>, std::unique_ptr<CFBORender>> of_size_;
+  PictureTarget context_;
+  std::map<std::pair<unsigned, unsigned>, std::unique_ptr<PictureTarget>> of_size_;
 };
 
 /// MRPT puts a trace of the program behind the first line of what went wrong.

@@ -2,11 +2,9 @@
 #include <functional>
 #include <memory>
 
-namespace mrpt::opengl {
-class CFBORender;
-}
-
 namespace robosim {
+
+class PictureTarget;
 
 /// The one thread that draws off screen, with the OpenGL context that it owns. Contexts of several threads would do as
 /// well, but MRPT takes its display down with each of them.
@@ -16,7 +14,7 @@ class RenderThread {
   class Targets {
    public:
     virtual ~Targets() = default;
-    virtual mrpt::opengl::CFBORender& ofSize(unsigned width_px, unsigned height_px) = 0;
+    virtual PictureTarget& ofSize(unsigned width_px, unsigned height_px) = 0;
   };
 
   /// The program's only one; it starts when first asked for, and ends with the last who holds on to it.

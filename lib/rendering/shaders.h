@@ -9,9 +9,9 @@ namespace robosim {
 /// on a processor without GPU, and puts walls below the ground.
 
 /// Shader ids of our own, beyond MRPT's. Within a frame they are drawn in this order.
-constexpr mrpt::opengl::shader_id_t kSolidShader = 10;   ///< meshes, lit
-constexpr mrpt::opengl::shader_id_t kGroundShader = 11;  ///< the ground
-constexpr mrpt::opengl::shader_id_t kShadowShader = 12;  ///< the ground once more, in shadow
+constexpr mrpt::opengl::shader_id_t kGroundShader = 10;  ///< the ground
+constexpr mrpt::opengl::shader_id_t kShadowShader = 11;  ///< the ground once more, in shadow; before what stands on it
+constexpr mrpt::opengl::shader_id_t kSolidShader = 12;   ///< meshes, lit
 constexpr mrpt::opengl::shader_id_t kSkyShader = 13;     ///< where nothing else is
 
 /// Vertex attributes by location, in all of our programs.
