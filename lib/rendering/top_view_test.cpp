@@ -74,9 +74,9 @@ TEST_F(TopViewTest, DrawsAnObjectToThePixel) {
   const cv::Vec3b floor(255, 255, 255);
   EXPECT_EQ(at(picture, {2, 1.5}), blue);
   for (const double inside : {0.95, -0.95}) EXPECT_EQ(at(picture, {2 + inside, 1.5}), blue) << inside;
-  for (const double outside : {1.04, -1.04}) EXPECT_EQ(at(picture, {2 + outside, 1.5}), floor) << outside;
+  for (const double outside : {1.04, -1.04}) EXPECT_EQ(at(picture, {2 + outside, 1.65}), floor) << outside;
   EXPECT_EQ(at(picture, {2, 1.5 + 0.45}), blue);
-  EXPECT_EQ(at(picture, {2, 1.5 + 0.54}), floor);
+  EXPECT_EQ(at(picture, {2.15, 1.5 + 0.55}), floor);
 }
 
 TEST_F(TopViewTest, DrawsARobotWhereItIsWithAMarkWhereItLooks) {

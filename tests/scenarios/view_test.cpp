@@ -158,5 +158,23 @@ TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }
 
+TEST(View, RawLogViewerOpensARecordingOfOursToo) {
+  const auto folder = emptyFolder();
+  ASSERT_EQ(runProgram("run worlds/opho2_1.xml --record " + quoted(folder / "run.rawlog")).exit_code, 0);
+  const Screen screen;
+  StartedProgram viewer("env", {"HOME=" + folder.string(), "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "RawLogViewer",
+                                (folder / "run.rawlog").string()});
+  // Its time line has a blue dot for each observation.
+  int blue = 0;
+  for (int tries = 0; tries < 600 && blue < 2000 && viewer.isRunning(); ++tries) {
+    const cv::Mat seen = screen.shot(folder);
+    blue = 0;
+    for (int y = 0; y < seen.rows; ++y) {
+      for (int x = 0; x < seen.cols; ++x) blue += isBlue(seen.at<cv::Vec3b>(y, x)) ? 1 : 0;
+    }
+  }
+  EXPECT_GE(blue, 2000) << viewer.error();
+}
+
 }  // namespace
 }  // namespace robosim
