@@ -44,7 +44,11 @@ struct Found {
       SensorInfo& sensor = sensors.emplace_back();
       sensor.kind = kind;
       sensor.label = label;
-      now.readings->measurements.push_back(kind == SensorKind::heat ? Measurement(Scalar{}) : Measurement(Echoes{}));
+      if (kind == SensorKind::heat) {
+        now.readings->measurements.emplace_back(Scalar{});
+      } else {
+        now.readings->measurements.emplace_back(Echoes{});
+      }
     }
     return at->second;
   }

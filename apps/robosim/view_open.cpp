@@ -20,6 +20,9 @@ std::unique_ptr<ViewSource> openView(const std::string& source, ConnectionArgume
   const bool looks_like_file =
       source.find('/') != std::string::npos || source.ends_with(".xml") || source.ends_with(".rawlog");
   if (looks_like_file) throw ConfigError(source + ": there is no such file; give a world, a rawlog, or HOST:PORT");
+  if (source.find_first_of(":0123456789") == std::string::npos) {
+    throw ConfigError(source + ": is neither a file nor an address; give a world, a rawlog, or HOST:PORT");
+  }
   connection.environment = source;
   return viewEnvironment(connection);
 }

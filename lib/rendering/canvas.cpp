@@ -93,6 +93,7 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
   const Bounds2D bounds = boundsOf(shape);
   const auto low = view_.toPixel({bounds.x_min, bounds.y_max}), high = view_.toPixel({bounds.x_max, bounds.y_min});
   const cv::Rect region = fineRect({low.x - reach_px, high.x + reach_px, low.y - reach_px, high.y + reach_px});
+  if (region.empty()) return;  // beside the picture
   Canvas light(view_, {0, 0, 0});
   light.fill(shape, {1, 1, 1});
   light.outline(shape, reach_px * 0.7, {1, 1, 1});
