@@ -134,6 +134,7 @@ struct EnvironmentServer::Impl {
     status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
     status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
     status.set_late(robots.late());
+    if (state.winner) status.set_winner(exhibit.robot_names[*state.winner]);
   }
 
   void sayGoodbye() {

@@ -47,6 +47,7 @@ bool update(Sight& sight, const wire::Frame& frame) {
   }
   sight.step = frame.step();
   sight.time_s = frame.time_s();
+  sight.winner = frame.winner();
   return frame.has_world();
 }
 

@@ -28,6 +28,7 @@ struct Sight {
   std::uint64_t step = 0;
   double time_s = 0;
   std::vector<RobotLook> robots;  ///< in the world's order
+  std::string winner;             ///< the robot that has won; empty for as long as none has
 };
 
 void encode(const RobotLook& look, std::size_t robot, wire::RobotView& out);
