@@ -196,6 +196,7 @@ Hardware& NetworkHardware::robot(std::size_t i) { return *impl_->robots[i]; }
 std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.seats[i].place; }
 const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.seats[i].controller; }
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
+const std::string& NetworkHardware::world() const { return impl_->welcome.world; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }
 void NetworkHardware::rejoin() { impl_->rejoin(); }
 
