@@ -206,6 +206,8 @@ struct EnvironmentServer::Impl {
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
     desk.load = [&](const WorldSource& source) { load(run, source); };
     desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
+    admit();
+    isEveryoneHere();  // a panel that asks first of all is to be told how the run stands
     while (!run.isOver()) {
       obeyPanels();
       if (run_switch.stop) return Served::stopped;
