@@ -85,6 +85,9 @@ std::optional<std::string> differenceOf(const RecordedRobot& recorded, const Rob
   if (recorded.command && recorded.readings.stalled != now.stalled) {
     return std::string("stalled: recorded ") + (recorded.readings.stalled ? "yes" : "no");
   }
+  if (recorded.command && recorded.readings.winner != now.winner) {
+    return "winner: recorded \"" + recorded.readings.winner + "\", now \"" + now.winner + '"';
+  }
   if (recorded.readings.inbox != now.inbox) {
     return "messages: recorded " + std::to_string(recorded.readings.inbox.size()) + ", now " +
            std::to_string(now.inbox.size());

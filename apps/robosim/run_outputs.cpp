@@ -93,11 +93,7 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
 
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
-  if (recording_) {
-    commands_.clear();
-    for (std::size_t i = 0; i < environment.robotCount(); ++i) commands_.push_back(environment.command(i));
-    recording_->write(state.readings, state.world_from_robot, commands_);
-  }
+  if (recording_) recording_->write(state.readings, state.world_from_robot, environment.commands());
   if (tracks_) tracks_->add(state.world_from_robot);
 }
 

@@ -42,7 +42,7 @@ class RawlogWriter {
   /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.
   /// @param readings one per robot, in the order of the constructor's.
   /// @param world_from_robot where each robot really is; empty when nobody knows.
-  /// @param commands what each robot was told to do in this step; empty when nobody knows.
+  /// @param commands that the robots obeyed in this step; empty when nobody knows.
   /// @throws RecordingError when the disk is full, or fails. Whatever had the file's name before is still there.
   void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
              std::span<const Command> commands = {});

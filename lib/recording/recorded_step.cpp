@@ -76,6 +76,12 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
     }
     robots.push_back(std::move(*whole));
   }
+  // Everyone is told who has won.
+  const auto winner =
+      std::find_if(robots.begin(), robots.end(), [](const auto& r) { return !r.readings.winner.empty(); });
+  if (winner != robots.end()) {
+    for (auto& one : robots) one.readings.winner = winner->readings.winner;
+  }
   return robots;
 }
 
@@ -89,6 +95,8 @@ std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Ob
     recorded.command = told.command;
     readings.laser_pan_rad = told.laser_pan_rad;
     readings.stalled = told.stalled;
+    readings.is_too_far = told.is_too_far;
+    if (told.has_won) readings.winner = robot.name;
   }
   for (const auto& sensor : *robot.sensors) {
     const auto observation = find(observations, sensor.label);

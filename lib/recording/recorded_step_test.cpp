@@ -27,7 +27,7 @@ class RecordedStepsTest : public TestFolder {
     for (std::size_t step = 0; step < steps; ++step) {
       written.push_back(readingsAt(step));
       truth.push_back({TPose2D(1, 0.1 * static_cast<double>(step), 0.25), TPose2D(2, 3, -1)});
-      commands.push_back({{0.1, 0.2, 0.5F, Activity::active}, {0.3, -0.4, 0, Activity::halted}});
+      commands.push_back({{0.1, 0.2, 0.5F, Activity::active, step == 3}, {0.3, -0.4, 0, Activity::halted}});
       writer.write(written.back(), truth.back(), commands.back());
     }
     writer.close("last note");
@@ -38,6 +38,8 @@ class RecordedStepsTest : public TestFolder {
                                    withoutPictures(sampleReadings(robots[1], step + 1000))};
     readings[1].time.step = step;
     readings[0].stalled = step % 3 == 0;
+    readings[1].is_too_far = step == 7;
+    if (step >= 40) readings[0].winner = readings[1].winner = "b";
     if (step % 4 == 1) readings[1].inbox = {{"a", "b", "GOLD"}, {"a", "b", std::string("\0\xff", 2)}};
     return readings;
   }
@@ -72,6 +74,8 @@ TEST_F(RecordedStepsTest, EveryReadingCommandAndMessageComesBackBitForBit) {
       EXPECT_EQ(read.readings.stalled, written[k][i].stalled);
       EXPECT_EQ(read.readings.laser_pan_rad, written[k][i].laser_pan_rad);
       EXPECT_EQ(read.readings.inbox, written[k][i].inbox);
+      EXPECT_EQ(read.readings.is_too_far, written[k][i].is_too_far);
+      EXPECT_EQ(read.readings.winner, written[k][i].winner);
       EXPECT_EQ(read.command, commands[k][i]);
       ASSERT_TRUE(read.world_from_robot);
       EXPECT_EQ(read.world_from_robot->y, truth[k][i].y);

@@ -18,8 +18,8 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationRawDAQ;
 
 /// In this order in STATUS.
-enum Output { kSpeed, kTurn, kPanWish, kActivity, kOutputs };
-enum Input { kLaserPan, kStalled, kInputs };
+enum Output { kSpeed, kTurn, kPanWish, kActivity, kByDriver, kOutputs };
+enum Input { kLaserPan, kStalled, kTooFar, kWon, kInputs };
 
 std::shared_ptr<CObservationRawDAQ> rawDaq(const std::string& label) {
   auto daq = CObservationRawDAQ::Create();
@@ -117,8 +117,11 @@ void Unsensed::fillStatus(const Readings& readings, const Command& command) {
   status.AOUT_double[kTurn] = command.turn_radps;
   status.AOUT_double[kPanWish] = command.laser_pan_rad;
   status.AOUT_double[kActivity] = static_cast<double>(command.activity);
+  status.AOUT_double[kByDriver] = command.by_driver ? 1 : 0;
   status.AIN_double[kLaserPan] = readings.laser_pan_rad;
   status.AIN_double[kStalled] = readings.stalled ? 1 : 0;
+  status.AIN_double[kTooFar] = readings.is_too_far ? 1 : 0;
+  status.AIN_double[kWon] = readings.winner == robot_ ? 1 : 0;
 }
 
 std::vector<CObservation::Ptr> Unsensed::occasional(const Readings& readings) const {
@@ -160,7 +163,7 @@ bool Unsensed::isAlongAxes(std::size_t slot, const Echoes& echoes, double pan_ra
 RobotStatus statusFrom(const CObservation& observation) {
   const auto& daq = asRawDaq(observation);
   if (daq.AOUT_double.size() != kOutputs || daq.AIN_double.size() != kInputs) {
-    refuse(observation, "it should hold 4 outputs and 2 inputs");
+    refuse(observation, "it should hold 5 outputs and 4 inputs");
   }
   const double activity = daq.AOUT_double[kActivity];
   if (!(activity >= 0 && activity <= static_cast<double>(Activity::found)))
@@ -171,7 +174,10 @@ RobotStatus statusFrom(const CObservation& observation) {
   status.command.laser_pan_rad = static_cast<float>(daq.AOUT_double[kPanWish]);
   status.command.activity = static_cast<Activity>(activity);
   status.laser_pan_rad = static_cast<float>(daq.AIN_double[kLaserPan]);
+  status.command.by_driver = daq.AOUT_double[kByDriver] != 0;
   status.stalled = daq.AIN_double[kStalled] != 0;
+  status.is_too_far = daq.AIN_double[kTooFar] != 0;
+  status.has_won = daq.AIN_double[kWon] != 0;
   return status;
 }
 

@@ -27,7 +27,8 @@ inline constexpr const char* kPoints = "POINTS";  ///< "<robot>/<sensor>/POINTS"
 ///
 ///  * STATUS, each step: analog outputs (double) are the command that the step was made with: speed [m/s], turn
 ///  [rad/s],
-///    pan [rad], activity; analog inputs (double) are where the turnable sensors looked [rad], and 1 for stalled;
+///    pan [rad], activity, and 1 when a person drives; analog inputs (double) are where the turnable sensors looked
+///    [rad], then 1 for stalled, for having asked in vain whether it has won, and for having won;
 ///  * POINTS, where echoes of a sensor did not come from its beams' axes at the ranges told (a wide sonar's nearest
 ///    point, something nearer than the least range): analog inputs (float), x y z [m] of each echo, robot frame;
 ///  * INBOX, when there was mail: digital inputs are its bytes: of each message its sender and its text, each as a
@@ -63,6 +64,8 @@ struct RobotStatus {
   Command command;
   float laser_pan_rad = 0;
   bool stalled = false;
+  bool is_too_far = false;
+  bool has_won = false;
 };
 
 /// @name The way back

@@ -40,8 +40,8 @@ Pane makePane(bool is_3d, std::optional<std::size_t> follow, const World& world)
   const Bounds2D& b = world.bounds;
   pane.air.target = {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2};
   // Near enough that the ground fills the picture.
-  pane.air.distance_m = follow ? 2.5 : 1.05 * extentOf(b);
-  pane.air.elevation_rad = follow ? 0.5 : 0.85;
+  pane.air.distance_m = follow ? 4 : 1.05 * extentOf(b);
+  pane.air.elevation_rad = follow ? 0.45 : 0.85;
   return pane;
 }
 
@@ -69,6 +69,8 @@ void Panes::fit(Pane& pane, std::size_t index) const {
     pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(rect.width, rect.height) / kRound_m);
   }
   pane.air = makePane(pane.is_3d, pane.follow, world_).air;
+  // The field of view is that of the picture's width; a low picture shows less of the ground.
+  if (!pane.follow) pane.air.distance_m *= std::max(1.0, 0.8 * rect.width / rect.height);
 }
 
 cv::Rect Panes::rectOf(std::size_t pane) const {
