@@ -34,7 +34,7 @@ class RobotBuilder {
     height_m_ = body.height_m;
     clearance_m_ = std::max(0.0, body.heights().z_min_m);
     size_ = std::min(ahead_m_, aside_m_) / kPioneerRadius_m;
-    has_deck_ = box || model.look == RobotLook::deck;
+    has_deck_ = box || model.look == BodyLook::deck;
   }
 
   Mesh build() {

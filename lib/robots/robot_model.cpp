@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadPerDeg = M_PI / 180;
 
-Body readBody(XmlReader& reader, RobotLook& look) {
+Body readBody(XmlReader& reader, BodyLook& look) {
   Body body;
   const bool round = reader.has("radius_m") || !(reader.has("length_m") || reader.has("width_m"));
   if (round) {
@@ -26,7 +26,7 @@ Body readBody(XmlReader& reader, RobotLook& look) {
   body.center_z_m = reader.number("clearance_m", Bounds::notNegative(100), 0) + body.height_m / 2;
   const auto rgb = reader.numbers("color", 3, {0, 1}, {0.5, 0.5, 0.5});
   for (std::size_t i = 0; i < 3; ++i) body.color[i] = static_cast<float>(rgb[i]);
-  look = reader.choice("look", {{"drum", RobotLook::drum}, {"deck", RobotLook::deck}}, RobotLook::drum);
+  look = reader.choice("look", {{"drum", BodyLook::drum}, {"deck", BodyLook::deck}}, BodyLook::drum);
   reader.finish();
   return body;
 }

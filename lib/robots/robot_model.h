@@ -13,7 +13,7 @@
 namespace robosim {
 
 /// What a robot looks like to cameras and viewers. No sensor but a camera sees a difference.
-enum class RobotLook {
+enum class BodyLook {
   drum,  ///< an upright drum, like a Nomad Scout
   deck,  ///< a hull between two wheels with a flat deck, like a Pioneer; any box-shaped robot has this look
 };
@@ -23,7 +23,7 @@ struct RobotModel {
   std::string name;  ///< "pioneer3dx"; "2005" for robots that a world file describes itself
   std::string help;  ///< one sentence; may be empty
   Body body;         ///< shape, height and colour; its pose is the robot's
-  RobotLook look = RobotLook::drum;
+  BodyLook look = BodyLook::drum;
   double radius_m = 0;  ///< of the disc that authorising moves takes it for: Body::coveringRadius()
   MotionLimits limits;
   std::vector<std::shared_ptr<const Sensor>> sensors;
