@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <deque>
 #include <future>
 #include <optional>
@@ -18,6 +17,7 @@
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
+#include "recording/picture_folder.h"
 
 namespace robosim {
 namespace {
@@ -32,7 +32,7 @@ constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
-  explicit Track(const RobotInfo& robot) : observations(robot) {
+  Track(const RobotInfo& robot, PictureFolder* pictures) : observations(robot, pictures) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
@@ -44,7 +44,7 @@ struct Track {
 };
 
 struct Output {
-  explicit Output(const std::filesystem::path& path) : file(path) {}
+  explicit Output(const std::filesystem::path& path) : file(path), pictures(path) {}
 
   void flush(std::size_t from_bytes) {
     if (archive.bytes.size() < from_bytes) return;
@@ -53,17 +53,9 @@ struct Output {
   }
 
   GzipFile file;
+  PictureFolder pictures;
   ByteArchive archive;
 };
-
-/// A robot's name as part of a file name.
-std::string fileNamePart(const std::string& robot) {
-  std::string part = robot;
-  for (char& c : part) {
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-  }
-  return part;
-}
 
 std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                                             RawlogFormat format) {
@@ -137,20 +129,27 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (auto& output : outputs) output->flush(kChunkBytes);
 }
 
-RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format)
+RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
+                           RawlogImages images)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
   impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
-    const Track& track = impl_->tracks.emplace_back(robot);
-    if (format == RawlogFormat::sensory_frames && !track.odometry_slot) {
+    const auto& sensors = *robot.sensors;
+    const bool has_odometry = std::any_of(sensors.begin(), sensors.end(),
+                                          [](const SensorInfo& sensor) { return sensor.kind == SensorKind::odometry; });
+    if (format == RawlogFormat::sensory_frames && !has_odometry) {
       throw ConfigError(file.string() + ": robot \"" + robot.name +
                         "\" has no odometry, which a recording of actions and sensory frames is made from; give it "
                         "one, or record observations only");
     }
   }
   for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
+    impl_->tracks.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
+  }
 }
 
 RawlogWriter::~RawlogWriter() = default;
@@ -168,7 +167,10 @@ void RawlogWriter::close() {
   impl_->handOver();
   impl_->background.get();
   for (auto& output : impl_->outputs) output->flush(0);
-  for (auto& output : impl_->outputs) output->file.commit();
+  for (auto& output : impl_->outputs) {
+    output->pictures.commit();
+    output->file.commit();
+  }
 }
 
 std::vector<std::filesystem::path> RawlogWriter::files() const {
