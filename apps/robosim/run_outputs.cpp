@@ -16,7 +16,8 @@ std::unique_ptr<RawlogWriter> openRecording(const RunArguments& arguments, const
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
   const auto format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations;
-  return std::make_unique<RawlogWriter>(arguments.record, robots, format, note.text());
+  const auto images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded;
+  return std::make_unique<RawlogWriter>(arguments.record, robots, format, images, note.text());
 }
 
 /// The picture comes last, so that a disk that is full by now costs nobody the summary; and it was no bad input.
@@ -49,6 +50,11 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
       .add_option("--rawlog-format", a.rawlog_format,
                   "obs: observations; sf: pairs of action and sensory frame, one file a robot")
       ->check(CLI::IsMember({"obs", "sf"}))
+      ->capture_default_str();
+  command
+      .add_option("--record-images", a.record_images,
+                  "cameras' pictures: embedded in the rawlog, or external, as JPEG files in STEM_Images beside it")
+      ->check(CLI::IsMember({"embedded", "external"}))
       ->capture_default_str();
   command.add_option("--seed", a.run.environment.seed, "of everything that is left to chance")
       ->check(seedNumber())

@@ -22,6 +22,7 @@ struct RunArguments {
   std::string speed = "max";
   std::string record;
   std::string rawlog_format = "obs";
+  std::string record_images = "embedded";
   std::string picture;
   bool json = false;
 

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <deque>
 
+#include <mrpt/img/CImage.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -156,6 +157,8 @@ RawlogReader::RawlogReader(const fs::path& file) {
   }
   impl_ = std::make_unique<Impl>(opened, file.string());
   gzbuffer(opened, 128 * 1024);
+  // Where MRPT looks for pictures in files of their own; it knows one such folder for a program.
+  mrpt::img::CImage::setImagesPathBase((file.parent_path() / (file.stem().string() + "_Images")).string());
   if (!looksLikeRawlog(opened)) {
     throw ConfigError(file.string() +
                       ": is no MRPT rawlog, which begins with the name of a class; make one with robosim run --record");

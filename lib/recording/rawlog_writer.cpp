@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <deque>
 #include <future>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
+#include "recording/picture_folder.h"
 #include "recording/unsensed.h"
 
 namespace robosim {
@@ -34,7 +34,7 @@ constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
-  explicit Track(const RobotInfo& robot) : observations(robot), unsensed(robot) {
+  Track(const RobotInfo& robot, PictureFolder* pictures) : observations(robot, pictures), unsensed(robot) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
@@ -47,7 +47,7 @@ struct Track {
 };
 
 struct Output {
-  explicit Output(const std::filesystem::path& path) : file(path) {}
+  explicit Output(const std::filesystem::path& path) : file(path), pictures(path) {}
 
   void flush(std::size_t from_bytes) {
     if (archive.bytes.size() < from_bytes) return;
@@ -56,17 +56,9 @@ struct Output {
   }
 
   GzipFile file;
+  PictureFolder pictures;
   ByteArchive archive;
 };
-
-/// A robot's name as part of a file name.
-std::string fileNamePart(const std::string& robot) {
-  std::string part = robot;
-  for (char& c : part) {
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-  }
-  return part;
-}
 
 std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                                             RawlogFormat format) {
@@ -159,20 +151,26 @@ void RawlogWriter::Impl::comment(const std::string& text) {
 }
 
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
-                           const std::string& note)
+                           RawlogImages images, const std::string& note)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
   impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
-    const Track& track = impl_->tracks.emplace_back(robot);
-    if (format == RawlogFormat::sensory_frames && !track.odometry_slot) {
+    const auto& sensors = *robot.sensors;
+    const bool has_odometry = std::any_of(sensors.begin(), sensors.end(),
+                                          [](const SensorInfo& sensor) { return sensor.kind == SensorKind::odometry; });
+    if (format == RawlogFormat::sensory_frames && !has_odometry) {
       throw ConfigError(file.string() + ": robot \"" + robot.name +
                         "\" has no odometry, which a recording of actions and sensory frames is made from; give it "
                         "one, or record observations only");
     }
   }
   for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
+    impl_->tracks.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
+  }
   impl_->comment(note);
 }
 
@@ -196,7 +194,10 @@ void RawlogWriter::close(const std::string& note) {
   impl_->background.get();
   impl_->comment(note);
   for (auto& output : impl_->outputs) output->flush(0);
-  for (auto& output : impl_->outputs) output->file.commit();
+  for (auto& output : impl_->outputs) {
+    output->pictures.commit();
+    output->file.commit();
+  }
 }
 
 std::vector<std::filesystem::path> RawlogWriter::files() const {

@@ -18,6 +18,12 @@ enum class RawlogFormat {
                    ///< robots, each is recorded in "<stem>_<robot><extension>"
 };
 
+/// Where the pictures of cameras go.
+enum class RawlogImages {
+  embedded,  ///< into the rawlog
+  external,  ///< into files of their own, in the folder "<stem>_Images" beside it
+};
+
 /// Records a run as an MRPT rawlog (doc/rawlog.md), of stock observations in MRPT's own format, compressed as MRPT
 /// does.
 ///
@@ -36,7 +42,8 @@ class RawlogWriter {
   /// @param note stands first in each file, as a CObservationComment; empty for none
   /// @throws ConfigError when a file cannot be made, or a robot has no odometry for its actions.
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
-               RawlogFormat format = RawlogFormat::observations, const std::string& note = "");
+               RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded,
+               const std::string& note = "");
   ~RawlogWriter();
 
   /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.

@@ -23,7 +23,7 @@ class RecordedStepsTest : public TestFolder {
  protected:
   /// Records steps of two robots, with mail and commands.
   void record(std::size_t steps, RawlogFormat format = RawlogFormat::observations) {
-    RawlogWriter writer(file, robots, format, "first note");
+    RawlogWriter writer(file, robots, format, RawlogImages::embedded, "first note");
     for (std::size_t step = 0; step < steps; ++step) {
       written.push_back(readingsAt(step));
       truth.push_back({TPose2D(1, 0.1 * static_cast<double>(step), 0.25), TPose2D(2, 3, -1)});
@@ -124,7 +124,7 @@ TEST_F(RecordedStepsTest, ARobotThatTheRecordingDoesNotHaveIsTold) {
 
 TEST_F(RecordedStepsTest, AFileOfPairsReadsBackToo) {
   robots = {sampleRobot("a")};
-  RawlogWriter writer(file, robots, RawlogFormat::sensory_frames, "note");
+  RawlogWriter writer(file, robots, RawlogFormat::sensory_frames, RawlogImages::embedded, "note");
   const std::vector<Readings> readings{withoutPictures(sampleReadings(robots[0], 0))};
   const std::vector<Command> command{{0.5, 0, 0, Activity::active}};
   writer.write(readings, {}, command);
