@@ -351,7 +351,7 @@ TEST_F(RawlogWriterTest, PutsExternalPicturesAsTheyAreWhereMrptFindsThem) {
     if (!seen) continue;
     const std::size_t robot = seen->sensorLabel == "robot 1/camera" ? 0 : 1;
     const std::uint64_t step = 2 * next[robot]++;
-    EXPECT_EQ(std::get<Image>(measurementFrom(*seen, sampleCamera())).jpeg, run.jpeg(robot, step));
+    EXPECT_EQ(std::get<Image>(measurementFrom(*seen, sampleCamera(), 0)).jpeg, run.jpeg(robot, step));
     EXPECT_EQ(seen->image.getWidth(), 48u);
   }
   EXPECT_EQ(next[0], 5u);
