@@ -177,7 +177,13 @@ class RunAgain {
     Environment& environment = run_.environment();
     const auto& robots = environment.fleet().robots;
     for (std::size_t i = 0; i < next.size(); ++i) {
-      if (note_.controllers[i].empty() && next[i].command) environment.setCommand(i, *next[i].command);
+      if (note_.controllers[i].empty() && next[i].command) {
+        environment.setCommand(i, *next[i].command);
+        const Readings& answer = next[i].readings;
+        const bool has_just_won =
+            answer.winner == robots[i].info.name && environment.state().readings[i].winner.empty();
+        if (answer.is_too_far || has_just_won) environment.checkWin(i);
+      }
       for (const auto& message : next[i].readings.inbox) {
         const auto sender = static_cast<std::size_t>(
             std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.info.name == message.from; }) -
