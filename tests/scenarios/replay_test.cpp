@@ -75,7 +75,7 @@ TEST(Replay, RunsTheWorldAgainAndItIsTheSameRun) {
 TEST(Replay, TellsTheFirstStepAndReadingThatDifferInAChangedWorld) {
   const auto folder = emptyFolder();
   record("worlds/opho2_1.xml --time 100", folder / "run.rawlog");
-  std::string text = textOf("worlds/opho2_1.xml");
+  std::string text = textOf(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml");
   const auto at = text.find("<hot>20");
   ASSERT_NE(at, std::string::npos);
   text.replace(at, 7, "<hot>21");

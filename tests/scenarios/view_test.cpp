@@ -119,7 +119,7 @@ TEST(View, SaysWhatIsWrongWithItsArguments) {
 /// An X server without a screen, and what one sees on it.
 class Screen {
  public:
-  Screen() : server_("Xvfb", {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"}) {
+  Screen() : server_("/usr/bin/Xvfb", {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"}) {
     server_.waitForOutput("\n");
     display_ = ":" + server_.output().substr(0, server_.output().find('\n'));
     setenv("DISPLAY", display_.c_str(), 1);
@@ -162,8 +162,8 @@ TEST(View, RawLogViewerOpensARecordingOfOursToo) {
   const auto folder = emptyFolder();
   ASSERT_EQ(runProgram("run worlds/opho2_1.xml --record " + quoted(folder / "run.rawlog")).exit_code, 0);
   const Screen screen;
-  StartedProgram viewer("env", {"HOME=" + folder.string(), "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "RawLogViewer",
-                                (folder / "run.rawlog").string()});
+  StartedProgram viewer("/usr/bin/env", {"HOME=" + folder.string(), "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "RawLogViewer",
+                                         (folder / "run.rawlog").string()});
   // Its time line has a blue dot for each observation.
   int blue = 0;
   for (int tries = 0; tries < 600 && blue < 2000 && viewer.isRunning(); ++tries) {
