@@ -14,13 +14,6 @@ namespace {
 
 constexpr std::size_t kChunk = 64;
 
-std::vector<Solid> solidsOf(const World& world) {
-  std::vector<Solid> solids;
-  solids.reserve(world.objects.size());
-  for (const auto& object : world.objects) solids.push_back(object.body.solid());
-  return solids;
-}
-
 std::vector<Mover> moversOf(const Fleet& fleet) {
   std::vector<Mover> movers;
   movers.reserve(fleet.robots.size());
@@ -96,7 +89,7 @@ struct Environment::Impl {
         fleet(std::move(the_fleet)),
         options(the_options),
         workers(options.threads),
-        scene(solidsOf(world), fleet.robots.size(), world.bounds),
+        scene(stationarySolids(world), fleet.robots.size(), world.bounds),
         authority(moversOf(fleet), world.bounds),
         mail(namesOf(fleet), world.communication, options.seed),
         digest(fleet.robots.size()),
