@@ -61,7 +61,7 @@ class RosMapReader {
  private:
   void report(const YAML::Node& node, const std::string& key, const std::string& what) {
     std::string quoted = key + ": ";
-    if (node.IsScalar()) quoted += node.Scalar() + ": ";
+    if (node.IsScalar() && !node.Scalar().empty()) quoted += node.Scalar() + ": ";
     errors_.add(path_, node.Mark().line + 1, quoted + what);
   }
 
