@@ -32,6 +32,7 @@ int main(int argc, char** argv) {
   robosim::addGeometry(program);
   robosim::addControl(program);
   robosim::addCheck(program);
+  robosim::addExport(program);
   robosim::addBench(program);
 
   // CLI11 would call an unknown subcommand a missing one.

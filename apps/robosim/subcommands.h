@@ -16,6 +16,7 @@ void addRobot(CLI::App& program);
 void addGeometry(CLI::App& program);
 void addControl(CLI::App& program);
 void addCheck(CLI::App& program);
+void addExport(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 

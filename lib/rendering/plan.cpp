@@ -74,6 +74,7 @@ class Drawing {
     for (std::size_t i = 0; i < paths_.size(); ++i) {
       if (!paths_[i].empty()) drawStart(view_.toPixel(paths_[i].front()), pathColor(i));
     }
+    for (const auto& map : world_.maps) drawMap(map);
     drawObjects();
     for (std::size_t i = 0; i < world_from_robot_.size(); ++i) drawRobot(i);
     writeNames();
@@ -96,6 +97,16 @@ class Drawing {
       canvas_.line(view_.toPixel({b.x_min, y}), view_.toPixel({b.x_max, y}), 1, kGrid);
     }
     canvas_.outline(floor, 1, mix(kGrid, kInk, 0.3f));
+  }
+
+  void drawMap(const WorldMap& map) {
+    std::vector<Solid> solids;
+    addSolids(map.plan, map.world_from_map, map.heights(), solids);
+    for (const auto& solid : solids) canvas_.fill(solid.outline, map.color);
+    // A map's walls may be thinner than can be seen.
+    for (std::size_t i = map.plan.occupied.size(); i < solids.size(); ++i) {
+      canvas_.outline(solids[i].outline, 1.5, map.color);
+    }
   }
 
   void drawObjects() {
@@ -247,6 +258,7 @@ PlanView planView(const World& world, PlanPaths paths) {
             std::max(area.y_max, b.y_max)};
   };
   for (const auto& object : world.objects) include(boundsOf(object.body.solid().outline));
+  for (const auto& map : world.maps) include(boundsOf(map.plan, map.world_from_map));
   for (const auto& path : paths) {
     for (const auto& point : path) include({point.x, point.x, point.y, point.y});
   }

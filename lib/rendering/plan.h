@@ -18,7 +18,7 @@ using PlanPaths = std::span<const std::vector<mrpt::math::TPoint2D>>;
 /// What a plan of a run shows: the world's bounds, every object and every way, on a scale that the longer side sets.
 PlanView planView(const World&, PlanPaths paths);
 
-/// Draws a run from above to a PNG file: the objects in their colours, hot ones with a glow and their name; the way of
+/// Draws a run from above to a PNG file: maps and objects in their colours, hot ones with a glow and their name; the way of
 /// every robot in a colour of its own, from a ring at its start to the robot as it stands at the end, with its name
 /// where there is room; a grid and a scale in metres.
 /// @param paths may be empty, as may each path in it: then no ways are drawn

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <sstream>
 
+#define OCTOMAP_NODEBUGOUT  // or it tells standard error what it does
 #include <octomap/OcTree.h>
 
 #include "base/error_list.h"

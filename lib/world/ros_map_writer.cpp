@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <opencv2/imgcodecs.hpp>
 #include <yaml-cpp/yaml.h>
 
@@ -21,6 +23,9 @@ std::string pictureOf(const OccupancyGrid& grid) {
   return {bytes.begin(), bytes.end()};
 }
 
+/// A length [m] without the digits that only rounding has left.
+std::string lengthText(double length_m) { return toText(std::round(length_m * 1e9) / 1e9 + 0.0); }
+
 }  // namespace
 
 RosMap toRosMap(const OccupancyGrid& grid, const std::string& picture_name) {
@@ -29,8 +34,8 @@ RosMap toRosMap(const OccupancyGrid& grid, const std::string& picture_name) {
   yaml << YAML::BeginMap;
   yaml << YAML::Key << "image" << YAML::Value << picture_name;
   yaml << YAML::Key << "resolution" << YAML::Value << toText(grid.cell_m);
-  yaml << YAML::Key << "origin" << YAML::Value << YAML::Flow << YAML::BeginSeq << toText(corner.x) << toText(corner.y)
-       << toText(corner.phi) << YAML::EndSeq;
+  yaml << YAML::Key << "origin" << YAML::Value << YAML::Flow << YAML::BeginSeq << lengthText(corner.x)
+       << lengthText(corner.y) << toText(corner.phi) << YAML::EndSeq;
   yaml << YAML::Key << "negate" << YAML::Value << 0;
   yaml << YAML::Key << "occupied_thresh" << YAML::Value << toText(OccupancyThresholds().occupied);
   yaml << YAML::Key << "free_thresh" << YAML::Value << toText(OccupancyThresholds().free);
