@@ -197,7 +197,7 @@ TEST(Worlds, ThatAreShippedAllLoadAndSurviveWriting) {
     const LoadedWorld loaded = loadWorld(entry.path(), {"gold_finder", "wander", "wall_follower", "still"});
     EXPECT_FALSE(loaded.fleet.robots.empty());
     ErrorList errors;
-    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), errors), loaded.world);
+    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), shelfOnDisk(entry.path()), errors), loaded.world);
     EXPECT_EQ(errors.errors(), Lines{});
   }
   EXPECT_GE(worlds, 4);
