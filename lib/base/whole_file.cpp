@@ -61,13 +61,17 @@ WholeFile::~WholeFile() {
   fs::remove(part_, ignored);
 }
 
-void WholeFile::write(std::string_view bytes) { out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }
+void WholeFile::write(std::string_view bytes) {
+  errno = 0;
+  out_.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (!out_ && error_ == 0) error_ = errno;
+}
 
 void WholeFile::finish() {
   if (!out_.is_open()) return;
   errno = 0;
   out_.close();
-  if (!out_) fail(std::strerror(errno));
+  if (!out_) fail(std::strerror(error_ != 0 ? error_ : errno));
 }
 
 void WholeFile::commit() {

@@ -21,6 +21,7 @@ class WholeFile {
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
+  /// What goes wrong, finish() tells.
   void write(std::string_view bytes);
   /// Sees to it that all is written, and tells if not; the file has no name yet.
   /// @throws std::runtime_error when there is no room for the file.
@@ -35,6 +36,7 @@ class WholeFile {
   std::filesystem::path file_;
   std::filesystem::path part_;
   std::ofstream out_;
+  int error_ = 0;  ///< the first errno of writing
 };
 
 /// Tells before long work what WholeFile would tell after it, and leaves everything as it was.

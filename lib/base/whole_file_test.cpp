@@ -88,10 +88,16 @@ TEST_F(WholeFileTest, SaysWhyThereCanBeNoSuchFile) {
 TEST_F(WholeFileTest, SaysWhenTheDiskIsFull) {
   const fs::path file = folder_ / "a.txt";
   fs::create_symlink("/dev/full", file.string() + ".part");
+  const std::string told = file.string() + ": cannot be written (No space left on device); choose another place";
+  {
+    WholeFile whole(file);
+    whole.write("some");
+    EXPECT_EQ(errorOf([&] { whole.finish(); }), told);
+  }
+  fs::create_symlink("/dev/full", file.string() + ".part");
   WholeFile whole(file);
-  whole.write("some");
-  EXPECT_EQ(errorOf([&] { whole.finish(); }),
-            file.string() + ": cannot be written (No space left on device); choose another place");
+  whole.write(std::string(1 << 20, 'x'));  // more than waits for the end
+  EXPECT_EQ(errorOf([&] { whole.commit(); }), told);
 }
 
 TEST_F(WholeFileTest, ReadsNoMoreThanItMay) {
