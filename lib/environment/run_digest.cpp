@@ -34,6 +34,9 @@ class Bytes {
     static_assert(sizeof(Odometry) == 5 * sizeof(double), "padding would be hashed");
     add(&odometry, sizeof odometry);
   }
+  // Another machine may draw another picture of the same run (doc/decisions/pictures.md).
+  void addKind(const Image&) {}
+  void addKind(const Blobs&) {}
 
   std::vector<unsigned char> bytes_;
 };
@@ -54,6 +57,9 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
     bytes.add(message.from);
     bytes.add(message.text);
   }
+  // Nothing is added for a run in which nobody asks.
+  if (state.readings[i].is_too_far) bytes.add("too far");
+  if (!state.readings[i].winner.empty()) bytes.add(state.readings[i].winner);
 }
 
 }  // namespace

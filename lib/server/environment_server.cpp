@@ -7,7 +7,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "base/error_list.h"
-#include "net/dial.h"
+#include "net/open_port.h"
 #include "server/control_panel_conversation.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
@@ -134,6 +134,7 @@ struct EnvironmentServer::Impl {
     status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
     status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
     status.set_late(robots.late());
+    if (state.winner) status.set_winner(exhibit.robot_names[*state.winner]);
   }
 
   void sayGoodbye() {
@@ -153,24 +154,11 @@ struct EnvironmentServer::Impl {
     for (std::size_t i = 0; i < services.size(); ++i) at[services[i].first].push_back(i);
     ports.resize(services.size());
     for (const auto& [address, indices] : at) {
-      grpc::ServerBuilder builder;
-      int port = 0;
-      // Without this two environments could share a port unknowingly, and each robot reach either.
-      builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-      builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
-      // Clients may ask as often; unless told, gRPC would hang up on them for it.
-      builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, kKeepaliveMs / 2);
-      builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
-      builder.AddListeningPort(address, options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(),
-                               &port);
-      for (const auto i : indices) builder.RegisterService(services[i].second);
-      auto server = builder.BuildAndStart();
-      if (!server || port == 0) {
-        throw std::runtime_error("cannot listen on " + address +
-                                 ": is another program using the port? Name another with --listen, or :0 for any");
-      }
-      for (const auto i : indices) ports[i] = port;
-      servers.push_back(std::move(server));
+      std::vector<grpc::Service*> there;
+      for (const auto i : indices) there.push_back(services[i].second);
+      OpenPort open = openPort(address, options.tls, there, "--listen");
+      for (const auto i : indices) ports[i] = open.number;
+      servers.push_back(std::move(open.server));
     }
   }
 
@@ -218,6 +206,8 @@ struct EnvironmentServer::Impl {
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
     desk.load = [&](const WorldSource& source) { load(run, source); };
     desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
+    admit();
+    isEveryoneHere();  // a panel that asks first of all is to be told how the run stands
     while (!run.isOver()) {
       obeyPanels();
       if (run_switch.stop) return Served::stopped;

@@ -1,9 +1,10 @@
 #include "server/viewer_conversation.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "net/wire_error.h"
-#include "server/viewer.h"
+#include "server/sight.h"
 #include "server/world_wire.h"
 
 namespace robosim {
@@ -15,16 +16,21 @@ RobotLook lookOf(const State& state, std::size_t i) {
 
 }  // namespace
 
-/// One viewer. What is below is touched with the lobby's mutex held.
+/// One viewer.
 class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest, wire::Frame> {
  public:
-  Stream(ViewerConversation& owner, grpc::CallbackServerContext* context) : ServerStream(context), owner_(owner) {}
+  Stream(ViewerConversation& owner, grpc::CallbackServerContext* context, bool has_operators_token)
+      : ServerStream(context), owner_(owner), may_operate(has_operators_token) {}
 
   void received(const wire::FrameRequest& message) override {
+    ReadingsWish wished = decode(message);
     const std::lock_guard lock(owner_.lobby_.mutex);
     if (!is_known) checkProtocol(message.protocol());
     is_known = true;
-    asks = true;
+    const auto& world = owner_.lobby_.exhibit->robot_names;
+    wished.of.erase(std::lower_bound(wished.of.begin(), wished.of.end(), world.size()), wished.of.end());
+    wish = std::move(wished);
+    asks = asks || !message.amends();
     owner_.lobby_.bell.notify_all();
   }
 
@@ -48,19 +54,29 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
   ViewerConversation& owner_;
 
  public:
+  const bool may_operate;  ///< whether its token is a control panel's too
+  /// @name Touched with the lobby's mutex held
+  ///@{
   bool is_gone = false;
-  bool is_known = false;          ///< it has said which protocol it speaks
-  bool asks = false;              ///< for a frame
+  bool is_known = false;  ///< it has said which protocol it speaks
+  bool asks = false;      ///< for a frame
+  ReadingsWish wish;
+  ///@}
+  /// @name Touched by the thread that steps only
+  ///@{
   bool wants_world = true;        ///< the next frame is a whole one
   std::uint64_t step = 0;         ///< of the last frame sent
+  ReadingsWish shown;             ///< whose readings that had
   std::vector<RobotLook> looked;  ///< what the viewer knows
+  ///@}
 };
 
 ViewerConversation::ViewerConversation(Lobby& lobby) : lobby_(lobby) {}
 ViewerConversation::~ViewerConversation() = default;
 
 RawStream* ViewerConversation::Watch(grpc::CallbackServerContext* context) {
-  auto stream = std::make_shared<Stream>(*this, context);
+  const bool may_operate = lobby_.access.check(*context, Right::operate).ok();
+  auto stream = std::make_shared<Stream>(*this, context, may_operate);
   stream->begin();
   const std::lock_guard lock(lobby_.mutex);
   const grpc::Status status = lobby_.mayEnter(*context, Right::look);
@@ -77,11 +93,20 @@ void ViewerConversation::show() {
 }
 
 void ViewerConversation::tell() {
-  const std::lock_guard lock(lobby_.mutex);
   const std::uint64_t step = lobby_.exhibit->environment.time().step;
-  for (const auto& stream : streams_) {
-    if (stream->asks && (stream->wants_world || stream->step != step) && stream->isIdle()) send(*stream);
+  asking_.clear();
+  {
+    const std::lock_guard lock(lobby_.mutex);
+    for (const auto& stream : streams_) {
+      if (!stream->asks || !stream->isIdle()) continue;
+      if (!stream->wants_world && stream->step == step && stream->shown == stream->wish) continue;
+      stream->asks = false;
+      stream->shown = stream->wish;
+      asking_.push_back(stream);
+    }
   }
+  // A frame may be large, and robots' answers must not wait for the mutex meanwhile.
+  for (const auto& stream : asking_) send(*stream);
 }
 
 void ViewerConversation::send(Stream& stream) {
@@ -92,9 +117,12 @@ void ViewerConversation::send(Stream& stream) {
   if (stream.wants_world) {
     encode(exhibit.source, *frame.mutable_world());
     frame.set_world_version(exhibit.world_version);
+    frame.set_period_s(state.time.period_s);
+    frame.set_may_operate(stream.may_operate);
   }
   frame.set_step(state.time.step);
   frame.set_time_s(state.time.seconds());
+  if (state.winner) frame.set_winner(exhibit.robot_names[*state.winner]);
   stream.looked.resize(exhibit.robot_names.size());
   for (std::size_t i = 0; i < stream.looked.size(); ++i) {
     const RobotLook look = lookOf(state, i);
@@ -102,8 +130,8 @@ void ViewerConversation::send(Stream& stream) {
     stream.looked[i] = look;
     encode(look, i, *frame.add_robots());
   }
+  encode(state.readings, stream.shown, frame);
   stream.wants_world = false;
-  stream.asks = false;
   stream.step = state.time.step;
   stream.post();
 }

@@ -8,8 +8,8 @@
 
 namespace robosim {
 
-/// The conversation with viewers: each asks for a frame when it wants one, and is sent the newest step, as what changed
-/// since the frame before. A slow one misses frames and delays nobody.
+/// The conversation with viewers: each asks for a frame when it wants one, and is sent the newest step: as what changed
+/// since the frame before, and the readings that it wished for. A slow one misses frames and delays nobody.
 ///
 /// Except for Watch(), all is called by the thread that steps the environment, between steps.
 class ViewerConversation final : public wire::Viewing::WithRawCallbackMethod_Watch<wire::Viewing::Service> {
@@ -23,7 +23,7 @@ class ViewerConversation final : public wire::Viewing::WithRawCallbackMethod_Wat
   /// Another world is shown from now on: every viewer's next frame is a whole one.
   /// Call with the lobby's mutex held, so that nobody meets one world's list with the other.
   void show();
-  /// Sends the step that stands to whoever asks and has not seen it.
+  /// Sends the step that stands to whoever asks and has not seen it, or not with those readings.
   void tell();
   /// The run is over.
   void sayGoodbye();
@@ -35,7 +35,8 @@ class ViewerConversation final : public wire::Viewing::WithRawCallbackMethod_Wat
   void send(Stream& stream);
 
   Lobby& lobby_;
-  std::vector<std::shared_ptr<Stream>> streams_;
+  std::vector<std::shared_ptr<Stream>> streams_;  ///< with the lobby's mutex held
+  std::vector<std::shared_ptr<Stream>> asking_;   ///< working memory of tell()
 };
 
 }  // namespace robosim

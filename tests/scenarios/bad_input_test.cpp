@@ -1,4 +1,5 @@
 // Clients that talk nonsense: each gets an error, and nobody else notices.
+#include <functional>
 #include <future>
 #include <limits>
 
@@ -162,37 +163,50 @@ TEST_F(BadInput, OfAnotherVersionOfTheProtocol) {
   expectError(work->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the protocol");
 
   wire::RunStatus status;
-  expectError(Panel(world_).call(&wire::ControlPanel::Stub::Start, wire::PanelRequest(), status),
+  expectError(wire::ControlPanel::NewStub(channel)->Start(&panel, wire::PanelRequest(), &status),
               grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the protocol");
   expectTheOthersNoticeNothing();
 }
 
+/// What a control panel may ask for, and be refused.
+void expectRefusal(const std::function<void()>& ask, const std::string& words) {
+  try {
+    ask();
+    ADD_FAILURE() << "was not refused: " << words;
+  } catch (const ConnectionError& error) {
+    expectError({error.code(), error.what()}, grpc::StatusCode::INVALID_ARGUMENT, words);
+  }
+}
+
+/// How a load of these bytes ends, sent in pieces.
+grpc::Status howLoadEnds(const DialOptions& dialled, const std::string& bytes, std::size_t piece_bytes) {
+  grpc::ClientContext context;
+  const auto stub = wire::ControlPanel::NewStub(dial(dialled));
+  wire::RunStatus status;
+  const auto writer = stub->Load(&context, &status);
+  for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
+    wire::WorldPiece piece;
+    piece.set_protocol(kProtocolVersion);
+    piece.set_piece(bytes.substr(at, piece_bytes));
+    if (!writer->Write(piece)) break;
+  }
+  writer->WritesDone();
+  return writer->Finish();
+}
+
 TEST_F(BadInput, OfAControlPanel) {
   Panel panel(world_);
-  wire::RunStatus status;
-  const auto speed = [&](double x) {
-    wire::SpeedRequest request;
-    request.set_protocol(kProtocolVersion);
-    request.set_speed(x);
-    return panel.call(&wire::ControlPanel::Stub::SetSpeed, request, status);
-  };
-  for (const double x : {kNan, kInfinite, -1.0, 1e-9}) {
-    expectError(speed(x), grpc::StatusCode::INVALID_ARGUMENT, "must lie in [0.001, 1000000]");
+  for (const double speed : {kNan, kInfinite, -1.0, 1e-9}) {
+    expectRefusal([&] { panel.setSpeed(speed); }, "must lie in [0.001, 1000000]");
   }
-  wire::StepRequest step;
-  step.set_protocol(kProtocolVersion);
   for (const std::uint64_t steps : {std::uint64_t{0}, UINT64_MAX}) {
-    step.set_steps(steps);
-    expectError(panel.call(&wire::ControlPanel::Stub::Step, step, status), grpc::StatusCode::INVALID_ARGUMENT,
-                "must lie in [1, 1000000000]");
+    expectRefusal([&] { panel.step(steps); }, "must lie in [1, 1000000000]");
   }
-  expectError(panel.loadBytes("nonsense", 3, status), grpc::StatusCode::INVALID_ARGUMENT, "make no robosim.wire.World");
-  expectError(panel.loadBytes("", 1, status), grpc::StatusCode::INVALID_ARGUMENT, "make no robosim.wire.World");
-  wire::WorldSource world;
-  world.set_file("broken.xml");
-  world.set_text("<world>" + kHuge + "</world>");
-  expectError(panel.loadBytes(world.SerializeAsString(), 100'000, status), grpc::StatusCode::INVALID_ARGUMENT,
-              "broken.xml:1: ");
+  expectRefusal([&] { panel.load(WorldSource{"broken.xml", "<world>" + kHuge + "</world>", {}}); }, "broken.xml:1: ");
+  for (const std::string bytes : {"nonsense", ""}) {
+    expectError(howLoadEnds(world_.dialOptions(), bytes, 3), grpc::StatusCode::INVALID_ARGUMENT,
+                "make no robosim.wire.World");
+  }
   expectTheOthersNoticeNothing();
 }
 

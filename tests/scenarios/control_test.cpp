@@ -13,6 +13,8 @@
 namespace robosim {
 namespace {
 
+using namespace std::chrono_literals;
+
 ServedWorld::Options paused() {
   ServedWorld::Options options;
   options.server.is_paused = true;
@@ -60,28 +62,25 @@ TEST(ControlPanel, TellsWhoWaitsForStepsThatAnotherPanelPaused) {
   ServedWorld::Options options = paused();
   options.server.speed = 1;  // a step takes a tenth of a second, so the other panel comes in time
   ServedWorld world(options);
-  auto waiting = std::async(std::launch::async, [&] {
-    wire::StepRequest request;
-    request.set_protocol(kProtocolVersion);
-    request.set_steps(1'000'000);
-    wire::RunStatus status;
-    return Panel(world).call(&wire::ControlPanel::Stub::Step, request, status);
-  });
+  auto waiting = std::async(std::launch::async, [&] { Panel(world).step(1'000'000); });
   world.waitForLog(": step");
   Panel(world).pause();
-  const grpc::Status status = waiting.get();
-  EXPECT_EQ(status.error_code(), grpc::StatusCode::ABORTED);
-  EXPECT_NE(status.error_message().find("another control panel has paused the run"), std::string::npos);
+  try {
+    waiting.get();
+    ADD_FAILURE();
+  } catch (const ConnectionError& error) {
+    EXPECT_EQ(error.code(), grpc::StatusCode::ABORTED);
+    EXPECT_NE(std::string(error.what()).find("another control panel has paused the run"), std::string::npos);
+  }
 }
 
 TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheOldOneIfItIsNoGood) {
   ServedWorld world(paused());
   Panel panel(world);
   panel.step(5);
-  wire::RunStatus status;
-  EXPECT_EQ(panel.loadBytes("\x0a\x05x.xml\x12\x03<a>", 1, status).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_THROW(panel.load(WorldSource{"x.xml", "<a>", {}}), ConnectionError);
   EXPECT_EQ(panel.status().step(), 5u);
-  status = panel.load("worlds/open_100.xml");
+  const wire::RunStatus status = panel.load("worlds/open_100.xml");
   EXPECT_EQ(status.world(), "open_100");
   EXPECT_EQ(status.robots(), 100u);
   EXPECT_EQ(status.step(), 0u);
@@ -104,22 +103,17 @@ TEST(ControlPanel, TellsWhichRobotsAreAbsent) {
 
 TEST(ControlPanel, ReportsToWhoWatchesUntilTheRunIsOver) {
   ServedWorld world(paused());
-  const auto stub = wire::ControlPanel::NewStub(dial(world.dialOptions()));
-  grpc::ClientContext context;
-  const auto stream = stub->Watch(&context);
-  wire::PanelRequest request;
-  request.set_protocol(kProtocolVersion);
-  wire::RunStatus status;
-  ASSERT_TRUE(stream->Write(request) && stream->Read(&status));
-  EXPECT_EQ(status.step(), 0u);
-  Panel(world).step(3);
-  ASSERT_TRUE(stream->Write(request) && stream->Read(&status));
-  EXPECT_EQ(status.step(), 3u);
-  Panel(world).stop();
-  ASSERT_TRUE(stream->Read(&status));
-  EXPECT_EQ(status.phase(), wire::ENDED);
-  EXPECT_FALSE(stream->Read(&status));
-  EXPECT_TRUE(stream->Finish().ok());
+  Panel panel(world);
+  std::vector<wire::RunStatus> reports;
+  Panel(world).watch(0s, [&](const wire::RunStatus& status) {
+    reports.push_back(status);
+    if (reports.size() == 1) panel.step(3);
+    if (reports.size() == 2) panel.stop();
+  });
+  ASSERT_GE(reports.size(), 3u);
+  EXPECT_EQ(reports[0].step(), 0u);
+  EXPECT_EQ(reports[1].step(), 3u);
+  EXPECT_EQ(reports.back().phase(), wire::ENDED);
 }
 
 TEST(Control, WorksARunFromTheCommandLine) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "net/robots.grpc.pb.h"
+#include "net/wire_error.h"
 #include "tests/scenarios/cut_line.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"

@@ -1,7 +1,9 @@
 // Viewers, which may come, look, dawdle and go as they like.
+#include <algorithm>
+#include <future>
+
 #include <gtest/gtest.h>
 
-#include "net/control_panel.grpc.pb.h"
 #include "net/viewing.grpc.pb.h"
 #include "net/wire_error.h"
 #include "server/viewer.h"
@@ -30,9 +32,11 @@ class RawViewer {
   RawViewer(const RawViewer&) = delete;
   RawViewer& operator=(const RawViewer&) = delete;
 
-  void ask() {
+  void ask(const ReadingsWish& wish = {}, bool amends = false) {
     wire::FrameRequest request;
     request.set_protocol(kProtocolVersion);
+    encode(wish, request);
+    request.set_amends(amends);
     stream_->Write(request);
   }
   wire::Frame read() {
@@ -113,6 +117,70 @@ TEST(Viewing, DelaysNobodyForAViewerThatNeverReads) {
   }
 }
 
+void expectReadings(const Sight& sight, const ServedWorld& world, const std::vector<std::size_t>& of) {
+  for (std::size_t i = 0; i < sight.robots.size(); ++i) {
+    const Readings* readings = sight.readingsOf(i);
+    ASSERT_EQ(readings != nullptr, std::find(of.begin(), of.end(), i) != of.end()) << i;
+    if (!readings) continue;
+    EXPECT_EQ(readings->measurements, world.state().readings[i].measurements) << i;
+  }
+}
+
+TEST(Viewing, ShowsTheReadingsOfWhomTheViewerWishesAndOfNobodyElse) {
+  ServedWorld world(paused());
+  Viewer viewer(world.dialOptions(), {.of_all = true, .of = {}});
+  expectReadings(viewer.sight(), world, {0, 1});
+  viewer.want({.of_all = false, .of = {1}});
+  Panel(world).step(5);
+  ASSERT_TRUE(viewer.look());
+  EXPECT_EQ(viewer.sight().step, 5u);
+  expectReadings(viewer.sight(), world, {1});
+  viewer.want({});
+  ASSERT_TRUE(viewer.look()) << "the wish is another, so the step in sight comes once more";
+  EXPECT_EQ(viewer.sight().step, 5u);
+  expectReadings(viewer.sight(), world, {});
+}
+
+TEST(Viewing, ShowsAPausedRunOnceMoreWhenTheWishChangesWhileTheViewerWaits) {
+  ServedWorld world(paused());
+  RawViewer viewer(world.dialOptions());
+  viewer.next();
+  viewer.ask();  // nothing has changed, so there is no answer as yet
+  viewer.ask({.of_all = false, .of = {0}}, true);
+  const wire::Frame frame = viewer.read();
+  EXPECT_EQ(frame.step(), 0u);
+  ASSERT_EQ(frame.readings_size(), 1);
+  EXPECT_EQ(frame.readings(0).robot(), 0u);
+  viewer.ask({.of_all = true, .of = {}}, true);  // asks for no frame
+  Panel(world).step(1);
+  viewer.ask({.of_all = true, .of = {}});
+  EXPECT_EQ(viewer.read().step(), 1u) << "one frame for each request";
+}
+
+TEST(Viewing, EndsALookThatWaitsWhenItsOwnerLeaves) {
+  ServedWorld world(paused());
+  Viewer viewer(world.dialOptions());
+  auto look = std::async(std::launch::async, [&] { return viewer.look(); });
+  viewer.leave();
+  EXPECT_FALSE(look.get());
+  EXPECT_FALSE(viewer.look());
+}
+
+TEST(Viewing, TellsAViewerWhetherItsTokenIsAControlPanelsToo) {
+  ServedWorld::Options options = paused();
+  options.server.access = Access::parse("viewer-0123456789ab viewer\nmaster-0123456789ab operator\n", "tokens");
+  ServedWorld world(options);
+  const auto may_operate = [&](const std::string& token) {
+    DialOptions dialled = world.dialOptions();
+    dialled.token = token;
+    return Viewer(dialled).sight().may_operate;
+  };
+  EXPECT_FALSE(may_operate("viewer-0123456789ab"));
+  EXPECT_TRUE(may_operate("master-0123456789ab"));
+  ServedWorld open(paused());
+  EXPECT_TRUE(Viewer(open.dialOptions()).sight().may_operate);
+}
+
 TEST(Viewing, LetsViewersComeAndGoWithoutATraceInTheRun) {
   const auto digest = [](bool is_watched) {
     ServedWorld::Options options;
@@ -146,14 +214,17 @@ TEST(Viewing, ShowsEveryoneTheOtherWorldThatAPanelLoads) {
   EXPECT_EQ(viewer.sight().robots.size(), 100u);
 }
 
-TEST(Viewing, TellsTheTextViewerEachFrameUntilTheRunIsOver) {
+TEST(Viewing, TellsTheTextViewerEachFrameAndReadingsUntilTheRunIsOver) {
   ServedWorld world(paused());
-  StartedProgram viewer(ROBOSIM_TEXT_VIEWER, {std::to_string(world.port())});
+  StartedProgram viewer(ROBOSIM_TEXT_VIEWER, {std::to_string(world.port()), "Scout1"});
   viewer.waitForOutput("step 0; Pioneer1 ");
   Panel(world).step(7);
   viewer.waitForOutput("step 7; Pioneer1 ");
+  viewer.waitForOutput("  Scout1; sonar nearest of 16 ");
   world.end();
-  EXPECT_EQ(viewer.wait().exit_code, 0);
+  const Ended ended = viewer.wait();
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(countOf("  Pioneer1; ", ended.out), 0u) << ended.out;
 }
 
 }  // namespace

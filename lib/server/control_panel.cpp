@@ -1,0 +1,86 @@
+#include "server/control_panel.h"
+
+#include <string>
+#include <thread>
+
+#include "net/wire_error.h"
+#include "server/world_wire.h"
+
+namespace robosim {
+namespace {
+
+/// A message may have 4 MiB, a world more.
+constexpr std::size_t kPieceBytes = 1 << 20;
+
+}  // namespace
+
+ControlPanel::ControlPanel(const DialOptions& dial_options)
+    : dialled_(dial_options), stub_(wire::ControlPanel::NewStub(dial(dial_options))) {}
+
+template <typename Method, typename Request>
+wire::RunStatus ControlPanel::call(Method method, Request request) {
+  grpc::ClientContext context;
+  showToken(context, dialled_);
+  request.set_protocol(kProtocolVersion);
+  wire::RunStatus status;
+  check((stub_.get()->*method)(&context, request, &status));
+  return status;
+}
+
+void ControlPanel::check(const grpc::Status& status) const {
+  if (!status.ok()) throw ConnectionError(status, dialled_);
+}
+
+wire::RunStatus ControlPanel::start() { return call(&wire::ControlPanel::Stub::Start, wire::PanelRequest()); }
+wire::RunStatus ControlPanel::pause() { return call(&wire::ControlPanel::Stub::Pause, wire::PanelRequest()); }
+wire::RunStatus ControlPanel::stop() { return call(&wire::ControlPanel::Stub::Stop, wire::PanelRequest()); }
+wire::RunStatus ControlPanel::status() { return call(&wire::ControlPanel::Stub::Status, wire::PanelRequest()); }
+
+wire::RunStatus ControlPanel::step(std::uint64_t steps) {
+  wire::StepRequest request;
+  request.set_steps(steps);
+  return call(&wire::ControlPanel::Stub::Step, request);
+}
+
+wire::RunStatus ControlPanel::setSpeed(double speed) {
+  wire::SpeedRequest request;
+  request.set_speed(speed);
+  return call(&wire::ControlPanel::Stub::SetSpeed, request);
+}
+
+wire::RunStatus ControlPanel::load(const WorldSource& world) {
+  wire::WorldSource message;
+  encode(world, message);
+  const std::string bytes = message.SerializeAsString();
+  grpc::ClientContext context;
+  showToken(context, dialled_);
+  wire::RunStatus status;
+  const auto writer = stub_->Load(&context, &status);
+  wire::WorldPiece piece;
+  piece.set_protocol(kProtocolVersion);
+  for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
+    piece.set_piece(bytes.substr(at, kPieceBytes));
+    if (!writer->Write(piece)) break;  // Finish() says why
+  }
+  writer->WritesDone();
+  check(writer->Finish());
+  return status;
+}
+
+void ControlPanel::watch(std::chrono::duration<double> period,
+                         const std::function<void(const wire::RunStatus&)>& show) {
+  grpc::ClientContext context;
+  showToken(context, dialled_);
+  const auto stream = stub_->Watch(&context);
+  wire::PanelRequest request;
+  request.set_protocol(kProtocolVersion);
+  wire::RunStatus status;
+  while (stream->Write(request) && stream->Read(&status)) {
+    show(status);
+    std::this_thread::sleep_for(period);
+  }
+  while (stream->Read(&status)) show(status);  // the last
+  check(stream->Finish());
+}
+
+}  // namespace robosim

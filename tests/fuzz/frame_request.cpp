@@ -1,0 +1,16 @@
+// What a viewer asks for.
+#include <cstdlib>
+
+#include "server/sight.h"
+#include "tests/fuzz/fuzz.h"
+#include "tests/fuzz/small_maze.h"
+
+using namespace robosim;
+
+int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  return fuzzMessage<wire::FrameRequest>(data, size, [](const wire::FrameRequest& request) {
+    wire::Frame frame;
+    encode(smallMaze().state().readings, decode(request), frame);
+    if (frame.readings_size() > static_cast<int>(smallMaze().robotCount())) std::abort();
+  });
+}
