@@ -23,7 +23,8 @@ PlanView planView(const World&, PlanPaths paths);
 /// where there is room; a grid and a scale in metres.
 /// @param paths may be empty, as may each path in it: then no ways are drawn
 /// @param world_from_robot where the robots stand at the end
-/// @throws ConfigError when the file cannot be written; nothing half-written stands under its name then.
+/// @throws ConfigError when there can be no such file, and std::runtime_error when there is no room for it; nothing
+/// half-written stands under its name then.
 void writePlan(const std::filesystem::path& png, const World&, const Fleet&, PlanPaths paths,
                std::span<const mrpt::math::TPose2D> world_from_robot);
 

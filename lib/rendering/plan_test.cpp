@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/error_list.h"
 
 namespace robosim {
 namespace {
@@ -225,7 +224,7 @@ TEST_F(PlanFile, IsTheSameForTheSameRun) {
 std::string errorOf(const std::function<void()>& work) {
   try {
     work();
-  } catch (const ConfigError& error) {
+  } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "no error";
