@@ -45,7 +45,7 @@ std::string readWholeFile(const fs::path& file, std::size_t most_bytes, const st
   return text;
 }
 
-WholeFile::WholeFile(fs::path file) : file_(checkedPath(file)), part_(file_.string() + ".part") {
+WholeFile::WholeFile(const fs::path& file) : file_(checkedPath(file)), part_(file_.string() + ".part") {
   errno = 0;
   out_.open(part_, std::ios::binary);
   if (!out_) {

@@ -16,7 +16,7 @@ std::string readWholeFile(const std::filesystem::path& file, std::size_t most_by
 class WholeFile {
  public:
   /// @throws ConfigError when there can be no such file.
-  explicit WholeFile(std::filesystem::path file);
+  explicit WholeFile(const std::filesystem::path& file);
   ~WholeFile();
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;

@@ -230,10 +230,14 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
       EXPECT_EQ(fleetOf(toXml(example), errors).robots.size(), 1u);
     } else if (example.name == "robot") {
       EXPECT_EQ(modelOf(example, "tortoise.xml", {}, errors).sensors.size(), 2u);
+    } else if (example.name == "map") {
+      const auto beside = kWorlds / "some.xml";
+      const std::string world = "<world><surface>" + toXml(example).substr(toXml(example).find("<map")) + "</surface></world>";
+      EXPECT_EQ(parseWorld(world, beside.string(), shelfOnDisk(beside), errors).maps.size(), 1u);
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 3);
+  EXPECT_EQ(examples, 4);
 }
 
 TEST(Worlds, RobotTypesThatAreShippedAllLoad) {

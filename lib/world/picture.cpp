@@ -20,13 +20,13 @@ void checkPictureSize(std::uint64_t columns, std::uint64_t rows, const std::stri
 }
 
 OccupancyGrid gridOf(const Picture& picture, const PictureMeaning& meaning) {
-  const auto occupancyOf = [&](std::uint32_t sum) {
+  const auto occupancy_at = [&](std::uint32_t sum) {
     const double value = static_cast<double>(sum) / picture.channels;
     if (meaning.is_percent) return value > 100 ? Occupancy::unknown : meaning.thresholds.of(value / 100);
     return meaning.thresholds.of((meaning.negate ? value : picture.white - value) / picture.white);
   };
   std::vector<Occupancy> occupancy_of_sum(std::size_t{picture.white} * picture.channels + 1);
-  for (std::uint32_t sum = 0; sum < occupancy_of_sum.size(); ++sum) occupancy_of_sum[sum] = occupancyOf(sum);
+  for (std::uint32_t sum = 0; sum < occupancy_of_sum.size(); ++sum) occupancy_of_sum[sum] = occupancy_at(sum);
 
   OccupancyGrid grid;
   grid.columns = picture.columns;
