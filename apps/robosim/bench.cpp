@@ -6,6 +6,7 @@ void addBench(CLI::App& program) {
   auto* bench = program.add_subcommand("bench", "Measure: how well and how fast");
   bench->require_subcommand(1);
   addBenchGold(*bench);
+  addBenchMaps(*bench);
   addBenchNetwork(*bench);
   addBenchSpeed(*bench);
 }

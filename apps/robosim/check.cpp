@@ -19,8 +19,20 @@ struct Checked {
   std::string kind;
   std::vector<std::string> robots;
   std::size_t objects = 0;
+  std::size_t maps = 0;
   Rows contents;  ///< for a person
 };
+
+std::string describe(const FloorPlan& plan) {
+  std::string text;
+  if (plan.columns > 0) {
+    text = withCommas(plan.columns) + " × " + withCommas(plan.rows) + " cells of " + toText(plan.cell_m) + " m, " +
+           withCommas(plan.occupiedCells()) + " of them occupied, in " + withCommas(plan.occupied.size()) + " boxes";
+  }
+  if (plan.columns > 0 && !plan.boxes.empty()) text += "; ";
+  if (!plan.boxes.empty()) text += withCommas(plan.boxes.size()) + " walls";
+  return text;
+}
 
 void checkWorld(const std::string& file, Checked& checked) {
   LoadedWorld loaded;
@@ -32,6 +44,7 @@ void checkWorld(const std::string& file, Checked& checked) {
   const Fleet& fleet = loaded.fleet;
   for (const auto& robot : world.robots) checked.robots.push_back(robot.name);
   checked.objects = world.objects.size();
+  checked.maps = world.maps.size();
 
   const auto& b = world.bounds;
   std::size_t hot = 0;
@@ -40,6 +53,8 @@ void checkWorld(const std::string& file, Checked& checked) {
                                       " m; one length unit of the file is " + toText(world.unit_m) + " m"},
                       {"objects", std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot"},
                       {"robots", std::to_string(world.robots.size())}};
+  for (const auto& map : world.maps)
+    checked.contents.insert(checked.contents.end() - 1, {"map " + map.file, describe(map.plan)});
   constexpr std::size_t kMostListed = 20;
   for (std::size_t i = 0; i < std::min(kMostListed, fleet.robots.size()); ++i) {
     const auto& robot = fleet.robots[i];
@@ -76,8 +91,11 @@ void checkRobotModel(const std::string& file, Checked& checked) {
 Checked check(const std::string& file) {
   Checked checked;
   try {
-    const std::string root = readXmlFile(file).name;
-    if (root == "RobotInfo") {
+    const std::string root = isMapFile(file) ? "map" : readXmlFile(file).name;
+    if (root == "map") {
+      checked.kind = "map";
+      checkWorld(file, checked);
+    } else if (root == "RobotInfo") {
       checked.kind = "robot list";
       checkRobotList(file, checked);
     } else if (root == "robot") {
@@ -101,7 +119,8 @@ void report(const std::string& file, const Checked& checked, bool as_json) {
                                         {"ok", ok},
                                         {"errors", checked.errors.errors()},
                                         {"robots", checked.robots},
-                                        {"objects", checked.objects}}
+                                        {"objects", checked.objects},
+                                        {"maps", checked.maps}}
                      .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
               << '\n';
   } else if (ok) {
@@ -124,8 +143,9 @@ void addCheck(CLI::App& program) {
   auto* command =
       program.add_subcommand("check", "Say whether a world file is right and what is in it, or list every error");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("FILE", arguments->file, "a world, a robot type, or a 2005 robot list")->required();
-  command->add_flag("--json", arguments->json, "print one JSON object: ok, errors, robots (names), objects (count)");
+  command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")->required();
+  command->add_flag("--json", arguments->json,
+                    "print one JSON object: ok, errors, robots (names), objects and maps (counts)");
   command->callback([arguments] { report(arguments->file, check(arguments->file), arguments->json); });
 }
 

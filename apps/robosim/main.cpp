@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
   robosim::addView(program);
   robosim::addReplay(program);
   robosim::addCheck(program);
+  robosim::addExport(program);
   robosim::addBench(program);
 
   // CLI11 would call an unknown subcommand a missing one.

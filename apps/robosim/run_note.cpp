@@ -1,8 +1,10 @@
 #include "robosim/run_note.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include <mrpt/obs/CObservationComment.h>
+#include <openssl/evp.h>
 
 #include "base/error_list.h"
 #include "recording/rawlog_reader.h"
@@ -13,6 +15,29 @@ namespace {
 /// A world larger than this is not copied into its recordings: who replays one has the world's file.
 constexpr std::size_t kMostWorldBytes = 1 << 20;
 
+/// A map is no text that JSON could hold.
+std::string toBase64(const std::string& bytes) {
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  const int size =
+      EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                      reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(size));
+  return text;
+}
+
+/// Empty for what is none.
+std::string fromBase64(const std::string& text) {
+  std::string bytes(3 * (text.size() / 4) + 3, '\0');
+  const int size = EVP_DecodeBlock(reinterpret_cast<unsigned char*>(bytes.data()),
+                                   reinterpret_cast<const unsigned char*>(text.data()), static_cast<int>(text.size()));
+  if (size < 0) return {};
+  // OpenSSL counts the padding as bytes.
+  const auto padding = static_cast<std::size_t>(
+      std::count(text.end() - std::min<std::ptrdiff_t>(2, text.end() - text.begin()), text.end(), '='));
+  bytes.resize(static_cast<std::size_t>(size) - std::min(padding, static_cast<std::size_t>(size)));
+  return bytes;
+}
+
 }  // namespace
 
 std::string RunNote::text() const {
@@ -21,6 +46,11 @@ std::string RunNote::text() const {
   for (const auto& [name, type] : world.robot_types) {
     types[name] = {{"file", type.file.filename().string()}, {"text", type.text.value_or("")}};
     bytes += type.text.value_or("").size();
+  }
+  nlohmann::ordered_json files = nlohmann::ordered_json::object();
+  for (const auto& [name, file] : world.files) {
+    files[name] = toBase64(file);
+    bytes += file.size();
   }
   const bool is_small = bytes <= kMostWorldBytes;
   const nlohmann::ordered_json json{{"robosim", 1},
@@ -31,7 +61,8 @@ std::string RunNote::text() const {
                                     {"controllers", controllers},
                                     {"outcome", outcome},
                                     {"world_text", is_small ? world.text : ""},
-                                    {"robot_types", is_small ? types : nlohmann::ordered_json::object()}};
+                                    {"robot_types", is_small ? types : nlohmann::ordered_json::object()},
+                                    {"files", is_small ? files : nlohmann::ordered_json::object()}};
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -45,6 +76,7 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
     for (const auto& [name, type] : json.at("robot_types").items()) {
       note.world.robot_types[name] = {type.at("file").get<std::string>(), type.at("text").get<std::string>()};
     }
+    for (const auto& [name, file] : json.at("files").items()) note.world.files[name] = fromBase64(file);
     note.world_version = json.at("world_version");
     note.seed = json.at("seed");
     note.period_s = json.at("period_s");

@@ -18,11 +18,13 @@ void addControl(CLI::App& program);
 void addView(CLI::App& program);
 void addReplay(CLI::App& program);
 void addCheck(CLI::App& program);
+void addExport(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 
-/// `robosim bench gold`, `robosim bench network` and `robosim bench speed`
+/// `robosim bench gold`, `robosim bench maps`, `robosim bench network` and `robosim bench speed`
 void addBenchGold(CLI::App& bench);
+void addBenchMaps(CLI::App& bench);
 void addBenchNetwork(CLI::App& bench);
 void addBenchSpeed(CLI::App& bench);
 

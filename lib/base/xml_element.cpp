@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
 #include <limits>
 
 #include <tinyxml2.h>
 
 #include "base/error_list.h"
+#include "base/whole_file.h"
 
 namespace robosim {
 namespace {
@@ -130,23 +130,7 @@ XmlElement parseXml(const std::string& text, const std::string& file) {
 }
 
 std::string readXmlText(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto status = std::filesystem::status(file, error);
-  const std::string name = file.string();
-  if (!std::filesystem::exists(status)) throw ConfigError(name + ": no such file; check the path");
-  if (std::filesystem::is_directory(status)) throw ConfigError(name + ": is a directory; name a file in it");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw ConfigError(name + ": cannot be opened for reading; check its permissions");
-  std::string text;
-  char block[1 << 16];
-  while (in.read(block, sizeof block) || in.gcount() > 0) {
-    text.append(block, static_cast<std::size_t>(in.gcount()));
-    if (text.size() > kMaxXmlFileBytes) {
-      throw ConfigError(name + ": is larger than " + std::to_string(kMaxXmlFileBytes >> 20) +
-                        " MiB, the most that is read; is it a world file?");
-    }
-  }
-  return text;
+  return readWholeFile(file, kMaxXmlFileBytes, "is it a world file?");
 }
 
 XmlElement readXmlFile(const std::filesystem::path& file) { return parseXml(readXmlText(file), file.string()); }

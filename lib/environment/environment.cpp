@@ -15,13 +15,6 @@ namespace {
 
 constexpr std::size_t kChunk = 64;
 
-std::vector<Solid> solidsOf(const World& world) {
-  std::vector<Solid> solids;
-  solids.reserve(world.objects.size());
-  for (const auto& object : world.objects) solids.push_back(object.body.solid());
-  return solids;
-}
-
 std::vector<Mover> moversOf(const Fleet& fleet) {
   std::vector<Mover> movers;
   movers.reserve(fleet.robots.size());
@@ -100,7 +93,7 @@ struct Environment::Impl {
         options(the_options),
         images(the_images),
         workers(options.threads),
-        scene(solidsOf(world), fleet.robots.size(), world.bounds),
+        scene(stationarySolids(world), fleet.robots.size(), world.bounds),
         authority(moversOf(fleet), world.bounds),
         mail(namesOf(fleet), world.communication, options.seed),
         referee(world, fleet.robots.size()),

@@ -27,8 +27,8 @@ class Raster {
           std::min({p.x - bounds_.x_min, bounds_.x_max - p.x, p.y - bounds_.y_min, bounds_.y_max - p.y});
       if (to_rim < radius_m) free_[i] = 0;
     }
-    for (const auto& object : world.objects) {
-      if (object.body.heights().overlaps(heights)) block(object.body.solid().outline, radius_m);
+    for (const auto& solid : stationarySolids(world)) {
+      if (solid.heights.overlaps(heights)) block(solid.outline, radius_m);
     }
   }
 

@@ -58,6 +58,18 @@ void drawFloor(Canvas& canvas, const Bounds2D& b) {
   canvas.outline(floor, 1, mix(kGridColor, kInkColor, 0.3f));
 }
 
+void drawMaps(Canvas& canvas, const World& world) {
+  for (const auto& map : world.maps) {
+    std::vector<Solid> solids;
+    addSolids(map.plan, map.world_from_map, map.heights(), solids);
+    for (const auto& solid : solids) canvas.fill(solid.outline, map.color);
+    // A map's walls may be thinner than can be seen.
+    for (std::size_t i = map.plan.occupied.size(); i < solids.size(); ++i) {
+      canvas.outline(solids[i].outline, 1.5, map.color);
+    }
+  }
+}
+
 void drawObjects(Canvas& canvas, const World& world) {
   std::vector<const Body*> bodies;
   for (const auto& object : world.objects) bodies.push_back(&object.body);

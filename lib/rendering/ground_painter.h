@@ -22,6 +22,8 @@ Color robotColor(std::size_t robot);
 
 /// The ground within the world's bounds, with a grid of a round number of metres.
 void drawFloor(Canvas&, const Bounds2D& bounds);
+/// The walls of the world's maps.
+void drawMaps(Canvas&, const World&);
 /// The world's objects in their colours, the lower ones first, hot ones with a glow.
 void drawObjects(Canvas&, const World&);
 /// A disc with a mark where it looks; all in pixels.

@@ -36,6 +36,7 @@ class Drawing {
     for (std::size_t i = 0; i < paths_.size(); ++i) {
       if (!paths_[i].empty()) drawStart(view_.toPixel(paths_[i].front()), robotColor(i));
     }
+    drawMaps(canvas_, world_);
     drawObjects(canvas_, world_);
     for (std::size_t i = 0; i < world_from_robot_.size(); ++i) drawRobot(i);
     writeNames();
@@ -133,6 +134,7 @@ PlanView planView(const World& world, PlanPaths paths) {
             std::max(area.y_max, b.y_max)};
   };
   for (const auto& object : world.objects) include(boundsOf(object.body.solid().outline));
+  for (const auto& map : world.maps) include(boundsOf(map.plan, map.world_from_map));
   for (const auto& path : paths) {
     for (const auto& point : path) include({point.x, point.x, point.y, point.y});
   }

@@ -8,8 +8,6 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/error_list.h"
-
 namespace robosim {
 namespace {
 
@@ -86,6 +84,23 @@ TEST_F(PlanFile, HasTheSizeOfItsView) {
   const cv::Mat picture = Scene10x5().draw(folder_ / "plan.png");
   EXPECT_EQ(picture.cols, 1200);
   EXPECT_EQ(picture.rows, 676);
+}
+
+TEST_F(PlanFile, ShowsWhatMapsHaveWithoutAHairBetweenCells) {
+  Scene10x5 scene;
+  WorldMap map;
+  map.color = {1, 0, 0};
+  map.world_from_map = {0.3, 0.3, 0};
+  map.plan.columns = map.plan.rows = 2;
+  map.plan.cell_m = 0.4;
+  map.plan.occupied = {{0, 0, 1, 1}, {1, 0, 1, 1}, {0, 1, 1, 1}};
+  map.plan.boxes = {{{5, 2.2, 0}, 4, 0.002}};
+  scene.world.maps = {map};
+  const cv::Mat picture = scene.draw(folder_ / "plan.png");
+  for (double x = 0.35; x < 1.05; x += 0.01) expectColor(scene.at(picture, {x, 0.5}), 255, 0, 0);
+  for (double y = 0.35; y < 1.05; y += 0.01) expectColor(scene.at(picture, {0.5, y}), 255, 0, 0);
+  EXPECT_TRUE(light(scene.at(picture, {0.95, 0.95})));
+  EXPECT_TRUE(colorful(scene.at(picture, {5.3, 2.5}))) << "a wall of 2 mm can be seen";
 }
 
 TEST_F(PlanFile, ShowsObjectsInTheirColoursWhereTheyStand) {
@@ -208,7 +223,7 @@ TEST_F(PlanFile, IsTheSameForTheSameRun) {
 std::string errorOf(const std::function<void()>& work) {
   try {
     work();
-  } catch (const ConfigError& error) {
+  } catch (const std::runtime_error& error) {
     return error.what();
   }
   return "no error";

@@ -38,6 +38,7 @@ class Drawing {
     drawFloor(canvas_, world_.bounds);
     if (layers.trails) drawTrails(trails);
     if (layers.sensors) drawRanges();
+    drawMaps(canvas_, world_);
     drawObjects(canvas_, world_);
     for (std::size_t i = 0; i < shown_.robots.size(); ++i) drawRobot(i);
     if (layers.sensors) drawTouch();

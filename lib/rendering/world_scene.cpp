@@ -41,16 +41,35 @@ struct Square {
   Mesh bodies, shadows;
 };
 
+/// All that stands there: objects, and what the maps' cells and walls are made of.
+std::vector<Body> bodiesOf(const World& world) {
+  std::vector<Body> bodies;
+  for (const auto& object : world.objects) bodies.push_back(object.body);
+  for (const auto& map : world.maps) {
+    std::vector<Solid> solids;
+    addSolids(map.plan, map.world_from_map, map.heights(), solids);
+    for (const auto& solid : solids) {
+      const auto& box = std::get<OrientedBox>(solid.outline);
+      bodies.push_back({Cube{2 * box.half_length_m, 2 * box.half_width_m},
+                        {box.center.x, box.center.y, std::atan2(box.axis.y, box.axis.x)},
+                        map.height_m / 2,
+                        map.height_m,
+                        map.color,
+                        0});
+    }
+  }
+  return bodies;
+}
+
 std::vector<Square> squaresOf(const World& world) {
   const double side_m = std::max({kSquare_m, (world.bounds.x_max - world.bounds.x_min) / kSquaresMost,
                                   (world.bounds.y_max - world.bounds.y_min) / kSquaresMost});
   const int sides = world.objects.size() <= 500 ? 72 : 24;
   std::map<std::pair<double, double>, Square> squares;
-  for (const auto& object : world.objects) {
-    const TPose2D& place = object.body.world_from_body;
+  for (Body& body : bodiesOf(world)) {
+    const TPose2D place = body.world_from_body;
     const TPoint2D middle((std::floor(place.x / side_m) + 0.5) * side_m, (std::floor(place.y / side_m) + 0.5) * side_m);
     Square& square = squares.try_emplace({middle.x, middle.y}, Square{middle, {}, {}}).first->second;
-    Body body = object.body;
     body.world_from_body.x -= middle.x;
     body.world_from_body.y -= middle.y;
     addBody(square.bodies, body, sides);

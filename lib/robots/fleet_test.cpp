@@ -199,7 +199,7 @@ TEST(Worlds, ThatAreShippedAllLoadAndSurviveWriting) {
     const LoadedWorld loaded = loadWorld(entry.path(), {"gold_finder", "wander", "wall_follower", "still"});
     EXPECT_FALSE(loaded.fleet.robots.empty());
     ErrorList errors;
-    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), errors), loaded.world);
+    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), shelfOnDisk(entry.path()), errors), loaded.world);
     EXPECT_EQ(errors.errors(), Lines{});
   }
   EXPECT_GE(worlds, 4);
@@ -232,10 +232,14 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
       EXPECT_EQ(fleetOf(toXml(example), errors).robots.size(), 1u);
     } else if (example.name == "robot") {
       EXPECT_EQ(modelOf(example, "tortoise.xml", {}, errors).sensors.size(), 2u);
+    } else if (example.name == "map") {
+      const auto beside = kWorlds / "some.xml";
+      const std::string world = "<world><surface>" + toXml(example).substr(toXml(example).find("<map")) + "</surface></world>";
+      EXPECT_EQ(parseWorld(world, beside.string(), shelfOnDisk(beside), errors).maps.size(), 1u);
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 3);
+  EXPECT_EQ(examples, 4);
 }
 
 TEST(Worlds, RobotTypesThatAreShippedAllLoad) {

@@ -54,13 +54,28 @@ class RobotsSoFar {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
+/// The map that a solid of stationarySolids() comes from; null for an object's.
+const WorldMap* mapWith(const World& world, std::size_t solid) {
+  if (solid < world.objects.size()) return nullptr;
+  solid -= world.objects.size();
+  for (const auto& map : world.maps) {
+    const std::size_t solids = map.plan.occupied.size() + map.plan.boxes.size();
+    if (solid < solids) return &map;
+    solid -= solids;
+  }
+  return nullptr;
+}
+
+/// A disc that touches what a map has, which reaches a little over its edges, and no more than touches it.
+Circle withoutSeam(const Circle& disc, const WorldMap& map) {
+  return {disc.center, disc.radius_m - 2 * seamOf(map.plan, map.world_from_map)};
+}
+
 }  // namespace
 
 void checkStarts(const World& world, const std::vector<RobotStart>& robots, const std::string& world_file,
                  ErrorList& errors) {
-  std::vector<Solid> solids;
-  for (const auto& object : world.objects) solids.push_back(object.body.solid());
-  const Scene objects(std::move(solids), 0, world.bounds);
+  const Scene standing(stationarySolids(world), 0, world.bounds);
   RobotsSoFar so_far(robots);
   std::vector<BodyId> near;
   for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -73,10 +88,21 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
       continue;
     }
     near.clear();
-    objects.stationaryNear(boundsOf(robot.disc), near);
+    standing.stationaryNear(boundsOf(robot.disc), near);
+    const WorldMap* met = nullptr;
     for (const auto body : near) {
-      if (!overlap({robot.disc, robot.heights}, objects.solid(body))) continue;
-      const WorldObject& object = world.objects[static_cast<std::size_t>(body)];
+      const auto index = static_cast<std::size_t>(body);
+      const WorldMap* map = mapWith(world, index);
+      if (map == met && met) continue;
+      const Circle disc = map ? withoutSeam(robot.disc, *map) : robot.disc;
+      if (!overlap({disc, robot.heights}, standing.solid(body))) continue;
+      if (map) {
+        met = map;
+        report("overlaps what the map '" + map->file + "' of line " + std::to_string(map->line.number) +
+               " has there; move the robot");
+        continue;
+      }
+      const WorldObject& object = world.objects[index];
       report("overlaps the object '" + object.name + "' of line " + std::to_string(object.line.number) +
              "; move one of them");
     }

@@ -53,6 +53,34 @@ TEST(CheckStarts, LetsRobotsTouch) {
             Lines{});
 }
 
+/// A map whose cells of 1 m fill [0, 2] × [0, 1], as a wall of 1 m.
+WorldMap wall() {
+  WorldMap map;
+  map.file = "wall.png";
+  map.line = {8};
+  map.plan.columns = 2;
+  map.plan.rows = 1;
+  map.plan.cell_m = 1;
+  map.plan.occupied = {{0, 0, 1, 1}, {1, 0, 1, 1}};
+  return map;
+}
+
+TEST(CheckStarts, NamesTheMapOnceThatARobotOverlaps) {
+  World world = surface(10);
+  addPillar(world, "Pillar", 5, 5, 1);
+  world.maps = {wall()};
+  EXPECT_EQ(
+      faults(world, {robot("A", 20, 1, 1.2, 0.3), robot("B", 21, 5, 5, 0.5), robot("C", 22, 1, 0.5, 0.1, {1, 2})}),
+      (Lines{"w.xml:20: robot 'A' overlaps what the map 'wall.png' of line 8 has there; move the robot",
+             "w.xml:21: robot 'B' overlaps the object 'Pillar' of line 7; move one of them"}));
+}
+
+TEST(CheckStarts, LetsRobotsTouchAMap) {
+  World world = surface(10);
+  world.maps = {wall()};
+  EXPECT_EQ(faults(world, {robot("A", 20, 1, 1.5, 0.5), robot("B", 21, -0.25, 0.5, 0.25)}), Lines{});
+}
+
 TEST(CheckStarts, LooksAtHeights) {
   World world = surface(10);
   addPillar(world, "Bridge", 0, 0, 1, {2, 3});

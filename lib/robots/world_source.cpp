@@ -16,9 +16,18 @@ void add(Digest& digest, const std::string& text) {
 WorldSource readWorldSource(const std::filesystem::path& file) {
   WorldSource source;
   source.file = file.string();
-  source.text = readXmlText(file);
-  ErrorList told_by_load_world;
-  const World world = parseWorld(source.text, source.file, told_by_load_world);
+  source.text = readWorldText(file);
+  const FileShelf disk = shelfOnDisk(file);
+  int unread = 0;
+  const FileShelf kept{disk.folder, [&](const std::string& name) {
+                         ++unread;
+                         std::string text = disk.read(name);
+                         --unread;
+                         return source.files[name] = std::move(text);
+                       }};
+  ErrorList errors;  // told by loadWorld(), unless it would lack a file
+  const World world = parseWorld(source.text, source.file, kept, errors);
+  if (unread > 0) errors.throwIfAny();
   const RobotTypes known = robotTypesIn(robotTypeFolders(file));
   for (const auto& robot : world.robots) {
     const auto type = known.find(robot.model);
@@ -31,7 +40,7 @@ WorldSource readWorldSource(const std::filesystem::path& file) {
 LoadedWorld loadWorld(const WorldSource& source, const std::vector<std::string>& controllers) {
   ErrorList errors;
   LoadedWorld loaded;
-  loaded.world = parseWorld(source.text, source.file, errors);
+  loaded.world = parseWorld(source.text, source.file, shelfOf(source.file, source.files), errors);
   loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, controllers, errors);
   errors.throwIfAny();
   return loaded;
@@ -43,6 +52,10 @@ std::string versionOf(const WorldSource& source) {
   for (const auto& [name, type] : source.robot_types) {
     add(digest, name);
     add(digest, type.text.value_or(""));
+  }
+  for (const auto& [name, text] : source.files) {
+    add(digest, name);
+    add(digest, text);
   }
   return digest.text();
 }

@@ -5,6 +5,7 @@
 
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
+#include "world/file_shelf.h"
 
 namespace robosim {
 
@@ -14,9 +15,10 @@ struct WorldSource {
   std::string file;  ///< names it in errors; its stem names the world
   std::string text;
   RobotTypes robot_types;  ///< those that the world names, each with its text
+  FileTexts files;         ///< its maps, by the names that FileShelf has for them
 };
 
-/// @throws ConfigError when the world's file, or that of a robot type, cannot be read. What is wrong inside,
+/// @throws ConfigError when the world's file, or that of a robot type or a map, cannot be read. What is wrong inside,
 /// loadWorld() tells.
 WorldSource readWorldSource(const std::filesystem::path& file);
 

@@ -12,6 +12,11 @@ void encode(const WorldSource& source, wire::WorldSource& out) {
     sent.set_file(type.file.string());
     sent.set_text(type.text.value_or(""));
   }
+  for (const auto& [name, content] : source.files) {
+    auto& sent = *out.add_files();
+    sent.set_name(name);
+    sent.set_content(content);
+  }
 }
 
 WorldSource decode(const wire::WorldSource& in) {
@@ -19,6 +24,7 @@ WorldSource decode(const wire::WorldSource& in) {
   source.file = in.file();
   source.text = in.text();
   for (const auto& type : in.robot_types()) source.robot_types[type.name()] = {type.file(), type.text()};
+  for (const auto& file : in.files()) source.files[file.name()] = file.content();
   return source;
 }
 

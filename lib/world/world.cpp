@@ -18,4 +18,12 @@ double Body::coveringRadius() const {
   return std::hypot(cube.length_m, cube.width_m) / 2;
 }
 
+std::vector<Solid> stationarySolids(const World& world) {
+  std::vector<Solid> solids;
+  solids.reserve(world.objects.size());
+  for (const auto& object : world.objects) solids.push_back(object.body.solid());
+  for (const auto& map : world.maps) addSolids(map.plan, map.world_from_map, map.heights(), solids);
+  return solids;
+}
+
 }  // namespace robosim

@@ -9,6 +9,8 @@
 
 #include "base/xml_element.h"
 #include "geometry/solid.h"
+#include "world/floor_plan.h"
+#include "world/map_reader.h"
 
 namespace robosim {
 
@@ -46,6 +48,20 @@ struct WorldObject {
   bool operator==(const WorldObject&) const = default;
 };
 
+/// A map that stands in the world: what is occupied on it rises from the ground as walls.
+struct WorldMap {
+  std::string file;    ///< as the world file has it: counted from its folder
+  MapReading reading;  ///< how the file is read
+  mrpt::math::TPose2D world_from_map;
+  double height_m = 1;                           ///< of the walls, > 0
+  std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
+  FloorPlan plan;                                ///< what the file says
+  SourceLine line;
+  bool operator==(const WorldMap&) const = default;
+
+  HeightSpan heights() const { return {0, height_m}; }
+};
+
 /// A robot as the world file places it. What its model and its sensor elements mean is told by the room `robots`.
 struct RobotPlacement {
   std::string name;
@@ -81,8 +97,12 @@ struct World {
   Communication communication;
   double win_distance_m = kWinDistance_m;  ///< a robot that is this near to the gold has won, when it asks
   std::vector<WorldObject> objects;
+  std::vector<WorldMap> maps;
   std::vector<RobotPlacement> robots;
   bool operator==(const World&) const = default;
 };
+
+/// All that stands still: first the objects, in their order, then what stands on each map.
+std::vector<Solid> stationarySolids(const World&);
 
 }  // namespace robosim

@@ -1,4 +1,4 @@
-#include <functional>
+#include <algorithm>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -18,8 +18,8 @@ constexpr double kUnitMax_m = 1000;
 
 class WorldReader {
  public:
-  WorldReader(const XmlElement& root, const std::string& file, ErrorList& errors)
-      : root_(root, file, errors), errors_(errors) {
+  WorldReader(const XmlElement& root, const std::string& file, const FileShelf& shelf, ErrorList& errors)
+      : root_(root, file, errors), shelf_(shelf), errors_(errors) {
     world_.name = std::filesystem::path(file).stem().string();
   }
 
@@ -41,6 +41,17 @@ class WorldReader {
  private:
   void readSurface(XmlReader& surface) {
     world_.surface_type = surface.word("type", "smooth");
+    for (auto& map : surface.all("map")) readMapHere(map);
+    readSize(surface);
+    for (auto& object : surface.all("object")) readObject(object);
+    surface.finish();
+  }
+
+  void readSize(XmlReader& surface) {
+    if (!world_.maps.empty() && !surface.child("size")) {
+      takeSizeOfMaps(surface);
+      return;
+    }
     XmlReader size = surface.requiredChild("size");
     const std::size_t faults = errors_.count();
     world_.bounds.x_min = length(size, "xmin");
@@ -53,8 +64,56 @@ class WorldReader {
       if (world_.bounds.y_min >= world_.bounds.y_max) size.errorAt("ymin", "is not below <ymax>" + fault);
     }
     size.finish();
-    for (auto& object : surface.all("object")) readObject(object);
-    surface.finish();
+  }
+
+  void takeSizeOfMaps(XmlReader& surface) {
+    Bounds2D& all = world_.bounds;
+    all = boundsOf(world_.maps[0].plan, world_.maps[0].world_from_map);
+    for (const auto& map : world_.maps) {
+      const Bounds2D b = boundsOf(map.plan, map.world_from_map);
+      all = {std::min(all.x_min, b.x_min), std::max(all.x_max, b.x_max), std::min(all.y_min, b.y_min),
+             std::max(all.y_max, b.y_max)};
+    }
+    if ((all.x_min >= all.x_max || all.y_min >= all.y_max) && errors_.empty()) {
+      surface.error("has no <size>, and its maps are empty; add a <size>");
+    }
+  }
+
+  /// Reads a <map>, and the file that it names.
+  void readMapHere(XmlReader& reader) {
+    const std::size_t faults = errors_.count();
+    WorldMap map;
+    map.line = reader.line();
+    map.file = reader.word("file");
+    const auto place = [&](const char* tag) { return reader.length(tag, Bounds::any(), world_.unit_m, 0); };
+    map.world_from_map = {place("x"), place("y"), reader.number("direction", Bounds::any(), 0)};
+    map.height_m = reader.length("height", Bounds::positive(), world_.unit_m, map.height_m);
+    if (const auto color = readColor(reader)) map.color = *color;
+    try {
+      if (errors_.count() == faults) readMapSettings(reader, mapFormatOf(map.file), map.reading);
+      reader.finish();
+      if (errors_.count() == faults) map.plan = readMap(map.file, shelf_, map.reading);
+      for (const auto& start : map.plan.starts) starts_.push_back(map.world_from_map + start);
+    } catch (const UnreadableFile& error) {
+      reader.errorAt("file", error.what());
+    } catch (const ConfigError& error) {
+      errors_.add(error);
+    }
+    world_.maps.push_back(std::move(map));
+  }
+
+  /// What the file's format leaves to the world to say.
+  void readMapSettings(XmlReader& reader, MapFormat format, MapReading& reading) {
+    if (format == MapFormat::activmedia) return;
+    reading.unknown_is_occupied =
+        reader.choice<bool>("unknown", {{"free", false}, {"occupied", true}}, reading.unknown_is_occupied);
+    if (format == MapFormat::ros_yaml) return;
+    auto& thresholds = reading.thresholds;
+    thresholds.occupied = reader.number("threshold", {0, 1}, thresholds.occupied);
+    thresholds.free = std::min(thresholds.free, thresholds.occupied);
+    if (format == MapFormat::gridmap) return;
+    reading.pixel_m = reader.length("resolution", Bounds::positive(kCellMax_m / world_.unit_m), world_.unit_m);
+    reading.negate = reader.flag("negate", reading.negate);
   }
 
   void readCommunication(XmlReader& communication) {
@@ -105,7 +164,7 @@ class WorldReader {
       solid->finish();
     } else if (robot.has("model")) {
       placement.name = readName(robot);
-      placement.world_from_robot = readPose(robot);
+      placement.world_from_robot = readPlace(robot);
       placement.color = readColor(robot);
     } else {
       robot.error("has no body; add a <cylinder> or <cube>, or a <model> that has one");
@@ -144,6 +203,14 @@ class WorldReader {
     if (const auto color = readColor(solid)) body.color = *color;
     body.heat_celsius = solid.number("hot", Bounds::notNegative(), 0);
     return body;
+  }
+
+  /// Without a place of its own a robot takes the next one that a map has for it.
+  mrpt::math::TPose2D readPlace(XmlReader& robot) {
+    if (robot.has("x") || robot.has("y") || next_start_ == starts_.size()) return readPose(robot);
+    mrpt::math::TPose2D start = starts_[next_start_++];
+    start.phi = robot.number("direction", Bounds::any(), start.phi);
+    return start;
   }
 
   mrpt::math::TPose2D readPose(XmlReader& reader) {
@@ -189,29 +256,68 @@ class WorldReader {
   }
 
   XmlReader root_;
+  const FileShelf& shelf_;
   ErrorList& errors_;
   World world_;
   std::unordered_map<std::string, int> line_of_name_;
+  std::vector<mrpt::math::TPose2D> starts_;  ///< that maps tell of, in the world
+  std::size_t next_start_ = 0;
   std::vector<std::pair<XmlReader, std::size_t>> neighbours_;  ///< robots that name one, and their index
 };
 
-World readFrom(const std::function<XmlElement()>& load, const std::string& file, ErrorList& errors) {
+/// A world of one map.
+XmlElement worldAround(const std::filesystem::path& map_file) {
+  const std::string name = map_file.filename().string();
+  const MapFormat format = mapFormatOf(map_file);
+  if (format == MapFormat::picture) {
+    throw ConfigError(
+        map_file.string() +
+        ": a picture does not say how large it is; write a world around it, <world><surface><map file=\"" + name +
+        "\" resolution=\"0.05\"/></surface></world> for pixels of 5 cm");
+  }
+  XmlElement root;
+  root.name = "world";
+  XmlElement& surface = root.add("surface");
+  surface.add("map", "").attributes.emplace_back("file", name);
+  if (format != MapFormat::activmedia) return root;
   try {
-    return WorldReader(load(), file, errors).read();
+    if (readMap(name, shelfOnDisk(map_file), {}).starts.empty()) return root;
+    XmlElement& robot = surface.add("object").add("shape").add("robot");
+    robot.add("model", "pioneer3dx");
+    robot.add("name", "Robot1");
+  } catch (const ConfigError&) {
+    // Whoever reads the world will be told.
+  }
+  return root;
+}
+
+}  // namespace
+
+std::string readWorldText(const std::filesystem::path& file) {
+  return isMapFile(file) ? toXml(worldAround(file)) : readXmlText(file);
+}
+
+World readWorld(const std::filesystem::path& file, ErrorList& errors) {
+  try {
+    return parseWorld(readWorldText(file), file.string(), shelfOnDisk(file), errors);
   } catch (const ConfigError& error) {
     errors.add(error);
     return {};
   }
 }
 
-}  // namespace
-
-World readWorld(const std::filesystem::path& file, ErrorList& errors) {
-  return readFrom([&] { return readXmlFile(file); }, file.string(), errors);
+World parseWorld(const std::string& text, const std::string& file, const FileShelf& shelf, ErrorList& errors) {
+  try {
+    return WorldReader(parseXml(text, file), file, shelf, errors).read();
+  } catch (const ConfigError& error) {
+    errors.add(error);
+    return {};
+  }
 }
 
 World parseWorld(const std::string& text, const std::string& file, ErrorList& errors) {
-  return readFrom([&] { return parseXml(text, file); }, file, errors);
+  const FileTexts none;
+  return parseWorld(text, file, shelfOf(file, none), errors);
 }
 
 }  // namespace robosim

@@ -147,7 +147,7 @@ TEST(WorldReader, RefusesUnknownTags) {
             (Lines{"a.xml:2: <shape>: holds neither a <primitive> nor a <robot>; put one in it",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));
   EXPECT_EQ(faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
-            (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: object, size, type",
+            (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: map, object, size, type",
                    "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: communication, surface, unit_m, "
                    "win_distance"}));
 }

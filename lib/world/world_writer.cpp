@@ -33,6 +33,7 @@ class WorldWriter {
     addLength(size, "xmax", world_.bounds.x_max);
     addLength(size, "ymin", world_.bounds.y_min);
     addLength(size, "ymax", world_.bounds.y_max);
+    for (const auto& map : world_.maps) addMap(surface.add("map"), map);
     for (const auto& object : world_.objects) {
       addBody(surface.add("object").add("shape").add("primitive"), object.name, object.body, object.stationary);
     }
@@ -48,6 +49,21 @@ class WorldWriter {
     XmlElement& element = root.add("communication");
     if (communication.range_m) addLength(element, "range", *communication.range_m);
     if (communication.loss_probability != 0) element.add("loss", toText(communication.loss_probability));
+  }
+
+  void addMap(XmlElement& element, const WorldMap& map) const {
+    element.add("file", map.file);
+    addPose(element, map.world_from_map);
+    addLength(element, "height", map.height_m);
+    element.add("color", colorText(map.color));
+    const MapFormat format = mapFormatOf(map.file);
+    if (format == MapFormat::activmedia) return;
+    element.add("unknown", map.reading.unknown_is_occupied ? "occupied" : "free");
+    if (format == MapFormat::ros_yaml) return;
+    element.add("threshold", toText(map.reading.thresholds.occupied));
+    if (format == MapFormat::gridmap) return;
+    addLength(element, "resolution", map.reading.pixel_m);
+    element.add("negate", map.reading.negate ? "1" : "0");
   }
 
   void addRobot(XmlElement& element, const RobotPlacement& robot) const {

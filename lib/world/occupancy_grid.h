@@ -1,0 +1,41 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include <mrpt/math/TPose2D.h>
+
+namespace robosim {
+
+/// What is known of a cell.
+enum class Occupancy : std::uint8_t { free, occupied, unknown };
+
+/// Square cells over a rectangle of ground. Plain values.
+struct OccupancyGrid {
+  std::uint32_t columns = 0, rows = 0;
+  double cell_m = 0;                  ///< side of a cell, (0, kCellMax_m]
+  mrpt::math::TPose2D map_from_grid;  ///< of the lower left corner of the first cell; x along the rows
+  std::vector<Occupancy> cells;       ///< row by row from the bottom, each from the left
+
+  Occupancy at(std::uint32_t column, std::uint32_t row) const { return cells[std::size_t{row} * columns + column]; }
+};
+
+/// @name More than any map has: a typing error, or worse
+///@{
+constexpr double kCellMax_m = 100;
+constexpr std::uint64_t kMostMapCells = 1u << 26;
+constexpr double kMapReach_m = 1e7;  ///< of any coordinate: as large as the Earth's grids have them
+///@}
+
+/// Which probability of being occupied makes a cell what; the defaults are those of ROS's map_server.
+struct OccupancyThresholds {
+  double occupied = 0.65;  ///< occupied above this
+  double free = 0.196;     ///< free below this; unknown between the two
+
+  Occupancy of(double probability) const {
+    if (probability > occupied) return Occupancy::occupied;
+    return probability < free ? Occupancy::free : Occupancy::unknown;
+  }
+  bool operator==(const OccupancyThresholds&) const = default;
+};
+
+}  // namespace robosim

@@ -1,0 +1,138 @@
+// ROS's map_server: a YAML file that names a picture and says where it lies and what its pixels mean
+// (http://wiki.ros.org/map_server). What map_server requires is required here too; settings it does not know are left
+// alone, as it leaves them.
+#include <array>
+#include <cmath>
+
+#include <yaml-cpp/yaml.h>
+
+#include "base/error_list.h"
+#include "base/xml_element.h"
+#include "base/xml_reader.h"
+#include "world/map_reader.h"
+#include "world/picture.h"
+
+namespace robosim {
+namespace {
+
+/// A few lines in earnest.
+constexpr std::size_t kMostYamlBytes = 1u << 20;
+
+class RosMapReader {
+ public:
+  RosMapReader(const std::string& name, const FileShelf& shelf) : name_(name), path_(shelf.pathOf(name)) {
+    const std::string text = shelf.read(name);
+    if (text.size() > kMostYamlBytes) throw ConfigError(path_ + ": is larger than 1 MiB; is it a map's .yaml?");
+    try {
+      root_ = YAML::Load(text);
+    } catch (const YAML::Exception& error) {
+      throw ConfigError(path_ + ":" + std::to_string(error.mark.line + 1) + ": this is not YAML: " + error.msg);
+    }
+    if (!root_.IsMap()) throw ConfigError(path_ + ":1: is no map_server map; image: and others were expected");
+  }
+
+  OccupancyGrid read(const FileShelf& shelf) {
+    const std::string image = word("image");
+    const double cell_m = number("resolution", {0, kCellMax_m, true}, " metres per pixel");
+    const mrpt::math::TPose2D map_from_grid = origin();
+    PictureMeaning meaning;
+    meaning.negate = negate();
+    meaning.thresholds.occupied = number("occupied_thresh", {0, 1}, "");
+    meaning.thresholds.free = number("free_thresh", {0, 1}, "");
+    if (meaning.thresholds.free > meaning.thresholds.occupied && errors_.empty()) {
+      report(root_["free_thresh"], "free_thresh", "is above occupied_thresh");
+    }
+    const std::string mode = root_["mode"] ? word("mode") : "trinary";
+    if (mode != "trinary" && mode != "scale" && mode != "raw") {
+      report(root_["mode"], "mode", "is unknown; accepted are: trinary, scale, raw");
+    }
+    meaning.is_percent = mode == "raw";
+    errors_.throwIfAny();
+
+    const std::string picture = (std::filesystem::path(name_).parent_path() / image).string();
+    // In the mode `scale` a picture's alpha tells what is unknown; which is what the pixels in between are anyway.
+    const auto alpha = mode == "trinary" ? Picture::Alpha::counts : Picture::Alpha::is_left_out;
+    OccupancyGrid grid = gridOf(readPicture(shelf.read(picture), shelf.pathOf(picture), alpha), meaning);
+    grid.cell_m = cell_m;
+    grid.map_from_grid = map_from_grid;
+    return grid;
+  }
+
+ private:
+  void report(const YAML::Node& node, const std::string& key, const std::string& what) {
+    std::string quoted = key + ": ";
+    if (node.IsScalar() && !node.Scalar().empty()) quoted += node.Scalar() + ": ";
+    errors_.add(path_, node.Mark().line + 1, quoted + what);
+  }
+
+  /// The scalar under a key; an invalid node, reported, when there is none.
+  YAML::Node scalar(const std::string& key) {
+    const YAML::Node node = root_[key];
+    if (!node) {
+      errors_.add(path_, 1, key + ": is missing; add it");
+    } else if (!node.IsScalar()) {
+      report(node, key, "is not a single value");
+    } else {
+      return node;
+    }
+    return YAML::Node(YAML::NodeType::Undefined);
+  }
+
+  std::string word(const std::string& key) {
+    const YAML::Node node = scalar(key);
+    if (!node.IsScalar()) return "";
+    if (node.Scalar().empty()) report(node, key, "is empty; write a word there");
+    return node.Scalar();
+  }
+
+  double number(const std::string& key, const Bounds& bounds, const std::string& unit) {
+    const YAML::Node node = scalar(key);
+    return node.IsScalar() ? number(node, key, bounds, unit) : bounds.max;
+  }
+
+  double number(const YAML::Node& node, const std::string& key, const Bounds& bounds, const std::string& unit) {
+    const auto value = node.IsScalar() ? parseNumber(node.Scalar()) : std::nullopt;
+    if (value && std::isfinite(*value) && bounds.contain(*value)) return *value;
+    report(node, key,
+           std::string("must be a number in ") + (bounds.min_is_open ? "(" : "[") + toText(bounds.min) + ", " +
+               toText(bounds.max) + "]" + unit);
+    return bounds.max;
+  }
+
+  bool negate() {
+    const YAML::Node node = scalar("negate");
+    if (!node.IsScalar()) return false;
+    const std::string& text = node.Scalar();
+    if (text == "1" || text == "true" || text == "True") return true;
+    if (text != "0" && text != "false" && text != "False") report(node, "negate", "must be 0 or 1");
+    return false;
+  }
+
+  mrpt::math::TPose2D origin() {
+    const YAML::Node node = root_["origin"];
+    if (!node) {
+      errors_.add(path_, 1, "origin: is missing; add it");
+    } else if (!node.IsSequence() || node.size() != 3) {
+      report(node, "origin", "must be [x, y, yaw], in metres and radians");
+    } else {
+      std::array<double, 3> values{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        values[i] = number(node[i], "origin", {-kMapReach_m, kMapReach_m}, i < 2 ? " metres" : " radians");
+      }
+      return {values[0], values[1], values[2]};
+    }
+    return {};
+  }
+
+  std::string name_, path_;
+  YAML::Node root_;
+  ErrorList errors_;
+};
+
+}  // namespace
+
+OccupancyGrid readRosMap(const std::string& name, const FileShelf& shelf) {
+  return RosMapReader(name, shelf).read(shelf);
+}
+
+}  // namespace robosim

@@ -1,0 +1,231 @@
+// `robosim export` as a person runs it, and what the programs say that its files are for.
+#include <cmath>
+#include <fstream>
+#include <regex>
+
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/serialization/CArchive.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "geometry/scene.h"
+#include "robots/fleet.h"
+#include "tests/scenarios/program.h"
+#include "tests/stock_tools.h"
+#include "world/map_writer.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+using mrpt::maps::COccupancyGridMap2D;
+using mrpt::math::TPose2D;
+
+COccupancyGridMap2D gridmapIn(const fs::path& file) {
+  mrpt::io::CFileGZInputStream in(file.string());
+  COccupancyGridMap2D grid;
+  mrpt::serialization::archiveFrom(in) >> grid;
+  return grid;
+}
+
+void exportWorld(const std::string& arguments) {
+  const Ended ended = runProgram("export " + arguments);
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+/// Holds every cell of a grid against the scene that robots meet.
+void expectAgreesWithScene(const COccupancyGridMap2D& grid, const std::string& world_file) {
+  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/" + world_file, {});
+  const Scene scene(stationarySolids(loaded.world), 0, loaded.world.bounds);
+  std::vector<HeightSpan> robots;
+  for (const auto& robot : loaded.fleet.robots) robots.push_back(robot.body.heights());
+  const HeightSpan heights = robotHeights(robots);
+  const double cell_m = grid.getResolution();
+  std::vector<BodyId> near;
+  std::size_t occupied = 0;
+  for (unsigned row = 0; row < grid.getSizeY(); ++row) {
+    for (unsigned column = 0; column < grid.getSizeX(); ++column) {
+      // MRPT tells places in single precision; cells lie at multiples of their size.
+      const double x = std::round(grid.getXMin() / cell_m + column) * cell_m + cell_m / 2;
+      const double y = std::round(grid.getYMin() / cell_m + row) * cell_m + cell_m / 2;
+      const Solid cell{OrientedBox{{x, y}, {1, 0}, cell_m / 2 - 1e-6, cell_m / 2 - 1e-6}, heights};
+      near.clear();
+      scene.stationaryNear(boundsOf(cell.outline), near);
+      const bool stands =
+          std::any_of(near.begin(), near.end(), [&](BodyId body) { return overlap(cell, scene.solid(body)); });
+      const float free = grid.getCell(static_cast<int>(column), static_cast<int>(row));
+      ASSERT_EQ(free < 0.1f, stands) << world_file << ": at " << x << ", " << y;
+      if (!stands && loaded.world.bounds.contains({x, y})) {
+        ASSERT_GT(free, 0.9f);
+      }
+      occupied += stands ? 1 : 0;
+    }
+  }
+  EXPECT_GT(occupied, 500u);
+}
+
+TEST(Export, MakesAGridmapThatAgreesWithTheSceneCellByCell) {
+  const auto folder = emptyFolder();
+  for (const std::string world : {"opho2_1", "open_100", "lab_map", "courtyard_and_office"}) {
+    const std::string file = "worlds/" + world + ".xml";
+    exportWorld(file + " --resolution 0.05 '" + (folder / (world + ".gridmap")).string() + "'");
+    expectAgreesWithScene(gridmapIn(folder / (world + ".gridmap")), file);
+  }
+}
+
+TEST(Export, MakesTheSameGridForRos) {
+  const auto folder = emptyFolder();
+  exportWorld("worlds/opho2_1.xml --resolution 0.1 '" + (folder / "a.gridmap").string() + "' '" +
+              (folder / "b.yaml").string() + "' '" + (folder / "c.png").string() + "'");
+  const COccupancyGridMap2D grid = gridmapIn(folder / "a.gridmap");
+  for (const char* name : {"b.yaml", "c.yaml"}) {
+    COccupancyGridMap2D for_ros;
+    ASSERT_TRUE(for_ros.loadFromROSMapServerYAML((folder / name).string())) << name;
+    ASSERT_EQ(for_ros.getSizeX(), grid.getSizeX());
+    ASSERT_EQ(for_ros.getSizeY(), grid.getSizeY());
+    EXPECT_NEAR(for_ros.getXMin(), grid.getXMin(), 1e-5);
+    EXPECT_NEAR(for_ros.getYMin(), grid.getYMin(), 1e-5);
+    for (int row = 0; row < static_cast<int>(grid.getSizeY()); ++row) {
+      for (int column = 0; column < static_cast<int>(grid.getSizeX()); ++column) {
+        ASSERT_EQ(for_ros.getCell(column, row) > 0.5f, grid.getCell(column, row) > 0.5f) << column << " " << row;
+      }
+    }
+  }
+}
+
+TEST(Export, TurnsAMapOfOneFormatIntoAnotherThatIsTheSameWorld) {
+  const auto folder = emptyFolder();
+  exportWorld("maps/lab.yaml '" + (folder / "lab.gridmap").string() + "'");
+  exportWorld("'" + (folder / "lab.gridmap").string() + "' '" + (folder / "again.yaml").string() + "'");
+  const cv::Mat original = cv::imread(ROBOSIM_SOURCE_DIR "/maps/lab.pgm", cv::IMREAD_GRAYSCALE);
+  const cv::Mat again = cv::imread((folder / "again.png").string(), cv::IMREAD_GRAYSCALE);
+  ASSERT_EQ(again.size(), original.size());
+  EXPECT_EQ(cv::countNonZero((again == 0) != (original == 0)), 0) << "what is occupied";
+}
+
+TEST(Export, MakesAnOctoMapThatItsToolsOpen) {
+  const auto folder = emptyFolder();
+  exportWorld("worlds/opho2_1.xml --resolution 0.1 '" + (folder / "a.bt").string() + "' '" +
+              (folder / "a.ot").string() + "'");
+  const ToolRun converted = runTool("convert_octree a.bt from_bt.ot", folder);
+  EXPECT_EQ(converted.exit_code, 0) << converted.output;
+  const ToolRun compared = runTool("compare_octrees a.ot from_bt.ot", folder);
+  EXPECT_EQ(compared.exit_code, 0) << compared.output;
+  EXPECT_NE(compared.output.find("KLD: 0\n"), std::string::npos) << compared.output;
+  // 1,491 cells of the grid are occupied, up to 1 m; bt2vrml counts eight voxels that are joined as one.
+  const ToolRun boxes = runTool("bt2vrml a.bt", folder);
+  EXPECT_EQ(boxes.exit_code, 0) << boxes.output;
+  std::smatch voxels;
+  ASSERT_TRUE(std::regex_search(boxes.output, voxels, std::regex("Finished writing ([0-9]+) voxels"))) << boxes.output;
+  EXPECT_GT(std::stoi(voxels[1]), 1491);
+  EXPECT_LE(std::stoi(voxels[1]), 1491 * 10);
+}
+
+TEST(Export, MakesAPlanThatARendererDrawsToScale) {
+  const auto folder = emptyFolder();
+  exportWorld("worlds/lab_map.xml '" + (folder / "plan.svg").string() + "'");
+  const ToolRun drawn = runTool("rsvg-convert plan.svg -o plan.png", folder);
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  const cv::Mat picture = cv::imread((folder / "plan.png").string());
+  ASSERT_FALSE(picture.empty());
+  double left = 0, top = 0, width_m = 0, height_m = 0;
+  std::string svg = textOf(folder / "plan.svg");
+  ASSERT_EQ(
+      std::sscanf(svg.c_str() + svg.find("viewBox="), "viewBox=\"%lf %lf %lf %lf", &left, &top, &width_m, &height_m),
+      4);
+  const double px_per_m = picture.cols / width_m;
+  EXPECT_NEAR(picture.rows / height_m, px_per_m, 0.1);
+  const auto at = [&](double x, double y) {  // in the world
+    return picture.at<cv::Vec3b>(static_cast<int>((-y - top) * px_per_m), static_cast<int>((x - left) * px_per_m));
+  };
+  const cv::Vec3b wall(94, 117, 140), floor(255, 255, 255), gold(26, 204, 255), crate(153, 102, 51);
+  EXPECT_EQ(at(0.05, 2.7), wall);
+  EXPECT_EQ(at(2.4, 7.9), wall) << "a round table of the map";
+  EXPECT_EQ(at(6.72, 2.42), wall) << "a slanting bench of the map";
+  EXPECT_EQ(at(2.3, 4.1), floor) << "a door";
+  EXPECT_EQ(at(12.9, 1.9), gold);
+  EXPECT_EQ(at(5.6, 5.4), crate);
+  EXPECT_EQ(at(5.6 + 0.28 * std::cos(0.4), 5.4 + 0.28 * std::sin(0.4)), crate) << "turned as in the world";
+  EXPECT_EQ(at(5.6 + 0.35 * std::cos(0.4), 5.4 + 0.35 * std::sin(0.4)), floor);
+}
+
+TEST(Export, SaysWhatIsWrongAndLeavesFilesAsTheyWere) {
+  const auto folder = emptyFolder();
+  const std::string in = "'" + folder.string() + "/";
+  std::ofstream(folder / "old.gridmap") << "as it was";
+  const struct {
+    std::string arguments, complaint;
+  } cases[] = {
+      {"", "WORLD is required"},
+      {"worlds/opho2_1.xml", "OUT is required"},
+      {"worlds/none.xml " + in + "old.gridmap'", "worlds/none.xml: no such file; check the path"},
+      {"worlds/opho2_1.xml " + in + "a.jpg'",
+       "is of no known format; give it a name that ends in one of: .gridmap, .yaml, .png, .bt, .ot, .svg"},
+      {"worlds/opho2_1.xml " + in + "old.gridmap' " + in + "none/a.svg'", "none/a.svg: cannot be written"},
+      {"worlds/opho2_1.xml " + in + "old.gridmap' --resolution 0.001",
+       "cells of 0.001 m make a grid of 20200 × 20200; a map may have 67108864 at most, so make them larger"},
+      {"worlds/opho2_1.xml " + in + "old.gridmap' --resolution nan", "--resolution: nan: must be a number"},
+      {"worlds/opho2_1.xml " + in + "old.gridmap' --heights 2 1", "--heights 2 1: the first must be below the second"},
+      {"worlds/opho2_1.xml " + in + "old.gridmap' --heights 2", "--heights"},
+      {"maps/lab.yaml maps/lab.yaml", "is both WORLD and OUT; name two files"},
+      {"maps/lab.yaml maps/lab.png", "is both WORLD and what belongs to maps/lab.png; name two files"},
+  };
+  for (const auto& [arguments, complaint] : cases) {
+    const Ended ended = runProgram("export " + arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_NE(ended.err.find(complaint), std::string::npos) << arguments << "\n" << ended.err;
+  }
+  // The disk is full when the second of two files is to be written: neither takes its name.
+  const Ended full = runCommand("trap '' XFSZ; ulimit -f 40; '" ROBOSIM_PROGRAM "' export worlds/opho2_1.xml " + in +
+                                "a.svg' " + in + "old.gridmap'");
+  EXPECT_EQ(full.exit_code, 2);
+  EXPECT_NE(full.err.find("old.gridmap: cannot be written (File too large); choose another place"), std::string::npos)
+      << full.err;
+  EXPECT_TRUE(textOf(folder / "old.gridmap") == "as it was");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+  EXPECT_FALSE(fs::exists(ROBOSIM_SOURCE_DIR "/maps/lab.png"));
+}
+
+TEST(PfLocalization, FindsADriftingRobotOnAnExportedGridmap) {
+  const auto folder = emptyFolder();
+  const Ended run = runProgram("run tests/data/localization.xml --seed 6 --time 40 --record '" +
+                               (folder / "run.rawlog").string() + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  exportWorld("tests/data/localization.xml '" + (folder / "lab.gridmap").string() + "'");
+  const ToolRun kept =
+      runTool("rawlog-edit -q -w -i run.rawlog -o scans.rawlog --keep-label Rover/laser,Rover/odometry", folder);
+  ASSERT_EQ(kept.exit_code, 0) << kept.output;
+  const ToolRun localized = runTool("pf-localization '" ROBOSIM_SOURCE_DIR "/tests/data/pf-localization.ini'", folder);
+  ASSERT_EQ(localized.exit_code, 0) << localized.output;
+
+  TPose2D start, end, odom_from_end;
+  bool is_first = true;
+  forEachObservation(folder / "run.rawlog", [&](const mrpt::obs::CObservation::Ptr& observation) {
+    if (const auto* truth = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(observation.get())) {
+      end = TPose2D(truth->pose.mean.asTPose());
+      if (is_first) start = end;
+      is_first = false;
+    }
+    if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get())) {
+      odom_from_end = odometry->odometry.asTPose();
+    }
+  });
+  const TPose2D told = start + odom_from_end;
+  const double odometry_off_m = std::hypot(told.x - end.x, told.y - end.y);
+
+  // The last of its estimates: "PDF estimation: (9.337,5.323,170.86deg), …".
+  const auto at = localized.output.rfind("PDF estimation: (");
+  ASSERT_NE(at, std::string::npos) << localized.output;
+  double x = 0, y = 0;
+  ASSERT_EQ(std::sscanf(localized.output.c_str() + at, "PDF estimation: (%lf,%lf", &x, &y), 2);
+  const double off_m = std::hypot(x - end.x, y - end.y);
+  std::printf("pf-localization ends %.3f m from the truth, where the wheels are %.3f m off\n", off_m, odometry_off_m);
+  EXPECT_GT(odometry_off_m, 1) << "or the wheels alone would do";
+  EXPECT_LT(off_m, 0.2);
+}
+
+}  // namespace
+}  // namespace robosim
