@@ -127,7 +127,7 @@ class Drawing {
 
 }  // namespace
 
-PlanView planView(const World& world, PlanPaths paths) {
+Bounds2D planArea(const World& world, PlanPaths paths) {
   Bounds2D area = world.bounds;
   const auto include = [&](const Bounds2D& b) {
     area = {std::min(area.x_min, b.x_min), std::max(area.x_max, b.x_max), std::min(area.y_min, b.y_min),
@@ -138,8 +138,10 @@ PlanView planView(const World& world, PlanPaths paths) {
   for (const auto& path : paths) {
     for (const auto& point : path) include({point.x, point.x, point.y, point.y});
   }
-  return PlanView(area);
+  return area;
 }
+
+PlanView planView(const World& world, PlanPaths paths) { return PlanView(planArea(world, paths)); }
 
 void writePlan(const std::filesystem::path& png, const World& world, const Fleet& fleet, PlanPaths paths,
                std::span<const mrpt::math::TPose2D> world_from_robot) {

@@ -15,7 +15,9 @@ namespace robosim {
 /// The way of each robot's centre, world frame [m]; indexed by robot, in the world's order.
 using PlanPaths = std::span<const std::vector<mrpt::math::TPoint2D>>;
 
-/// What a plan of a run shows: the world's bounds, every object and every way, on a scale that the longer side sets.
+/// What a plan of a run shows: the world's bounds, every object, map and way.
+Bounds2D planArea(const World&, PlanPaths paths);
+/// The same, on a scale that the longer side sets.
 PlanView planView(const World&, PlanPaths paths);
 
 /// Draws a run from above to a PNG file: maps and objects in their colours, hot ones with a glow and their name; the

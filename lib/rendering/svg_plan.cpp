@@ -8,7 +8,6 @@
 #include "base/utf8.h"
 #include "base/xml_element.h"
 #include "rendering/plan.h"
-#include "rendering/plan_view.h"
 
 namespace robosim {
 namespace {
@@ -55,7 +54,7 @@ class SvgPlan {
   SvgPlan(const World& world, const Fleet& fleet)
       : world_(world),
         fleet_(fleet),
-        area_(planView(world, {}).area()),
+        area_(planArea(world, {})),
         long_m_(std::max({area_.x_max - area_.x_min, area_.y_max - area_.y_min, 1e-3})),
         text_m_(long_m_ / 60) {}
 
