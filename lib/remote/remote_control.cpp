@@ -106,7 +106,7 @@ void RemoteControl::makePrimary(std::size_t seat) {
   setAutonomous(true);
   rota_.switchTo(seat);
   claimPrimary();
-  seats_[seat]->link.setLive(is_live_);
+  seats_[seat]->link.setLive(true);
 }
 
 void RemoteControl::setDriver(const std::string& driver) {
@@ -120,11 +120,6 @@ void RemoteControl::send(const RemoteOrder& order) { seats_[rota_.primary()]->li
 
 void RemoteControl::setAutonomous(bool autonomous) {
   seats_[rota_.primary()]->link.send({.type = RemoteType::init_ack, .autonomous = autonomous});
-}
-
-void RemoteControl::setLive(bool live) {
-  is_live_ = live;
-  seats_[rota_.primary()]->link.setLive(live);
 }
 
 }  // namespace robosim

@@ -12,8 +12,8 @@
 namespace robosim {
 
 /// The remote control of a team of robots (2005: RemoteControl), whatever a person drives it with: connects to every
-/// secondary robot first and sets it autonomous, then to the primary, which waits for its driver. Calls those that are
-/// down again, once a second. Used by one thread.
+/// secondary robot first and sets it autonomous, then to the primary, which waits for its driver. The primary's updates
+/// keep coming. Calls those that are down again, once a second. Used by one thread.
 class RemoteControl {
  public:
   using Clock = std::chrono::steady_clock;
@@ -57,8 +57,6 @@ class RemoteControl {
   /// To the primary.
   void send(const RemoteOrder& order);
   void setAutonomous(bool autonomous);
-  /// Whether the primary's updates are to keep coming; they do at first.
-  void setLive(bool live);
 
  private:
   struct Seat;
@@ -72,7 +70,6 @@ class RemoteControl {
   Rota rota_;
   Clock::time_point begun_;
   bool has_called_primary_ = false;
-  bool is_live_ = true;
 };
 
 }  // namespace robosim
