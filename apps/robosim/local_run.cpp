@@ -7,6 +7,7 @@
 #endif
 
 #include "maze/controllers.h"
+#include "rendering/offscreen_renderer.h"
 
 namespace robosim {
 namespace {
@@ -16,6 +17,11 @@ void checkToRun(const LoadedWorld& world, const std::string& file, const std::st
   checkControllers(world, file, instead, errors);
   errors.throwIfAny();
   if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robot, so nothing would happen; add one");
+}
+
+std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world) {
+  if (!hasCamera(world.fleet)) return nullptr;
+  return std::make_unique<OffscreenRenderer>(world.world, world.fleet);
 }
 
 }  // namespace
@@ -62,7 +68,8 @@ LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead
 }
 
 LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
-    : environment_(std::move(world.world), std::move(world.fleet), options.environment),
+    : images_(imagesFor(world)),
+      environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads) {
   const auto& robots = environment_.fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {

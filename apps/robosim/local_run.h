@@ -48,7 +48,7 @@ struct GoldOutcome {
 class LocalRun {
  public:
   /// @param elsewhere by robot: whether something outside of this process drives it; empty for none
-  /// @throws ConfigError for an unknown controller.
+  /// @throws ConfigError for an unknown controller, and for cameras on a machine without OpenGL.
   LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 
   /// Lets every controller decide, then takes one time step.
@@ -72,6 +72,7 @@ class LocalRun {
         : hardware(environment, i), robot(hardware), controller(std::move(c)) {}
   };
 
+  std::unique_ptr<ImageSource> images_;  ///< null when nobody has a camera: then nothing of OpenGL is begun
   Environment environment_;
   Workers workers_;
   std::vector<std::unique_ptr<Seat>> seats_;  ///< on the heap: a Robot holds on to its LocalHardware

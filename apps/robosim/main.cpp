@@ -32,6 +32,8 @@ int main(int argc, char** argv) {
   robosim::addRemote(program);
   robosim::addGeometry(program);
   robosim::addControl(program);
+  robosim::addView(program);
+  robosim::addReplay(program);
   robosim::addCheck(program);
   robosim::addBench(program);
 

@@ -16,6 +16,8 @@ void addRobot(CLI::App& program);
 void addRemote(CLI::App& program);
 void addGeometry(CLI::App& program);
 void addControl(CLI::App& program);
+void addView(CLI::App& program);
+void addReplay(CLI::App& program);
 void addCheck(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}

@@ -18,7 +18,9 @@ std::string unitOf(const std::string& setting) {
                                                        {"_m", " metres"},
                                                        {"_deg", " degrees"},
                                                        {"_s", " seconds"},
-                                                       {"_rad", " radians"}};
+                                                       {"_rad", " radians"},
+                                                       {"_px", " pixels"},
+                                                       {"_hz", " hertz"}};
   for (const auto& [ending, unit] : units) {
     if (setting.ends_with(ending)) return unit;
   }
@@ -115,7 +117,7 @@ double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double ot
   const auto found = find(setting);
   if (!found) return otherwise_rad;
   const auto value_deg =
-      checked(*found, setting, bounds_deg, "; drop it for the default, " + toText(otherwise_rad / kRadPerDeg));
+      checked(*found, setting, bounds_deg, "; drop it for the default, " + toText(otherwise_rad, kRadPerDeg));
   return value_deg ? *value_deg * kRadPerDeg : otherwise_rad;
 }
 

@@ -36,10 +36,10 @@ std::vector<std::string> namesOf(const Fleet& fleet) {
   return names;
 }
 
-/// Which sensors are to sense: see Sensor::remembers().
+/// Which sensors are to sense: see Sensor::staysHome().
 struct SensorChoice {
-  bool with_memory = false;
-  bool without_memory = false;
+  bool at_home = false;
+  bool elsewhere = false;
 };
 
 /// Robots that carry the same sensors.
@@ -78,6 +78,7 @@ struct Environment::Impl {
   World world;
   Fleet fleet;
   EnvironmentOptions options;
+  ImageSource* images;
   Workers workers;
   Scene scene;
   Authority authority;
@@ -93,10 +94,11 @@ struct Environment::Impl {
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
   State state;
 
-  Impl(World the_world, Fleet the_fleet, const EnvironmentOptions& the_options)
+  Impl(World the_world, Fleet the_fleet, const EnvironmentOptions& the_options, ImageSource* the_images)
       : world(std::move(the_world)),
         fleet(std::move(the_fleet)),
         options(the_options),
+        images(the_images),
         workers(options.threads),
         scene(solidsOf(world), fleet.robots.size(), world.bounds),
         authority(moversOf(fleet), world.bounds),
@@ -131,7 +133,7 @@ struct Environment::Impl {
     }
     for (std::size_t i = 0; i < n; ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
     placeBodies();
-    sense(everyRobot(), {.without_memory = true});
+    sense(everyRobot(), {.elsewhere = true});
     finish();
   }
 
@@ -203,7 +205,8 @@ struct Environment::Impl {
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,
-                       .seed = options.seed};
+                       .seed = options.seed,
+                       .images = images};
     for (const auto& group : groups) {
       const auto of_group = within(group, range);
       workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -213,7 +216,7 @@ struct Environment::Impl {
         }
         for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
           const Sensor& sensor = *group.model->sensors[slot];
-          if (sensor.remembers() ? which.with_memory : which.without_memory) {
+          if (sensor.staysHome() ? which.at_home : which.elsewhere) {
             sensor.sense(now, robots, slot, state.readings);
           }
         }
@@ -230,7 +233,7 @@ struct Environment::Impl {
   /// What is left when all have sensed.
   void finish() {
     state.messages_delivered += mail.deliver(state.time, state.world_from_robot, state.readings);
-    sense(everyRobot(), {.with_memory = true});
+    sense(everyRobot(), {.at_home = true});
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       state.readings[i].time = state.time;
       state.readings[i].stalled = state.stalled[i] != 0;
@@ -274,8 +277,8 @@ struct Environment::Impl {
   }
 };
 
-Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options)
-    : impl_(std::make_unique<Impl>(std::move(world), std::move(fleet), options)) {}
+Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images)
+    : impl_(std::make_unique<Impl>(std::move(world), std::move(fleet), options, images)) {}
 
 Environment::~Environment() = default;
 
@@ -309,7 +312,7 @@ void Environment::clip(RobotRange range) {
 }
 void Environment::judge(RobotRange range) { impl_->authority.judge(impl_->scene, impl_->workers, range, impl_->paths); }
 void Environment::move() { impl_->move(); }
-void Environment::sense(RobotRange range) { impl_->sense(range, {.without_memory = true}); }
+void Environment::sense(RobotRange range) { impl_->sense(range, {.elsewhere = true}); }
 void Environment::finish() { impl_->finish(); }
 
 double Environment::clipped(std::size_t robot) const { return impl_->paths[robot].end_fraction; }

@@ -53,7 +53,8 @@ struct EnvironmentOptions {
 class Environment {
  public:
   /// Puts every robot at its start and senses once, as step 0.
-  Environment(World world, Fleet fleet, const EnvironmentOptions& options);
+  /// @param images for the robots' cameras; must outlive this. Null: they take no pictures
+  Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images = nullptr);
   ~Environment();
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
@@ -88,8 +89,8 @@ class Environment {
   bool stays(std::size_t robot) const;
   void putStays(std::size_t robot, bool stays);
   void move();
-  void sense(RobotRange range);  ///< with all sensors that remember nothing
-  /// For a sensor that remembers nothing: what it measured, to be read or put.
+  void sense(RobotRange range);  ///< with all sensors that need not stay home (Sensor::staysHome())
+  /// For a sensor that need not stay home: what it measured, to be read or put.
   Measurement& measurement(std::size_t robot, std::size_t slot);
   void finish();  ///< delivers messages; the remaining sensors sense; decides who has won
 

@@ -137,12 +137,6 @@ CObservation::Ptr makePicture(const SensorInfo& sensor) {
   return picture;
 }
 
-/// @returns whether there is a picture.
-bool fill(JpegObservation& picture, const Image& image) {
-  picture.jpeg = image.jpeg;
-  return !image.jpeg.empty();
-}
-
 /// @returns whether there was a picture.
 bool fill(CObservationRawDAQ& observation, const Blobs& blobs) {
   observation.AIN_double.clear();
@@ -223,8 +217,11 @@ bool fill(CObservation& observation, const SensorInfo& sensor, const Measurement
     case SensorKind::compass:
       static_cast<CObservationIMU&>(observation).set(mrpt::obs::IMU_YAW, std::get<Scalar>(measurement).value);
       break;
-    case SensorKind::camera:
-      return fill(static_cast<JpegObservation&>(observation), std::get<Image>(measurement));
+    case SensorKind::camera: {
+      auto& jpeg = static_cast<JpegObservation&>(observation).jpeg;
+      jpeg = std::get<Image>(measurement).jpeg;
+      return !jpeg.empty();
+    }
     case SensorKind::blob_finder:
       return fill(static_cast<CObservationRawDAQ&>(observation), std::get<Blobs>(measurement));
   }
@@ -271,16 +268,21 @@ std::string sensorLabel(const std::string& robot, const std::string& sensor) { r
 
 float recordedNoEcho(const SensorInfo& sensor) { return static_cast<float>(sensor.range_max_m * 1.001); }
 
-RobotObservations::RobotObservations(const RobotInfo& robot) : sensors_(robot.sensors) {
+RobotObservations::RobotObservations(const RobotInfo& robot, PictureFolder* pictures)
+    : sensors_(robot.sensors), pictures_(pictures) {
   for (std::size_t i = 0; i < sensors_->size(); ++i) slots_.push_back(i);
   std::stable_partition(slots_.begin(), slots_.end(),
                         [&](std::size_t i) { return (*sensors_)[i].kind == SensorKind::odometry; });
 
   observations_.push_back(CObservationRobotPose::Create());
   observations_.back()->sensorLabel = sensorLabel(robot.name, kGroundTruth);
+  stems_.emplace_back();
   for (const std::size_t slot : slots_) {
     observations_.push_back(makeObservation((*sensors_)[slot]));
-    observations_.back()->sensorLabel = sensorLabel(robot.name, (*sensors_)[slot].label);
+    const std::string label = sensorLabel(robot.name, (*sensors_)[slot].label);
+    observations_.back()->sensorLabel = label;
+    const bool is_camera = (*sensors_)[slot].kind == SensorKind::camera;
+    stems_.push_back(is_camera && pictures_ ? pictures_->stemFor(label) : "");
   }
   makeImprints();
 }
@@ -297,13 +299,21 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     CObservation& observation = *observations_[1 + i];
     observation.timestamp = timestamp;
-    if (fill(observation, (*sensors_)[slots_[i]], readings.measurements[slots_[i]], readings.laser_pan_rad)) {
-      told_.push_back(1 + i);
-    }
+    if (!fill(observation, (*sensors_)[slots_[i]], readings.measurements[slots_[i]], readings.laser_pan_rad)) continue;
+    if (!stems_[1 + i].empty()) putAway(static_cast<JpegObservation&>(observation), stems_[1 + i], readings.time);
+    told_.push_back(1 + i);
   }
   given_.clear();
   for (const std::size_t i : told_) given_.push_back(observations_[i]);
   return given_;
+}
+
+/// Puts a picture into a file of its own.
+void RobotObservations::putAway(JpegObservation& picture, const std::string& stem, const SimTime& time) {
+  const std::string step = std::to_string(time.step);
+  const std::string name = stem + "_" + std::string(step.size() < 8 ? 8 - step.size() : 0, '0') + step + ".jpg";
+  pictures_->write(name, picture.jpeg);
+  picture.image.setExternalStorage(name);
 }
 
 void RobotObservations::tellTruth(const TPose2D& world_from_robot, mrpt::Clock::time_point timestamp) {

@@ -15,8 +15,11 @@
 #include "hardware/robot_info.h"
 #include "recording/byte_archive.h"
 #include "recording/imprint.h"
+#include "recording/picture_folder.h"
 
 namespace robosim {
+
+class JpegObservation;
 
 /// What simulated time 0 is called in a recording: 2005-01-01 00:00:00 UTC, in seconds since 1970. Fixed, so that the
 /// same run is the same recording.
@@ -43,7 +46,7 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 ///  * compass: CObservationIMU with only a yaw
 ///  * odometry: CObservationOdometry. Stock icp-slam makes NaN of an angular speed of exactly 0, so 0 is written as
 ///    kNoTurn_radps
-///  * camera: CObservationImage, the JPEG file's very bytes
+///  * camera: CObservationImage, the JPEG file's very bytes, embedded or in a file of its own
 ///  * blob finder: CObservationRawDAQ, seven double-precision analogue inputs for each colour: pixels, x, y, left, top,
 ///    width, height
 ///  * ground truth: CObservationRobotPose
@@ -52,7 +55,9 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 /// A sensor that turns is recorded with the pose that it had. measurementFrom() (measurements.h) is the way back.
 class RobotObservations {
  public:
-  explicit RobotObservations(const RobotInfo& robot);
+  /// @param pictures where cameras' pictures go as files of their own, as of() or write() gets them; must outlive this.
+  ///        Null: they are embedded
+  explicit RobotObservations(const RobotInfo& robot, PictureFolder* pictures = nullptr);
   RobotObservations(const RobotObservations&) = delete;
   RobotObservations& operator=(const RobotObservations&) = delete;
 
@@ -65,6 +70,7 @@ class RobotObservations {
   void write(const Readings&, const std::optional<mrpt::math::TPose2D>& world_from_robot, ByteArchive& archive);
 
  private:
+  void putAway(JpegObservation& picture, const std::string& stem, const SimTime& time);
   void tellTruth(const mrpt::math::TPose2D& world_from_robot, mrpt::Clock::time_point timestamp);
   void makeImprints();
   std::vector<Imprint::Number> changingNumbers(std::size_t i);
@@ -72,10 +78,12 @@ class RobotObservations {
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
   std::vector<std::size_t> slots_;  ///< of observations_[1 + i]: its place in RobotInfo::sensors
   std::vector<mrpt::obs::CObservation::Ptr> observations_;  ///< ground truth, and one per sensor
-  std::vector<std::size_t> told_;                           ///< which of them this step has
-  std::vector<mrpt::obs::CObservation::Ptr> given_;         ///< these
-  std::vector<std::optional<Imprint>> imprints_;            ///< as observations_; of sensors that turn, not turned
-  std::array<double, 12> truth_{};  ///< ground truth as MRPT writes it: x, y, z, 3 × 3 rotation
+  PictureFolder* pictures_;
+  std::vector<std::string> stems_;                   ///< of the names of a camera's files; as observations_
+  std::vector<std::size_t> told_;                    ///< which of them this step has
+  std::vector<mrpt::obs::CObservation::Ptr> given_;  ///< these
+  std::vector<std::optional<Imprint>> imprints_;     ///< as observations_; of sensors that turn, not turned
+  std::array<double, 12> truth_{};                   ///< ground truth as MRPT writes it: x, y, z, 3 × 3 rotation
 };
 
 /// What CObservationRange holds for a beam of this sensor that met nothing [m].

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cctype>
 #include <deque>
 #include <future>
 #include <optional>
@@ -19,7 +18,8 @@
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
-#include "recording/remarks.h"
+#include "recording/picture_folder.h"
+#include "recording/unsensed.h"
 
 namespace robosim {
 namespace {
@@ -34,20 +34,20 @@ constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
-  explicit Track(const RobotInfo& robot) : observations(robot), remarks(robot.name) {
+  Track(const RobotInfo& robot, PictureFolder* pictures) : observations(robot, pictures), unsensed(robot) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
   }
 
   RobotObservations observations;
-  Remarks remarks;
+  Unsensed unsensed;
   std::optional<std::size_t> odometry_slot;
   std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
 };
 
 struct Output {
-  explicit Output(const std::filesystem::path& path) : file(path) {}
+  explicit Output(const std::filesystem::path& path) : file(path), pictures(path) {}
 
   void flush(std::size_t from_bytes) {
     if (archive.bytes.size() < from_bytes) return;
@@ -56,17 +56,9 @@ struct Output {
   }
 
   GzipFile file;
+  PictureFolder pictures;
   ByteArchive archive;
 };
-
-/// A robot's name as part of a file name.
-std::string fileNamePart(const std::string& robot) {
-  std::string part = robot;
-  for (char& c : part) {
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
-  }
-  return part;
-}
 
 std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                                             RawlogFormat format) {
@@ -81,8 +73,8 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   return files;
 }
 
-void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth, const Command& command,
-                ByteArchive& archive) {
+void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth,
+                const std::optional<Command>& command, ByteArchive& archive) {
   const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
@@ -95,15 +87,10 @@ void appendPair(Track& track, const Readings& readings, const std::optional<TPos
 
   mrpt::obs::CSensoryFrame frame;
   for (const auto& observation : track.observations.of(readings, truth)) frame.push_back(observation);
-  if (const auto remark = track.remarks.of(readings, command)) frame.push_back(remark);
+  if (command) {
+    for (const auto& observation : track.unsensed.of(readings, *command)) frame.push_back(observation);
+  }
   archive << actions << frame;
-}
-
-/// MRPT has one for a recording, and reads it as a configuration file.
-mrpt::obs::CObservationComment commentOn(const std::string& winner) {
-  mrpt::obs::CObservationComment comment;
-  comment.text = "[run]\nwinner = " + winner + "\n";
-  return comment;
 }
 
 }  // namespace
@@ -119,13 +106,14 @@ struct RawlogWriter::Impl {
 
   void handOver();
   void record(const Step&);
+  void comment(const std::string& text);
 
   RawlogFormat format;
   std::deque<Track> tracks;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
-  std::string winner;            ///< the robot that has won
+  SimTime last;                  ///< of what was written
   std::future<void> background;  ///< at work on `recording`; the first to be destroyed, which waits for it
 };
 
@@ -142,10 +130,10 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     Track& track = tracks[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
-    const Command command = step.commands.empty() ? Command{} : step.commands[i];
+    const auto command = step.commands.empty() ? std::nullopt : std::make_optional(step.commands[i]);
     if (format == RawlogFormat::observations) {
       track.observations.write(step.readings[i], truth, outputs[0]->archive);
-      if (const auto remark = track.remarks.of(step.readings[i], command)) outputs[0]->archive << *remark;
+      if (command) track.unsensed.write(step.readings[i], *command, outputs[0]->archive);
     } else {
       appendPair(track, step.readings[i], truth, command, outputs[i]->archive);
     }
@@ -153,20 +141,37 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (auto& output : outputs) output->flush(kChunkBytes);
 }
 
-RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format)
+/// Only while the background is not at work.
+void RawlogWriter::Impl::comment(const std::string& text) {
+  if (text.empty()) return;
+  mrpt::obs::CObservationComment comment;
+  comment.timestamp = timestampOf(last);
+  comment.text = text;
+  for (auto& output : outputs) output->archive << comment;
+}
+
+RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
+                           RawlogImages images, const std::string& note)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
   impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
-    const Track& track = impl_->tracks.emplace_back(robot);
-    if (format == RawlogFormat::sensory_frames && !track.odometry_slot) {
+    const auto& sensors = *robot.sensors;
+    const bool has_odometry = std::any_of(sensors.begin(), sensors.end(),
+                                          [](const SensorInfo& sensor) { return sensor.kind == SensorKind::odometry; });
+    if (format == RawlogFormat::sensory_frames && !has_odometry) {
       throw ConfigError(file.string() + ": robot \"" + robot.name +
                         "\" has no odometry, which a recording of actions and sensory frames is made from; give it "
                         "one, or record observations only");
     }
   }
   for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
+    impl_->tracks.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
+  }
+  impl_->comment(note);
 }
 
 RawlogWriter::~RawlogWriter() = default;
@@ -175,22 +180,24 @@ void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPo
                          std::span<const Command> commands) {
   assert(readings.size() == impl_->tracks.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
+  assert(commands.empty() || commands.size() == readings.size());
   Impl::Step& step = impl_->filling[impl_->filled++];
   step.readings.assign(readings.begin(), readings.end());
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   step.commands.assign(commands.begin(), commands.end());
-  if (impl_->winner.empty() && !readings.empty()) impl_->winner = readings[0].winner;
+  if (!readings.empty()) impl_->last = readings[0].time;
   if (impl_->filled == impl_->filling.size()) impl_->handOver();
 }
 
-void RawlogWriter::close() {
+void RawlogWriter::close(const std::string& note) {
   impl_->handOver();
   impl_->background.get();
+  impl_->comment(note);
+  for (auto& output : impl_->outputs) output->flush(0);
   for (auto& output : impl_->outputs) {
-    if (!impl_->winner.empty()) output->archive << commentOn(impl_->winner);
-    output->flush(0);
+    output->pictures.commit();
+    output->file.commit();
   }
-  for (auto& output : impl_->outputs) output->file.commit();
 }
 
 std::vector<std::filesystem::path> RawlogWriter::files() const {

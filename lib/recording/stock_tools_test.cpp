@@ -162,6 +162,39 @@ TEST_F(StockTools, RawlogEditExportsHeatAsATemperature) {
   EXPECT_NEAR(heat_celsius, std::get<Scalar>(readings.measurements[4]).value, 1e-4);
 }
 
+TEST_F(StockTools, RawlogEditListsThePicturesThatLieBesideARecording) {
+  const RobotInfo robot = seeingRobot("rover");
+  RawlogWriter writer(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::observations, RawlogImages::external);
+  for (std::uint64_t step = 0; step < 6; ++step) {
+    const auto readings = sampleReadings(robot, step);
+    writer.write(std::span(&readings, 1), {});
+  }
+  writer.close();
+  const ToolRun listed = runTool("rawlog-edit -i run.rawlog --list-images --text-file-output list.txt", folder_);
+  EXPECT_EQ(listed.exit_code, 0) << listed.output;
+  EXPECT_EQ(linesOf(in("list.txt")), (std::vector<std::string>{"rover_camera_00000000.jpg", "rover_camera_00000002.jpg",
+                                                               "rover_camera_00000004.jpg"}));
+  // It finds them, too: this unpacks each, and puts it into the new rawlog.
+  const ToolRun packed = runTool("rawlog-edit -i run.rawlog -o packed.rawlog --de-externalize", folder_);
+  EXPECT_EQ(packed.exit_code, 0) << packed.output;
+  EXPECT_NE(packed.output.find("Entries converted                 : 3"), std::string::npos) << packed.output;
+}
+
+TEST_F(StockTools, RawlogEditReadsThePicturesInARecording) {
+  const RobotInfo robot = seeingRobot("rover");
+  RawlogWriter writer(in("run.rawlog"), std::span(&robot, 1));
+  for (std::uint64_t step = 0; step < 6; ++step) {
+    const auto readings = sampleReadings(robot, step);
+    writer.write(std::span(&readings, 1), {});
+  }
+  writer.close();
+  const ToolRun info = runTool("rawlog-edit -i run.rawlog --describe", folder_);
+  EXPECT_EQ(info.exit_code, 0) << info.output;
+  for (const char* expected : {"rover/camera", "Image size: 48x32 pixels"}) {
+    EXPECT_NE(info.output.find(expected), std::string::npos) << expected << " in\n" << info.output;
+  }
+}
+
 TEST_F(StockTools, RbpfSlamTakesEveryPairOfActionAndSensoryFrame) {
   recordEllipse(in("run.rawlog"), RawlogFormat::sensory_frames);
   const ToolRun slam = runTool("rbpf-slam '" ROBOSIM_SOURCE_DIR "/tests/data/rbpf-slam.ini' run.rawlog", folder_);

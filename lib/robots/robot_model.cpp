@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kRadPerDeg = M_PI / 180;
 
-Body readBody(XmlReader& reader) {
+Body readBody(XmlReader& reader, BodyLook& look) {
   Body body;
   const bool round = reader.has("radius_m") || !(reader.has("length_m") || reader.has("width_m"));
   if (round) {
@@ -26,6 +26,7 @@ Body readBody(XmlReader& reader) {
   body.center_z_m = reader.number("clearance_m", Bounds::notNegative(100), 0) + body.height_m / 2;
   const auto rgb = reader.numbers("color", 3, {0, 1}, {0.5, 0.5, 0.5});
   for (std::size_t i = 0; i < 3; ++i) body.color[i] = static_cast<float>(rgb[i]);
+  look = reader.choice("look", {{"drum", BodyLook::drum}, {"deck", BodyLook::deck}}, BodyLook::drum);
   reader.finish();
   return body;
 }
@@ -43,7 +44,7 @@ MotionLimits readLimits(XmlReader& reader) {
 
 void mount(std::vector<XmlReader> readers, double unit_m, RobotModel& model) {
   for (auto& reader : readers) {
-    if (auto sensor = readSensor(reader, {unit_m, model.radius_m, model.body.height_m})) {
+    if (auto sensor = readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors})) {
       model.sensors.push_back(std::move(sensor));
     }
   }
@@ -103,7 +104,7 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   }
   model.help = root.word("help", "");
   XmlReader body = root.requiredChild("body");
-  giveBody(readBody(body), model);
+  giveBody(readBody(body, model.look), model);
   XmlReader limits = root.requiredChild("limits");
   model.limits = readLimits(limits);
   if (description.body) giveBody(*description.body, model);

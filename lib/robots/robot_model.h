@@ -12,11 +12,18 @@
 
 namespace robosim {
 
+/// What a robot looks like to cameras and viewers. No sensor but a camera sees a difference.
+enum class BodyLook {
+  drum,  ///< an upright drum, like a Nomad Scout
+  deck,  ///< a hull between two wheels with a flat deck, like a Pioneer; any box-shaped robot has this look
+};
+
 /// A type of robot: body, limits and mounted sensors. Robots of one type share one model.
 struct RobotModel {
-  std::string name;     ///< "pioneer3dx"; "2005" for robots that a world file describes itself
-  std::string help;     ///< one sentence; may be empty
-  Body body;            ///< shape, height and look; its pose is the robot's
+  std::string name;  ///< "pioneer3dx"; "2005" for robots that a world file describes itself
+  std::string help;  ///< one sentence; may be empty
+  Body body;         ///< shape, height and colour; its pose is the robot's
+  BodyLook look = BodyLook::drum;
   double radius_m = 0;  ///< of the disc that authorising moves takes it for: Body::coveringRadius()
   MotionLimits limits;
   std::vector<std::shared_ptr<const Sensor>> sensors;

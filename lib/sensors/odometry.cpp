@@ -24,7 +24,7 @@ class WheelOdometry : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   Measurement blank() const override { return Odometry{}; }
-  bool remembers() const override { return true; }
+  bool staysHome() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

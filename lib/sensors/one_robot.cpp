@@ -21,7 +21,8 @@ Measurement OneRobot::sense(const Sensor& sensor) {
                      .last_motion = {&motion, 1},
                      .laser_pan_rad = {&laser_pan_rad, 1},
                      .time = time_,
-                     .seed = seed};
+                     .seed = seed,
+                     .images = images};
   sensor.sense(now, {&robot, 1}, 0, readings_);
   return readings_[0].measurements[0];
 }

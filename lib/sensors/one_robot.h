@@ -22,6 +22,7 @@ class OneRobot {
   Motion motion;
   float laser_pan_rad = 0;
   std::uint64_t seed = 1;
+  ImageSource* images = nullptr;
   mrpt::math::TPose2D world_from_robot;
 
  private:

@@ -1,6 +1,8 @@
 #include "sensors/registry.h"
 
+#include "sensors/blob_finder.h"
 #include "sensors/bumper.h"
+#include "sensors/camera.h"
 #include "sensors/compass.h"
 #include "sensors/heat.h"
 #include "sensors/infrared.h"
@@ -12,6 +14,18 @@ namespace robosim {
 namespace {
 
 using Made = std::unique_ptr<Sensor>;
+
+Made readBlobFinder(XmlReader& reader, const Mount& mount) {
+  const BlobFinderOptions options = BlobFinderOptions::read(reader);
+  Made finder = makeBlobFinder(options, mount.mounted);
+  if (finder) return finder;
+  if (options.camera.empty()) {
+    reader.error("has no camera to look through; mount one before it");
+  } else {
+    reader.errorAt("camera", "is not the label of a camera that is mounted before it; mount one, or mend the label");
+  }
+  return nullptr;
+}
 
 // clang-format off
 constexpr SensorType kTypes[] = {
@@ -32,6 +46,9 @@ constexpr SensorType kTypes[] = {
      [](XmlReader& r, const Mount&) -> Made { return makeOdometry(OdometryOptions::read(r)); }, nullptr},
     {"compass", "The heading in the world.",
      [](XmlReader& r, const Mount&) -> Made { return makeCompass(CompassOptions::read(r)); }, nullptr},
+    {"camera", "Colour pictures.",
+     [](XmlReader& r, const Mount&) -> Made { return makeCamera(CameraOptions::read(r)); }, nullptr},
+    {"blob_finder", "The largest spot of each of some colours in a camera's picture.", readBlobFinder, nullptr},
 };
 // clang-format on
 

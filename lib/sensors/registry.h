@@ -12,6 +12,7 @@ struct Mount {
   double unit_m = 1;  ///< a length unit of the file, in metres; only 2005's <sensor> uses it
   double robot_radius_m = 0;
   double robot_height_m = 0;
+  std::span<const std::shared_ptr<const Sensor>> mounted = {};  ///< what is mounted already, by slot
 };
 
 /// A kind of sensor, and how its element in a file is read.

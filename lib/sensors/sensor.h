@@ -12,6 +12,7 @@
 #include "geometry/scene.h"
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
+#include "sensors/image_source.h"
 
 namespace robosim {
 
@@ -39,6 +40,7 @@ struct Snapshot {
   std::span<const float> laser_pan_rad;
   SimTime time;
   std::uint64_t seed = 0;
+  ImageSource* images = nullptr;  ///< null: cameras take no pictures
 
   BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
   /// The noise of one sensor of one robot in this step.
@@ -56,10 +58,11 @@ class Sensor {
   virtual const SensorInfo& info() const = 0;
   /// A measurement of the right kind and size, as before the first step.
   virtual Measurement blank() const = 0;
-  /// Whether a measurement depends on the step before's. Such a sensor senses in the process that keeps the readings;
-  /// any other may sense in a replica.
-  virtual bool remembers() const { return false; }
-  /// Replaces readings[r].measurements[slot] for each r of `robots`; what stood there is the step before's.
+  /// Whether it can sense only in the process that keeps the readings: because a measurement depends on the step
+  /// before's, on another sensor's, or on an ImageSource. Any other may sense in a replica.
+  virtual bool staysHome() const { return false; }
+  /// Replaces readings[r].measurements[slot] for each r of `robots`; what stood there is the step before's. A sensor
+  /// that stays home may look at slots before its own, of which those that stay home too have sensed already.
   virtual void sense(const Snapshot&, std::span<const std::uint32_t> robots, std::size_t slot,
                      std::span<Readings> readings) const = 0;
 };

@@ -25,13 +25,13 @@ double checkedFinite(double value) {
   return value;
 }
 
-/// Calls visit(measurement) for all that sensors without a memory measure of a range's robots.
+/// Calls visit(measurement) for all that is measured, by sensors that need not stay home, of a range's robots.
 template <typename Visit>
 void forMeasurements(Environment& environment, RobotRange range, const Visit& visit) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const auto& sensors = environment.fleet().robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-      if (!sensors[slot]->remembers()) visit(environment.measurement(i, slot));
+      if (!sensors[slot]->staysHome()) visit(environment.measurement(i, slot));
     }
   }
 }

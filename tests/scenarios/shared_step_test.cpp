@@ -29,7 +29,7 @@ void takeReadings(Environment& from, Environment& to, RobotRange range) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const auto& sensors = to.fleet().robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-      if (!sensors[slot]->remembers()) to.measurement(i, slot) = from.measurement(i, slot);
+      if (!sensors[slot]->staysHome()) to.measurement(i, slot) = from.measurement(i, slot);
     }
   }
 }

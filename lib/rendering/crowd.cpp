@@ -1,0 +1,97 @@
+#include "rendering/crowd.h"
+
+#define GL_GLEXT_PROTOTYPES
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <GL/gl.h>
+#include <GL/glext.h>
+
+#include "rendering/shaders.h"
+
+namespace robosim {
+namespace {
+
+/// Smaller than this in the picture [pixels, radius], a thing is drawn roughly.
+constexpr float kRoughBelow_px = 14;
+
+template <typename Element>
+void bindAttribute(unsigned location, int size, unsigned type, bool normalized, std::size_t offset) {
+  glEnableVertexAttribArray(location);
+  glVertexAttribPointer(location, size, type, normalized ? GL_TRUE : GL_FALSE, sizeof(Element),
+                        reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): OpenGL's way
+}
+
+}  // namespace
+
+void GlMesh::draw(const std::vector<Member>& members) {
+  if (members.empty() || mesh_.vertices.empty()) return;
+  const bool is_new = !attributes_.isCreated();
+  attributes_.createOnce();
+  attributes_.bind();
+  if (is_new) {
+    vertices_.createOnce();
+    vertices_.bind();
+    vertices_.allocate(mesh_.vertices.data(), static_cast<int>(mesh_.vertices.size() * sizeof(MeshVertex)));
+    bindAttribute<MeshVertex>(kPosition, 3, GL_FLOAT, false, offsetof(MeshVertex, x_m));
+    bindAttribute<MeshVertex>(kNormal, 4, GL_BYTE, true, offsetof(MeshVertex, normal));
+    bindAttribute<MeshVertex>(kColor, 4, GL_UNSIGNED_BYTE, true, offsetof(MeshVertex, color));
+  }
+  members_.setUsage(mrpt::opengl::COpenGLBuffer::Usage::StreamDraw);
+  members_.createOnce();
+  members_.bind();
+  members_.allocate(members.data(), static_cast<int>(members.size() * sizeof(Member)));
+  if (is_new) {
+    bindAttribute<Member>(kPlace, 4, GL_FLOAT, false, offsetof(Member, x_m));
+    bindAttribute<Member>(kPaint, 4, GL_UNSIGNED_BYTE, true, offsetof(Member, paint));
+    glVertexAttribDivisor(kPlace, 1);
+    glVertexAttribDivisor(kPaint, 1);
+  }
+  glDrawArraysInstanced(GL_TRIANGLES, 0, static_cast<int>(mesh_.vertices.size()), static_cast<int>(members.size()));
+  glBindVertexArray(0);
+}
+
+void GlMesh::free() {
+  attributes_.destroy();
+  vertices_.destroy();
+  members_.destroy();
+}
+
+Crowd::Crowd(Mesh full, Mesh rough) : full_(std::move(full)), rough_(std::move(rough)) {
+  float low_m = 1e9f, high_m = -1e9f, around_m = 0;
+  for (const auto& v : full_.mesh().vertices) {
+    low_m = std::min(low_m, v.z_m);
+    high_m = std::max(high_m, v.z_m);
+    around_m = std::max(around_m, std::hypot(v.x_m, v.y_m));
+  }
+  middle_ = {0, 0, (low_m + high_m) / 2};
+  radius_m_ = std::hypot(around_m, (high_m - low_m) / 2);
+}
+
+mrpt::opengl::shader_list_t Crowd::requiredShaders() const { return {kSolidShader}; }
+
+void Crowd::render(const RenderContext& rc) const {
+  const ViewVolume view(*rc.state);
+  near_.clear();
+  far_.clear();
+  for (const Member& member : members_) {
+    const mrpt::math::TPoint3Df center(member.x_m, member.y_m, middle_.z);
+    if (!view.mayHold(center, radius_m_)) continue;
+    const bool is_far = !rough_.mesh().vertices.empty() && view.radius_px(center, radius_m_) < kRoughBelow_px;
+    (is_far ? far_ : near_).push_back(member);
+  }
+  ViewUniforms::set(*rc.shader, *rc.state);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  full_.draw(near_);
+  rough_.draw(far_);
+  glDisable(GL_CULL_FACE);
+}
+
+void Crowd::freeOpenGLResources() {
+  full_.free();
+  rough_.free();
+}
+
+}  // namespace robosim

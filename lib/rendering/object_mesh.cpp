@@ -1,0 +1,25 @@
+#include "rendering/object_mesh.h"
+
+namespace robosim {
+
+void addBody(Mesh& mesh, const Body& body, int sides) {
+  const Finish finish{.color = body.color, .gloss = body.heat_celsius > 0 ? 0.9f : 0.0f};
+  const HeightSpan heights = body.heights();
+  Mesh upright;
+  if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) {
+    addCone(upright, {{}, heights.z_min_m, heights.z_max_m, cylinder->radius_m, cylinder->radius_m, sides}, finish,
+            finish);
+    std::vector<mrpt::math::TPoint3D> bottom;
+    for (const auto& p : circlePoints({}, cylinder->radius_m, sides)) {
+      bottom.emplace_back(p.x, -p.y, heights.z_min_m);
+    }
+    if (heights.z_min_m > 0) addPolygon(upright, bottom, finish);
+  } else {
+    const auto& cube = std::get<Cube>(body.shape);
+    addBox(upright, {-cube.length_m / 2, -cube.width_m / 2, heights.z_min_m},
+           {cube.length_m / 2, cube.width_m / 2, heights.z_max_m}, finish);
+  }
+  mesh.add(upright, {body.world_from_body.x, body.world_from_body.y, 0, body.world_from_body.phi, 0, 0});
+}
+
+}  // namespace robosim

@@ -1,0 +1,141 @@
+#include "rendering/offscreen_renderer.h"
+
+#include <algorithm>
+#include <optional>
+#include <vector>
+
+#include <mrpt/opengl/COpenGLScene.h>
+#include <opencv2/imgcodecs.hpp>
+
+#include "rendering/picture_target.h"
+#include "rendering/render_thread.h"
+#include "rendering/shaders.h"
+#include "rendering/world_scene.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPose2D;
+using mrpt::math::TPose3D;
+using mrpt::poses::CPose3D;
+
+/// What is nearer than this is not drawn; how deep the farthest thing may lie.
+constexpr float kNearest_m = 0.02f, kFarthest_m = 5000;
+
+/// A camera looks along its z to MRPT, with x to the right.
+mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from_camera) {
+  mrpt::img::TCamera pinhole;
+  pinhole.ncols = info.width_px;
+  pinhole.nrows = info.height_px;
+  const double focal_px = info.focalLength_px();
+  pinhole.setIntrinsicParamsFromValues(focal_px, focal_px, info.width_px / 2.0, info.height_px / 2.0);
+  mrpt::opengl::CCamera camera;
+  camera.set6DOFMode(true);
+  camera.setProjectiveFromPinhole(pinhole);
+  camera.setPose(world_from_camera + CPose3D(0, 0, 0, -M_PI / 2, 0, -M_PI / 2));
+  return camera;
+}
+
+/// What the depth buffer says of a pixel, in metres; 0 where nothing was drawn.
+float metresAhead(float depth) {
+  if (depth >= 1) return 0;
+  constexpr double n = kNearest_m, f = kFarthest_m;
+  return static_cast<float>(n * f / (f - depth * (f - n)));
+}
+
+}  // namespace
+
+struct OffscreenRenderer::Impl {
+  Impl(const World& the_world, const Fleet& the_fleet) : thread(RenderThread::shared()) {
+    for (const auto& robot : the_fleet.robots) underside_m.push_back(robot.body.heights().z_min_m);
+    thread->run([&](RenderThread::Targets&) {
+      scene = std::make_unique<mrpt::opengl::COpenGLScene>();
+      scene->getViewport()->setViewportClipDistances(kNearest_m, kFarthest_m);
+      world.emplace(the_world, the_fleet);
+      world->addTo(*scene);
+      installShaders(*scene->getViewport());
+    });
+  }
+  ~Impl() {
+    thread->run([this](RenderThread::Targets&) {
+      scene.reset();
+      world.reset();
+    });
+  }
+
+  std::shared_ptr<RenderThread> thread;
+  std::vector<double> underside_m;  ///< of each robot
+  // The render thread's own:
+  std::unique_ptr<mrpt::opengl::COpenGLScene> scene;
+  std::optional<WorldScene> world;
+};
+
+OffscreenRenderer::OffscreenRenderer(const World& world, const Fleet& fleet)
+    : impl_(std::make_unique<Impl>(world, fleet)) {}
+
+OffscreenRenderer::~OffscreenRenderer() = default;
+
+void OffscreenRenderer::take(const CameraView& camera, std::span<const TPose2D> world_from_robot,
+                             std::span<const std::uint32_t> robots, std::span<std::string> jpegs) {
+  std::vector<cv::Mat> pictures(robots.size());
+  impl_->thread->run([&](RenderThread::Targets& targets) {
+    auto& target = targets.ofSize(camera.info.width_px, camera.info.height_px);
+    impl_->world->place(world_from_robot);
+    mrpt::img::CImage picture;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      const TPose2D& robot = world_from_robot[robots[i]];
+      const CPose3D world_from_camera =
+          CPose3D(robot.x, robot.y, impl_->underside_m[robots[i]], robot.phi, 0, 0) + CPose3D(camera.robot_from_camera);
+      target.setCamera(*impl_->scene, cameraAt(camera.info, world_from_camera));
+      target.render_RGB(*impl_->scene, picture);
+      pictures[i] = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+    }
+  });
+  std::vector<unsigned char> bytes;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    cv::imencode(".jpg", pictures[i], bytes, {cv::IMWRITE_JPEG_QUALITY, camera.jpeg_quality});
+    jpegs[i].assign(bytes.begin(), bytes.end());
+  }
+}
+
+cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& world_from_camera,
+                                   std::span<const TPose2D> world_from_robot) {
+  cv::Mat drawn;
+  impl_->thread->run([&](RenderThread::Targets& targets) {
+    auto& target = targets.ofSize(camera.width_px, camera.height_px);
+    impl_->world->place(world_from_robot);
+    target.setCamera(*impl_->scene, cameraAt(camera, CPose3D(world_from_camera)));
+    mrpt::img::CImage picture;
+    target.render_RGB(*impl_->scene, picture);
+    drawn = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+  });
+  return drawn;
+}
+
+cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_from_camera,
+                                 std::span<const TPose2D> world_from_robot) {
+  cv::Mat_<float> depths(static_cast<int>(camera.height_px), static_cast<int>(camera.width_px));
+  impl_->thread->run([&](RenderThread::Targets& targets) {
+    auto& target = targets.ofSize(camera.width_px, camera.height_px);
+    impl_->world->place(world_from_robot);
+    target.setCamera(*impl_->scene, cameraAt(camera, CPose3D(world_from_camera)));
+    mrpt::img::CImage picture;
+    target.render_RGB(*impl_->scene, picture);
+    const auto drawn = target.lastDepths();
+    for (int row = 0; row < depths.rows; ++row) {
+      const auto from_bottom = drawn.begin() + std::ptrdiff_t{depths.rows - 1 - row} * depths.cols;
+      std::transform(from_bottom, from_bottom + depths.cols, depths[row], metresAhead);
+    }
+  });
+  return depths;
+}
+
+bool hasCamera(const Fleet& fleet) {
+  return std::any_of(fleet.robots.begin(), fleet.robots.end(), [](const FleetRobot& robot) {
+    const auto& sensors = *robot.info.sensors;
+    return std::any_of(sensors.begin(), sensors.end(),
+                       [](const SensorInfo& s) { return s.kind == SensorKind::camera; });
+  });
+}
+
+}  // namespace robosim

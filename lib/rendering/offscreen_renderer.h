@@ -1,0 +1,45 @@
+#pragma once
+#include <memory>
+#include <span>
+
+#include <mrpt/math/TPose2D.h>
+#include <mrpt/math/TPose3D.h>
+#include <opencv2/core/mat.hpp>
+
+#include "robots/fleet.h"
+#include "sensors/image_source.h"
+#include "world/world.h"
+
+namespace robosim {
+
+/// Draws a world without a screen: for its robots' cameras, and from anywhere else. Any thread may ask; the drawing is
+/// done by the program's one RenderThread.
+class OffscreenRenderer : public ImageSource {
+ public:
+  /// @throws ConfigError when this machine has no OpenGL.
+  OffscreenRenderer(const World& world, const Fleet& fleet);
+  ~OffscreenRenderer() override;
+
+  void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
+            std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override;
+
+  /// @name From anywhere
+  /// @param camera its size and field of view; x of `world_from_camera` is along the optical axis, z up
+  ///@{
+  /// Blue, green, red, 8 bits each.
+  cv::Mat picture(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
+                  std::span<const mrpt::math::TPose2D> world_from_robot);
+  /// How far ahead, along the optical axis, each pixel is [m], single precision; 0 for the sky.
+  cv::Mat depth(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
+                std::span<const mrpt::math::TPose2D> world_from_robot);
+  ///@}
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Whether any robot has a camera, so that a run needs an OffscreenRenderer.
+bool hasCamera(const Fleet& fleet);
+
+}  // namespace robosim

@@ -1,0 +1,158 @@
+#include "sensors/blob_finder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace robosim {
+namespace {
+
+class BlobFinder : public Sensor {
+ public:
+  BlobFinder(BlobFinderOptions options, const SensorInfo& camera, std::size_t camera_slot)
+      : options_(std::move(options)), camera_slot_(camera_slot) {
+    info_.kind = SensorKind::blob_finder;
+    info_.label = options_.label;
+    info_.beams = camera.beams;
+    info_.camera = camera.camera;
+    for (const auto& color : options_.colors) info_.colors.push_back(color.name);
+  }
+
+  const SensorInfo& info() const override { return info_; }
+  Measurement blank() const override { return blankBlobs(info_); }
+  bool staysHome() const override { return true; }
+
+  void sense(const Snapshot&, std::span<const std::uint32_t> robots, std::size_t slot,
+             std::span<Readings> readings) const override {
+    for (const auto robot : robots) {
+      auto& measurements = readings[robot].measurements;
+      const auto& jpeg = std::get<Image>(measurements[camera_slot_]).jpeg;
+      auto& blobs = std::get<Blobs>(measurements[slot]);
+      blobs = blankBlobs(info_);
+      if (jpeg.empty()) continue;
+      blobs.taken = true;
+      blobs.of_color = findBlobs(jpeg, options_.colors, options_.pixels_min);
+    }
+  }
+
+ private:
+  BlobFinderOptions options_;
+  std::size_t camera_slot_;
+  SensorInfo info_;
+};
+
+/// In [0, 2π); nullopt for a grey, which has none.
+std::optional<double> hueOf(const std::vector<double>& rgb) {
+  const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
+  const double spread = *high - *low;
+  if (spread <= 0.05) return std::nullopt;
+  const auto main = high - rgb.begin();
+  const auto at = [&](std::ptrdiff_t i) { return rgb[static_cast<std::size_t>((main + i) % 3)]; };
+  const double sixths = 2 * static_cast<double>(main) + (at(1) - at(2)) / spread;
+  return std::fmod(sixths + 6, 6) * M_PI / 3;
+}
+
+SoughtColor readColor(XmlReader reader) {
+  SoughtColor color;
+  color.name = reader.word("name");
+  if (!reader.has("rgb")) reader.error("<rgb> is missing; add red, green and blue, such as rgb=\"1 0.8 0.1\"");
+  const auto rgb = reader.numbers("rgb", 3, {0, 1}, {1, 0, 0});
+  if (const auto hue_rad = hueOf(rgb)) {
+    color.hue_rad = *hue_rad;
+  } else {
+    reader.errorAt("rgb", "is a grey, which has no hue to look for; give a colour");
+  }
+  color.within_rad = reader.angle("within_deg", Bounds::positive(180), color.within_rad);
+  color.saturation_min = reader.number("saturation_min", {0, 1}, color.saturation_min);
+  color.value_min = reader.number("value_min", {0, 1}, color.value_min);
+  reader.finish();
+  return color;
+}
+
+/// Where a picture of hue (0 … 255 all round), saturation and value has the colour.
+cv::Mat maskOf(const cv::Mat& hsv, const SoughtColor& color) {
+  const double unit = 256 / (2 * M_PI);
+  const int low = static_cast<int>(std::lround((color.hue_rad - color.within_rad) * unit));
+  const int high = static_cast<int>(std::lround((color.hue_rad + color.within_rad) * unit));
+  const double saturation = 255 * color.saturation_min, value = 255 * color.value_min;
+  const auto between = [&](int from, int to) {
+    cv::Mat mask;
+    cv::inRange(hsv, cv::Scalar(from, saturation, value), cv::Scalar(to, 255, 255), mask);
+    return mask;
+  };
+  if (high - low >= 255) return between(0, 255);
+  cv::Mat mask = between(std::max(low, 0), std::min(high, 255));
+  if (low < 0) mask |= between(low + 256, 255);
+  if (high > 255) mask |= between(0, high - 256);
+  return mask;
+}
+
+Blob largestIn(const cv::Mat& mask, unsigned pixels_min) {
+  cv::Mat labels, stats, centroids;
+  const int count = cv::connectedComponentsWithStats(mask, labels, stats, centroids, 8, CV_32S);
+  int best = 0;
+  for (int i = 1; i < count; ++i) {
+    if (best == 0 || stats.at<int>(i, cv::CC_STAT_AREA) > stats.at<int>(best, cv::CC_STAT_AREA)) best = i;
+  }
+  const auto stat = [&](int which) { return static_cast<std::uint32_t>(stats.at<int>(best, which)); };
+  if (best == 0 || stat(cv::CC_STAT_AREA) < pixels_min) return {};
+  return {.color = {},
+          .pixels = stat(cv::CC_STAT_AREA),
+          .x_px = static_cast<float>(centroids.at<double>(best, 0)),
+          .y_px = static_cast<float>(centroids.at<double>(best, 1)),
+          .left_px = stat(cv::CC_STAT_LEFT),
+          .top_px = stat(cv::CC_STAT_TOP),
+          .width_px = stat(cv::CC_STAT_WIDTH),
+          .height_px = stat(cv::CC_STAT_HEIGHT)};
+}
+
+}  // namespace
+
+BlobFinderOptions BlobFinderOptions::read(XmlReader& reader) {
+  BlobFinderOptions o;
+  o.label = reader.word("label", o.label);
+  o.camera = reader.word("camera", o.camera);
+  const double pixels = reader.number("pixels_min", {1, 1e6}, o.pixels_min);
+  if (pixels != std::floor(pixels)) reader.errorAt("pixels_min", "must be a whole number");
+  o.pixels_min = static_cast<unsigned>(pixels);
+  std::set<std::string> taken;
+  for (auto& element : reader.all("color")) {
+    o.colors.push_back(readColor(element));
+    const std::string& name = o.colors.back().name;
+    if (!name.empty() && !taken.insert(name).second) element.errorAt("name", "is taken by another colour; change one");
+  }
+  constexpr std::size_t kColorsMax = 32;
+  if (o.colors.empty() || o.colors.size() > kColorsMax) {
+    reader.error("looks for " + std::to_string(o.colors.size()) + " colours; give it 1 to " +
+                 std::to_string(kColorsMax) + ", such as <color name=\"gold\" rgb=\"1 0.8 0.1\"/>");
+  }
+  return o;
+}
+
+std::unique_ptr<Sensor> makeBlobFinder(const BlobFinderOptions& options,
+                                       std::span<const std::shared_ptr<const Sensor>> mounted) {
+  for (std::size_t slot = mounted.size(); slot-- > 0;) {
+    const SensorInfo& info = mounted[slot]->info();
+    if (info.kind != SensorKind::camera || (!options.camera.empty() && info.label != options.camera)) continue;
+    return std::make_unique<BlobFinder>(options, info, slot);
+  }
+  return nullptr;
+}
+
+std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<SoughtColor>& colors, unsigned pixels_min) {
+  std::vector<Blob> blobs(colors.size());
+  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8U, const_cast<char*>(jpeg.data()));
+  const cv::Mat picture = jpeg.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_COLOR);
+  cv::Mat hsv;
+  if (!picture.empty()) cv::cvtColor(picture, hsv, cv::COLOR_BGR2HSV_FULL);
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    if (!hsv.empty()) blobs[i] = largestIn(maskOf(hsv, colors[i]), pixels_min);
+    blobs[i].color = colors[i].name;
+  }
+  return blobs;
+}
+
+}  // namespace robosim

@@ -1,0 +1,28 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include "base/xml_reader.h"
+#include "sensors/image_source.h"
+#include "sensors/sensor.h"
+
+namespace robosim {
+
+/// A colour camera. Its pictures come from the Snapshot's ImageSource; without one it takes none.
+struct CameraOptions {
+  std::string label = "camera";
+  CameraView view{.info = {.width_px = 320, .height_px = 240, .field_of_view_rad = 60 * (M_PI / 180), .rate_hz = 10},
+                  .robot_from_camera = {},
+                  .jpeg_quality = 85};
+
+  /// Reads <camera>.
+  static CameraOptions read(XmlReader&);
+};
+
+std::unique_ptr<Sensor> makeCamera(const CameraOptions&);
+
+/// Whether a camera of this rate takes a picture in a step: the first in step 0, and then in the first step that ends
+/// no earlier than it is due. A rate beyond that of the steps gives one in each.
+bool takesPicture(double rate_hz, const SimTime& now);
+
+}  // namespace robosim
