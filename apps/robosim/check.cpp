@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 
 #include "maze/controllers.h"
+#include "remote/robot_list.h"
 #include "robosim/local_run.h"
 #include "robosim/subcommands.h"
 #include "robosim/text.h"
 #include "robots/fleet.h"
-#include "world/robot_list.h"
 #include "world/world_file.h"
 
 namespace robosim {

@@ -29,6 +29,7 @@ int main(int argc, char** argv) {
   robosim::addRun(program);
   robosim::addServe(program);
   robosim::addRobot(program);
+  robosim::addRemote(program);
   robosim::addGeometry(program);
   robosim::addControl(program);
   robosim::addView(program);

@@ -13,6 +13,7 @@ enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 2 };
 void addRun(CLI::App& program);
 void addServe(CLI::App& program);
 void addRobot(CLI::App& program);
+void addRemote(CLI::App& program);
 void addGeometry(CLI::App& program);
 void addControl(CLI::App& program);
 void addView(CLI::App& program);

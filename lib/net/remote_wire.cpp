@@ -18,6 +18,16 @@ void checkFinite(double value, const char* name) {
 
 }  // namespace
 
+void checkText(const std::string& text, std::size_t most_bytes, const char* what) {
+  if (text.size() > most_bytes) {
+    throw WireError(std::string(what) + " of " + std::to_string(text.size()) + " bytes; the most is " +
+                    std::to_string(most_bytes));
+  }
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
+    throw WireError(std::string(what) + " with control characters");
+  }
+}
+
 void encode(const RemoteOrder& order, wire::ToRobot& out) {
   out.Clear();
   out.set_type(static_cast<wire::RemoteType>(order.type));
@@ -26,6 +36,7 @@ void encode(const RemoteOrder& order, wire::ToRobot& out) {
   out.set_driver(order.driver);
   out.set_autonomous(order.autonomous);
   out.set_only_watch(order.only_watch);
+  out.set_why(order.why);
   if (order.speed_mps) out.set_speed_mps(*order.speed_mps);
   if (order.turn_radps) out.set_turn_radps(*order.turn_radps);
   if (order.laser_pan_rad) out.set_laser_pan_rad(*order.laser_pan_rad);
@@ -39,17 +50,13 @@ RemoteOrder decode(const wire::ToRobot& in) {
   RemoteOrder order;
   order.type = static_cast<RemoteType>(in.type());
   if (order.type == RemoteType::init) checkProtocol(in.protocol());
-  if (in.driver().size() > kMaxDriverBytes) {
-    throw WireError("a driver's name of " + std::to_string(in.driver().size()) + " bytes; the most is " +
-                    std::to_string(kMaxDriverBytes));
-  }
-  if (std::any_of(in.driver().begin(), in.driver().end(), [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
-    throw WireError("a driver's name with control characters");
-  }
+  checkText(in.driver(), kMaxDriverBytes, "a driver's name");
+  checkText(in.why(), kMaxWhyBytes, "a reason to stop");
   order.robot = in.robot();
   order.driver = in.driver();
   order.autonomous = in.autonomous();
   order.only_watch = in.only_watch();
+  order.why = in.why();
   checkFinite(in.speed_mps(), "speed_mps");
   checkFinite(in.turn_radps(), "turn_radps");
   checkFinite(in.laser_pan_rad(), "laser_pan_rad");

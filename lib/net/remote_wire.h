@@ -39,6 +39,7 @@ struct RemoteOrder {
   std::optional<double> speed_mps{};     ///< drive: nullopt for what it is
   std::optional<double> turn_radps{};    ///< drive; counter-clockwise
   std::optional<float> laser_pan_rad{};  ///< drive
+  std::string why{};                     ///< stop: when it is not the driver who wants it
 };
 
 /// How a robot stands with its remote controls.
@@ -55,8 +56,13 @@ struct RemoteState {
   bool operator==(const RemoteState&) const = default;
 };
 
-/// The most of a driver's name.
+/// The most of a driver's name, and of a reason to stop.
 constexpr std::size_t kMaxDriverBytes = 60;
+constexpr std::size_t kMaxWhyBytes = 120;
+
+/// @param what it is, for errors
+/// @throws WireError for a text of a person that is longer, or has control characters, which would garble a log.
+void checkText(const std::string& text, std::size_t most_bytes, const char* what);
 
 void encode(const RemoteOrder& order, wire::ToRobot& out);
 /// @throws WireError for an unknown type, another protocol, a number that is not finite, or too long a name.

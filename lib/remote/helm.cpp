@@ -57,8 +57,8 @@ void Helm::obey(const RemoteOrder& order, Clock::time_point when) {
       if (order.laser_pan_rad) laser_pan_rad_ = *order.laser_pan_rad;
       break;
     case RemoteType::stop:
-      stop("");
-      break;
+      if (speed_mps_ != 0 || turn_radps_ != 0 || order.why.empty()) stop(order.why);
+      return;
     default:
       return;  // no steering
   }

@@ -99,6 +99,17 @@ TEST_F(HelmTest, StopsWhenTold) {
   EXPECT_EQ(helm.whyStopped(), "");
 }
 
+TEST_F(HelmTest, SaysWhyItWasToldToStopUnlessTheDriverWantsIt) {
+  helm.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
+  EXPECT_EQ(helm.whyStopped(), "") << "it stood anyway";
+  drive(1, 1);
+  helm.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
+  EXPECT_EQ(command(), (Command{.by_driver = true}));
+  EXPECT_EQ(helm.whyStopped(), "Anna's page is hidden");
+  order(RemoteType::stop);
+  EXPECT_EQ(helm.whyStopped(), "");
+}
+
 TEST_F(HelmTest, StopsWhenItsDriverIsSilentForLongerThanTheDeadMansTimeAndSaysWhy) {
   drive(1, 0.5);
   now += 500ms;

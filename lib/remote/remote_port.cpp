@@ -121,7 +121,7 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ToRobot, wire::
 
   bool hasRobot() const { return seat && seat->driver == this; }
   grpc::Status may(Right right, const std::string& robot) const {
-    return port_.options.access.check(*context(), right, std::span(&robot, 1));
+    return port_.options.access.check(*context(), right, std::span(&robot, right == Right::drive ? 1 : 0));
   }
   std::string who() const {
     return (name.empty() ? "a remote control" : inQuotes(name)) + " (" + peer + ")" +

@@ -1,4 +1,4 @@
-#include "world/robot_list.h"
+#include "remote/robot_list.h"
 
 #include <cmath>
 #include <optional>

@@ -1,0 +1,49 @@
+// What the drawings share: sharp lines on any screen, and the colours of the page's scheme.
+
+const scheme = matchMedia('(prefers-color-scheme: dark)');
+let colors = {};
+
+function readColors() {
+  const style = getComputedStyle(document.documentElement);
+  const names = ['text', 'muted', 'line', 'grid', 'surface', 'raised', 'accent', 'bad', 'gold', 'sonar', 'laser', 'robot', 'heat', 'good'];
+  colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
+}
+
+scheme.addEventListener('change', readColors);
+
+export function color(name) {
+  if (!colors.text) readColors();
+  return colors[name];
+}
+
+// The drawing area in CSS pixels: {g, width, height}; cleared. Null while it is not shown.
+export function begin(canvas) {
+  const { clientWidth: width, clientHeight: height } = canvas;
+  if (!width || !height) return null;
+  const ratio = devicePixelRatio || 1;
+  const [w, h] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width !== w || canvas.height !== h) [canvas.width, canvas.height] = [w, h];
+  const g = canvas.getContext('2d');
+  g.setTransform(ratio, 0, 0, ratio, 0, 0);
+  g.clearRect(0, 0, width, height);
+  g.font = '11px system-ui, sans-serif';
+  return { g, width, height };
+}
+
+// A robot seen from above, at the origin and looking along x: its body, and where its front is.
+export function drawRobot(g, radius, fill, stroke, lineWidth) {
+  g.beginPath();
+  g.arc(0, 0, radius, 0, 2 * Math.PI);
+  g.fillStyle = fill;
+  g.fill();
+  g.lineWidth = lineWidth;
+  g.strokeStyle = stroke;
+  g.stroke();
+  g.beginPath();
+  g.moveTo(0.72 * radius, 0);
+  g.lineTo(-0.3 * radius, 0.48 * radius);
+  g.lineTo(-0.3 * radius, -0.48 * radius);
+  g.closePath();
+  g.fillStyle = stroke;
+  g.fill();
+}

@@ -1,0 +1,60 @@
+// How warm it is, and how that has changed over the last minute of simulated time.
+
+import { begin, color } from './canvas.js';
+
+const SPAN_S = 60;
+const HOT = 1;
+
+export class Heat {
+  #history = [];  // [time, heat]
+
+  constructor(label, canvas) {
+    this.label = label;
+    this.canvas = canvas;
+    this.most = 10;  // top of the drawing
+  }
+
+  reset(hasSensor) {
+    this.#history = [];
+    this.most = 10;
+    this.label.textContent = hasSensor ? '–' : 'none';
+    this.draw();
+  }
+
+  take(time_s, heat) {
+    if (this.#history.length && this.#history.at(-1)[0] > time_s) this.#history = [];
+    this.#history.push([time_s, heat]);
+    while (this.#history[0][0] < time_s - SPAN_S) this.#history.shift();
+    this.most = Math.max(10, ...this.#history.map(([, value]) => value));
+    this.label.textContent = heat.toFixed(1);
+    this.label.classList.toggle('hot', heat > HOT);
+  }
+
+  draw() {
+    const area = begin(this.canvas);
+    if (!area) return;
+    const { g, width, height } = area;
+    g.strokeStyle = color('grid');
+    g.beginPath();
+    g.moveTo(0, height - 0.5);
+    g.lineTo(width, height - 0.5);
+    g.stroke();
+    if (this.#history.length < 2) return;
+    const now = this.#history.at(-1)[0];
+    const x = (time) => width - ((now - time) / SPAN_S) * width;
+    const y = (heat) => height - 1 - (heat / this.most) * (height - 4);
+    g.beginPath();
+    for (const [time, heat] of this.#history) g.lineTo(x(time), y(heat));
+    g.strokeStyle = color('heat');
+    g.lineWidth = 2;
+    g.lineJoin = 'round';
+    g.stroke();
+    g.lineTo(x(now), height);
+    g.lineTo(x(this.#history[0][0]), height);
+    g.closePath();
+    g.fillStyle = color('heat');
+    g.globalAlpha = 0.14;
+    g.fill();
+    g.globalAlpha = 1;
+  }
+}

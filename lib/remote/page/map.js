@@ -1,0 +1,77 @@
+// All robots from above: the truth, which a driver should not see, and so only shown when asked for.
+
+import { begin, color, drawRobot } from './canvas.js';
+
+export class Map2D {
+  #map = null;
+  #poses = [];
+
+  constructor(card, canvas, note) {
+    this.card = card;
+    this.canvas = canvas;
+    this.note = note;
+  }
+
+  take(map) {
+    this.#map = map.problem || !map.robots ? null : map;
+    this.#poses = [];
+    this.note.textContent = map.problem || map.name || '';
+    if (this.#map) {
+      const shape = (map.x_m[1] - map.x_m[0]) / (map.y_m[1] - map.y_m[0]);
+      this.card.style.setProperty('--map-shape', Math.max(0.8, Math.min(2, shape)));
+    }
+    this.draw('');
+  }
+
+  takePoses(poses) {
+    this.#poses = poses;
+    this.canvas.dataset.robots = JSON.stringify(poses.map((robot) => robot.at));
+  }
+
+  // `primary`: the name of the robot that is driven
+  draw(primary) {
+    const area = begin(this.canvas);
+    if (!area || !this.#map) return;
+    const { g, width, height } = area;
+    const { x_m: [left, right], y_m: [bottom, top], things, robots } = this.#map;
+    const unit = Math.min((width - 12) / (right - left), (height - 12) / (top - bottom));
+    g.save();
+    g.translate(width / 2, height / 2);
+    g.scale(unit, -unit);
+    g.translate(-(left + right) / 2, -(bottom + top) / 2);
+    g.strokeStyle = color('line');
+    g.lineWidth = 1 / unit;
+    g.strokeRect(left, bottom, right - left, top - bottom);
+    for (const thing of things) this.#drawThing(g, thing);
+    robots.forEach((robot, i) => {
+      const pose = this.#poses[i];
+      if (!pose) return;
+      g.save();
+      g.translate(pose.at[0], pose.at[1]);
+      g.rotate(pose.at[2]);
+      const radius = Math.max(robot.radius_m, 5 / unit);
+      drawRobot(g, radius, robot.color, '#fff', 1.2 / unit);
+      if (robot.name === primary) {
+        g.beginPath();
+        g.arc(0, 0, radius + 4 / unit, 0, 2 * Math.PI);
+        g.strokeStyle = color('accent');
+        g.lineWidth = 2.5 / unit;
+        g.stroke();
+      }
+      g.restore();
+    });
+    g.restore();
+  }
+
+  #drawThing(g, thing) {
+    g.save();
+    g.translate(thing.at[0], thing.at[1]);
+    g.rotate(thing.at[2]);
+    g.fillStyle = thing.hot ? color('gold') : color('muted');
+    g.beginPath();
+    if (thing.radius_m) g.arc(0, 0, thing.radius_m, 0, 2 * Math.PI);
+    else g.rect(-thing.length_m / 2, -thing.width_m / 2, thing.length_m, thing.width_m);
+    g.fill();
+    g.restore();
+  }
+}

@@ -1,0 +1,264 @@
+// A robot's remote port, and the link that a remote control has with it, over real connections.
+#include "remote/remote_port.h"
+
+#include <gtest/gtest.h>
+
+#include "net/remote.grpc.pb.h"
+#include "remote/robot_link.h"
+#include "remote/test_robot.h"
+
+namespace robosim {
+namespace {
+
+std::unique_ptr<RobotLink> linkTo(const TestRobot& robot, const std::string& token = "",
+                                  const std::string& name = "Pioneer1") {
+  DialOptions dialled;
+  dialled.address = robot.address();
+  dialled.token = token;
+  return std::make_unique<RobotLink>(name, dialled, [] {});
+}
+
+struct RemotePortTest : testing::Test {
+  TestRobot robot{"Pioneer1"};
+  std::unique_ptr<RobotLink> anna = linkTo(robot);
+
+  void wait(const std::function<bool()>& until) {
+    waitUntil(until, [&] { robot.step(); });
+  }
+  void waitUp(RobotLink& link) {
+    wait([&] { return link.news().is_up; });
+  }
+  void connect(RobotLink& link, const std::string& driver, bool autonomous = false) {
+    link.claim(driver, autonomous);
+    link.connect();
+    waitUp(link);
+  }
+  static void drive(RobotLink& link, double speed_mps) {
+    RemoteOrder order{.type = RemoteType::drive};
+    order.speed_mps = speed_mps;
+    link.send(order);
+  }
+  double commandedSpeed() const { return robot.hardware->lastCommand().speed_mps; }
+};
+
+TEST_F(RemotePortTest, TellsWhoConnectsWhatTheRobotIs) {
+  connect(*anna, "Anna");
+  const RobotNews news = anna->news();
+  EXPECT_EQ(news.world, "maze");
+  EXPECT_EQ(news.period_s, 0.1);
+  EXPECT_EQ(news.info->name, "Pioneer1");
+  EXPECT_EQ(news.info->sensors->size(), 4u);
+  EXPECT_TRUE(news.state.is_yours);
+  EXPECT_EQ(news.state.driver, "Anna");
+  EXPECT_FALSE(news.state.autonomous);
+}
+
+TEST_F(RemotePortTest, LetsADriverSteerAndHandTheRobotToItsController) {
+  connect(*anna, "Anna");
+  drive(*anna, 0.5);
+  wait([&] { return commandedSpeed() == 0.5; });
+  anna->send({.type = RemoteType::init_ack, .autonomous = true});
+  wait([&] { return robot.hardware->lastCommand() == Command{.turn_radps = 1}; });
+  wait([&] { return anna->news().state.autonomous; });
+}
+
+TEST_F(RemotePortTest, StopsTheRobotWhoseDriverHangsUpAndSaysWhy) {
+  connect(*anna, "Anna");
+  drive(*anna, 0.5);
+  wait([&] { return commandedSpeed() == 0.5; });
+  anna.reset();
+  waitUntil([&] { return robot.log().find("Pioneer1 stops") != std::string::npos; }, [] {});
+  robot.step();
+  EXPECT_EQ(commandedSpeed(), 0);
+  EXPECT_NE(robot.log().find("Pioneer1 stops: its remote control has hung up"), std::string::npos) << robot.log();
+}
+
+TEST_F(RemotePortTest, StopsTheRobotWhoseDriverIsSilentAndTellsThem) {
+  connect(*anna, "Anna");
+  drive(*anna, 0.5);
+  wait([&] { return commandedSpeed() == 0.5; });
+  wait([&] { return commandedSpeed() == 0; });
+  wait([&] { return anna->news().state.why_stopped == "nothing heard from Anna for 0.5 s"; });
+}
+
+TEST_F(RemotePortTest, TellsTheSecondDriverWhoDrivesAndLetsThemWatch) {
+  connect(*anna, "Anna");
+  const auto ben = linkTo(robot);
+  connect(*ben, "Ben");
+  EXPECT_FALSE(ben->news().state.is_yours);
+  EXPECT_EQ(ben->news().state.driver, "Anna");
+  drive(*ben, 1);
+  drive(*anna, 0.25);
+  wait([&] { return commandedSpeed() == 0.25; });
+  ben->setLive(true);
+  wait([&] { return ben->news().update != nullptr; });
+
+  anna.reset();
+  wait([&] { return ben->news().state.driver.empty(); });
+  ben->claim("Ben", false);
+  wait([&] { return ben->news().state.is_yours; });
+  drive(*ben, 1);
+  wait([&] { return commandedSpeed() == 1; });
+}
+
+TEST_F(RemotePortTest, KeepsSendingNewReadingsWhileTheyAreWanted) {
+  connect(*anna, "Anna");
+  EXPECT_EQ(anna->news().update, nullptr);
+  anna->setLive(true);
+  robot.hardware->feelHeat(7);
+  for (int i = 0; i < 3; ++i) {
+    const auto last = anna->news().update;
+    wait([&] { return anna->news().update != last; });
+  }
+  EXPECT_EQ(std::get<Scalar>(anna->news().update->readings.measurements[3]).value, 7);
+  anna->setLive(false);
+  robot.hardware->feelHeat(9);
+  anna->send({.type = RemoteType::req_heat});  // what was asked for before has come when this has
+  wait([&] { return anna->news().answers[0] != nullptr; });
+  const auto step = anna->news().update->readings.time.step;
+  for (int i = 0; i < 10; ++i) robot.step();
+  anna->send({.type = RemoteType::req_sonar});
+  wait([&] { return anna->news().answers[2] != nullptr; });
+  EXPECT_LE(anna->news().update->readings.time.step, step + 1);
+}
+
+TEST_F(RemotePortTest, AnswersARequestWithTheNextReading) {
+  connect(*anna, "Anna");
+  robot.hardware->feelHeat(3);
+  robot.hardware->hearLaser(2);
+  for (const auto type : {RemoteType::req_heat, RemoteType::req_laser, RemoteType::req_sonar})
+    anna->send({.type = type});
+  wait([&] { return anna->news().answers[0] && anna->news().answers[1] && anna->news().answers[2]; });
+  EXPECT_EQ(std::get<Scalar>(anna->news().answers[0]->measurement).value, 3);
+  EXPECT_EQ(std::get<Echoes>(anna->news().answers[1]->measurement)[0].range_m, 2);
+  EXPECT_EQ(std::get<Echoes>(anna->news().answers[2]->measurement).size(), 16u);
+  EXPECT_EQ(anna->news().answers[2]->sensor, 1u);
+}
+
+TEST_F(RemotePortTest, SaysThatARobotHasNoSuchSensor) {
+  auto& info = robot.hardware->mutableInfo();
+  info.sensors = std::make_shared<std::vector<SensorInfo>>(1, (*info.sensors)[0]);
+  robot.hardware->mutableReadings().measurements.resize(1);
+  connect(*anna, "Anna");
+  anna->send({.type = RemoteType::req_heat});
+  wait([&] { return anna->news().answers[0] != nullptr; });
+  EXPECT_FALSE(anna->news().answers[0]->has_sensor);
+}
+
+TEST_F(RemotePortTest, DoesNotSkipAPictureForAControlThatMissesItsStep) {
+  auto sensors = *robot.hardware->info().sensors;
+  sensors.emplace_back();
+  sensors.back().kind = SensorKind::camera;
+  sensors.back().label = "camera";
+  sensors.back().beams.emplace_back();
+  sensors.back().camera = {.width_px = 320, .height_px = 240, .field_of_view_rad = 1, .rate_hz = 10};
+  TestRobot seeing("Pioneer2");
+  seeing.hardware->mutableInfo().sensors = std::make_shared<std::vector<SensorInfo>>(sensors);
+  auto& readings = seeing.hardware->mutableReadings();
+  readings.measurements.emplace_back(Image{});
+  seeing.close();
+  seeing.reopen();
+  auto ben = linkTo(seeing, "", "Pioneer2");
+  ben->claim("Ben", true);
+  ben->connect();
+  waitUntil([&] { return ben->news().is_up; }, [&] { seeing.step(); });
+
+  const std::string jpeg = "\xFF\xD8 a picture \xFF\xD9";
+  std::get<Image>(readings.measurements[4]).jpeg = jpeg;
+  const auto step = readings.time.step;
+  seeing.step();
+  std::get<Image>(readings.measurements[4]).jpeg.clear();
+  for (int i = 0; i < 5; ++i) seeing.step();  // steps without a picture, and nobody has asked yet
+  ben->setLive(true);
+  waitUntil([&] { return ben->news().picture != nullptr; }, [&] { seeing.step(); });
+  EXPECT_EQ(ben->news().picture->jpeg, jpeg);
+  EXPECT_EQ(ben->news().picture->step, step);
+  const auto first = ben->news().picture;
+  const auto update = ben->news().update;
+  waitUntil([&] { return ben->news().update != update; }, [&] { seeing.step(); });
+  EXPECT_EQ(ben->news().picture, first) << "it comes once";
+}
+
+TEST_F(RemotePortTest, TellsEveryoneWhoHasWonAndThatTheRunIsOver) {
+  connect(*anna, "Anna");
+  const auto ben = linkTo(robot);
+  connect(*ben, "Ben");
+  robot.hardware->mutableReadings().winner = "Pioneer1";
+  robot.step();
+  robot.sayGoodbye();
+  for (RobotLink* link : {anna.get(), ben.get()}) {
+    waitUntil([&] { return !link->isCalling(); }, [] {});
+    EXPECT_EQ(link->news().state.winner, "Pioneer1");
+    EXPECT_EQ(link->news().problem, "the run is over");
+  }
+}
+
+TEST_F(RemotePortTest, TellsOneWhoCallsTheWrongRobotOrNobody) {
+  const auto wrong = linkTo(robot, "", "Scout1");
+  wrong->claim("Anna", false);
+  wrong->connect();
+  waitUntil([&] { return !wrong->isCalling(); }, [] {});
+  EXPECT_EQ(wrong->news().problem, "here is no robot 'Scout1' but Pioneer1; is its port right in the robot list?");
+  EXPECT_TRUE(wrong->news().was_refused);
+
+  robot.close();
+  anna->claim("Anna", false);
+  anna->connect();
+  waitUntil([&] { return !anna->isCalling(); }, [] {});
+  EXPECT_EQ(anna->news().problem,
+            "no robot answers at " + robot.address() + "; is 'robosim robot Pioneer1 --remote-port …' running?");
+  EXPECT_FALSE(anna->news().was_refused);
+}
+
+/// Sends one message, as a program that is none of ours might. @return how the call ended
+grpc::Status statusAfter(const TestRobot& robot, const wire::ToRobot& message) {
+  DialOptions dialled;
+  dialled.address = robot.address();
+  const auto stub = wire::RemoteControl::NewStub(dial(dialled));
+  grpc::ClientContext context;
+  const auto stream = stub->Control(&context);
+  stream->Write(message);
+  wire::FromRobot in;
+  while (stream->Read(&in)) {
+  }
+  return stream->Finish();
+}
+
+TEST_F(RemotePortTest, HangsUpOnNonsenseAndNobodyElseNotices) {
+  connect(*anna, "Anna");
+  wire::ToRobot message;
+  message.set_type(wire::DRIVE);
+  EXPECT_EQ(statusAfter(robot, message).error_message(), "the first message of a remote control must be its INIT");
+  message.set_type(static_cast<wire::RemoteType>(99));
+  EXPECT_EQ(statusAfter(robot, message).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  message.set_type(wire::INIT);
+  message.set_protocol(9);
+  EXPECT_EQ(statusAfter(robot, message).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
+  drive(*anna, 0.5);
+  wait([&] { return commandedSpeed() == 0.5; });
+}
+
+TEST(RemotePortAccess, LetsEachTokenDoWhatItsRoleMay) {
+  const std::string viewer = "viewer-0123456789abcdef", driver = "driver-0123456789abcdef",
+                    other = "others-0123456789abcdef";
+  TestRobot robot("Pioneer1",
+                  Access::parse(viewer + " viewer\n" + driver + " robot Pioneer1\n" + other + " robot X\n", "tokens"));
+  const auto news_of = [&](const std::string& token) {
+    const auto link = linkTo(robot, token);
+    link->claim("Anna", false);
+    link->connect();
+    waitUntil([&] { return link->news().is_up || !link->isCalling(); }, [&] { robot.step(); });
+    return link->news();
+  };
+  EXPECT_TRUE(news_of(driver).state.is_yours);
+  waitUntil([&] { return robot.robot.state().driver.empty(); }, [] {});
+  EXPECT_EQ(news_of(viewer).problem, "");
+  EXPECT_FALSE(news_of(viewer).state.is_yours) << "may look on";
+  EXPECT_EQ(news_of(other).problem, "the token is not for robot 'Pioneer1' but for X; use another");
+  EXPECT_NE(news_of("").problem.find("asks for a token"), std::string::npos);
+  EXPECT_NE(news_of("wrong-0123456789abcdef").problem.find("none of those known"), std::string::npos);
+  EXPECT_EQ(robot.log().find("0123456789abcdef"), std::string::npos) << "no token is ever told";
+}
+
+}  // namespace
+}  // namespace robosim
