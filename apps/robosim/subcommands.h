@@ -20,6 +20,7 @@ void addBench(CLI::App& program);
 ///@}
 
 /// `robosim bench gold`, `robosim bench network` and `robosim bench speed`
+void addBenchCamera(CLI::App& bench);
 void addBenchGold(CLI::App& bench);
 void addBenchNetwork(CLI::App& bench);
 void addBenchSpeed(CLI::App& bench);
