@@ -130,7 +130,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         picture_->renew();
       });
     }
-    status_ = bar_->add<nanogui::Label>("");
+    status_ = bar_->add<nanogui::Label>("0 s");
     status_->setFixedWidth(260);
   }
 
