@@ -2,6 +2,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 
 #include "base/error_list.h"
 #include "base/xml_element.h"
@@ -33,6 +34,16 @@ CLI::Validator seedNumber() {
 
 CLI::Validator fileName() {
   return {[](std::string& text) -> std::string { return text.empty() ? "the file's name is empty" : ""; }, ""};
+}
+
+double speedNumber(const std::string& speed) {
+  if (speed == "max") return 0;
+  char* end = nullptr;
+  const double number = std::strtod(speed.c_str(), &end);
+  if (speed.empty() || *end != '\0' || !(number >= 0.001 && number <= 1e6)) {
+    throw ConfigError("--speed " + speed + ": must be 'max' or a number in [0.001, 1000000]; 1 is real time");
+  }
+  return number;
 }
 
 void addPatience(CLI::App& command, double& patience_s) {

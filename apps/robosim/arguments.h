@@ -15,6 +15,9 @@ CLI::Validator seedNumber();
 /// Refuses an empty text, as an unset shell variable leaves behind.
 CLI::Validator fileName();
 
+/// What `--speed` says: simulated seconds a second; 0 for "max", as many as it can. @throws ConfigError
+double speedNumber(const std::string& speed);
+
 /// Adds `--patience SECONDS`: how long a client calls again when its connection breaks.
 void addPatience(CLI::App& command, double& patience_s);
 

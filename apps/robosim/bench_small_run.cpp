@@ -52,7 +52,7 @@ class SmallRun {
 }  // namespace
 
 SmallRunFigures benchSmallRun(double least_s) {
-  const ScratchFolder folder;
+  const auto folder = ScratchFolder::inMemory();
   const auto costs = inOwnProcess([&] {
                        SmallRun plain({});
                        SmallRun recorded(folder.path() / "opho2_1.rawlog");

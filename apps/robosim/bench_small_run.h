@@ -7,7 +7,7 @@ namespace robosim {
 /// have halted, one thread.
 struct SmallRunFigures {
   Cost plain;
-  Cost recorded;  ///< the same with a recording of everything, from its first byte until its file is whole
+  Cost recorded;  ///< the same with a recording of everything, to memory, from its first byte until its file is whole
 };
 
 /// In turns, in a process of its own.

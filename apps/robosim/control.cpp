@@ -5,7 +5,6 @@
 #include "base/error_list.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
-#include "robosim/run_outputs.h"
 #include "robosim/subcommands.h"
 #include "robosim/text.h"
 #include "server/control_panel.h"
@@ -71,12 +70,6 @@ void showStatus(const Arguments& a) {
   } else {
     std::cout << pageOn(panel.status());
   }
-}
-
-double speedNumber(const std::string& speed) {
-  RunArguments run;
-  run.speed = speed;
-  return run.speedNumber();
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ int main(int argc, char** argv) {
   robosim::addRobot(program);
   robosim::addGeometry(program);
   robosim::addControl(program);
+  robosim::addView(program);
+  robosim::addReplay(program);
   robosim::addCheck(program);
   robosim::addBench(program);
 

@@ -3,6 +3,7 @@
 #include <thread>
 
 #include "recording/recording_error.h"
+#include "robosim/arguments.h"
 #include "robosim/interrupt.h"
 #include "robosim/local_run.h"
 #include "robosim/progress.h"
@@ -35,7 +36,7 @@ bool waitUntil(std::chrono::time_point<Clock, std::chrono::duration<double>> the
 }
 
 EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& interrupt, RunOutputs& outputs) {
-  const double speed = arguments.speedNumber();
+  const double speed = speedNumber(arguments.speed);
   Progress progress;
   const auto start = Clock::now();
   outputs.observe(run.environment());
@@ -58,8 +59,12 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
 void runWorld(const RunArguments& arguments) {
   const Interrupt interrupt;
   arguments.check();
-  LocalRun run(loadWorldToRun(arguments.world, arguments.run.controller), arguments.run);
-  RunOutputs outputs(arguments, run.environment());
+  std::optional<WorldSource> source;  // a recording keeps what it is of
+  if (!arguments.record.empty()) source = readWorldSource(arguments.world);
+  LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
+                      : loadWorldToRun(arguments.world, arguments.run.controller),
+               arguments.run);
+  RunOutputs outputs(arguments, run.environment(), source ? noteOf(*source, run, arguments.run) : RunNote());
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {

@@ -1,6 +1,5 @@
 #include "robosim/run_outputs.h"
 
-#include <cstdlib>
 #include <iostream>
 
 #include "maze/controllers.h"
@@ -11,13 +10,14 @@
 namespace robosim {
 namespace {
 
-std::unique_ptr<RawlogWriter> openRecording(const RunArguments& arguments, const Environment& environment) {
+std::unique_ptr<RawlogWriter> openRecording(const RunArguments& arguments, const Environment& environment,
+                                            const RunNote& note) {
   if (arguments.record.empty()) return nullptr;
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
   const auto format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations;
   const auto images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded;
-  return std::make_unique<RawlogWriter>(arguments.record, robots, format, images);
+  return std::make_unique<RawlogWriter>(arguments.record, robots, format, images, note.text());
 }
 
 /// The picture comes last, so that a disk that is full by now costs nobody the summary; and it was no bad input.
@@ -31,18 +31,8 @@ void draw(const std::string& picture, const Environment& environment, const Trac
 
 }  // namespace
 
-double RunArguments::speedNumber() const {
-  if (speed == "max") return 0;
-  char* end = nullptr;
-  const double number = std::strtod(speed.c_str(), &end);
-  if (speed.empty() || *end != '\0' || !(number >= 0.001 && number <= 1e6)) {
-    throw ConfigError("--speed " + speed + ": must be 'max' or a number in [0.001, 1000000]; 1 is real time");
-  }
-  return number;
-}
-
 void RunArguments::check() const {
-  speedNumber();
+  speedNumber(speed);
   refuseSameFile({{"WORLD", world}, {"--record", record}, {"--picture", picture}});
 }
 
@@ -100,8 +90,8 @@ std::string controllersHelp() {
   return text + listing(rows);
 }
 
-RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environment)
-    : arguments_(arguments), recording_(openRecording(arguments, environment)) {
+RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note)
+    : arguments_(arguments), note_(std::move(note)), recording_(openRecording(arguments, environment, note_)) {
   if (arguments.picture.empty()) return;
   checkPlanFile(arguments.picture);
   tracks_ = std::make_unique<Tracks>(environment.robotCount());
@@ -118,13 +108,18 @@ void RunOutputs::keep(const Environment& environment) {
 }
 
 void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late) {
-  if (recording_) recording_->close();
   RunSummary summary = RunSummary::of(run);
   summary.wall_s = wall_s;
   summary.world = arguments_.world;
   summary.seed = arguments_.run.environment.seed;
   summary.ended_by = ended_by;
   summary.late = late;
+  if (recording_) {
+    note_.outcome = summary.json();
+    // The same run is the same file, however long it took.
+    for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
+    recording_->close(note_.text());
+  }
   if (arguments_.json) {
     std::cout << summary.json().dump(2, ' ', false, nlohmann::json::error_handler_t::replace) << std::endl;
   } else {

@@ -2,11 +2,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "recording/rawlog_writer.h"
 #include "robosim/local_run.h"
+#include "robosim/run_note.h"
 #include "robosim/run_summary.h"
 #include "robosim/tracks.h"
 
@@ -24,8 +26,6 @@ struct RunArguments {
   std::string picture;
   bool json = false;
 
-  /// Simulated seconds a second; 0 for as many as it can. @throws ConfigError
-  double speedNumber() const;
   /// @throws ConfigError for a slip that is better told before the work begins.
   void check() const;
   /// Whether the run has had its time.
@@ -40,8 +40,8 @@ std::string controllersHelp();
 /// What a run leaves behind: rawlog, picture and summary, as the arguments would have it.
 class RunOutputs {
  public:
-  /// Opens the recording. @throws ConfigError
-  RunOutputs(const RunArguments& arguments, const Environment& environment);
+  /// Opens the recording. @param note that it begins with @throws ConfigError
+  RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note);
 
   /// Keeps the step that stands. @throws RecordingError
   void observe(const Environment& environment);
@@ -53,6 +53,8 @@ class RunOutputs {
 
  private:
   const RunArguments& arguments_;
+  RunNote note_;
+  std::vector<Command> commands_;  ///< of the step that stands
   std::unique_ptr<RawlogWriter> recording_;
   std::unique_ptr<Tracks> tracks_;
 };

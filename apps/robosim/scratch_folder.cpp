@@ -3,10 +3,19 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include <unistd.h>
+
 namespace robosim {
 
-ScratchFolder::ScratchFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "robosim-XXXXXX").string();
+ScratchFolder::ScratchFolder() : ScratchFolder(std::filesystem::temp_directory_path()) {}
+
+ScratchFolder ScratchFolder::inMemory() {
+  const char* const memory = "/dev/shm";
+  return access(memory, W_OK) == 0 ? ScratchFolder(std::filesystem::path(memory)) : ScratchFolder();
+}
+
+ScratchFolder::ScratchFolder(const std::filesystem::path& parent) {
+  std::string name = (parent / "robosim-XXXXXX").string();
   if (!mkdtemp(name.data())) throw std::runtime_error(name + ": no such folder could be made; see TMPDIR");
   path_ = name;
 }

@@ -8,6 +8,8 @@ class ScratchFolder {
  public:
   /// @throws std::runtime_error when there is no room for one
   ScratchFolder();
+  /// In memory, where the system has such a place: to measure what a program does, not how soon a disk has all of it.
+  static ScratchFolder inMemory();
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
@@ -15,6 +17,8 @@ class ScratchFolder {
   const std::filesystem::path& path() const { return path_; }
 
  private:
+  explicit ScratchFolder(const std::filesystem::path& parent);
+
   std::filesystem::path path_;
 };
 

@@ -77,7 +77,7 @@ struct Stage {
         networked(networkedRobots(world.fleet, a)),
         run(std::move(world), arguments.run, networked),
         exhibit(run.environment(), source, arguments.run.environment.seed, networked),
-        outputs(arguments, run.environment()) {
+        outputs(arguments, run.environment(), noteOf(source, run, arguments.run, networked)) {
     outputs.observe(run.environment());
     if (a.pace == "realtime") late = 0;
   }
@@ -145,7 +145,7 @@ ServerOptions serverOptions(const Arguments& arguments) {
   if (!arguments.listener.insecure) refuseExposure(options.listen, options.tls.has_value(), !options.access.isOpen());
   options.step_deadline = std::chrono::milliseconds(std::llround(arguments.step_deadline_s * 1000));
   options.pace = arguments.pace == "realtime" ? Pace::realtime : Pace::lockstep;
-  options.speed = arguments.of_run.speedNumber();
+  options.speed = speedNumber(arguments.of_run.speed);
   options.is_paused = arguments.paused;
   options.log = [](const std::string& line) { std::cerr << "robosim serve: " + line + "\n"; };
   return options;

@@ -15,6 +15,8 @@ void addServe(CLI::App& program);
 void addRobot(CLI::App& program);
 void addGeometry(CLI::App& program);
 void addControl(CLI::App& program);
+void addView(CLI::App& program);
+void addReplay(CLI::App& program);
 void addCheck(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}

@@ -45,8 +45,7 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
   const bool in_one = left == right && bottom == top;
   for (int y = bottom; y <= top; ++y) {
     for (int x = left; x <= right; ++x) {
-      const bool on_rim = x == 0 || y == 0 || x == columns_ - 1 || y == rows_ - 1;
-      if (item.isCircle() || in_one || on_rim ||
+      if (item.isCircle() || in_one || isOnRim(x, y) ||
           reaches(item, area_.x_min + (x + 0.5) * cell_m_, area_.y_min + (y + 0.5) * cell_m_, cell_m_ / 2)) {
         visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
       }

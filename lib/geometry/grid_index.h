@@ -48,6 +48,11 @@ class GridIndex {
   /// The solids in a cell, in the order they were given.
   std::span<const Pack> cell(int column, int row) const { return cell(cellAt(column, row)); }
 
+  /// Whether a cell goes on outwards without end.
+  bool isOnRim(int column, int row) const {
+    return column == 0 || row == 0 || column == columns_ - 1 || row == rows_ - 1;
+  }
+
   /// Visits the packs of the cells that a ray goes through, in its order, until the next cell begins at or beyond
   /// reach() (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the
   /// rim go on outwards without end.

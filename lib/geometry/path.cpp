@@ -20,6 +20,7 @@ double dot(const TPoint2D& a, const TPoint2D& b) { return a.x * b.x + a.y * b.y;
 
 /// Where the centre would be after a share of the whole arc.
 TPoint2D onArc(const Path& path, double share) {
+  if (share == 0) return {path.world_from_start.x, path.world_from_start.y};
   const double half_turn = share * path.turn_rad / 2;
   const double sinc = half_turn == 0 ? 1 : std::sin(half_turn) / half_turn;
   const double chord = share * path.length_m * sinc;

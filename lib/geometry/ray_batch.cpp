@@ -104,6 +104,10 @@ void RayBatch::place(const RayFan& fan, const LevelFrame& world_from_fan, double
   farthest_m_ = range_m;
 }
 
+Front RayBatch::front() const {
+  return {center_, LevelFrame(world_from_fan_, pan_rad_).turnToWorld(fan_->facing()), spread_m_};
+}
+
 void RayBatch::layOut() {
   is_laid_out_ = true;
   const RayFan& fan = *fan_;
@@ -127,7 +131,6 @@ void RayBatch::layOut() {
     open_ = rays;
     return;
   }
-  farthest_.assign(blocks, range_m);
   cones_.place(fan.cones_, panned, range_m);
   passing_.resize(cones_.blocks());
 }
@@ -149,7 +152,12 @@ void RayBatch::meetByBlock(const Candidates& candidates) {
         passing_[cones], z_m_, first,
         [&](const GridItem& item, std::int64_t body, std::uint32_t block) { meetBlock(item, body, block); });
   }
-  farthest_m_ = *std::max_element(farthest_.begin(), farthest_.end());
+  farthest_m_ = 0;
+  for (std::size_t block = 0; block < fan_->blocks(); ++block) {
+    const double far_m = largest(distance_.data() + block * kBlock, kBlock);
+    cones_.setReach(block, far_m);
+    farthest_m_ = std::max(farthest_m_, far_m);
+  }
 }
 
 void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t block) {
@@ -161,8 +169,6 @@ void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t bl
   } else {
     meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
   }
-  farthest_[block] = largest(distance_.data() + begin, kBlock);
-  cones_.setReach(block, farthest_[block]);
 }
 
 void RayBatch::meetByRay(const Candidates& candidates) {

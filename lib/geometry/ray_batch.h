@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/candidates.h"
+#include "geometry/front.h"
 #include "geometry/level_frame.h"
 #include "geometry/ray_fan.h"
 #include "geometry/ray_pairs.h"
@@ -30,6 +31,9 @@ class RayBatch {
   /// Nothing further than this from the centre can change what is known so far [m].
   double reach() const { return farthest_m_ + spread_m_; }
 
+  /// No ray goes anywhere else.
+  Front front() const;
+
   /// Holds solids against all rays they may meet.
   void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
@@ -37,6 +41,8 @@ class RayBatch {
     if (is_laid_out_ && !fan_->isNarrow()) settle();
   }
 
+  /// Whether there was nothing to hold against any ray.
+  bool isUntouched() const { return !is_laid_out_; }
   /// Distance [m] from the origin of ray `i` to what it met, or the range.
   double distance(std::size_t i) const { return is_laid_out_ ? distance_[i] : farthest_m_; }
   std::int64_t body(std::size_t i) const { return is_laid_out_ ? body_[i] : kNothing; }
@@ -63,9 +69,7 @@ class RayBatch {
   std::vector<std::int64_t> body_;
   std::vector<Candidates::Masks> passing_;  ///< which rays, or cones, candidates pass
 
-  // A narrow fan's, by block of rays: the cone that holds their directions, and how far the farthest still reaches.
-  RoughSectors cones_;
-  std::vector<double> farthest_;
+  RoughSectors cones_;  ///< a narrow fan's, by block of rays: what holds their directions
 
   // Any other fan's, by ray, as seen from the centre.
   std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;

@@ -9,6 +9,19 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kNarrow_rad = 0.6;
+/// Rounding may turn a ray aside by as much.
+constexpr double kSlack_rad = 1e-9;
+
+TPoint2D facingOf(std::span<const Ray> rays) {
+  TPoint2D sum;
+  for (const auto& ray : rays) sum += {ray.direction.x, ray.direction.y};
+  if (sum.norm() < 1e-3) return {};
+  sum *= 1 / sum.norm();
+  const bool all_ahead = std::all_of(rays.begin(), rays.end(), [&](const Ray& ray) {
+    return sum.x * ray.direction.x + sum.y * ray.direction.y >= -kSlack_rad;
+  });
+  return all_ahead ? sum : TPoint2D();
+}
 
 }  // namespace
 
@@ -20,6 +33,7 @@ RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
   for (const auto& ray : rays) {
     spread_m_ = std::max(spread_m_, (TPoint2D(ray.origin.x, ray.origin.y) - middle_).norm());
   }
+  facing_ = facingOf(rays);
 
   const std::size_t padded = (size_ + kBlock - 1) / kBlock * kBlock;
   for (std::size_t i = 0; i < padded; ++i) {

@@ -30,6 +30,9 @@ class RayFan {
   /// Whether each block looks much the same way, so that most solids are aside of most whole blocks: a laser, not a
   /// ring of sonars.
   bool isNarrow() const { return is_narrow_; }
+  /// Where the fan faces, when no ray looks more than 90° aside of it: a unit vector; (0, 0) for one that looks all
+  /// ways.
+  const mrpt::math::TPoint2D& facing() const { return facing_; }
 
  private:
   friend class RayBatch;
@@ -39,6 +42,7 @@ class RayFan {
   mrpt::math::TPoint2D middle_;
   double spread_m_ = 0;
   bool is_narrow_ = true;
+  mrpt::math::TPoint2D facing_;
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray; the last one repeated up to a whole block
   SectorFan cones_;                      ///< by block: from the middle, all directions of the block's rays
 };

@@ -161,11 +161,13 @@ class Gathering {
   Gathering(Batch& batch, const Index& index, std::size_t first_body, BodyId except)
       : batch_(batch),
         rough_(index.rough().data()),
+        front_(batch.front(), index.middle()),
         candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body),
                     except == kNoBody ? -1 : static_cast<std::int64_t>(except)} {}
 
-  void add(std::uint32_t index) {
-    pack_.add(rough_[index], index);
+  void add(std::uint32_t index) { add(rough_[index], index); }
+  void add(const RoughSolid& solid, std::uint32_t index) {
+    pack_.addIf(front_.mayHold(solid), solid, index);
     if (pack_.isFull()) finish();
   }
   void finish() {
@@ -183,6 +185,7 @@ class Gathering {
 
   Batch& batch_;
   const RoughSolid* rough_;
+  RoughFront front_;
   Candidates::Pack& pack_ = emptyPack();
   Candidates candidates_;
 };
@@ -268,10 +271,13 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
         if (is_sure || stationary_index_.items()[i].isWithin(reach(), batch.center())) stationary.add(i);
       })) {
     Seen& seen = Seen::begin(stationaryCount());
+    const CellsAhead ahead(batch.front(), {stationary_index_.xMin(), stationary_index_.yMin()},
+                           stationary_index_.cellSize());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
+      if (!ahead.mayHold(column, row) && !stationary_index_.isOnRim(column, row)) return;
       for (const auto& pack : stationary_index_.cell(column, row)) {
-        for (const auto i : pack.indices()) {
-          if (seen.isFirst(i)) stationary.add(i);
+        for (std::size_t i = 0; i < pack.count; ++i) {
+          if (seen.isFirst(pack.index[i])) stationary.add(pack.solid(i), pack.index[i]);
         }
       }
     });

@@ -105,7 +105,6 @@ class Scene {
 
   GridIndex stationary_index_;
   CenterIndex moving_index_;
-  Bounds2D area_;
 };
 
 }  // namespace robosim

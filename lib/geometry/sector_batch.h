@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "geometry/candidates.h"
+#include "geometry/front.h"
 #include "geometry/level_frame.h"
 #include "geometry/rough_sectors.h"
 #include "geometry/sector_pairs.h"
@@ -24,6 +25,9 @@ class SectorBatch {
   double z() const { return z_m_; }
   /// Nothing further than this from the centre can change what is known so far [m].
   double reach() const { return farthest_m_ + spread_m_; }
+
+  /// Sectors look all ways.
+  Front front() const { return {center_, {}, spread_m_}; }
 
   /// Holds solids against all sectors they may reach into.
   void meet(const Candidates& candidates);

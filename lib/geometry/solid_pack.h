@@ -24,7 +24,9 @@ struct alignas(32) SolidPack {
     std::fill_n(round_m, Most, -std::numeric_limits<float>::max());  // nothing passes so near
     std::fill_n(index, Most, 0U);
   }
-  void add(const RoughSolid& solid, std::uint32_t solid_index) {
+  void add(const RoughSolid& solid, std::uint32_t solid_index) { addIf(true, solid, solid_index); }
+  /// Without a branch.
+  void addIf(bool wanted, const RoughSolid& solid, std::uint32_t solid_index) {
     x[count] = solid.x;
     y[count] = solid.y;
     axis_x[count] = solid.axis_x;
@@ -33,7 +35,10 @@ struct alignas(32) SolidPack {
     half_width_m[count] = solid.half_width_m;
     round_m[count] = solid.round_m;
     index[count] = solid_index;
-    ++count;
+    count += wanted ? 1 : 0;
+  }
+  RoughSolid solid(std::size_t i) const {
+    return {x[i], y[i], axis_x[i], axis_y[i], half_length_m[i], half_width_m[i], round_m[i]};
   }
   bool isFull() const { return count == Most; }
   std::span<const std::uint32_t> indices() const { return {index, count}; }

@@ -4,6 +4,24 @@
 
 namespace robosim {
 
+using mrpt::math::TPoint3D;
+
+TPoint3D originOf(const Beam& beam) {
+  const auto& pose = beam.robot_from_beam;
+  return {pose.x, pose.y, pose.z};
+}
+
+TPoint3D directionOf(const Beam& beam, double pan_rad) {
+  const auto& pose = beam.robot_from_beam;
+  // MRPT's pitch is positive downwards.
+  const double level = std::cos(pose.pitch);
+  const TPoint3D ahead(level * std::cos(pose.yaw), level * std::sin(pose.yaw), -std::sin(pose.pitch));
+  if (pan_rad == 0) return ahead;
+  const double cos = std::cos(pan_rad);
+  const double sin = std::sin(pan_rad);
+  return {cos * ahead.x - sin * ahead.y, sin * ahead.x + cos * ahead.y, ahead.z};
+}
+
 const char* nameOf(SensorKind kind) {
   switch (kind) {
     case SensorKind::sonar:

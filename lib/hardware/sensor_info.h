@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include <mrpt/math/TPoint3D.h>
 #include <mrpt/math/TPose3D.h>
 
 namespace robosim {
@@ -16,6 +17,19 @@ const char* nameOf(SensorKind);
 struct Beam {
   mrpt::math::TPose3D robot_from_beam;  ///< where it starts and looks (x ahead) [m, rad]
 };
+
+mrpt::math::TPoint3D originOf(const Beam&);
+/// Unit vector along which the beam looks, robot frame, when its sensor has turned by `pan_rad` about its own vertical.
+mrpt::math::TPoint3D directionOf(const Beam&, double pan_rad = 0);
+
+/// Where an echo comes from that was heard along `direction` (a unit vector) of a sensor at `origin`, all in the
+/// robot's frame. The range is taken as it is told, in single precision: so whoever knows the reading and the mount
+/// knows the point, to the last bit.
+inline mrpt::math::TPoint3Df pointAlong(const mrpt::math::TPoint3D& origin, const mrpt::math::TPoint3D& direction,
+                                        float range_m) {
+  const auto point = origin + direction * static_cast<double>(range_m);
+  return {static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)};
+}
 
 /// Width and height of a picture are at most this [pixels], and its JPEG file is no larger than that.
 constexpr std::uint32_t kPictureSideMax_px = 2048;

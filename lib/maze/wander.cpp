@@ -28,7 +28,7 @@ Room roomInFront(const Robot& robot) {
     // Beside the robot things do not matter; only what is nearer to its course than it is wide.
     if (x <= 0 || std::abs(y) > 1.5 * radius || !heard(*sonar, echo)) continue;
     double& side = y >= 0 ? room.left : room.right;
-    side = std::min(side, std::hypot(x, y) - radius);
+    side = std::min(side, std::sqrt(x * x + y * y) - radius);
   }
   return room;
 }

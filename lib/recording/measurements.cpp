@@ -1,7 +1,5 @@
 #include "recording/measurements.h"
 
-#include <cmath>
-
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
@@ -18,8 +16,6 @@
 namespace robosim {
 namespace {
 
-using mrpt::math::TPoint3Df;
-using mrpt::math::TPose3D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationGasSensors;
@@ -29,16 +25,12 @@ using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CObservationRange;
 using mrpt::obs::CObservationRawDAQ;
 
-TPoint3Df pointAlong(const TPose3D& robot_from_beam, double range_m) {
-  // MRPT's pitch is positive downwards.
-  const double level = std::cos(robot_from_beam.pitch);
-  return {static_cast<float>(robot_from_beam.x + level * std::cos(robot_from_beam.yaw) * range_m),
-          static_cast<float>(robot_from_beam.y + level * std::sin(robot_from_beam.yaw) * range_m),
-          static_cast<float>(robot_from_beam.z - std::sin(robot_from_beam.pitch) * range_m)};
+Echo echoAlong(const Beam& beam, double pan_rad, float range_m) {
+  return {range_m, pointAlong(originOf(beam), directionOf(beam, pan_rad), range_m)};
 }
 
-Echo silence(const SensorInfo& sensor, const TPose3D& robot_from_beam) {
-  return {static_cast<float>(sensor.no_echo_m), pointAlong(robot_from_beam, sensor.no_echo_m)};
+Echo silence(const SensorInfo& sensor, const Beam& beam, double pan_rad) {
+  return echoAlong(beam, pan_rad, static_cast<float>(sensor.no_echo_m));
 }
 
 [[noreturn]] void refuse(const CObservation& observation, const SensorInfo& sensor, const std::string& why) {
@@ -59,27 +51,23 @@ void checkSize(const CObservation& observation, const SensorInfo& sensor, std::s
          "it holds " + std::to_string(recorded) + " values in place of " + std::to_string(expected));
 }
 
-Echoes echoesFrom(const CObservationRange& range, const SensorInfo& sensor) {
+Echoes echoesFrom(const CObservationRange& range, const SensorInfo& sensor, double pan_rad) {
   checkSize(range, sensor, range.sensedData.size(), sensor.beams.size());
   Echoes echoes;
-  for (const auto& sensed : range.sensedData) {
-    const float range_m = sensed.sensedDistance;
+  for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+    const float range_m = range.sensedData[i].sensedDistance;
     const bool silent = range_m > static_cast<float>(sensor.range_max_m);
-    echoes.push_back(silent ? silence(sensor, sensed.sensorPose)
-                            : Echo{range_m, pointAlong(sensed.sensorPose, range_m)});
+    echoes.push_back(silent ? silence(sensor, sensor.beams[i], pan_rad) : echoAlong(sensor.beams[i], pan_rad, range_m));
   }
   return echoes;
 }
 
-Echoes echoesFrom(const CObservation2DRangeScan& scan, const SensorInfo& sensor, const Fan& fan) {
+Echoes echoesFrom(const CObservation2DRangeScan& scan, const SensorInfo& sensor, double pan_rad) {
   checkSize(scan, sensor, scan.getScanSize(), sensor.beams.size());
-  const double pan_rad = sensor.pans ? std::remainder(scan.sensorPose.yaw() - fan.robot_from_middle.yaw, 2 * M_PI) : 0;
   Echoes echoes;
   for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
-    const TPose3D robot_from_beam = panned(sensor.beams[i].robot_from_beam, pan_rad);
-    const float range_m = scan.getScanRange(i);
-    const bool heard = scan.getScanRangeValidity(i);
-    echoes.push_back(heard ? Echo{range_m, pointAlong(robot_from_beam, range_m)} : silence(sensor, robot_from_beam));
+    echoes.push_back(scan.getScanRangeValidity(i) ? echoAlong(sensor.beams[i], pan_rad, scan.getScanRange(i))
+                                                  : silence(sensor, sensor.beams[i], pan_rad));
   }
   return echoes;
 }
@@ -147,16 +135,15 @@ Blobs blobsFrom(const CObservationRawDAQ& observation, const SensorInfo& sensor)
 
 }  // namespace
 
-Measurement measurementFrom(const CObservation& observation, const SensorInfo& sensor) {
+Measurement measurementFrom(const CObservation& observation, const SensorInfo& sensor, float laser_pan_rad) {
+  const double pan_rad = sensor.pans ? laser_pan_rad : 0;
   switch (sensor.kind) {
     case SensorKind::laser:
-      if (const auto fan = fanOf(sensor.beams)) {
-        return echoesFrom(as<CObservation2DRangeScan>(observation, sensor), sensor, *fan);
-      }
+      if (fanOf(sensor.beams)) return echoesFrom(as<CObservation2DRangeScan>(observation, sensor), sensor, pan_rad);
       [[fallthrough]];
     case SensorKind::sonar:
     case SensorKind::infrared:
-      return echoesFrom(as<CObservationRange>(observation, sensor), sensor);
+      return echoesFrom(as<CObservationRange>(observation, sensor), sensor, pan_rad);
     case SensorKind::heat:
       return heatFrom(as<CObservationGasSensors>(observation, sensor), sensor);
     case SensorKind::bumper:

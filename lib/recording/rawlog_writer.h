@@ -28,11 +28,9 @@ enum class RawlogImages {
 /// does.
 ///
 /// A step's observations are written robot by robot, as the robots were given; of each robot ground truth, odometry,
-/// then its other sensors in their order, then what its driver does (remarks.h). Of a pair, the action is the
-/// odometry's increment since the pair before (0 for the first) under MRPT's default motion model, and the frame holds
-/// all the robot's observations, odometry and ground truth too.
-///
-/// When a robot has won, the recording's comment (CRawlog::getCommentText()) says so, as `winner = NAME` in [run].
+/// its other sensors in their order, then what no sensor measures (Unsensed). Of a pair, the action is the odometry's
+/// increment since the pair before (0 for the first) under MRPT's default motion model, and the frame holds all the
+/// robot's observations, odometry and ground truth too.
 ///
 /// All but copying the readings happens in a thread in the background, so that a run that has a processor to spare is
 /// hardly slower for being recorded.
@@ -41,9 +39,11 @@ enum class RawlogImages {
 /// recording. A caller that is interrupted, or whose run fails, calls close() to keep what there is.
 class RawlogWriter {
  public:
+  /// @param note stands first in each file, as a CObservationComment; empty for none
   /// @throws ConfigError when a file cannot be made, or a robot has no odometry for its actions.
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
-               RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded);
+               RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded,
+               const std::string& note = "");
   ~RawlogWriter();
 
   /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.
@@ -54,8 +54,9 @@ class RawlogWriter {
   void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
              std::span<const Command> commands = {});
   /// Finishes the recording, and gives it its name.
+  /// @param note stands last in each file; empty for none
   /// @throws RecordingError as write() does.
-  void close();
+  void close(const std::string& note = "");
 
   /// The recording's files: one, or one per robot.
   std::vector<std::filesystem::path> files() const;

@@ -80,7 +80,8 @@ TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
         for (std::size_t slot = 0; slot < sensors; ++slot) {
           const SensorInfo& sensor = (*run.robots[r].sensors)[slot];
           if (read->sensorLabel != sensorLabel(run.robots[r].name, sensor.label)) continue;
-          expectSameReading(measurementFrom(*read, sensor), readings[r].measurements[slot], read->sensorLabel);
+          expectSameReading(measurementFrom(*read, sensor, readings[r].laser_pan_rad), readings[r].measurements[slot],
+                            read->sensorLabel);
         }
       }
     }
@@ -208,7 +209,7 @@ TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
     const auto readings = run.readings(step)[0];
     const auto& odometry_info = (*run.robots[0].sensors)[6];
     ASSERT_EQ(odometry_info.kind, SensorKind::odometry);
-    EXPECT_EQ(measurementFrom(*frame->getObservationByIndex(1), odometry_info), readings.measurements[6]);
+    EXPECT_EQ(measurementFrom(*frame->getObservationByIndex(1), odometry_info, 0), readings.measurements[6]);
   }
 }
 
@@ -350,7 +351,7 @@ TEST_F(RawlogWriterTest, PutsExternalPicturesAsTheyAreWhereMrptFindsThem) {
     if (!seen) continue;
     const std::size_t robot = seen->sensorLabel == "robot 1/camera" ? 0 : 1;
     const std::uint64_t step = 2 * next[robot]++;
-    EXPECT_EQ(std::get<Image>(measurementFrom(*seen, sampleCamera())).jpeg, run.jpeg(robot, step));
+    EXPECT_EQ(std::get<Image>(measurementFrom(*seen, sampleCamera(), 0)).jpeg, run.jpeg(robot, step));
     EXPECT_EQ(seen->image.getWidth(), 48u);
   }
   EXPECT_EQ(next[0], 5u);

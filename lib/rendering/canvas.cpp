@@ -30,7 +30,7 @@ TextStyle styleOf(double size_px) {
 
 }  // namespace
 
-Canvas::Canvas(const PlanView& view, const Color& background)
+Canvas::Canvas(const GroundView& view, const Color& background)
     : view_(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
 
 cv::Point Canvas::fine(const TPoint2D& pixel) const {
@@ -93,6 +93,7 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
   const Bounds2D bounds = boundsOf(shape);
   const auto low = view_.toPixel({bounds.x_min, bounds.y_max}), high = view_.toPixel({bounds.x_max, bounds.y_min});
   const cv::Rect region = fineRect({low.x - reach_px, high.x + reach_px, low.y - reach_px, high.y + reach_px});
+  if (region.empty()) return;  // beside the picture
   Canvas light(view_, {0, 0, 0});
   light.fill(shape, {1, 1, 1});
   light.outline(shape, reach_px * 0.7, {1, 1, 1});
@@ -104,6 +105,30 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
     const double share = lit.at<cv::Vec3b>(at[0], at[1])[0] / 255.0;
     for (int i = 0; i < 3; ++i) pixel[i] = cv::saturate_cast<uchar>(pixel[i] + (glow_bgr[i] - pixel[i]) * share);
   });
+}
+
+void Canvas::veil(std::span<const std::vector<TPoint2D>> polygons, const Color& color, float opacity) {
+  if (polygons.empty()) return;
+  cv::Mat mask(fine_.size(), CV_8U, cv::Scalar(0));
+  for (const auto& polygon : polygons) {
+    std::vector<cv::Point> points;
+    for (const auto& point : polygon) points.push_back(fine(point));
+    cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{points}, cv::Scalar(255), cv::LINE_AA, kShift);
+  }
+  const cv::Scalar tint = bgr(color);
+  const int share = static_cast<int>(std::lround(opacity * 256));
+  for (int y = 0; y < fine_.rows; ++y) {
+    const uchar* const covered = mask.ptr<uchar>(y);
+    auto* const pixels = fine_.ptr<cv::Vec3b>(y);
+    for (int x = 0; x < fine_.cols; ++x) {
+      if (covered[x] == 0) continue;
+      for (int i = 0; i < 3; ++i) {
+        const int pixel = pixels[x][i];
+        pixels[x][i] =
+            static_cast<uchar>(pixel + (static_cast<int>(tint[i]) - pixel) * share * covered[x] / (256 * 255));
+      }
+    }
+  }
 }
 
 void Canvas::text(const TPoint2D& at, const std::string& text, double size_px, const Color& color) {
@@ -130,8 +155,12 @@ double Canvas::unrest(const Bounds2D& pixels) const {
 cv::Mat Canvas::picture() const {
   cv::Mat picture;
   cv::resize(fine_, picture, {view_.width(), view_.height()}, 0, 0, cv::INTER_AREA);
-  // Nobody sees the difference to the nearest of 52 levels, and a PNG file of them is a quarter smaller.
-  constexpr int kLevelStep = 5;
+  return picture;
+}
+
+cv::Mat Canvas::pictureForFile() const {
+  cv::Mat picture = this->picture();
+  constexpr int kLevelStep = 5;  // which leaves 52 levels
   cv::Mat level(1, 256, CV_8U);
   for (int i = 0; i < 256; ++i) level.at<uchar>(i) = static_cast<uchar>((i + kLevelStep / 2) / kLevelStep * kLevelStep);
   cv::LUT(picture, level, picture);

@@ -317,7 +317,7 @@ TEST(OffscreenRenderer, ShowsRobotsWhereTheyAreNow) {
   EXPECT_EQ(cv::norm(there, again, cv::NORM_INF), 0);
 }
 
-TEST(OffscreenRenderer, ShowsWhichWayARobotLooks) {
+TEST(OffscreenRenderer, ShowsWhichWayABodyLooks) {
   for (const char* model : {"pioneer3dx", "scout"}) {
     const LoadedWorld two = twoOf(model);
     OffscreenRenderer renderer(two.world, two.fleet);

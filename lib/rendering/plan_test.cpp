@@ -139,7 +139,7 @@ TEST_F(PlanFile, DrawsEachRobotAndItsWayInOneColourOfItsOwn) {
   EXPECT_TRUE(light(scene.at(picture, {3.25, 1.35})));  // beside the way
 }
 
-TEST_F(PlanFile, MarksWhereAWayStartsAndWhereARobotLooks) {
+TEST_F(PlanFile, MarksWhereAWayStartsAndWhereABodyLooks) {
   const Scene10x5 scene;
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
   EXPECT_TRUE(light(scene.at(picture, {1.5, 1.25})));         // the middle of the start ring

@@ -4,23 +4,29 @@
 #include <cmath>
 
 namespace robosim {
+namespace {
 
-PlanView::PlanView(const Bounds2D& area) : area_(area) {
-  constexpr double kMargins_px[] = {2 * kSideMargin_px, kTopMargin_px + kBottomMargin_px};
+GroundView fitted(const Bounds2D& area) {
+  constexpr double kMargins_px[] = {2 * PlanView::kSideMargin_px, PlanView::kTopMargin_px + PlanView::kBottomMargin_px};
   // A strip of no width, or a point, would have no scale.
   const double longer_m = std::max({area.x_max - area.x_min, area.y_max - area.y_min, 1e-3});
   const double size_m[] = {std::max(area.x_max - area.x_min, longer_m / 1000),
                            std::max(area.y_max - area.y_min, longer_m / 1000)};
-  px_per_m_ = std::min((kLongSide_px - kMargins_px[0]) / size_m[0], (kLongSide_px - kMargins_px[1]) / size_m[1]);
+  const double px_per_m = std::min((PlanView::kLongSide_px - kMargins_px[0]) / size_m[0],
+                                   (PlanView::kLongSide_px - kMargins_px[1]) / size_m[1]);
   const auto side_px = [&](int i) {
-    return std::clamp(static_cast<int>(std::ceil(size_m[i] * px_per_m_ + kMargins_px[i])), kShortSideMin_px,
-                      kLongSide_px);
+    return std::clamp(static_cast<int>(std::ceil(size_m[i] * px_per_m + kMargins_px[i])), PlanView::kShortSideMin_px,
+                      PlanView::kLongSide_px);
   };
-  width_px_ = side_px(0);
-  height_px_ = side_px(1);
-  left_px_ = (width_px_ - size_m[0] * px_per_m_) / 2 - 0.5;
-  top_px_ = kTopMargin_px + (height_px_ - kMargins_px[1] - size_m[1] * px_per_m_) / 2 - 0.5;
+  // The margin below is the wider one, so what lies in the middle of the picture lies below the area's middle.
+  const double lower_m = (PlanView::kBottomMargin_px - PlanView::kTopMargin_px) / 2.0 / px_per_m;
+  const mrpt::math::TPoint2D middle(area.x_min + size_m[0] / 2, area.y_max - size_m[1] / 2 - lower_m);
+  return {side_px(0), side_px(1), middle, px_per_m};
 }
+
+}  // namespace
+
+PlanView::PlanView(const Bounds2D& area) : GroundView(fitted(area)) {}
 
 double roundLengthUpTo(double limit) {
   const double power = std::pow(10, std::floor(std::log10(limit)));

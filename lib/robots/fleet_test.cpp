@@ -115,11 +115,13 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
 }
 
 TEST(Fleet, RefusesUnknownModelsAndControllersAndNamesTheKnownOnes) {
-  EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
-                            placed("../robots/scout", "C", 4)})),
-            (Lines{"w.xml:2: robot 'A': there is no robot type 'pionier'; known are: pioneer3dx, scout",
-                   "w.xml:3: robot 'B': there is no controller 'wonder'; known are: gold_finder, still, wander",
-                   "w.xml:4: robot 'C': there is no robot type '../robots/scout'; known are: pioneer3dx, scout"}));
+  EXPECT_EQ(
+      faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
+                      placed("../robots/scout", "C", 4)})),
+      (Lines{"w.xml:2: robot 'A': there is no robot type 'pionier'; known are: pioneer3dx, pioneer3dx_camera, scout",
+             "w.xml:3: robot 'B': there is no controller 'wonder'; known are: gold_finder, still, wander",
+             "w.xml:4: robot 'C': there is no robot type '../robots/scout'; known are: pioneer3dx, pioneer3dx_camera, "
+             "scout"}));
 }
 
 TEST(Fleet, RefusesFaultySensorsOfEveryRobotThatHasThem) {

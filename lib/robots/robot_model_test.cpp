@@ -195,9 +195,10 @@ TEST(RobotModel, RefusesEveryFaultAtOnce) {
 }
 
 TEST(RobotModel, RefusesABodyThatIsRoundAndSquare) {
-  EXPECT_EQ(faults("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
-            Lines{"r.xml:1: <body>: unknown attribute length_m=\"1\"; accepted here are: clearance_m, color, height_m, "
-                  "radius_m"});
+  EXPECT_EQ(
+      faults("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
+      Lines{"r.xml:1: <body>: unknown attribute length_m=\"1\"; accepted here are: clearance_m, color, height_m, look, "
+            "radius_m"});
 }
 
 }  // namespace

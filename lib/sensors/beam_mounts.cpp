@@ -48,16 +48,4 @@ std::map<double, std::vector<std::size_t>> beamsByHeight(const std::vector<Beam>
   return by_height;
 }
 
-mrpt::math::TPoint3D directionOf(const Beam& beam) {
-  const auto& pose = beam.robot_from_beam;
-  // MRPT's pitch is positive downwards.
-  const double level = std::cos(pose.pitch);
-  return {level * std::cos(pose.yaw), level * std::sin(pose.yaw), -std::sin(pose.pitch)};
-}
-
-mrpt::math::TPoint3D originOf(const Beam& beam) {
-  const auto& pose = beam.robot_from_beam;
-  return {pose.x, pose.y, pose.z};
-}
-
 }  // namespace robosim

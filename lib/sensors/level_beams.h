@@ -16,18 +16,19 @@ class LevelBeams {
   /// Where a beam starts and looks, robot frame, before panning.
   const Ray& operator[](std::size_t i) const { return beams_[i]; }
 
-  /// Casts each beam of a robot, all turned by `pan_rad`, and calls visit(i, distance_m, body) for every one: the range
-  /// and kNoBody where it meets nothing nearer.
+  /// Casts each beam of a robot, all turned by `pan_rad`, and calls visit(i, distance_m, body) for every one that meets
+  /// something nearer than the range.
   template <typename Visit>
   void cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
     static thread_local RayBatch batch;  // its arrays serve all robots of a thread
     for (const auto& tier : tiers_) {
       batch.place(tier.fan, now.frames[robot], range_m, pan_rad);
       now.scene.castRays(batch, now.bodyOf(robot), now.near[robot]);
+      if (batch.isUntouched()) continue;
       for (std::size_t k = 0; k < tier.beams.size(); ++k) {
         const auto body = batch.body(k);
-        visit(tier.beams[k], batch.distance(k),
-              body == RayBatch::kNothing ? kNoBody : BodyId(static_cast<std::uint32_t>(body)));
+        if (body == RayBatch::kNothing) continue;
+        visit(tier.beams[k], batch.distance(k), BodyId(static_cast<std::uint32_t>(body)));
       }
     }
   }

@@ -102,7 +102,7 @@ class Sonar : public Sensor {
     heard.assign(sonars_.size(), {});
     if (options_.model == SonarModel::rays && options_.rays == 1) {
       axes_.cast(now, robot, 0, options_.range_max_m, [&](std::size_t i, double distance_m, BodyId body) {
-        if (body != kNoBody) heard[i] = {distance_m, sonars_[i].axis, body};
+        heard[i] = {distance_m, sonars_[i].axis, body};
       });
       return;
     }
@@ -145,10 +145,10 @@ class Sonar : public Sensor {
     const auto range = static_cast<float>(heard.range_m);
     if (!(range < static_cast<float>(options_.range_max_m))) {
       return {static_cast<float>(options_.no_echo_m),
-              pointAlong(sonars_[sonar].origin, sonars_[sonar].axis, options_.no_echo_m)};
+              pointAlong(sonars_[sonar].origin, sonars_[sonar].axis, static_cast<float>(options_.no_echo_m))};
     }
     return {std::max(range, static_cast<float>(options_.range_min_m)),
-            pointAlong(sonars_[sonar].origin, heard.direction, heard.range_m)};
+            pointAlong(sonars_[sonar].origin, heard.direction, range)};
   }
 
   void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const LevelFrame& frame,

@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+
+#include "control/replayed_hardware.h"
+#include "maze/controllers.h"
+#include "recording/recorded_step.h"
+#include "robosim/interrupt.h"
+#include "robosim/local_run.h"
+#include "robosim/replay.h"
+#include "robosim/run_note.h"
+#include "robosim/text.h"
+
+namespace robosim {
+namespace {
+
+double biggestDifference(const Command& a, const Command& b) {
+  if (a.activity != b.activity) return std::numeric_limits<double>::infinity();
+  return std::max({std::abs(a.speed_mps - b.speed_mps), std::abs(a.turn_radps - b.turn_radps),
+                   static_cast<double>(std::abs(a.laser_pan_rad - b.laser_pan_rad))});
+}
+
+std::string inWords(const Command& command) {
+  std::string text = fixed(command.speed_mps, 3) + " m/s, " + fixed(command.turn_radps, 3) + " rad/s";
+  if (command.laser_pan_rad != 0) text += ", pan " + fixed(command.laser_pan_rad, 3) + " rad";
+  if (command.activity == Activity::halted) text += ", halted";
+  if (command.activity == Activity::found) text += ", found";
+  return text;
+}
+
+/// A controller at work on the recording of one robot.
+struct Replayed {
+  Replayed(const RobotInfo& info, std::unique_ptr<Controller> c)
+      : hardware(info), robot(hardware), controller(std::move(c)) {}
+
+  ReplayedHardware hardware;
+  Robot robot;
+  std::unique_ptr<Controller> controller;
+  std::uint64_t compared = 0, different = 0;
+  double biggest = 0;
+  std::string first;
+
+  void compare(const RecordedRobot& next, double tolerance) {
+    if (!next.command) return;
+    ++compared;
+    const double difference = biggestDifference(hardware.lastCommand(), *next.command);
+    biggest = std::max(biggest, difference);
+    if (difference <= tolerance) return;
+    if (++different > 1) return;
+    const SimTime& time = next.readings.time;
+    first = "step " + std::to_string(time.step) + " (" + fixed(time.seconds(), 3) + " s): recorded " +
+            inWords(*next.command) + "; now " + inWords(hardware.lastCommand());
+  }
+};
+
+}  // namespace
+
+void replayToController(const ReplayArguments& arguments) {
+  const RunNote note = RunNote::of(arguments.rawlog);
+  if (note.world.text.empty()) {
+    throw ConfigError(arguments.rawlog + ": its world is too large to be kept with it; --check WORLD runs it again");
+  }
+  const LoadedWorld world = loadWorld(note.world, {});
+  std::vector<RobotInfo> infos;
+  std::vector<std::unique_ptr<Replayed>> robots;  // one per robot of the world; null for one left out
+  for (const auto& robot : world.fleet.robots) {
+    const std::size_t i = infos.size();
+    infos.push_back(robot.info);
+    const std::string recorded = i < note.controllers.size() ? note.controllers[i] : "";
+    const std::string name = arguments.controller == "recorded" ? recorded : arguments.controller;
+    const bool wanted = arguments.wants(robot.info.name, "") || arguments.robots.empty();
+    robots.push_back(
+        wanted && !name.empty()
+            ? std::make_unique<Replayed>(robot.info, makeController(name, {note.seed, static_cast<std::uint32_t>(i)}))
+            : nullptr);
+  }
+  if (std::all_of(robots.begin(), robots.end(), [](const auto& r) { return !r; })) {
+    throw ConfigError(arguments.rawlog + ": no robot is left to replay; see its robots with robosim replay " +
+                      arguments.rawlog);
+  }
+
+  const Interrupt interrupt;
+  RawlogReader reader(arguments.rawlog);
+  RecordedSteps steps(reader, infos, note.period_s);
+  bool first = true;
+  while (auto step = steps.next()) {
+    if (interrupt.asked()) break;
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      if (!robots[i]) continue;
+      // The recorded command of a step was decided on the readings of the step before.
+      if (!first) robots[i]->compare((*step)[i], arguments.tolerance);
+      robots[i]->hardware.replay(std::move((*step)[i].readings));
+      robots[i]->controller->step(robots[i]->robot);
+    }
+    first = false;
+  }
+
+  if (reader.trouble()) std::cout << *reader.trouble() << '\n';
+  Rows rows;
+  for (const auto& robot : robots) {
+    if (!robot) continue;
+    std::string verdict = withCommas(robot->different) + " of " + withCommas(robot->compared) + " commands differ";
+    if (robot->different == 0) verdict = "all " + withCommas(robot->compared) + " commands are the recorded ones";
+    rows.push_back({robot->robot.name(), verdict});
+    if (robot->different > 0) rows.push_back({"", "first in " + robot->first});
+  }
+  std::cout << listing(rows);
+}
+
+}  // namespace robosim

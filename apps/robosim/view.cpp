@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <filesystem>
+
+#include "base/error_list.h"
+#include "rendering/offscreen_renderer.h"
+#include "rendering/panes.h"
+#include "robosim/arguments.h"
+#include "robosim/subcommands.h"
+#include "robosim/view_outputs.h"
+#include "robosim/view_source.h"
+
+namespace robosim {
+namespace {
+
+struct Arguments {
+  std::string source;
+  ConnectionArguments connection;
+  bool is_2d = false, is_3d = false;
+  std::vector<std::string> follow;
+  std::vector<std::string> views;
+  ViewTimes times;
+  std::string offscreen;
+  std::string size = "1280x800";
+};
+
+std::size_t robotNamed(const std::string& name, const Fleet& fleet) {
+  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
+    if (fleet.robots[i].info.name == name) return i;
+  }
+  std::string names;
+  for (const auto& robot : fleet.robots) {
+    if (names.size() > 200) break;
+    names += (names.empty() ? "" : ", ") + robot.info.name;
+  }
+  throw ConfigError("there is no robot " + name + "; there " + (fleet.robots.size() == 1 ? "is " : "are ") + names);
+}
+
+/// "2d", "3d@Pioneer1"
+Pane paneFrom(const std::string& text, const LoadedWorld& world) {
+  const auto at = text.find('@');
+  const std::string kind = text.substr(0, at);
+  if (kind != "2d" && kind != "3d") throw ConfigError("--view " + text + ": must be 2d, 3d, 2d@ROBOT or 3d@ROBOT");
+  std::optional<std::size_t> follow;
+  if (at != std::string::npos) follow = robotNamed(text.substr(at + 1), world.fleet);
+  return makePane(kind == "3d", follow, world.world);
+}
+
+std::vector<Pane> panesFor(const Arguments& a, const LoadedWorld& world) {
+  std::vector<Pane> panes;
+  const auto add = [&](bool is_3d) {
+    if (a.follow.empty()) panes.push_back(makePane(is_3d, std::nullopt, world.world));
+    for (const auto& name : a.follow) panes.push_back(makePane(is_3d, robotNamed(name, world.fleet), world.world));
+  };
+  if (a.is_2d || (!a.is_3d && a.views.empty())) add(false);
+  if (a.is_3d) add(true);
+  for (const auto& view : a.views) panes.push_back(paneFrom(view, world));
+  constexpr std::size_t kMostPanes = 16;
+  if (panes.size() > kMostPanes) throw ConfigError("a picture has room for 16 views; ask for fewer");
+  return panes;
+}
+
+Size sizeFrom(const std::string& text) {
+  Size size;
+  char end = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width_px, &size.height_px, &end) != 2 || size.width_px < 64 ||
+      size.height_px < 64 || size.width_px > 7680 || size.height_px > 4320) {
+    throw ConfigError("--size " + text + ": must be WIDTHxHEIGHT in pixels, from 64x64 to 7680x4320");
+  }
+  return size;
+}
+
+void view(const Arguments& a) {
+  const Size size = sizeFrom(a.size);
+  if (!a.offscreen.empty()) {
+    checkOffscreenFile(a.offscreen);
+    refuseSameFile({{"SOURCE", a.source}, {"--offscreen", a.offscreen}});
+  }
+  const auto source = openView(a.source, a.connection);
+  const auto make_panes = [&a](const LoadedWorld& world) { return panesFor(a, world); };
+  if (a.offscreen.empty()) {
+    showWindow(*source, make_panes, size, a.times);
+  } else {
+    writeOffscreen(*source, make_panes, size, a.times, a.offscreen);
+  }
+}
+
+}  // namespace
+
+void addView(CLI::App& program) {
+  auto* command = program.add_subcommand("view", "Look at a running environment, a recording, or a world");
+  auto a = std::make_shared<Arguments>();
+  command
+      ->add_option("SOURCE", a->source,
+                   "the address of a running environment (HOST:PORT), a world file, or a rawlog, anybody's")
+      ->type_name("ADDRESS|FILE")
+      ->required();
+  command->add_flag("--2d", a->is_2d, "from above, to scale (the default)");
+  command->add_flag("--3d", a->is_3d, "from the air; both may be given");
+  command->add_option("--follow", a->follow, "ride on this robot; may be given several times, for a view each")
+      ->type_name("ROBOT");
+  command->add_option("--view", a->views, "one more view: 2d, 3d, 2d@ROBOT or 3d@ROBOT; may be given several times")
+      ->type_name("VIEW");
+  command
+      ->add_option("--offscreen", a->offscreen,
+                   "no window: write a picture (.png) of the start of a world, the end of a recording, or the newest "
+                   "step of a run; or a video (.mp4)")
+      ->type_name("FILE")
+      ->check(fileName());
+  command->add_option("--size", a->size, "of the window or the picture, pixels")
+      ->type_name("WxH")
+      ->capture_default_str();
+  command->add_option("--from", a->times.from_s, "of a recording: begin at this time")
+      ->type_name("SECONDS")
+      ->check(numberIn(0, 1e18));
+  command->add_option("--to", a->times.to_s, "of a recording: end at this time; a picture is of this time")
+      ->type_name("SECONDS")
+      ->check(numberIn(0, 1e18));
+  command->add_option("--for", a->times.for_s, "of a video of a run that goes on: end after this time of the clock")
+      ->type_name("SECONDS")
+      ->check(numberIn(0.1, 1e6));
+  command->add_option("--speed", a->times.speed, "of a recording: recorded seconds per second")
+      ->check(numberIn(0.001, 1e6))
+      ->capture_default_str();
+  command->add_option("--fps", a->times.fps, "pictures a second of a video")
+      ->check(numberIn(1, 120))
+      ->capture_default_str();
+  addSecurityOptions(*command, a->connection);
+  command->footer(
+      "In the window:\n"
+      "  left drag      move (2D), turn (3D)        wheel      zoom\n"
+      "  right drag     move (3D)                   click      follow a robot, or nobody\n"
+      "  space          pause, go on                s          one step\n"
+      "  + -            faster, slower              ← →        5 s back or on, of a recording\n"
+      "  f              ride on the next robot      0          show everything\n"
+      "  t v n          trails, sensors, names      q, Esc     quit\n"
+      "Try:  robosim view worlds/opho2_1.xml --offscreen world.png");
+  command->callback([a] { view(*a); });
+}
+
+}  // namespace robosim

@@ -1,0 +1,133 @@
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include <opencv2/videoio.hpp>
+
+#include "base/error_list.h"
+#include "rendering/png_file.h"
+#include "robosim/interrupt.h"
+#include "robosim/progress.h"
+#include "robosim/text.h"
+#include "robosim/view_outputs.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isVideo(const std::string& file) { return fs::path(file).extension() == ".mp4"; }
+
+/// Grows under another name, and has its own when it is whole.
+class Video {
+ public:
+  Video(const fs::path& file, Size size, double fps) : file_(file), part_(file.string() + ".part.mp4") {
+    writer_.open(part_.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps,
+                 {size.width_px & ~1, size.height_px & ~1});
+    if (!writer_.isOpened()) {
+      throw ConfigError(part_.string() +
+                        ": no video can be written there; is the folder writable, and is the package "
+                        "libopencv-videoio installed with FFmpeg?");
+    }
+  }
+  ~Video() {
+    writer_.release();
+    std::error_code ignored;
+    fs::remove(part_, ignored);
+  }
+  Video(const Video&) = delete;
+  Video& operator=(const Video&) = delete;
+
+  void add(const cv::Mat& picture) {
+    // Video is made of blocks: sides are even.
+    writer_.write(picture(cv::Rect(0, 0, picture.cols & ~1, picture.rows & ~1)));
+  }
+  void commit() {
+    writer_.release();
+    fs::rename(part_, file_);
+  }
+
+ private:
+  fs::path file_, part_;
+  cv::VideoWriter writer_;
+};
+
+void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times,
+                  const std::string& file) {
+  if (const auto duration_s = source.duration_s()) {
+    // Through what came before, so that there are trails.
+    constexpr double kStride_s = 0.2;
+    const double end_s = std::min(times.to_s.value_or(*duration_s), *duration_s);
+    source.pause(true);
+    for (double t = times.from_s; t < end_s; t += kStride_s) {
+      source.seek(t);
+      source.advance(0);
+      drawing.note();
+    }
+    source.seek(end_s);
+  }
+  source.advance(0);
+  writePngFile(file, drawing.draw(size));
+}
+
+void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times, const std::string& file) {
+  const Interrupt interrupt;
+  Progress progress;
+  Video video(file, size, times.fps);
+  const auto duration_s = source.duration_s();
+  if (duration_s) {
+    const double end_s = std::min(times.to_s.value_or(*duration_s), *duration_s);
+    source.pause(true);
+    for (std::uint64_t frame = 0;; ++frame) {
+      const double t = times.from_s + static_cast<double>(frame) * times.speed / times.fps;
+      if (t > end_s + 1e-9 || interrupt.asked()) break;
+      source.seek(t);
+      source.advance(0);
+      video.add(drawing.draw(size));
+      if (progress.due()) progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s …");
+    }
+  } else {
+    // A run that goes on: what it shows whenever a picture is due.
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    for (std::uint64_t frame = 0;; ++frame) {
+      const std::chrono::duration<double> due(static_cast<double>(frame) / times.fps);
+      std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(due));
+      if (interrupt.asked() || (times.for_s && due.count() > *times.for_s)) break;
+      source.advance(1 / times.fps);
+      video.add(drawing.draw(size));
+      if (source.isOver()) break;
+      if (progress.due()) progress.show(fixed(due.count(), 1) + " s …");
+    }
+  }
+  video.commit();
+}
+
+}  // namespace
+
+void checkOffscreenFile(const std::string& file) {
+  if (isVideo(file)) return;
+  if (fs::path(file).extension() != ".png") {
+    throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or .mp4, for a video");
+  }
+  checkPngFile(file);
+}
+
+void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
+                    const std::string& file) {
+  if (isVideo(file) && source.isOver() && !source.duration_s()) {
+    throw ConfigError("--offscreen " + file +
+                      ": nothing moves in a world that does not run; ask for a .png, or record a run");
+  }
+  ViewDrawing drawing(source, make_panes);
+  if (isVideo(file)) {
+    writeVideo(source, drawing, size, times, file);
+  } else {
+    writePicture(source, drawing, size, times, file);
+  }
+  std::cout << file << '\n';
+  if (const auto remark = source.remark(); !remark.empty()) std::cerr << "robosim view: " << remark << '\n';
+}
+
+}  // namespace robosim

@@ -1,0 +1,292 @@
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+
+#include <mrpt/gui/CDisplayWindowGUI.h>
+#include <nanovg.h>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error_list.h"
+#include "robosim/interrupt.h"
+#include "robosim/text.h"
+#include "robosim/view_outputs.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+using nanogui::Vector2f;
+using nanogui::Vector2i;
+
+/// GLFW's numbers of keys and buttons, which nanogui hands on.
+constexpr int kPressed = 1, kRepeated = 2, kLeftButton = 0, kRightButton = 1;
+constexpr int kEscape = 256, kRight = 262, kLeft = 263;
+
+/// What is drawn, as large as the window; hands on what the mouse does.
+class PictureWidget final : public nanogui::Widget {
+ public:
+  PictureWidget(nanogui::Widget* parent, ViewSource& source, ViewDrawing& drawing)
+      : Widget(parent), source_(source), drawing_(drawing) {}
+
+  /// Draws anew before the next repaint.
+  void renew() { is_old_ = true; }
+
+  void draw(NVGcontext* context) override {
+    if (mSize.x() < 1 || mSize.y() < 1) return;
+    if (is_old_ || drawn_size_ != mSize) load(context);
+    const auto paint =
+        nvgImagePattern(context, 0, 0, static_cast<float>(mSize.x()), static_cast<float>(mSize.y()), 0, image_, 1);
+    nvgBeginPath(context);
+    nvgRect(context, 0, 0, static_cast<float>(mSize.x()), static_cast<float>(mSize.y()));
+    nvgFillPaint(context, paint);
+    nvgFill(context);
+  }
+
+  bool mouseButtonEvent(const Vector2i& p, int button, bool down, int) override {
+    if (button == kLeftButton && down) pressed_at_ = p;
+    if (button == kLeftButton && !down && (p - pressed_at_).cwiseAbs().maxCoeff() <= 3) {
+      drawing_.panes().click(at(p), source_.shown());
+    }
+    renew();
+    return true;
+  }
+  bool mouseDragEvent(const Vector2i& p, const Vector2i& rel, int button, int) override {
+    // nanogui tells the buttons as bits here.
+    const bool right = (button & (1 << kRightButton)) != 0;
+    drawing_.panes().drag(at(p), TPoint2D(rel.x(), rel.y()), right ? Panes::Drag::pan : Panes::Drag::turn);
+    renew();
+    return true;
+  }
+  bool scrollEvent(const Vector2i& p, const Vector2f& rel) override {
+    drawing_.panes().zoom(at(p), std::pow(1.15, static_cast<double>(rel.y())));
+    renew();
+    return true;
+  }
+
+ private:
+  static TPoint2D at(const Vector2i& p) { return {static_cast<double>(p.x()), static_cast<double>(p.y())}; }
+
+  void load(NVGcontext* context) {
+    cv::Mat rgba;
+    cv::cvtColor(drawing_.draw({mSize.x(), mSize.y()}), rgba, cv::COLOR_BGR2RGBA);
+    if (drawn_size_ != mSize) {
+      if (image_ != 0) nvgDeleteImage(context, image_);
+      image_ = nvgCreateImageRGBA(context, mSize.x(), mSize.y(), 0, rgba.data);
+      drawn_size_ = mSize;
+    } else {
+      nvgUpdateImage(context, image_, rgba.data);
+    }
+    is_old_ = false;
+  }
+
+  ViewSource& source_;
+  ViewDrawing& drawing_;
+  int image_ = 0;
+  Vector2i drawn_size_ = Vector2i::Zero();
+  Vector2i pressed_at_ = Vector2i::Zero();
+  bool is_old_ = true;
+};
+
+class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
+ public:
+  ViewWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times)
+      : CDisplayWindowGUI("RoboSim: " + source.title(), static_cast<unsigned>(size.width_px),
+                          static_cast<unsigned>(size.height_px)),
+        source_(source),
+        times_(times),
+        drawing_(source, make_panes) {
+    picture_ = new PictureWidget(this, source_, drawing_);
+    if (source_.canPlay()) addBar();
+    if (source_.duration_s()) {
+      source_.seek(times.from_s);
+      source_.setSpeed(times.speed);
+    }
+    addLoopCallback([this] { goOn(); });
+    addKeyboardCallback(
+        [this](int key, int, int action, int) { return (action == kPressed || action == kRepeated) && handle(key); });
+    layOut();
+    performLayout();
+  }
+
+  /// What went wrong in a repaint, where exceptions do not get through.
+  std::exception_ptr failure() const { return failure_; }
+
+ private:
+  /// Buttons, and for a recording its time.
+  void addBar() {
+    bar_ = new nanogui::Window(this, "");
+    bar_->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Horizontal, nanogui::Alignment::Middle, 6, 8));
+    pause_ = bar_->add<nanogui::Button>("Pause");
+    pause_->setFixedWidth(70);
+    pause_->setCallback([this] { togglePause(); });
+    bar_->add<nanogui::Button>("Step")->setCallback([this] { safely([this] { source_.step(); }); });
+    bar_->add<nanogui::Button>("Slower")->setCallback([this] { changeSpeed(0.5); });
+    bar_->add<nanogui::Button>("Faster")->setCallback([this] { changeSpeed(2); });
+    if (source_.duration_s()) {
+      slider_ = bar_->add<nanogui::Slider>();
+      slider_->setFixedWidth(300);
+      slider_->setCallback([this](float share) {
+        source_.seek(share * *source_.duration_s());
+        picture_->renew();
+      });
+    }
+    status_ = bar_->add<nanogui::Label>("0 s");
+    status_->setFixedWidth(260);
+  }
+
+  /// Before each repaint.
+  void goOn() {
+    safely([this] {
+      const auto now = std::chrono::steady_clock::now();
+      const std::chrono::duration<double> since = now - last_;
+      last_ = now;
+      if (source_.advance(since.count())) picture_->renew();
+      if (times_.to_s && source_.duration_s() && source_.shown().time_s >= *times_.to_s) source_.pause(true);
+      if (interrupt_.asked()) nanogui::leave();
+      showStatus();
+      layOut();
+    });
+  }
+
+  void layOut() {
+    picture_->setPosition(Vector2i(0, 0));
+    picture_->setSize(size());
+    if (!bar_) return;
+    bar_->setPosition(
+        Vector2i(std::max(0, (width() - bar_->width()) / 2), std::max(0, height() - bar_->height() - 10)));
+  }
+
+  void showStatus() {
+    if (!status_) return;
+    const auto duration_s = source_.duration_s();
+    std::string text = fixed(source_.shown().time_s, 1) + " s";
+    if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
+    if (source_.speed() > 0) text += ", " + fixed(source_.speed(), source_.speed() < 1 ? 2 : 0) + " x";
+    if (const auto remark = source_.remark(); !remark.empty()) text += "; " + remark;
+    status_->setCaption(text);
+    pause_->setCaption(source_.isPaused() ? "Go on" : "Pause");
+    if (slider_) slider_->setValue(static_cast<float>(source_.shown().time_s / std::max(1e-9, *duration_s)));
+  }
+
+  void togglePause() {
+    safely([this] { source_.pause(!source_.isPaused()); });
+  }
+  void changeSpeed(double factor) {
+    safely([this, factor] { source_.setSpeed(std::clamp(source_.speed() * factor, 0.01, 1000.0)); });
+  }
+  void seekBy(double seconds) {
+    if (source_.duration_s()) source_.seek(source_.shown().time_s + seconds);
+  }
+
+  bool handle(int key) {
+    switch (key) {
+      case ' ':
+        if (source_.canPlay()) togglePause();
+        break;
+      case 'S':
+        if (source_.canPlay()) safely([this] { source_.step(); });
+        break;
+      case '=':
+      case '+':
+        if (source_.canPlay()) changeSpeed(2);
+        break;
+      case '-':
+        if (source_.canPlay()) changeSpeed(0.5);
+        break;
+      case kLeft:
+        seekBy(-5);
+        break;
+      case kRight:
+        seekBy(5);
+        break;
+      case 'F':
+        drawing_.panes().followNext();
+        break;
+      case '0':
+        drawing_.panes().showAll();
+        break;
+      case 'T':
+        toggle(drawing_.panes().layers().trails);
+        break;
+      case 'V':
+        toggle(drawing_.panes().layers().sensors);
+        break;
+      case 'N':
+        toggle(drawing_.panes().layers().names);
+        break;
+      case 'Q':
+      case kEscape:
+        nanogui::leave();
+        break;
+      default:
+        return false;
+    }
+    picture_->renew();
+    return true;
+  }
+  static void toggle(bool& layer) { layer = !layer; }
+
+  /// nanogui's loop lets no exception through.
+  template <typename Work>
+  void safely(const Work& work) {
+    try {
+      work();
+    } catch (...) {
+      failure_ = std::current_exception();
+      nanogui::leave();
+    }
+  }
+
+  const Interrupt interrupt_;
+  ViewSource& source_;
+  ViewTimes times_;
+  ViewDrawing drawing_;
+  // nanogui owns its widgets.
+  PictureWidget* picture_ = nullptr;
+  nanogui::Window* bar_ = nullptr;
+  nanogui::Button* pause_ = nullptr;
+  nanogui::Slider* slider_ = nullptr;
+  nanogui::Label* status_ = nullptr;
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+  std::exception_ptr failure_;
+};
+
+/// nanogui's library, for as long as there is a window.
+class Nanogui {
+ public:
+  Nanogui() { nanogui::init(); }
+  ~Nanogui() { nanogui::shutdown(); }
+  Nanogui(const Nanogui&) = delete;
+  Nanogui& operator=(const Nanogui&) = delete;
+};
+
+}  // namespace
+
+void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times) {
+  const auto is_set = [](const char* name) {
+    const char* const value = std::getenv(name);
+    return value && *value;
+  };
+  if (!is_set("DISPLAY")) {
+    throw ConfigError(
+        "there is no screen to open a window on (DISPLAY is not set); write a picture instead: --offscreen view.png, "
+        "or a video: --offscreen view.mp4");
+  }
+  std::exception_ptr failure;
+  try {
+    const Nanogui nanogui;
+    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times));
+    window->drawAll();
+    window->setVisible(true);
+    constexpr int kPeriod_ms = 40;
+    nanogui::mainloop(kPeriod_ms, kPeriod_ms);
+    failure = window->failure();
+  } catch (const ConfigError&) {
+    throw;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(std::string("the window failed: ") + error.what());
+  }
+  if (failure) std::rethrow_exception(failure);
+}
+
+}  // namespace robosim

@@ -1,0 +1,51 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mrpt/math/TPose2D.h>
+
+#include "hardware/command.h"
+#include "hardware/readings.h"
+#include "hardware/robot_info.h"
+#include "recording/rawlog_reader.h"
+
+namespace robosim {
+
+/// What a recording of ours holds of one robot and one time step.
+struct RecordedRobot {
+  Readings readings;
+  std::optional<mrpt::math::TPose2D> world_from_robot;  ///< ground truth
+  std::optional<Command> command;                       ///< that the step was made with
+};
+
+/// A recording of ours as it was made: step by step, the readings of every robot, bit for bit.
+class RecordedSteps {
+ public:
+  /// @param robots that it was made with, in any order
+  /// @param period_s of its steps
+  RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s);
+
+  /// The next step, robots as given; nullopt at the end. A step that is not whole, at the end of a file that was cut
+  /// off, is left out.
+  /// @throws RecordingError for an observation that such robots would not have recorded.
+  std::optional<std::vector<RecordedRobot>> next();
+
+  /// The last note so far; empty for none.
+  const std::string& note() const { return note_; }
+
+ private:
+  /// Of one robot, the observations of a step by the second half of their labels.
+  using Observations = std::vector<std::pair<std::string, mrpt::obs::CObservation::Ptr>>;
+
+  std::optional<RecordedRobot> put(const RobotInfo& robot, const Observations& observations, std::uint64_t step) const;
+  mrpt::obs::CObservation::Ptr nextOfRobots();
+
+  RawlogReader& reader_;
+  std::vector<RobotInfo> robots_;
+  double period_s_;
+  std::string note_;
+  mrpt::obs::CObservation::Ptr ahead_;  ///< the first of the next step
+};
+
+}  // namespace robosim

@@ -1,0 +1,135 @@
+#include "rendering/ground_painter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <mrpt/core/format.h>
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+Bounds2D around(const TPoint2D& center, double half_width, double half_height) {
+  return {center.x - half_width, center.x + half_width, center.y - half_height, center.y + half_height};
+}
+
+bool cover(const Bounds2D& a, const Bounds2D& b) {
+  return a.x_min < b.x_max && b.x_min < a.x_max && a.y_min < b.y_max && b.y_min < a.y_max;
+}
+
+bool inside(const Bounds2D& inner, const Bounds2D& outer) {
+  return outer.contains({inner.x_min, inner.y_min}) && outer.contains({inner.x_max, inner.y_max});
+}
+
+}  // namespace
+
+Color robotColor(std::size_t robot) {
+  static constexpr Color kFirst[] = {{0.84f, 0.15f, 0.16f}, {0.12f, 0.42f, 0.75f}, {0.17f, 0.57f, 0.22f},
+                                     {0.56f, 0.27f, 0.68f}, {0.93f, 0.46f, 0.05f}, {0.07f, 0.60f, 0.65f},
+                                     {0.83f, 0.22f, 0.58f}, {0.49f, 0.36f, 0.22f}};
+  if (robot < std::size(kFirst)) return kFirst[robot];
+  const double hue = std::fmod(static_cast<double>(robot) * 0.381966, 1) * 6;
+  Color color;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double offset = std::fmod(hue + 2.0 * static_cast<double>(3 - i), 6) - 3;
+    color[i] = static_cast<float>(std::clamp(std::abs(offset) - 1, 0.0, 1.0)) * 0.75f + 0.05f;
+  }
+  return color;
+}
+
+void drawFloor(Canvas& canvas, const Bounds2D& b) {
+  const GroundView& view = canvas.view();
+  const mrpt::math::TPose2D center{(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2, 0};
+  const Outline floor = OrientedBox::from(center, b.x_max - b.x_min, b.y_max - b.y_min);
+  canvas.fill(floor, kFloorColor);
+  constexpr double kGridMin_px = 32;
+  const double cell_m = roundLengthUpTo(2 * kGridMin_px / view.pixelsPerMetre());
+  const Bounds2D shown = view.shown();
+  const Bounds2D seen{std::max(b.x_min, shown.x_min), std::min(b.x_max, shown.x_max), std::max(b.y_min, shown.y_min),
+                      std::min(b.y_max, shown.y_max)};
+  for (double x = std::ceil(seen.x_min / cell_m) * cell_m; x <= seen.x_max; x += cell_m) {
+    canvas.line(view.toPixel({x, seen.y_min}), view.toPixel({x, seen.y_max}), 1, kGridColor);
+  }
+  for (double y = std::ceil(seen.y_min / cell_m) * cell_m; y <= seen.y_max; y += cell_m) {
+    canvas.line(view.toPixel({seen.x_min, y}), view.toPixel({seen.x_max, y}), 1, kGridColor);
+  }
+  canvas.outline(floor, 1, mix(kGridColor, kInkColor, 0.3f));
+}
+
+void drawObjects(Canvas& canvas, const World& world) {
+  std::vector<const Body*> bodies;
+  for (const auto& object : world.objects) bodies.push_back(&object.body);
+  std::stable_sort(bodies.begin(), bodies.end(),
+                   [](const Body* a, const Body* b) { return a->heights().z_max_m < b->heights().z_max_m; });
+  for (const Body* body : bodies) {
+    if (body->heat_celsius > 0) canvas.glow(body->solid().outline, 26, kGlowColor);
+  }
+  for (const Body* body : bodies) {
+    const Outline shape = body->solid().outline;
+    canvas.fill(shape, body->color);
+    canvas.outline(shape, 1, mix(body->color, {0, 0, 0}, 0.45f));
+  }
+}
+
+void drawRobot(Canvas& canvas, const TPoint2D& center, double radius_px, const TPoint2D& ahead, const Color& color) {
+  canvas.disc(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
+  canvas.disc(center, radius_px - 1, color);
+  const bool small = radius_px < 6;  // too small to draw in
+  canvas.line(center, center + ahead * (radius_px + (small ? 4 : -1.5)), 2, small ? color : kWhite);
+}
+
+double drawScale(Canvas& canvas, const TPoint2D& from) {
+  const double scale_m = roundLengthUpTo(160 / canvas.view().pixelsPerMetre());
+  const double length_px = scale_m * canvas.view().pixelsPerMetre();
+  const TPoint2D to(from.x + length_px, from.y);
+  canvas.line(from, to, 2, kInkColor);
+  for (const TPoint2D& end : {from, to}) canvas.line({end.x, end.y - 5}, {end.x, end.y + 5}, 2, kInkColor);
+  canvas.text({to.x + 10, to.y}, mrpt::format("%g m", scale_m), kTextSize_px, kInkColor);
+  return length_px;
+}
+
+void NameWriter::keepClear(const TPoint2D& center, double half_width_px, double half_height_px) {
+  taken_.push_back(around(center, half_width_px, half_height_px));
+}
+
+void NameWriter::write(const std::string& name, const TPoint2D& center, double half_width_px, double half_height_px,
+                       const Color& color) {
+  const double width = Canvas::textWidth(name, kTextSize_px);
+  const double height = kTextSize_px * 1.4;
+  const double right = half_width_px + 5 + width / 2, up = half_height_px + 4 + height / 2;
+  const TPoint2D offsets[] = {{right, 0},        {-right, 0},         {0, -up},          {0, up}, {right * 0.8, -up},
+                              {right * 0.8, up}, {-right * 0.8, -up}, {-right * 0.8, up}};
+  const TPoint2D half(canvas_.view().width() / 2.0, canvas_.view().height() / 2.0);
+  const Bounds2D page = around(half, half.x - 2, half.y - 2);
+  std::optional<Bounds2D> best;
+  double best_unrest = 0;
+  for (const auto& offset : offsets) {
+    const Bounds2D place = around(center + offset, width / 2 + 2, height / 2);
+    if (!inside(place, page) ||
+        std::any_of(taken_.begin(), taken_.end(), [&](const Bounds2D& other) { return cover(place, other); })) {
+      continue;
+    }
+    const double unrest = canvas_.unrest(place);
+    if (best && unrest >= best_unrest) continue;
+    best = place;
+    best_unrest = unrest;
+  }
+  if (!best) return;
+  taken_.push_back(*best);
+  canvas_.text({best->x_min + 2, (best->y_min + best->y_max) / 2}, name, kTextSize_px, color);
+}
+
+void NameWriter::writeHotObjects(const World& world) {
+  const GroundView& view = canvas_.view();
+  for (const auto& object : world.objects) {
+    if (object.body.heat_celsius <= 0) continue;
+    const Bounds2D b = boundsOf(object.body.solid().outline);
+    const auto& pose = object.body.world_from_body;
+    write(object.name, view.toPixel({pose.x, pose.y}), (b.x_max - b.x_min) / 2 * view.pixelsPerMetre(),
+          (b.y_max - b.y_min) / 2 * view.pixelsPerMetre(), mix(kGlowColor, {0.3f, 0, 0}, 0.6f));
+  }
+}
+
+}  // namespace robosim

@@ -1,0 +1,199 @@
+#include "rendering/panes.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "rendering/ground_painter.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+using mrpt::math::TPose3D;
+
+constexpr int kGap_px = 4;
+/// Of so many robots all readings may be shown; of more, only those that a pane follows.
+constexpr std::size_t kMostWithReadings = 20;
+constexpr double kRound_m = 6;  ///< of a robot that a 2D pane follows, at first
+
+double extentOf(const Bounds2D& b) { return std::max(b.x_max - b.x_min, b.y_max - b.y_min); }
+
+}  // namespace
+
+TPose3D AirCamera::worldFromCamera(const TPose2D* robot) const {
+  const TPoint2D at = robot ? TPoint2D(robot->x, robot->y) : target;
+  const double from_rad = robot ? robot->phi + azimuth_rad + M_PI / 2 + M_PI : azimuth_rad;
+  const double level_m = distance_m * std::cos(elevation_rad);
+  return {at.x + level_m * std::cos(from_rad),
+          at.y + level_m * std::sin(from_rad),
+          distance_m * std::sin(elevation_rad),
+          from_rad + M_PI,
+          elevation_rad,  // MRPT's pitch is positive downwards
+          0};
+}
+
+Pane makePane(bool is_3d, std::optional<std::size_t> follow, const World& world) {
+  Pane pane;
+  pane.is_3d = is_3d;
+  pane.follow = follow;
+  const Bounds2D& b = world.bounds;
+  pane.air.target = {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2};
+  // Near enough that the ground fills the picture.
+  pane.air.distance_m = follow ? 4 : 1.05 * extentOf(b);
+  pane.air.elevation_rad = follow ? 0.45 : 0.85;
+  return pane;
+}
+
+Panes::Panes(const World& world, const Fleet& fleet, std::vector<Pane> panes, Draw3d draw_3d)
+    : world_(world), fleet_(fleet), panes_(std::move(panes)), draw_3d_(std::move(draw_3d)), top_view_(world, fleet) {}
+
+void Panes::resize(int width_px, int height_px) {
+  if (width_px == width_px_ && height_px == height_px_) return;
+  const bool is_first = width_px_ == 0;
+  width_px_ = width_px;
+  height_px_ = height_px;
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const cv::Rect rect = rectOf(i);
+    panes_[i].top.width_px = rect.width;
+    panes_[i].top.height_px = rect.height;
+    if (is_first) fit(panes_[i], i);
+  }
+}
+
+void Panes::fit(Pane& pane, std::size_t index) const {
+  const cv::Rect rect = rectOf(index);
+  pane.top = TopViewCamera::showing(world_.bounds, rect.width, rect.height);
+  pane.top.follow = pane.follow;
+  if (pane.follow) {
+    pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(rect.width, rect.height) / kRound_m);
+  }
+  pane.air = makePane(pane.is_3d, pane.follow, world_).air;
+  // The field of view is that of the picture's width; a low picture shows less of the ground.
+  if (!pane.follow) pane.air.distance_m *= std::max(1.0, 0.8 * rect.width / rect.height);
+}
+
+cv::Rect Panes::rectOf(std::size_t pane) const {
+  const auto count = static_cast<int>(panes_.size());
+  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
+  const int rows = (count + columns - 1) / columns;
+  const int row = static_cast<int>(pane) / columns;
+  // The last row may have fewer, which are wider.
+  const int in_row = row == rows - 1 ? count - row * columns : columns;
+  const int column = static_cast<int>(pane) - row * columns;
+  const auto edge = [](int i, int of, int length) { return (length + kGap_px) * i / of; };
+  const int left = edge(column, in_row, width_px_);
+  const int top = edge(row, rows, height_px_);
+  return {left, top, std::max(1, edge(column + 1, in_row, width_px_) - kGap_px - left),
+          std::max(1, edge(row + 1, rows, height_px_) - kGap_px - top)};
+}
+
+cv::Mat Panes::draw(const Shown& shown, const Trails& trails) {
+  if (panes_.size() == 1) return drawPane(panes_[0], shown, trails);
+  cv::Mat picture(height_px_, width_px_, CV_8UC3, cv::Scalar(90, 80, 75));
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    drawPane(panes_[i], shown, trails).copyTo(picture(rectOf(i)));
+  }
+  return picture;
+}
+
+cv::Mat Panes::drawPane(const Pane& pane, const Shown& shown, const Trails& trails) {
+  if (!pane.is_3d) return top_view_.draw(shown, trails, pane.top, layers_);
+  CameraInfo camera;
+  camera.width_px = static_cast<std::uint32_t>(pane.top.width_px);
+  camera.height_px = static_cast<std::uint32_t>(pane.top.height_px);
+  camera.field_of_view_rad = pane.air.field_of_view_rad;
+  std::vector<TPose2D> world_from_robot;
+  for (const auto& robot : shown.robots) world_from_robot.push_back(robot.world_from_robot);
+  const TPose2D* ridden = pane.follow ? &world_from_robot[*pane.follow] : nullptr;
+  return draw_3d_(camera, pane.air.worldFromCamera(ridden), world_from_robot);
+}
+
+std::vector<std::uint8_t> Panes::wantedReadings() const {
+  if (fleet_.robots.size() <= kMostWithReadings) return {};
+  std::vector<std::uint8_t> wanted(fleet_.robots.size(), 0);
+  for (const auto& pane : panes_) {
+    if (pane.follow) wanted[*pane.follow] = 1;
+  }
+  return wanted;
+}
+
+Pane* Panes::paneAt(const TPoint2D& at, TPoint2D& in_pane) {
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    const cv::Rect rect = rectOf(i);
+    if (!rect.contains({static_cast<int>(at.x), static_cast<int>(at.y)})) continue;
+    in_pane = {at.x - rect.x, at.y - rect.y};
+    return &panes_[i];
+  }
+  return nullptr;
+}
+
+void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
+  TPoint2D in_pane;
+  Pane* const pane = paneAt(at, in_pane);
+  if (!pane) return;
+  if (!pane->is_3d) {
+    pane->top.center += TPoint2D(-by_px.x, by_px.y) * (1 / pane->top.px_per_m);
+    return;
+  }
+  AirCamera& air = pane->air;
+  if (how == Drag::turn) {
+    constexpr double kPerPixel_rad = 0.006;
+    air.azimuth_rad -= by_px.x * kPerPixel_rad;
+    air.elevation_rad = std::clamp(air.elevation_rad + by_px.y * kPerPixel_rad, 0.02, M_PI / 2 - 0.01);
+    return;
+  }
+  // A pixel at the target's distance, along the ground.
+  const double per_pixel_m = 2 * air.distance_m * std::tan(air.field_of_view_rad / 2) / pane->top.width_px;
+  const TPoint2D ahead(-std::cos(air.azimuth_rad), -std::sin(air.azimuth_rad));
+  const TPoint2D right(ahead.y, -ahead.x);
+  air.target += right * (-by_px.x * per_pixel_m) + ahead * (by_px.y * per_pixel_m / std::sin(air.elevation_rad));
+}
+
+void Panes::zoom(const TPoint2D& at, double factor) {
+  TPoint2D in_pane;
+  Pane* const pane = paneAt(at, in_pane);
+  if (!pane) return;
+  if (pane->is_3d) {
+    pane->air.distance_m = std::clamp(pane->air.distance_m / factor, 0.3, 1e5);
+  } else {
+    const TPoint2D middle(pane->top.width_px / 2.0, pane->top.height_px / 2.0);
+    pane->top.zoom(factor, pane->follow ? middle : in_pane);
+  }
+}
+
+void Panes::click(const TPoint2D& at, const Shown& shown) {
+  TPoint2D in_pane;
+  Pane* const pane = paneAt(at, in_pane);
+  if (!pane || pane->is_3d) return;
+  const auto robot = TopView::robotAt(in_pane, shown, fleet_, pane->top);
+  if (!robot && !pane->follow) return;
+  if (!robot)
+    pane->top.center =
+        TopView::groundView(shown, pane->top).toWorld({pane->top.width_px / 2.0, pane->top.height_px / 2.0});
+  pane->follow = pane->top.follow = robot;
+  // The views from the air ride on whom one has picked from above.
+  for (auto& other : panes_) {
+    if (other.is_3d && other.follow && robot) other.follow = other.top.follow = robot;
+  }
+}
+
+void Panes::showAll() {
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    panes_[i].follow.reset();
+    fit(panes_[i], i);
+  }
+}
+
+void Panes::followNext() {
+  if (fleet_.robots.empty()) return;
+  for (std::size_t i = 0; i < panes_.size(); ++i) {
+    Pane& pane = panes_[i];
+    const bool is_first = !pane.follow;
+    pane.follow = is_first ? 0 : (*pane.follow + 1) % fleet_.robots.size();
+    pane.top.follow = pane.follow;
+    if (is_first) fit(pane, i);
+  }
+}
+
+}  // namespace robosim

@@ -1,0 +1,264 @@
+#include "rendering/top_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <mrpt/core/format.h>
+
+#include "rendering/ground_painter.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+constexpr Color kSonarColor{0.16f, 0.47f, 0.86f};
+constexpr Color kLaserColor{0.86f, 0.20f, 0.25f};
+constexpr Color kInfraredColor{0.55f, 0.25f, 0.70f};
+constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
+constexpr double kRobotRadiusMin_px = 3;
+/// Names of more robots than this only clutter the picture; whoever wants one zooms in.
+constexpr std::size_t kMostNames = 60;
+
+/// A fan of at least a few pixels, for what a beam of no width would not show.
+constexpr double kThinBeam_rad = 0.02;
+
+const Color& colorOf(SensorKind kind) {
+  return kind == SensorKind::laser ? kLaserColor : kind == SensorKind::infrared ? kInfraredColor : kSonarColor;
+}
+
+/// Draws one picture, from the ground up.
+class Drawing {
+ public:
+  Drawing(const World& world, const Fleet& fleet, const Shown& shown, const GroundView& view)
+      : world_(world), fleet_(fleet), shown_(shown), view_(view), canvas_(view, kPageColor) {}
+
+  cv::Mat draw(const Trails& trails, const TopViewLayers& layers) {
+    drawFloor(canvas_, world_.bounds);
+    if (layers.trails) drawTrails(trails);
+    if (layers.sensors) drawRanges();
+    drawObjects(canvas_, world_);
+    for (std::size_t i = 0; i < shown_.robots.size(); ++i) drawRobot(i);
+    if (layers.sensors) drawTouch();
+    if (layers.names) writeNames();
+    writeLegend();
+    return canvas_.picture();
+  }
+
+ private:
+  TPoint2D pixelOf(const TPose2D& pose) const { return view_.toPixel({pose.x, pose.y}); }
+  double radius_px(std::size_t robot) const {
+    return std::max(kRobotRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
+  }
+  bool isOnPicture(const TPoint2D& pixel, double margin_px) const {
+    return pixel.x > -margin_px && pixel.y > -margin_px && pixel.x < view_.width() + margin_px &&
+           pixel.y < view_.height() + margin_px;
+  }
+
+  void drawTrails(const Trails& trails) {
+    for (std::size_t i = 0; i < trails.ofRobot().size() && i < shown_.robots.size(); ++i) {
+      std::vector<TPoint2D> way;
+      for (const auto& point : trails.ofRobot()[i]) way.push_back(view_.toPixel(point));
+      way.push_back(pixelOf(shown_.robots[i].world_from_robot));
+      canvas_.polyline(way, 1.6, mix(robotColor(i), kFloorColor, 0.35f));
+    }
+  }
+
+  /// Areas that are seen to be free, a tint for each kind of sensor, and dots where echoes came from.
+  void drawRanges() {
+    struct Dot {
+      TPoint2D at;
+      const Color* color;
+    };
+    std::vector<Dot> dots;
+    std::vector<std::vector<TPoint2D>> free[3];
+    const SensorKind kinds[] = {SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
+    forEachRanges([&](const ShownRobot& robot, const SensorInfo& sensor, const Echoes& echoes) {
+      auto& areas = free[std::find(std::begin(kinds), std::end(kinds), sensor.kind) - std::begin(kinds)];
+      if (sensor.kind == SensorKind::laser && echoes.size() > 2) {
+        areas.push_back(scanArea(robot, sensor, echoes));
+      }
+      for (std::size_t i = 0; i < echoes.size(); ++i) {
+        if (sensor.kind != SensorKind::laser || echoes.size() <= 2) areas.push_back(cone(robot, sensor, i, echoes[i]));
+        if (echoes[i].range_m < sensor.range_max_m) {
+          dots.push_back({toPixel(robot, {echoes[i].point_m.x, echoes[i].point_m.y}), &colorOf(sensor.kind)});
+        }
+      }
+    });
+    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.veil(free[i], colorOf(kinds[i]), 0.17f);
+    for (const auto& dot : dots) {
+      if (isOnPicture(dot.at, 2)) canvas_.disc(dot.at, 1.6, *dot.color);
+    }
+  }
+
+  template <typename Visit>
+  void forEachRanges(const Visit& visit) const {
+    for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
+      const ShownRobot& robot = shown_.robots[i];
+      if (!robot.readings) continue;
+      const auto& sensors = *fleet_.robots[i].info.sensors;
+      for (std::size_t k = 0; k < sensors.size(); ++k) {
+        const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
+        if (echoes) visit(robot, sensors[k], *echoes);
+      }
+    }
+  }
+
+  TPoint2D toPixel(const ShownRobot& robot, const TPoint2D& in_robot) const {
+    return view_.toPixel(robot.world_from_robot.composePoint(in_robot));
+  }
+
+  std::vector<TPoint2D> scanArea(const ShownRobot& robot, const SensorInfo& sensor, const Echoes& echoes) const {
+    const auto& at = sensor.beams.front().robot_from_beam;
+    std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
+    for (const auto& echo : echoes) area.push_back(toPixel(robot, {echo.point_m.x, echo.point_m.y}));
+    return area;
+  }
+
+  std::vector<TPoint2D> cone(const ShownRobot& robot, const SensorInfo& sensor, std::size_t beam,
+                             const Echo& echo) const {
+    const auto& at = sensor.beams[beam].robot_from_beam;
+    const double middle_rad = at.yaw + (sensor.pans ? robot.laser_pan_rad : 0);
+    const double half_rad = std::max(kThinBeam_rad, sensor.beam_width_rad) / 2;
+    std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
+    constexpr int kPieces = 6;
+    for (int i = 0; i <= kPieces; ++i) {
+      const double angle_rad = middle_rad - half_rad + 2 * half_rad * i / kPieces;
+      area.push_back(
+          toPixel(robot, {at.x + echo.range_m * std::cos(angle_rad), at.y + echo.range_m * std::sin(angle_rad)}));
+    }
+    return area;
+  }
+
+  void drawRobot(std::size_t i) {
+    const ShownRobot& robot = shown_.robots[i];
+    const TPoint2D center = pixelOf(robot.world_from_robot);
+    const double radius = radius_px(i);
+    if (!isOnPicture(center, radius + 8)) return;
+    if (robot.stalled) canvas_.disc(center, radius + 3, kStallColor);
+    if (robot.activity == Activity::found) canvas_.disc(center, radius + 3.5, kGlowColor);
+    const Color color =
+        robot.activity == Activity::active ? robotColor(i) : mix(robotColor(i), {0.5f, 0.5f, 0.5f}, 0.6f);
+    const double heading = robot.world_from_robot.phi;
+    robosim::drawRobot(canvas_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
+  }
+
+  /// What bumpers feel, as arcs on the rim, and heat as a number with a bar.
+  void drawTouch() {
+    for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
+      const ShownRobot& robot = shown_.robots[i];
+      if (!robot.readings || !isOnPicture(pixelOf(robot.world_from_robot), 100)) continue;
+      const auto& info = fleet_.robots[i].info;
+      for (std::size_t k = 0; k < info.sensors->size(); ++k) {
+        const SensorInfo& sensor = (*info.sensors)[k];
+        const Measurement& measured = robot.readings->measurements[k];
+        if (sensor.kind == SensorKind::bumper) drawContacts(robot, info, sensor, std::get<Contacts>(measured));
+        if (sensor.kind == SensorKind::heat) drawHeat(i, std::get<Scalar>(measured).value);
+      }
+    }
+  }
+
+  void drawContacts(const ShownRobot& robot, const RobotInfo& info, const SensorInfo& sensor,
+                    const Contacts& contacts) {
+    for (std::size_t i = 0; i < contacts.pressed.size(); ++i) {
+      if (!contacts.pressed[i]) continue;
+      const double middle_rad = sensor.beams[i].robot_from_beam.yaw;
+      std::vector<TPoint2D> arc;
+      for (int k = -4; k <= 4; ++k) {
+        const double angle_rad = middle_rad + sensor.beam_width_rad * k / 8;
+        arc.push_back(toPixel(robot, {info.radius_m * std::cos(angle_rad), info.radius_m * std::sin(angle_rad)}));
+      }
+      canvas_.polyline(arc, 4, kStallColor);
+    }
+  }
+
+  void drawHeat(std::size_t i, double heat) {
+    if (heat < 0.5) return;
+    const TPoint2D center = pixelOf(shown_.robots[i].world_from_robot);
+    canvas_.text({center.x + radius_px(i) * 0.7 + 4, center.y + radius_px(i) * 0.7 + 8},
+                 mrpt::format("heat %.0f", heat), kTextSize_px, mix(kGlowColor, {0.5f, 0, 0}, 0.5f));
+  }
+
+  void writeNames() {
+    NameWriter names(canvas_);
+    names.keepClear({0, 0}, 330, 34);
+    std::vector<std::size_t> seen;
+    for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
+      const TPoint2D center = pixelOf(shown_.robots[i].world_from_robot);
+      if (!isOnPicture(center, 0)) continue;
+      names.keepClear(center, radius_px(i), radius_px(i));
+      seen.push_back(i);
+    }
+    names.writeHotObjects(world_);
+    if (seen.size() > kMostNames) return;
+    for (const std::size_t i : seen) {
+      names.write(fleet_.robots[i].info.name, pixelOf(shown_.robots[i].world_from_robot), radius_px(i), radius_px(i),
+                  mix(robotColor(i), {0, 0, 0}, 0.35f));
+    }
+  }
+
+  void writeLegend() {
+    canvas_.text({12, 16},
+                 mrpt::format("%s   %.1f s   step %llu", world_.name.c_str(), shown_.time_s,
+                              static_cast<unsigned long long>(shown_.step)),
+                 11, kInkColor);
+    drawScale(canvas_, {14, view_.height() - 18.0});
+  }
+
+  const World& world_;
+  const Fleet& fleet_;
+  const Shown& shown_;
+  GroundView view_;
+  Canvas canvas_;
+};
+
+}  // namespace
+
+TopViewCamera TopViewCamera::showing(const Bounds2D& area, int width_px, int height_px) {
+  constexpr double kMargin_px = 24;
+  TopViewCamera camera;
+  camera.width_px = width_px;
+  camera.height_px = height_px;
+  camera.center = {(area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2};
+  const auto scale = [&](double size_m, int size_px) {
+    return std::max(1.0, size_px - 2 * kMargin_px) / std::max(1e-3, size_m);
+  };
+  camera.px_per_m = std::min(scale(area.x_max - area.x_min, width_px), scale(area.y_max - area.y_min, height_px));
+  return camera;
+}
+
+void TopViewCamera::zoom(double factor, const TPoint2D& pixel) {
+  const double before = px_per_m;
+  px_per_m = std::clamp(px_per_m * factor, 0.01, 5000.0);
+  // From the middle of the picture, in metres, y up.
+  const TPoint2D off((pixel.x - (width_px - 1) / 2.0), -(pixel.y - (height_px - 1) / 2.0));
+  center += off * (1 / before - 1 / px_per_m);
+}
+
+GroundView TopView::groundView(const Shown& shown, const TopViewCamera& camera) {
+  TPoint2D center = camera.center;
+  if (camera.follow && *camera.follow < shown.robots.size()) {
+    const auto& pose = shown.robots[*camera.follow].world_from_robot;
+    center = {pose.x, pose.y};
+  }
+  return {camera.width_px, camera.height_px, center, camera.px_per_m};
+}
+
+cv::Mat TopView::draw(const Shown& shown, const Trails& trails, const TopViewCamera& camera,
+                      const TopViewLayers& layers) {
+  return Drawing(world_, fleet_, shown, groundView(shown, camera)).draw(trails, layers);
+}
+
+std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const Shown& shown, const Fleet& fleet,
+                                            const TopViewCamera& camera) {
+  const GroundView view = groundView(shown, camera);
+  for (std::size_t i = 0; i < shown.robots.size(); ++i) {
+    const auto& pose = shown.robots[i].world_from_robot;
+    const double radius = std::max(6.0, fleet.robots[i].info.radius_m * view.pixelsPerMetre());
+    if ((view.toPixel({pose.x, pose.y}) - pixel).norm() <= radius) return i;
+  }
+  return std::nullopt;
+}
+
+}  // namespace robosim

@@ -1,0 +1,223 @@
+#include "rendering/top_view.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "rendering/panes.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+
+/// 10 m × 5 m with a blue box of 2 m × 1 m in its lower left quarter, and two robots of 0.5 m radius.
+class TopViewTest : public testing::Test {
+ protected:
+  TopViewTest() {
+    world.name = "hall";
+    world.bounds = {0, 10, 0, 5};
+    WorldObject box;
+    box.name = "box";
+    box.body = {Cube{2, 1}, {2, 1.5, 0}, 0.5, 1, {0, 0, 1}, 0};
+    world.objects = {box};
+    for (const char* name : {"Ann", "Bob"}) {
+      FleetRobot robot;
+      robot.info.name = name;
+      robot.info.radius_m = 0.5;
+      SensorInfo sonar;
+      sonar.kind = SensorKind::sonar;
+      sonar.label = "sonar";
+      sonar.range_max_m = sonar.no_echo_m = 3;
+      sonar.beam_width_rad = 0.4;
+      sonar.beams = {{{0.5, 0, 0.2, 0, 0, 0}}};
+      robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sonar});
+      fleet.robots.push_back(robot);
+    }
+    shown.robots.resize(2);
+    shown.robots[0].world_from_robot = {5, 2.5, 0};
+    shown.robots[1].world_from_robot = {8, 4, std::numbers::pi / 2};
+  }
+
+  cv::Vec3b at(const cv::Mat& picture, const TPoint2D& world_point) const {
+    const TPoint2D pixel = TopView::groundView(shown, camera).toPixel(world_point);
+    return picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
+  }
+
+  World world;
+  Fleet fleet;
+  Shown shown;
+  Trails trails;
+  TopViewCamera camera = TopViewCamera::showing({0, 10, 0, 5}, 1048, 700);
+  TopViewLayers layers{.trails = true, .sensors = true, .names = false};
+};
+
+TEST_F(TopViewTest, FillsThePictureToScaleWithXToTheRightAndYUp) {
+  EXPECT_DOUBLE_EQ(camera.px_per_m, 100) << "1048 px without two margins of 24, over 10 m";
+  const GroundView view = TopView::groundView(shown, camera);
+  EXPECT_NEAR(view.toPixel({0, 5}).x, 23.5, 1e-9);
+  EXPECT_NEAR(view.toPixel({10, 2.5}).x, 1023.5, 1e-9);
+  EXPECT_NEAR(view.toPixel({5, 2.5}).y, 349.5, 1e-9);
+  EXPECT_LT(view.toPixel({5, 4}).y, view.toPixel({5, 1}).y);
+  const TPoint2D there_and_back = view.toWorld(view.toPixel({3, 4}));
+  EXPECT_NEAR(there_and_back.x, 3, 1e-12);
+  EXPECT_NEAR(there_and_back.y, 4, 1e-12);
+}
+
+TEST_F(TopViewTest, DrawsAnObjectToThePixel) {
+  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  ASSERT_EQ(picture.cols, 1048);
+  ASSERT_EQ(picture.rows, 700);
+  const cv::Vec3b blue(255, 0, 0);
+  const cv::Vec3b floor(255, 255, 255);
+  EXPECT_EQ(at(picture, {2, 1.5}), blue);
+  for (const double inside : {0.95, -0.95}) EXPECT_EQ(at(picture, {2 + inside, 1.5}), blue) << inside;
+  for (const double outside : {1.04, -1.04}) EXPECT_EQ(at(picture, {2 + outside, 1.65}), floor) << outside;
+  EXPECT_EQ(at(picture, {2, 1.5 + 0.45}), blue);
+  EXPECT_EQ(at(picture, {2.15, 1.5 + 0.55}), floor);
+}
+
+TEST_F(TopViewTest, DrawsARobotWhereItIsWithAMarkWhereItLooks) {
+  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  const cv::Vec3b red = at(picture, {5 - 0.3, 2.5});
+  EXPECT_GT(red[2], 2 * red[0]) << "the first robot is red";
+  EXPECT_EQ(at(picture, {5 + 0.3, 2.5}), cv::Vec3b(255, 255, 255)) << "a white mark ahead";
+  EXPECT_EQ(at(picture, {8, 4 + 0.3}), cv::Vec3b(255, 255, 255)) << "the other one looks up";
+  EXPECT_NE(at(picture, {8 + 0.3, 4}), cv::Vec3b(255, 255, 255));
+}
+
+TEST_F(TopViewTest, TintsWhatASonarSeesToBeFreeAndDotsItsEcho) {
+  Readings readings;
+  readings.measurements = {Echoes{{2, {2.5F, 0, 0.2F}}}};
+  shown.robots[0].readings = readings;
+  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  const auto is_tinted = [&](const TPoint2D& p) {
+    const cv::Vec3b pixel = at(picture, p);
+    return pixel[0] > pixel[2] + 10;  // bluish
+  };
+  EXPECT_TRUE(is_tinted({5 + 0.5 + 1.03, 2.53})) << "half way, beside the grid's lines";
+  EXPECT_TRUE(is_tinted({5 + 0.5 + 1.5, 2.5 + 0.25})) << "within 0.2 rad";
+  EXPECT_FALSE(is_tinted({5 + 0.5 + 1.53, 2.5 + 0.42})) << "beyond 0.2 rad";
+  EXPECT_FALSE(is_tinted({5 + 0.5 + 2.23, 2.53})) << "beyond the echo";
+  const cv::Vec3b dot = at(picture, {7.5, 2.5});
+  EXPECT_LT(dot[2], 100) << "a dot where the echo came from";
+  layers.sensors = false;
+  EXPECT_FALSE([&] {
+    const cv::Vec3b pixel = at(TopView(world, fleet).draw(shown, trails, camera, layers), {6.53, 2.53});
+    return pixel[0] > pixel[2] + 10;
+  }());
+}
+
+TEST_F(TopViewTest, ShowsTheWayThatARobotHasCome) {
+  Shown before = shown;
+  for (int i = 0; i <= 20; ++i) {
+    before.step = static_cast<std::uint64_t>(i);
+    before.robots[0].world_from_robot = {3 + 0.1 * i, 3.53, 0};
+    trails.add(before);
+  }
+  shown.robots[0].world_from_robot = {5, 3.53, 0};
+  const cv::Vec3b on_way = at(TopView(world, fleet).draw(shown, trails, camera, layers), {3.75, 3.53});
+  EXPECT_GT(on_way[2], on_way[0] + 40) << "reddish, as the robot";
+}
+
+TEST_F(TopViewTest, TrailsForgetTheOldestAndBeginAnewWhenTheRunIsWoundBack) {
+  Trails few(10);
+  Shown moment;
+  moment.robots.resize(1);
+  for (std::uint64_t i = 0; i < 100; ++i) {
+    moment.step = i;
+    moment.robots[0].world_from_robot.x = static_cast<double>(i);
+    few.add(moment);
+  }
+  EXPECT_LE(few.ofRobot()[0].size(), 10U);
+  EXPECT_EQ(few.ofRobot()[0].back().x, 99);
+  moment.step = 5;
+  few.add(moment);
+  EXPECT_EQ(few.ofRobot()[0].size(), 1U);
+}
+
+TEST_F(TopViewTest, ARobotThatIsFollowedStaysInTheMiddle) {
+  camera.follow = 1;
+  const TPoint2D pixel = TopView::groundView(shown, camera).toPixel({8, 4});
+  EXPECT_NEAR(pixel.x, 523.5, 1e-9);
+  EXPECT_NEAR(pixel.y, 349.5, 1e-9);
+}
+
+TEST_F(TopViewTest, ZoomingKeepsWhatLiesUnderThePointerWhereItIs) {
+  const TPoint2D pixel(200, 600);
+  const TPoint2D before = TopView::groundView(shown, camera).toWorld(pixel);
+  camera.zoom(2.5, pixel);
+  EXPECT_DOUBLE_EQ(camera.px_per_m, 250);
+  const TPoint2D after = TopView::groundView(shown, camera).toWorld(pixel);
+  EXPECT_NEAR(after.x, before.x, 1e-9);
+  EXPECT_NEAR(after.y, before.y, 1e-9);
+}
+
+TEST_F(TopViewTest, KnowsWhichRobotIsAtAPixel) {
+  const GroundView view = TopView::groundView(shown, camera);
+  EXPECT_EQ(TopView::robotAt(view.toPixel({8.3, 4.2}), shown, fleet, camera), 1U);
+  EXPECT_EQ(TopView::robotAt(view.toPixel({8.6, 4}), shown, fleet, camera), std::nullopt);
+}
+
+TEST_F(TopViewTest, PanesShareThePictureAndEachFollowsItsOwnRobot) {
+  Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(false, 0, world)}, {});
+  panes.resize(804, 400);
+  const cv::Mat picture = panes.draw(shown, trails);
+  ASSERT_EQ(picture.size(), cv::Size(804, 400));
+  // The right one, 402 px wide, has the first robot in its middle; the left one shows the whole hall.
+  const cv::Vec3b middle = picture.at<cv::Vec3b>(200, 404 + 200 - 20);
+  EXPECT_GT(middle[2], 2 * middle[0]) << "red";
+}
+
+TEST_F(TopViewTest, DraggingMovesTheGroundWithTheHandAndAClickFollowsARobot) {
+  Panes panes(world, fleet, {makePane(false, std::nullopt, world)}, {});
+  panes.resize(1048, 700);
+  const TPoint2D bob = TopView::groundView(shown, camera).toPixel({8, 4});
+  panes.drag(bob, {-100, 50}, Panes::Drag::turn);
+  // He is where the hand took him: click there.
+  panes.click(bob + TPoint2D(-100, 50), shown);
+  const cv::Mat picture = panes.draw(shown, trails);
+  const cv::Vec3b blue = picture.at<cv::Vec3b>(349 + 25, 523);
+  EXPECT_GT(blue[0], 2 * blue[2]) << "the second robot, which is blue, is in the middle now";
+}
+
+TEST_F(TopViewTest, OnlyThoseFollowedTellTheirReadingsWhereThereAreMany) {
+  fleet.robots.resize(21, fleet.robots[0]);
+  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings()[3], 1);
+  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings()[4], 0);
+  fleet.robots.resize(20);
+  EXPECT_TRUE(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings().empty()) << "all";
+}
+
+TEST(AirCamera, LooksAtItsTargetFromWhereItIs) {
+  AirCamera camera;
+  camera.target = {3, 4};
+  camera.distance_m = 10;
+  camera.azimuth_rad = -std::numbers::pi / 2;  // south of it
+  camera.elevation_rad = std::numbers::pi / 6;
+  const auto pose = camera.worldFromCamera(nullptr);
+  EXPECT_NEAR(pose.x, 3, 1e-12);
+  EXPECT_NEAR(pose.y, 4 - 10 * std::cos(std::numbers::pi / 6), 1e-12);
+  EXPECT_NEAR(pose.z, 5, 1e-12);
+  const auto ahead = pose.composePoint({10, 0, 0});
+  EXPECT_NEAR(ahead.x, 3, 1e-9);
+  EXPECT_NEAR(ahead.y, 4, 1e-9);
+  EXPECT_NEAR(ahead.z, 0, 1e-9);
+}
+
+TEST(AirCamera, RidesBehindARobotAndLooksWhereItGoes) {
+  AirCamera camera;
+  camera.distance_m = 2;
+  camera.elevation_rad = 0.5;
+  const TPose2D robot(1, 2, 0.3);
+  const auto pose = camera.worldFromCamera(&robot);
+  const auto in_robot = robot.inverseComposePoint({pose.x, pose.y});
+  EXPECT_NEAR(in_robot.x, -2 * std::cos(0.5), 1e-12);
+  EXPECT_NEAR(in_robot.y, 0, 1e-12);
+  EXPECT_NEAR(std::remainder(pose.yaw - 0.3, 2 * std::numbers::pi), 0, 1e-12);
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,180 @@
+// `robosim view`: pictures and videos of worlds, recordings and runs, and a window under Xvfb.
+
+#include <cstdlib>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/videoio.hpp>
+
+#include "tests/scenarios/program.h"
+#include "tests/scenarios/serving.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+/// 10 m × 10 m: a blue box of 2 m × 2 m in the upper right quarter, a red robot in the middle.
+fs::path writeHall(const fs::path& folder) {
+  std::ofstream(folder / "hall.xml") << R"(<world><surface>
+    <size><xmin>0</xmin><xmax>10</xmax><ymin>0</ymin><ymax>10</ymax></size>
+    <object><shape><primitive><cube><name>Box</name><x>8</x><y>8</y><z>0.5</z><length>2</length><width>2</width>
+      <height>1</height><color>0 0 1</color></cube></primitive></shape></object>
+    <object><shape><robot><model>pioneer3dx</model><name>Ann</name><x>5</x><y>5</y><color>1 0 0</color>
+      <controller>wander</controller></robot></shape></object>
+  </surface></world>)";
+  return folder / "hall.xml";
+}
+
+bool isBlue(const cv::Vec3b& pixel) { return pixel[0] > 120 && pixel[2] < 80; }
+
+/// With --size 648x648, 10 m are 600 px between margins of 24.
+cv::Vec3b atMetres(const cv::Mat& picture, double x, double y) {
+  return picture.at<cv::Vec3b>(static_cast<int>(24 + (10 - y) * 60), static_cast<int>(24 + x * 60));
+}
+
+TEST(View, WritesAPictureOfAWorldFromAboveToScale) {
+  const auto folder = emptyFolder();
+  const Ended view =
+      runProgram("view " + quoted(writeHall(folder)) + " --size 648x648 --offscreen " + quoted(folder / "hall.png"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  const cv::Mat picture = cv::imread((folder / "hall.png").string());
+  ASSERT_EQ(picture.size(), cv::Size(648, 648));
+  for (const double inside : {7.1, 8.9}) EXPECT_TRUE(isBlue(atMetres(picture, inside, inside))) << inside;
+  for (const double outside : {6.9, 9.1}) EXPECT_FALSE(isBlue(atMetres(picture, outside, 8))) << outside;
+}
+
+TEST(View, WritesAPictureFromTheAirAndOneThatRidesOnARobot) {
+  const auto folder = emptyFolder();
+  const Ended view = runProgram("view " + quoted(writeHall(folder)) +
+                                " --3d --view 3d@Ann --size 804x400 --offscreen " + quoted(folder / "air.png"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  const cv::Mat picture = cv::imread((folder / "air.png").string());
+  ASSERT_EQ(picture.size(), cv::Size(804, 400));
+  const auto blues = [&](const cv::Rect& part) {
+    int count = 0;
+    for (int y = part.y; y < part.y + part.height; ++y) {
+      for (int x = part.x; x < part.x + part.width; ++x) count += isBlue(picture.at<cv::Vec3b>(y, x)) ? 1 : 0;
+    }
+    return count;
+  };
+  EXPECT_GT(blues({200, 0, 200, 200}), 300) << "the box stands in the upper right quarter, seen from the south";
+  EXPECT_EQ(blues({0, 200, 200, 200}), 0);
+}
+
+TEST(View, WritesAVideoOfARecording) {
+  const auto folder = emptyFolder();
+  const auto hall = writeHall(folder);
+  ASSERT_EQ(runProgram("run " + quoted(hall) + " --time 3 --record " + quoted(folder / "run.rawlog")).exit_code, 0);
+  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
+                                " --size 320x240 --fps 10 --speed 2 --offscreen " + quoted(folder / "run.mp4"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  cv::VideoCapture video((folder / "run.mp4").string());
+  ASSERT_TRUE(video.isOpened());
+  cv::Mat first, last;
+  int frames = 0;
+  for (cv::Mat frame; video.read(frame); ++frames) {
+    if (frames == 0) first = frame.clone();
+    last = frame.clone();
+  }
+  EXPECT_EQ(frames, 16) << "3 s at twice the speed, 10 a second, and the last one";
+  EXPECT_EQ(first.size(), cv::Size(320, 240));
+  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robot has moved";
+  EXPECT_FALSE(fs::exists(folder / "run.mp4.part.mp4"));
+}
+
+TEST(View, ShowsARunThatGoesOnAndLetsItGoOn) {
+  const auto folder = emptyFolder();
+  Serving serving({"--paused"}, "worlds/opho2_1.xml");
+  const Ended view =
+      runProgram("view " + serving.address() + " --size 400x400 --offscreen " + quoted(folder / "run.png"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_EQ(cv::imread((folder / "run.png").string()).size(), cv::Size(400, 400));
+  EXPECT_TRUE(serving.program().isRunning());
+}
+
+TEST(View, SaysWhatIsWrongWithItsArguments) {
+  const auto folder = emptyFolder();
+  const auto hall = quoted(writeHall(folder));
+  const auto error = [](const std::string& arguments) {
+    const Ended view = runProgram("view " + arguments);
+    EXPECT_EQ(view.exit_code, 1) << view.out << view.err;
+    return view.err;
+  };
+  EXPECT_NE(error(hall + " --follow Bob --offscreen x.png").find("there is no robot Bob; there is Ann"),
+            std::string::npos);
+  EXPECT_NE(error(hall + " --offscreen x.gif").find("must end in .png"), std::string::npos);
+  EXPECT_NE(error(hall + " --offscreen x.mp4").find("nothing moves in a world that does not run"), std::string::npos);
+  EXPECT_NE(error(hall + " --size 10x10 --offscreen x.png").find("--size 10x10: must be"), std::string::npos);
+  EXPECT_NE(error(hall + " --view 4d --offscreen x.png").find("--view 4d: must be 2d"), std::string::npos);
+  EXPECT_NE(error("worlds/none.xml --offscreen x.png").find("there is no such file"), std::string::npos);
+  EXPECT_NE(error("worlds/small_maze.xml --offscreen worlds/small_maze.xml").find("must end in"), std::string::npos);
+  unsetenv("DISPLAY");
+  EXPECT_NE(error(hall).find("there is no screen to open a window on"), std::string::npos);
+}
+
+/// An X server without a screen, and what one sees on it.
+class Screen {
+ public:
+  Screen() : server_("/usr/bin/Xvfb", {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"}) {
+    server_.waitForOutput("\n");
+    display_ = ":" + server_.output().substr(0, server_.output().find('\n'));
+    setenv("DISPLAY", display_.c_str(), 1);
+  }
+  ~Screen() { unsetenv("DISPLAY"); }
+
+  cv::Mat shot(const fs::path& folder) const {
+    const auto file = folder / "screen.png";
+    runCommand("import -window root " + quoted(file));
+    return cv::imread(file.string());
+  }
+
+ private:
+  StartedProgram server_;
+  std::string display_;
+};
+
+TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
+  const auto folder = emptyFolder();
+  const auto hall = writeHall(folder);
+  const Screen screen;
+  StartedProgram view({"view", hall.string(), "--size", "648x648"});
+  // Wherever the window is put, a blue square of 120 px appears in it.
+  cv::Mat seen;
+  int blue = 0;
+  for (int tries = 0; tries < 600 && blue < 12000 && view.isRunning(); ++tries) {
+    seen = screen.shot(folder);
+    blue = 0;
+    for (int y = 0; y < seen.rows; ++y) {
+      for (int x = 0; x < seen.cols; ++x) blue += isBlue(seen.at<cv::Vec3b>(y, x)) ? 1 : 0;
+    }
+  }
+  EXPECT_NEAR(blue, 120 * 120, 1000) << view.error();
+  runCommand("xdotool search --name RoboSim windowfocus key q");
+  const Ended ended = view.wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+TEST(View, RawLogViewerOpensARecordingOfOursToo) {
+  const auto folder = emptyFolder();
+  ASSERT_EQ(runProgram("run worlds/opho2_1.xml --record " + quoted(folder / "run.rawlog")).exit_code, 0);
+  const Screen screen;
+  StartedProgram viewer("/usr/bin/env", {"HOME=" + folder.string(), "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "RawLogViewer",
+                                         (folder / "run.rawlog").string()});
+  // Its time line has a blue dot for each observation.
+  int blue = 0;
+  for (int tries = 0; tries < 600 && blue < 2000 && viewer.isRunning(); ++tries) {
+    const cv::Mat seen = screen.shot(folder);
+    blue = 0;
+    for (int y = 0; y < seen.rows; ++y) {
+      for (int x = 0; x < seen.cols; ++x) blue += isBlue(seen.at<cv::Vec3b>(y, x)) ? 1 : 0;
+    }
+  }
+  EXPECT_GE(blue, 2000) << viewer.error();
+}
+
+}  // namespace
+}  // namespace robosim
