@@ -5,6 +5,7 @@ namespace robosim {
 void addBench(CLI::App& program) {
   auto* bench = program.add_subcommand("bench", "Measure: how well and how fast");
   bench->require_subcommand(1);
+  addBenchCamera(*bench);
   addBenchGold(*bench);
   addBenchMaps(*bench);
   addBenchNetwork(*bench);

@@ -23,7 +23,8 @@ void addExport(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 
-/// `robosim bench gold`, `robosim bench maps`, `robosim bench network` and `robosim bench speed`
+/// `robosim bench camera`, `… gold`, `… maps`, `… network` and `… speed`
+void addBenchCamera(CLI::App& bench);
 void addBenchGold(CLI::App& bench);
 void addBenchMaps(CLI::App& bench);
 void addBenchNetwork(CLI::App& bench);

@@ -38,8 +38,14 @@ class ContextTargets : public RenderThread::Targets {
   std::map<std::pair<unsigned, unsigned>, std::unique_ptr<PictureTarget>> of_size_;
 };
 
-/// MRPT puts a trace of the program behind the first line of what went wrong.
-std::string firstLine(const std::string& text) { return text.substr(0, text.find('\n')); }
+/// MRPT puts what went wrong between a heading and a trace of the program.
+std::string whatOf(const std::exception& error) {
+  const std::string text = error.what(), heading = "Message:";
+  const auto found = text.find(heading);
+  auto begin = found == std::string::npos ? 0 : found + heading.size();
+  while (begin < text.size() && text[begin] == ' ') ++begin;
+  return text.substr(begin, text.find('\n', begin) - begin);
+}
 
 }  // namespace
 
@@ -89,7 +95,7 @@ RenderThread::RenderThread() : impl_(std::make_unique<Impl>()) {
   } catch (const std::exception& error) {
     impl_->thread.join();
     throw ConfigError(
-        "cameras need OpenGL, and this machine has none (" + firstLine(error.what()) +
+        "cameras need OpenGL, and this machine has none (" + whatOf(error) +
         "); install its drivers: apt-get install libegl1 libgl1-mesa-dri. Worlds without cameras need none");
   }
 }

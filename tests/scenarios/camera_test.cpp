@@ -1,0 +1,201 @@
+// Robots with cameras, in runs of the program, over the network and in recordings.
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "control/network_hardware.h"
+#include "tests/scenarios/program.h"
+#include "tests/scenarios/robot_processes.h"
+#include "tests/scenarios/served_world.h"
+#include "tests/scenarios/serving.h"
+#include "tests/stock_tools.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+/// Ann looks along x; 2 m ahead and 0.3 m to the left of her stands the gold, 0.2 m across and 0.3 m high. Bob stands
+/// behind her.
+fs::path writeRoom(const fs::path& folder) {
+  std::ofstream(folder / "room.xml") << R"(<world><surface>
+    <size><xmin>-4</xmin><xmax>4</xmax><ymin>-4</ymin><ymax>4</ymax></size>
+    <object><shape><primitive><cylinder><name>Gold</name><x>2</x><y>0.3</y><z>0.15</z><radius>0.1</radius>
+      <height>0.3</height><color>1 0.8 0.1</color><hot>20</hot></cylinder></primitive></shape></object>
+    <object><shape><robot><model>pioneer3dx_camera</model><name>Ann</name><x>0</x><y>0</y></robot></shape></object>
+    <object><shape><robot><model>pioneer3dx_camera</model><name>Bob</name><x>-2</x><y>0</y></robot></shape></object>
+  </surface></world>)";
+  return folder / "room.xml";
+}
+
+std::string bytesOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+// The eye of a pioneer3dx_camera is 0.12 m ahead of its centre; a picture of 320 pixels is 48° wide.
+const double kFocal_px = 160 / std::tan(24 * M_PI / 180);
+const double kGoldColumn = 160 - kFocal_px * 0.3 / 1.88;
+
+TEST(Camera, RecordsWhatItsRobotSeesAtItsRate) {
+  const auto folder = emptyFolder();
+  const auto rawlog = folder / "run.rawlog";
+  const Ended run =
+      runProgram("run " + quoted(writeRoom(folder)) + " --controller still --time 10 --record " + quoted(rawlog));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  std::map<std::string, int> count;
+  forEachObservation(rawlog, [&](const mrpt::obs::CObservation::Ptr& observation) {
+    ++count[observation->sensorLabel];
+    if (observation->sensorLabel == "Ann/camera") {
+      const auto& seen = dynamic_cast<const mrpt::obs::CObservationImage&>(*observation);
+      EXPECT_EQ(seen.image.getWidth(), 320u);
+      EXPECT_EQ(seen.image.getHeight(), 240u);
+      // Gold is much more red than blue, what lies left of it is not. Its middle is 0.17 m below the eye, which looks
+      // 8° down.
+      const auto column = static_cast<unsigned>(kGoldColumn);
+      const auto row = static_cast<unsigned>(120 + kFocal_px * std::tan(std::atan(0.17 / 1.88) - 8 * M_PI / 180));
+      EXPECT_GT(*seen.image(column, row, 2) - *seen.image(column, row, 0), 80);
+      EXPECT_LT(*seen.image(column - 30, row, 2) - *seen.image(column - 30, row, 0), 40);
+    }
+    if (observation->sensorLabel == "Ann/blob_finder") {
+      const auto& blob = dynamic_cast<const mrpt::obs::CObservationRawDAQ&>(*observation).AIN_double;
+      ASSERT_EQ(blob.size(), 7u);
+      EXPECT_NEAR(blob[1], kGoldColumn, 2) << "its middle";
+      EXPECT_NEAR(blob[5], kFocal_px * 0.2 / 1.88, 4) << "its width";
+    }
+    if (observation->sensorLabel == "Bob/blob_finder") {
+      const auto& blob = dynamic_cast<const mrpt::obs::CObservationRawDAQ&>(*observation).AIN_double;
+      EXPECT_LT(blob.at(5), kFocal_px * 0.2 / 1.88) << "Bob is further away";
+    }
+  });
+  // 5 pictures a second: one at the start, and one in every second step.
+  for (const char* label : {"Ann/camera", "Ann/blob_finder", "Bob/camera", "Bob/blob_finder"}) {
+    EXPECT_EQ(count[label], 51) << label;
+  }
+  EXPECT_EQ(count["Ann/sonar"], 101);
+}
+
+TEST(Camera, LeavesPicturesAsFilesThatRawlogEditLists) {
+  const auto folder = emptyFolder();
+  const Ended run = runProgram("run " + quoted(writeRoom(folder)) + " --controller still --time 1 --record " +
+                               quoted(folder / "run.rawlog") + " --record-images external");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const cv::Mat picture = cv::imread((folder / "run_Images" / "Bob_camera_00000010.jpg").string());
+  EXPECT_EQ(picture.size(), cv::Size(320, 240));
+  const ToolRun listed = runTool("rawlog-edit -i run.rawlog --list-images --text-file-output list.txt", folder);
+  EXPECT_EQ(listed.exit_code, 0) << listed.output;
+  const std::string list = textOf(folder / "list.txt");
+  EXPECT_EQ(std::count(list.begin(), list.end(), '\n'), 2 * 6);
+  EXPECT_NE(list.find("Ann_camera_00000008.jpg"), std::string::npos) << list;
+}
+
+TEST(Camera, TakesTheSamePicturesInEveryRunWithAnyNumberOfThreads) {
+  const auto folder = emptyFolder();
+  const auto room = writeRoom(folder);
+  std::vector<std::string> digests, recordings;
+  for (const char* threads : {"1", "1", "2"}) {
+    const auto rawlog = folder / "run.rawlog";
+    const Ended run = runProgram("run " + quoted(room) + " --controller wander --time 20 --json --threads " + threads +
+                                 " --record " + quoted(rawlog));
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    digests.push_back(json::parse(run.out)["digest"]);
+    recordings.push_back(bytesOf(rawlog));
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+  EXPECT_EQ(digests[0], digests[2]);
+  EXPECT_TRUE(recordings[0] == recordings[1]) << "on one machine pictures are the same, byte for byte";
+  EXPECT_TRUE(recordings[0] == recordings[2]);
+}
+
+TEST(Camera, ReachesARobotInAnotherProcess) {
+  ServedWorld::Options options;
+  options.world = fs::relative(writeRoom(emptyFolder()), ROBOSIM_SOURCE_DIR).string();
+  options.robots_elsewhere = true;
+  options.last_step = 4;
+  ServedWorld world(options);
+  NetworkHardware robots(world.dialOptions(), {"Ann", "Bob"});
+  const auto& sensors = *robots.robot(0).info().sensors;
+  const auto slotOf = [&](SensorKind kind) {
+    const auto found =
+        std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; });
+    return static_cast<std::size_t>(found - sensors.begin());
+  };
+  const std::size_t camera = slotOf(SensorKind::camera), finder = slotOf(SensorKind::blob_finder);
+  EXPECT_EQ(sensors.at(camera).camera.width_px, 320u);
+  EXPECT_EQ(sensors.at(finder).colors, std::vector<std::string>{"gold"});
+  std::string taken;
+  do {
+    const auto& measurements = robots.robot(0).readings().measurements;
+    const std::string& jpeg = std::get<Image>(measurements[camera]).jpeg;
+    const Blobs& blobs = std::get<Blobs>(measurements[finder]);
+    EXPECT_EQ(blobs.taken, !jpeg.empty());
+    taken += jpeg.empty() ? '-' : 'x';
+    if (jpeg.empty()) continue;
+    EXPECT_EQ(cv::imdecode(std::vector<char>(jpeg.begin(), jpeg.end()), cv::IMREAD_COLOR).size(), cv::Size(320, 240));
+    EXPECT_NEAR(blobs.of_color.at(0).x_px, kGoldColumn, 2);
+  } while (robots.nextStep());
+  EXPECT_EQ(taken, "x-x-x");
+  world.wait();
+}
+
+TEST(Camera, TakesPicturesInTheEnvironmentWhileGeometryWorkersHelp) {
+  const auto room = writeRoom(emptyFolder());
+  const std::string wander = "--controller wander --time 5 --json";
+  const auto alone = json::parse(runProgram("run " + quoted(room) + " " + wander).out)["digest"];
+  Serving serving({"--controller", "wander", "--time", "5", "--json", "--speed", "max"}, room.string());
+  const auto worker = startWorker(serving.address());
+  const auto summary = json::parse(serving.program().wait().out);
+  EXPECT_EQ(summary["digest"], alone);
+}
+
+/// The program on a machine where EGL finds no driver.
+Ended withoutDriver(const std::string& arguments) {
+  return runCommand("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent/driver.json '" ROBOSIM_PROGRAM "' " + arguments);
+}
+
+TEST(Camera, WithoutADriverSaysWhichPackagesBringOne) {
+  const auto room = writeRoom(emptyFolder());
+  const Ended run = withoutDriver("run " + quoted(room) + " --time 1");
+  EXPECT_NE(run.exit_code, 0);
+  EXPECT_EQ(run.out, "");
+  EXPECT_NE(run.err.find("cameras need OpenGL, and this machine has none ("), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("apt-get install libegl1 libgl1-mesa-dri. Worlds without cameras need none"),
+            std::string::npos)
+      << run.err;
+  EXPECT_EQ(countOf("\n", run.err), 1u) << run.err;
+}
+
+TEST(Camera, IsNoMatterToWorldsWithoutOneNorToCheckingAWorld) {
+  EXPECT_EQ(withoutDriver("run worlds/small_maze.xml --time 1").exit_code, 0);
+  const Ended check = withoutDriver("check " + quoted(writeRoom(emptyFolder())));
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.out.find("camera blob_finder"), std::string::npos) << check.out;
+}
+
+TEST(BenchCamera, TellsHowManyPicturesASecondItTakesOfEachSize) {
+  const Ended bench = runProgram("bench camera worlds/small_maze.xml --at-least 0.01 --json");
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  std::vector<int> widths;
+  std::istringstream lines(bench.out);
+  for (std::string line; std::getline(lines, line);) {
+    const json figures = json::parse(line);
+    widths.push_back(figures["width_px"]);
+    EXPECT_GT(figures["pictures_per_cpu_s"], 0.0);
+    EXPECT_GT(figures["bytes"], 500.0);
+  }
+  EXPECT_EQ(widths, (std::vector<int>{160, 320, 640}));
+}
+
+}  // namespace
+}  // namespace robosim
