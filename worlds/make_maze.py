@@ -106,6 +106,8 @@ def main():
     parser.add_argument("--robots", type=int, default=8)
     parser.add_argument("--loops", type=float, default=0.1, help="share of the inner walls taken out again")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--types", default="pioneer3dx,scout", help="robots' types, which take turns")
+    parser.add_argument("--controller", default="gold_finder")
     given = parser.parse_args()
 
     maze = Maze(given.columns, given.rows, given.loops, random.Random(given.seed))
@@ -117,7 +119,7 @@ def main():
     objects = "".join(cube(f"Wall{i}", x, y, dx, dy, HEIGHT) for i, (x, y, dx, dy) in enumerate(maze.walls(), 1))
     objects += gold(*maze.center(treasury))
     places = [(*maze.center(cell), quarter_turn(i)) for i, cell in enumerate(starts)]
-    objects += robots(places, "gold_finder")
+    objects += robots(places, given.controller, given.types.split(","))
     half = [(count * PITCH + THICKNESS) / 2 for count in (given.columns, given.rows)]
     remark = f"Made by make_maze.py: {given.columns} x {given.rows} cells, {given.robots} robots, loops {given.loops}, "
     print(world(remark + f"seed {given.seed}.", *half, objects), end="")

@@ -39,14 +39,14 @@ def gold(x, y):
     return cylinder("Gold", x, y, 0.2, 0.5, GOLD_COLOR, hot=20)
 
 
-def robots(places, controller):
+def robots(places, controller, types=("pioneer3dx", "scout")):
     """Robots at (x, y, direction), Pioneers and Scouts in turn, each with the next one for its neighbour."""
     names = [("Pioneer" if i % 2 == 0 else "Scout") + str(i // 2 + 1) for i in range(len(places))]
     text = ""
     for i, (x, y, direction) in enumerate(places):
         neighbour = f"      <neighbour>{names[(i + 1) % len(names)]}</neighbour>\n" if len(names) > 1 else ""
         text += f"""    <object><shape><robot>
-      <model>{"pioneer3dx" if i % 2 == 0 else "scout"}</model>
+      <model>{types[i % 2]}</model>
       <name>{names[i]}</name> <x>{number(x)}</x> <y>{number(y)}</y> <direction>{number(direction)}</direction>
       <color>{color_of(i)}</color>
       <controller>{controller}</controller>
