@@ -39,7 +39,8 @@ struct Channel {
   std::uint64_t count = 0;
   double first_s = 0, last_s = 0;
 
-  double rate_hz() const {
+  /// In hertz.
+  double rate() const {
     return count > 1 && last_s > first_s ? static_cast<double>(count - 1) / (last_s - first_s) : 0;
   }
 };
@@ -52,7 +53,8 @@ struct Contents {
   std::uint64_t observations = 0;
   std::optional<RunNote> note;
 
-  double duration_s() const { return first ? mrpt::system::timeDifference(*first, *last) : 0; }
+  /// In seconds.
+  double duration() const { return first ? mrpt::system::timeDifference(*first, *last) : 0; }
 };
 
 std::optional<mrpt::math::TPose2D> poseIn(const CObservation& observation) {
@@ -119,11 +121,11 @@ class Counting {
 nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& arguments, const RawlogReader& reader) {
   nlohmann::ordered_json json{
       {"rawlog", arguments.rawlog},          {"entries", reader.entries()}, {"observations", contents.observations},
-      {"duration_s", contents.duration_s()}, {"whole", !reader.trouble()},  {"trouble", reader.trouble().value_or("")},
+      {"duration_s", contents.duration()}, {"whole", !reader.trouble()},  {"trouble", reader.trouble().value_or("")},
       {"left_out", reader.leftOut()}};
   for (const auto& [label, channel] : contents.channels) {
     json["channels"].push_back(
-        {{"label", label}, {"class", channel.class_name}, {"count", channel.count}, {"rate_hz", channel.rate_hz()}});
+        {{"label", label}, {"class", channel.class_name}, {"count", channel.count}, {"rate_hz", channel.rate()}});
   }
   for (const auto& [robot, driven_m] : contents.driven_m) json["driven_m"][robot] = driven_m;
   if (contents.note) {
@@ -139,7 +141,7 @@ nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& a
 
 void print(const Contents& contents, const ReplayArguments& arguments, const RawlogReader& reader) {
   Rows head{{"rawlog", arguments.rawlog + ": " + withCommas(contents.observations) + " observations over " +
-                           fixed(contents.duration_s(), 1) + " s"}};
+                           fixed(contents.duration(), 1) + " s"}};
   if (contents.first) head.push_back({"begins", mrpt::system::dateTimeToString(*contents.first) + " UTC"});
   if (const auto& note = contents.note) {
     head.push_back({"run", note->world.file + ", seed " + std::to_string(note->seed) + ", steps of " +
@@ -157,7 +159,7 @@ void print(const Contents& contents, const ReplayArguments& arguments, const Raw
   Rows rows{{"label", "class", "count", "per s"}};
   for (const auto& [label, channel] : contents.channels) {
     rows.push_back({label.empty() ? "(no label)" : label, channel.class_name, withCommas(channel.count),
-                    fixed(channel.rate_hz(), 2)});
+                    fixed(channel.rate(), 2)});
   }
   std::cout << table(rows);
   if (reader.leftOut() > 0) {

@@ -55,7 +55,7 @@ class Video {
 
 void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times,
                   const std::string& file) {
-  if (const auto duration_s = source.duration_s()) {
+  if (const auto duration_s = source.duration()) {
     // Through what came before, so that there are trails.
     constexpr double kStride_s = 0.2;
     const double end_s = std::min(times.to_s.value_or(*duration_s), *duration_s);
@@ -75,7 +75,7 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   const Interrupt interrupt;
   Progress progress;
   Video video(file, size, times.fps);
-  const auto duration_s = source.duration_s();
+  const auto duration_s = source.duration();
   if (duration_s) {
     const double end_s = std::min(times.to_s.value_or(*duration_s), *duration_s);
     source.pause(true);
@@ -116,7 +116,7 @@ void checkOffscreenFile(const std::string& file) {
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
                     const std::string& file) {
-  if (isVideo(file) && source.isOver() && !source.duration_s()) {
+  if (isVideo(file) && source.isOver() && !source.duration()) {
     throw ConfigError("--offscreen " + file +
                       ": nothing moves in a world that does not run; ask for a .png, or record a run");
   }

@@ -59,7 +59,7 @@ class RawlogView final : public ViewSource {
   }
   double speed() const override { return speed_; }
   void setSpeed(double speed) override { speed_ = speed; }
-  std::optional<double> duration_s() const override { return moments_.back().time_s; }
+  std::optional<double> duration() const override { return moments_.back().time_s; }
   void seek(double time_s) override { time_s_ = std::clamp(time_s, 0.0, moments_.back().time_s); }
 
  private:

@@ -40,9 +40,9 @@ class ViewSource {
   virtual double speed() const { return 1; }
   virtual void setSpeed(double) {}
   ///@}
-  /// @name Of a recording
+  /// @name Of a recording, in seconds
   ///@{
-  virtual std::optional<double> duration_s() const { return std::nullopt; }
+  virtual std::optional<double> duration() const { return std::nullopt; }
   virtual void seek(double /*time_s*/) {}
   ///@}
 

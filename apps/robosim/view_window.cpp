@@ -33,7 +33,7 @@ class PictureWidget final : public nanogui::Widget {
 
   void draw(NVGcontext* context) override {
     if (mSize.x() < 1 || mSize.y() < 1) return;
-    if (is_old_ || drawn_size_ != mSize) load(context);
+    if (is_old_ || drawn_size_ != mSize) upload(context);
     const auto paint =
         nvgImagePattern(context, 0, 0, static_cast<float>(mSize.x()), static_cast<float>(mSize.y()), 0, image_, 1);
     nvgBeginPath(context);
@@ -66,7 +66,7 @@ class PictureWidget final : public nanogui::Widget {
  private:
   static TPoint2D at(const Vector2i& p) { return {static_cast<double>(p.x()), static_cast<double>(p.y())}; }
 
-  void load(NVGcontext* context) {
+  void upload(NVGcontext* context) {
     cv::Mat rgba;
     cv::cvtColor(drawing_.draw({mSize.x(), mSize.y()}), rgba, cv::COLOR_BGR2RGBA);
     if (drawn_size_ != mSize) {
@@ -97,7 +97,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         drawing_(source, make_panes) {
     picture_ = new PictureWidget(this, source_, drawing_);
     if (source_.canPlay()) addBar();
-    if (source_.duration_s()) {
+    if (source_.duration()) {
       source_.seek(times.from_s);
       source_.setSpeed(times.speed);
     }
@@ -122,11 +122,11 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     bar_->add<nanogui::Button>("Step")->setCallback([this] { safely([this] { source_.step(); }); });
     bar_->add<nanogui::Button>("Slower")->setCallback([this] { changeSpeed(0.5); });
     bar_->add<nanogui::Button>("Faster")->setCallback([this] { changeSpeed(2); });
-    if (source_.duration_s()) {
+    if (source_.duration()) {
       slider_ = bar_->add<nanogui::Slider>();
       slider_->setFixedWidth(300);
       slider_->setCallback([this](float share) {
-        source_.seek(share * *source_.duration_s());
+        source_.seek(share * *source_.duration());
         picture_->renew();
       });
     }
@@ -141,7 +141,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       const std::chrono::duration<double> since = now - last_;
       last_ = now;
       if (source_.advance(since.count())) picture_->renew();
-      if (times_.to_s && source_.duration_s() && source_.shown().time_s >= *times_.to_s) source_.pause(true);
+      if (times_.to_s && source_.duration() && source_.shown().time_s >= *times_.to_s) source_.pause(true);
       if (interrupt_.asked()) nanogui::leave();
       showStatus();
       layOut();
@@ -158,7 +158,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
 
   void showStatus() {
     if (!status_) return;
-    const auto duration_s = source_.duration_s();
+    const auto duration_s = source_.duration();
     std::string text = fixed(source_.shown().time_s, 1) + " s";
     if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
     if (source_.speed() > 0) text += ", " + fixed(source_.speed(), source_.speed() < 1 ? 2 : 0) + " x";
@@ -175,7 +175,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     safely([this, factor] { source_.setSpeed(std::clamp(source_.speed() * factor, 0.01, 1000.0)); });
   }
   void seekBy(double seconds) {
-    if (source_.duration_s()) source_.seek(source_.shown().time_s + seconds);
+    if (source_.duration()) source_.seek(source_.shown().time_s + seconds);
   }
 
   bool handle(int key) {

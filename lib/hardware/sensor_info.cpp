@@ -46,6 +46,6 @@ const char* nameOf(SensorKind kind) {
   return "unknown";
 }
 
-double CameraInfo::focalLength_px() const { return width_px / 2.0 / std::tan(field_of_view_rad / 2); }
+double CameraInfo::focalLength() const { return width_px / 2.0 / std::tan(field_of_view_rad / 2); }
 
 }  // namespace robosim

@@ -44,7 +44,7 @@ struct CameraInfo {
   bool operator==(const CameraInfo&) const = default;
 
   /// Distance of the picture's plane from the eye, in pixels: (width / 2) / tan(field of view / 2).
-  double focalLength_px() const;
+  double focalLength() const;
 };
 
 /// What a controller may know of a mounted sensor: constant over a run.

@@ -21,7 +21,7 @@ TEST(SensorKind, HasANameOfItsOwnForEveryKind) {
 }
 
 TEST(CameraInfo, AFieldOfViewOf90DegreesHasThePicturesPlaneHalfItsWidthAway) {
-  EXPECT_NEAR((CameraInfo{320, 240, M_PI / 2, 10}).focalLength_px(), 160, 1e-12);
+  EXPECT_NEAR((CameraInfo{320, 240, M_PI / 2, 10}).focalLength(), 160, 1e-12);
 }
 
 }  // namespace

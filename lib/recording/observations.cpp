@@ -130,7 +130,7 @@ CObservation::Ptr makePicture(const SensorInfo& sensor) {
   auto picture = std::make_shared<JpegObservation>();
   picture->cameraPose = CPose3D(poseOf(sensor)) + beamFromCamera();
   const CameraInfo& camera = sensor.camera;
-  const double focal_px = camera.focalLength_px();
+  const double focal_px = camera.focalLength();
   picture->cameraParams.ncols = camera.width_px;
   picture->cameraParams.nrows = camera.height_px;
   picture->cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, camera.width_px / 2.0, camera.height_px / 2.0);

@@ -27,7 +27,7 @@ mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from
   mrpt::img::TCamera pinhole;
   pinhole.ncols = info.width_px;
   pinhole.nrows = info.height_px;
-  const double focal_px = info.focalLength_px();
+  const double focal_px = info.focalLength();
   pinhole.setIntrinsicParamsFromValues(focal_px, focal_px, info.width_px / 2.0, info.height_px / 2.0);
   mrpt::opengl::CCamera camera;
   camera.set6DOFMode(true);
