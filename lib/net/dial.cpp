@@ -2,6 +2,7 @@
 
 #include "base/error_list.h"
 #include "net/access.h"
+#include "net/lean_locks.h"
 #include "net/listen.h"
 #include "net/tls.h"
 
@@ -43,6 +44,7 @@ std::shared_ptr<grpc::Channel> dial(const DialOptions& options) {
     throw ConfigError("the token would go to " + options.address +
                       " for anyone on the way to read; add --tls-ca FILE, or --insecure if the way is safe");
   }
+  useLeanLocks();
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(-1);  // what the environment sends is as large as its world
   // gRPC would wait longer and longer before it tries a broken connection again, up to two minutes.

@@ -8,6 +8,7 @@
 
 #include "base/error_list.h"
 #include "net/dial.h"
+#include "net/lean_locks.h"
 #include "server/control_panel_conversation.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
@@ -66,6 +67,7 @@ struct EnvironmentServer::Impl {
   StepRate rate;
 
   Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit) {
+    useLeanLocks();
     lobby.log = options.log;
     lobby.step_deadline = options.step_deadline;
     lobby.pace = options.pace;

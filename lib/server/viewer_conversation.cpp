@@ -22,7 +22,7 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
   Stream(ViewerConversation& owner, grpc::CallbackServerContext* context, bool has_operators_token)
       : ServerStream(context), owner_(owner), may_operate(has_operators_token) {}
 
-  void received(const wire::FrameRequest& message) override {
+  Turn received(const wire::FrameRequest& message) override {
     ReadingsWish wished = decode(message);
     const std::lock_guard lock(owner_.lobby_.mutex);
     if (!is_known) checkProtocol(message.protocol());
@@ -32,6 +32,14 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
     wish = std::move(wished);
     asks = asks || !message.amends();
     owner_.lobby_.bell.notify_all();
+    return Turn::theirs;  // it may amend what it asks
+  }
+
+  /// What it has asked for it gets all the same.
+  void heardAll() override {
+    const std::lock_guard lock(owner_.lobby_.mutex);
+    has_asked_all = true;
+    if (!asks && !is_being_told) end(grpc::Status::OK);
   }
 
   void refuse(const WireError& error) override {
@@ -60,6 +68,8 @@ class ViewerConversation::Stream final : public ServerStream<wire::FrameRequest,
   bool is_gone = false;
   bool is_known = false;  ///< it has said which protocol it speaks
   bool asks = false;      ///< for a frame
+  bool has_asked_all = false;
+  bool is_being_told = false;
   ReadingsWish wish;
   ///@}
   /// @name Touched by the thread that steps only
@@ -101,12 +111,18 @@ void ViewerConversation::tell() {
       if (!stream->asks || !stream->isIdle()) continue;
       if (!stream->wants_world && stream->step == step && stream->shown == stream->wish) continue;
       stream->asks = false;
+      stream->is_being_told = true;
       stream->shown = stream->wish;
       asking_.push_back(stream);
     }
   }
   // A frame may be large, and robots' answers must not wait for the mutex meanwhile.
   for (const auto& stream : asking_) send(*stream);
+  const std::lock_guard lock(lobby_.mutex);
+  for (const auto& stream : asking_) {
+    stream->is_being_told = false;
+    if (stream->has_asked_all && !stream->asks) stream->end(grpc::Status::OK);
+  }
 }
 
 void ViewerConversation::send(Stream& stream) {
