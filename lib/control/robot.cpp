@@ -6,6 +6,8 @@ namespace {
 const Echoes kNoEchoes;
 const Contacts kNoContacts;
 const Odometry kAtStart;
+const Image kNoImage;
+const Blobs kNoBlobs;
 
 }  // namespace
 
@@ -48,6 +50,16 @@ const std::vector<std::uint8_t>& Robot::bumper() const {
 const Odometry& Robot::odometry() const {
   const auto found = slot(SensorKind::odometry);
   return found ? std::get<Odometry>(readings().measurements[*found]) : kAtStart;
+}
+
+const Image& Robot::image() const {
+  const auto found = slot(SensorKind::camera);
+  return found ? std::get<Image>(readings().measurements[*found]) : kNoImage;
+}
+
+const Blobs& Robot::blobs() const {
+  const auto found = slot(SensorKind::blob_finder);
+  return found ? std::get<Blobs>(readings().measurements[*found]) : kNoBlobs;
 }
 
 void Robot::drive(double speed_mps, double turn_radps) {

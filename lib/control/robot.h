@@ -31,6 +31,8 @@ class Robot {
   std::optional<double> compass() const { return scalar(SensorKind::compass); }  ///< [rad], world frame
   const std::vector<std::uint8_t>& bumper() const;
   const Odometry& odometry() const;
+  const Image& image() const;  ///< empty, too, in a step without a picture
+  const Blobs& blobs() const;  ///< none taken, too, in a step without a picture
   ///@}
   /// What the first range sensor of a kind heard; the same as sonar(), laser() or infrared().
   const Echoes& echoes(SensorKind kind) const;

@@ -9,6 +9,7 @@
 
 #include "base/sim_time.h"
 #include "hardware/robot_message.h"
+#include "hardware/sensor_info.h"
 
 namespace robosim {
 
@@ -45,8 +46,42 @@ struct Odometry {
   bool operator==(const Odometry&) const = default;
 };
 
+/// Camera: a colour picture. How it looks to the last bit depends on the machine (doc/decisions/pictures.md).
+struct Image {
+  std::string jpeg;  ///< a JPEG file's bytes; empty in a step in which the camera takes none because of its rate
+  bool operator==(const Image&) const = default;
+};
+
+/// The largest connected spot of one colour. Pixels are counted to the right and down; (0, 0) is the middle of the
+/// upper left one.
+struct Blob {
+  std::string color;         ///< its name: SensorInfo::colors has the same
+  std::uint32_t pixels = 0;  ///< of the spot; 0 for none in the picture, and then all that follows is 0
+  float x_px = 0;            ///< its centroid
+  float y_px = 0;
+  std::uint32_t left_px = 0;  ///< the box round it: its first column and row, and how many of each
+  std::uint32_t top_px = 0;
+  std::uint32_t width_px = 0;
+  std::uint32_t height_px = 0;
+  bool operator==(const Blob&) const = default;
+};
+
+/// Blob finder: what it found in its camera's picture.
+struct Blobs {
+  bool taken = false;          ///< whether there was a picture in this step
+  std::vector<Blob> of_color;  ///< one for each of SensorInfo::colors, in their order
+  bool operator==(const Blobs&) const = default;
+};
+
+/// No picture as yet, and every colour's name.
+inline Blobs blankBlobs(const SensorInfo& blob_finder) {
+  Blobs blobs;
+  for (const auto& color : blob_finder.colors) blobs.of_color.push_back({.color = color});
+  return blobs;
+}
+
 /// What one sensor measured in one step.
-using Measurement = std::variant<Echoes, Scalar, Contacts, Odometry>;
+using Measurement = std::variant<Echoes, Scalar, Contacts, Odometry, Image, Blobs>;
 
 /// Everything that a robot's hardware tells its controller of one time step, in one packet.
 struct Readings {

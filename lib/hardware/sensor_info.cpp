@@ -1,5 +1,7 @@
 #include "hardware/sensor_info.h"
 
+#include <cmath>
+
 namespace robosim {
 
 const char* nameOf(SensorKind kind) {
@@ -18,8 +20,14 @@ const char* nameOf(SensorKind kind) {
       return "odometry";
     case SensorKind::compass:
       return "compass";
+    case SensorKind::camera:
+      return "camera";
+    case SensorKind::blob_finder:
+      return "blob_finder";
   }
   return "unknown";
 }
+
+double CameraInfo::focalLength_px() const { return width_px / 2.0 / std::tan(field_of_view_rad / 2); }
 
 }  // namespace robosim

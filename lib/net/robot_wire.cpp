@@ -45,6 +45,28 @@ void checkNumbers(const wire::Measurement& in, int count) {
   }
 }
 
+void checkJpeg(const std::string& jpeg) {
+  if (jpeg.empty()) return;
+  if (jpeg.size() > kPictureBytesMax) {
+    throw WireError("a picture of " + std::to_string(jpeg.size()) + " bytes; the most is " +
+                    std::to_string(kPictureBytesMax));
+  }
+  if (!jpeg.starts_with("\xFF\xD8") || !jpeg.ends_with("\xFF\xD9")) throw WireError("a picture that is no JPEG file");
+}
+
+void checkBlob(const wire::Blob& blob) {
+  const auto side = [](std::uint32_t from, std::uint32_t size, float middle) {
+    return from <= kPictureSideMax_px && size <= kPictureSideMax_px - from && std::isfinite(middle) &&
+           middle >= static_cast<float>(from) && middle <= static_cast<float>(from + size);
+  };
+  const std::uint64_t most = std::uint64_t{blob.width_px()} * blob.height_px();
+  if (side(blob.left_px(), blob.width_px(), blob.x_px()) && side(blob.top_px(), blob.height_px(), blob.y_px()) &&
+      blob.pixels() <= most) {
+    return;
+  }
+  throw WireError("a blob that is in no picture");
+}
+
 struct Decoder {
   const wire::Measurement& in;
   void operator()(Echoes& echoes) const { decodeEchoes(in, echoes); }
@@ -65,6 +87,29 @@ struct Decoder {
   void operator()(Odometry& odometry) const {
     checkNumbers(in, 5);
     odometry = {{in.numbers(0), in.numbers(1), in.numbers(2)}, in.numbers(3), in.numbers(4)};
+  }
+  void operator()(Image& image) const {
+    checkJpeg(in.jpeg());
+    image.jpeg = in.jpeg();
+  }
+  void operator()(Blobs& blobs) const {
+    blobs.taken = in.blobs_size() != 0;
+    if (blobs.taken && static_cast<std::size_t>(in.blobs_size()) != blobs.of_color.size()) {
+      throw WireError("a reading of " + std::to_string(in.blobs_size()) + " blobs for a blob finder of " +
+                      std::to_string(blobs.of_color.size()) + " colours");
+    }
+    for (std::size_t i = 0; i < blobs.of_color.size(); ++i) {
+      const wire::Blob& blob = blobs.taken ? in.blobs(static_cast<int>(i)) : wire::Blob::default_instance();
+      checkBlob(blob);
+      blobs.of_color[i] = {std::move(blobs.of_color[i].color),
+                           blob.pixels(),
+                           blob.x_px(),
+                           blob.y_px(),
+                           blob.left_px(),
+                           blob.top_px(),
+                           blob.width_px(),
+                           blob.height_px()};
+    }
   }
 };
 
@@ -87,6 +132,20 @@ struct Encoder {
   void operator()(const Odometry& odometry) const {
     const auto& pose = odometry.odom_from_robot;
     for (const double n : {pose.x, pose.y, pose.phi, odometry.speed_mps, odometry.turn_radps}) out.add_numbers(n);
+  }
+  void operator()(const Image& image) const { out.set_jpeg(image.jpeg); }
+  void operator()(const Blobs& blobs) const {
+    if (!blobs.taken) return;
+    for (const Blob& blob : blobs.of_color) {
+      auto& to = *out.add_blobs();
+      to.set_pixels(blob.pixels);
+      to.set_x_px(blob.x_px);
+      to.set_y_px(blob.y_px);
+      to.set_left_px(blob.left_px);
+      to.set_top_px(blob.top_px);
+      to.set_width_px(blob.width_px);
+      to.set_height_px(blob.height_px);
+    }
   }
 };
 
@@ -186,6 +245,12 @@ Readings blankReadings(const std::vector<SensorInfo>& sensors) {
         break;
       case SensorKind::odometry:
         readings.measurements.emplace_back(Odometry{});
+        break;
+      case SensorKind::camera:
+        readings.measurements.emplace_back(Image{});
+        break;
+      case SensorKind::blob_finder:
+        readings.measurements.emplace_back(blankBlobs(sensor));
         break;
     }
   }

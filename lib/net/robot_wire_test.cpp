@@ -14,8 +14,9 @@ const double kInf = std::numeric_limits<double>::infinity();
 
 std::vector<SensorInfo> everySensor() {
   std::vector<SensorInfo> sensors;
-  for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared, SensorKind::heat,
-                          SensorKind::bumper, SensorKind::odometry, SensorKind::compass}) {
+  for (const auto kind :
+       {SensorKind::sonar, SensorKind::laser, SensorKind::infrared, SensorKind::heat, SensorKind::bumper,
+        SensorKind::odometry, SensorKind::compass, SensorKind::camera, SensorKind::blob_finder}) {
     SensorInfo sensor;
     sensor.kind = kind;
     sensor.label = nameOf(kind);
@@ -23,6 +24,11 @@ std::vector<SensorInfo> everySensor() {
     if (kind != SensorKind::heat && kind != SensorKind::odometry && kind != SensorKind::compass) {
       sensor.beams = {{{0.1, 0.2, 0.3, 0.4, 0, 0}}, {{0.5, 0, 0, -1, 0.1, 0.2}}};
     }
+    if (kind == SensorKind::camera || kind == SensorKind::blob_finder) {
+      sensor.beams.resize(1);
+      sensor.camera = {320, 240, 1.25, 10};
+    }
+    if (kind == SensorKind::blob_finder) sensor.colors = {"gold", "red"};
     sensors.push_back(sensor);
   }
   return sensors;
@@ -34,6 +40,8 @@ Readings someReadings() {
   std::get<Scalar>(readings.measurements[3]).value = 12.25;
   std::get<Contacts>(readings.measurements[4]).pressed = {0, 1};
   std::get<Odometry>(readings.measurements[5]) = {{1, -2, 0.5}, 0.25, -0.125};
+  std::get<Image>(readings.measurements[7]).jpeg = "\xFF\xD8 and so on \xFF\xD9";
+  std::get<Blobs>(readings.measurements[8]) = {true, {{"gold", 12, 10.5f, 20.25f, 8, 19, 6, 3}, {"red"}}};
   readings.stalled = true;
   readings.laser_pan_rad = 0.5f;
   readings.inbox = {{"Scout1", "Pioneer1", "GOLD"}};
@@ -65,6 +73,15 @@ TEST(RobotWire, CarriesReadingsBitForBit) {
   EXPECT_EQ(heard.stalled, sent.stalled);
   EXPECT_EQ(heard.laser_pan_rad, sent.laser_pan_rad);
   EXPECT_EQ(heard.inbox, sent.inbox);
+}
+
+TEST(RobotWire, CarriesAStepWithoutAPicture) {
+  wire::RobotReadings wire;
+  encode(blankReadings(everySensor()), wire);
+  Readings heard = someReadings();
+  decode(wire, "Pioneer1", heard);
+  EXPECT_EQ(std::get<Image>(heard.measurements[7]), Image{});
+  EXPECT_EQ(std::get<Blobs>(heard.measurements[8]), (Blobs{false, {{"gold"}, {"red"}}}));
 }
 
 TEST(RobotWire, LeavesNothingOfTheStepBeforeInAMessageThatIsUsedAgain) {
@@ -148,7 +165,7 @@ TEST(RobotWire, RefusesReadingsOfAnotherSizeOrThatAreNoNumbers) {
   };
   EXPECT_EQ(complaint_after([](auto&) {}), "");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements()->RemoveLast(); }),
-            "readings of 6 sensors for a robot that has 7");
+            "readings of 8 sensors for a robot that has 9");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(0)->add_echoes(1); }),
             "a reading of 9 floats for 2 beams; each has four");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(0)->set_echoes(3, std::nanf("")); }),
@@ -161,6 +178,33 @@ TEST(RobotWire, RefusesReadingsOfAnotherSizeOrThatAreNoNumbers) {
             "a reading of 1 segments for a bumper of 2");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_measurements(4)->set_pressed("\1\2"); }),
             "a bumper's segment that is neither 0 nor 1");
+}
+
+TEST(RobotWire, RefusesPicturesAndBlobsThatAreNone) {
+  wire::RobotReadings good;
+  encode(someReadings(), good);
+  const auto complaint_after = [&](const std::function<void(wire::Measurement&, wire::Measurement&)>& spoil) {
+    wire::RobotReadings bad = good;
+    spoil(*bad.mutable_measurements(7), *bad.mutable_measurements(8));
+    Readings heard = blankReadings(everySensor());
+    return complaint([&] { decode(bad, "Pioneer1", heard); });
+  };
+  EXPECT_EQ(complaint_after([](auto&, auto&) {}), "");
+  for (const char* no_jpeg : {"\xFF\xD8", "\xFF\xD9", "GIF89a", "\xFF\xD8 cut off"}) {
+    EXPECT_EQ(complaint_after([&](auto& image, auto&) { image.set_jpeg(no_jpeg); }), "a picture that is no JPEG file");
+  }
+  EXPECT_EQ(complaint_after([](auto& image, auto&) { image.set_jpeg(std::string(kPictureBytesMax + 1, 'x')); }),
+            "a picture of 16777217 bytes; the most is 16777216");
+  EXPECT_EQ(complaint_after([](auto&, auto& blobs) { blobs.add_blobs(); }),
+            "a reading of 3 blobs for a blob finder of 2 colours");
+  const std::string in_no_picture = "a blob that is in no picture";
+  EXPECT_EQ(complaint_after([](auto&, auto& blobs) { blobs.mutable_blobs(0)->set_pixels(19); }), in_no_picture);
+  EXPECT_EQ(complaint_after([](auto&, auto& blobs) { blobs.mutable_blobs(0)->set_x_px(7.5f); }), in_no_picture);
+  EXPECT_EQ(complaint_after([](auto&, auto& blobs) { blobs.mutable_blobs(0)->set_y_px(std::nanf("")); }),
+            in_no_picture);
+  EXPECT_EQ(complaint_after([](auto&, auto& blobs) { blobs.mutable_blobs(0)->set_width_px(0xFFFFFFFF); }),
+            in_no_picture);
+  EXPECT_EQ(complaint_after([](auto&, auto& blobs) { blobs.mutable_blobs(0)->set_top_px(2049); }), in_no_picture);
 }
 
 RobotsWelcome someWelcome() {
@@ -184,6 +228,8 @@ TEST(RobotWire, CarriesAWelcomeAndRobotsOfAModelShareTheirSensorsAgain) {
   EXPECT_EQ(heard.seats[1].info.limits.turn_max_radps, 2);
   EXPECT_EQ(heard.seats[1].controller, "wander");
   EXPECT_EQ(heard.seats[0].info.sensors, heard.seats[1].info.sensors);
+  EXPECT_EQ((*heard.seats[0].info.sensors)[7].camera, (CameraInfo{320, 240, 1.25, 10}));
+  EXPECT_EQ((*heard.seats[0].info.sensors)[8].colors, (std::vector<std::string>{"gold", "red"}));
   EXPECT_EQ(heard.everyone, someWelcome().everyone);
   wire::RobotsWelcome again;
   encode(heard, again);
@@ -205,9 +251,22 @@ TEST(RobotWire, RefusesAWelcomeThatMakesNoSense) {
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams(1); }), "");
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_beams(0, kNan); }), "");
   EXPECT_NE(complaint_after([](auto& bad) {
-              bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind(static_cast<wire::SensorKind>(7));
+              bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind(static_cast<wire::SensorKind>(9));
             }),
             "");
+  const auto camera_after = [&](const std::function<void(wire::CameraDescription&)>& spoil) {
+    return complaint_after(
+        [&](auto& bad) { spoil(*bad.mutable_sensor_sets(0)->mutable_sensors(7)->mutable_camera()); });
+  };
+  const std::string takes_none = "a camera that takes no pictures";
+  EXPECT_EQ(camera_after([](auto& camera) { camera.Clear(); }), takes_none);
+  EXPECT_EQ(camera_after([](auto& camera) { camera.set_width_px(2049); }), takes_none);
+  EXPECT_EQ(camera_after([](auto& camera) { camera.set_height_px(0); }), takes_none);
+  EXPECT_EQ(camera_after([](auto& camera) { camera.set_field_of_view_rad(3.15); }), takes_none);
+  EXPECT_EQ(camera_after([](auto& camera) { camera.set_rate_hz(kNan); }), takes_none);
+  EXPECT_NE(camera_after([](auto& camera) { camera.set_rate_hz(kInf); }), "");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(7)->clear_beams(); }),
+            "a camera has one place on the robot");
 }
 
 }  // namespace

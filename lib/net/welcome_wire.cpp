@@ -8,7 +8,7 @@ namespace robosim {
 namespace {
 
 static_assert(static_cast<int>(SensorKind::sonar) == wire::SONAR &&
-              static_cast<int>(SensorKind::compass) == wire::COMPASS && wire::SensorKind_ARRAYSIZE == 7);
+              static_cast<int>(SensorKind::blob_finder) == wire::BLOB_FINDER && wire::SensorKind_ARRAYSIZE == 9);
 
 void checkFinite(std::initializer_list<double> values) {
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) return;
@@ -28,6 +28,24 @@ void encode(const SensorInfo& sensor, wire::SensorDescription& out) {
   out.set_beam_width_rad(sensor.beam_width_rad);
   out.set_noise_std_m(sensor.noise_std_m);
   out.set_pans(sensor.pans);
+  if (sensor.camera.width_px != 0) {
+    auto& camera = *out.mutable_camera();
+    camera.set_width_px(sensor.camera.width_px);
+    camera.set_height_px(sensor.camera.height_px);
+    camera.set_field_of_view_rad(sensor.camera.field_of_view_rad);
+    camera.set_rate_hz(sensor.camera.rate_hz);
+  }
+  for (const auto& color : sensor.colors) out.add_colors(color);
+}
+
+CameraInfo decode(const wire::CameraDescription& in) {
+  const auto is_side = [](std::uint32_t px) { return px >= 1 && px <= kPictureSideMax_px; };
+  if (!is_side(in.width_px()) || !is_side(in.height_px()) ||
+      !(in.field_of_view_rad() > 0 && in.field_of_view_rad() < M_PI) || !(in.rate_hz() > 0)) {
+    throw WireError("a camera that takes no pictures");
+  }
+  checkFinite({in.rate_hz()});
+  return {in.width_px(), in.height_px(), in.field_of_view_rad(), in.rate_hz()};
 }
 
 SensorInfo decode(const wire::SensorDescription& in) {
@@ -51,6 +69,10 @@ SensorInfo decode(const wire::SensorDescription& in) {
   sensor.beam_width_rad = in.beam_width_rad();
   sensor.noise_std_m = in.noise_std_m();
   sensor.pans = in.pans();
+  const bool sees = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
+  if (sees && sensor.beams.size() != 1) throw WireError("a camera has one place on the robot");
+  if (sees) sensor.camera = decode(in.camera());
+  sensor.colors.assign(in.colors().begin(), in.colors().end());
   return sensor;
 }
 

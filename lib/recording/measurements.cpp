@@ -5,11 +5,13 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 
 #include "recording/fan.h"
+#include "recording/jpeg_observation.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
 
@@ -21,6 +23,7 @@ using mrpt::math::TPose3D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
 using mrpt::obs::CObservationGasSensors;
+using mrpt::obs::CObservationImage;
 using mrpt::obs::CObservationIMU;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CObservationRange;
@@ -111,6 +114,37 @@ Odometry odometryFrom(const CObservationOdometry& observation) {
   return odometry;
 }
 
+Image imageFrom(const CObservationImage& observation, const SensorInfo& sensor) {
+  if (!observation.image.isExternallyStored() && observation.image.isEmpty()) {
+    refuse(observation, sensor, "it has no picture");
+  }
+  return {jpegOf(observation)};
+}
+
+Blobs blobsFrom(const CObservationRawDAQ& observation, const SensorInfo& sensor) {
+  constexpr std::size_t kNumbers = 7;
+  checkSize(observation, sensor, observation.AIN_double.size(), kNumbers * sensor.colors.size());
+  Blobs blobs = blankBlobs(sensor);
+  blobs.taken = true;
+  for (std::size_t i = 0; i < blobs.of_color.size(); ++i) {
+    const double* numbers = &observation.AIN_double[kNumbers * i];
+    for (std::size_t n = 0; n < kNumbers; ++n) {
+      if (!(numbers[n] >= 0 && numbers[n] <= 1.0 * kPictureSideMax_px * kPictureSideMax_px)) {
+        refuse(observation, sensor, "it has a blob that is in no picture");
+      }
+    }
+    Blob& blob = blobs.of_color[i];
+    blob.pixels = static_cast<std::uint32_t>(numbers[0]);
+    blob.x_px = static_cast<float>(numbers[1]);
+    blob.y_px = static_cast<float>(numbers[2]);
+    blob.left_px = static_cast<std::uint32_t>(numbers[3]);
+    blob.top_px = static_cast<std::uint32_t>(numbers[4]);
+    blob.width_px = static_cast<std::uint32_t>(numbers[5]);
+    blob.height_px = static_cast<std::uint32_t>(numbers[6]);
+  }
+  return blobs;
+}
+
 }  // namespace
 
 Measurement measurementFrom(const CObservation& observation, const SensorInfo& sensor) {
@@ -131,6 +165,10 @@ Measurement measurementFrom(const CObservation& observation, const SensorInfo& s
       return odometryFrom(as<CObservationOdometry>(observation, sensor));
     case SensorKind::compass:
       return yawFrom(as<CObservationIMU>(observation, sensor), sensor);
+    case SensorKind::camera:
+      return imageFrom(as<CObservationImage>(observation, sensor), sensor);
+    case SensorKind::blob_finder:
+      return blobsFrom(as<CObservationRawDAQ>(observation, sensor), sensor);
   }
   refuse(observation, sensor, "it is of no known kind");
 }

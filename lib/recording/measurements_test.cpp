@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationGasSensors.h>
+#include <mrpt/obs/CObservationImage.h>
 #include <mrpt/obs/CObservationRange.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
 
 #include "recording/byte_archive.h"
+#include "recording/jpeg_observation.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
 #include "recording/sample_robot.h"
@@ -52,15 +55,16 @@ std::size_t slotOf(const RobotInfo& robot, const SensorInfo& sensor) {
 }
 
 TEST(Measurements, ARecordedReadingIsTheReadingForEveryKindOfSensor) {
-  const RobotInfo robot = sampleRobot("rover");
-  RobotObservations observations(robot);
-  for (std::uint64_t step = 0; step < 100; ++step) {
-    const Readings readings = sampleReadings(robot, step);
-    for (const auto& observation : observations.of(readings, std::nullopt)) {
-      const auto read = writtenAndRead(*observation);
-      const SensorInfo& sensor = sensorOf(robot, *read);
-      expectSameReading(measurementFrom(*read, sensor), readings.measurements[slotOf(robot, sensor)],
-                        read->sensorLabel);
+  for (const RobotInfo& robot : {sampleRobot("rover"), seeingRobot("rover")}) {
+    RobotObservations observations(robot);
+    for (std::uint64_t step = 0; step < 100; ++step) {
+      const Readings readings = sampleReadings(robot, step);
+      for (const auto& observation : observations.of(readings, std::nullopt)) {
+        const auto read = writtenAndRead(*observation);
+        const SensorInfo& sensor = sensorOf(robot, *read);
+        expectSameReading(measurementFrom(*read, sensor), readings.measurements[slotOf(robot, sensor)],
+                          read->sensorLabel);
+      }
     }
   }
 }
@@ -135,6 +139,24 @@ TEST(Measurements, AnObservationOfAnotherSensorIsRefused) {
       refusal(comment, plainSensor(SensorKind::heat, "heat")),
       "recorded observation \"rover/heat\" (mrpt::obs::CObservationComment) is not of the heat \"heat\": the class "
       "should be mrpt::obs::CObservationGasSensors; give the robots that the recording was made with");
+}
+
+TEST(Measurements, TheJpegFileItselfStandsInTheRecording) {
+  JpegObservation observation;
+  observation.jpeg = sampleJpeg(sampleCamera(), 77);
+  ByteArchive archive;
+  archive << observation;
+  const std::string bytes(archive.bytes.begin(), archive.bytes.end());
+  EXPECT_NE(bytes.find(observation.jpeg), std::string::npos);
+}
+
+TEST(Measurements, AnObservationWithoutAPictureOrWithBlobsOfOtherColoursIsRefused) {
+  EXPECT_NE(refusal(mrpt::obs::CObservationImage(), sampleCamera()).find("it has no picture"), std::string::npos);
+  const SensorInfo finder = (*seeingRobot("rover").sensors)[2];
+  mrpt::obs::CObservationRawDAQ blobs;
+  EXPECT_NE(refusal(blobs, finder).find("holds 0 values in place of 14"), std::string::npos);
+  blobs.AIN_double.assign(14, -1);
+  EXPECT_NE(refusal(blobs, finder).find("it has a blob that is in no picture"), std::string::npos);
 }
 
 TEST(Measurements, AnObservationOfAnotherSizeIsRefused) {

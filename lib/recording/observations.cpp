@@ -15,6 +15,7 @@
 
 #include "base/random.h"
 #include "recording/fan.h"
+#include "recording/jpeg_observation.h"
 
 namespace robosim {
 namespace {
@@ -119,6 +120,43 @@ void fill(CObservationRawDAQ& bumper, const Contacts& contacts) {
   }
 }
 
+/// What is optically ahead and to the right of a camera is z and x to MRPT.
+const CPose3D& beamFromCamera() {
+  static const CPose3D pose(0, 0, 0, -M_PI / 2, 0, -M_PI / 2);
+  return pose;
+}
+
+CObservation::Ptr makePicture(const SensorInfo& sensor) {
+  auto picture = std::make_shared<JpegObservation>();
+  picture->cameraPose = CPose3D(poseOf(sensor)) + beamFromCamera();
+  const CameraInfo& camera = sensor.camera;
+  const double focal_px = camera.focalLength_px();
+  picture->cameraParams.ncols = camera.width_px;
+  picture->cameraParams.nrows = camera.height_px;
+  picture->cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, camera.width_px / 2.0, camera.height_px / 2.0);
+  return picture;
+}
+
+/// @returns whether there is a picture.
+bool fill(JpegObservation& picture, const Image& image) {
+  picture.jpeg = image.jpeg;
+  return !image.jpeg.empty();
+}
+
+/// @returns whether there was a picture.
+bool fill(CObservationRawDAQ& observation, const Blobs& blobs) {
+  observation.AIN_double.clear();
+  for (const Blob& blob : blobs.of_color) {
+    for (const double number :
+         {static_cast<double>(blob.pixels), static_cast<double>(blob.x_px), static_cast<double>(blob.y_px),
+          static_cast<double>(blob.left_px), static_cast<double>(blob.top_px), static_cast<double>(blob.width_px),
+          static_cast<double>(blob.height_px)}) {
+      observation.AIN_double.push_back(number);
+    }
+  }
+  return blobs.taken;
+}
+
 CObservation::Ptr makeOdometry() {
   auto odometry = CObservationOdometry::Create();
   odometry->hasVelocities = true;
@@ -150,33 +188,47 @@ CObservation::Ptr makeObservation(const SensorInfo& sensor) {
       return makeOdometry();
     case SensorKind::compass:
       return makeCompass(sensor);
+    case SensorKind::camera:
+      return makePicture(sensor);
+    case SensorKind::blob_finder:
+      return CObservationRawDAQ::Create();
   }
   assert(!"a kind of sensor that no observation has been chosen for");
   return {};
 }
 
-void fill(CObservation& observation, const SensorInfo& sensor, const Measurement& measurement, float pan_rad) {
+/// @returns whether the sensor measured anything in this step.
+bool fill(CObservation& observation, const SensorInfo& sensor, const Measurement& measurement, float pan_rad) {
   switch (sensor.kind) {
     case SensorKind::laser:
       if (auto* scan = dynamic_cast<CObservation2DRangeScan*>(&observation)) {
-        return fill(*scan, sensor, std::get<Echoes>(measurement), pan_rad);
+        fill(*scan, sensor, std::get<Echoes>(measurement), pan_rad);
+        break;
       }
       [[fallthrough]];
     case SensorKind::sonar:
     case SensorKind::infrared:
-      return fill(static_cast<CObservationRange&>(observation), sensor, std::get<Echoes>(measurement), pan_rad);
+      fill(static_cast<CObservationRange&>(observation), sensor, std::get<Echoes>(measurement), pan_rad);
+      break;
     case SensorKind::heat:
       static_cast<CObservationGasSensors&>(observation).m_readings[0].temperature =
           static_cast<float>(std::get<Scalar>(measurement).value);
-      return;
+      break;
     case SensorKind::bumper:
-      return fill(static_cast<CObservationRawDAQ&>(observation), std::get<Contacts>(measurement));
+      fill(static_cast<CObservationRawDAQ&>(observation), std::get<Contacts>(measurement));
+      break;
     case SensorKind::odometry:
-      return fill(static_cast<CObservationOdometry&>(observation), std::get<Odometry>(measurement));
+      fill(static_cast<CObservationOdometry&>(observation), std::get<Odometry>(measurement));
+      break;
     case SensorKind::compass:
       static_cast<CObservationIMU&>(observation).set(mrpt::obs::IMU_YAW, std::get<Scalar>(measurement).value);
-      return;
+      break;
+    case SensorKind::camera:
+      return fill(static_cast<JpegObservation&>(observation), std::get<Image>(measurement));
+    case SensorKind::blob_finder:
+      return fill(static_cast<CObservationRawDAQ&>(observation), std::get<Blobs>(measurement));
   }
+  return true;
 }
 
 /// A measurement of some numbers that are surely not written anywhere else in an observation.
@@ -196,6 +248,10 @@ Measurement probeOf(const SensorInfo& sensor, Rng& rng) {
       return Contacts{std::vector<std::uint8_t>(sensor.beams.size())};
     case SensorKind::odometry:
       return Odometry{{rng.uniform(), rng.uniform(), rng.uniform()}, rng.uniform(), rng.uniform()};
+    case SensorKind::camera:
+      return Image{};
+    case SensorKind::blob_finder:
+      return blankBlobs(sensor);
   }
   return {};
 }
@@ -233,27 +289,37 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
                                                          const std::optional<TPose2D>& world_from_robot) {
   assert(readings.measurements.size() == sensors_->size());
   const auto timestamp = timestampOf(readings.time);
+  told_.clear();
+  if (world_from_robot) {
+    tellTruth(*world_from_robot, timestamp);
+    told_.push_back(0);
+  }
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     CObservation& observation = *observations_[1 + i];
     observation.timestamp = timestamp;
-    fill(observation, (*sensors_)[slots_[i]], readings.measurements[slots_[i]], readings.laser_pan_rad);
+    if (fill(observation, (*sensors_)[slots_[i]], readings.measurements[slots_[i]], readings.laser_pan_rad)) {
+      told_.push_back(1 + i);
+    }
   }
-  const std::span<const CObservation::Ptr> all = observations_;
-  if (!world_from_robot) return all.subspan(1);
+  given_.clear();
+  for (const std::size_t i : told_) given_.push_back(observations_[i]);
+  return given_;
+}
+
+void RobotObservations::tellTruth(const TPose2D& world_from_robot, mrpt::Clock::time_point timestamp) {
   auto& truth = static_cast<CObservationRobotPose&>(*observations_[0]);
   truth.timestamp = timestamp;
-  truth.pose.mean = CPose3D(TPose3D(*world_from_robot));
+  truth.pose.mean = CPose3D(TPose3D(world_from_robot));
   const CPose3D& pose = truth.pose.mean;
   const auto& turned = pose.getRotationMatrix();
   truth_ = {pose.x(), pose.y(), pose.z()};
   std::copy(turned.begin(), turned.end(), truth_.begin() + 3);
-  return all;
 }
 
 void RobotObservations::write(const Readings& readings, const std::optional<TPose2D>& world_from_robot,
                               ByteArchive& archive) {
-  const auto observations = of(readings, world_from_robot);
-  for (std::size_t i = observations_.size() - observations.size(); i < observations_.size(); ++i) {
+  of(readings, world_from_robot);
+  for (const std::size_t i : told_) {
     const bool turned = i > 0 && (*sensors_)[slots_[i - 1]].pans && readings.laser_pan_rad != 0;
     if (imprints_[i] && !turned) {
       imprints_[i]->append(archive);

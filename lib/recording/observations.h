@@ -43,8 +43,12 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 ///  * compass: CObservationIMU with only a yaw
 ///  * odometry: CObservationOdometry. Stock icp-slam makes NaN of an angular speed of exactly 0, so 0 is written as
 ///    kNoTurn_radps
+///  * camera: CObservationImage, the JPEG file's very bytes
+///  * blob finder: CObservationRawDAQ, seven double-precision analogue inputs for each colour: pixels, x, y, left, top,
+///    width, height
 ///  * ground truth: CObservationRobotPose
 ///
+/// A step in which a camera takes no picture has no observation of it, nor of its blob finder.
 /// A sensor that turns is recorded with the pose that it had. measurementFrom() (measurements.h) is the way back.
 class RobotObservations {
  public:
@@ -52,8 +56,8 @@ class RobotObservations {
   RobotObservations(const RobotObservations&) = delete;
   RobotObservations& operator=(const RobotObservations&) = delete;
 
-  /// Ground truth if it is given, odometry, then the other sensors as the robot lists them. The same objects are filled
-  /// anew in every call: serialise them, or copy what is to stay.
+  /// Ground truth if it is given, odometry, then the other sensors that measured anything, as the robot lists them. The
+  /// same objects are filled anew in every call: serialise them, or copy what is to stay.
   std::span<const mrpt::obs::CObservation::Ptr> of(const Readings&,
                                                    const std::optional<mrpt::math::TPose2D>& world_from_robot);
 
@@ -61,12 +65,15 @@ class RobotObservations {
   void write(const Readings&, const std::optional<mrpt::math::TPose2D>& world_from_robot, ByteArchive& archive);
 
  private:
+  void tellTruth(const mrpt::math::TPose2D& world_from_robot, mrpt::Clock::time_point timestamp);
   void makeImprints();
   std::vector<Imprint::Number> changingNumbers(std::size_t i);
 
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
   std::vector<std::size_t> slots_;  ///< of observations_[1 + i]: its place in RobotInfo::sensors
   std::vector<mrpt::obs::CObservation::Ptr> observations_;  ///< ground truth, and one per sensor
+  std::vector<std::size_t> told_;                           ///< which of them this step has
+  std::vector<mrpt::obs::CObservation::Ptr> given_;         ///< these
   std::vector<std::optional<Imprint>> imprints_;            ///< as observations_; of sensors that turn, not turned
   std::array<double, 12> truth_{};  ///< ground truth as MRPT writes it: x, y, z, 3 × 3 rotation
 };

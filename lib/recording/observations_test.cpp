@@ -8,7 +8,9 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/poses/CPoint3D.h>
 
+#include "recording/jpeg_observation.h"
 #include "recording/sample_robot.h"
 
 namespace robosim {
@@ -44,6 +46,20 @@ TEST(Observations, ComeInTheOrderGroundTruthOdometryThenTheOthersAsMounted) {
   EXPECT_EQ(labels,
             (std::vector<std::string>{"rover/GROUND_TRUTH", "rover/odometry", "rover/sonar", "rover/laser",
                                       "rover/beam", "rover/infrared", "rover/heat", "rover/bumper", "rover/compass"}));
+}
+
+TEST(Observations, HaveACamerasPictureAndItsBlobsOnlyInAStepThatHasOne) {
+  const RobotInfo robot = seeingRobot("rover");
+  RobotObservations observations(robot);
+  const auto labels = [&](std::uint64_t step) {
+    std::vector<std::string> of_step;
+    for (const auto& observation : observations.of(sampleReadings(robot, step), std::nullopt)) {
+      of_step.push_back(observation->sensorLabel);
+    }
+    return of_step;
+  };
+  EXPECT_EQ(labels(2), (std::vector<std::string>{"rover/odometry", "rover/camera", "rover/blob_finder"}));
+  EXPECT_EQ(labels(3), std::vector<std::string>{"rover/odometry"});
 }
 
 TEST(Observations, LeaveOutAGroundTruthThatNobodyKnows) {
@@ -188,6 +204,29 @@ TEST(Observations, ACompassIsAYawAndNothingElse) {
   const auto compass = recorded<mrpt::obs::CObservationIMU>(plainSensor(SensorKind::compass, "compass"), Scalar{-2.5});
   EXPECT_EQ(compass.get(mrpt::obs::IMU_YAW), -2.5);
   EXPECT_EQ(std::count(compass.dataIsPresent.begin(), compass.dataIsPresent.end(), true), 1);
+}
+
+TEST(Observations, APictureHasItsCamerasPlaceWithTheDepthAlongZ) {
+  const auto picture = recorded<JpegObservation>(sampleCamera(), Image{sampleJpeg(sampleCamera(), 200)});
+  EXPECT_EQ(picture.cameraParams.ncols, 48u);
+  EXPECT_EQ(picture.cameraParams.nrows, 32u);
+  EXPECT_NEAR(picture.cameraParams.fx(), 24 / std::tan(0.6), 1e-9);
+  EXPECT_EQ(picture.cameraParams.fx(), picture.cameraParams.fy());
+  EXPECT_EQ(picture.cameraParams.cx(), 24);
+  EXPECT_EQ(picture.cameraParams.cy(), 16);
+  const auto ahead = picture.cameraPose + mrpt::poses::CPoint3D(0, 0, 1);
+  EXPECT_NEAR(ahead.x(), 0.15 + std::cos(0.1), 1e-9);
+  EXPECT_NEAR(ahead.y(), std::sin(0.1), 1e-9);
+  EXPECT_NEAR(ahead.z(), 0.3, 1e-9);
+  const auto right = picture.cameraPose + mrpt::poses::CPoint3D(1, 0, 0);
+  EXPECT_NEAR(right.y(), -std::cos(0.1), 1e-9);
+}
+
+TEST(Observations, AColoursBlobIsSevenAnalogueInputs) {
+  const SensorInfo finder = (*seeingRobot("rover").sensors)[2];
+  const auto observation =
+      recorded<mrpt::obs::CObservationRawDAQ>(finder, Blobs{true, {{"gold", 12, 10.5f, 20.25f, 8, 19, 6, 3}, {"red"}}});
+  EXPECT_EQ(observation.AIN_double, (std::vector<double>{12, 10.5, 20.25, 8, 19, 6, 3, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(Observations, OdometryHasPoseAndSpeeds) {

@@ -5,6 +5,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <mrpt/img/CImage.h>
+#include <mrpt/io/CMemoryStream.h>
 
 #include "base/random.h"
 #include "hardware/readings.h"
@@ -59,7 +61,38 @@ inline RobotInfo sampleRobot(const std::string& name) {
   return robot;
 }
 
-/// Readings that differ from step to step in every value; about one echo in five is silence.
+/// 48 × 32 pixels, a picture every second step, a little ahead of the robot's centre and turned a little to the left.
+inline SensorInfo sampleCamera() {
+  auto camera = plainSensor(SensorKind::camera, "camera", {beamAt(0.15, 0, 0.3, 0.1)});
+  camera.camera = {48, 32, 1.2, 5};
+  return camera;
+}
+
+/// Odometry, the sample camera, and a blob finder of gold and red.
+inline RobotInfo seeingRobot(const std::string& name) {
+  auto blob_finder = sampleCamera();
+  blob_finder.kind = SensorKind::blob_finder;
+  blob_finder.label = "blob_finder";
+  blob_finder.colors = {"gold", "red"};
+  RobotInfo robot;
+  robot.name = name;
+  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(
+      std::vector<SensorInfo>{plainSensor(SensorKind::odometry, "odometry"), sampleCamera(), blob_finder});
+  return robot;
+}
+
+/// A picture of one colour, as a JPEG file.
+inline std::string sampleJpeg(const SensorInfo& camera, std::uint8_t shade) {
+  mrpt::img::CImage picture(camera.camera.width_px, camera.camera.height_px, mrpt::img::CH_RGB);
+  picture.filledRectangle(0, 0, static_cast<int>(camera.camera.width_px) - 1,
+                          static_cast<int>(camera.camera.height_px) - 1, mrpt::img::TColor(shade, 100, 50));
+  mrpt::io::CMemoryStream stream;
+  picture.saveToStreamAsJPEG(stream, 80);
+  return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
+}
+
+/// Readings that differ from step to step in every value; about one echo in five is silence. Pictures are there in even
+/// steps only.
 inline Readings sampleReadings(const RobotInfo& robot, std::uint64_t step) {
   Rng rng(step);
   Readings readings;
@@ -98,13 +131,41 @@ inline Readings sampleReadings(const RobotInfo& robot, std::uint64_t step) {
         readings.measurements.emplace_back(
             Odometry{{rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-M_PI, M_PI)}, rng.uniform(), rng.uniform()});
         break;
+      case SensorKind::camera:
+        readings.measurements.emplace_back(
+            step % 2 == 0 ? Image{sampleJpeg(sensor, static_cast<std::uint8_t>(rng.below(256)))} : Image{});
+        break;
+      case SensorKind::blob_finder: {
+        Blobs blobs = blankBlobs(sensor);
+        blobs.taken = step % 2 == 0;
+        if (blobs.taken) blobs.of_color[1] = {"red", 1 + rng.below(6), 10.25f, 11.5f, 10, 11, 2, 3};
+        readings.measurements.emplace_back(blobs);
+        break;
+      }
     }
   }
   return readings;
 }
 
-/// Ranges and all other numbers bit for bit, points but for the rounding of a recomputed one.
+inline mrpt::img::CImage unpacked(const std::string& jpeg) {
+  mrpt::io::CMemoryStream stream(jpeg.data(), jpeg.size());
+  mrpt::img::CImage picture;
+  picture.loadFromStreamAsJPEG(stream);
+  return picture;
+}
+
+/// Ranges and all other numbers bit for bit, points but for the rounding of a recomputed one, pictures but for one more
+/// compression.
 inline void expectSameReading(const Measurement& read, const Measurement& written, const std::string& label) {
+  if (const auto* image = std::get_if<Image>(&written)) {
+    mrpt::img::CImage before = unpacked(image->jpeg), after = unpacked(std::get<Image>(read).jpeg);
+    ASSERT_EQ(after.getWidth(), before.getWidth()) << label;
+    ASSERT_EQ(after.getHeight(), before.getHeight()) << label;
+    for (unsigned channel = 0; channel < 3; ++channel) {
+      EXPECT_NEAR(*after(5, 5, channel), *before(5, 5, channel), 2) << label;
+    }
+    return;
+  }
   const auto* echoes = std::get_if<Echoes>(&written);
   if (!echoes) {
     EXPECT_EQ(read, written) << label;
