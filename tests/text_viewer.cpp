@@ -46,6 +46,10 @@ struct Printer {
     const auto& at = odometry.odom_from_robot;
     std::cout << at.x << ' ' << at.y << ' ' << at.phi;
   }
+  void operator()(const Image& image) const { std::cout << image.jpeg.size() << " bytes"; }
+  void operator()(const Blobs& blobs) const {
+    for (const Blob& blob : blobs.of_color) std::cout << blob.color << ' ' << blob.pixels << " px ";
+  }
 };
 
 void print(const Sight& sight) {
