@@ -48,7 +48,7 @@ struct Printer {
   }
   void operator()(const Image& image) const { std::cout << image.jpeg.size() << " bytes"; }
   void operator()(const Blobs& blobs) const {
-    for (const Blob& blob : blobs.of_color) std::cout << blob.color << ' ' << blob.pixels << " px ";
+    for (const auto& blob : blobs.of_color) std::cout << blob.color << ' ' << blob.pixels << ' ';
   }
 };
 

@@ -6,7 +6,6 @@
 
 #include "base/error_list.h"
 #include "net/private_file.h"
-#include "net/tls.h"
 #include "robosim/arguments.h"
 
 namespace robosim {
@@ -59,6 +58,30 @@ void addSecurityOptions(CLI::App& command, ConnectionArguments& a) {
       ->type_name("FILE")
       ->check(fileName());
   command.add_flag("--insecure", a.insecure, "send the token to another machine also without TLS");
+}
+
+std::optional<TlsIdentity> ListenerArguments::identity() const {
+  if (tls_cert.empty() != tls_key.empty()) {
+    throw ConfigError("--tls-cert and --tls-key belong together: give both, or neither");
+  }
+  if (tls_cert.empty()) return std::nullopt;
+  return TlsIdentity::read(tls_cert, tls_key);
+}
+
+Access ListenerArguments::access() const { return tokens.empty() ? Access() : Access::read(tokens); }
+
+void addListenerOptions(CLI::App& command, ListenerArguments& a) {
+  command.add_option("--tls-cert", a.tls_cert, "speak TLS, with this certificate (PEM)")
+      ->type_name("FILE")
+      ->check(fileName());
+  command.add_option("--tls-key", a.tls_key, "its private key (PEM), which nobody but its owner may read")
+      ->type_name("FILE")
+      ->check(fileName());
+  command
+      .add_option("--tokens", a.tokens,
+                  "who may come in: a line 'TOKEN viewer', 'TOKEN robot NAME...' or 'TOKEN operator' for each")
+      ->type_name("FILE")
+      ->check(fileName());
 }
 
 }  // namespace robosim

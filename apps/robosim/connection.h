@@ -1,10 +1,13 @@
 #pragma once
+#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
+#include "net/access.h"
 #include "net/dial.h"
 #include "net/listen.h"
+#include "net/tls.h"
 
 namespace robosim {
 
@@ -24,5 +27,19 @@ struct ConnectionArguments {
 /// Adds `--environment ADDRESS`, and what addSecurityOptions() adds.
 void addConnectionOptions(CLI::App& command, ConnectionArguments& arguments);
 void addSecurityOptions(CLI::App& command, ConnectionArguments& arguments);
+
+/// How a person says who may come in where a program listens.
+struct ListenerArguments {
+  std::string tls_cert, tls_key, tokens;
+  bool insecure = false;
+
+  /// Absent: without TLS. @throws ConfigError
+  std::optional<TlsIdentity> identity() const;
+  /// @throws ConfigError
+  Access access() const;
+};
+
+/// Adds `--tls-cert`, `--tls-key` and `--tokens`.
+void addListenerOptions(CLI::App& command, ListenerArguments& arguments);
 
 }  // namespace robosim

@@ -55,6 +55,7 @@ std::string pageOn(const wire::RunStatus& status) {
             {"speed", speed + "; lately " + withCommas(static_cast<std::uint64_t>(status.steps_per_s())) + " steps/s"},
             {"robots", robots}};
   if (!absent.empty()) rows.push_back({"absent", listed(absent)});
+  if (!status.winner().empty()) rows.push_back({"winner", status.winner()});
   if (status.late() > 0) rows.push_back({"late", withCommas(status.late()) + " commands (robots × steps)"});
   rows.push_back({"viewers", withCommas(status.viewers())});
   rows.push_back({"geometry", withCommas(status.geometry_workers()) + " workers"});

@@ -94,6 +94,10 @@ void LocalRun::noteOutcome() {
       break;
     }
   }
+  if (state.winner && !gold_.won_by) {
+    gold_.won_by = environment_.fleet().robots[*state.winner].info.name;
+    gold_.won_s = state.time.seconds();
+  }
   if (!gold_.all_halted_s && environment_.allHalted()) gold_.all_halted_s = state.time.seconds();
 }
 

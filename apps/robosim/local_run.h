@@ -35,10 +35,12 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead);
 LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead);
 
-/// When and by whom the gold was found, and when all had stopped; simulated seconds.
+/// When and by whom the gold was found, who has won, and when all had stopped; simulated seconds.
 struct GoldOutcome {
   std::optional<std::string> found_by;
   std::optional<double> found_s;
+  std::optional<std::string> won_by;  ///< whoever reached the gold and said so (CheckWin); has found it, too
+  std::optional<double> won_s;
   std::optional<double> all_halted_s;
 };
 

@@ -103,7 +103,7 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
 
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
-  if (recording_) recording_->write(state.readings, state.world_from_robot);
+  if (recording_) recording_->write(state.readings, state.world_from_robot, environment.commands());
   if (tracks_) tracks_->add(state.world_from_robot);
 }
 

@@ -27,8 +27,12 @@ nlohmann::ordered_json orNull(const std::optional<T>& value) {
 }
 
 std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
-  std::string text =
-      gold.found_s ? "gold found by " + *gold.found_by + " after " + fixed(*gold.found_s, 1) + " s" : "no gold found";
+  std::string text = "no gold found";
+  if (gold.won_by) {
+    text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
+  } else if (gold.found_by) {
+    text = "gold found by " + *gold.found_by + " after " + fixed(*gold.found_s, 1) + " s";
+  }
   if (gold.all_halted_s) text += "; all robots halted after " + fixed(*gold.all_halted_s, 1) + " s";
   if (why == EndedBy::time_limit) text += "; ended by the time limit";
   if (why == EndedBy::interrupt) text += "; ended by an interrupt";
@@ -66,6 +70,8 @@ nlohmann::ordered_json RunSummary::json() const {
           {"gold_found", gold.found_s.has_value()},
           {"gold_found_by", orNull(gold.found_by)},
           {"gold_time_s", orNull(gold.found_s)},
+          {"won_by", orNull(gold.won_by)},
+          {"won_time_s", orNull(gold.won_s)},
           {"all_halted_time_s", orNull(gold.all_halted_s)},
           {"driven_m", driven_m},
           {"stalls", stalls},

@@ -9,6 +9,7 @@
 #include "maze/controllers.h"
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"
+#include "robosim/connection.h"
 #include "robosim/interrupt.h"
 #include "robosim/run_outputs.h"
 #include "robosim/subcommands.h"
@@ -39,8 +40,7 @@ struct Arguments {
   std::string pace = "lockstep";
   double step_deadline_s = 1;
   bool paused = false;
-  std::string tls_cert, tls_key, tokens;
-  bool insecure = false;
+  ListenerArguments listener;
 };
 
 /// Which robots a process of their own drives: all, if the environment is to wait for them; otherwise those that nobody
@@ -140,12 +140,9 @@ class WorldRun final : public ServedRun {
 ServerOptions serverOptions(const Arguments& arguments) {
   ServerOptions options;
   options.listen = ListenAddresses::parse(arguments.listen);
-  if (arguments.tls_cert.empty() != arguments.tls_key.empty()) {
-    throw ConfigError("--tls-cert and --tls-key belong together: give both, or neither");
-  }
-  if (!arguments.tls_cert.empty()) options.tls = TlsIdentity::read(arguments.tls_cert, arguments.tls_key);
-  if (!arguments.tokens.empty()) options.access = Access::read(arguments.tokens);
-  if (!arguments.insecure) refuseExposure(options.listen, options.tls.has_value(), !options.access.isOpen());
+  options.tls = arguments.listener.identity();
+  options.access = arguments.listener.access();
+  if (!arguments.listener.insecure) refuseExposure(options.listen, options.tls.has_value(), !options.access.isOpen());
   options.step_deadline = std::chrono::milliseconds(std::llround(arguments.step_deadline_s * 1000));
   options.pace = arguments.pace == "realtime" ? Pace::realtime : Pace::lockstep;
   options.speed = arguments.of_run.speedNumber();
@@ -210,18 +207,8 @@ void addServe(CLI::App& program) {
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_flag("--paused", a->paused, "take no step until a control panel says start");
-  command->add_option("--tls-cert", a->tls_cert, "speak TLS, with this certificate (PEM)")
-      ->type_name("FILE")
-      ->check(fileName());
-  command->add_option("--tls-key", a->tls_key, "its private key (PEM), which nobody but its owner may read")
-      ->type_name("FILE")
-      ->check(fileName());
-  command
-      ->add_option("--tokens", a->tokens,
-                   "who may come in: a line 'TOKEN viewer', 'TOKEN robot NAME...' or 'TOKEN operator' for each")
-      ->type_name("FILE")
-      ->check(fileName());
-  command->add_flag("--insecure", a->insecure, "listen to other machines also without TLS and tokens");
+  addListenerOptions(*command, a->listener);
+  command->add_flag("--insecure", a->listener.insecure, "listen to other machines also without TLS and tokens");
   command->footer(std::string(kSession) + "\n" + controllersHelp());
   command->callback([a] { serveWorld(*a); });
 }

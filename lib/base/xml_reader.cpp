@@ -101,9 +101,14 @@ double XmlReader::length(const std::string& setting, Bounds bounds, double unit_
 }
 
 double XmlReader::number(const std::string& setting, Bounds bounds, double otherwise) {
+  return length(setting, bounds, 1, otherwise);
+}
+
+double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m, double otherwise_m) {
   const auto found = find(setting);
-  if (!found) return otherwise;
-  return checked(*found, setting, bounds, "; drop it for the default, " + toText(otherwise)).value_or(otherwise);
+  if (!found) return otherwise_m;
+  const std::string mend = "; drop it for the default, " + toText(otherwise_m, unit_m);
+  return checked(*found, setting, bounds, mend) ? toNumber(found->text, unit_m) : otherwise_m;
 }
 
 double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double otherwise_rad) {

@@ -51,6 +51,7 @@ class XmlReader {
   /// @name A setting with a default
   ///@{
   double number(const std::string& setting, Bounds bounds, double otherwise);
+  double length(const std::string& setting, Bounds bounds, double unit_m, double otherwise_m);
   std::string word(const std::string& setting, const std::string& otherwise);
   bool flag(const std::string& setting, bool otherwise);  ///< 0 or 1
   /// Reads degrees (the setting's name ends in `_deg`), takes bounds in degrees, and gives and takes radians.

@@ -43,6 +43,7 @@ class FakeHardware : public Hardware {
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
   void send(const std::string& to, const std::string& text) override { sent.push_back({info_.name, to, text}); }
+  void checkWin() override { ++win_checks; }
 
   const Command& lastCommand() const { return command_; }
   Readings& mutableReadings() { return readings_; }
@@ -91,6 +92,7 @@ class FakeHardware : public Hardware {
   bool blocked = false;                      ///< something holds the robot where it is
   std::function<void(FakeHardware&)> sense;  ///< called at the end of each step
   std::vector<RobotMessage> sent;
+  int win_checks = 0;  ///< how often the robot asked whether it has won
 
   static constexpr double kRadius_m = 0.25;
 

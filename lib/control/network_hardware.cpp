@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_set>
+#include <utility>
 
 #include "net/robot_wire.h"
 #include "net/robots.grpc.pb.h"
@@ -34,6 +35,8 @@ class FarRobot final : public Hardware {
     letters_.push_back({to, text});
   }
 
+  void checkWin() override { asks_for_win_ = true; }
+
   Readings& mutableReadings() { return readings_; }
 
   /// The environment has let the robot stop meanwhile, and its controller may still count on its last command.
@@ -50,6 +53,7 @@ class FarRobot final : public Hardware {
       sent.set_text(std::move(letter.text));
     }
     letters_.clear();
+    if (std::exchange(asks_for_win_, false)) out.add_check_win(index);
   }
 
  private:
@@ -62,6 +66,7 @@ class FarRobot final : public Hardware {
   Command command_;
   bool is_command_new_ = false;
   bool was_commanded_ = false;
+  bool asks_for_win_ = false;
   std::vector<Letter> letters_;
 };
 
@@ -141,6 +146,7 @@ struct NetworkHardware::Impl {
     for (std::size_t i = 0; i < robots.size(); ++i) {
       Readings& readings = robots[i]->mutableReadings();
       readings.time = {in.step(), welcome.period_s};
+      readings.winner = in.winner();
       decode(in.robots(static_cast<int>(i)), robots[i]->info().name, readings);
     }
     return true;
@@ -170,6 +176,7 @@ struct NetworkHardware::Impl {
     out.set_step(step);
     out.clear_commands();
     out.clear_letters();
+    out.clear_check_win();
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
     // A stream that has broken says why when it is read.
     call->stream->Write(out);
@@ -189,6 +196,7 @@ Hardware& NetworkHardware::robot(std::size_t i) { return *impl_->robots[i]; }
 std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.seats[i].place; }
 const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.seats[i].controller; }
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
+const std::string& NetworkHardware::world() const { return impl_->welcome.world; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }
 void NetworkHardware::rejoin() { impl_->rejoin(); }
 

@@ -29,6 +29,7 @@ class NetworkHardware {
   std::size_t place(std::size_t i) const;              ///< in the world's list
   const std::string& controller(std::size_t i) const;  ///< what the world would have it run; empty when it does not say
   std::uint64_t seed() const;                          ///< of the run
+  const std::string& world() const;                    ///< its name
 
   /// Sends what the robots were told since the last step, and waits for the next step's readings.
   /// @return false when the run is over

@@ -50,6 +50,10 @@ class Robot {
 
   /// @throws std::invalid_argument for an unknown receiver or too long a text.
   void send(const std::string& to, const std::string& text) { hardware_.send(to, text); }
+  /// Asks whether this robot is near enough to the gold to have won; the next step's readings tell.
+  void checkWin() { hardware_.checkWin(); }
+  /// The robot that has won; empty for as long as none has.
+  const std::string& winner() const { return readings().winner; }
   /// What was sent to this robot in the last step.
   const std::vector<RobotMessage>& inbox() const { return readings().inbox; }
 

@@ -6,6 +6,7 @@
 
 #include "environment/authorise.h"
 #include "environment/mail.h"
+#include "environment/referee.h"
 #include "environment/run_digest.h"
 #include "robots/differential_drive.h"
 
@@ -81,6 +82,7 @@ struct Environment::Impl {
   Scene scene;
   Authority authority;
   Mail mail;
+  Referee referee;
   RunDigest digest;
   std::vector<Group> groups;
   std::vector<Command> commands;
@@ -99,6 +101,7 @@ struct Environment::Impl {
         scene(solidsOf(world), fleet.robots.size(), world.bounds),
         authority(moversOf(fleet), world.bounds),
         mail(namesOf(fleet), world.communication, options.seed),
+        referee(world, fleet.robots.size()),
         digest(fleet.robots.size()),
         groups(groupsOf(fleet, options.period_s)),
         commands(fleet.robots.size()),
@@ -233,7 +236,31 @@ struct Environment::Impl {
       state.readings[i].stalled = state.stalled[i] != 0;
       state.readings[i].laser_pan_rad = state.laser_pan_rad[i];
     });
+    if (!state.winner) decideWinner();
     digest.add(state, workers);
+  }
+
+  void decideWinner() {
+    for (const auto robot : referee.refused()) state.readings[robot].is_too_far = false;
+    state.winner = referee.decide([this](std::size_t robot) {
+      const auto& pose = state.world_from_robot[robot];
+      return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};
+    });
+    for (const auto robot : referee.refused()) state.readings[robot].is_too_far = true;
+    if (!state.winner) return;
+    for (std::size_t i = 0; i < state.readings.size(); ++i) {
+      state.readings[i].winner = fleet.robots[*state.winner].info.name;
+      if (state.activity[i] == Activity::active) {
+        state.activity[i] = i == *state.winner ? Activity::found : Activity::halted;
+      }
+      setCommand(i, commands[i]);  // with the new activity
+    }
+  }
+
+  /// A robot that has halted has done so for good, whatever it says; and a replica learns of it from its command.
+  void setCommand(std::size_t robot, const Command& command) {
+    commands[robot] = command;
+    if (state.activity[robot] != Activity::active) commands[robot].activity = state.activity[robot];
   }
 
   void resume(const Moment& moment) {
@@ -258,11 +285,13 @@ std::size_t Environment::robotCount() const { return impl_->fleet.robots.size();
 const State& Environment::state() const { return impl_->state; }
 SimTime Environment::time() const { return impl_->state.time; }
 
-void Environment::setCommand(std::size_t robot, const Command& command) { impl_->commands[robot] = command; }
+void Environment::setCommand(std::size_t robot, const Command& command) { impl_->setCommand(robot, command); }
 
 void Environment::send(std::size_t from, const std::string& to, const std::string& text) {
   impl_->mail.send(from, to, text);
 }
+
+void Environment::checkWin(std::size_t robot) { impl_->referee.ask(robot); }
 
 void Environment::step() {
   const RobotRange every = impl_->everyRobot();
@@ -299,6 +328,7 @@ Moment Environment::moment() const {
 }
 void Environment::resume(const Moment& moment) { impl_->resume(moment); }
 const Command& Environment::command(std::size_t robot) const { return impl_->commands[robot]; }
+std::span<const Command> Environment::commands() const { return impl_->commands; }
 
 bool Environment::allHalted() const {
   const auto& activity = impl_->state.activity;

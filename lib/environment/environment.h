@@ -46,7 +46,10 @@ struct EnvironmentOptions {
 ///     overlap. Who was clipped or stayed is `stalled`;
 ///  3. deliver the robot messages sent since the last step: by sender (in the world's order), then as sent;
 ///  4. sense, everything from one frozen scene, every robot writing to its own slots only;
-///  5. the result stands, read-only, for whoever looks (recorder, viewer, server) until the next step.
+///  5. decide whether a robot that has asked (CheckWin) is near enough to the gold: then it has won, every robot is
+///  told
+///     so, and all halt (referee.h);
+///  6. the result stands, read-only, for whoever looks (recorder, viewer, server) until the next step.
 class Environment {
  public:
   /// Puts every robot at its start and senses once, as step 0.
@@ -66,6 +69,8 @@ class Environment {
   /// Queues a message for the next step. The same about threads.
   /// @throws std::invalid_argument for an unknown receiver or too long a text.
   void send(std::size_t from, const std::string& to, const std::string& text);
+  /// Asks, with the next step, whether a robot has won. The same about threads.
+  void checkWin(std::size_t robot);
 
   void step();
 
@@ -86,9 +91,10 @@ class Environment {
   void sense(RobotRange range);  ///< with all sensors that remember nothing
   /// For a sensor that remembers nothing: what it measured, to be read or put.
   Measurement& measurement(std::size_t robot, std::size_t slot);
-  void finish();  ///< delivers messages; the remaining sensors sense
+  void finish();  ///< delivers messages; the remaining sensors sense; decides who has won
 
   const Command& command(std::size_t robot) const;  ///< the last one
+  std::span<const Command> commands() const;        ///< of all robots
   Moment moment() const;                            ///< between steps
   /// Goes on from there. @pre `moment` is of an environment with the same world, fleet and options.
   void resume(const Moment& moment);

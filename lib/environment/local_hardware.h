@@ -13,6 +13,7 @@ class LocalHardware : public Hardware {
   const Readings& readings() const override { return environment_.state().readings[robot_]; }
   void command(const Command& command) override { environment_.setCommand(robot_, command); }
   void send(const std::string& to, const std::string& text) override { environment_.send(robot_, to, text); }
+  void checkWin() override { environment_.checkWin(robot_); }
 
  private:
   Environment& environment_;

@@ -57,6 +57,9 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
     bytes.add(message.from);
     bytes.add(message.text);
   }
+  // Nothing is added for a run in which nobody asks.
+  if (state.readings[i].is_too_far) bytes.add("too far");
+  if (!state.readings[i].winner.empty()) bytes.add(state.readings[i].winner);
 }
 
 }  // namespace

@@ -21,6 +21,17 @@ void addWall(World& world, double x_m, double y_m, double length_m, double width
   world.objects.push_back(wall);
 }
 
+void addGold(World& world, double x_m, double y_m, double radius_m) {
+  WorldObject gold;
+  gold.name = "gold" + std::to_string(world.objects.size());
+  gold.body.shape = Cylinder{radius_m};
+  gold.body.world_from_body = {x_m, y_m, 0};
+  gold.body.center_z_m = 0.25;
+  gold.body.height_m = 0.5;
+  gold.body.heat_celsius = 20;
+  world.objects.push_back(gold);
+}
+
 void addDisc(World& world, Fleet& fleet, const std::string& name, const mrpt::math::TPose2D& start, double radius_m,
              const MotionLimits& limits) {
   auto model = std::make_shared<RobotModel>();

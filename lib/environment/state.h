@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
@@ -23,7 +24,8 @@ struct State {
   std::vector<Activity> activity;
   std::vector<float> laser_pan_rad;
   std::vector<Readings> readings;
-  std::uint64_t stalls = 0;  ///< robot-steps that were clipped or refused, so far
+  std::optional<std::size_t> winner;  ///< the robot that has won
+  std::uint64_t stalls = 0;           ///< robot-steps that were clipped or refused, so far
   std::uint64_t messages_delivered = 0;
 };
 

@@ -17,6 +17,7 @@ struct Command {
   double turn_radps = 0;    ///< counter-clockwise
   float laser_pan_rad = 0;  ///< for a sensor that turns, [-π/2, π/2]
   Activity activity = Activity::active;
+  bool by_driver = false;  ///< a person drives the robot (doc/remote.md), not its controller
   bool operator==(const Command&) const = default;
 };
 

@@ -24,6 +24,9 @@ class Hardware {
   /// @throws std::invalid_argument when there is no robot of the name `to`, or the text is longer than
   /// kMaxMessageBytes.
   virtual void send(const std::string& to, const std::string& text) = 0;
+  /// Asks, with the next time step, whether this robot has won (2005: CheckWin): Readings::winner and `is_too_far` are
+  /// the answer.
+  virtual void checkWin() = 0;
 };
 
 }  // namespace robosim

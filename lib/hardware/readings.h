@@ -90,7 +90,9 @@ struct Readings {
   bool stalled = false;                   ///< the last move was clipped or refused
   float laser_pan_rad = 0;                ///< where the turnable sensors looked
   std::vector<RobotMessage>
-      inbox;  ///< sent in the last step, ordered by sender (as the world lists them), then as sent
+      inbox;                ///< sent in the last step, ordered by sender (as the world lists them), then as sent
+  std::string winner;       ///< the robot that has won: then all halt. Empty for as long as none has
+  bool is_too_far = false;  ///< this robot has asked whether it has won, and is not near enough to the gold
 };
 
 }  // namespace robosim

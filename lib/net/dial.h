@@ -20,7 +20,7 @@ struct DialOptions {
   std::string trusted_pem{};  ///< with TLS, the certificates to trust; empty for the system's authorities
   std::string token{};        ///< shown with every call; empty for none
   bool insecure = false;  ///< show the token without TLS to other machines as well, where anyone on the way can read it
-  std::chrono::milliseconds keepalive = kKeepalive;
+  std::chrono::milliseconds keepalive = kKeepalive;  ///< after so long without a word the other end is asked
 };
 
 /// A call came to no good end: what, where and the mend.

@@ -32,16 +32,17 @@ bool isLoopback(const std::string& address) {
   return host == "localhost" || host == "[::1]";
 }
 
+void refuseExposure(const std::string& option, const std::string& address, bool has_tls, bool has_tokens) {
+  if ((has_tls && has_tokens) || isLoopback(address)) return;
+  const std::string tls = has_tls ? "" : "--tls-cert FILE and --tls-key FILE, so that nobody can listen in";
+  const std::string tokens = has_tokens ? "" : "--tokens FILE, so that not everyone may come in";
+  throw ConfigError(option + " " + address + " is open to other machines: add " + tls +
+                    (!has_tls && !has_tokens ? ", and " : "") + tokens +
+                    "; or --insecure, if everyone on the network may do everything here; or listen on 127.0.0.1");
+}
+
 void refuseExposure(const ListenAddresses& listen, bool has_tls, bool has_tokens) {
-  if (has_tls && has_tokens) return;
-  for (const auto& address : listen.all()) {
-    if (isLoopback(address)) continue;
-    const std::string tls = has_tls ? "" : "--tls-cert FILE and --tls-key FILE, so that nobody can listen in";
-    const std::string tokens = has_tokens ? "" : "--tokens FILE, so that not everyone may come in";
-    throw ConfigError("--listen " + address + " is open to other machines: add " + tls +
-                      (!has_tls && !has_tokens ? ", and " : "") + tokens +
-                      "; or --insecure, if everyone on the network may do everything here; or listen on 127.0.0.1");
-  }
+  for (const auto& address : listen.all()) refuseExposure("--listen", address, has_tls, has_tokens);
 }
 
 ListenAddresses ListenAddresses::parse(const std::string& text) {

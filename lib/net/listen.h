@@ -25,6 +25,8 @@ std::string hostAndPort(const std::string& address);
 /// Sees to it that nobody listens to the network unprotected by mistake: without TLS and tokens only on loopback.
 /// @throws ConfigError that names what to add
 void refuseExposure(const ListenAddresses& listen, bool has_tls, bool has_tokens);
+/// The same for one address; `option` is what names it on the command line.
+void refuseExposure(const std::string& option, const std::string& address, bool has_tls, bool has_tokens);
 
 /// Whether an address, "host:port", is reached from this machine only: 127.x.y.z, ::1 or localhost. A name that this
 /// machine may resolve to one of these counts for none.

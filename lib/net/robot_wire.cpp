@@ -162,6 +162,7 @@ void encode(const Command& command, std::uint32_t robot, wire::RobotCommand& out
   out.set_turn_radps(command.turn_radps);
   out.set_laser_pan_rad(command.laser_pan_rad);
   out.set_activity(static_cast<wire::Activity>(command.activity));
+  out.set_by_driver(command.by_driver);
 }
 
 Command decode(const wire::RobotCommand& in, std::size_t robots) {
@@ -173,7 +174,7 @@ Command decode(const wire::RobotCommand& in, std::size_t robots) {
     throw WireError("the command for robot " + std::to_string(in.robot()) + " has the activity " +
                     std::to_string(in.activity()) + "; there are 0 (active), 1 (halted) and 2 (found)");
   }
-  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), static_cast<Activity>(in.activity())};
+  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), static_cast<Activity>(in.activity()), in.by_driver()};
 }
 
 void decode(const wire::FromRobots& in, std::size_t robots, RobotsAnswer& out) {
@@ -189,6 +190,8 @@ void decode(const wire::FromRobots& in, std::size_t robots, RobotsAnswer& out) {
     }
     out.letters.push_back({letter.robot(), letter.to(), letter.text()});
   }
+  out.win_checks.assign(in.check_win().begin(), in.check_win().end());
+  for (const auto robot : out.win_checks) checkRobot(robot, robots, "a question whether it has won");
 }
 
 void encode(const Measurement& measurement, wire::Measurement& out) {
@@ -203,6 +206,7 @@ void encode(const Readings& readings, wire::RobotReadings& out) {
   for (const auto& measurement : readings.measurements) encode(measurement, *out.add_measurements());
   out.set_stalled(readings.stalled);
   out.set_laser_pan_rad(readings.laser_pan_rad);
+  out.set_is_too_far(readings.is_too_far);
   for (const auto& letter : readings.inbox) encode(letter, *out.add_inbox());
 }
 
@@ -223,6 +227,7 @@ void decode(const wire::RobotReadings& in, const std::string& to, Readings& out)
   }
   out.stalled = in.stalled();
   out.laser_pan_rad = in.laser_pan_rad();
+  out.is_too_far = in.is_too_far();
   out.inbox.clear();
   for (const auto& letter : in.inbox()) out.inbox.push_back({letter.from(), to, letter.text()});
 }

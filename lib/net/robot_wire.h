@@ -29,6 +29,7 @@ struct RobotsAnswer {
   std::uint64_t step = 0;
   std::vector<Order> orders;
   std::vector<Letter> letters;
+  std::vector<std::uint32_t> win_checks;  ///< who asks whether it has won
 };
 
 void encode(const Command& command, std::uint32_t robot, wire::RobotCommand& out);
@@ -49,6 +50,7 @@ void encode(const Readings& readings, wire::RobotReadings& out);
 /// Puts these letters before the ones that are in the inbox.
 void encodeInbox(const std::vector<RobotMessage>& letters, wire::RobotReadings& out);
 /// @param out holds measurements of the right kinds and sizes: blankReadings()
+/// All but the winner, which a process is told once for all its robots.
 /// @param to the robot's name, for its inbox
 void decode(const wire::RobotReadings& in, const std::string& to, Readings& out);
 

@@ -45,6 +45,7 @@ Readings someReadings() {
   readings.stalled = true;
   readings.laser_pan_rad = 0.5f;
   readings.inbox = {{"Scout1", "Pioneer1", "GOLD"}};
+  readings.is_too_far = true;
   return readings;
 }
 
@@ -73,6 +74,7 @@ TEST(RobotWire, CarriesReadingsBitForBit) {
   EXPECT_EQ(heard.stalled, sent.stalled);
   EXPECT_EQ(heard.laser_pan_rad, sent.laser_pan_rad);
   EXPECT_EQ(heard.inbox, sent.inbox);
+  EXPECT_EQ(heard.is_too_far, sent.is_too_far);
 }
 
 TEST(RobotWire, CarriesAStepWithoutAPicture) {
@@ -104,15 +106,17 @@ TEST(RobotWire, PutsHeldLettersBeforeTheNewestOnes) {
   EXPECT_EQ(heard.inbox, expected);
 }
 
-TEST(RobotWire, CarriesCommandsAndLetters) {
-  const Command command{0.5, -0.25, 0.125f, Activity::found};
+TEST(RobotWire, CarriesCommandsLettersAndQuestionsWhetherOneHasWon) {
+  const Command command{0.5, -0.25, 0.125f, Activity::found, true};
   wire::FromRobots message;
   message.set_step(7);
   encode(command, 1, *message.add_commands());
   message.add_letters()->set_to("Scout1");
   message.mutable_letters(0)->set_text(std::string(kMaxMessageBytes, '\0'));
+  message.add_check_win(1);
   RobotsAnswer answer;
   decode(message, 2, answer);
+  EXPECT_EQ(answer.win_checks, std::vector<std::uint32_t>{1});
   EXPECT_EQ(answer.step, 7u);
   ASSERT_EQ(answer.orders.size(), 1u);
   EXPECT_EQ(answer.orders[0].robot, 1u);
@@ -149,6 +153,9 @@ TEST(RobotWire, RefusesUnknownActivitiesOtherProcessesRobotsAndLongLetters) {
   message.Clear();
   message.add_letters()->set_robot(0xFFFFFFFF);
   EXPECT_NE(complaintOf(message).find("a letter for robot 4294967295 of 2"), std::string::npos);
+  message.Clear();
+  message.add_check_win(2);
+  EXPECT_NE(complaintOf(message).find("a question whether it has won for robot 2 of 2"), std::string::npos);
   message.Clear();
   message.add_letters()->set_text(std::string(kMaxMessageBytes + 1, 'x'));
   EXPECT_EQ(complaintOf(message), "a letter of 4097 bytes; the most is 4096");

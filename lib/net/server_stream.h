@@ -70,6 +70,8 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
   virtual void received(const In&) = 0;
   /// Hangs up on a peer that sent what makes no sense.
   virtual void refuse(const WireError&) = 0;
+  /// What was posted has gone out, and nothing more is posted.
+  virtual void drained() {}
   /// The peer has hung up, or is lost. Followed by no other call.
   virtual void ended() = 0;
 
@@ -110,13 +112,17 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
   }
 
   void OnWriteDone(bool ok) final {
-    const std::lock_guard lock(mutex_);
-    writing_ = false;
-    if (!ok) {  // the peer is gone: there is nobody to write to
-      posted_ = false;
-      ending_ = true;
+    {
+      const std::lock_guard lock(mutex_);
+      writing_ = false;
+      if (!ok) {  // the peer is gone: there is nobody to write to
+        posted_ = false;
+        ending_ = true;
+      }
+      writeNext();
+      if (writing_ || ending_) return;
     }
-    writeNext();
+    drained();
   }
 
   void OnDone() final {

@@ -1,10 +1,7 @@
 #include "net/switchboard.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <thread>
-
-#include "net/lean_locks.h"
 
 namespace robosim {
 namespace {
@@ -24,13 +21,12 @@ gpr_timespec atOnce() { return gpr_time_0(GPR_CLOCK_MONOTONIC); }
 
 }  // namespace
 
-Switchboard::Switchboard(const std::vector<Offer>& offers, const Options& options) {
-  useLeanLocks();
+Switchboard::Switchboard(const std::vector<Offer>& offers, const PortOptions& options) {
   for (const auto& offer : offers) {
     const auto found =
         std::find_if(desks_.begin(), desks_.end(), [&](const Desk& desk) { return desk.address == offer.address; });
     desk_of_offer_.push_back(static_cast<std::size_t>(found - desks_.begin()));
-    if (found == desks_.end()) desks_.push_back({offer.address, nullptr, nullptr});
+    if (found == desks_.end()) desks_.push_back({offer.address, nullptr, {}});
   }
   try {
     for (std::size_t d = 0; d < desks_.size(); ++d) {
@@ -38,7 +34,9 @@ Switchboard::Switchboard(const std::vector<Offer>& offers, const Options& option
       for (std::size_t i = 0; i < offers.size(); ++i) {
         if (desk_of_offer_[i] == d) services.push_back(offers[i].service);
       }
-      open(desks_[d], services, options);
+      grpc::ServerBuilder builder;
+      desks_[d].queue = builder.AddCompletionQueue();
+      desks_[d].open = openPort(desks_[d].address, options, services, std::move(builder));
     }
   } catch (...) {
     close();
@@ -47,26 +45,6 @@ Switchboard::Switchboard(const std::vector<Offer>& offers, const Options& option
 }
 
 Switchboard::~Switchboard() { close(); }
-
-void Switchboard::open(Desk& desk, const std::vector<grpc::Service*>& services, const Options& options) {
-  const auto keepalive_ms = static_cast<int>(options.keepalive.count());
-  grpc::ServerBuilder builder;
-  // Without this two programs could share a port unknowingly, and each client reach either.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, keepalive_ms);
-  builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, keepalive_ms);
-  // Clients may ask as often; unless told, gRPC would hang up on them for it.
-  builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, keepalive_ms / 2);
-  builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
-  builder.AddListeningPort(desk.address,
-                           options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(), &desk.port);
-  for (auto* service : services) builder.RegisterService(service);
-  desk.queue = builder.AddCompletionQueue();
-  desk.server = builder.BuildAndStart();
-  if (desk.server && desk.port != 0) return;
-  throw std::runtime_error("cannot listen on " + desk.address + ": is another program using the port? Name another with " +
-                           options.option + ", or :0 for any");
-}
 
 Switchboard::Line Switchboard::line(std::size_t offer) {
   return {this, queue(), desks_[desk_of_offer_[offer]].queue.get()};
@@ -114,7 +92,7 @@ void Switchboard::close() {
   std::thread closing([&] {
     const auto until = std::chrono::system_clock::now() + kGrace;
     for (const auto& desk : desks_) {
-      if (desk.server) desk.server->Shutdown(until);
+      if (desk.open.server) desk.open.server->Shutdown(until);
     }
   });
   while (calls_ > 0) {

@@ -2,13 +2,12 @@
 #include <chrono>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <grpcpp/grpcpp.h>
 
-#include "net/tls.h"
+#include "net/open_port.h"
 
 namespace robosim {
 
@@ -41,12 +40,6 @@ class Switchboard {
  public:
   using Clock = std::chrono::steady_clock;
 
-  struct Options {
-    std::optional<TlsIdentity> tls;        ///< absent: without TLS
-    std::chrono::milliseconds keepalive;  ///< a machine that has been silent for so long is asked whether it is there,
-                                          ///< and taken for dead after as long again
-    std::string option = "--listen";      ///< what names an address on the command line, for errors
-  };
   /// What is to be found at an address.
   struct Offer {
     std::string address;     ///< "host:port"; port 0 lets the system choose
@@ -61,12 +54,12 @@ class Switchboard {
 
   /// Opens the ports; equal addresses share one.
   /// @throws std::runtime_error when a port is taken; what, where and the mend.
-  Switchboard(const std::vector<Offer>& offers, const Options& options);
+  Switchboard(const std::vector<Offer>& offers, const PortOptions& options);
   ~Switchboard();
   Switchboard(const Switchboard&) = delete;
   Switchboard& operator=(const Switchboard&) = delete;
 
-  int port(std::size_t offer) const { return desks_[desk_of_offer_[offer]].port; }
+  int port(std::size_t offer) const { return desks_[desk_of_offer_[offer]].open.number; }
   Line line(std::size_t offer);
   grpc::CompletionQueue* queue() const { return desks_.front().queue.get(); }
 
@@ -94,10 +87,8 @@ class Switchboard {
   struct Desk {
     std::string address;
     std::unique_ptr<grpc::ServerCompletionQueue> queue;
-    std::unique_ptr<grpc::Server> server;
-    int port = 0;
+    OpenPort open;
   };
-  void open(Desk& desk, const std::vector<grpc::Service*>& services, const Options& options);
   bool takeOne(grpc::ServerCompletionQueue& queue, gpr_timespec until);
   void takeFromOtherDesks();
   void glance();

@@ -12,12 +12,14 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
 #include "base/error_list.h"
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
+#include "recording/remarks.h"
 
 namespace robosim {
 namespace {
@@ -32,13 +34,14 @@ constexpr std::size_t kReadingsABatch = 1024;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
-  explicit Track(const RobotInfo& robot) : observations(robot) {
+  explicit Track(const RobotInfo& robot) : observations(robot), remarks(robot.name) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
   }
 
   RobotObservations observations;
+  Remarks remarks;
   std::optional<std::size_t> odometry_slot;
   std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
 };
@@ -78,7 +81,8 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   return files;
 }
 
-void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth, ByteArchive& archive) {
+void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth, const Command& command,
+                ByteArchive& archive) {
   const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
@@ -91,7 +95,15 @@ void appendPair(Track& track, const Readings& readings, const std::optional<TPos
 
   mrpt::obs::CSensoryFrame frame;
   for (const auto& observation : track.observations.of(readings, truth)) frame.push_back(observation);
+  if (const auto remark = track.remarks.of(readings, command)) frame.push_back(remark);
   archive << actions << frame;
+}
+
+/// MRPT has one for a recording, and reads it as a configuration file.
+mrpt::obs::CObservationComment commentOn(const std::string& winner) {
+  mrpt::obs::CObservationComment comment;
+  comment.text = "[run]\nwinner = " + winner + "\n";
+  return comment;
 }
 
 }  // namespace
@@ -102,6 +114,7 @@ struct RawlogWriter::Impl {
   struct Step {
     std::vector<Readings> readings;
     std::vector<TPose2D> world_from_robot;
+    std::vector<Command> commands;
   };
 
   void handOver();
@@ -112,6 +125,7 @@ struct RawlogWriter::Impl {
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
+  std::string winner;            ///< the robot that has won
   std::future<void> background;  ///< at work on `recording`; the first to be destroyed, which waits for it
 };
 
@@ -128,10 +142,12 @@ void RawlogWriter::Impl::record(const Step& step) {
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
     Track& track = tracks[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
+    const Command command = step.commands.empty() ? Command{} : step.commands[i];
     if (format == RawlogFormat::observations) {
       track.observations.write(step.readings[i], truth, outputs[0]->archive);
+      if (const auto remark = track.remarks.of(step.readings[i], command)) outputs[0]->archive << *remark;
     } else {
-      appendPair(track, step.readings[i], truth, outputs[i]->archive);
+      appendPair(track, step.readings[i], truth, command, outputs[i]->archive);
     }
   }
   for (auto& output : outputs) output->flush(kChunkBytes);
@@ -155,19 +171,25 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
 
 RawlogWriter::~RawlogWriter() = default;
 
-void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot) {
+void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot,
+                         std::span<const Command> commands) {
   assert(readings.size() == impl_->tracks.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
   Impl::Step& step = impl_->filling[impl_->filled++];
   step.readings.assign(readings.begin(), readings.end());
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
+  step.commands.assign(commands.begin(), commands.end());
+  if (impl_->winner.empty() && !readings.empty()) impl_->winner = readings[0].winner;
   if (impl_->filled == impl_->filling.size()) impl_->handOver();
 }
 
 void RawlogWriter::close() {
   impl_->handOver();
   impl_->background.get();
-  for (auto& output : impl_->outputs) output->flush(0);
+  for (auto& output : impl_->outputs) {
+    if (!impl_->winner.empty()) output->archive << commentOn(impl_->winner);
+    output->flush(0);
+  }
   for (auto& output : impl_->outputs) output->file.commit();
 }
 

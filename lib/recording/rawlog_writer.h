@@ -6,6 +6,7 @@
 
 #include <mrpt/math/TPose2D.h>
 
+#include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
 
@@ -21,9 +22,11 @@ enum class RawlogFormat {
 /// does.
 ///
 /// A step's observations are written robot by robot, as the robots were given; of each robot ground truth, odometry,
-/// then its other sensors in their order. Of a pair, the action is the odometry's increment since the pair before (0
-/// for the first) under MRPT's default motion model, and the frame holds all the robot's observations, odometry and
-/// ground truth too.
+/// then its other sensors in their order, then what its driver does (remarks.h). Of a pair, the action is the
+/// odometry's increment since the pair before (0 for the first) under MRPT's default motion model, and the frame holds
+/// all the robot's observations, odometry and ground truth too.
+///
+/// When a robot has won, the recording's comment (CRawlog::getCommentText()) says so, as `winner = NAME` in [run].
 ///
 /// All but copying the readings happens in a thread in the background, so that a run that has a processor to spare is
 /// hardly slower for being recorded.
@@ -40,8 +43,10 @@ class RawlogWriter {
   /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.
   /// @param readings one per robot, in the order of the constructor's.
   /// @param world_from_robot where each robot really is; empty when nobody knows.
+  /// @param commands that the robots obeyed in this step; empty when nobody knows.
   /// @throws RecordingError when the disk is full, or fails. Whatever had the file's name before is still there.
-  void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot);
+  void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
+             std::span<const Command> commands = {});
   /// Finishes the recording, and gives it its name.
   /// @throws RecordingError as write() does.
   void close();

@@ -63,7 +63,7 @@ struct EnvironmentServer::Impl {
                      {options.listen.robots, &robots},
                      {options.listen.geometry, &geometry},
                      {options.listen.control, &panels}},
-                    {.tls = options.tls, .keepalive = options.keepalive}) {
+                    {options.tls, "--listen", options.keepalive}) {
     lobby.log = options.log;
     lobby.step_deadline = options.step_deadline;
     lobby.hello_deadline = options.hello_deadline;
@@ -130,6 +130,7 @@ struct EnvironmentServer::Impl {
     status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
     status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
     status.set_late(robots.late());
+    if (state.winner) status.set_winner(exhibit.robot_names[*state.winner]);
   }
 
   /// Says goodbye to everyone, and waits until they have heard it.
@@ -178,6 +179,8 @@ struct EnvironmentServer::Impl {
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
     desk.load = [&](const WorldSource& source) { load(run, source); };
     desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
+    admit();
+    isEveryoneHere();  // a panel that asks first of all is to be told how the run stands
     while (!run.isOver()) {
       lobby.rang = false;
       obeyPanels();

@@ -220,6 +220,8 @@ void RobotConversation::sendReadings(Stream& stream) {
   wire::ToRobots& message = stream.draft();
   message.clear_welcome();
   message.set_step(environment.time().step);
+  message.set_winner(environment.state().winner ? environment.fleet().robots[*environment.state().winner].info.name
+                                                : "");
   // Fields that are set anew, not cleared, keep the memory of the step before.
   while (message.robots_size() < static_cast<int>(stream.robots.size())) message.add_robots();
   for (std::size_t i = 0; i < stream.robots.size(); ++i) {
@@ -274,6 +276,7 @@ std::size_t RobotConversation::handOver(Environment& environment) {
     for (const auto& letter : stream->answer.letters) {
       environment.send(stream->robots[letter.robot], letter.to, letter.text);
     }
+    for (const auto robot : stream->answer.win_checks) environment.checkWin(stream->robots[robot]);
   }
   late_ += late_now;
   return late_now;

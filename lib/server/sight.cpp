@@ -86,6 +86,7 @@ bool update(Sight& sight, const wire::Frame& frame) {
   if (frame.has_world()) take(sight, frame);
   sight.step = frame.step();
   sight.time_s = frame.time_s();
+  sight.winner = frame.winner();
   for (const auto& robot : frame.robots()) {
     checkRobot(robot.robot(), sight);
     sight.robots[robot.robot()] = lookAt(robot);

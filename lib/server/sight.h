@@ -37,6 +37,7 @@ struct Sight {
   std::uint64_t step = 0;
   double time_s = 0;
   std::vector<RobotLook> robots;  ///< in the world's order
+  std::string winner;             ///< the robot that has won; empty for as long as none has
 
   /// What a robot's sensors measured at this step, in the order of its RobotInfo::sensors; null unless the viewer has
   /// asked for it. A camera's picture is the newest, and is there once: when it is new to the viewer.

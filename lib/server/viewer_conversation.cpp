@@ -126,6 +126,7 @@ void ViewerConversation::send(Stream& stream) {
   }
   frame.set_step(state.time.step);
   frame.set_time_s(state.time.seconds());
+  if (state.winner) frame.set_winner(exhibit.robot_names[*state.winner]);
   stream.looked.resize(exhibit.robot_names.size());
   for (std::size_t i = 0; i < stream.looked.size(); ++i) {
     const RobotLook look = lookOf(state, i);

@@ -68,6 +68,10 @@ struct Communication {
   bool operator==(const Communication&) const = default;
 };
 
+/// How near to the gold a robot must be to win, from outline to outline, unless the world says otherwise: a step that a
+/// driver can take in by eye, and less than would reach through a wall into the next cell of the mazes.
+constexpr double kWinDistance_m = 0.5;
+
 /// What a world file says, in SI units: everything that is constant over a run. Plain values.
 struct World {
   std::string name;  ///< the file's stem; no part of the file's text
@@ -75,6 +79,7 @@ struct World {
   double unit_m = 1;  ///< one length unit of the file, in metres
   Bounds2D bounds;    ///< robots start inside
   Communication communication;
+  double win_distance_m = kWinDistance_m;  ///< a robot that is this near to the gold has won, when it asks
   std::vector<WorldObject> objects;
   std::vector<RobotPlacement> robots;
   bool operator==(const World&) const = default;

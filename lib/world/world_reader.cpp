@@ -29,6 +29,7 @@ class WorldReader {
       return world_;
     }
     world_.unit_m = root_.number("unit_m", Bounds::positive(kUnitMax_m), 1);
+    world_.win_distance_m = root_.length("win_distance", Bounds::positive(), world_.unit_m, kWinDistance_m);
     XmlReader surface = root_.requiredChild("surface");
     readSurface(surface);
     if (auto communication = root_.child("communication")) readCommunication(*communication);

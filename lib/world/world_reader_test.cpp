@@ -53,6 +53,7 @@ TEST(WorldReader, ReadsThe2005FileUnchanged) {
   EXPECT_EQ(world.unit_m, 1);
   EXPECT_EQ(world.bounds, (Bounds2D{-60, 60, -40, 40}));
   EXPECT_EQ(world.communication, Communication{});
+  EXPECT_EQ(world.win_distance_m, 0.5);
 
   ASSERT_EQ(world.objects.size(), 2u);
   const WorldObject& wall = world.objects[0];
@@ -84,7 +85,9 @@ TEST(WorldReader, ReadsThe2005FileUnchanged) {
 
 TEST(WorldReader, TurnsTheFilesUnitIntoMetresButNotAnglesNorTemperatures) {
   const World world = parsed(
-      "<world unit_m='0.1'><surface><size><xmin>-10</xmin><xmax>10</xmax><ymin>-20</ymin><ymax>20</ymax></size>"
+      "<world "
+      "unit_m='0.1'><win_distance>8</win_distance><surface><size><xmin>-10</xmin><xmax>10</xmax><ymin>-20</"
+      "ymin><ymax>20</ymax></size>"
       "<object><shape><primitive><cube><name>w</name><x>1</x><y>2</y><z>5</z><length>30</length><width>1</width>"
       "<height>10</height><direction>0.5</direction><hot>20</hot></cube></primitive></shape></object></surface>"
       "<communication><range>50</range><loss>0.25</loss></communication></world>");
@@ -95,6 +98,7 @@ TEST(WorldReader, TurnsTheFilesUnitIntoMetresButNotAnglesNorTemperatures) {
   EXPECT_EQ(std::get<Cube>(body.shape), (Cube{3, 0.1}));
   EXPECT_EQ(body.heat_celsius, 20);
   EXPECT_EQ(world.communication, (Communication{5, 0.25}));
+  EXPECT_EQ(world.win_distance_m, 0.8);
 }
 
 TEST(WorldReader, LeavesOutWhatHasAnObviousDefault) {
@@ -142,10 +146,10 @@ TEST(WorldReader, RefusesUnknownTags) {
   EXPECT_EQ(faults(worldOf({"<primitve/>"})),
             (Lines{"a.xml:2: <shape>: holds neither a <primitive> nor a <robot>; put one in it",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));
-  EXPECT_EQ(
-      faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
-      (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: object, size, type",
-             "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: communication, surface, unit_m"}));
+  EXPECT_EQ(faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
+            (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: object, size, type",
+                   "a.xml:1: <world>: unknown attribute size=\"3\"; accepted here are: communication, surface, unit_m, "
+                   "win_distance"}));
 }
 
 TEST(WorldReader, RefusesMissingAndMalformedValues) {
@@ -193,6 +197,8 @@ TEST(WorldReader, RefusesValuesOutOfBounds) {
                    "a.xml:2: <stationary>2</stationary>: is unknown; accepted are: 0, 1"}));
   EXPECT_EQ(faults("<world unit_m='0'><surface>" + kSurface + "</surface></world>"),
             Lines{"a.xml:1: <world unit_m=\"0\">: must lie in (0, 1000] metres; drop it for the default, 1"});
+  EXPECT_EQ(faults("<world unit_m='0.1' win_distance='0'><surface>" + kSurface + "</surface></world>"),
+            Lines{"a.xml:1: <world win_distance=\"0\">: must be above 0; drop it for the default, 5"});
   EXPECT_EQ(faults(worldOf({}, "<communication><range>0</range><loss>2</loss></communication>")),
             (Lines{"a.xml:2: <range>0</range>: must be above 0; write a number there",
                    "a.xml:2: <loss>2</loss>: must lie in [0, 1]; drop it for the default, 0"}));

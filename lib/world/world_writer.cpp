@@ -23,6 +23,9 @@ class WorldWriter {
     XmlElement root;
     root.name = "world";
     if (world_.unit_m != 1) root.attributes.emplace_back("unit_m", toText(world_.unit_m));
+    if (world_.win_distance_m != kWinDistance_m) {
+      root.attributes.emplace_back("win_distance", toText(world_.win_distance_m, world_.unit_m));
+    }
     XmlElement& surface = root.add("surface");
     surface.add("type", world_.surface_type);
     XmlElement& size = surface.add("size");

@@ -30,6 +30,7 @@ class WorldMaker {
     world.bounds = {-size(100), size(100), -size(100), size(100)};
     if (maybe()) world.communication.range_m = size(50);
     if (maybe()) world.communication.loss_probability = rng_.uniform();
+    if (maybe()) world.win_distance_m = size(5);
     for (auto i = rng_.below(6); i > 0; --i) {
       world.objects.push_back({.name = name(), .body = body(), .stationary = maybe(), .line = {}});
     }

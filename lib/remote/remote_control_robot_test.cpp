@@ -1,0 +1,224 @@
+#include "remote/remote_control_robot.h"
+
+#include <gtest/gtest.h>
+
+#include "control/fake_hardware.h"
+
+namespace robosim {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Drives ahead at half a metre a second, and notes what it hears.
+class Cruiser : public Controller {
+ public:
+  explicit Cruiser(std::vector<std::string>& heard) : heard_(heard) {}
+  void step(Robot& robot) override {
+    for (const auto& message : robot.inbox()) heard_.push_back(message.text);
+    if (robot.heat() > 10) {
+      robot.halt(Activity::found);
+    } else {
+      robot.drive(0.5, 0);
+    }
+  }
+
+ private:
+  std::vector<std::string>& heard_;
+};
+
+/// Commands its robot once and then never again.
+class OnlyOnce : public Controller {
+ public:
+  void step(Robot& robot) override {
+    if (!done_) robot.drive(0.25, 0);
+    done_ = true;
+  }
+
+ private:
+  bool done_ = false;
+};
+
+RemoteOrder orderOf(RemoteType type) { return {.type = type}; }
+
+RemoteOrder driveAt(double speed_mps, double turn_radps) {
+  RemoteOrder order = orderOf(RemoteType::drive);
+  order.speed_mps = speed_mps;
+  order.turn_radps = turn_radps;
+  return order;
+}
+
+struct RemoteControlRobotTest : testing::Test {
+  FakeHardware hardware;
+  std::vector<std::string> heard, log;
+  RemoteControlRobot::Clock::time_point now{1h};
+  RemoteControlRobot::Options options{
+      .now = [this] { return now; },
+      .log = [this](const std::string& line) { log.push_back(line); },
+  };
+  RemoteControlRobot robot{hardware, std::make_unique<Cruiser>(heard), options};
+
+  /// A time step of a tenth of a second.
+  void step() {
+    robot.step();
+    hardware.advance();
+    now += 100ms;
+  }
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) step();
+  }
+};
+
+TEST_F(RemoteControlRobotTest, BeginsAutonomous) {
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
+  EXPECT_TRUE(robot.state().autonomous);
+  EXPECT_EQ(robot.state().speed_mps, 0.5);
+}
+
+TEST_F(RemoteControlRobotTest, ObeysItsDriverAndNoLongerItsController) {
+  step();
+  robot.take("Anna", false);
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true})) << "stands until it is steered";
+  robot.obey(driveAt(-0.25, 1));
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = -0.25, .turn_radps = 1, .by_driver = true}));
+  EXPECT_EQ(robot.state().driver, "Anna");
+  EXPECT_EQ(robot.state().turn_radps, 1);
+}
+
+TEST_F(RemoteControlRobotTest, ObeysItsControllerAgainWhenItIsSetAutonomousWhileItDrives) {
+  robot.take("Anna", false);
+  robot.obey(driveAt(-0.25, 1));
+  step();
+  robot.setAutonomous(true);
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
+  robot.obey(driveAt(0.1, 0));
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5})) << "an autonomous robot is not steered";
+}
+
+TEST_F(RemoteControlRobotTest, IsSwitchedWithoutAJumpInItsMotion) {
+  steps(20);
+  double before = hardware.odometry().speed_mps;
+  EXPECT_EQ(before, 0.5);
+  const auto& limits = hardware.info().limits;
+  for (int i = 0; i < 60; ++i) {
+    if (i == 0) robot.take("Anna", false);
+    if (i % 10 == 5) robot.obey(driveAt(1, 2));
+    if (i == 30) robot.setAutonomous(true);
+    if (i == 45) robot.setAutonomous(false);
+    step();
+    const double change = hardware.odometry().speed_mps - before;
+    EXPECT_LE(change, limits.accel_mps2 * 0.1 + 1e-12);
+    EXPECT_GE(change, -limits.decel_mps2 * 0.1 - 1e-12);
+    before = hardware.odometry().speed_mps;
+  }
+}
+
+TEST_F(RemoteControlRobotTest, AControllerThatCommandedLongAgoFindsItsCommandStandingAgain) {
+  RemoteControlRobot once(hardware, std::make_unique<OnlyOnce>(), options);
+  once.step();
+  once.take("Anna", false);
+  once.obey(driveAt(1, 1));
+  once.step();
+  once.setAutonomous(true);
+  once.step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.25}));
+}
+
+TEST_F(RemoteControlRobotTest, AControllerFindsTheLettersThatCameWhileItRested) {
+  const auto letter = [&](const std::string& text) {
+    hardware.mutableReadings().inbox = {{"other", hardware.info().name, text}};
+  };
+  robot.take("Anna", false);
+  letter("first");
+  step();
+  letter("second");
+  step();
+  EXPECT_TRUE(heard.empty());
+  robot.setAutonomous(true);
+  letter("third");
+  step();
+  EXPECT_EQ(heard, (std::vector<std::string>{"first", "second", "third"}));
+  step();
+  EXPECT_EQ(heard.size(), 3u) << "each of them once";
+}
+
+TEST_F(RemoteControlRobotTest, OfSeveralOrdersWithinAStepTheNewestCounts) {
+  robot.take("Anna", false);
+  for (int i = 0; i < 1000; ++i) robot.obey(orderOf(RemoteType::accelerate));
+  step();
+  EXPECT_DOUBLE_EQ(hardware.lastCommand().speed_mps, 0.1) << "a tenth of its most, once";
+  robot.obey(driveAt(1, 0));
+  robot.obey(driveAt(0.25, 0));
+  robot.obey(orderOf(RemoteType::alive));
+  step();
+  EXPECT_EQ(hardware.lastCommand().speed_mps, 0.25);
+}
+
+TEST_F(RemoteControlRobotTest, StopsWhenItsDriverIsSilentAndSaysWhyOnce) {
+  robot.take("Anna", false);
+  robot.obey(driveAt(0.5, 0));
+  steps(6);
+  EXPECT_EQ(hardware.lastCommand().speed_mps, 0.5);
+  steps(3);
+  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
+  EXPECT_EQ(robot.state().why_stopped, "nothing heard from Anna for 0.5 s");
+  EXPECT_EQ(log, std::vector<std::string>{"fake stops: nothing heard from Anna for 0.5 s"});
+}
+
+TEST_F(RemoteControlRobotTest, StopsAndIsNobodysWhenItsDriverHasGone) {
+  robot.take("Anna", false);
+  robot.obey(driveAt(0.5, 0));
+  step();
+  robot.release("its remote control has hung up");
+  step();
+  EXPECT_EQ(hardware.lastCommand().speed_mps, 0);
+  EXPECT_EQ(robot.state().driver, "");
+  EXPECT_FALSE(robot.state().autonomous) << "it waits for the next driver";
+  EXPECT_EQ(log, std::vector<std::string>{"fake stops: its remote control has hung up"});
+}
+
+TEST_F(RemoteControlRobotTest, AnAutonomousRobotGoesOnWhenItsDriverHasGone) {
+  robot.take("Anna", true);
+  step();
+  robot.release("its remote control has hung up");
+  step();
+  EXPECT_EQ(hardware.lastCommand().speed_mps, 0.5);
+  EXPECT_TRUE(log.empty());
+}
+
+TEST_F(RemoteControlRobotTest, AsksOnceWhetherItHasWonAndCountsRefusals) {
+  robot.take("Anna", false);
+  robot.obey(orderOf(RemoteType::check_win));
+  step();
+  step();
+  EXPECT_EQ(hardware.win_checks, 1);
+  hardware.mutableReadings().is_too_far = true;
+  step();
+  hardware.mutableReadings().is_too_far = false;
+  step();
+  EXPECT_EQ(robot.state().win_refusals, 1u);
+}
+
+TEST_F(RemoteControlRobotTest, KnowsWhoHasWonAndThatAllHalt) {
+  hardware.mutableReadings().winner = "other";
+  step();
+  EXPECT_EQ(robot.state().winner, "other");
+  EXPECT_EQ(robot.state().activity, Activity::halted);
+}
+
+TEST_F(RemoteControlRobotTest, ARobotThatItsControllerHasHaltedStaysSo) {
+  hardware.feelHeat(20);
+  step();
+  robot.take("Anna", false);
+  robot.obey(driveAt(0.5, 0));
+  step();
+  EXPECT_EQ(hardware.lastCommand().activity, Activity::found);
+  EXPECT_EQ(robot.state().activity, Activity::found);
+}
+
+}  // namespace
+}  // namespace robosim
