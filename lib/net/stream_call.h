@@ -80,7 +80,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   }
 
   const grpc::ServerContext& context() const { return context_; }
-  std::string peer() const { return context_.peer(); }
+  const std::string& peer() const { return peer_; }  ///< who has called; also after the end
 
  protected:
   virtual ~StreamCall() = default;
@@ -130,6 +130,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
       return;
     }
     ++pending_;  // for onDone()
+    peer_ = context_.peer();
     called();
     read();
   }
@@ -200,6 +201,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   Switchboard::Presence presence_;
   std::shared_ptr<StreamCall> self_;
   grpc::ServerContext context_;
+  std::string peer_;
   Wire wire_{&context_};
   grpc::Alarm patience_;
   Event called_{*this, &StreamCall::onCalled}, read_{*this, &StreamCall::onRead},
