@@ -152,7 +152,7 @@ ServerOptions serverOptions(const Arguments& arguments) {
 }
 
 /// Says where the environment listens: what a script, or a person who let the system choose a port, waits for.
-void tellPorts(const ServerOptions& options, const std::vector<int>& ports) {
+void tellPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
   constexpr const char* clients[] = {"viewers", "robots", "geometry workers", "control panels"};
   const auto addresses = options.listen.all();
   const auto at = [&](std::size_t i) {

@@ -2,6 +2,7 @@
 
 #include "base/error_list.h"
 #include "net/access.h"
+#include "net/lean_locks.h"
 #include "net/listen.h"
 #include "net/tls.h"
 
@@ -43,12 +44,14 @@ std::shared_ptr<grpc::Channel> dial(const DialOptions& options) {
     throw ConfigError("the token would go to " + options.address +
                       " for anyone on the way to read; add --tls-ca FILE, or --insecure if the way is safe");
   }
+  useLeanLocks();
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(-1);  // what the environment sends is as large as its world
   // gRPC would wait longer and longer before it tries a broken connection again, up to two minutes.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 1000);
-  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveMs);
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, static_cast<int>(options.keepalive.count()));
+  arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, static_cast<int>(options.keepalive.count()));
   arguments.SetInt(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   if (!options.tls) return grpc::CreateCustomChannel(options.address, grpc::InsecureChannelCredentials(), arguments);
   grpc::SslCredentialsOptions trust;

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -10,7 +11,7 @@ namespace robosim {
 /// After so long without a word each end of a connection asks whether the other's machine is still there, and after as
 /// long again takes it for dead. (A process that has died is noticed at once, and one that stalls by the step
 /// deadline.)
-constexpr int kKeepaliveMs = 20000;
+constexpr std::chrono::milliseconds kKeepalive{20'000};
 
 /// Whom a client calls, and how.
 struct DialOptions {
@@ -19,6 +20,7 @@ struct DialOptions {
   std::string trusted_pem{};  ///< with TLS, the certificates to trust; empty for the system's authorities
   std::string token{};        ///< shown with every call; empty for none
   bool insecure = false;  ///< show the token without TLS to other machines as well, where anyone on the way can read it
+  std::chrono::milliseconds keepalive = kKeepalive;  ///< after so long without a word the other end is asked
 };
 
 /// A call came to no good end: what, where and the mend.

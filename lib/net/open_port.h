@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <string>
@@ -6,6 +7,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include "net/dial.h"
 #include "net/tls.h"
 
 namespace robosim {
@@ -16,12 +18,17 @@ struct OpenPort {
   int number = 0;
 };
 
+struct PortOptions {
+  std::optional<TlsIdentity> tls;                   ///< absent: without TLS
+  std::string option;                               ///< that names the address on the command line, for the error
+  std::chrono::milliseconds keepalive = kKeepalive;  ///< as in DialOptions
+};
+
 /// Lets clients come in at an address, "host:port"; port 0 lets the system choose.
-/// @param tls absent: without TLS
 /// @param services what is to be found there; they must outlive the server
-/// @param option that names the address, for the error
+/// @param builder has the server's queue, if it is to have one
 /// @throws std::runtime_error when the port is taken; what, where and the mend.
-OpenPort openPort(const std::string& address, const std::optional<TlsIdentity>& tls,
-                  const std::vector<grpc::Service*>& services, const std::string& option);
+OpenPort openPort(const std::string& address, const PortOptions& options, const std::vector<grpc::Service*>& services,
+                  grpc::ServerBuilder&& builder = {});
 
 }  // namespace robosim

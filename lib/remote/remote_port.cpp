@@ -232,7 +232,7 @@ RemotePort::Impl::Impl(const Options& the_options, const Run& the_run, const std
     seats.push_back({robot, nullptr, {}, {}});
     seats.back().pictures.resize(robot->hardware().info().sensors->size());
   }
-  open = openPort(options.listen, options.tls, {this}, "--remote-port");
+  open = openPort(options.listen, {options.tls, "--remote-port"}, {this});
 }
 
 RemotePort::Impl::~Impl() {

@@ -54,16 +54,18 @@ wire::RunStatus ControlPanel::load(const WorldSource& world) {
   const std::string bytes = message.SerializeAsString();
   grpc::ClientContext context;
   showToken(context, dialled_);
-  wire::RunStatus status;
-  const auto writer = stub_->Load(&context, &status);
+  const auto stream = stub_->Load(&context);
   wire::WorldPiece piece;
   piece.set_protocol(kProtocolVersion);
   for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
     piece.set_piece(bytes.substr(at, kPieceBytes));
-    if (!writer->Write(piece)) break;  // Finish() says why
+    if (!stream->Write(piece)) break;  // Finish() says why
   }
-  writer->WritesDone();
-  check(writer->Finish());
+  stream->WritesDone();
+  wire::RunStatus status;
+  while (stream->Read(&status)) {
+  }
+  check(stream->Finish());
   return status;
 }
 

@@ -1,11 +1,13 @@
 #include "server/control_panel_conversation.h"
 
-#include <atomic>
 #include <cmath>
 #include <optional>
 #include <utility>
 
 #include "base/error_list.h"
+#include "net/stream_call.h"
+#include "net/unary_call.h"
+#include "net/wire_error.h"
 #include "server/world_wire.h"
 
 namespace robosim {
@@ -36,288 +38,253 @@ void checkSpeed(double speed, Pace pace) {
 /// A call that waits for its answer.
 class ControlPanelConversation::Call {
  public:
-  Call(std::string panel, const char* what_it_asks, wire::RunStatus* reply_to_fill, Wish its_wish)
-      : who(std::move(panel)), what(what_it_asks), reply(reply_to_fill), wish(std::move(its_wish)) {}
+  explicit Call(const char* what_it_asks) : what(what_it_asks) {}
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
   virtual ~Call() = default;
+  virtual std::string who() const = 0;
+  virtual void obey(PanelDesk& desk) = 0;
   /// To be called once; nothing happens when it is called again.
-  virtual void answer(const grpc::Status&) = 0;
+  virtual void answer(const wire::RunStatus& reply, const grpc::Status& status) = 0;
+  virtual bool isCancelled() const { return false; }
 
-  std::string who;
-  const char* what;  ///< it asks for, for the log; null for what changes nothing
-  wire::RunStatus* reply;
-  Wish wish;
+  const char* const what;                   ///< it asks for, for the log; null for what changes nothing
   std::optional<std::uint64_t> until_step;  ///< it is answered after this one
-  std::atomic<bool> is_cancelled = false;
 };
 
-/// The same as gRPC has it: lives until gRPC has done with it.
-template <typename Reactor>
-class ControlPanelConversation::ReactingCall : public Reactor, public Call {
- public:
-  using Call::Call;
-  void begin(const std::shared_ptr<Call>& self) { self_ = self; }
-  const std::shared_ptr<Call>& self() const { return self_; }  ///< until it is answered
-  void answer(const grpc::Status& status) override {
-    if (is_answered_.exchange(true)) return;
-    this->Finish({status.error_code(), fitForStatus(status.error_message())});
-  }
-
- private:
-  void OnCancel() override { is_cancelled = true; }
-  void OnDone() override { const auto last = std::move(self_); }
-
-  std::shared_ptr<Call> self_;
-  std::atomic<bool> is_answered_ = false;
+/// What a call with one request asks for.
+template <typename Request>
+struct ControlPanelConversation::Kind {
+  const char* what;
+  Right right;
+  void (ControlPanelConversation::*request)(grpc::ServerContext*, Request*,
+                                            grpc::ServerAsyncResponseWriter<wire::RunStatus>*, grpc::CompletionQueue*,
+                                            grpc::ServerCompletionQueue*, void*);
+  std::function<void(PanelDesk&, const Request&, Call&)> obey;
 };
 
-/// Gathers the pieces of a world, then waits as the others do.
-class ControlPanelConversation::LoadCall final : public ReactingCall<grpc::ServerReadReactor<wire::WorldPiece>> {
+template <typename Request>
+class ControlPanelConversation::PlainCall final : public UnaryCall<Request, wire::RunStatus>, public Call {
  public:
-  LoadCall(ControlPanelConversation& owner, const std::string& panel, wire::RunStatus* reply_to_fill)
-      : ReactingCall(panel, "load", reply_to_fill,
-                     [this](PanelDesk& desk, Call&) {
-                       desk.load(source_);
-                       desk.run_switch.is_paused = true;
-                       desk.run_switch.steps_left = 0;
-                     }),
-        owner_(owner) {}
+  using Unary = UnaryCall<Request, wire::RunStatus>;
+  PlainCall(ControlPanelConversation& owner, Kind<Request> kind)
+      : Unary(*owner.line_.switchboard), Call(kind.what), owner_(owner), kind_(std::move(kind)) {}
 
-  void read() { StartRead(&piece_); }
+  std::string who() const override { return this->context().peer(); }
+  void obey(PanelDesk& desk) override { kind_.obey(desk, this->request(), *this); }
+  void answer(const wire::RunStatus& reply, const grpc::Status& status) override { Unary::answer(reply, status); }
+  bool isCancelled() const override { return Unary::isCancelled(); }
 
  private:
-  void OnReadDone(bool ok) override {
+  void called() override {
+    owner_.awaitCall(kind_);
+    grpc::Status status = owner_.lobby_.mayEnter(this->context(), kind_.right);
     try {
-      if (!ok) {
-        take();
-        return;
-      }
-      if (bytes_.empty()) checkProtocol(piece_.protocol());
-      if (bytes_.size() + piece_.piece().size() > kMostWorldBytes) {
-        throw WireError("a world of more than " + std::to_string(kMostWorldBytes >> 20) + " MiB");
-      }
-      bytes_ += piece_.piece();
-      StartRead(&piece_);
+      if (status.ok()) checkProtocol(this->request().protocol());
     } catch (const WireError& error) {
-      answer({error.code(), error.what()});
+      status = {error.code(), error.what()};
     }
-  }
-
-  void take() {
-    wire::WorldSource message;
-    if (bytes_.empty() || !message.ParseFromString(bytes_)) {
-      throw WireError("the pieces make no robosim.wire.WorldSource; doc/protocol.md tells what does");
+    if (status.ok()) {
+      owner_.queue(std::static_pointer_cast<PlainCall>(this->shared_from_this()));
+    } else {
+      answer({}, status);
+      owner_.lobby_.log("control panel " + who() + ": refused: " + status.error_message());
     }
-    source_ = decode(message);
-    owner_.queue(self());
   }
 
   ControlPanelConversation& owner_;
-  wire::WorldPiece piece_;
+  const Kind<Request> kind_;
+};
+
+/// Gathers the pieces of a world, then waits as the others do.
+class ControlPanelConversation::LoadCall final : public StreamCall<wire::WorldPiece, wire::RunStatus>, public Call {
+ public:
+  explicit LoadCall(ControlPanelConversation& owner)
+      : StreamCall(*owner.line_.switchboard), Call("load"), owner_(owner) {}
+
+  std::string who() const override { return peer(); }
+  void obey(PanelDesk& desk) override {
+    desk.load(source_);
+    desk.run_switch.is_paused = true;
+    desk.run_switch.steps_left = 0;
+  }
+  void answer(const wire::RunStatus& reply, const grpc::Status& status) override {
+    if (status.ok()) {
+      draft() = reply;
+      post();
+    }
+    end(status);
+  }
+
+ private:
+  void called() override {
+    owner_.awaitLoad();
+    if (const auto status = owner_.lobby_.mayEnter(context(), Right::operate); !status.ok()) end(status);
+  }
+  Turn received(const wire::WorldPiece& piece) override {
+    if (bytes_.empty()) checkProtocol(piece.protocol());
+    if (bytes_.size() + piece.piece().size() > kMostWorldBytes) {
+      throw WireError("a world of more than " + std::to_string(kMostWorldBytes >> 20) + " MiB");
+    }
+    bytes_ += piece.piece();
+    return Turn::theirs;
+  }
+  void heardAll() override {
+    wire::WorldSource message;
+    if (bytes_.empty() || !message.ParseFromString(bytes_)) {
+      end(badInput("the pieces make no robosim.wire.WorldSource; doc/protocol.md tells what does"));
+      return;
+    }
+    source_ = decode(message);
+    owner_.queue(std::static_pointer_cast<LoadCall>(shared_from_this()));
+  }
+  void refuse(const WireError& error) override { end({error.code(), error.what()}); }
+  void ended() override {}
+
+  ControlPanelConversation& owner_;
   std::string bytes_;
   WorldSource source_;
 };
 
-/// One panel that watches. What is below is touched with the lobby's mutex held.
-class ControlPanelConversation::Watcher final : public ServerStream<wire::PanelRequest, wire::RunStatus> {
+/// One panel that watches.
+class ControlPanelConversation::Watcher final : public StreamCall<wire::PanelRequest, wire::RunStatus> {
  public:
-  Watcher(ControlPanelConversation& owner, grpc::CallbackServerContext* context)
-      : ServerStream(context), owner_(owner) {}
+  explicit Watcher(ControlPanelConversation& owner) : StreamCall(*owner.line_.switchboard), owner_(owner) {}
 
-  void received(const wire::PanelRequest& message) override {
+  bool asks = false;  ///< for a report
+
+ private:
+  void called() override {
+    owner_.awaitWatcher();
+    if (const auto status = owner_.lobby_.mayEnter(context(), Right::look); status.ok()) {
+      owner_.watchers_.push_back(std::static_pointer_cast<Watcher>(shared_from_this()));
+    } else {
+      end(status);
+    }
+  }
+  Turn received(const wire::PanelRequest& message) override {
     checkProtocol(message.protocol());
-    const std::lock_guard lock(owner_.lobby_.mutex);
     asks = true;
-    owner_.lobby_.bell.notify_all();
+    owner_.lobby_.rang = true;
+    return Turn::ours;
   }
   void refuse(const WireError& error) override { end({error.code(), error.what()}); }
   void ended() override {
-    const std::lock_guard lock(owner_.lobby_.mutex);
     std::erase_if(owner_.watchers_, [&](const auto& watcher) { return watcher.get() == this; });
   }
 
- private:
   ControlPanelConversation& owner_;
-
- public:
-  bool asks = false;  ///< for a report
 };
 
 ControlPanelConversation::ControlPanelConversation(Lobby& lobby) : lobby_(lobby) {}
 ControlPanelConversation::~ControlPanelConversation() = default;
 
-grpc::Status ControlPanelConversation::mayEnter(grpc::CallbackServerContext* context, Right right) const {
-  const std::lock_guard lock(lobby_.mutex);
-  return lobby_.mayEnter(*context, right);
+void ControlPanelConversation::open(const Switchboard::Line& line) {
+  using Self = ControlPanelConversation;
+  line_ = line;
+  awaitLoad();
+  awaitWatcher();
+  const auto pause = [](bool is_paused) {
+    return [is_paused](PanelDesk& desk, const wire::PanelRequest&, Call&) {
+      desk.run_switch.is_paused = is_paused;
+      desk.run_switch.steps_left = 0;
+    };
+  };
+  awaitCall<wire::PanelRequest>({"start", Right::operate, &Self::RequestStart, pause(false)});
+  awaitCall<wire::PanelRequest>({"pause", Right::operate, &Self::RequestPause, pause(true)});
+  awaitCall<wire::PanelRequest>(
+      {"stop", Right::operate, &Self::RequestStop,
+       [](PanelDesk& desk, const wire::PanelRequest&, Call&) { desk.run_switch.stop = true; }});
+  awaitCall<wire::PanelRequest>(
+      {nullptr, Right::look, &Self::RequestStatus, [](PanelDesk&, const wire::PanelRequest&, Call&) {}});
+  awaitCall<wire::StepRequest>(
+      {"step", Right::operate, &Self::RequestStep, [](PanelDesk& desk, const wire::StepRequest& request, Call& call) {
+         checkSteps(request.steps());
+         desk.run_switch.is_paused = true;
+         desk.run_switch.steps_left += request.steps();
+         wire::RunStatus status;
+         desk.describe(status);
+         call.until_step = status.step() + desk.run_switch.steps_left;
+       }});
+  awaitCall<wire::SpeedRequest>(
+      {"speed", Right::operate, &Self::RequestSetSpeed,
+       [this](PanelDesk& desk, const wire::SpeedRequest& request, Call&) {
+         checkSpeed(request.speed(), lobby_.pace);
+         desk.run_switch.speed = request.speed();
+       }});
 }
 
-grpc::ServerUnaryReactor* ControlPanelConversation::take(grpc::CallbackServerContext* context, Right right,
-                                                         std::uint32_t protocol, wire::RunStatus* reply,
-                                                         const char* what, Wish wish) {
-  auto call = std::make_shared<ReactingCall<grpc::ServerUnaryReactor>>(context->peer(), what, reply, std::move(wish));
-  call->begin(call);
-  grpc::Status status = mayEnter(context, right);
-  try {
-    if (status.ok()) checkProtocol(protocol);
-  } catch (const WireError& error) {
-    status = {error.code(), error.what()};
-  }
-  if (status.ok()) {
-    queue(call);
-  } else {
-    call->answer(status);
-    const std::lock_guard lock(lobby_.mutex);
-    lobby_.log("control panel " + call->who + ": refused: " + status.error_message());
-  }
-  return call.get();
+template <typename Request>
+void ControlPanelConversation::awaitCall(const Kind<Request>& kind) {
+  std::make_shared<PlainCall<Request>>(*this, kind)
+      ->await([&](auto* context, auto* request, auto* wire, void* tag) {
+        (this->*kind.request)(context, request, wire, line_.calls, line_.arrivals, tag);
+      });
+}
+
+void ControlPanelConversation::awaitLoad() {
+  std::make_shared<LoadCall>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestLoad(context, wire, line_.calls, line_.arrivals, tag);
+  });
+}
+
+void ControlPanelConversation::awaitWatcher() {
+  std::make_shared<Watcher>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestWatch(context, wire, line_.calls, line_.arrivals, tag);
+  });
 }
 
 void ControlPanelConversation::queue(const std::shared_ptr<Call>& call) {
-  const std::lock_guard lock(lobby_.mutex);
   if (lobby_.is_over) {
-    call->answer(Lobby::runIsOver());
+    call->answer({}, Lobby::runIsOver());
     return;
   }
   calls_.push_back(call);
-  lobby_.bell.notify_all();
+  lobby_.rang = true;
 }
-
-grpc::ServerReadReactor<wire::WorldPiece>* ControlPanelConversation::Load(grpc::CallbackServerContext* context,
-                                                                          wire::RunStatus* reply) {
-  auto call = std::make_shared<LoadCall>(*this, context->peer(), reply);
-  call->begin(call);
-  const grpc::Status status = mayEnter(context, Right::operate);
-  if (status.ok()) {
-    call->read();
-  } else {
-    call->answer(status);
-  }
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* ControlPanelConversation::Start(grpc::CallbackServerContext* context,
-                                                          const wire::PanelRequest* request, wire::RunStatus* reply) {
-  return take(context, Right::operate, request->protocol(), reply, "start", [](PanelDesk& desk, Call&) {
-    desk.run_switch.is_paused = false;
-    desk.run_switch.steps_left = 0;
-  });
-}
-
-grpc::ServerUnaryReactor* ControlPanelConversation::Pause(grpc::CallbackServerContext* context,
-                                                          const wire::PanelRequest* request, wire::RunStatus* reply) {
-  return take(context, Right::operate, request->protocol(), reply, "pause", [](PanelDesk& desk, Call&) {
-    desk.run_switch.is_paused = true;
-    desk.run_switch.steps_left = 0;
-  });
-}
-
-grpc::ServerUnaryReactor* ControlPanelConversation::Step(grpc::CallbackServerContext* context,
-                                                         const wire::StepRequest* request, wire::RunStatus* reply) {
-  return take(context, Right::operate, request->protocol(), reply, "step",
-              [steps = request->steps()](PanelDesk& desk, Call& call) {
-                checkSteps(steps);
-                desk.run_switch.is_paused = true;
-                desk.run_switch.steps_left += steps;
-                desk.describe(*call.reply);
-                call.until_step = call.reply->step() + desk.run_switch.steps_left;
-              });
-}
-
-grpc::ServerUnaryReactor* ControlPanelConversation::SetSpeed(grpc::CallbackServerContext* context,
-                                                             const wire::SpeedRequest* request,
-                                                             wire::RunStatus* reply) {
-  return take(context, Right::operate, request->protocol(), reply, "speed",
-              [this, speed = request->speed()](PanelDesk& desk, Call&) {
-                checkSpeed(speed, lobby_.pace);
-                desk.run_switch.speed = speed;
-              });
-}
-
-grpc::ServerUnaryReactor* ControlPanelConversation::Stop(grpc::CallbackServerContext* context,
-                                                         const wire::PanelRequest* request, wire::RunStatus* reply) {
-  return take(context, Right::operate, request->protocol(), reply, "stop",
-              [](PanelDesk& desk, Call&) { desk.run_switch.stop = true; });
-}
-
-grpc::ServerUnaryReactor* ControlPanelConversation::Status(grpc::CallbackServerContext* context,
-                                                           const wire::PanelRequest* request, wire::RunStatus* reply) {
-  return take(context, Right::look, request->protocol(), reply, nullptr, [](PanelDesk&, Call&) {});
-}
-
-RawStream* ControlPanelConversation::Watch(grpc::CallbackServerContext* context) {
-  auto watcher = std::make_shared<Watcher>(*this, context);
-  watcher->begin();
-  const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.mayEnter(*context, Right::look); status.ok()) {
-    watchers_.push_back(watcher);
-  } else {
-    watcher->end(status);
-  }
-  return watcher.get();
-}
-
-bool ControlPanelConversation::isAsked() const { return !calls_.empty(); }
 
 void ControlPanelConversation::obey(PanelDesk& desk) {
-  std::vector<std::shared_ptr<Call>> calls;
-  {
-    const std::lock_guard lock(lobby_.mutex);
-    calls.swap(calls_);
-  }
-  for (const auto& call : calls) {
+  for (const auto& call : std::exchange(calls_, {})) {
     obey(desk, *call);
     if (call->until_step) steppers_.push_back(call);
   }
   answerSteppers(desk);
-
-  std::vector<std::shared_ptr<Watcher>> asking;
-  {
-    const std::lock_guard lock(lobby_.mutex);
-    for (const auto& watcher : watchers_) {
-      if (!watcher->asks || !watcher->isIdle()) continue;
-      watcher->asks = false;
-      asking.push_back(watcher);
-    }
-  }
-  for (const auto& watcher : asking) {
+  for (const auto& watcher : watchers_) {
+    if (!watcher->asks || !watcher->isIdle()) continue;
+    watcher->asks = false;
     desk.describe(watcher->draft());
     watcher->post();
   }
 }
 
 void ControlPanelConversation::obey(PanelDesk& desk, Call& call) {
-  if (call.is_cancelled) {
-    call.answer(grpc::Status::CANCELLED);
-    return;
-  }
+  if (call.isCancelled()) return;
   try {
-    call.wish(desk, call);
-    if (call.what) {
-      const std::lock_guard lock(lobby_.mutex);
-      lobby_.log("control panel " + call.who + ": " + call.what);
-    }
+    call.obey(desk);
+    if (call.what) lobby_.log("control panel " + call.who() + ": " + call.what);
     if (call.until_step) return;
-    desk.describe(*call.reply);
-    call.answer(grpc::Status::OK);
+    wire::RunStatus reply;
+    desk.describe(reply);
+    call.answer(reply, grpc::Status::OK);
   } catch (const std::runtime_error& error) {  // WireError, or a ConfigError of the world
-    call.answer(badInput(error.what()));
+    call.answer({}, badInput(error.what()));
   }
 }
 
 void ControlPanelConversation::answerSteppers(PanelDesk& desk) {
+  if (steppers_.empty()) return;
+  wire::RunStatus status;
+  desk.describe(status);
   std::erase_if(steppers_, [&](const auto& call) {
-    if (call->is_cancelled) {
-      call->answer(grpc::Status::CANCELLED);
-      return true;
-    }
-    desk.describe(*call->reply);
-    if (call->reply->step() >= *call->until_step) {
-      call->answer(grpc::Status::OK);
+    if (call->isCancelled()) return true;
+    if (status.step() >= *call->until_step) {
+      call->answer(status, grpc::Status::OK);
       return true;
     }
     if (desk.run_switch.mayStep()) return false;
-    call->answer({grpc::StatusCode::ABORTED, "another control panel has paused the run at step " +
-                                                 std::to_string(call->reply->step()) + ", before step " +
-                                                 std::to_string(*call->until_step)});
+    call->answer({}, {grpc::StatusCode::ABORTED, "another control panel has paused the run at step " +
+                                                     std::to_string(status.step()) + ", before step " +
+                                                     std::to_string(*call->until_step)});
     return true;
   });
 }
@@ -325,12 +292,11 @@ void ControlPanelConversation::answerSteppers(PanelDesk& desk) {
 void ControlPanelConversation::sayGoodbye(PanelDesk& desk) {
   wire::RunStatus last;
   desk.describe(last);
-  const std::lock_guard lock(lobby_.mutex);
-  for (const auto& call : std::exchange(calls_, {})) call->answer(Lobby::runIsOver());
+  for (const auto& call : std::exchange(calls_, {})) call->answer({}, Lobby::runIsOver());
   for (const auto& call : std::exchange(steppers_, {})) {
-    call->answer({grpc::StatusCode::ABORTED, "the run has ended before step " + std::to_string(*call->until_step)});
+    call->answer({}, {grpc::StatusCode::ABORTED, "the run has ended before step " + std::to_string(*call->until_step)});
   }
-  for (const auto& watcher : std::exchange(watchers_, {})) {
+  for (const auto& watcher : watchers_) {
     watcher->draft() = last;
     watcher->post();
     watcher->end(grpc::Status::OK);

@@ -1,13 +1,10 @@
 #include "server/environment_server.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
-#include <grpcpp/grpcpp.h>
-
 #include "base/error_list.h"
-#include "net/open_port.h"
+#include "net/switchboard.h"
 #include "server/control_panel_conversation.h"
 #include "server/geometry_conversation.h"
 #include "server/robot_conversation.h"
@@ -17,9 +14,6 @@ namespace robosim {
 namespace {
 
 using Clock = Lobby::Clock;
-
-/// An interrupt wakes nobody, so all waiting is cut into naps.
-constexpr std::chrono::milliseconds kNap(50);
 
 Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
@@ -59,35 +53,37 @@ struct EnvironmentServer::Impl {
   ViewerConversation viewers{lobby};
   GeometryConversation geometry{lobby};
   ControlPanelConversation panels{lobby};
-  std::vector<std::unique_ptr<grpc::Server>> servers;
-  std::vector<int> ports;
   std::optional<std::vector<std::string>> waited_for;  ///< robots that had not come yet; nullopt: not asked yet
   Clock::time_point due;                               ///< when the next step is
   StepRate rate;
+  Switchboard switchboard;
 
-  Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit) {
-    lobby.log = options.log;
-    lobby.step_deadline = options.step_deadline;
-    lobby.pace = options.pace;
-    lobby.access = options.access;
-    desk.describe = [](wire::RunStatus&) {};
-    run_switch.is_paused = options.is_paused;
-    run_switch.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
-    show(std::move(exhibit));
-    listen(options, {{options.listen.viewers, &viewers},
+  Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit)
+      : switchboard({{options.listen.viewers, &viewers},
                      {options.listen.robots, &robots},
                      {options.listen.geometry, &geometry},
-                     {options.listen.control, &panels}});
+                     {options.listen.control, &panels}},
+                    {options.tls, "--listen", options.keepalive}) {
+    lobby.log = options.log;
+    lobby.step_deadline = options.step_deadline;
+    lobby.hello_deadline = options.hello_deadline;
+    lobby.now = options.now;
+    lobby.pace = options.pace;
+    lobby.access = options.access;
+    lobby.switchboard = &switchboard;
+    run_switch.is_paused = options.is_paused;
+    run_switch.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
+    due = lobby.now();
+    show(std::move(exhibit));
+    viewers.open(switchboard.line(0));
+    robots.open(switchboard.line(1));
+    geometry.open(switchboard.line(2));
+    panels.open(switchboard.line(3));
   }
 
-  ~Impl() {
-    desk.describe = [](wire::RunStatus&) {};
-    sayGoodbye();  // a call that is never answered would be waited for
-    for (const auto& server : servers) server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
-  }
+  ~Impl() { close(); }
 
   void show(std::shared_ptr<const Exhibit> exhibit) {
-    const std::lock_guard lock(lobby.mutex);
     lobby.exhibit = std::move(exhibit);
     waited_for.reset();
     robots.show();
@@ -102,7 +98,7 @@ struct EnvironmentServer::Impl {
     viewers.tell();
   }
 
-  /// Another world in place of the one that is run. What gRPC's threads are shown stays until they are shown the other.
+  /// Another world in place of the one that is run. What clients are shown stays until they are shown the other.
   void load(ServedRun& run, const WorldSource& source) {
     const auto shown_until_now = run.exhibit();
     run.load(source);
@@ -137,29 +133,14 @@ struct EnvironmentServer::Impl {
     if (state.winner) status.set_winner(exhibit.robot_names[*state.winner]);
   }
 
-  void sayGoodbye() {
-    {
-      const std::lock_guard lock(lobby.mutex);
-      lobby.is_over = true;
-    }
+  /// Says goodbye to everyone, and waits until they have heard it.
+  void close() {
+    if (std::exchange(lobby.is_over, true)) return;
     panels.sayGoodbye(desk);
     robots.sayGoodbye();
     viewers.sayGoodbye();
     geometry.sayGoodbye();
-  }
-
-  /// A server for each address, with the services that are to be found there.
-  void listen(const ServerOptions& options, const std::vector<std::pair<std::string, grpc::Service*>>& services) {
-    std::map<std::string, std::vector<std::size_t>> at;
-    for (std::size_t i = 0; i < services.size(); ++i) at[services[i].first].push_back(i);
-    ports.resize(services.size());
-    for (const auto& [address, indices] : at) {
-      std::vector<grpc::Service*> there;
-      for (const auto i : indices) there.push_back(services[i].second);
-      OpenPort open = openPort(address, options.tls, there, "--listen");
-      for (const auto i : indices) ports[i] = open.number;
-      servers.push_back(std::move(open.server));
-    }
+    switchboard.close();
   }
 
   /// Whether all networked robots have been here; says who is missing, each time that changes.
@@ -167,7 +148,6 @@ struct EnvironmentServer::Impl {
     if (waited_for && waited_for->empty()) return true;
     auto missing = robots.notYetHere();
     if (missing == waited_for) return false;
-    const std::lock_guard lock(lobby.mutex);
     if (!missing.empty()) lobby.log("waiting for " + listed(missing));
     if (missing.empty() && waited_for) lobby.log("all robots are here");
     waited_for = std::move(missing);
@@ -177,30 +157,23 @@ struct EnvironmentServer::Impl {
   /// Waits for the robots' answers and for the step's time, but no longer than a nap.
   /// @return whether it is time to step
   bool isTimeToStep() {
-    const auto now = Clock::now();
-    const auto until = due > now ? std::min(due, now + kNap) : now + kNap;
-    std::unique_lock lock(lobby.mutex);
-    const auto is_time = [&] { return Clock::now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
-    lobby.bell.wait_until(lock, until, [&] { return panels.isAsked() || is_time(); });
+    const auto is_time = [&] { return lobby.now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
+    const auto until_due = due - lobby.now();
+    lobby.nap(until_due > Clock::duration::zero() ? until_due : Lobby::kNap, [&] { return lobby.rang || is_time(); });
     return is_time();
-  }
-
-  void nap() {
-    std::unique_lock lock(lobby.mutex);
-    if (!panels.isAsked()) lobby.bell.wait_for(lock, kNap);
   }
 
   /// Does what the control panels ask.
   void obeyPanels() {
     const double speed = run_switch.speed;
     panels.obey(desk);
-    if (run_switch.speed != speed) due = Clock::now();
+    if (run_switch.speed != speed) due = lobby.now();
   }
 
   void noteStep(double period_s) {
     if (run_switch.steps_left > 0) --run_switch.steps_left;
     if (run_switch.speed > 0) due += seconds(period_s / run_switch.speed);
-    rate.note(Clock::now());
+    rate.note(lobby.now());
   }
 
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
@@ -209,13 +182,14 @@ struct EnvironmentServer::Impl {
     admit();
     isEveryoneHere();  // a panel that asks first of all is to be told how the run stands
     while (!run.isOver()) {
+      lobby.rang = false;
       obeyPanels();
       if (run_switch.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       admit();
       if (!isEveryoneHere() || !run_switch.mayStep()) {
-        nap();
-        due = Clock::now();
+        lobby.nap(Lobby::kNap, [&] { return lobby.rang; });
+        due = lobby.now();
         rate.rest(due);
         continue;
       }
@@ -239,11 +213,14 @@ EnvironmentServer::EnvironmentServer(const ServerOptions& options, std::shared_p
 
 EnvironmentServer::~EnvironmentServer() = default;
 
-std::vector<int> EnvironmentServer::ports() const { return impl_->ports; }
+std::array<int, 4> EnvironmentServer::ports() const {
+  const Switchboard& at = impl_->switchboard;
+  return {at.port(0), at.port(1), at.port(2), at.port(3)};
+}
 
 Served EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
   const Served how = impl_->serve(run, interrupted);
-  impl_->sayGoodbye();
+  impl_->close();
   return how;
 }
 

@@ -1,14 +1,15 @@
 #pragma once
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "environment/environment.h"
 #include "net/access.h"
+#include "net/dial.h"
 #include "net/listen.h"
 #include "net/tls.h"
 #include "server/lobby.h"
@@ -19,11 +20,14 @@ struct ServerOptions {
   ListenAddresses listen = ListenAddresses::parse(kDefaultListen);
   Access access;                                  ///< who may do what
   std::optional<TlsIdentity> tls;                 ///< absent: without TLS
-  std::chrono::milliseconds step_deadline{1000};  ///< how long a step waits for anybody
+  std::chrono::milliseconds step_deadline{1000};    ///< how long a step waits for anybody
+  std::chrono::milliseconds hello_deadline{10'000};  ///< how long a client may take to say who it is
+  std::chrono::milliseconds keepalive = kKeepalive;  ///< after which a silent machine is asked whether it is there
   Pace pace = Pace::lockstep;
   double speed = 0;  ///< simulated seconds a second; 0: as fast as it can, in lockstep only
   bool is_paused = false;
-  std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line, from any thread
+  std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
+  std::function<Lobby::Clock::time_point()> now = Lobby::Clock::now;        ///< what tells deadlines
 };
 
 /// A run as its server needs it: the environment, and what the program does besides in each step.
@@ -51,7 +55,8 @@ enum class Served {
 };
 
 /// Shows one environment to its clients: robots, viewers, geometry workers and control panels; and lets it step, in
-/// the order of 2005: admit who has come, take the robots' messages, step, tell everyone.
+/// the order of 2005: admit who has come, take the robots' messages, step, tell everyone. All of it happens on the thread
+/// that serves.
 class EnvironmentServer {
  public:
   /// Opens the ports.
@@ -62,10 +67,10 @@ class EnvironmentServer {
   EnvironmentServer& operator=(const EnvironmentServer&) = delete;
 
   /// The ports in use: viewers', robots', geometry's, control's.
-  std::vector<int> ports() const;
+  std::array<int, 4> ports() const;
 
   /// Waits for the networked robots, then steps until the run is over, a control panel stops it, or `interrupted` says
-  /// so (asked 20 times a second at least); then says goodbye to everyone.
+  /// so (asked 20 times a second at least); then says goodbye to everyone, and closes the ports.
   Served serve(ServedRun& run, const std::function<bool()>& interrupted);
 
  private:

@@ -8,58 +8,59 @@
 
 namespace robosim {
 
-/// One worker. What is below is touched with the lobby's mutex held.
-class GeometryConversation::Stream final : public ServerStream<wire::FromWorker, wire::ToWorker> {
+/// One worker.
+class GeometryConversation::Stream final : public StreamCall<wire::FromWorker, wire::ToWorker> {
  public:
-  Stream(GeometryConversation& owner, grpc::CallbackServerContext* context)
-      : ServerStream(context), owner_(owner), peer(context->peer()) {}
+  explicit Stream(GeometryConversation& owner) : StreamCall(*owner.line_.switchboard), owner_(owner) {}
 
-  void received(const wire::FromWorker& message) override {
-    const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state == State::gone) return;
-    owner_.received(*this, message);
-  }
-
-  void refuse(const WireError& error) override {
-    const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state != State::gone) owner_.expel(*this, {error.code(), error.what()});
-  }
-
-  void ended() override {
-    const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state == State::gone) return;
-    if (state != State::silent) owner_.lobby_.log("geometry worker " + peer + ": has left");
-    owner_.leave(*this);
-  }
-
- private:
-  GeometryConversation& owner_;
-
- public:
   enum class State { silent, waiting, building, ready, gone };
   State state = State::silent;
-  std::string peer;
   int replicas_owed = 0;  ///< sent, and not yet said to stand
   bool needs_moment = true;
   bool owes_result = false;
   wire::StepPart part = wire::CLIP;
   RobotRange share;
   std::size_t next_robot = 0;  ///< of the share, the first whose result is not in
+
+ private:
+  void called() override { owner_.called(*this); }
+  Turn received(const wire::FromWorker& message) override {
+    if (state != State::gone) owner_.received(*this, message);
+    return owes_result || replicas_owed > 0 ? Turn::theirs : Turn::ours;
+  }
+  void refuse(const WireError& error) override {
+    if (state != State::gone) owner_.expel(*this, {error.code(), error.what()});
+  }
+  void ended() override {
+    if (state == State::gone) return;
+    if (state != State::silent) owner_.lobby_.log("geometry worker " + peer() + ": has left");
+    owner_.leave(*this);
+  }
+
+  GeometryConversation& owner_;
 };
 
-GeometryConversation::GeometryConversation(Lobby& lobby) : lobby_(lobby) {}
+GeometryConversation::GeometryConversation(Lobby& lobby) : lobby_(lobby), newcomers_(lobby) {}
 GeometryConversation::~GeometryConversation() = default;
 
-RawStream* GeometryConversation::Work(grpc::CallbackServerContext* context) {
-  auto stream = std::make_shared<Stream>(*this, context);
-  stream->begin();
-  const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.mayEnter(*context, Right::work); !status.ok()) {
-    expel(*stream, status);
-  } else if (stream->state == Stream::State::silent) {
-    newcomers_.add(stream);
+void GeometryConversation::open(const Switchboard::Line& line) {
+  line_ = line;
+  awaitWorker();
+}
+
+void GeometryConversation::awaitWorker() {
+  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestWork(context, wire, line_.calls, line_.arrivals, tag);
+  });
+}
+
+void GeometryConversation::called(Stream& stream) {
+  awaitWorker();
+  if (const auto status = lobby_.mayEnter(stream.context(), Right::work); !status.ok()) {
+    expel(stream, status);
+  } else {
+    newcomers_.add(std::static_pointer_cast<Stream>(stream.shared_from_this()));
   }
-  return stream.get();
 }
 
 void GeometryConversation::show() {
@@ -75,8 +76,8 @@ void GeometryConversation::received(Stream& stream, const wire::FromWorker& mess
       checkProtocol(message.hello().protocol());
       stream.state = Stream::State::waiting;
       newcomers_.remove(stream);
+      lobby_.rang = true;
       streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
-      lobby_.bell.notify_all();
       break;
     case Stream::State::waiting:
     case Stream::State::building:
@@ -88,7 +89,7 @@ void GeometryConversation::received(Stream& stream, const wire::FromWorker& mess
       }
       stream.state = Stream::State::ready;
       stream.needs_moment = true;
-      lobby_.log("geometry worker " + stream.peer + ": ready");
+      lobby_.log("geometry worker " + stream.peer() + ": ready");
       break;
     case Stream::State::ready:
       takeResult(stream, message.result());
@@ -108,26 +109,23 @@ void GeometryConversation::takeResult(Stream& stream, const wire::TaskResult& re
   stream.next_robot = result.end();
   if (stream.next_robot < stream.share.end) return;
   stream.owes_result = false;
-  lobby_.bell.notify_all();
 }
 
 void GeometryConversation::leave(Stream& stream) {
   stream.state = Stream::State::gone;
   newcomers_.remove(stream);
   std::erase_if(streams_, [&](const auto& s) { return s.get() == &stream; });
-  lobby_.bell.notify_all();
 }
 
 void GeometryConversation::expel(Stream& stream, const grpc::Status& status) {
   const auto keep = stream.shared_from_this();  // leave() drops ours
-  lobby_.log("geometry worker " + stream.peer + ": hung up on: " + status.error_message());
+  lobby_.log("geometry worker " + stream.peer() + ": hung up on: " + status.error_message());
   leave(stream);
   stream.end(status);
 }
 
 void GeometryConversation::admit() {
-  const std::lock_guard lock(lobby_.mutex);
-  while (const auto silent = newcomers_.overdue()) expel(*silent, Newcomers<Stream>::tooLate());
+  while (const auto silent = newcomers_.overdue()) expel(*silent, newcomers_.tooLate());
   for (const auto& stream : streams_) {
     if (stream->state != Stream::State::waiting || !stream->isIdle()) continue;
     const Exhibit& exhibit = *lobby_.exhibit;
@@ -145,7 +143,6 @@ void GeometryConversation::admit() {
 }
 
 GeometryConversation::Streams GeometryConversation::crewFor(std::size_t robots) {
-  const std::lock_guard lock(lobby_.mutex);
   Streams crew;
   for (const auto& stream : streams_) {
     if (stream->state != Stream::State::ready) continue;
@@ -203,7 +200,6 @@ void GeometryConversation::step(Environment& environment) {
 void GeometryConversation::sharePart(Environment& environment, Streams& crew, const wire::Task& task,
                                      const wire::Moment* moment, const std::function<void(RobotRange)>& do_here,
                                      RobotRange own) {
-  std::unique_lock lock(lobby_.mutex);
   environment_ = &environment;
   for (const auto& stream : crew) {
     if (stream->state == Stream::State::gone) continue;
@@ -219,14 +215,13 @@ void GeometryConversation::sharePart(Environment& environment, Streams& crew, co
     stream->owes_result = true;
     stream->post();
   }
-  const auto deadline = Lobby::Clock::now() + lobby_.step_deadline;
-  lock.unlock();
+  const auto deadline = lobby_.now() + lobby_.step_deadline;
   do_here(own);
-  lock.lock();
-  lobby_.bell.wait_until(lock, deadline, [&] {
+  const auto all_done = [&] {
     return std::none_of(crew.begin(), crew.end(),
                         [](const auto& s) { return s->owes_result && s->state != Stream::State::gone; });
-  });
+  };
+  while (!all_done() && lobby_.now() < deadline) lobby_.nap(deadline - lobby_.now(), all_done);
   environment_ = nullptr;
   std::vector<RobotRange> undone;
   for (const auto& stream : crew) {
@@ -236,12 +231,10 @@ void GeometryConversation::sharePart(Environment& environment, Streams& crew, co
     }
     undone.push_back(stream->share);
   }
-  lock.unlock();
   for (const RobotRange range : undone) do_here(range);
 }
 
 void GeometryConversation::sayGoodbye() {
-  const std::lock_guard lock(lobby_.mutex);
   for (const auto& stream : streams_) {
     stream->state = Stream::State::gone;
     stream->end(grpc::Status::OK);
@@ -250,7 +243,6 @@ void GeometryConversation::sayGoodbye() {
 }
 
 std::size_t GeometryConversation::count() const {
-  const std::lock_guard lock(lobby_.mutex);
   return static_cast<std::size_t>(std::count_if(
       streams_.begin(), streams_.end(), [](const auto& stream) { return stream->state == Stream::State::ready; }));
 }

@@ -6,7 +6,7 @@
 
 #include "environment/environment.h"
 #include "net/geometry.grpc.pb.h"
-#include "net/server_stream.h"
+#include "net/stream_call.h"
 #include "server/lobby.h"
 #include "server/newcomers.h"
 
@@ -15,18 +15,14 @@ namespace robosim {
 /// The conversation with geometry workers, each of which keeps a replica of the environment and works out its share of
 /// a step (environment.h, "A step in parts"). The environment does a share of its own, and that of a worker that dies,
 /// stalls or makes no sense: so the run is the same with any number of workers.
-///
-/// Except for Work(), all is called by the thread that steps the environment.
-class GeometryConversation final : public wire::Geometry::WithRawCallbackMethod_Work<wire::Geometry::Service> {
+class GeometryConversation final : public wire::Geometry::WithRawMethod_Work<wire::Geometry::Service> {
  public:
   explicit GeometryConversation(Lobby& lobby);
   ~GeometryConversation() override;
 
-  /// gRPC calls this when a worker connects.
-  RawStream* Work(grpc::CallbackServerContext*) override;
-
+  /// Lets workers come in.
+  void open(const Switchboard::Line& line);
   /// Another world is shown from now on: every worker needs another replica.
-  /// Call with the lobby's mutex held, so that nobody meets one world's list with the other.
   void show();
   /// Sends the world to the workers that have come.
   void admit();
@@ -40,6 +36,8 @@ class GeometryConversation final : public wire::Geometry::WithRawCallbackMethod_
  private:
   class Stream;
   using Streams = std::vector<std::shared_ptr<Stream>>;
+  void awaitWorker();
+  void called(Stream& stream);
   void received(Stream& stream, const wire::FromWorker& message);
   void takeResult(Stream& stream, const wire::TaskResult& result);
   void expel(Stream& stream, const grpc::Status& status);
@@ -51,6 +49,7 @@ class GeometryConversation final : public wire::Geometry::WithRawCallbackMethod_
                  const std::function<void(RobotRange)>& do_here, RobotRange own);
 
   Lobby& lobby_;
+  Switchboard::Line line_{};
   Newcomers<Stream> newcomers_;
   Streams streams_;
   Environment* environment_ = nullptr;  ///< while results may be put into it

@@ -1,12 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 
 #include "net/access.h"
+#include "net/switchboard.h"
 #include "server/exhibit.h"
 
 namespace robosim {
@@ -17,26 +17,36 @@ enum class Pace {
   realtime,  ///< a step comes when its time has come; a late robot keeps its last command
 };
 
-/// What all conversations of one server share. gRPC's threads and the one that steps the environment meet here: what
-/// they both touch is touched with the mutex held, and whoever changes it rings the bell.
+/// What all conversations of one server share. All of it happens on the thread that steps the environment.
 struct Lobby {
   using Clock = std::chrono::steady_clock;
 
-  std::mutex mutex;
-  std::condition_variable bell;
-  std::function<void(const std::string&)> log;  ///< takes one line; called with the mutex held
-  Clock::duration step_deadline = std::chrono::seconds(1);
+  /// An interrupt wakes nobody, so all waiting is cut into naps.
+  static constexpr std::chrono::milliseconds kNap{50};
+
+  std::function<void(const std::string&)> log;  ///< takes one line
+  Clock::duration step_deadline;
+  Clock::duration hello_deadline;
+  std::function<Clock::time_point()> now;
   Pace pace = Pace::lockstep;
-  Access access;                           ///< constant once the server listens
+  Access access;
   bool is_over = false;                    ///< everyone was told goodbye: who comes now is sent away
   std::shared_ptr<const Exhibit> exhibit;  ///< never null once the server listens
+  Switchboard* switchboard = nullptr;      ///< as well
+  bool rang = false;  ///< a client wants something that is done between two steps: do not wait any longer
 
-  /// Whether a client may have this conversation: asked first of all, with the mutex held.
+  /// Whether a client may have this conversation: asked first of all.
   grpc::Status mayEnter(const grpc::ServerContextBase& client, Right right) const {
     const grpc::Status status = access.check(client, right);
     return status.ok() && is_over ? runIsOver() : status;
   }
   static grpc::Status runIsOver() { return {grpc::StatusCode::UNAVAILABLE, "the run is over"}; }
+
+  /// Lets clients speak until `is_enough`, but no longer than a nap.
+  void nap(Clock::duration at_most, const std::function<bool()>& is_enough) const {
+    const auto nap = std::clamp<Clock::duration>(at_most, Clock::duration::zero(), kNap);
+    switchboard->waitUntil(Switchboard::Clock::now() + nap, is_enough);
+  }
 };
 
 }  // namespace robosim

@@ -8,51 +8,20 @@
 namespace robosim {
 
 /// One process.
-class RobotConversation::Stream final : public ServerStream<wire::FromRobots, wire::ToRobots> {
+class RobotConversation::Stream final : public StreamCall<wire::FromRobots, wire::ToRobots> {
  public:
-  Stream(RobotConversation& owner, grpc::CallbackServerContext* context)
-      : ServerStream(context), owner_(owner), peer(context->peer()) {}
-
-  void received(const wire::FromRobots& message) override {
-    // Only hello() changes `robots`, in one of these calls, which come one after the other.
-    if (!robots.empty()) decode(message, robots.size(), incoming);
-    const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state == State::gone) return;
-    if (state == State::silent) {
-      owner_.hello(*this, message);
-    } else {
-      owner_.answer(*this);
-    }
-  }
-
-  void refuse(const WireError& error) override {
-    const std::lock_guard lock(owner_.lobby_.mutex);
-    if (state != State::gone) owner_.expel(*this, {error.code(), error.what()});
-  }
-
-  void ended() override {
-    const std::lock_guard lock(owner_.lobby_.mutex);
-    owner_.leave(*this, "has left");
-  }
+  explicit Stream(RobotConversation& owner) : StreamCall(*owner.line_.switchboard), owner_(owner) {}
 
   grpc::Status mayDrive(const std::vector<std::string>& robots_named) const {
-    return owner_.lobby_.access.check(*context(), Right::drive, robots_named);
+    return owner_.lobby_.access.check(context(), Right::drive, robots_named);
   }
-
   std::string who() const {
-    if (names.empty()) return peer;
-    return (names.size() == 1 ? "robot " : "robots ") + listed(names) + " (" + peer + ")";
+    if (names.empty()) return peer();
+    return (names.size() == 1 ? "robot " : "robots ") + listed(names) + " (" + peer() + ")";
   }
 
- private:
-  RobotConversation& owner_;
-
- public:
   enum class State { silent, waiting, admitted, gone };
-  /// @name Touched with the lobby's mutex held
-  ///@{
   State state = State::silent;
-  std::string peer;
   std::vector<std::string> names;
   std::vector<std::size_t> robots;  ///< their places in the world
   bool owes_answer = false;
@@ -60,25 +29,47 @@ class RobotConversation::Stream final : public ServerStream<wire::FromRobots, wi
   Lobby::Clock::time_point since;  ///< it owes an answer
   bool has_answer = false;         ///< one to hand over
   RobotsAnswer answer;
-  ///@}
-  RobotsAnswer incoming;  ///< touched by gRPC's thread only
-  /// By robot: letters of the steps that it was not told of. Touched by the thread that steps only.
-  std::vector<std::vector<RobotMessage>> held_letters;
+  std::vector<std::vector<RobotMessage>> held_letters;  ///< by robot: of the steps that it was not told of
+
+ private:
+  void called() override { owner_.called(*this); }
+  Turn received(const wire::FromRobots& message) override {
+    if (state == State::silent) {
+      owner_.hello(*this, message);
+    } else if (state != State::gone) {
+      owner_.answer(*this, message);
+    }
+    return Turn::ours;
+  }
+  void refuse(const WireError& error) override {
+    if (state != State::gone) owner_.expel(*this, {error.code(), error.what()});
+  }
+  void ended() override { owner_.leave(*this, "has left"); }
+
+  RobotConversation& owner_;
 };
 
-RobotConversation::RobotConversation(Lobby& lobby) : lobby_(lobby) {}
+RobotConversation::RobotConversation(Lobby& lobby) : lobby_(lobby), newcomers_(lobby) {}
 RobotConversation::~RobotConversation() = default;
 
-RawStream* RobotConversation::Drive(grpc::CallbackServerContext* context) {
-  auto stream = std::make_shared<Stream>(*this, context);
-  stream->begin();
-  const std::lock_guard lock(lobby_.mutex);
-  if (const auto status = lobby_.mayEnter(*context, Right::drive); !status.ok()) {
-    expel(*stream, status);
-  } else if (stream->state == Stream::State::silent) {
-    newcomers_.add(stream);
+void RobotConversation::open(const Switchboard::Line& line) {
+  line_ = line;
+  awaitProcess();
+}
+
+void RobotConversation::awaitProcess() {
+  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestDrive(context, wire, line_.calls, line_.arrivals, tag);
+  });
+}
+
+void RobotConversation::called(Stream& stream) {
+  awaitProcess();
+  if (const auto status = lobby_.mayEnter(stream.context(), Right::drive); !status.ok()) {
+    expel(stream, status);
+  } else {
+    newcomers_.add(std::static_pointer_cast<Stream>(stream.shared_from_this()));
   }
-  return stream.get();
 }
 
 void RobotConversation::show() {
@@ -128,7 +119,7 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
       throw WireError("the hello names robot " + inQuotes(name) + " twice");
     }
     if (const Stream* other = driver_of_[robot]) {
-      throw WireError("robot " + inQuotes(name) + " is driven by another process already, at " + other->peer,
+      throw WireError("robot " + inQuotes(name) + " is driven by another process already, at " + other->peer(),
                       grpc::StatusCode::ALREADY_EXISTS);
     }
     robots.push_back(robot);
@@ -139,25 +130,25 @@ void RobotConversation::hello(Stream& stream, const wire::FromRobots& message) {
   stream.held_letters.resize(stream.robots.size());
   stream.state = Stream::State::waiting;
   newcomers_.remove(stream);
+  lobby_.rang = true;
   streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
-  lobby_.bell.notify_all();
 }
 
-void RobotConversation::answer(Stream& stream) {
-  if (!stream.owes_answer || stream.incoming.step != stream.asked_step) {
+void RobotConversation::answer(Stream& stream, const wire::FromRobots& message) {
+  decode(message, stream.robots.size(), stream.answer);
+  if (!stream.owes_answer || stream.answer.step != stream.asked_step) {
     const std::string asked =
         stream.owes_answer ? "step " + std::to_string(stream.asked_step) + " was asked" : "nothing was asked";
-    throw WireError("an answer to step " + std::to_string(stream.incoming.step) + " when " + asked +
+    throw WireError("an answer to step " + std::to_string(stream.answer.step) + " when " + asked +
                     "; answer each step once, when its readings have come");
   }
-  for (const auto& letter : stream.incoming.letters) {
+  for (const auto& letter : stream.answer.letters) {
     if (lobby_.exhibit->robot_named.contains(letter.to)) continue;
     throw WireError("a letter to " + inQuotes(letter.to) + ", and there is no robot of that name");
   }
-  std::swap(stream.answer, stream.incoming);
   stream.has_answer = true;
   stream.owes_answer = false;
-  if (--missing_ == 0) lobby_.bell.notify_all();
+  --missing_;
 }
 
 void RobotConversation::leave(Stream& stream, const std::string& why) {
@@ -173,7 +164,7 @@ void RobotConversation::leave(Stream& stream, const std::string& why) {
   lobby_.log(stream.who() + ": " + why);
   const auto self = std::find_if(streams_.begin(), streams_.end(), [&](const auto& s) { return s.get() == &stream; });
   if (self != streams_.end()) streams_.erase(self);
-  lobby_.bell.notify_all();
+  lobby_.rang = true;
 }
 
 void RobotConversation::expel(Stream& stream, const grpc::Status& status) {
@@ -188,21 +179,14 @@ void RobotConversation::expel(Stream& stream, const grpc::Status& status) {
 }
 
 void RobotConversation::admit() {
-  std::vector<std::shared_ptr<Stream>> admitted;
-  {
-    const std::lock_guard lock(lobby_.mutex);
-    while (const auto silent = newcomers_.overdue()) expel(*silent, Newcomers<Stream>::tooLate());
-    for (const auto& stream : streams_) {
-      if (stream->state != Stream::State::waiting) continue;
-      stream->state = Stream::State::admitted;
-      for (const auto robot : stream->robots) has_been_here_[robot] = 1;
-      lobby_.log(stream->who() + ": connected");
-      ask(*stream);
-      admitted.push_back(stream);
-    }
-  }
-  for (const auto& stream : admitted) {
+  while (const auto silent = newcomers_.overdue()) expel(*silent, newcomers_.tooLate());
+  for (const auto& stream : streams_) {
+    if (stream->state != Stream::State::waiting) continue;
+    stream->state = Stream::State::admitted;
+    for (const auto robot : stream->robots) has_been_here_[robot] = 1;
+    lobby_.log(stream->who() + ": connected");
     sendWelcome(*stream);
+    ask(*stream);
     sendReadings(*stream);
   }
 }
@@ -211,7 +195,7 @@ void RobotConversation::ask(Stream& stream) {
   ++missing_;
   stream.owes_answer = true;
   stream.asked_step = lobby_.exhibit->environment.time().step;
-  stream.since = Lobby::Clock::now();
+  stream.since = lobby_.now();
 }
 
 void RobotConversation::sendWelcome(Stream& stream) {
@@ -259,7 +243,6 @@ void RobotConversation::holdLetters(Stream& stream) {
 }
 
 std::vector<std::string> RobotConversation::notYetHere() const {
-  const std::lock_guard lock(lobby_.mutex);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < has_been_here_.size(); ++i) {
     if (lobby_.exhibit->is_networked[i] && !has_been_here_[i]) names.push_back(lobby_.exhibit->robot_names[i]);
@@ -267,11 +250,8 @@ std::vector<std::string> RobotConversation::notYetHere() const {
   return names;
 }
 
-bool RobotConversation::allAnswered() const { return missing_ == 0; }
-
 void RobotConversation::evictLate() {
-  const std::lock_guard lock(lobby_.mutex);
-  const auto now = Lobby::Clock::now();
+  const auto now = lobby_.now();
   const auto streams = streams_;  // expel() takes from the list
   for (const auto& stream : streams) {
     if (!stream->owes_answer || now - stream->since < lobby_.step_deadline) continue;
@@ -284,7 +264,6 @@ void RobotConversation::evictLate() {
 
 std::size_t RobotConversation::handOver(Environment& environment) {
   std::size_t late_now = 0;
-  const std::lock_guard lock(lobby_.mutex);
   for (const auto robot : left_) environment.setCommand(robot, {});
   left_.clear();
   for (const auto& stream : streams_) {
@@ -304,25 +283,18 @@ std::size_t RobotConversation::handOver(Environment& environment) {
 }
 
 void RobotConversation::tell() {
-  told_.clear();
-  {
-    const std::lock_guard lock(lobby_.mutex);
-    for (const auto& stream : streams_) {
-      if (stream->state != Stream::State::admitted) continue;
-      if (stream->owes_answer) {  // it is late, and hears of the newest step once it has answered
-        holdLetters(*stream);
-      } else {
-        ask(*stream);
-        told_.push_back(stream);
-      }
+  for (const auto& stream : streams_) {
+    if (stream->state != Stream::State::admitted) continue;
+    if (stream->owes_answer) {  // it is late, and hears of the newest step once it has answered
+      holdLetters(*stream);
+    } else {
+      ask(*stream);
+      sendReadings(*stream);
     }
   }
-  // Sending is most of the work, and the first answers come while it goes on: they must not wait for the mutex.
-  for (const auto& stream : told_) sendReadings(*stream);
 }
 
 void RobotConversation::sayGoodbye() {
-  const std::lock_guard lock(lobby_.mutex);
   for (const auto& stream : streams_) {
     stream->state = Stream::State::gone;
     stream->end(grpc::Status::OK);
@@ -331,13 +303,11 @@ void RobotConversation::sayGoodbye() {
 }
 
 std::size_t RobotConversation::connected() const {
-  const std::lock_guard lock(lobby_.mutex);
   return static_cast<std::size_t>(
       std::count_if(driver_of_.begin(), driver_of_.end(), [](const Stream* driver) { return driver != nullptr; }));
 }
 
 std::vector<std::string> RobotConversation::absent() const {
-  const std::lock_guard lock(lobby_.mutex);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < driver_of_.size(); ++i) {
     if (lobby_.exhibit->is_networked[i] && !driver_of_[i]) {
@@ -345,11 +315,6 @@ std::vector<std::string> RobotConversation::absent() const {
     }
   }
   return names;
-}
-
-std::uint64_t RobotConversation::late() const {
-  const std::lock_guard lock(lobby_.mutex);
-  return late_;
 }
 
 }  // namespace robosim

@@ -24,6 +24,7 @@ void add(const Readings& readings, std::size_t robot, wire::Frame& out) {
   auto& view = *out.add_readings();
   view.set_robot(static_cast<std::uint32_t>(robot));
   encode(readings, *view.mutable_readings());
+  for (auto& measurement : *view.mutable_readings()->mutable_measurements()) measurement.clear_jpeg();
 }
 
 /// Another world: all of it, with nothing known of its robots as yet.

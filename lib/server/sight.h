@@ -23,8 +23,8 @@ struct RobotLook {
 
 /// Whose readings a viewer wants to see, beside where everyone is.
 struct ReadingsWish {
-  bool of_all = false;
-  std::vector<std::uint32_t> of;  ///< these robots', by their places in the world's list
+  bool of_all = false;            ///< everybody's, but for their cameras' pictures
+  std::vector<std::uint32_t> of;  ///< all readings of these robots, by their places in the world's list
   bool operator==(const ReadingsWish&) const = default;
 };
 
@@ -40,7 +40,7 @@ struct Sight {
   std::string winner;             ///< the robot that has won; empty for as long as none has
 
   /// What a robot's sensors measured at this step, in the order of its RobotInfo::sensors; null unless the viewer has
-  /// asked for it.
+  /// asked for it. A camera's picture is the newest, and is there once: when it is new to the viewer.
   const Readings* readingsOf(std::size_t robot) const { return has_readings[robot] ? &readings[robot] : nullptr; }
 
   std::vector<Readings> readings;          ///< in the world's order; of this step or one before it
@@ -52,7 +52,7 @@ void encode(const ReadingsWish& wish, wire::FrameRequest& out);
 ReadingsWish decode(const wire::FrameRequest& in);
 
 void encode(const RobotLook& look, std::size_t robot, wire::RobotView& out);
-/// Adds the readings wished for.
+/// Adds the readings wished for, but for their pictures.
 /// @param readings by robot
 void encode(const std::vector<Readings>& readings, const ReadingsWish& wish, wire::Frame& out);
 

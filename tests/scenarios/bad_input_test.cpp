@@ -182,16 +182,17 @@ void expectRefusal(const std::function<void()>& ask, const std::string& words) {
 grpc::Status howLoadEnds(const DialOptions& dialled, const std::string& bytes, std::size_t piece_bytes) {
   grpc::ClientContext context;
   const auto stub = wire::ControlPanel::NewStub(dial(dialled));
-  wire::RunStatus status;
-  const auto writer = stub->Load(&context, &status);
+  const auto stream = stub->Load(&context);
   for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
     wire::WorldPiece piece;
     piece.set_protocol(kProtocolVersion);
     piece.set_piece(bytes.substr(at, piece_bytes));
-    if (!writer->Write(piece)) break;
+    if (!stream->Write(piece)) break;
   }
-  writer->WritesDone();
-  return writer->Finish();
+  stream->WritesDone();
+  for (wire::RunStatus status; stream->Read(&status);) {
+  }
+  return stream->Finish();
 }
 
 TEST_F(BadInput, OfAControlPanel) {

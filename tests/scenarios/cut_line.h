@@ -17,6 +17,8 @@ class CutLine {
   std::string address() const { return "127.0.0.1:" + std::to_string(own_port_); }
   /// Cuts the line that stands after so many more bytes from the caller.
   void cutAfter(int bytes) { bytes_left_ = bytes; }
+  /// Passes nothing on any more, as when a machine has lost its power: the line stands, and nobody hears otherwise.
+  void fallSilent() { is_silent_ = true; }
 
  private:
   void answerCalls();
@@ -24,7 +26,7 @@ class CutLine {
 
   int port_, own_port_ = 0, listener_ = -1;
   std::atomic<int> bytes_left_{-1};  ///< below 0: all
-  std::atomic<bool> is_ending_{false};
+  std::atomic<bool> is_silent_{false}, is_ending_{false};
   std::thread thread_;
 };
 

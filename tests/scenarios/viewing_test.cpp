@@ -1,6 +1,8 @@
 // Viewers, which may come, look, dawdle and go as they like.
 #include <algorithm>
 #include <future>
+#include <thread>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -27,7 +29,7 @@ class RawViewer {
       : stub_(wire::Viewing::NewStub(dial(options))), stream_(stub_->Watch(&context_)) {}
   ~RawViewer() {
     context_.TryCancel();
-    stream_->Finish();
+    if (stream_) stream_->Finish();
   }
   RawViewer(const RawViewer&) = delete;
   RawViewer& operator=(const RawViewer&) = delete;
@@ -38,6 +40,17 @@ class RawViewer {
     encode(wish, request);
     request.set_amends(amends);
     stream_->Write(request);
+  }
+  void talkNonsense() {
+    wire::FrameRequest request;
+    wire::FrameRequest::GetReflection()->MutableUnknownFields(&request)->AddLengthDelimited(3, "\xff");
+    stream_->Write(request);
+  }
+  void sayNothingMore() { stream_->WritesDone(); }
+  grpc::Status howItEnds() {
+    for (wire::Frame frame; stream_->Read(&frame);) {
+    }
+    return std::exchange(stream_, nullptr)->Finish();
   }
   wire::Frame read() {
     wire::Frame frame;
@@ -124,6 +137,31 @@ void expectReadings(const Sight& sight, const ServedWorld& world, const std::vec
     if (!readings) continue;
     EXPECT_EQ(readings->measurements, world.state().readings[i].measurements) << i;
   }
+}
+
+TEST(Viewing, LetsAViewerGoThatNeverReadsAndTalksNonsense) {
+  ServedWorld::Options options = paused();
+  options.world = "worlds/open_100.xml";
+  ServedWorld world(options);
+  RawViewer deaf(world.dialOptions());
+  Panel panel(world);
+  for (int i = 1; i <= 200; ++i) {  // far more than goes out before the first is taken
+    deaf.ask({.of_all = true, .of = {}});
+    panel.step(1);
+  }
+  EXPECT_EQ(panel.status().viewers(), 1u);
+  deaf.talkNonsense();
+  while (panel.status().viewers() > 0) std::this_thread::yield();
+  EXPECT_EQ(countOf("hung up on: a message that is no robosim.wire.FrameRequest", world.log()), 1u);
+}
+
+TEST(Viewing, AnswersWhoAsksOnceAndHasNothingMoreToSay) {
+  ServedWorld world(paused());
+  RawViewer viewer(world.dialOptions());
+  viewer.ask();
+  viewer.sayNothingMore();
+  EXPECT_EQ(viewer.read().robots_size(), 2);
+  EXPECT_TRUE(viewer.howItEnds().ok());
 }
 
 TEST(Viewing, ShowsTheReadingsOfWhomTheViewerWishesAndOfNobodyElse) {

@@ -1,0 +1,156 @@
+#include "robosim/bench_crowd.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <memory>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error_list.h"
+#include "robosim/bench_rounds.h"
+#include "robosim/workloads.h"
+#include "server/environment_server.h"
+
+namespace robosim {
+namespace {
+
+/// As much as the figures of what gRPC can do at most were taken with: 790 bytes of readings.
+constexpr Workload kLoad{
+    "network", "16 sonars of one ray, and 30 infrared rays of 10 cm",
+    "<sonar model='rays' rays='1' range_max_m='5'><ring count='16' radius_m='0.2' z_m='0.2'/></sonar>"
+    "<infrared range_min_m='0' range_max_m='0.1'><ring count='30' radius_m='0.25' z_m='0.2'/></infrared>",
+    46};
+
+/// `robosim robot` in a process of its own, which ends with this.
+class RobotProcess {
+ public:
+  RobotProcess(const std::vector<std::string>& names, int port, const std::string& trusted_certificate) {
+    std::vector<std::string> words{"robosim", "robot"};
+    words.insert(words.end(), names.begin(), names.end());
+    words.insert(words.end(), {"--environment", std::to_string(port), "--controller", "wander"});
+    if (!trusted_certificate.empty()) words.insert(words.end(), {"--tls-ca", trusted_certificate});
+    std::vector<char*> argv;
+    for (auto& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t quiet;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const int error = posix_spawn(&id_, "/proc/self/exe", &quiet, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&quiet);
+    if (error != 0) throw std::runtime_error("cannot start a process of robots: " + std::string(std::strerror(error)));
+  }
+  ~RobotProcess() {
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+  }
+  RobotProcess(const RobotProcess&) = delete;
+  RobotProcess& operator=(const RobotProcess&) = delete;
+
+  double cpu_s() const {
+    clockid_t clock{};
+    timespec time{};
+    if (clock_getcpuclockid(id_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  }
+
+ private:
+  pid_t id_ = 0;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Steps as fast as its robots answer, and measures several windows after a first one that warms up.
+class MeasuredRun final : public ServedRun {
+ public:
+  explicit MeasuredRun(const CrowdBench& bench)
+      : MeasuredRun(bench, makeWorldToRun(kLoad, bench.crowd.processes * bench.crowd.robots_each, 1)) {}
+
+  /// Has the robots come to where this is served.
+  void invite(int port) {
+    const auto each = static_cast<std::ptrdiff_t>(bench_.crowd.robots_each);
+    for (auto name = exhibit_->robot_names.begin(); name != exhibit_->robot_names.end(); name += each) {
+      processes_.push_back(std::make_unique<RobotProcess>(std::vector(name, name + each), port, bench_.tls_cert));
+    }
+  }
+
+  Environment& environment() override { return environment_; }
+  std::shared_ptr<const Exhibit> exhibit() const override { return exhibit_; }
+  void decide() override {
+    if (environment_.time().step == 0) window_start_ = now();
+  }
+  void stepped(std::size_t /*late*/) override {
+    ++steps_;
+    if (Clocks::now().wall_s - window_start_.own.wall_s < bench_.window_s) return;
+    const Times end = now();
+    if (is_warm_) note(end);
+    is_warm_ = true;
+    steps_ = 0;
+    window_start_ = now();
+  }
+  bool isOver() const override { return static_cast<int>(steps_per_s_.size()) == bench_.windows; }
+  void load(const WorldSource&) override { throw ConfigError("a benchmark keeps its world"); }
+
+  CrowdFigures figures() const { return {median(steps_per_s_), median(environment_cpu_us_), median(robots_cpu_us_)}; }
+
+ private:
+  struct Times {
+    Clocks own;
+    double robots_cpu_s = 0;
+  };
+
+  MeasuredRun(const CrowdBench& bench, LoadedWorld world)
+      : bench_(bench),
+        environment_(std::move(world.world), std::move(world.fleet), EnvironmentOptions{}),
+        exhibit_(std::make_shared<Exhibit>(environment_, WorldSource{}, 1,
+                                           std::vector<std::uint8_t>(environment_.robotCount(), 1))) {}
+
+  Times now() const {
+    Times times{Clocks::now()};
+    for (const auto& process : processes_) times.robots_cpu_s += process->cpu_s();
+    return times;
+  }
+
+  void note(const Times& end) {
+    const double us_each = 1e6 / static_cast<double>(steps_ * processes_.size());
+    steps_per_s_.push_back(static_cast<double>(steps_) / (end.own.wall_s - window_start_.own.wall_s));
+    environment_cpu_us_.push_back((end.own.cpu_s - window_start_.own.cpu_s) * us_each);
+    robots_cpu_us_.push_back((end.robots_cpu_s - window_start_.robots_cpu_s) * us_each);
+  }
+
+  const CrowdBench& bench_;
+  Environment environment_;
+  std::shared_ptr<const Exhibit> exhibit_;
+  std::vector<std::unique_ptr<RobotProcess>> processes_;
+  Times window_start_;
+  bool is_warm_ = false;
+  std::uint64_t steps_ = 0;
+  std::vector<double> steps_per_s_, environment_cpu_us_, robots_cpu_us_;
+};
+
+}  // namespace
+
+CrowdFigures benchCrowd(const CrowdBench& bench) {
+  MeasuredRun run(bench);
+  ServerOptions options;
+  options.listen = ListenAddresses::parse("127.0.0.1:0");
+  options.step_deadline = std::chrono::minutes(1);
+  if (!bench.tls_cert.empty()) options.tls = TlsIdentity::read(bench.tls_cert, bench.tls_key);
+  options.log = [](const std::string&) {};
+  EnvironmentServer server(options, run.exhibit());
+  run.invite(server.ports().front());
+  server.serve(run, [] { return false; });
+  return run.figures();
+}
+
+}  // namespace robosim
