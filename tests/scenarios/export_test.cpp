@@ -145,7 +145,7 @@ TEST(Export, MakesASceneOfMrptsOwnClasses) {
     ASSERT_TRUE(drawn) << robot.info.name;
     EXPECT_NEAR(drawn->getPoseX(), robot.world_from_start.x, 1e-9);
     EXPECT_NEAR(drawn->getPoseY(), robot.world_from_start.y, 1e-9);
-    EXPECT_NEAR(drawn->getPoseYaw(), robot.world_from_start.phi, 1e-9);
+    EXPECT_NEAR(drawn->getPoseYaw(), robot.world_from_start.phi * 180 / M_PI, 1e-5) << "degrees";
   }
 }
 
@@ -201,7 +201,8 @@ TEST(Export, SaysWhatIsWrongAndLeavesFilesAsTheyWere) {
       {"worlds/opho2_1.xml", "OUT is required"},
       {"worlds/none.xml " + in + "old.gridmap'", "worlds/none.xml: no such file; check the path"},
       {"worlds/opho2_1.xml " + in + "a.jpg'",
-       "is of no known format; give it a name that ends in one of: .gridmap, .yaml, .png, .bt, .ot, .svg"},
+       "is of no known format; give it a name that ends in one of: .gridmap, .yaml, .png, .bt, .ot, .3Dscene, "
+       ".svg"},
       {"worlds/opho2_1.xml " + in + "old.gridmap' " + in + "none/a.svg'", "none/a.svg: cannot be written"},
       {"worlds/opho2_1.xml " + in + "old.gridmap' --resolution 0.001",
        "cells of 0.001 m make a grid of 20200 × 20200; a map may have 67108864 at most, so make them larger"},
