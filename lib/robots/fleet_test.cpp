@@ -233,11 +233,11 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
     } else if (example.name == "robot") {
       EXPECT_EQ(modelOf(example, "tortoise.xml", {}, errors).sensors.size(), 2u);
     } else if (example.name == "sensors") {
-      XmlElement lookout = readXmlFile(kWorlds / "robots" / "pioneer3dx.xml");
-      std::find_if(lookout.children.begin(), lookout.children.end(), [](const auto& e) {
+      XmlElement type = readXmlFile(kWorlds / "robots" / "pioneer3dx.xml");
+      std::find_if(type.children.begin(), type.children.end(), [](const auto& e) {
         return e.name == "sensors";
       })->children = example.children;
-      EXPECT_EQ(modelOf(lookout, "lookout.xml", {}, errors).sensors.size(), 2u);
+      EXPECT_EQ(modelOf(type, "pioneer3dx.xml", {}, errors).sensors.size(), 2u);
     } else if (example.name == "map") {
       const auto beside = kWorlds / "some.xml";
       const std::string world = "<world><surface>" + text(example) + "</surface></world>";
