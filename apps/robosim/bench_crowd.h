@@ -5,12 +5,12 @@
 namespace robosim {
 
 /// Robots in other processes: so many, with so many robots each.
-struct Crowd {
+struct CrowdSize {
   std::size_t processes = 0, robots_each = 0;
 };
 
 struct CrowdBench {
-  Crowd crowd;
+  CrowdSize crowd;
   int windows = 5;                ///< how many times to measure
   double window_s = 1;            ///< how long each time
   std::string tls_cert, tls_key;  ///< empty: without TLS

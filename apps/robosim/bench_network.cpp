@@ -14,7 +14,7 @@ namespace robosim {
 namespace {
 
 struct AimedCrowd {
-  Crowd crowd;
+  CrowdSize crowd;
   double aim_steps_per_s = 0;  ///< 0 for none
 
   std::string word() const { return std::to_string(crowd.processes) + "x" + std::to_string(crowd.robots_each); }
@@ -33,7 +33,7 @@ bool isWanted(const AimedCrowd& aimed, const std::vector<std::string>& words) {
   return words.empty() || std::find(words.begin(), words.end(), aimed.word()) != words.end();
 }
 
-void print(const Crowd& crowd, const CrowdFigures& figures) {
+void print(const CrowdSize& crowd, const CrowdFigures& figures) {
   const nlohmann::ordered_json line{{"processes", crowd.processes},
                                     {"robots_each", crowd.robots_each},
                                     {"steps_per_s", figures.steps_per_s},

@@ -18,6 +18,7 @@ OpenPort openPort(const std::string& address, const PortOptions& options, const 
   // Clients may ask as often; unless told, gRPC would hang up on them for it.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, keepalive_ms / 2);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 0);  // statistics that nobody asks for, of every message
   builder.AddListeningPort(address, options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(),
                            &open.number);
   for (auto* service : services) builder.RegisterService(service);
