@@ -10,6 +10,7 @@ void addBench(CLI::App& program) {
   addBenchMaps(*bench);
   addBenchNetwork(*bench);
   addBenchSpeed(*bench);
+  addBenchView(*bench);
 }
 
 }  // namespace robosim

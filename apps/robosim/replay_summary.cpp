@@ -120,7 +120,7 @@ class Counting {
 
 nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& arguments, const RawlogReader& reader) {
   nlohmann::ordered_json json{
-      {"rawlog", arguments.rawlog},          {"entries", reader.entries()}, {"observations", contents.observations},
+      {"rawlog", arguments.rawlog},        {"entries", reader.entries()}, {"observations", contents.observations},
       {"duration_s", contents.duration()}, {"whole", !reader.trouble()},  {"trouble", reader.trouble().value_or("")},
       {"left_out", reader.leftOut()}};
   for (const auto& [label, channel] : contents.channels) {

@@ -23,12 +23,13 @@ void addExport(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 
-/// `robosim bench camera`, `… gold`, `… maps`, `… network` and `… speed`
+/// `robosim bench camera`, `… gold`, `… maps`, `… network`, `… speed` and `… view`
 void addBenchCamera(CLI::App& bench);
 void addBenchGold(CLI::App& bench);
 void addBenchMaps(CLI::App& bench);
 void addBenchNetwork(CLI::App& bench);
 void addBenchSpeed(CLI::App& bench);
+void addBenchView(CLI::App& bench);
 
 /// The way for a subcommand to end with a code of its own, after it has said why.
 struct Exit {

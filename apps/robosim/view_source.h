@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "environment/environment.h"
 #include "rendering/shown.h"
 #include "robosim/connection.h"
 #include "robots/world_source.h"
@@ -49,6 +50,9 @@ class ViewSource {
   /// Whose sensors are shown: by robot, 1 for those; empty for all.
   virtual void want(const std::vector<std::uint8_t>&) {}
 };
+
+/// The newest step of an environment in this process, with everybody's readings.
+Shown shownOf(const Environment& environment);
 
 /// A world as it begins.
 std::unique_ptr<ViewSource> viewWorld(const std::string& file);

@@ -1,4 +1,3 @@
-#include "environment/environment.h"
 #include "maze/controllers.h"
 #include "robosim/view_source.h"
 #include "robots/fleet.h"
@@ -10,12 +9,7 @@ class WorldView final : public ViewSource {
  public:
   explicit WorldView(const std::string& file) : title_(file), world_(loadWorld(file, controllerNames())) {
     // An environment senses what robots sense at their start.
-    const Environment environment(world_.world, world_.fleet, {});
-    const State& state = environment.state();
-    for (std::size_t i = 0; i < environment.robotCount(); ++i) {
-      shown_.robots.push_back(
-          {state.world_from_robot[i], state.laser_pan_rad[i], false, Activity::active, state.readings[i]});
-    }
+    shown_ = shownOf(Environment(world_.world, world_.fleet, {}));
   }
 
   const LoadedWorld& world() const override { return world_; }
@@ -31,6 +25,16 @@ class WorldView final : public ViewSource {
 };
 
 }  // namespace
+
+Shown shownOf(const Environment& environment) {
+  const State& state = environment.state();
+  Shown shown{state.time.step, state.time.seconds(), {}};
+  for (std::size_t i = 0; i < environment.robotCount(); ++i) {
+    shown.robots.push_back({state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0, state.activity[i],
+                            state.readings[i]});
+  }
+  return shown;
+}
 
 std::unique_ptr<ViewSource> viewWorld(const std::string& file) { return std::make_unique<WorldView>(file); }
 

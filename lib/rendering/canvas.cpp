@@ -33,6 +33,17 @@ TextStyle styleOf(double size_px) {
 Canvas::Canvas(const GroundView& view, const Color& background)
     : view_(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
 
+Canvas::Layer Canvas::differenceFrom(const Canvas& ground) const {
+  Layer layer{fine_, cv::Mat(fine_.size(), CV_8U)};
+  for (int y = 0; y < fine_.rows; ++y) {
+    const auto* const here = fine_.ptr<cv::Vec3b>(y);
+    const auto* const there = ground.fine_.ptr<cv::Vec3b>(y);
+    auto* const mask = layer.mask.ptr<uchar>(y);
+    for (int x = 0; x < fine_.cols; ++x) mask[x] = here[x] != there[x] ? 255 : 0;
+  }
+  return layer;
+}
+
 cv::Point Canvas::fine(const TPoint2D& pixel) const {
   // Pixel 0 is made of the fine pixels 0 and 1, so its middle lies at 0.5 of the fine ones.
   const auto fixed = [](double coordinate) {
@@ -69,6 +80,12 @@ void Canvas::polyline(std::span<const TPoint2D> points, double width_px, const C
 
 void Canvas::disc(const TPoint2D& center, double radius_px, const Color& color) {
   cv::circle(fine_, fine(center), fineRadius(radius_px), bgr(color), cv::FILLED, cv::LINE_AA, kShift);
+}
+
+void Canvas::dot(const TPoint2D& center, double radius_px, const Color& color) {
+  const cv::Point at(static_cast<int>(std::lround(center.x * kFiner)),
+                     static_cast<int>(std::lround(center.y * kFiner)));
+  cv::circle(fine_, at, fineWidth(radius_px), bgr(color), cv::FILLED, cv::LINE_8);
 }
 
 void Canvas::fill(const Outline& shape, const Color& color) {
@@ -109,24 +126,27 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
 
 void Canvas::veil(std::span<const std::vector<TPoint2D>> polygons, const Color& color, float opacity) {
   if (polygons.empty()) return;
-  cv::Mat mask(fine_.size(), CV_8U, cv::Scalar(0));
+  cv::Mat mask = cv::Mat::zeros(fine_.size(), CV_8U);
+  // Without smoothing of OpenCV's, which costs as much again and is hardly seen in a tint.
+  std::vector<std::vector<cv::Point>> points(1);
   for (const auto& polygon : polygons) {
-    std::vector<cv::Point> points;
-    for (const auto& point : polygon) points.push_back(fine(point));
-    cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{points}, cv::Scalar(255), cv::LINE_AA, kShift);
+    points[0].clear();
+    for (const auto& point : polygon) points[0].push_back(fine(point));
+    if (cv::isContourConvex(points[0])) {
+      cv::fillConvexPoly(mask, points[0], cv::Scalar(255), cv::LINE_8, kShift);
+    } else {
+      cv::fillPoly(mask, points, cv::Scalar(255), cv::LINE_8, kShift);
+    }
   }
-  const cv::Scalar tint = bgr(color);
   const int share = static_cast<int>(std::lround(opacity * 256));
+  const cv::Scalar tint = bgr(color) * share;
+  const int add[] = {static_cast<int>(tint[0]), static_cast<int>(tint[1]), static_cast<int>(tint[2])};
   for (int y = 0; y < fine_.rows; ++y) {
     const uchar* const covered = mask.ptr<uchar>(y);
     auto* const pixels = fine_.ptr<cv::Vec3b>(y);
     for (int x = 0; x < fine_.cols; ++x) {
       if (covered[x] == 0) continue;
-      for (int i = 0; i < 3; ++i) {
-        const int pixel = pixels[x][i];
-        pixels[x][i] =
-            static_cast<uchar>(pixel + (static_cast<int>(tint[i]) - pixel) * share * covered[x] / (256 * 255));
-      }
+      for (int i = 0; i < 3; ++i) pixels[x][i] = static_cast<uchar>((pixels[x][i] * (256 - share) + add[i]) >> 8);
     }
   }
 }

@@ -19,11 +19,25 @@ class Canvas {
  public:
   Canvas(const GroundView& view, const Color& background);
 
+  /// A copy is drawn on by itself.
+  Canvas(const Canvas& other) : view_(other.view_), fine_(other.fine_.clone()) {}
+  Canvas(Canvas&&) = default;
+  Canvas& operator=(const Canvas&) = delete;
+
   const GroundView& view() const { return view_; }
+
+  /// What one canvas has more than another, to be laid upon canvases of the same view.
+  struct Layer {
+    cv::Mat fine, mask;
+  };
+  Layer differenceFrom(const Canvas& ground) const;
+  void lay(const Layer& layer) { layer.fine.copyTo(fine_, layer.mask); }
 
   void line(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, double width_px, const Color&);
   void polyline(std::span<const mrpt::math::TPoint2D> points, double width_px, const Color&);
   void disc(const mrpt::math::TPoint2D& center, double radius_px, const Color&);
+  /// A disc of a few pixels, less exact than a disc, and ten times as fast.
+  void dot(const mrpt::math::TPoint2D& center, double radius_px, const Color&);
   void fill(const Outline&, const Color&);
   void outline(const Outline&, double width_px, const Color&);
   /// A soft light around the outline that fades within some pixels.

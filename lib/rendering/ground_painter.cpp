@@ -86,9 +86,10 @@ void drawObjects(Canvas& canvas, const World& world) {
 }
 
 void drawRobot(Canvas& canvas, const TPoint2D& center, double radius_px, const TPoint2D& ahead, const Color& color) {
-  canvas.disc(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
-  canvas.disc(center, radius_px - 1, color);
-  const bool small = radius_px < 6;  // too small to draw in
+  const bool small = radius_px < 6;  // too small to draw in, or to be seen to be rough
+  const auto disc = small ? &Canvas::dot : &Canvas::disc;
+  (canvas.*disc)(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
+  (canvas.*disc)(center, radius_px - 1, color);
   canvas.line(center, center + ahead * (radius_px + (small ? 4 : -1.5)), 2, small ? color : kWhite);
 }
 

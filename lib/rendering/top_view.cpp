@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <mrpt/core/format.h>
 
@@ -28,18 +29,32 @@ const Color& colorOf(SensorKind kind) {
   return kind == SensorKind::laser ? kLaserColor : kind == SensorKind::infrared ? kInfraredColor : kSonarColor;
 }
 
+Canvas emptyFloor(const World& world, const GroundView& view) {
+  Canvas canvas(view, kPageColor);
+  drawFloor(canvas, world.bounds);
+  return canvas;
+}
+
+void drawThings(Canvas& canvas, const World& world) {
+  drawMaps(canvas, world);
+  drawObjects(canvas, world);
+}
+
 /// Draws one picture, from the ground up.
 class Drawing {
  public:
-  Drawing(const World& world, const Fleet& fleet, const Shown& shown, const GroundView& view)
-      : world_(world), fleet_(fleet), shown_(shown), view_(view), canvas_(view, kPageColor) {}
+  /// @param things what stands on the floor, if that has been drawn already
+  Drawing(const World& world, const Fleet& fleet, const Shown& shown, Canvas floor, const Canvas::Layer* things)
+      : world_(world), fleet_(fleet), shown_(shown), view_(floor.view()), canvas_(std::move(floor)), things_(things) {}
 
   cv::Mat draw(const Trails& trails, const TopViewLayers& layers) {
-    drawFloor(canvas_, world_.bounds);
     if (layers.trails) drawTrails(trails);
     if (layers.sensors) drawRanges();
-    drawMaps(canvas_, world_);
-    drawObjects(canvas_, world_);
+    if (things_) {
+      canvas_.lay(*things_);
+    } else {
+      drawThings(canvas_, world_);
+    }
     for (std::size_t i = 0; i < shown_.robots.size(); ++i) drawRobot(i);
     if (layers.sensors) drawTouch();
     if (layers.names) writeNames();
@@ -60,7 +75,11 @@ class Drawing {
   void drawTrails(const Trails& trails) {
     for (std::size_t i = 0; i < trails.ofRobot().size() && i < shown_.robots.size(); ++i) {
       std::vector<TPoint2D> way;
-      for (const auto& point : trails.ofRobot()[i]) way.push_back(view_.toPixel(point));
+      constexpr double kStride_px = 1.5;
+      for (const auto& point : trails.ofRobot()[i]) {
+        const TPoint2D pixel = view_.toPixel(point);
+        if (way.empty() || (pixel - way.back()).norm() >= kStride_px) way.push_back(pixel);
+      }
       way.push_back(pixelOf(shown_.robots[i].world_from_robot));
       canvas_.polyline(way, 1.6, mix(robotColor(i), kFloorColor, 0.35f));
     }
@@ -89,7 +108,7 @@ class Drawing {
     });
     for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.veil(free[i], colorOf(kinds[i]), 0.17f);
     for (const auto& dot : dots) {
-      if (isOnPicture(dot.at, 2)) canvas_.disc(dot.at, 1.6, *dot.color);
+      if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, *dot.color);
     }
   }
 
@@ -123,9 +142,11 @@ class Drawing {
     const double middle_rad = at.yaw + (sensor.pans ? robot.laser_pan_rad : 0);
     const double half_rad = std::max(kThinBeam_rad, sensor.beam_width_rad) / 2;
     std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
-    constexpr int kPieces = 6;
-    for (int i = 0; i <= kPieces; ++i) {
-      const double angle_rad = middle_rad - half_rad + 2 * half_rad * i / kPieces;
+    // As many straight pieces as an arc of its size needs on the picture.
+    const double arc_px = 2 * half_rad * echo.range_m * view_.pixelsPerMetre();
+    const int pieces = std::clamp(static_cast<int>(arc_px / 8), 1, 12);
+    for (int i = 0; i <= pieces; ++i) {
+      const double angle_rad = middle_rad - half_rad + 2 * half_rad * i / pieces;
       area.push_back(
           toPixel(robot, {at.x + echo.range_m * std::cos(angle_rad), at.y + echo.range_m * std::sin(angle_rad)}));
     }
@@ -212,9 +233,19 @@ class Drawing {
   const Shown& shown_;
   GroundView view_;
   Canvas canvas_;
+  const Canvas::Layer* things_;
 };
 
 }  // namespace
+
+/// What is the same in every picture of a view that does not move: most of the work.
+struct TopView::Stills {
+  Canvas floor;
+  Canvas::Layer things;
+};
+
+TopView::TopView(const World& world, const Fleet& fleet) : world_(world), fleet_(fleet) {}
+TopView::~TopView() = default;
 
 TopViewCamera TopViewCamera::showing(const Bounds2D& area, int width_px, int height_px) {
   constexpr double kMargin_px = 24;
@@ -248,7 +279,19 @@ GroundView TopView::groundView(const Shown& shown, const TopViewCamera& camera) 
 
 cv::Mat TopView::draw(const Shown& shown, const Trails& trails, const TopViewCamera& camera,
                       const TopViewLayers& layers) {
-  return Drawing(world_, fleet_, shown, groundView(shown, camera)).draw(trails, layers);
+  const GroundView view = groundView(shown, camera);
+  if (std::exchange(last_view_, view) != view) {
+    stills_.reset();
+    return Drawing(world_, fleet_, shown, emptyFloor(world_, view), nullptr).draw(trails, layers);
+  }
+  if (!stills_) {
+    Canvas floor = emptyFloor(world_, view);
+    Canvas with_things(floor);
+    drawThings(with_things, world_);
+    Canvas::Layer things = with_things.differenceFrom(floor);
+    stills_.reset(new Stills{std::move(floor), std::move(things)});
+  }
+  return Drawing(world_, fleet_, shown, stills_->floor, &stills_->things).draw(trails, layers);
 }
 
 std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const Shown& shown, const Fleet& fleet,

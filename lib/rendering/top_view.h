@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <optional>
 
 #include <opencv2/core/mat.hpp>
@@ -33,7 +34,9 @@ struct TopViewLayers {
 /// A run from straight above, to scale.
 class TopView {
  public:
-  TopView(const World& world, const Fleet& fleet) : world_(world), fleet_(fleet) {}
+  /// @param world, fleet must outlive this
+  TopView(const World& world, const Fleet& fleet);
+  ~TopView();
 
   /// BGR, 8 bits.
   cv::Mat draw(const Shown& shown, const Trails& trails, const TopViewCamera& camera, const TopViewLayers& layers);
@@ -44,8 +47,12 @@ class TopView {
   static GroundView groundView(const Shown& shown, const TopViewCamera& camera);
 
  private:
+  struct Stills;
+
   const World& world_;
   const Fleet& fleet_;
+  GroundView last_view_;
+  std::unique_ptr<const Stills> stills_;  ///< of that view, once it has been drawn twice
 };
 
 }  // namespace robosim
