@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
 #include "tests/scenarios/serving.h"
@@ -15,6 +16,7 @@ namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
+using namespace std::string_literals;
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
@@ -128,6 +130,74 @@ TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
   runCommand("xdotool search --name RoboSim windowfocus key q");
   const Ended ended = view.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
+}
+
+/// A window on a run, when it has been drawn.
+class RunWindow {
+ public:
+  RunWindow(const ServedWorld& world, const std::string& token, const Screen& screen)
+      : view_((setenv("ROBOSIM_TOKEN", token.c_str(), 1), std::vector{"view"s, world.dialOptions().address})) {
+    const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
+    EXPECT_GE(screen.waitForPixels(100'000, is_lit, emptyFolder(), view_), 100'000) << view_.error();
+  }
+  ~RunWindow() { unsetenv("ROBOSIM_TOKEN"); }
+  static void press(const std::string& keys) { runCommand("xdotool search --name RoboSim windowfocus key " + keys); }
+  bool isOpen() { return view_.isRunning(); }
+  Ended quit() {
+    press("q");
+    return view_.wait();
+  }
+
+ private:
+  StartedProgram view_;
+};
+
+TEST(View, PausesAndStepsARunForWhoeverMayOperateItAndForNobodyElse) {
+  const std::string watcher = "viewer-0123456789ab", master = "master-0123456789ab";
+  ServedWorld::Options options;
+  options.server.access = Access::parse(watcher + " viewer\n" + master + " operator\n", "tokens");
+  options.server.speed = 1;
+  ServedWorld world(options);
+  DialOptions dialled = world.dialOptions();
+  dialled.token = master;
+  ControlPanel panel(dialled);
+  const Screen screen;
+  {
+    RunWindow window(world, watcher, screen);
+    window.press("space");
+    EXPECT_EQ(window.quit().exit_code, 0);
+    EXPECT_EQ(panel.status().phase(), wire::RUNNING);
+  }
+  RunWindow window(world, master, screen);
+  window.press("space");
+  while (window.isOpen() && panel.status().phase() != wire::PAUSED) {
+  }
+  const auto step = panel.status().step();
+  window.press("s");
+  while (window.isOpen() && panel.status().step() == step) {
+  }
+  EXPECT_EQ(panel.status().step(), step + 1);
+  EXPECT_EQ(panel.status().phase(), wire::PAUSED);
+  window.press("space");
+  while (window.isOpen() && panel.status().phase() != wire::RUNNING) {
+  }
+  EXPECT_EQ(window.quit().exit_code, 0);
+}
+
+TEST(View, WritesAVideoOfARunThatGoesOn) {
+  const auto folder = emptyFolder();
+  Serving serving({"--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
+  const Ended view =
+      runProgram("view " + serving.address() + " --size 320x240 --fps 10 --offscreen " + quoted(folder / "run.mp4"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  cv::VideoCapture video((folder / "run.mp4").string());
+  cv::Mat first, last;
+  for (cv::Mat frame; video.read(frame);) {
+    if (first.empty()) first = frame.clone();
+    last = frame.clone();
+  }
+  ASSERT_EQ(first.size(), cv::Size(320, 240)) << "it ends with the run";
+  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robots have moved";
 }
 
 TEST(View, RawLogViewerOpensARecordingOfOursToo) {
