@@ -16,8 +16,8 @@
 namespace robosim {
 namespace {
 
-constexpr std::uint32_t kSide = 2000;  ///< cells along each side of a map
 constexpr double kCell_m = 0.05;
+constexpr std::uint32_t kRoom = 20;  ///< cells along each side of what is left free for the robot
 
 /// A map's cells: what stands in each is told by its column, its row and a number in [0, 1) drawn for it.
 struct Kind {
@@ -39,22 +39,25 @@ constexpr Kind kKinds[] = {
     {"chequered", [](std::uint32_t column, std::uint32_t row, double) { return (column + row) % 2 == 1; }},
 };
 
-/// Writes a world of one map and one robot, with room for it in the middle.
-std::filesystem::path writeWorld(const Kind& kind, const std::filesystem::path& folder) {
+/// Writes a world of one map, of `side` × `side` cells, and one robot, with room for it in the middle.
+std::filesystem::path writeWorld(const Kind& kind, std::uint32_t side, const std::filesystem::path& folder) {
   Rng rng(1);
   std::string pixels;
-  for (std::uint32_t row = 0; row < kSide; ++row) {
-    for (std::uint32_t column = 0; column < kSide; ++column) {
-      const bool is_middle = column / 20 == kSide / 40 && row / 20 == kSide / 40;
-      pixels += kind.stands(column, row, rng.uniform()) && !is_middle ? '\0' : '\xfe';
+  const auto is_middle = [side](std::uint32_t at) { return at + kRoom / 2 >= side / 2 && at < side / 2 + kRoom / 2; };
+  for (std::uint32_t row = 0; row < side; ++row) {
+    for (std::uint32_t column = 0; column < side; ++column) {
+      const bool stands = kind.stands(column, row, rng.uniform());
+      pixels += stands && !(is_middle(column) && is_middle(row)) ? '\0' : '\xfe';
     }
   }
-  std::ofstream(folder / "map.pgm", std::ios::binary) << "P5 2000 2000 255\n" << pixels;
+  const std::string cells = std::to_string(side), middle_m = toText(side / 2 * kCell_m);
+  std::ofstream(folder / "map.pgm", std::ios::binary) << "P5 " + cells + " " + cells + " 255\n" << pixels;
   std::ofstream(folder / "map.yaml") << "image: map.pgm\nresolution: 0.05\norigin: [0, 0, 0]\nnegate: 0\n"
                                         "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
   std::ofstream(folder / "world.xml") << "<world><surface><map file='map.yaml'/><object><shape><robot>"
-                                         "<model>pioneer3dx</model><name>R</name><x>50.5</x><y>50.5</y>"
-                                         "</robot></shape></object></surface></world>";
+                                         "<model>pioneer3dx</model><name>R</name><x>" +
+                                             middle_m + "</x><y>" + middle_m +
+                                             "</y></robot></shape></object></surface></world>";
   return folder / "world.xml";
 }
 
@@ -74,7 +77,12 @@ nlohmann::json measure(const std::filesystem::path& world) {
           {"peak_mb", Memory::now().peak_mb}};
 }
 
-void benchMaps(bool as_json) {
+struct Arguments {
+  std::uint32_t side = 2000;
+  bool as_json = false;
+};
+
+void benchMaps(const Arguments& arguments) {
   const ScratchFolder scratch;
   Rows rows{{"map", "occupied cells", "boxes", "load, CPU [s]", "on the clock [s]", "holds [MB]", "peak [MB]"}};
   auto all = nlohmann::json::array();
@@ -83,7 +91,7 @@ void benchMaps(bool as_json) {
     {
       Progress progress;
       if (progress.due()) progress.show(std::string("loading ") + kind.name);
-      const auto world = writeWorld(kind, scratch.path());
+      const auto world = writeWorld(kind, arguments.side, scratch.path());
       figures = inOwnProcess([&] { return measure(world); });
     }
     rows.push_back({kind.name, withCommas(figures["occupied"]), withCommas(figures["boxes"]),
@@ -92,11 +100,12 @@ void benchMaps(bool as_json) {
     figures["map"] = kind.name;
     all.push_back(figures);
   }
-  if (as_json) {
+  if (arguments.as_json) {
     std::cout << all.dump(2) << '\n';
   } else {
-    std::cout << table(rows) << "Maps of " << withCommas(kSide) << " × " << withCommas(kSide) << " cells of "
-              << fixed(kCell_m, 2) << " m, each loaded in a process of its own, up to where a run can take its first "
+    std::cout << table(rows) << "Maps of " << withCommas(arguments.side) << " × " << withCommas(arguments.side)
+              << " cells of " << fixed(kCell_m, 2)
+              << " m, each loaded in a process of its own, up to where a run can take its first "
               << "step.\n";
   }
 }
@@ -105,9 +114,12 @@ void benchMaps(bool as_json) {
 
 void addBenchMaps(CLI::App& bench) {
   auto* command = bench.add_subcommand("maps", "How long large maps take to load, and how much memory they take");
-  auto as_json = std::make_shared<bool>(false);
-  command->add_flag("--json", *as_json, "print a JSON array, an object for each map");
-  command->callback([as_json] { benchMaps(*as_json); });
+  auto a = std::make_shared<Arguments>();
+  command->add_option("--side", a->side, "cells along each side of a map, of 0.05 m")
+      ->check(CLI::Range(100, 8000))
+      ->capture_default_str();
+  command->add_flag("--json", a->as_json, "print a JSON array, an object for each map");
+  command->callback([a] { benchMaps(*a); });
 }
 
 }  // namespace robosim

@@ -183,19 +183,5 @@ TEST(Camera, IsNoMatterToWorldsWithoutOneNorToCheckingAWorld) {
   EXPECT_NE(check.out.find("camera blob_finder"), std::string::npos) << check.out;
 }
 
-TEST(BenchCamera, TellsHowManyPicturesASecondItTakesOfEachSize) {
-  const Ended bench = runProgram("bench camera worlds/small_maze.xml --at-least 0.01 --json");
-  ASSERT_EQ(bench.exit_code, 0) << bench.err;
-  std::vector<int> widths;
-  std::istringstream lines(bench.out);
-  for (std::string line; std::getline(lines, line);) {
-    const json figures = json::parse(line);
-    widths.push_back(figures["width_px"]);
-    EXPECT_GT(figures["pictures_per_cpu_s"], 0.0);
-    EXPECT_GT(figures["bytes"], 500.0);
-  }
-  EXPECT_EQ(widths, (std::vector<int>{160, 320, 640}));
-}
-
 }  // namespace
 }  // namespace robosim
