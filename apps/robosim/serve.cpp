@@ -108,10 +108,15 @@ class WorldRun final : public ServedRun {
     return stage_->run.gold().all_halted_s.has_value() || arguments_.of_run.timeIsUp(stage_->run.environment().time());
   }
   void load(const WorldSource& source) override {
-    auto next = stageOf(source, number_ + 1);
-    ++number_;
+    std::shared_ptr<Stage> next;
+    try {
+      next = stageOf(source, number_ + 1);
+    } catch (const RecordingError& error) {  // of the next run; this one goes on
+      throw ConfigError(error.what());
+    }
     stage_->finish(EndedBy::control_panel);
     stage_ = std::move(next);
+    ++number_;
   }
 
   void keep() { stage_->outputs.keep(stage_->run.environment()); }

@@ -2,13 +2,32 @@
 
 #include <stdexcept>
 
+#include <sys/resource.h>
+
 #include "net/lean_locks.h"
 
 namespace robosim {
+namespace {
+
+/// So many calls there may be on one connection at a time; more wait at their end. Whoever opens them without end else
+/// keeps us from everybody, and fills our memory.
+constexpr int kCallsMost = 128;
+
+/// Each connection takes a descriptor, and a shell often gives a program 1,024 of those that it may have. Once gRPC has
+/// found none for a caller, it never listens again.
+void useAllDescriptors() {
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+}
+
+}  // namespace
 
 OpenPort openPort(const std::string& address, const PortOptions& options, const std::vector<grpc::Service*>& services,
                   grpc::ServerBuilder&& builder) {
   useLeanLocks();
+  useAllDescriptors();
   const auto keepalive_ms = static_cast<int>(options.keepalive.count());
   OpenPort open;
   // Without this two programs could share a port unknowingly, and each client reach either.
@@ -19,6 +38,7 @@ OpenPort openPort(const std::string& address, const PortOptions& options, const 
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, keepalive_ms / 2);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MAX_PINGS_WITHOUT_DATA, 0);
   builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 0);  // statistics that nobody asks for, of every message
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kCallsMost);
   builder.AddListeningPort(address, options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials(),
                            &open.number);
   for (auto* service : services) builder.RegisterService(service);

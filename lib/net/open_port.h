@@ -19,8 +19,8 @@ struct OpenPort {
 };
 
 struct PortOptions {
-  std::optional<TlsIdentity> tls;                   ///< absent: without TLS
-  std::string option;                               ///< that names the address on the command line, for the error
+  std::optional<TlsIdentity> tls;                    ///< absent: without TLS
+  std::string option;                                ///< that names the address on the command line, for the error
   std::chrono::milliseconds keepalive = kKeepalive;  ///< as in DialOptions
 };
 

@@ -17,6 +17,9 @@ namespace robosim {
 /// Whose turn it is to speak on a stream.
 enum class Turn {
   theirs,  ///< the peer is listened to at once
+  /// The peer is listened to at once, but no more than a few times a millisecond. gRPC looks at no other connection as
+  /// long as something has come already, so a peer that speaks without end would keep us from hearing anybody else.
+  in_measure,
   /// The peer is listened to when our next message goes out. Then HTTP/2's acknowledgement of what it said travels with
   /// that, and not alone, which would cost a packet, and wake the peer for nothing. Nor can a peer flood us.
   ours,
@@ -73,7 +76,8 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
       posted_ = false;
       is_patient_ = true;
       ++pending_;
-      patience_.Set(presence_.switchboard().queue(), std::chrono::system_clock::now() + kPatience, patience_over_.tag());
+      patience_.Set(presence_.switchboard().queue(), std::chrono::system_clock::now() + kPatience,
+                    patience_over_.tag());
     }
     if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED && writing_) context_.TryCancel();
     writeNext();
@@ -81,6 +85,8 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
 
   const grpc::ServerContext& context() const { return context_; }
   const std::string& peer() const { return peer_; }  ///< who has called; also after the end
+  /// The peer has given up, or is gone.
+  bool isCancelled() const { return is_cancelled_; }
 
  protected:
   virtual ~StreamCall() = default;
@@ -155,7 +161,10 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
     } catch (const WireError& error) {
       refuse(error);
     }
-    if (turn == Turn::ours && !has_spoken_) {
+    if (turn == Turn::in_measure && isHasty()) {
+      ++pending_;
+      breath_.Set(presence_.switchboard().queue(), std::chrono::system_clock::now() + kBreath, breathed_.tag());
+    } else if (turn == Turn::ours && !has_spoken_) {
       is_read_held_ = true;
     } else {
       read();
@@ -172,6 +181,21 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
     settle();
   }
 
+  /// Whether the peer has spoken too often of late.
+  bool isHasty() {
+    const auto now = Switchboard::Clock::now();
+    if (now - spoken_since_ >= kBreath) {
+      spoken_since_ = now;
+      spoken_ = 0;
+    }
+    return ++spoken_ >= kMostABreath;
+  }
+
+  void onBreathed(bool /*ok*/) {
+    read();
+    settle();
+  }
+
   void onPatienceOver(bool ok) {
     if (ok) context_.TryCancel();
     settle();
@@ -179,7 +203,8 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
 
   /// The stream is at its end, or the connection has broken, or the peer has given up the call.
   void onDone(bool /*ok*/) {
-    if (context_.IsCancelled()) end(grpc::Status::CANCELLED);
+    is_cancelled_ = context_.IsCancelled();
+    if (is_cancelled_) end(grpc::Status::CANCELLED);
     settle();
   }
 
@@ -197,22 +222,26 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   }
 
   static constexpr std::chrono::seconds kPatience{1};
+  static constexpr std::chrono::milliseconds kBreath{1};
+  static constexpr int kMostABreath = 4;
 
   Switchboard::Presence presence_;
   std::shared_ptr<StreamCall> self_;
   grpc::ServerContext context_;
   std::string peer_;
   Wire wire_{&context_};
-  grpc::Alarm patience_;
+  grpc::Alarm patience_, breath_;
   Event called_{*this, &StreamCall::onCalled}, read_{*this, &StreamCall::onRead},
       written_{*this, &StreamCall::onWritten}, patience_over_{*this, &StreamCall::onPatienceOver},
-      done_{*this, &StreamCall::onDone}, over_{*this, &StreamCall::onOver};
+      done_{*this, &StreamCall::onDone}, over_{*this, &StreamCall::onOver}, breathed_{*this, &StreamCall::onBreathed};
   grpc::ByteBuffer bytes_read_;
   In in_;
   Out draft_;
   grpc::ByteBuffer bytes_written_;
-  int pending_ = 0;            ///< what gRPC was asked to do and has not done
-  bool posted_ = false;        ///< the draft is to be written next
+  Switchboard::Clock::time_point spoken_since_;
+  int spoken_ = 0;       ///< messages that have come since then
+  int pending_ = 0;      ///< what gRPC was asked to do and has not done
+  bool posted_ = false;  ///< the draft is to be written next
   bool writing_ = false;
   bool has_spoken_ = false;    ///< a write has begun since the last message came
   bool is_read_held_ = false;  ///< the next message is to be read when the next write begins
@@ -220,6 +249,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   bool finished_ = false;  ///< gRPC was told the end …
   bool is_over_ = false;   ///< … and has told it
   bool is_patient_ = false;
+  bool is_cancelled_ = false;
   grpc::Status status_;
 };
 

@@ -10,6 +10,8 @@ namespace {
 constexpr std::chrono::milliseconds kRound(20);
 /// A step that waits for nobody may take less time than to look whether anything has happened, so not each looks.
 constexpr std::chrono::milliseconds kGlance(1);
+/// So many things happen between two looks at anything else, however many are due: a flood keeps nobody from stepping.
+constexpr int kAtOnce = 32;
 constexpr std::chrono::seconds kGrace(1);
 
 gpr_timespec timespecOf(Switchboard::Clock::time_point until) {
@@ -60,7 +62,7 @@ bool Switchboard::takeOne(grpc::ServerCompletionQueue& queue, gpr_timespec until
 
 void Switchboard::takeFromOtherDesks() {
   for (std::size_t d = 1; d < desks_.size(); ++d) {
-    while (takeOne(*desks_[d].queue, atOnce())) {
+    for (int n = 0; n < kAtOnce && takeOne(*desks_[d].queue, atOnce()); ++n) {
     }
   }
 }
@@ -83,7 +85,7 @@ void Switchboard::glance() {
   if (now - last_glance_ < kGlance) return;
   last_glance_ = now;
   takeFromOtherDesks();
-  while (takeOne(*desks_.front().queue, atOnce())) {
+  for (int n = 0; n < kAtOnce && takeOne(*desks_.front().queue, atOnce()); ++n) {
   }
 }
 

@@ -48,7 +48,7 @@ class Switchboard {
   /// What a service needs to wait for calls.
   struct Line {
     Switchboard* switchboard;
-    grpc::CompletionQueue* calls;            ///< where gRPC is to tell of what happens to a call …
+    grpc::CompletionQueue* calls;           ///< where gRPC is to tell of what happens to a call …
     grpc::ServerCompletionQueue* arrivals;  ///< … and that there is one: arguments of a generated RequestX()
   };
 

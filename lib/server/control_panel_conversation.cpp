@@ -88,7 +88,7 @@ class ControlPanelConversation::PlainCall final : public UnaryCall<Request, wire
       owner_.queue(std::static_pointer_cast<PlainCall>(this->shared_from_this()));
     } else {
       answer({}, status);
-      owner_.lobby_.log("control panel " + who() + ": refused: " + status.error_message());
+      owner_.lobby_.logRefusal("control panel " + who() + ": refused: " + status.error_message());
     }
   }
 
@@ -103,6 +103,7 @@ class ControlPanelConversation::LoadCall final : public StreamCall<wire::WorldPi
       : StreamCall(*owner.line_.switchboard), Call("load"), owner_(owner) {}
 
   std::string who() const override { return peer(); }
+  bool isCancelled() const override { return StreamCall::isCancelled(); }
   void obey(PanelDesk& desk) override {
     desk.load(source_);
     desk.run_switch.is_paused = true;
@@ -166,7 +167,7 @@ class ControlPanelConversation::Watcher final : public StreamCall<wire::PanelReq
     checkProtocol(message.protocol());
     asks = true;
     owner_.lobby_.rang = true;
-    return Turn::ours;
+    return Turn::in_measure;
   }
   void refuse(const WireError& error) override { end({error.code(), error.what()}); }
   void ended() override {
@@ -206,32 +207,28 @@ void ControlPanelConversation::open(const Switchboard::Line& line) {
          desk.describe(status);
          call.until_step = status.step() + desk.run_switch.steps_left;
        }});
-  awaitCall<wire::SpeedRequest>(
-      {"speed", Right::operate, &Self::RequestSetSpeed,
-       [this](PanelDesk& desk, const wire::SpeedRequest& request, Call&) {
-         checkSpeed(request.speed(), lobby_.pace);
-         desk.run_switch.speed = request.speed();
-       }});
+  awaitCall<wire::SpeedRequest>({"speed", Right::operate, &Self::RequestSetSpeed,
+                                 [this](PanelDesk& desk, const wire::SpeedRequest& request, Call&) {
+                                   checkSpeed(request.speed(), lobby_.pace);
+                                   desk.run_switch.speed = request.speed();
+                                 }});
 }
 
 template <typename Request>
 void ControlPanelConversation::awaitCall(const Kind<Request>& kind) {
-  std::make_shared<PlainCall<Request>>(*this, kind)
-      ->await([&](auto* context, auto* request, auto* wire, void* tag) {
-        (this->*kind.request)(context, request, wire, line_.calls, line_.arrivals, tag);
-      });
+  std::make_shared<PlainCall<Request>>(*this, kind)->await([&](auto* context, auto* request, auto* wire, void* tag) {
+    (this->*kind.request)(context, request, wire, line_.calls, line_.arrivals, tag);
+  });
 }
 
 void ControlPanelConversation::awaitLoad() {
-  std::make_shared<LoadCall>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestLoad(context, wire, line_.calls, line_.arrivals, tag);
-  });
+  std::make_shared<LoadCall>(*this)->await(
+      [this](auto* context, auto* wire, void* tag) { RequestLoad(context, wire, line_.calls, line_.arrivals, tag); });
 }
 
 void ControlPanelConversation::awaitWatcher() {
-  std::make_shared<Watcher>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestWatch(context, wire, line_.calls, line_.arrivals, tag);
-  });
+  std::make_shared<Watcher>(*this)->await(
+      [this](auto* context, auto* wire, void* tag) { RequestWatch(context, wire, line_.calls, line_.arrivals, tag); });
 }
 
 void ControlPanelConversation::queue(const std::shared_ptr<Call>& call) {
@@ -266,9 +263,19 @@ void ControlPanelConversation::obey(PanelDesk& desk, Call& call) {
     wire::RunStatus reply;
     desk.describe(reply);
     call.answer(reply, grpc::Status::OK);
-  } catch (const std::runtime_error& error) {  // WireError, or a ConfigError of the world
-    call.answer({}, badInput(error.what()));
+  } catch (const WireError& error) {
+    refuse(call, error.what());
+  } catch (const ConfigError& error) {  // of the world
+    refuse(call, error.what());
+  } catch (const std::exception& error) {  // ours, a disk that is full say
+    call.answer({}, {grpc::StatusCode::INTERNAL, "the run ends here: " + std::string(error.what())});
+    throw;
   }
+}
+
+void ControlPanelConversation::refuse(Call& call, const std::string& why) {
+  lobby_.logRefusal("control panel " + call.who() + ": " + (call.what ? call.what : "status") + ": " + why);
+  call.answer({}, badInput(why));
 }
 
 void ControlPanelConversation::answerSteppers(PanelDesk& desk) {

@@ -55,6 +55,7 @@ class ControlPanelConversation final : public ControlPanelService {
   void awaitWatcher();
   void queue(const std::shared_ptr<Call>& call);
   void obey(PanelDesk& desk, Call& call);
+  void refuse(Call& call, const std::string& why);
   void answerSteppers(PanelDesk& desk);
 
   Lobby& lobby_;

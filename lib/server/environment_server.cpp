@@ -178,6 +178,7 @@ struct EnvironmentServer::Impl {
 
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
     desk.load = [&](const WorldSource& source) { load(run, source); };
+    lobby.interrupted = interrupted;
     desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
     admit();
     isEveryoneHere();  // a panel that asks first of all is to be told how the run stands

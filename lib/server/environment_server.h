@@ -18,9 +18,9 @@ namespace robosim {
 
 struct ServerOptions {
   ListenAddresses listen = ListenAddresses::parse(kDefaultListen);
-  Access access;                                  ///< who may do what
-  std::optional<TlsIdentity> tls;                 ///< absent: without TLS
-  std::chrono::milliseconds step_deadline{1000};    ///< how long a step waits for anybody
+  Access access;                                     ///< who may do what
+  std::optional<TlsIdentity> tls;                    ///< absent: without TLS
+  std::chrono::milliseconds step_deadline{1000};     ///< how long a step waits for anybody
   std::chrono::milliseconds hello_deadline{10'000};  ///< how long a client may take to say who it is
   std::chrono::milliseconds keepalive = kKeepalive;  ///< after which a silent machine is asked whether it is there
   Pace pace = Pace::lockstep;
@@ -55,8 +55,8 @@ enum class Served {
 };
 
 /// Shows one environment to its clients: robots, viewers, geometry workers and control panels; and lets it step, in
-/// the order of 2005: admit who has come, take the robots' messages, step, tell everyone. All of it happens on the thread
-/// that serves.
+/// the order of 2005: admit who has come, take the robots' messages, step, tell everyone. All of it happens on the
+/// thread that serves.
 class EnvironmentServer {
  public:
   /// Opens the ports.

@@ -49,9 +49,8 @@ void GeometryConversation::open(const Switchboard::Line& line) {
 }
 
 void GeometryConversation::awaitWorker() {
-  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestWork(context, wire, line_.calls, line_.arrivals, tag);
-  });
+  std::make_shared<Stream>(*this)->await(
+      [this](auto* context, auto* wire, void* tag) { RequestWork(context, wire, line_.calls, line_.arrivals, tag); });
 }
 
 void GeometryConversation::called(Stream& stream) {
@@ -215,19 +214,21 @@ void GeometryConversation::sharePart(Environment& environment, Streams& crew, co
     stream->owes_result = true;
     stream->post();
   }
-  const auto deadline = lobby_.now() + lobby_.step_deadline;
   do_here(own);
+  const auto deadline = lobby_.now() + lobby_.step_deadline;  // while we were busy ourselves, nobody was late
   const auto all_done = [&] {
     return std::none_of(crew.begin(), crew.end(),
                         [](const auto& s) { return s->owes_result && s->state != Stream::State::gone; });
   };
-  while (!all_done() && lobby_.now() < deadline) lobby_.nap(deadline - lobby_.now(), all_done);
+  while (!all_done() && lobby_.now() < deadline && !lobby_.interrupted()) lobby_.nap(deadline - lobby_.now(), all_done);
   environment_ = nullptr;
   std::vector<RobotRange> undone;
   for (const auto& stream : crew) {
     if (!stream->owes_result && stream->state != Stream::State::gone) continue;
     if (stream->state != Stream::State::gone) {
-      expel(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED, "no result within the step deadline; connect again"});
+      expel(*stream, lobby_.interrupted() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the run was interrupted")
+                                          : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED,
+                                                         "no result within the step deadline; connect again"));
     }
     undone.push_back(stream->share);
   }

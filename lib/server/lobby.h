@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "net/access.h"
 #include "net/switchboard.h"
@@ -24,7 +25,8 @@ struct Lobby {
   /// An interrupt wakes nobody, so all waiting is cut into naps.
   static constexpr std::chrono::milliseconds kNap{50};
 
-  std::function<void(const std::string&)> log;  ///< takes one line
+  std::function<void(const std::string&)> log;               ///< takes one line
+  std::function<bool()> interrupted = [] { return false; };  ///< whether whoever started the server wants it to end
   Clock::duration step_deadline;
   Clock::duration hello_deadline;
   std::function<Clock::time_point()> now;
@@ -42,11 +44,26 @@ struct Lobby {
   }
   static grpc::Status runIsOver() { return {grpc::StatusCode::UNAVAILABLE, "the run is over"}; }
 
+  /// Tells of somebody who was sent away. A stranger may come again and again, so there are few such lines a second.
+  void logRefusal(const std::string& line) {
+    constexpr int kMost = 10;
+    const auto second = std::chrono::floor<std::chrono::seconds>(now());
+    if (std::exchange(refusals_in_, second) != second) {
+      if (refusals_ > kMost) log(std::to_string(refusals_ - kMost) + " more were refused within a second");
+      refusals_ = 0;
+    }
+    if (++refusals_ <= kMost) log(line);
+  }
+
   /// Lets clients speak until `is_enough`, but no longer than a nap.
   void nap(Clock::duration at_most, const std::function<bool()>& is_enough) const {
     const auto nap = std::clamp<Clock::duration>(at_most, Clock::duration::zero(), kNap);
     switchboard->waitUntil(Switchboard::Clock::now() + nap, is_enough);
   }
+
+ private:
+  std::chrono::time_point<Clock, std::chrono::seconds> refusals_in_;
+  int refusals_ = 0;  ///< in that second
 };
 
 }  // namespace robosim

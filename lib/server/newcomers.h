@@ -27,8 +27,8 @@ class Newcomers {
   }
   grpc::Status tooLate() const {
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(lobby_.hello_deadline).count();
-    return {grpc::StatusCode::DEADLINE_EXCEEDED, "no hello within " + std::to_string(ms) +
-                                                     " ms of connecting; the first message must be one, at once"};
+    return {grpc::StatusCode::DEADLINE_EXCEEDED,
+            "no hello within " + std::to_string(ms) + " ms of connecting; the first message must be one, at once"};
   }
 
  private:

@@ -58,9 +58,8 @@ void RobotConversation::open(const Switchboard::Line& line) {
 }
 
 void RobotConversation::awaitProcess() {
-  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestDrive(context, wire, line_.calls, line_.arrivals, tag);
-  });
+  std::make_shared<Stream>(*this)->await(
+      [this](auto* context, auto* wire, void* tag) { RequestDrive(context, wire, line_.calls, line_.arrivals, tag); });
 }
 
 void RobotConversation::called(Stream& stream) {
@@ -170,7 +169,7 @@ void RobotConversation::leave(Stream& stream, const std::string& why) {
 void RobotConversation::expel(Stream& stream, const grpc::Status& status) {
   const auto keep = stream.shared_from_this();  // leave() drops ours
   if (stream.state == Stream::State::silent) {
-    lobby_.log(stream.who() + ": refused: " + status.error_message());
+    lobby_.logRefusal(stream.who() + ": refused: " + status.error_message());
     leave(stream, "");
   } else {
     leave(stream, "hung up on: " + status.error_message());
@@ -251,10 +250,17 @@ std::vector<std::string> RobotConversation::notYetHere() const {
 }
 
 void RobotConversation::evictLate() {
-  const auto now = lobby_.now();
+  const auto is_late = [&](const auto& stream) {
+    return stream->owes_answer && lobby_.now() - stream->since >= lobby_.step_deadline;
+  };
+  const auto is_nobody_late = [&] { return std::none_of(streams_.begin(), streams_.end(), is_late); };
+  if (is_nobody_late()) return;
+  // It may be that we were held up ourselves: what has come meanwhile is heard first.
+  constexpr std::chrono::milliseconds kHearing(10);
+  lobby_.nap(kHearing, is_nobody_late);
   const auto streams = streams_;  // expel() takes from the list
   for (const auto& stream : streams) {
-    if (!stream->owes_answer || now - stream->since < lobby_.step_deadline) continue;
+    if (!is_late(stream)) continue;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(lobby_.step_deadline).count();
     expel(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED, "no answer to step " + std::to_string(stream->asked_step) +
                                                              " within the step deadline of " + std::to_string(ms) +

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "net/robot_wire.h"
 #include "server/world_wire.h"
@@ -55,8 +56,10 @@ void encode(const ReadingsWish& wish, wire::FrameRequest& out) {
   out.mutable_readings_of()->Assign(wish.of.begin(), wish.of.end());
 }
 
-ReadingsWish decode(const wire::FrameRequest& in) {
-  ReadingsWish wish{in.readings_of_all(), {in.readings_of().begin(), in.readings_of().end()}};
+ReadingsWish decode(const wire::FrameRequest& in, std::size_t robots) {
+  ReadingsWish wish{in.readings_of_all(), {}};
+  std::copy_if(in.readings_of().begin(), in.readings_of().end(), std::back_inserter(wish.of),
+               [robots](std::uint32_t robot) { return robot < robots; });
   std::sort(wish.of.begin(), wish.of.end());
   wish.of.erase(std::unique(wish.of.begin(), wish.of.end()), wish.of.end());
   return wish;

@@ -49,7 +49,8 @@ struct Sight {
 
 void encode(const ReadingsWish& wish, wire::FrameRequest& out);
 /// The robots in order, each once.
-ReadingsWish decode(const wire::FrameRequest& in);
+/// @param robots how many there are; others count for nothing
+ReadingsWish decode(const wire::FrameRequest& in, std::size_t robots);
 
 void encode(const RobotLook& look, std::size_t robot, wire::RobotView& out);
 /// Adds the readings wished for, but for their pictures.

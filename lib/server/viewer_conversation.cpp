@@ -24,7 +24,7 @@ class ViewerConversation::Stream final : public StreamCall<wire::FrameRequest, w
 
   void hangUp(const grpc::Status& status) {
     if (std::exchange(is_gone_, true)) return;
-    owner_.lobby_.log("viewer " + peer() + ": hung up on: " + status.error_message());
+    owner_.lobby_.logRefusal("viewer " + peer() + ": hung up on: " + status.error_message());
     end(status);
   }
 
@@ -40,10 +40,10 @@ class ViewerConversation::Stream final : public StreamCall<wire::FrameRequest, w
 
   bool asks = false;  ///< for a frame
   ReadingsWish wish;
-  bool wants_world = true;        ///< the next frame is a whole one
-  std::uint64_t step = 0;         ///< of the last frame sent
-  ReadingsWish shown;             ///< whose readings that had
-  std::vector<RobotLook> looked;  ///< what the viewer knows
+  bool wants_world = true;                                                   ///< the next frame is a whole one
+  std::uint64_t step = 0;                                                    ///< of the last frame sent
+  ReadingsWish shown;                                                        ///< whose readings that had
+  std::vector<RobotLook> looked;                                             ///< what the viewer knows
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> seen_photos;  ///< by robot and sensor: of which step
 
  private:
@@ -51,12 +51,10 @@ class ViewerConversation::Stream final : public StreamCall<wire::FrameRequest, w
   Turn received(const wire::FrameRequest& message) override {
     if (!is_known_) checkProtocol(message.protocol());
     is_known_ = true;
-    wish = decode(message);
-    const std::size_t robots = owner_.lobby_.exhibit->robot_names.size();
-    wish.of.erase(std::lower_bound(wish.of.begin(), wish.of.end(), robots), wish.of.end());
+    wish = decode(message, owner_.lobby_.exhibit->robot_names.size());
     asks = asks || !message.amends();
     owner_.lobby_.rang = true;
-    return Turn::theirs;  // it may amend what it asks
+    return Turn::in_measure;
   }
   /// What it has asked for it gets all the same.
   void heardAll() override {
@@ -83,9 +81,8 @@ void ViewerConversation::open(const Switchboard::Line& line) {
 }
 
 void ViewerConversation::awaitViewer() {
-  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestWatch(context, wire, line_.calls, line_.arrivals, tag);
-  });
+  std::make_shared<Stream>(*this)->await(
+      [this](auto* context, auto* wire, void* tag) { RequestWatch(context, wire, line_.calls, line_.arrivals, tag); });
 }
 
 void ViewerConversation::called(Stream& stream) {

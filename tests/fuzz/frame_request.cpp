@@ -10,7 +10,7 @@ using namespace robosim;
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzzMessage<wire::FrameRequest>(data, size, [](const wire::FrameRequest& request) {
     wire::Frame frame;
-    encode(smallMaze().state().readings, decode(request), frame);
+    encode(smallMaze().state().readings, decode(request, smallMaze().robotCount()), frame);
     if (frame.readings_size() > static_cast<int>(smallMaze().robotCount())) std::abort();
   });
 }

@@ -141,6 +141,19 @@ TEST(Control, WorksARunFromTheCommandLine) {
   EXPECT_NE(served.out.find("\"ended_by\": \"control_panel\""), std::string::npos) << served.out;
 }
 
+TEST(Control, EndsTheRunWhenItsRecordingCannotBeKeptWhileAnotherWorldIsLoaded) {
+  const auto folder = emptyFolder();
+  Serving serving({"--record", (folder / "run.rawlog").string(), "--paused", "--controller", "wander"});
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  const Ended load = runProgram("control " + serving.address() + " load worlds/opho2_1.xml");
+  EXPECT_NE(load.exit_code, 0);
+  EXPECT_NE(load.err.find("the run ends here: "), std::string::npos) << load.err;
+  const Ended served = serving.program().wait();
+  EXPECT_EQ(served.exit_code, 2);
+  EXPECT_NE(served.err.find("run.rawlog"), std::string::npos) << served.err;
+}
+
 TEST(Control, NumbersTheRecordingsOfLaterRuns) {
   const auto folder = emptyFolder();
   Serving serving({"--paused", "--record", (folder / "run.rawlog").string()});

@@ -274,6 +274,43 @@ TEST(Faults, OfAnswersToOtherStepsThanTheOneAskedCostTheConnection) {
             "an answer to step 0 when step 1 was asked; answer each step once, when its readings have come");
 }
 
+TEST(Faults, OfAnEnvironmentThatIsHeldUpItselfCostNoRobotItsConnection) {
+  HandClock clock;
+  ServedWorld world(pausedMaze(clock));
+  RudeRobot pioneer(world), scout(world);
+  pioneer.hello("Pioneer1");
+  scout.hello("Scout1");
+  auto step = std::async(std::launch::async, [&] { return Panel(world).step(1); });
+  for (RudeRobot* robot : {&pioneer, &scout}) {
+    robot->hear();
+    robot->hear();
+  }
+  clock.waitUntilSeen();
+  clock.hold();
+  wire::FromRobots answer;
+  answer.set_step(0);
+  for (RudeRobot* robot : {&pioneer, &scout}) robot->say(answer);
+  clock.advance(kStepDeadline);
+  clock.release();
+  EXPECT_EQ(step.get().step(), 1u);
+  EXPECT_EQ(countOf("hung up on", world.log()), 0u) << world.log();
+}
+
+TEST(Faults, OfAGeometryWorkerFrozenKeepNobodyFromEndingTheRun) {
+  HandClock clock;  // whose deadline never comes
+  ServedWorld::Options options = pausedMaze(clock);
+  options.robots_elsewhere = false;
+  ServedWorld world(options);
+  const auto worker = startWorker(world.dialOptions().address);
+  world.waitForLog(": ready");
+  worker->signal(SIGSTOP);
+  Panel(world).start();
+  clock.waitUntilSeen();
+  EXPECT_EQ(world.end(), Served::interrupted);
+  EXPECT_EQ(countOf("hung up on: the run was interrupted", world.log()), 1u) << world.log();
+  worker->signal(SIGCONT);
+}
+
 TEST(Faults, OfAClientThatConnectsAndSaysNothingCostItItsConnectionAfterTenSeconds) {
   HandClock clock;
   ServedWorld world(pausedMaze(clock));

@@ -13,10 +13,15 @@ class HandClock {
   using Clock = Lobby::Clock;
 
   Clock::time_point read() {
+    while (is_held_) std::this_thread::yield();
     ++reads_;
     return Clock::time_point(Clock::duration(time_.load()));
   }
   void advance(Clock::duration by) { time_ += by.count(); }
+
+  /// Whoever looks at the clock waits until release(): so the server stands still wherever it looks next.
+  void hold() { is_held_ = true; }
+  void release() { is_held_ = false; }
 
   /// Waits until the server has looked at the clock so often that it must have gone round once with the time of now.
   void waitUntilSeen() {
@@ -28,6 +33,7 @@ class HandClock {
  private:
   std::atomic<Clock::rep> time_{0};
   std::atomic<long> reads_{0};
+  std::atomic<bool> is_held_{false};
 };
 
 }  // namespace robosim
