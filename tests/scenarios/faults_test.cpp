@@ -291,6 +291,7 @@ TEST(Faults, OfAnEnvironmentThatIsHeldUpItselfCostNoRobotItsConnection) {
   answer.set_step(0);
   for (RudeRobot* robot : {&pioneer, &scout}) robot->say(answer);
   clock.advance(kStepDeadline);
+  std::this_thread::sleep_for(2 * Lobby::kNap);  // so that it finds its nap over, too
   clock.release();
   EXPECT_EQ(step.get().step(), 1u);
   EXPECT_EQ(countOf("hung up on", world.log()), 0u) << world.log();

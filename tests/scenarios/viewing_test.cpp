@@ -1,6 +1,5 @@
 // Viewers, which may come, look, dawdle and go as they like.
 #include <algorithm>
-#include <atomic>
 #include <future>
 #include <thread>
 #include <utility>
@@ -12,7 +11,6 @@
 #include "server/viewer.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
-#include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
 
 namespace robosim {
@@ -155,27 +153,6 @@ TEST(Viewing, LetsAViewerGoThatNeverReadsAndTalksNonsense) {
   deaf.talkNonsense();
   while (panel.status().viewers() > 0) std::this_thread::yield();
   EXPECT_EQ(countOf("hung up on: a message that is no robosim.wire.FrameRequest", world.log()), 1u);
-}
-
-TEST(Viewing, KeepsNoRobotWaitingForAViewerThatAsksWithoutEnd) {
-  ServedWorld::Options options = paused();
-  options.robots_elsewhere = true;
-  options.server.step_deadline = std::chrono::minutes(5);
-  ServedWorld world(options);
-  const auto robots = startRobots({"Pioneer1", "Scout1"}, world.dialOptions().address);
-  Panel panel(world);
-  panel.step(1);
-  RawViewer viewer(world.dialOptions());
-  std::atomic<bool> is_enough{false};
-  auto flood = std::async(std::launch::async, [&] {
-    constexpr int most = 5'000'000;
-    int asked = 0;
-    for (; asked < most && !is_enough; ++asked) viewer.ask();
-    return asked < most;
-  });
-  EXPECT_EQ(panel.step(100).step(), 101u);
-  is_enough = true;
-  EXPECT_TRUE(flood.get()) << "the steps were taken while it asked";
 }
 
 TEST(Viewing, AnswersWhoAsksOnceAndHasNothingMoreToSay) {
