@@ -16,7 +16,7 @@ struct Exhibit {
   Exhibit(const Environment& environment, WorldSource source, std::uint64_t seed,
           std::vector<std::uint8_t> is_networked);
 
-  const Environment& environment;  ///< gRPC's threads may ask it for what is constant: its world and fleet
+  const Environment& environment;
   WorldSource source;
   std::string world_version;
   std::uint64_t seed;
