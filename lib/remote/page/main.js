@@ -11,6 +11,7 @@ import { showTeam } from './team.js';
 
 const $ = (id) => document.getElementById(id);
 const LOOK_S = 5;  // how long an answer to a request is told
+const SILENCE_S = 2;  // without news for so long, what the page shows is called old
 
 // The token comes behind the address's #, which browsers send to nobody, and does not stay there for others to read.
 function tokenFromAddress() {
@@ -83,7 +84,15 @@ link.addEventListener('robot', ({ detail: robot }) => {
   $('req-heat').disabled = !find('heat');
 });
 
+let heard = performance.now();
+setInterval(() => {
+  const silence_s = (performance.now() - heard) / 1000;
+  document.body.classList.toggle('stale', silence_s > SILENCE_S);
+  if (link.isOpen && state.team?.robots[0].up && silence_s > SILENCE_S) setPill($('mode'), `no news for ${Math.floor(silence_s)} s`, 'bad');
+}, 500);
+
 link.addEventListener('update', ({ detail: { update, jpeg } }) => {
+  heard = performance.now();
   if (jpeg) camera.show(jpeg, update.picture_step);
   take(update);
   if (document.hidden) {
