@@ -10,7 +10,7 @@ import { Session } from './session.mjs';
 let session, browser, page;
 
 before(async () => {
-  session = await Session.open({ world: writeRoom(), robots: ['Ann', 'Bob'], robot: ['--controller', 'still'] });
+  session = await Session.open({ world: writeRoom(), robots: ['Ann', 'Bob'], robot: ['--controller', 'still', '--dead-man', '3'] });
   browser = await openBrowser();
 });
 after(async () => {
@@ -57,7 +57,7 @@ test('the page falls asleep: its scripts stand still', async () => {
   const debug = await page.context().newCDPSession(page);
   await debug.send('Debugger.enable');
   await debug.send('Debugger.pause');
-  await stops(/Ann stops: nothing heard from Ada for 0.5 s/);
+  await stops(/Ann stops: nothing heard from Ada for 3 s/);
   await session.truth.standstill('Ann');
   await debug.send('Debugger.resume');
 });
@@ -67,7 +67,7 @@ test('the console stands still, and goes on: the robot stays where it is until i
   await page.keyboard.up('ArrowLeft');
   await page.keyboard.press('+');  // drives on by itself
   session.console.signal('SIGSTOP');
-  await stops(/Ann stops: nothing heard from Ada for 0.5 s/);
+  await stops(/Ann stops: nothing heard from Ada for 3 s/);
   await session.truth.standstill('Ann');
   await shows('#mode', 'no news for');
   session.console.signal('SIGCONT');
