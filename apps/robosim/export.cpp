@@ -4,6 +4,7 @@
 #include <map>
 
 #include "base/whole_file.h"
+#include "rendering/stock_scene.h"
 #include "rendering/svg_plan.h"
 #include "robosim/arguments.h"
 #include "robosim/progress.h"
@@ -73,7 +74,7 @@ void makeRosMap(Source& source, const fs::path& out, Files& files) {
   files[withEnding(out, ".yaml")] = std::move(map.yaml);
 }
 
-/// A format is told by the ending of a file's name. What is to come, .3Dscene say, gets a line here.
+/// A format is told by the ending of a file's name. Another one gets a line here.
 struct Format {
   const char* ending;
   const char* help;
@@ -91,6 +92,10 @@ const std::vector<Format>& formats() {
       {".ot", "OctoMap, with probabilities",
        [](Source& source, const fs::path& out, Files& files) {
          files[out] = source.octomap(OctomapForm::probabilities);
+       }},
+      {".3Dscene", "MRPT's SceneViewer3D, with the robots",
+       [](Source& source, const fs::path& out, Files& files) {
+         files[out] = toStockScene(source.loaded().world, source.loaded().fleet);
        }},
       {".svg", "a plan to scale, with the robots",
        [](Source& source, const fs::path& out, Files& files) {

@@ -1,5 +1,7 @@
 #include "rendering/object_mesh.h"
 
+#include <cmath>
+
 namespace robosim {
 
 void addBody(Mesh& mesh, const Body& body, int sides) {
@@ -20,6 +22,22 @@ void addBody(Mesh& mesh, const Body& body, int sides) {
            {cube.length_m / 2, cube.width_m / 2, heights.z_max_m}, finish);
   }
   mesh.add(upright, {body.world_from_body.x, body.world_from_body.y, 0, body.world_from_body.phi, 0, 0});
+}
+
+std::vector<Body> bodiesOf(const WorldMap& map) {
+  std::vector<Solid> solids;
+  addSolids(map.plan, map.world_from_map, map.heights(), solids);
+  std::vector<Body> bodies;
+  for (const auto& solid : solids) {
+    const auto& box = std::get<OrientedBox>(solid.outline);
+    bodies.push_back({Cube{2 * box.half_length_m, 2 * box.half_width_m},
+                      {box.center.x, box.center.y, std::atan2(box.axis.y, box.axis.x)},
+                      map.height_m / 2,
+                      map.height_m,
+                      map.color,
+                      0});
+  }
+  return bodies;
 }
 
 }  // namespace robosim

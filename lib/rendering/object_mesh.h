@@ -9,4 +9,7 @@ namespace robosim {
 /// @param sides of a cylinder, at least 3. With 72 none is further inside the true circle than 0.1 % of its radius.
 void addBody(Mesh& mesh, const Body& body, int sides);
 
+/// What a map's occupied cells and walls are made of, in the world frame.
+std::vector<Body> bodiesOf(const WorldMap& map);
+
 }  // namespace robosim

@@ -41,22 +41,13 @@ struct Square {
   Mesh bodies, shadows;
 };
 
-/// All that stands there: objects, and what the maps' cells and walls are made of.
+/// All that stands there: objects, and what maps are made of.
 std::vector<Body> bodiesOf(const World& world) {
   std::vector<Body> bodies;
   for (const auto& object : world.objects) bodies.push_back(object.body);
   for (const auto& map : world.maps) {
-    std::vector<Solid> solids;
-    addSolids(map.plan, map.world_from_map, map.heights(), solids);
-    for (const auto& solid : solids) {
-      const auto& box = std::get<OrientedBox>(solid.outline);
-      bodies.push_back({Cube{2 * box.half_length_m, 2 * box.half_width_m},
-                        {box.center.x, box.center.y, std::atan2(box.axis.y, box.axis.x)},
-                        map.height_m / 2,
-                        map.height_m,
-                        map.color,
-                        0});
-    }
+    const auto of_map = bodiesOf(map);
+    bodies.insert(bodies.end(), of_map.begin(), of_map.end());
   }
   return bodies;
 }

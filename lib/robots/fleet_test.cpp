@@ -115,13 +115,12 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
 }
 
 TEST(Fleet, RefusesUnknownModelsAndControllersAndNamesTheKnownOnes) {
-  EXPECT_EQ(
-      faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
-                      placed("../robots/scout", "C", 4)})),
-      (Lines{"w.xml:2: robot 'A': there is no robot type 'pionier'; known are: pioneer3dx, pioneer3dx_camera, scout",
-             "w.xml:3: robot 'B': there is no controller 'wonder'; known are: gold_finder, still, wander",
-             "w.xml:4: robot 'C': there is no robot type '../robots/scout'; known are: pioneer3dx, pioneer3dx_camera, "
-             "scout"}));
+  const std::string known = "known are: pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, scout, scout_driven";
+  EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
+                            placed("../robots/scout", "C", 4)})),
+            (Lines{"w.xml:2: robot 'A': there is no robot type 'pionier'; " + known,
+                   "w.xml:3: robot 'B': there is no controller 'wonder'; known are: gold_finder, still, wander",
+                   "w.xml:4: robot 'C': there is no robot type '../robots/scout'; " + known}));
 }
 
 TEST(Fleet, RefusesFaultySensorsOfEveryRobotThatHasThem) {
@@ -224,6 +223,7 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
   const std::string fence = "```xml\n";
   ErrorList errors;
   int examples = 0;
+  const auto text = [](const XmlElement& e) { return toXml(e).substr(toXml(e).find("<" + e.name)); };
   for (auto begin = doc.find(fence); begin != std::string::npos; begin = doc.find(fence, begin)) {
     begin += fence.size();
     const XmlElement example = parseXml(doc.substr(begin, doc.find("```", begin) - begin), "doc");
@@ -232,14 +232,20 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
       EXPECT_EQ(fleetOf(toXml(example), errors).robots.size(), 1u);
     } else if (example.name == "robot") {
       EXPECT_EQ(modelOf(example, "tortoise.xml", {}, errors).sensors.size(), 2u);
+    } else if (example.name == "sensors") {
+      XmlElement type = readXmlFile(kWorlds / "robots" / "pioneer3dx.xml");
+      std::find_if(type.children.begin(), type.children.end(), [](const auto& e) {
+        return e.name == "sensors";
+      })->children = example.children;
+      EXPECT_EQ(modelOf(type, "pioneer3dx.xml", {}, errors).sensors.size(), 2u);
     } else if (example.name == "map") {
       const auto beside = kWorlds / "some.xml";
-      const std::string world = "<world><surface>" + toXml(example).substr(toXml(example).find("<map")) + "</surface></world>";
+      const std::string world = "<world><surface>" + text(example) + "</surface></world>";
       EXPECT_EQ(parseWorld(world, beside.string(), shelfOnDisk(beside), errors).maps.size(), 1u);
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 4);
+  EXPECT_EQ(examples, 5);
 }
 
 TEST(Worlds, RobotTypesThatAreShippedAllLoad) {

@@ -15,7 +15,7 @@ struct WorldSource {
   std::string file;  ///< names it in errors; its stem names the world
   std::string text;
   RobotTypes robot_types;  ///< those that the world names, each with its text
-  FileTexts files;         ///< its maps, by the names that FileShelf has for them
+  FileTexts files{};       ///< its maps, by the names that FileShelf has for them
 };
 
 /// @throws ConfigError when the world's file, or that of a robot type or a map, cannot be read. What is wrong inside,

@@ -178,23 +178,6 @@ void expectRefusal(const std::function<void()>& ask, const std::string& words) {
   }
 }
 
-/// How a load of these bytes ends, sent in pieces.
-grpc::Status howLoadEnds(const DialOptions& dialled, const std::string& bytes, std::size_t piece_bytes) {
-  grpc::ClientContext context;
-  const auto stub = wire::ControlPanel::NewStub(dial(dialled));
-  const auto stream = stub->Load(&context);
-  for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
-    wire::WorldPiece piece;
-    piece.set_protocol(kProtocolVersion);
-    piece.set_piece(bytes.substr(at, piece_bytes));
-    if (!stream->Write(piece)) break;
-  }
-  stream->WritesDone();
-  for (wire::RunStatus status; stream->Read(&status);) {
-  }
-  return stream->Finish();
-}
-
 TEST_F(BadInput, OfAControlPanel) {
   Panel panel(world_);
   for (const double speed : {kNan, kInfinite, -1.0, 1e-9}) {

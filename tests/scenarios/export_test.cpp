@@ -8,12 +8,14 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/serialization/CArchive.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "geometry/scene.h"
 #include "robots/fleet.h"
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/screen.h"
 #include "tests/stock_tools.h"
 #include "world/map_writer.h"
 
@@ -124,6 +126,42 @@ TEST(Export, MakesAnOctoMapThatItsToolsOpen) {
   EXPECT_LE(std::stoi(voxels[1]), 1491 * 10);
 }
 
+TEST(Export, MakesASceneOfMrptsOwnClasses) {
+  const auto folder = emptyFolder();
+  exportWorld("worlds/opho2_1.xml '" + (folder / "maze.3Dscene").string() + "'");
+  mrpt::opengl::COpenGLScene scene;
+  ASSERT_TRUE(scene.loadFromFile((folder / "maze.3Dscene").string()));
+  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml", {});
+  for (const auto& object : loaded.world.objects) {
+    const auto drawn = scene.getByName(object.name);
+    ASSERT_TRUE(drawn) << object.name;
+    const auto box = drawn->getBoundingBox();
+    EXPECT_NEAR((box.min.x + box.max.x) / 2, object.body.world_from_body.x, 1e-5) << object.name;
+    EXPECT_NEAR((box.min.y + box.max.y) / 2, object.body.world_from_body.y, 1e-5) << object.name;
+    EXPECT_NEAR(box.max.z, object.body.heights().z_max_m, 1e-5) << object.name;
+  }
+  for (const auto& robot : loaded.fleet.robots) {
+    const auto drawn = scene.getByName(robot.info.name);
+    ASSERT_TRUE(drawn) << robot.info.name;
+    EXPECT_NEAR(drawn->getPoseX(), robot.world_from_start.x, 1e-9);
+    EXPECT_NEAR(drawn->getPoseY(), robot.world_from_start.y, 1e-9);
+    EXPECT_NEAR(drawn->getPoseYaw(), robot.world_from_start.phi * 180 / M_PI, 1e-5) << "degrees";
+  }
+}
+
+TEST(Export, MakesASceneThatSceneViewer3DShows) {
+  const auto folder = emptyFolder();
+  std::ofstream(folder / "hall.xml") << R"(<world><surface>
+    <size><xmin>-4</xmin><xmax>4</xmax><ymin>-4</ymin><ymax>4</ymax></size>
+    <object><shape><primitive><cube><name>Box</name><x>0</x><y>0</y><z>1</z><length>4</length><width>4</width>
+      <height>2</height><color>0 0 1</color></cube></primitive></shape></object></surface></world>)";
+  exportWorld("'" + (folder / "hall.xml").string() + "' '" + (folder / "hall.3Dscene").string() + "'");
+  const Screen screen;
+  StartedProgram viewer = startStockWindow("SceneViewer3D", folder / "hall.3Dscene");
+  const auto is_blue = [](const cv::Vec3b& pixel) { return pixel[0] > 60 && pixel[1] < 20 && pixel[2] < 20; };
+  EXPECT_GE(screen.waitForPixels(4000, is_blue, folder, viewer), 4000) << viewer.error();
+}
+
 TEST(Export, MakesAPlanThatARendererDrawsToScale) {
   const auto folder = emptyFolder();
   exportWorld("worlds/lab_map.xml '" + (folder / "plan.svg").string() + "'");
@@ -163,7 +201,8 @@ TEST(Export, SaysWhatIsWrongAndLeavesFilesAsTheyWere) {
       {"worlds/opho2_1.xml", "OUT is required"},
       {"worlds/none.xml " + in + "old.gridmap'", "worlds/none.xml: no such file; check the path"},
       {"worlds/opho2_1.xml " + in + "a.jpg'",
-       "is of no known format; give it a name that ends in one of: .gridmap, .yaml, .png, .bt, .ot, .svg"},
+       "is of no known format; give it a name that ends in one of: .gridmap, .yaml, .png, .bt, .ot, .3Dscene, "
+       ".svg"},
       {"worlds/opho2_1.xml " + in + "old.gridmap' " + in + "none/a.svg'", "none/a.svg: cannot be written"},
       {"worlds/opho2_1.xml " + in + "old.gridmap' --resolution 0.001",
        "cells of 0.001 m make a grid of 20200 × 20200; a map may have 67108864 at most, so make them larger"},

@@ -88,12 +88,10 @@ TEST(Maps, AreNotTakenFromTheServersDiskByAWorldThatAStrangerSends) {
   ServedWorld::Options options;
   options.server.is_paused = true;
   ServedWorld world(options);
-  Panel panel(world);
   wire::WorldSource source;
   source.set_file("a.xml");
   source.set_text("<world><surface><map file='" ROBOSIM_SOURCE_DIR "/maps/lab.yaml'/></surface></world>");
-  wire::RunStatus status;
-  const grpc::Status how = panel.loadBytes(source.SerializeAsString(), 10'000, status);
+  const grpc::Status how = howLoadEnds(world.dialOptions(), source.SerializeAsString(), 10'000);
   EXPECT_EQ(how.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_NE(how.error_message().find("/maps/lab.yaml: did not come with the world"), std::string::npos)
       << how.error_message();

@@ -1,6 +1,9 @@
 #pragma once
 #include <string>
 
+#include "net/control_panel.grpc.pb.h"
+#include "net/dial.h"
+#include "net/wire_error.h"
 #include "server/control_panel.h"
 #include "tests/scenarios/served_world.h"
 
@@ -15,5 +18,22 @@ class Panel : public ControlPanel {
   /// @param file from the project's folder
   wire::RunStatus load(const std::string& file) { return load(readWorldSource(ROBOSIM_SOURCE_DIR "/" + file)); }
 };
+
+/// How a load of these bytes ends, sent in pieces.
+inline grpc::Status howLoadEnds(const DialOptions& dialled, const std::string& bytes, std::size_t piece_bytes) {
+  grpc::ClientContext context;
+  const auto stub = wire::ControlPanel::NewStub(dial(dialled));
+  const auto stream = stub->Load(&context);
+  for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
+    wire::WorldPiece piece;
+    piece.set_protocol(kProtocolVersion);
+    piece.set_piece(bytes.substr(at, piece_bytes));
+    if (!stream->Write(piece)) break;
+  }
+  stream->WritesDone();
+  for (wire::RunStatus status; stream->Read(&status);) {
+  }
+  return stream->Finish();
+}
 
 }  // namespace robosim

@@ -8,6 +8,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/screen.h"
 #include "tests/scenarios/serving.h"
 
 namespace robosim {
@@ -116,42 +117,13 @@ TEST(View, SaysWhatIsWrongWithItsArguments) {
   EXPECT_NE(error(hall).find("there is no screen to open a window on"), std::string::npos);
 }
 
-/// An X server without a screen, and what one sees on it.
-class Screen {
- public:
-  Screen() : server_("/usr/bin/Xvfb", {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"}) {
-    server_.waitForOutput("\n");
-    display_ = ":" + server_.output().substr(0, server_.output().find('\n'));
-    setenv("DISPLAY", display_.c_str(), 1);
-  }
-  ~Screen() { unsetenv("DISPLAY"); }
-
-  cv::Mat shot(const fs::path& folder) const {
-    const auto file = folder / "screen.png";
-    runCommand("import -window root " + quoted(file));
-    return cv::imread(file.string());
-  }
-
- private:
-  StartedProgram server_;
-  std::string display_;
-};
-
 TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
   const auto folder = emptyFolder();
   const auto hall = writeHall(folder);
   const Screen screen;
   StartedProgram view({"view", hall.string(), "--size", "648x648"});
   // Wherever the window is put, a blue square of 120 px appears in it.
-  cv::Mat seen;
-  int blue = 0;
-  for (int tries = 0; tries < 600 && blue < 12000 && view.isRunning(); ++tries) {
-    seen = screen.shot(folder);
-    blue = 0;
-    for (int y = 0; y < seen.rows; ++y) {
-      for (int x = 0; x < seen.cols; ++x) blue += isBlue(seen.at<cv::Vec3b>(y, x)) ? 1 : 0;
-    }
-  }
+  const int blue = screen.waitForPixels(12000, isBlue, folder, view);
   EXPECT_NEAR(blue, 120 * 120, 1000) << view.error();
   runCommand("xdotool search --name RoboSim windowfocus key q");
   const Ended ended = view.wait();
@@ -162,17 +134,9 @@ TEST(View, RawLogViewerOpensARecordingOfOursToo) {
   const auto folder = emptyFolder();
   ASSERT_EQ(runProgram("run worlds/opho2_1.xml --record " + quoted(folder / "run.rawlog")).exit_code, 0);
   const Screen screen;
-  StartedProgram viewer("/usr/bin/env", {"HOME=" + folder.string(), "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1", "RawLogViewer",
-                                         (folder / "run.rawlog").string()});
+  StartedProgram viewer = startStockWindow("RawLogViewer", folder / "run.rawlog");
   // Its time line has a blue dot for each observation.
-  int blue = 0;
-  for (int tries = 0; tries < 600 && blue < 2000 && viewer.isRunning(); ++tries) {
-    const cv::Mat seen = screen.shot(folder);
-    blue = 0;
-    for (int y = 0; y < seen.rows; ++y) {
-      for (int x = 0; x < seen.cols; ++x) blue += isBlue(seen.at<cv::Vec3b>(y, x)) ? 1 : 0;
-    }
-  }
+  const int blue = screen.waitForPixels(2000, isBlue, folder, viewer);
   EXPECT_GE(blue, 2000) << viewer.error();
 }
 
