@@ -48,6 +48,14 @@ test('the page is hidden', async () => {
 test('the page is closed', async () => {
   await hold();
   await page.close();
+  await stops(/Ann stops: Ada's page (is hidden|has gone)/);  // browsers may still tell the page
+  await session.truth.standstill('Ann');
+});
+
+test('the page crashes', async () => {
+  await hold();
+  const debug = await page.context().newCDPSession(page);
+  debug.send('Page.crash').catch(() => {});  // nobody is left to answer
   await stops(/Ann stops: Ada's page has gone/);
   await session.truth.standstill('Ann');
 });
