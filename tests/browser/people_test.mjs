@@ -74,12 +74,12 @@ test('fifty spectators, of whom ten never read, see the robot and do not keep th
   const all = await Promise.all(Array.from({ length: 50 }, (_, i) => spectate(session.url, `Spectator ${i}`)));
   const asleep = all.splice(0, 10);
   for (const one of asleep) one.stopReading();
-  await shows(ada, '#guests', '51 looking on');
+  await shows(ada, '#guests', '50 watching');
   await canDrive(ada);
   const before = all.map((one) => one.pictures);
   await Promise.all(all.map((one, i) => one.until(({ pictures }) => pictures > before[i] + 10)));
   // Who shows nothing for 6 s is hung up on.
-  await shows(ada, '#guests', '41 looking on');
+  await shows(ada, '#guests', '40 watching');
   await canDrive(ada);
   for (const one of [...all, ...asleep]) one.destroy();
   await ada.waitForFunction(() => document.querySelector('#guests').textContent === '');

@@ -7,6 +7,10 @@ export const FOLDER = fileURLToPath(new URL('../..', import.meta.url));
 export const ROBOSIM = process.env.ROBOSIM_PROGRAM ?? `${FOLDER}build/release/bin/robosim`;
 export const TEXT_VIEWER = process.env.ROBOSIM_TEXT_VIEWER ?? `${FOLDER}build/release/bin/robosim_text_viewer`;
 
+const running = new Set();
+process.on('exit', () => running.forEach((child) => child.kill('SIGKILL')));
+for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exit(1));
+
 export class Program {
   output = '';
   error = '';
@@ -16,10 +20,12 @@ export class Program {
   constructor(command, args) {
     this.name = args[0];
     this.child = spawn(command, args, { cwd: FOLDER, stdio: ['ignore', 'pipe', 'pipe'] });
+    running.add(this.child);
     this.child.stdout.setEncoding('utf8').on('data', (text) => this.#take('output', text));
     this.child.stderr.setEncoding('utf8').on('data', (text) => this.#take('error', text));
     this.child.on('error', (error) => { this.error += error.message; });
     this.child.on('close', (code, signal) => {
+      running.delete(this.child);
       this.code = code ?? signal;
       for (const watcher of this.#watchers) watcher();
     });

@@ -49,6 +49,7 @@ link.addEventListener('lost', ({ detail }) => {
   setPill($('status'), 'No connection', 'bad');
   if (detail.refused) return;
   trouble(`No connection with the console${detail.why ? `: ${detail.why}` : ''}. The robot stops. Trying again…`);
+  if (state.team) showMembers();
   showControls();
 });
 
@@ -64,8 +65,9 @@ link.addEventListener('team', ({ detail: team }) => {
   if (state.isFirstTeam && isVisitorFree && !document.hidden) link.send('take');
   state.isFirstTeam = false;
   $('world').textContent = team.world || '–';
-  $('guests').textContent = team.guests > 1 ? `${team.guests} looking on` : '';
-  showTeam($('team'), team.robots, hasWheel(), (name) => link.send('switch', { robot: name }));
+  const watching = team.guests - (team.wheel.holder === 0 ? 0 : 1);
+  $('guests').textContent = watching > 0 ? `${watching} watching` : '';
+  showMembers();
   showWho();
   showControls();
   showWinner(team.winner);
@@ -218,11 +220,16 @@ function showWho() {
   $('wheel').hidden = hasWheel() ? !(isOthers === '' && !primary.is_yours && primary.up) : wheel.holder !== 0;
 }
 
+function showMembers() {
+  showTeam($('team'), state.team.robots, hasWheel(), (name) => link.send('switch', { robot: name }));
+}
+
 function showMode() {
   const primary = state.team?.robots[0];
   if (!primary) return;
   const now = state.update?.state;
-  if (!primary.up) setPill($('mode'), 'down', 'bad');
+  if (!link.isOpen) setPill($('mode'), 'no connection', 'bad');
+  else if (!primary.up) setPill($('mode'), 'down', 'bad');
   else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
   else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
   else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');
