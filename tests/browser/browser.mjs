@@ -8,7 +8,7 @@ const { chromium } = await import('playwright-core').catch(() => {
 
 const CHROMIUM = process.env.ROBOSIM_CHROMIUM ?? '/usr/bin/chromium';
 // Only what hangs takes so long.
-const PATIENCE_MS = 300_000;
+const PATIENCE_MS = 120_000;
 
 export async function openBrowser() {
   if (!existsSync(CHROMIUM)) throw new Error(`there is no ${CHROMIUM}: run ./dev test, which installs it, or apt-get install chromium`);
@@ -32,4 +32,13 @@ export async function visit(browser, url, { name, init, ...options } = {}) {
   await page.goto(url);
   await page.waitForFunction(() => document.body.dataset.step > 0);
   return page;
+}
+
+// Takes the wheel as soon as nobody has it. (The console may not yet have seen that the one before has gone.)
+export async function takeWheel(page) {
+  await page.waitForFunction(() => {
+    const wheel = document.querySelector('#wheel');
+    if (!wheel.hidden) wheel.click();
+    return document.querySelector('#status').textContent === 'You drive';
+  });
 }

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 
-import { openBrowser, visit } from './browser.mjs';
+import { openBrowser, takeWheel, visit } from './browser.mjs';
 import { emulateGamepad, moveStick, pressButton } from './emulated_gamepad.mjs';
 import { writeRoom } from './room.mjs';
 import { Session } from './session.mjs';
@@ -16,7 +16,7 @@ before(async () => {
   });
   browser = await openBrowser();
   page = await visit(browser, session.url, { name: 'Ada', init: emulateGamepad });
-  await shows('#status', 'You drive');
+  await takeWheel(page);
 });
 after(async () => {
   await browser?.close();

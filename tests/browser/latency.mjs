@@ -5,7 +5,7 @@
 
 import { readFileSync } from 'node:fs';
 
-import { openBrowser, visit } from './browser.mjs';
+import { openBrowser, takeWheel, visit } from './browser.mjs';
 import { Session } from './session.mjs';
 import { spectate } from './web_socket.mjs';
 
@@ -97,7 +97,7 @@ async function measure(page, session) {
 const session = await Session.open({ world: 'worlds/open_house.xml', robots: ['Pioneer1', 'Scout1', 'Pioneer2'] });
 const browser = await openBrowser();
 const page = await visit(browser, session.url, { name: 'Ada', init: noteTimes });
-await page.waitForFunction(() => document.querySelector('#status').textContent === 'You drive');
+await takeWheel(page);
 console.log('one browser:');
 await measure(page, session);
 const spectators = await Promise.all(Array.from({ length: 50 }, (_, i) => spectate(session.url, `Spectator ${i}`)));

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, visit } from './browser.mjs';
+import { openBrowser, takeWheel, visit } from './browser.mjs';
 import { writeRoom } from './room.mjs';
 import { Session } from './session.mjs';
 import { RawSocket, spectate } from './web_socket.mjs';
@@ -14,7 +14,7 @@ before(async () => {
   session = await Session.open({ world: writeRoom(), robots: ['Ann', 'Bob'], speed: 3, robot: ['--controller', 'still', '--dead-man', '5'] });
   browser = await openBrowser();
   ada = await visit(browser, session.url, { name: 'Ada' });
-  await shows(ada, '#status', 'You drive');
+  await takeWheel(ada);
 });
 after(async () => {
   await browser?.close();
@@ -50,12 +50,11 @@ test('the second is told who drives, and may watch but not drive; and drive when
 
   await ada.context().close();
   await shows(bea, '#who', 'Nobody drives');
-  await bea.click('#wheel');
-  await shows(bea, '#status', 'You drive');
+  await takeWheel(bea);
   await canDrive(bea);
   await bea.context().close();
   ada = await visit(browser, session.url, { name: 'Ada' });
-  await shows(ada, '#status', 'You drive');
+  await takeWheel(ada);
 });
 
 test('a second console finds the robot taken, says by whom, and watches', async () => {
@@ -134,6 +133,7 @@ test('orders of one who does not have the wheel change nothing', async () => {
 test('of a flood of orders the newest counts', async () => {
   await ada.context().close();
   const flooder = await spectate(session.url, 'Flooder');
+  await flooder.until(({ messages }) => messages.at(-1).includes('"holder":0'));
   flooder.say({ type: 'take' });
   await flooder.until(({ messages }) => messages.some((text) => text.includes('"Flooder"},')));
   const from = await session.truth.standstill('Ann');
@@ -144,7 +144,7 @@ test('of a flood of orders the newest counts', async () => {
   assert.equal(flooder.closed, null);
   flooder.destroy();
   ada = await visit(browser, session.url, { name: 'Ada' });
-  await shows(ada, '#status', 'You drive');
+  await takeWheel(ada);
   await canDrive(ada);
 });
 

@@ -7,7 +7,7 @@
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { openBrowser, visit } from './browser.mjs';
+import { openBrowser, takeWheel, visit } from './browser.mjs';
 import { Session } from './session.mjs';
 
 const LOOKS = {  // those with a dark look have the map open
@@ -23,7 +23,7 @@ const browser = await openBrowser();
 for (const [look, options] of Object.entries(LOOKS)) {
   const session = await Session.open({ world: 'worlds/open_house.xml', robots: ['Pioneer1', 'Scout1', 'Pioneer2'] });
   const page = await visit(browser, session.url, { name: 'Ada', ...options });
-  await page.waitForFunction(() => document.getElementById('status').textContent === 'You drive');
+  await takeWheel(page);
   if (look.endsWith('dark')) await page.click('#map-toggle');
   const start = await session.truth.standstill('Pioneer1');
   await page.keyboard.down('ArrowUp');

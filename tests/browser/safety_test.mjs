@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, beforeEach, afterEach, test } from 'node:test';
 
-import { openBrowser, visit } from './browser.mjs';
+import { openBrowser, takeWheel, visit } from './browser.mjs';
 import { writeRoom } from './room.mjs';
 import { Session } from './session.mjs';
 
@@ -19,7 +19,7 @@ after(async () => {
 });
 beforeEach(async () => {
   page = await visit(browser, session.url, { name: 'Ada' });
-  await shows('#status', 'You drive');
+  await takeWheel(page);
 });
 afterEach(() => page.context().close());
 
@@ -73,7 +73,9 @@ test('the page falls asleep: its scripts stand still', async () => {
 test('the console stands still, and goes on: the robot stays where it is until it is steered again', async () => {
   await hold();
   await page.keyboard.up('ArrowLeft');
+  const from = await session.truth.standstill('Ann');
   await page.keyboard.press('+');  // drives on by itself
+  await session.truth.until('Ann', ({ x, y }) => Math.hypot(x - from.x, y - from.y) > 0.02);
   session.console.signal('SIGSTOP');
   await stops(/Ann stops: nothing heard from Ada for 3 s/);
   await session.truth.standstill('Ann');
@@ -93,7 +95,7 @@ test('the console is gone: the robot stops, the page says so and connects again'
   await session.console.ended();
   await page.keyboard.up('ArrowLeft');
   await session.startConsole();
-  await shows('#status', 'You drive');
+  await takeWheel(page);
   await page.waitForSelector('#trouble', { state: 'hidden' });
   await hold();
 });

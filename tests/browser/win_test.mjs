@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, visit } from './browser.mjs';
+import { openBrowser, takeWheel, visit } from './browser.mjs';
 import { emulateGamepad, moveStick } from './emulated_gamepad.mjs';
 import { Program, ROBOSIM } from './program.mjs';
 import { Session } from './session.mjs';
@@ -26,7 +26,7 @@ before(async () => {
   });
   browser = await openBrowser();
   page = await visit(browser, session.url, { name: 'Ada', init: emulateGamepad });
-  await shows('#status', 'You drive');
+  await takeWheel(page);
 });
 after(async () => {
   await browser?.close();
