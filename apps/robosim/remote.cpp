@@ -21,8 +21,9 @@ constexpr const char* kSession =
     "  robosim robot Pioneer1 --remote-port 9001\n"
     "  robosim robot Scout1 --remote-port 9002\n"
     "  robosim remote worlds/teams/small_maze.xml      (and open the address that it prints)\n"
-    "The page says how to drive with keyboard, gamepad or touch. For others to reach it, add a certificate and "
-    "tokens:\n"
+    "The page says how to drive with keyboard, gamepad or touch. With a joystick of this machine it goes without:\n"
+    "  robosim remote worlds/teams/small_maze.xml --joystick 0\n"
+    "For others to reach the page, add a certificate and tokens:\n"
     "  robosim remote ROBOTS.xml --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
     "Whoever opens https://HOST:8443/#token=TOKEN may drive; a token of the role viewer lets them look on.\n";
 

@@ -193,3 +193,21 @@ test('everything can be reached and used by keyboard alone, and has a name', asy
   await page.keyboard.press('Space');
   await stands();
 });
+
+test('on a phone a thumb on the drive pad drives it', async () => {
+  await page.context().close();
+  page = await visit(browser, session.url, {
+    name: 'Ada', viewport: { width: 390, height: 844 }, isMobile: true, hasTouch: true, deviceScaleFactor: 2,
+  });
+  await takeWheel(page);
+  const back = await drives(-0.1);
+  const { x, y, width, height } = await (await page.$('#pad')).boundingBox();
+  const finger = await page.context().newCDPSession(page);
+  const touch = (type, points) => finger.send('Input.dispatchTouchEvent', { type, touchPoints: points });
+  await touch('touchStart', [{ x: x + width / 2, y: y + height / 2 }]);
+  await touch('touchMove', [{ x: x + width / 2, y: y + 0.9 * height }]);
+  await back();
+  await touch('touchEnd', []);
+  await stands();
+  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), 'nothing sticks out');
+});
