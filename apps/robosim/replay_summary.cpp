@@ -139,6 +139,18 @@ nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& a
   return json;
 }
 
+/// "all_halted, Pioneer1 has won, digest …"
+std::string endIn(const nlohmann::ordered_json& outcome) {
+  const auto of = [&](const char* key) {
+    const auto found = outcome.find(key);
+    return found != outcome.end() && found->is_string() ? found->get<std::string>() : "";
+  };
+  std::string text = of("ended_by");
+  if (!of("won_by").empty()) text += ", " + of("won_by") + " has won";
+  if (!of("gold_found_by").empty()) text += ", gold found by " + of("gold_found_by");
+  return text + ", digest " + of("digest");
+}
+
 void print(const Contents& contents, const ReplayArguments& arguments, const RawlogReader& reader) {
   Rows head{{"rawlog", arguments.rawlog + ": " + withCommas(contents.observations) + " observations over " +
                            fixed(contents.duration(), 1) + " s"}};
@@ -146,9 +158,7 @@ void print(const Contents& contents, const ReplayArguments& arguments, const Raw
   if (const auto& note = contents.note) {
     head.push_back({"run", note->world.file + ", seed " + std::to_string(note->seed) + ", steps of " +
                                fixed(1000 * note->period_s, 0) + " ms"});
-    if (!note->outcome.is_null()) {
-      head.push_back({"ended", note->outcome.value("ended_by", "") + ", digest " + note->outcome.value("digest", "")});
-    }
+    if (!note->outcome.is_null()) head.push_back({"ended", endIn(note->outcome)});
   }
   for (const auto& [robot, driven_m] : contents.driven_m) {
     // In the form of pairs, actions tell the odometry of a robot that has a name in its frames.

@@ -9,6 +9,7 @@
 #include "remote/page.h"
 #include "remote/page_json.h"
 #include "remote/page_message.h"
+#include "remote/team_notes.h"
 #include "remote/web_server.h"
 
 namespace robosim {
@@ -134,8 +135,8 @@ struct Console::Impl final : public WebGuests {
   std::map<GuestId, Guest> guests;
   Wheel wheel;
   Versioned team, robot, map_world;
-  RobotNews primary;                                           ///< as of the last tick
-  std::map<std::string, RobotNews> told;                       ///< by name: what has been noted
+  RobotNews primary;  ///< as of the last tick
+  TeamNotes notes;
   std::array<std::shared_ptr<const RobotAnswer>, 3> answered;  ///< what has been told
   UpdateMessages updates;
   std::shared_ptr<const MapView> map_view;
@@ -360,27 +361,13 @@ void Console::Impl::tick() {
   wakeAll(is_news);
 }
 
-/// Tells people what has happened to the robots since the last time.
+/// Tells people what has happened to the robots since the last time. Why robots stop, those log themselves; who has
+/// won, the page's banner says.
 void Console::Impl::noteNews(const std::vector<RemoteControl::Robot>& robots) {
-  for (const auto& of : robots) {
-    RobotNews& before = told[of.name];
-    const RobotNews& news = of.news;
-    const bool was_heard_of = before.is_up || !before.problem.empty();
-    if (news.is_up != before.is_up && was_heard_of) {
-      const std::string line = of.name + (news.is_up ? " is up." : " is down: " + news.problem);
-      tellAll(noteJson(line, !news.is_up));
-      options.log(line);
-    }
-    if (news.state.why_stopped != before.state.why_stopped && !news.state.why_stopped.empty()) {
-      tellAll(noteJson(of.name + " stopped: " + news.state.why_stopped + ".", true));
-    }
-    if (before.is_up && news.state.win_refusals > before.state.win_refusals) {
-      tellAll(noteJson(of.name + " is too far from the gold to have won.", true));
-    }
-    if (news.state.winner != before.state.winner && !news.state.winner.empty() && &of == &robots.front()) {
-      options.log(news.state.winner + " has won");
-    }
-    before = news;
+  using Kind = TeamNotes::Kind;
+  for (const auto& [kind, text] : notes.news(robots)) {
+    if (kind != Kind::won) tellAll(noteJson(text, kind != Kind::up));
+    if (kind != Kind::stopped && kind != Kind::too_far) options.log(text);
   }
 }
 

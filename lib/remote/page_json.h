@@ -8,7 +8,7 @@
 namespace robosim {
 
 /// @file
-/// What the console tells a page, as JSON (README.md in this folder's `page/` lists the messages). Lengths are in
+/// What the console tells a page, as JSON (doc/remote_control.md tells the conversation). Lengths are in
 /// metres and angles in radians, but ranges in whole millimetres: there are many, and they are short so.
 
 /// What is constant of the robot that is driven.

@@ -63,8 +63,8 @@ void RemoteControlRobot::step() {
     asks_for_win = std::exchange(asks_for_win_, false);
     const auto now = options_.now();
     if (!autonomous) {
-      if (order_) helm_.obey(*order_, order_came_);
       const std::string before = helm_.whyStopped();
+      if (order_) helm_.obey(*order_, order_came_);
       driven = helm_.command(now, state_.driver);
       tellStop(before);
     }

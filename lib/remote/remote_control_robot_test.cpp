@@ -169,6 +169,16 @@ TEST_F(RemoteControlRobotTest, StopsWhenItsDriverIsSilentAndSaysWhyOnce) {
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: nothing heard from Anna for 0.5 s"});
 }
 
+TEST_F(RemoteControlRobotTest, SaysWhyARemoteControlHasStoppedIt) {
+  robot.take("Anna", false);
+  robot.obey(driveAt(0.5, 0));
+  step();
+  robot.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  step();
+  EXPECT_EQ(hardware.lastCommand().speed_mps, 0);
+  EXPECT_EQ(log, std::vector<std::string>{"fake stops: Anna's page is hidden"});
+}
+
 TEST_F(RemoteControlRobotTest, StopsAndIsNobodysWhenItsDriverHasGone) {
   robot.take("Anna", false);
   robot.obey(driveAt(0.5, 0));

@@ -293,9 +293,15 @@ void RemotePort::Impl::init(Stream& stream, const RemoteOrder& order) {
 }
 
 void RemotePort::Impl::obey(Stream& stream, const RemoteOrder& order) {
-  if (order.type == RemoteType::req_all) stream.ask(kAll);
+  // Requests are no sign of life: a control may go on asking by itself when its driver has long gone.
+  if (order.type == RemoteType::req_all) {
+    stream.ask(kAll);
+    return;
+  }
   for (const auto& of : kOnRequest) {
-    if (order.type == of.type) stream.ask(of.topic);
+    if (order.type != of.type) continue;
+    stream.ask(of.topic);
+    return;
   }
   if (!stream.hasRobot()) return;  // it was told whose it is
   if (order.type == RemoteType::init_ack) {

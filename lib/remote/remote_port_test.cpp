@@ -75,9 +75,15 @@ TEST_F(RemotePortTest, StopsTheRobotWhoseDriverHangsUpAndSaysWhy) {
 
 TEST_F(RemotePortTest, StopsTheRobotWhoseDriverIsSilentAndTellsThem) {
   connect(*anna, "Anna");
+  anna->setLive(true);
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
-  wait([&] { return commandedSpeed() == 0; });
+  // Its link goes on asking for readings meanwhile: that says nothing of Anna.
+  wait([&] {
+    const auto last = anna->news().update;
+    wait([&] { return anna->news().update != last; });
+    return commandedSpeed() == 0;
+  });
   wait([&] { return anna->news().state.why_stopped == "nothing heard from Anna for 0.5 s"; });
 }
 

@@ -248,7 +248,9 @@ void WebServer::Impl::come(lws* wsi, Session& session) {
   connections[session.guest].wsi = wsi;
   std::array<char, 64> peer{};
   lws_get_peer_simple(wsi, peer.data(), peer.size());
-  guests.came(session.guest, peer.data());
+  const std::string_view address(peer.data());
+  constexpr std::string_view mapped = "::ffff:";  // an IPv4 address, where the port takes both kinds
+  guests.came(session.guest, std::string(address.substr(address.starts_with(mapped) ? mapped.size() : 0)));
 }
 
 int WebServer::Impl::receive(lws* wsi, Session& session, std::string_view piece) {

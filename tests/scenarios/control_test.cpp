@@ -78,7 +78,7 @@ TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheOldOneIfItIsNoGood) {
   ServedWorld world(paused());
   Panel panel(world);
   panel.step(5);
-  EXPECT_THROW(panel.load(WorldSource{"x.xml", "<a>", {}}), ConnectionError);
+  EXPECT_THROW(panel.load(WorldSource{"x.xml", "<a>", {}, {}}), ConnectionError);
   EXPECT_EQ(panel.status().step(), 5u);
   const wire::RunStatus status = panel.load("worlds/open_100.xml");
   EXPECT_EQ(status.world(), "open_100");

@@ -26,7 +26,8 @@ export class Drive extends EventTarget {
   #pad = null;  // {speed, turn} while the drive pad is held
   #owns = { speed: false, turn: false };
   #spoke = 0;
-  #buttons = [];
+  #buttons = [];  // since when each is pressed, or 0
+  #steered = false;
 
   // `link` sends; `mayDrive` tells whether the wheel is ours
   constructor(link, mayDrive) {
@@ -134,6 +135,7 @@ export class Drive extends EventTarget {
       if (pressed && (!since || (repeats && now - since >= REPEAT_MS))) {
         this.#buttons[i] = now;
         this.#say(order);
+        this.#steered ||= repeats;
       }
       if (!pressed) this.#buttons[i] = 0;
     });
@@ -142,7 +144,9 @@ export class Drive extends EventTarget {
 
   // Says what is held; and once, that it has been let go of.
   #tick() {
+    this.#steered = false;
     const wish = this.#wish();
+    if (this.#steered) return;  // a gamepad's button has; a robot obeys one order a step, and the rest is held on
     const members = {};
     for (const what of ['speed', 'turn']) {
       if (wish[what] !== null) members[what] = wish[what];

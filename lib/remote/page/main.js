@@ -11,6 +11,7 @@ import { showTeam } from './team.js';
 
 const $ = (id) => document.getElementById(id);
 const LOOK_S = 5;  // how long an answer to a request is told
+const SILENCE_S = 2;  // without news for so long, what the page shows is called old
 
 // The token comes behind the address's #, which browsers send to nobody, and does not stay there for others to read.
 function tokenFromAddress() {
@@ -48,6 +49,7 @@ link.addEventListener('lost', ({ detail }) => {
   setPill($('status'), 'No connection', 'bad');
   if (detail.refused) return;
   trouble(`No connection with the console${detail.why ? `: ${detail.why}` : ''}. The robot stops. Trying again…`);
+  if (state.team) showMembers();
   showControls();
 });
 
@@ -63,8 +65,9 @@ link.addEventListener('team', ({ detail: team }) => {
   if (state.isFirstTeam && isVisitorFree && !document.hidden) link.send('take');
   state.isFirstTeam = false;
   $('world').textContent = team.world || '–';
-  $('guests').textContent = team.guests > 1 ? `${team.guests} looking on` : '';
-  showTeam($('team'), team.robots, hasWheel(), (name) => link.send('switch', { robot: name }));
+  const watching = team.guests - (team.wheel.holder === 0 ? 0 : 1);
+  $('guests').textContent = watching > 0 ? `${watching} watching` : '';
+  showMembers();
   showWho();
   showControls();
   showWinner(team.winner);
@@ -83,7 +86,15 @@ link.addEventListener('robot', ({ detail: robot }) => {
   $('req-heat').disabled = !find('heat');
 });
 
+let heard = performance.now();
+setInterval(() => {
+  const silence_s = (performance.now() - heard) / 1000;
+  document.body.classList.toggle('stale', silence_s > SILENCE_S);
+  if (link.isOpen && state.team?.robots[0].up && silence_s > SILENCE_S) setPill($('mode'), `no news for ${Math.floor(silence_s)} s`, 'bad');
+}, 500);
+
 link.addEventListener('update', ({ detail: { update, jpeg } }) => {
+  heard = performance.now();
   if (jpeg) camera.show(jpeg, update.picture_step);
   take(update);
   if (document.hidden) {
@@ -209,11 +220,16 @@ function showWho() {
   $('wheel').hidden = hasWheel() ? !(isOthers === '' && !primary.is_yours && primary.up) : wheel.holder !== 0;
 }
 
+function showMembers() {
+  showTeam($('team'), state.team.robots, hasWheel(), (name) => link.send('switch', { robot: name }));
+}
+
 function showMode() {
   const primary = state.team?.robots[0];
   if (!primary) return;
   const now = state.update?.state;
-  if (!primary.up) setPill($('mode'), 'down', 'bad');
+  if (!link.isOpen) setPill($('mode'), 'no connection', 'bad');
+  else if (!primary.up) setPill($('mode'), 'down', 'bad');
   else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
   else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
   else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');

@@ -1,0 +1,132 @@
+#include "robosim/remote_joystick.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include <unistd.h>
+
+#include "remote/joystick.h"
+#include "remote/stick_pilot.h"
+#include "remote/team_notes.h"
+#include "robosim/text.h"
+
+namespace robosim {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = RemoteControl::Clock;
+
+constexpr auto kPause = 50ms;
+
+struct NearestEcho {
+  double operator()(const Echoes& echoes) const {
+    double nearest_m = INFINITY;
+    for (const Echo& echo : echoes) nearest_m = std::min<double>(nearest_m, echo.range_m);
+    return nearest_m;
+  }
+  double operator()(const auto&) const { return INFINITY; }
+};
+
+std::string howDriven(const RobotNews& news) {
+  if (!news.is_up) return news.problem.empty() ? "calling it" : "down: " + news.problem;
+  const RemoteState& state = news.state;
+  if (!state.winner.empty()) return state.winner + " has won";
+  if (!state.is_yours) return state.driver.empty() ? "nobody drives" : state.driver + " drives";
+  if (state.autonomous) return "autonomous";
+  return state.why_stopped.empty() ? "you drive" : "stopped: " + state.why_stopped;
+}
+
+/// "Pioneer1: 12.3 s, 0.40 m/s, 12 °/s, heat 3.1, nearest 0.84 m; you drive"
+std::string lineFor(const RemoteControl::Robot& robot) {
+  const RobotNews& news = robot.news;
+  std::string line = robot.name + ": ";
+  if (news.update && news.is_up) {
+    const Readings& readings = news.update->readings;
+    line += fixed(readings.time.seconds(), 1) + " s, " + fixed(news.update->state.speed_mps, 2) + " m/s, " +
+            fixed(news.update->state.turn_radps * 180 / M_PI, 0) + " °/s";
+    double nearest_m = INFINITY;
+    for (std::size_t i = 0; i < readings.measurements.size(); ++i) {
+      const auto& measured = readings.measurements[i];
+      const auto* scalar = std::get_if<Scalar>(&measured);
+      if (scalar && (*news.info->sensors)[i].kind == SensorKind::heat) line += ", heat " + fixed(scalar->value, 1);
+      nearest_m = std::min(nearest_m, std::visit(NearestEcho{}, measured));
+    }
+    if (std::isfinite(nearest_m)) line += ", nearest " + fixed(nearest_m, 2) + " m";
+    line += readings.stalled ? ", stalled; " : "; ";
+  }
+  return line + howDriven(news);
+}
+
+/// The line that tells how it goes.
+class StatusLine {
+ public:
+  ~StatusLine() { wipe(); }
+
+  void show(const std::string& text, Clock::time_point now) {
+    if (now < next_) return;
+    next_ = now + (on_terminal_ ? 200ms : 1000ms);
+    wipe();
+    std::printf(on_terminal_ ? "%s" : "%s\n", text.c_str());
+    std::fflush(stdout);
+    is_shown_ = true;
+  }
+  /// Room for another line.
+  void wipe() {
+    if (on_terminal_ && is_shown_) std::printf("\r\033[K");
+    std::fflush(stdout);
+    is_shown_ = false;
+  }
+
+ private:
+  bool on_terminal_ = isatty(STDOUT_FILENO) == 1;
+  bool is_shown_ = false;
+  Clock::time_point next_;
+};
+
+}  // namespace
+
+void driveByJoystick(RemoteControl& control, int number, const std::function<bool()>& interrupted,
+                     const std::function<void(const std::string&)>& log) {
+  Joystick joystick(number);
+  StickPilot pilot;
+  TeamNotes notes;
+  StatusLine line;
+  const std::string device = "joystick " + std::to_string(number);
+  const auto tell = [&](const std::string& text) {
+    line.wipe();
+    log(text);
+  };
+  bool has_stick = false;
+  bool has_told = false;
+  while (!interrupted()) {
+    const auto now = Clock::now();
+    control.tick();
+    const auto robots = control.robots();
+    for (const auto& note : notes.news(robots)) tell(note.text);
+    const auto stick = joystick.read();
+    if (!has_told || has_stick != stick.has_value()) {
+      has_stick = stick.has_value();
+      tell(has_stick ? device + " drives " + robots.front().name
+                     : "no " + device + " (/dev/input/js" + std::to_string(number) +
+                           "): plug one in, and see that you may read it; the robot stands");
+    }
+    has_told = true;
+    // Without a stick nothing is said: the robot's dead man's handle stops it.
+    if (stick && robots.front().news.info) {
+      const auto wish = pilot.wish(*stick, robots.front().news.info->limits, now);
+      control.send(wish.order);
+      if (wish.checks_win) control.send({.type = RemoteType::check_win});
+      if (wish.switches) {
+        const bool done = control.switchPrimary();
+        tell(done ? device + " drives " + control.primary().name : "there is no other robot that could be driven now");
+      }
+    }
+    line.show(lineFor(robots.front()), now);
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+}  // namespace robosim

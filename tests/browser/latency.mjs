@@ -1,0 +1,108 @@
+// How soon a key press comes to the environment and a step to the screen, and what the console costs: ./dev bench remote
+//
+// worlds/open_house.xml in real time, steps of 20 ms, three robots with cameras of 25 pictures a second, everything on
+// this machine, Chromium without a window. doc/performance.md tells what is measured, and has figures.
+
+import { readFileSync } from 'node:fs';
+
+import { openBrowser, takeWheel, visit } from './browser.mjs';
+import { Session } from './session.mjs';
+import { spectate } from './web_socket.mjs';
+
+const PRESSES = 100;
+const STEP_MS = 20;
+const NEAR_STEPS = 25;
+const CLOCK_TICKS = 100;  // of /proc/PID/stat, a second: sysconf(_SC_CLK_TCK) on every Linux there is
+
+// Runs in the page before anything else: notes when keys are pressed, updates come and pictures are drawn.
+function noteTimes() {
+  const now = () => performance.timeOrigin + performance.now();
+  window.noted = { updates: [], pictures: [], pressed: 0 };
+  addEventListener('keydown', () => { noted.pressed = now(); }, true);
+  window.WebSocket = class extends WebSocket {
+    constructor(...args) {
+      super(...args);
+      this.addEventListener('message', ({ data }) => {
+        if (typeof data === 'string') return;
+        const at = now();
+        const { state, measurements } = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, new DataView(data).getUint32(0, true))));
+        const odometry = measurements.find((one) => one?.turn_radps !== undefined);
+        noted.updates.push({ at, asked: state.turn_radps, turns: odometry.turn_radps });
+      });
+    }
+  };
+  addEventListener('DOMContentLoaded', () => {
+    const canvas = document.querySelector('#camera');
+    new MutationObserver(() => noted.pictures.push({ step: Number(canvas.dataset.step), at: Number(canvas.dataset.drawnAt) }))
+      .observe(canvas, { attributeFilter: ['data-drawn-at'] });
+  });
+}
+
+const quantile = (values, part) => [...values].sort((a, b) => a - b)[Math.floor(part * (values.length - 1))];
+const figures = (values) => `median ${quantile(values, 0.5).toFixed(1)} ms, 95 % ${quantile(values, 0.95).toFixed(1)} ms, most ${Math.max(...values).toFixed(1)} ms`;
+
+function processorSeconds(pid) {
+  const fields = readFileSync(`/proc/${pid}/stat`, 'utf8').split(') ')[1].split(' ');
+  return (Number(fields[11]) + Number(fields[12])) / CLOCK_TICKS;
+}
+
+// When a step was there at the earliest: when a viewer was told of it, or of one near it, taken to that step by the run's
+// pace. The soonest of those counts, so that what keeps the viewer waiting does not flatter the picture.
+class Pace {
+  #told = [];  // [step, when]
+  take(text) {
+    const now = performance.timeOrigin + performance.now();
+    for (const [, step] of text.matchAll(/^step (\d+)/gm)) this.#told.push([Number(step), now]);
+  }
+  due(step) {
+    const near = this.#told.filter(([told]) => Math.abs(told - step) <= NEAR_STEPS);
+    return Math.min(...near.map(([told, when]) => when + (step - told) * STEP_MS));
+  }
+}
+
+async function measure(page, session) {
+  const pace = new Pace();
+  const listen = (text) => pace.take(text);
+  session.truth.viewer.child.stdout.on('data', listen);
+  await page.evaluate(() => { noted.pictures = []; });
+  const begun = { at: performance.now(), processor_s: processorSeconds(session.console.child.pid) };
+  const commanded = [], turned = [];
+  for (let i = 0; i < PRESSES; ++i) {
+    const key = i % 2 ? 'ArrowLeft' : 'ArrowRight';
+    await page.evaluate(() => { noted.updates = []; });
+    await page.keyboard.down(key);
+    const [asked, turns] = await (await page.waitForFunction(() => {
+      const after = noted.updates.filter(({ at }) => at > noted.pressed);
+      const asked = after.find((update) => update.asked !== 0);
+      const turns = after.find((update) => update.turns !== 0);
+      return asked && turns && [asked.at - noted.pressed, turns.at - noted.pressed];
+    })).jsonValue();
+    await page.keyboard.up(key);
+    await page.waitForFunction(() => noted.updates.at(-1).asked === 0 && noted.updates.at(-1).turns === 0);
+    await page.waitForTimeout(37 * Math.random());  // at no fixed time of a step
+    commanded.push(asked);
+    turned.push(turns);
+  }
+  const seconds = (performance.now() - begun.at) / 1000;
+  const cores = (processorSeconds(session.console.child.pid) - begun.processor_s) / seconds;
+  const pictures = await page.evaluate(() => noted.pictures);
+  session.truth.viewer.child.stdout.off('data', listen);
+  console.log(`  key press to changed command:        ${figures(commanded)}`);
+  console.log(`  key press to turning robot:          ${figures(turned)}`);
+  console.log(`  step to picture on the canvas:       ${figures(pictures.map(({ step, at }) => at - pace.due(step)).filter(Number.isFinite))}`);
+  console.log(`  pictures drawn:                      ${(pictures.length / seconds).toFixed(1)} a second, over ${seconds.toFixed(0)} s`);
+  console.log(`  the console's processor time:        ${cores.toFixed(3)} of a core`);
+}
+
+const session = await Session.open({ world: 'worlds/open_house.xml', robots: ['Pioneer1', 'Scout1', 'Pioneer2'] });
+const browser = await openBrowser();
+const page = await visit(browser, session.url, { name: 'Ada', init: noteTimes });
+await takeWheel(page);
+console.log('one browser:');
+await measure(page, session);
+const spectators = await Promise.all(Array.from({ length: 50 }, (_, i) => spectate(session.url, `Spectator ${i}`)));
+console.log('and 50 spectators, who are told everything:');
+await measure(page, session);
+for (const one of spectators) one.destroy();
+await browser.close();
+await session.close();

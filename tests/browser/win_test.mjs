@@ -1,0 +1,84 @@
+// A whole game: a person drives a Pioneer through the small maze to the gold, and wins. The environment decides, all
+// halt, and the console, the run's summary and its recording say who has won.
+
+import assert from 'node:assert/strict';
+import { existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+
+import { openBrowser, takeWheel, visit } from './browser.mjs';
+import { emulateGamepad, moveStick } from './emulated_gamepad.mjs';
+import { Program, ROBOSIM } from './program.mjs';
+import { Session } from './session.mjs';
+
+// From cell to cell of worlds/small_maze.xml, and up to the gold, which is at (-3.75, 1.5).
+const WAY = [[-2.25, -3], [-0.75, -3], [-0.75, -1.5], [-2.25, -1.5], [-3.75, -1.5], [-3.75, 0], [-2.25, 0], [-2.25, 1.5], [-2.25, 3], [-3.75, 3], [-3.75, 2.3]];
+
+let folder, rawlog, session, browser, page;
+
+before(async () => {
+  folder = mkdtempSync(join(tmpdir(), 'robosim_win_'));
+  rawlog = join(folder, 'win.rawlog');
+  session = await Session.open({
+    world: 'worlds/small_maze.xml', robots: ['Pioneer1', 'Scout1'], speed: 3, serve: ['--record', rawlog, '--json'],
+    robot: ['--controller', 'still', '--dead-man', '5'],
+  });
+  browser = await openBrowser();
+  page = await visit(browser, session.url, { name: 'Ada', init: emulateGamepad });
+  await takeWheel(page);
+});
+after(async () => {
+  await browser?.close();
+  await session?.close();
+  if (folder) rmSync(folder, { recursive: true });
+});
+
+const shows = (selector, text) =>
+  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
+
+// Holds the stick so that the robot comes to (x, y), as a person would who looks at the map.
+async function driveTo(x, y) {
+  for (;;) {
+    const at = session.truth.now.Pioneer1;
+    const distance = Math.hypot(x - at.x, y - at.y);
+    if (distance < 0.2) return;
+    const way = Math.atan2(y - at.y, x - at.x) - at.phi;
+    const left = Math.atan2(Math.sin(way), Math.cos(way));
+    const ahead = Math.abs(left) < 0.35 ? Math.min(0.7, 0.35 + 0.4 * distance) : 0;
+    await moveStick(page, Math.max(-0.8, Math.min(0.8, -1.5 * left)), -ahead);
+    await page.evaluate(() => new Promise(requestAnimationFrame));
+  }
+}
+
+test('far from the gold nobody has won', async () => {
+  await page.keyboard.press('c');
+  await shows('#notes', 'Pioneer1 is too far from the gold to have won.');
+  assert.ok(await page.isHidden('#won'));
+});
+
+test('at the gold the person has won, and everything says so', async () => {
+  for (const [x, y] of WAY) await driveTo(x, y);
+  await moveStick(page, 0, 0);
+  await session.truth.standstill('Pioneer1');
+  await page.click('#check-win');
+
+  await page.waitForSelector('#won', { state: 'visible' });
+  assert.match(await page.textContent('#won'), /Pioneer1\s+has won\. All robots have halted\./);
+  await session.serve.ended();
+  const summary = JSON.parse(session.serve.output);
+  assert.equal(summary.won_by, 'Pioneer1');
+  assert.equal(summary.ended_by, 'all_halted');
+  assert.match(session.console.error, /Pioneer1 has won/);
+  assert.deepEqual(page.problems, []);
+});
+
+test('the recording has who won and what the driver commanded, and is the same run again', async () => {
+  assert.ok(existsSync(rawlog));
+  const told = new Program(ROBOSIM, ['replay', rawlog]);
+  await told.ended();
+  assert.match(told.output, /Pioneer1 has won/);
+  const again = new Program(ROBOSIM, ['replay', rawlog, '--check', 'worlds/small_maze.xml']);
+  await again.ended();
+  assert.equal(again.code, 0, again.output + again.error);
+});
