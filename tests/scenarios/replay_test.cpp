@@ -4,12 +4,9 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
-#include <mrpt/io/CFileGZOutputStream.h>
-#include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/serialization/CArchive.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/program.h"
 #include "tests/stock_tools.h"
 
@@ -111,27 +108,6 @@ TEST(Replay, OfARecordingThatIsCutOffChecksWhatThereIs) {
   const Ended summary = runProgram("replay " + quoted(file));
   EXPECT_EQ(summary.exit_code, 0);
   EXPECT_NE(summary.out.find("ends early, after "), std::string::npos) << summary.out;
-}
-
-/// As a stranger's robot would record: a laser and odometry, in MRPT's own words, without a robot's name.
-void writeForeignRawlog(const std::filesystem::path& file) {
-  mrpt::io::CFileGZOutputStream stream(file.string());
-  auto archive = mrpt::serialization::archiveFrom(stream);
-  for (int i = 0; i < 50; ++i) {
-    const auto time = mrpt::Clock::fromDouble(1.2e9 + 0.2 * i);
-    mrpt::obs::CObservationOdometry odometry;
-    odometry.sensorLabel = "ODOMETRY";
-    odometry.timestamp = time;
-    odometry.odometry = {0.1 * i, 0, 0};
-    archive << odometry;
-    mrpt::obs::CObservation2DRangeScan scan;
-    scan.sensorLabel = "SICK";
-    scan.timestamp = time;
-    scan.aperture = static_cast<float>(M_PI);
-    scan.maxRange = 80;
-    scan.resizeScanAndAssign(181, 4, true);
-    archive << scan;
-  }
 }
 
 TEST(Replay, SummarisesSomebodyElsesRecording) {

@@ -7,6 +7,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
@@ -182,6 +183,33 @@ TEST(View, PausesAndStepsARunForWhoeverMayOperateItAndForNobodyElse) {
   while (window.isOpen() && panel.status().phase() != wire::RUNNING) {
   }
   EXPECT_EQ(window.quit().exit_code, 0);
+}
+
+TEST(View, ShowsSomebodyElsesRecording) {
+  const auto folder = emptyFolder();
+  writeForeignRawlog(folder / "foreign.rawlog");
+  const auto pictureAt = [&](double time_s) {
+    const Ended view = runProgram("view " + quoted(folder / "foreign.rawlog") + " --size 600x600 --to " +
+                                  std::to_string(time_s) + " --offscreen " + quoted(folder / "seen.png"));
+    EXPECT_EQ(view.exit_code, 0) << view.err;
+    return cv::imread((folder / "seen.png").string());
+  };
+  const cv::Mat start = pictureAt(0), end = pictureAt(9.8);
+  const auto reds = [](const cv::Mat& picture) {  // the scan's tint and dots
+    double x = 0;
+    int count = 0;
+    for (int row = 40; row < picture.rows; ++row) {
+      for (int column = 0; column < picture.cols; ++column) {
+        const auto pixel = picture.at<cv::Vec3b>(row, column);
+        if (pixel[2] < pixel[1] + 20) continue;
+        x += column;
+        ++count;
+      }
+    }
+    EXPECT_GT(count, 3000);
+    return x / count;
+  };
+  EXPECT_GT(reds(end), reds(start) + 50) << "the robot has taken its scan along";
 }
 
 TEST(View, WritesAVideoOfARunThatGoesOn) {
