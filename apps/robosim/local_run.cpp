@@ -52,7 +52,9 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
   LoadedWorld world = loadWorld(file, controllerNames());
   checkToRun(world, file, instead);
-  world.world.robots = {};  // the fleet has made of them what runs
+  // The fleet has made of them what runs. (= {} would keep the memory.)
+  world.world.robots = std::vector<RobotPlacement>();
+  world.world.objects.shrink_to_fit();
 #ifdef __GLIBC__
   // Reading a file takes several times the memory of the world that comes of it. It is free by now, but strewn with
   // what is kept, so that the process would hold on to it.

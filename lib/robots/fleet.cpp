@@ -40,6 +40,8 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
   ModelShelf shelf(world, world_file, types, errors);
   Fleet fleet;
   std::vector<RobotStart> starts;
+  fleet.robots.reserve(world.robots.size());
+  starts.reserve(world.robots.size());
   for (const auto& placement : world.robots) {
     if (!placement.controller.empty() && !controllers.empty() &&
         std::find(controllers.begin(), controllers.end(), placement.controller) == controllers.end()) {
