@@ -7,13 +7,13 @@
 namespace robosim {
 namespace {
 
-using json = nlohmann::ordered_json;
+using Json = nlohmann::ordered_json;
 
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
 /// To a tenth of a millimetre, of a milliradian: finer than any screen.
 double fine(double value) { return std::round(value * 1e4) / 1e4; }
 
-std::string textOf(const json& message) {
+std::string textOf(const Json& message) {
   return message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -29,7 +29,7 @@ const char* nameOf(Activity activity) {
   return "";
 }
 
-json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
+Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
 
 std::string hexOf(const std::array<float, 3>& color) {
   std::string text = "#";
@@ -42,14 +42,14 @@ std::string hexOf(const std::array<float, 3>& color) {
 }
 
 struct MeasurementJson {
-  json operator()(const Echoes& echoes) const {
-    json ranges_mm = json::array();
+  Json operator()(const Echoes& echoes) const {
+    Json ranges_mm = Json::array();
     for (const Echo& echo : echoes) ranges_mm.push_back(std::lround(echo.range_m * 1000.0F));
     return ranges_mm;
   }
-  json operator()(const Scalar& scalar) const { return fine(scalar.value); }
-  json operator()(const Contacts& contacts) const { return contacts.pressed; }
-  json operator()(const Odometry& odometry) const {
+  Json operator()(const Scalar& scalar) const { return fine(scalar.value); }
+  Json operator()(const Contacts& contacts) const { return contacts.pressed; }
+  Json operator()(const Odometry& odometry) const {
     const auto& pose = odometry.odom_from_robot;
     return {{"x_m", fine(pose.x)},
             {"y_m", fine(pose.y)},
@@ -57,8 +57,8 @@ struct MeasurementJson {
             {"speed_mps", fine(odometry.speed_mps)},
             {"turn_radps", fine(odometry.turn_radps)}};
   }
-  json operator()(const Image&) const { return nullptr; }
-  json operator()(const Blobs&) const { return nullptr; }
+  Json operator()(const Image&) const { return nullptr; }
+  Json operator()(const Blobs&) const { return nullptr; }
 };
 
 /// Which readings come with every update only if a page wants them so; 2005's REQ_… ask for them.
@@ -67,13 +67,13 @@ bool isOnRequest(SensorKind kind) {
          kind == SensorKind::infrared;
 }
 
-json jsonOf(const SensorInfo& sensor) {
-  json beams = json::array();
+Json jsonOf(const SensorInfo& sensor) {
+  Json beams = Json::array();
   for (const auto& beam : sensor.beams) {
     const auto& at = beam.robot_from_beam;
     beams.push_back({fine(at.x), fine(at.y), fine(at.yaw)});
   }
-  json out{{"kind", nameOf(sensor.kind)},
+  Json out{{"kind", nameOf(sensor.kind)},
            {"label", sensor.label},
            {"beams", beams},
            {"range_max_m", sensor.range_max_m},
@@ -87,7 +87,7 @@ json jsonOf(const SensorInfo& sensor) {
   return out;
 }
 
-json jsonOf(const RemoteState& state) {
+Json jsonOf(const RemoteState& state) {
   return {{"autonomous", state.autonomous},       {"driver", state.driver},
           {"is_yours", state.is_yours},           {"speed_mps", fine(state.speed_mps)},
           {"turn_radps", fine(state.turn_radps)}, {"activity", nameOf(state.activity)},
@@ -97,7 +97,7 @@ json jsonOf(const RemoteState& state) {
 }  // namespace
 
 std::string robotJson(const RobotInfo& robot, double period_s) {
-  json sensors = json::array();
+  Json sensors = Json::array();
   for (const auto& sensor : *robot.sensors) sensors.push_back(jsonOf(sensor));
   return textOf({{"type", "robot"},
                  {"name", robot.name},
@@ -110,7 +110,7 @@ std::string robotJson(const RobotInfo& robot, double period_s) {
 }
 
 std::string teamJson(const std::vector<RemoteControl::Robot>& robots, const Wheel& wheel) {
-  json team = json::array();
+  Json team = Json::array();
   std::string winner, world;
   for (const auto& robot : robots) {
     const RobotNews& news = robot.news;
@@ -138,14 +138,14 @@ std::string teamJson(const std::vector<RemoteControl::Robot>& robots, const Whee
 
 std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const RobotPicture* picture,
                        bool with_sensors) {
-  json measurements = json::array();
+  Json measurements = Json::array();
   for (std::size_t i = 0; i < update.readings.measurements.size(); ++i) {
     const bool is_left_out = !with_sensors && isOnRequest((*robot.sensors)[i].kind);
-    measurements.push_back(is_left_out ? json(nullptr)
+    measurements.push_back(is_left_out ? Json(nullptr)
                                        : std::visit(MeasurementJson{}, update.readings.measurements[i]));
   }
   const Readings& readings = update.readings;
-  json message{{"type", "update"},
+  Json message{{"type", "update"},
                {"robot", robot.name},
                {"step", readings.time.step},
                {"time_s", rounded(readings.time.seconds(), 1e-3)},
@@ -158,7 +158,7 @@ std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const 
 }
 
 std::string answerJson(const char* sensor, const RobotAnswer& answer) {
-  json message{{"type", "answer"}, {"sensor", sensor}, {"step", answer.step}, {"slot", nullptr}};
+  Json message{{"type", "answer"}, {"sensor", sensor}, {"step", answer.step}, {"slot", nullptr}};
   if (answer.has_sensor) {
     message["slot"] = answer.sensor;
     message["measurement"] = std::visit(MeasurementJson{}, answer.measurement);
@@ -169,7 +169,7 @@ std::string answerJson(const char* sensor, const RobotAnswer& answer) {
 std::string mapJson(const MapView& map) {
   if (!map.world) return textOf({{"type", "map"}, {"problem", map.problem}});
   const MapWorld& world = *map.world;
-  json things = json::array();
+  Json things = Json::array();
   for (const auto& thing : world.things) {
     things.push_back({{"at", jsonOf(thing.world_from_thing)},
                       {"length_m", thing.length_m},
@@ -178,7 +178,7 @@ std::string mapJson(const MapView& map) {
                       {"color", hexOf(thing.color)},
                       {"hot", thing.is_hot}});
   }
-  json robots = json::array();
+  Json robots = Json::array();
   for (const auto& robot : world.robots) {
     robots.push_back({{"name", robot.name}, {"radius_m", robot.radius_m}, {"color", hexOf(robot.color)}});
   }
@@ -191,7 +191,7 @@ std::string mapJson(const MapView& map) {
 }
 
 std::string posesJson(const MapView& map) {
-  json robots = json::array();
+  Json robots = Json::array();
   for (std::size_t i = 0; i < map.world_from_robot.size(); ++i) {
     robots.push_back({{"at", jsonOf(map.world_from_robot[i])}, {"activity", nameOf(map.activity[i])}});
   }

@@ -22,10 +22,13 @@ std::size_t primaryOf(const std::vector<RobotAddress>& list) {
 }  // namespace
 
 struct RemoteControl::Seat {
+  Seat(const std::string& robot, const DialOptions& dialled, const std::function<void()>& ring)
+      : name(robot), address(dialled.address), link(robot, dialled, ring) {}
+
   std::string name, address;
   RobotLink link;
-  std::optional<Clock::time_point> called{};  ///< when the last call began
-  std::optional<Clock::time_point> failed{};  ///< since when there is no call
+  std::optional<Clock::time_point> called;  ///< when the last call began
+  std::optional<Clock::time_point> failed;  ///< since when there is no call
 };
 
 RemoteControl::RemoteControl(const std::vector<RobotAddress>& list, const Options& options)
@@ -33,8 +36,7 @@ RemoteControl::RemoteControl(const std::vector<RobotAddress>& list, const Option
   for (const auto& robot : list) {
     DialOptions dialled = options.dial;
     dialled.address = robot.hostname + ":" + std::to_string(robot.port);
-    seats_.push_back(
-        std::unique_ptr<Seat>(new Seat{robot.name, dialled.address, RobotLink(robot.name, dialled, options.ring)}));
+    seats_.push_back(std::make_unique<Seat>(robot.name, dialled, options.ring));
   }
   seats_[rota_.primary()]->link.setLive(true);
 }

@@ -345,7 +345,7 @@ void RemotePort::Impl::sayGoodbye() {
   for (const auto& stream : streams) stream->sayGoodbye();
 }
 
-RemotePort::RemotePort(const Options& options, const Run& run, std::vector<RemoteControlRobot*> robots)
+RemotePort::RemotePort(const Options& options, const Run& run, const std::vector<RemoteControlRobot*>& robots)
     : impl_(std::make_unique<Impl>(options, run, robots)) {}
 RemotePort::~RemotePort() = default;
 int RemotePort::port() const { return impl_->open.number; }

@@ -32,7 +32,7 @@ class RemotePort {
   /// Opens the port.
   /// @param robots must outlive this
   /// @throws std::runtime_error when the port is taken.
-  RemotePort(const Options& options, const Run& run, std::vector<RemoteControlRobot*> robots);
+  RemotePort(const Options& options, const Run& run, const std::vector<RemoteControlRobot*>& robots);
   ~RemotePort();
   RemotePort(const RemotePort&) = delete;
   RemotePort& operator=(const RemotePort&) = delete;

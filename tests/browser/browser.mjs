@@ -37,8 +37,9 @@ export async function visit(browser, url, { name, init, ...options } = {}) {
 // Takes the wheel as soon as nobody has it. (The console may not yet have seen that the one before has gone.)
 export async function takeWheel(page) {
   await page.waitForFunction(() => {
+    if (document.querySelector('#status').textContent === 'You drive') return true;
     const wheel = document.querySelector('#wheel');
     if (!wheel.hidden) wheel.click();
-    return document.querySelector('#status').textContent === 'You drive';
+    return false;
   });
 }

@@ -32,7 +32,7 @@ async function canDrive(page) {
   await session.truth.standstill('Ann');
 }
 
-test('the second is told who drives, and may watch but not drive; and drive when the first has gone', async () => {
+test('the second is told who drives, and may watch but not drive; and drive when the first has let go, or has gone', async () => {
   const bea = await visit(browser, session.url, { name: 'Bea' });
   await shows(bea, '#who', 'Ada drives; you may watch');
   await shows(bea, '#status', 'Watching');
@@ -48,8 +48,14 @@ test('the second is told who drives, and may watch but not drive; and drive when
   await bea.keyboard.up('ArrowUp');
   assert.deepEqual(bea.problems, []);
 
+  await ada.click('#wheel');  // lets go of it
+  await takeWheel(bea);
+  await shows(ada, '#who', 'Bea drives; you may watch');
+  await canDrive(bea);
+  await bea.click('#wheel');
+  await takeWheel(ada);
+
   await ada.context().close();
-  await shows(bea, '#who', 'Nobody drives');
   await takeWheel(bea);
   await canDrive(bea);
   await bea.context().close();

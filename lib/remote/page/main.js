@@ -209,7 +209,7 @@ function setPill(pill, text, kind) {
 }
 
 function showWho() {
-  const { wheel, robots } = state.team;
+  const { wheel, robots, guests } = state.team;
   const primary = robots[0];
   const isOthers = primary.driver && !primary.is_yours && primary.up;
   if (hasWheel() && isOthers) setPill($('status'), 'Watching', 'info');
@@ -217,7 +217,12 @@ function showWho() {
   else setPill($('status'), 'Watching', 'info');
   if (hasWheel()) $('who').textContent = isOthers ? `${primary.driver} has ${primary.name}, with another remote control` : '';
   else $('who').textContent = wheel.holder ? `${wheel.name} drives; you may watch` : 'Nobody drives';
-  $('wheel').hidden = hasWheel() ? !(isOthers === '' && !primary.is_yours && primary.up) : wheel.holder !== 0;
+  // Who has the wheel, but not the robot, may ask for it again; and may let go if somebody waits.
+  const mayTake = hasWheel() ? !primary.driver && !primary.is_yours && primary.up : wheel.holder === 0;
+  const mayRelease = hasWheel() && !mayTake && guests > 1;
+  $('wheel').textContent = mayRelease ? 'Let go of the wheel' : 'Take the wheel';
+  $('wheel').dataset.asks = mayRelease ? 'release' : 'take';
+  $('wheel').hidden = !mayTake && !mayRelease;
 }
 
 function showMembers() {
@@ -312,7 +317,7 @@ $('stop').addEventListener('click', () => drive.stop());
 $('autonomous').addEventListener('click', toggleAutonomous);
 $('next').addEventListener('click', nextRobot);
 $('map-toggle').addEventListener('click', toggleMap);
-$('wheel').addEventListener('click', () => link.send('take'));
+$('wheel').addEventListener('click', () => link.send($('wheel').dataset.asks));
 $('won-close').addEventListener('click', () => { $('won').hidden = true; });
 $('limit').addEventListener('input', () => {
   drive.limit = Number($('limit').value) / 100;
