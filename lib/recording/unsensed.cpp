@@ -33,6 +33,23 @@ void append(std::vector<std::uint8_t>& bytes, const std::string& text) {
   bytes.insert(bytes.end(), text.begin(), text.end());
 }
 
+/// Of an observation of which the time and these lists of numbers change.
+template <typename... Lists>
+std::optional<Imprint> imprintOf(CObservationRawDAQ& daq, Lists&... lists) {
+  const auto bytes_of = [](const auto& value) { return std::as_bytes(std::span(value)); };
+  return Imprint::of(daq, {bytes_of(std::span(&daq.timestamp, 1)), bytes_of(lists)...}, [&](int which) {
+    // Numbers that stand nowhere else.
+    daq.timestamp = timestampOf({static_cast<std::uint64_t>(which) + 12345, 0.1});
+    const auto fill = [which](auto& list) {
+      for (auto& number : list) {
+        number =
+            static_cast<std::decay_t<decltype(number)>>(0.123 + 7 * which + static_cast<double>(&number - list.data()));
+      }
+    };
+    (fill(lists), ...);
+  });
+}
+
 [[noreturn]] void refuse(const CObservation& observation, const std::string& why) {
   throw RecordingError("recorded observation \"" + observation.sensorLabel + "\" (" +
                        observation.GetRuntimeClass()->className + "): " + why +
@@ -74,44 +91,43 @@ Unsensed::Unsensed(const RobotInfo& robot) : robot_(robot.name), sensors_(robot.
   for (const auto& sensor : *sensors_) {
     auto& axes = axes_.emplace_back();
     for (const auto& beam : sensor.beams) axes.push_back({originOf(beam), directionOf(beam)});
+    auto points = rawDaq(sensorLabel(robot_, sensor.label) + "/" + kPoints);
+    points->AIN_float.resize(3 * sensor.beams.size());
+    points->AIN_channel_count = 3;
+    points_.push_back({points, imprintOf(*points, points->AIN_float)});
   }
   auto status = rawDaq(sensorLabel(robot_, kStatus));
   status->AOUT_double.resize(kOutputs);
   status->AIN_double.resize(kInputs);
   status->AIN_channel_count = kInputs;
-  status_ = status;
+  status_ = {status, imprintOf(*status, status->AOUT_double, status->AIN_double)};
+}
 
-  const auto bytesOf = [](const auto& value) { return std::as_bytes(std::span(value)); };
-  imprint_ = Imprint::of(
-      *status, {bytesOf(std::span(&status->timestamp, 1)), bytesOf(status->AOUT_double), bytesOf(status->AIN_double)},
-      [&](int which) {
-        // Numbers that stand nowhere else.
-        status->timestamp = timestampOf({static_cast<std::uint64_t>(which) + 12345, 0.1});
-        for (auto* numbers : {&status->AOUT_double, &status->AIN_double}) {
-          for (auto& number : *numbers) number = 0.123 + 7 * which + static_cast<double>(&number - numbers->data());
-        }
-      });
+void Unsensed::Form::write(ByteArchive& archive) {
+  if (imprint) {
+    imprint->append(archive);
+  } else {
+    archive << *observation;
+  }
 }
 
 std::vector<CObservation::Ptr> Unsensed::of(const Readings& readings, const Command& command) {
   fillStatus(readings, command);
-  auto all = occasional(readings);
-  all.insert(all.begin(), status_);
+  std::vector<CObservation::Ptr> all{status_.observation};
+  forPoints(readings, [&](const Form& points) { all.push_back(points.observation); });
+  if (!readings.inbox.empty()) all.push_back(inboxOf(readings));
   return all;
 }
 
 void Unsensed::write(const Readings& readings, const Command& command, ByteArchive& archive) {
   fillStatus(readings, command);
-  if (imprint_) {
-    imprint_->append(archive);
-  } else {
-    archive << *status_;
-  }
-  for (const auto& observation : occasional(readings)) archive << *observation;
+  status_.write(archive);
+  forPoints(readings, [&](Form& points) { points.write(archive); });
+  if (!readings.inbox.empty()) archive << *inboxOf(readings);
 }
 
 void Unsensed::fillStatus(const Readings& readings, const Command& command) {
-  auto& status = static_cast<CObservationRawDAQ&>(*status_);
+  CObservationRawDAQ& status = *status_.observation;
   status.timestamp = timestampOf(readings.time);
   status.AOUT_double[kSpeed] = command.speed_mps;
   status.AOUT_double[kTurn] = command.turn_radps;
@@ -124,30 +140,31 @@ void Unsensed::fillStatus(const Readings& readings, const Command& command) {
   status.AIN_double[kWon] = readings.winner == robot_ ? 1 : 0;
 }
 
-std::vector<CObservation::Ptr> Unsensed::occasional(const Readings& readings) const {
-  std::vector<CObservation::Ptr> found;
+template <typename Visit>
+void Unsensed::forPoints(const Readings& readings, const Visit& visit) {
   for (std::size_t slot = 0; slot < sensors_->size(); ++slot) {
     const auto* echoes = std::get_if<Echoes>(&readings.measurements[slot]);
-    const SensorInfo& sensor = (*sensors_)[slot];
-    if (!echoes || isAlongAxes(slot, *echoes, sensor.pans ? readings.laser_pan_rad : 0)) continue;
-    auto points = rawDaq(sensorLabel(robot_, sensor.label) + "/" + kPoints);
-    points->timestamp = timestampOf(readings.time);
-    points->AIN_channel_count = 3;
-    for (const auto& echo : *echoes) {
-      points->AIN_float.insert(points->AIN_float.end(), {echo.point_m.x, echo.point_m.y, echo.point_m.z});
+    if (!echoes || isAlongAxes(slot, *echoes, (*sensors_)[slot].pans ? readings.laser_pan_rad : 0)) continue;
+    CObservationRawDAQ& points = *points_[slot].observation;
+    points.timestamp = timestampOf(readings.time);
+    for (std::size_t i = 0; i < echoes->size(); ++i) {
+      const auto& at = (*echoes)[i].point_m;
+      points.AIN_float[3 * i] = at.x;
+      points.AIN_float[3 * i + 1] = at.y;
+      points.AIN_float[3 * i + 2] = at.z;
     }
-    found.push_back(points);
+    visit(points_[slot]);
   }
-  if (!readings.inbox.empty()) {
-    auto inbox = rawDaq(sensorLabel(robot_, kInbox));
-    inbox->timestamp = timestampOf(readings.time);
-    for (const auto& message : readings.inbox) {
-      append(inbox->DIN, message.from);
-      append(inbox->DIN, message.text);
-    }
-    found.push_back(inbox);
+}
+
+CObservation::Ptr Unsensed::inboxOf(const Readings& readings) const {
+  auto inbox = rawDaq(sensorLabel(robot_, kInbox));
+  inbox->timestamp = timestampOf(readings.time);
+  for (const auto& message : readings.inbox) {
+    append(inbox->DIN, message.from);
+    append(inbox->DIN, message.text);
   }
-  return found;
+  return inbox;
 }
 
 bool Unsensed::isAlongAxes(std::size_t slot, const Echoes& echoes, double pan_rad) const {

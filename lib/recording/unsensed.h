@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
 
 #include "hardware/command.h"
 #include "hardware/readings.h"
@@ -39,7 +40,7 @@ class Unsensed {
   Unsensed(const Unsensed&) = delete;
   Unsensed& operator=(const Unsensed&) = delete;
 
-  /// What there is in this step. STATUS is the same object in every call, filled anew.
+  /// What there is in this step. STATUS and POINTS are the same objects in every call, filled anew.
   std::vector<mrpt::obs::CObservation::Ptr> of(const Readings&, const Command&);
   /// Appends the bytes of all that of() gives.
   void write(const Readings&, const Command&, ByteArchive& archive);
@@ -48,15 +49,24 @@ class Unsensed {
   struct Axis {
     mrpt::math::TPoint3D origin, direction;
   };
+  /// An observation that is filled anew in each step, with its bytes.
+  struct Form {
+    std::shared_ptr<mrpt::obs::CObservationRawDAQ> observation;
+    std::optional<Imprint> imprint;
+    void write(ByteArchive& archive);
+  };
   void fillStatus(const Readings&, const Command&);
-  std::vector<mrpt::obs::CObservation::Ptr> occasional(const Readings&) const;
+  /// Calls visit(form) for what there is of POINTS, filled.
+  template <typename Visit>
+  void forPoints(const Readings&, const Visit& visit);
+  mrpt::obs::CObservation::Ptr inboxOf(const Readings&) const;
   bool isAlongAxes(std::size_t slot, const Echoes& echoes, double pan_rad) const;
 
   std::string robot_;
   std::shared_ptr<const std::vector<SensorInfo>> sensors_;
   std::vector<std::vector<Axis>> axes_;  ///< by sensor, of its beams, not panned
-  mrpt::obs::CObservation::Ptr status_;
-  std::optional<Imprint> imprint_;
+  Form status_;
+  std::vector<Form> points_;  ///< by sensor
 };
 
 /// What STATUS tells.
