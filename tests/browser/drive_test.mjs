@@ -12,7 +12,7 @@ let session, browser, page;
 
 before(async () => {
   session = await Session.open({
-    world: writeRoom(), robots: ['Ann', 'Bob'], speed: 3, robot: ['--controller', 'wander', '--dead-man', '5'],
+    world: writeRoom(), robots: ['Ann', 'Bob'], speed: 3, robot: ['--controller', 'still', '--dead-man', '5'],
   });
   browser = await openBrowser();
   page = await visit(browser, session.url, { name: 'Ada', init: emulateGamepad });
@@ -67,16 +67,24 @@ test('space stops it, whatever is held', async () => {
   await page.keyboard.up('ArrowUp');
 });
 
-test('buttons accelerate, decelerate and turn', async () => {
+test('buttons accelerate and decelerate by a tenth of its most, and turn it while they are held', async () => {
   const back = await drives(-0.2);
-  for (let i = 0; i < 3; ++i) await page.click('#decelerate');
+  // One by one: a robot obeys one order a step.
+  for (const speed of ['-0.10', '-0.20', '-0.30']) {
+    await page.click('#decelerate');
+    await shows('#r-speed', `asked ${speed}`);
+  }
   await back();
-  for (let i = 0; i < 3; ++i) await page.click('#accelerate');
-  await stands();
-  for (const [id, radians] of [['#turn-left', 0.05], ['#turn-right', -0.05]]) {
+  for (const speed of ['-0.20', '-0.10', '0.00']) {
+    await page.click('#accelerate');
+    await shows('#r-speed', `asked ${speed}`);
+  }
+  for (const [id, radians] of [['#turn-left', 0.2], ['#turn-right', -0.2]]) {
     const turned = await turns(radians);
-    await page.click(id);
+    await page.hover(id);
+    await page.mouse.down();
     await turned();
+    await page.mouse.up();
   }
   await stands();
 });
@@ -131,13 +139,16 @@ test('sensors are read when one asks', async () => {
 });
 
 test('autonomous, its own controller drives; and then again the person', async () => {
-  const from = await stands();
+  const moved = await drives(0.1);
+  await page.keyboard.press('+');
+  await moved();
   await page.click('#autonomous');
   await shows('#mode', 'autonomous');
-  await session.truth.until('Ann', ({ x, y, phi }) => hypot(x - from.x, y - from.y) > 0.05 || Math.abs(phi - from.phi) > 0.05);
+  await stands();  // as its controller has it
+  assert.ok(await page.isDisabled('#accelerate'));
   await page.keyboard.press('r');
   await shows('#mode', 'driven by you');
-  await stands();
+  await enabled('#accelerate');
 });
 
 test('switching makes the next robot the primary, and the old one autonomous at the tail', async () => {
@@ -159,11 +170,11 @@ test('switching makes the next robot the primary, and the old one autonomous at 
 test('the map shows all robots where they are, and only when one asks', async () => {
   assert.equal(await page.isVisible('#map'), false);
   await page.keyboard.press('m');
-  const { Ann } = { Ann: await stands() };
+  const ann = await stands();
   await page.waitForFunction(({ x, y, phi }) => {
     const [ann] = JSON.parse(document.querySelector('#map').dataset.robots ?? '[null]');
     return ann && Math.abs(ann[0] - x) < 1e-3 && Math.abs(ann[1] - y) < 1e-3 && Math.abs(ann[2] - phi) < 1e-3;
-  }, Ann);
+  }, ann);
   await page.keyboard.press('m');
   assert.equal(await page.isVisible('#map'), false);
 });
@@ -185,10 +196,10 @@ test('everything can be reached and used by keyboard alone, and has a name', asy
   const nameless = nodes.filter((node) => !node.ignored && roles.has(node.role?.value) && !node.name?.value && node.role.value !== 'list');
   assert.deepEqual(nameless.map((node) => node.role.value), []);
 
-  const moved = await drives(0.05);
-  await page.focus('#accelerate');
+  const back = await drives(-0.05);
+  await page.focus('#decelerate');
   await page.keyboard.press('Enter');
-  await moved();
+  await back();
   await page.focus('#stop');
   await page.keyboard.press('Space');
   await stands();

@@ -238,7 +238,14 @@ function showMode() {
   else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
   else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
   else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');
-  else setPill($('mode'), primary.is_yours && hasWheel() ? 'driven by you' : `driven by ${primary.driver || 'nobody'}`, 'good');
+  else showDriver(primary);
+}
+
+// A robot that is this console's is driven by whoever has its wheel.
+function showDriver(primary) {
+  const driver = primary.is_yours ? state.team.wheel.name : primary.driver;
+  if (primary.is_yours && hasWheel()) setPill($('mode'), 'driven by you', 'good');
+  else setPill($('mode'), driver ? `driven by ${driver}` : 'nobody drives', driver ? 'good' : 'info');
 }
 
 function showControls() {
