@@ -193,9 +193,15 @@ TEST(MalformedMaps, ThatArePictures) {
   std::string flipped = good;
   flipped[45] = static_cast<char>(flipped[45] ^ 1);
 
+  cv::Mat chequered(3000, 3000, CV_8U);
+  chequered.forEach<uchar>([](uchar& cell, const int* at) { cell = (at[0] + at[1]) % 2 == 0 ? 0 : 255; });
+
   const struct {
     std::string bytes, fault;
   } cases[] = {
+      {pngBytes(chequered),
+       ": its occupied cells are so scattered that they make 4500000 boxes; a map may have 4000000 at most, so make it "
+       "smaller, or its cells larger"},
       {"", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
       {"P7\nWIDTH 1", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
       {"\xff\xd8\xff\xe0 a JPEG", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},

@@ -60,7 +60,13 @@ FloorPlan readMap(const std::string& name, const FileShelf& shelf, const MapRead
   const double far_m = std::max(grid.columns, grid.rows) * grid.cell_m;
   if (far_m > kMapReach_m)
     throw ConfigError(path + ": reaches over more than 10,000 km; its resolution cannot be right");
-  return floorPlanOf(grid, reading.unknown_is_occupied);
+  FloorPlan plan = floorPlanOf(grid, reading.unknown_is_occupied);
+  if (plan.occupied.size() > kMostMapBoxes) {
+    throw ConfigError(path + ": its occupied cells are so scattered that they make " +
+                      std::to_string(plan.occupied.size()) + " boxes; a map may have " + std::to_string(kMostMapBoxes) +
+                      " at most, so make it smaller, or its cells larger");
+  }
+  return plan;
 }
 
 }  // namespace robosim

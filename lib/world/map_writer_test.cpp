@@ -292,6 +292,18 @@ TEST(OctomapWriter, RefusesAWorldBeyondItsReach) {
   }
 }
 
+TEST(OctomapWriter, RefusesVoxelsThatWouldFillTheMemory) {
+  World world = emptyWorld({-5, 5, -5, 5});
+  world.objects.push_back({.name = "Box", .body = {Cube{8, 8}, {0, 0, 0}, 0.5, 1, {}, 0}, .line = {}});
+  try {
+    toOctomap(world, {0.0025, {0, 1}}, OctomapForm::binary, [](double) {});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "an OctoMap of 0.0025 m voxels would have some 26 million on the faces of things; make them larger");
+  }
+}
+
 TEST(MapExtent, IsWhatRobotsAndThingsTakeUp) {
   EXPECT_EQ(robotHeights({}), (HeightSpan{0, 1}));
   EXPECT_EQ(robotHeights({{0.1, 0.4}, {0, 0.3}}), (HeightSpan{0, 0.4}));

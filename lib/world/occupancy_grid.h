@@ -23,7 +23,8 @@ struct OccupancyGrid {
 ///@{
 constexpr double kCellMax_m = 100;
 constexpr std::uint64_t kMostMapCells = 1u << 26;
-constexpr double kMapReach_m = 1e7;  ///< of any coordinate: as large as the Earth's grids have them
+constexpr std::size_t kMostMapBoxes = 4'000'000;  ///< that its occupied cells are joined to; some 200 bytes each
+constexpr double kMapReach_m = 1e7;               ///< of any coordinate: as large as the Earth's grids have them
 ///@}
 
 /// Which probability of being occupied makes a cell what; the defaults are those of ROS's map_server.

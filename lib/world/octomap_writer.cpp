@@ -43,6 +43,11 @@ struct Cuboid {
                         (plan.y_max - plan.y_min) / 2},
             heights};
   }
+  /// [m²]
+  double surface() const {
+    const double x = plan.x_max - plan.x_min, y = plan.y_max - plan.y_min, z = heights.z_max_m - heights.z_min_m;
+    return 2 * (x * y + y * z + z * x);
+  }
   /// What it shares with another [m³].
   double sharedVolume(const Cuboid& other) const {
     const auto shared = [](double a1, double a2, double b1, double b2) {
@@ -98,6 +103,7 @@ class OctomapMaker {
     };
     check(space_);
     for (const auto& thing : things_) check(thing.around);
+    refuseTooMany();
   }
 
   std::string write(OctomapForm form) {
@@ -119,6 +125,16 @@ class OctomapMaker {
   }
 
  private:
+  /// Where things end, voxels are single; within them and beside them there are larger cubes.
+  void refuseTooMany() const {
+    constexpr double most = 2e7;
+    double voxels = 0;
+    for (const auto& thing : things_) voxels += thing.around.surface() / (voxel_m_ * voxel_m_);
+    if (voxels <= most) return;
+    throw ConfigError("an OctoMap of " + toText(voxel_m_) + " m voxels would have some " +
+                      std::to_string(std::llround(voxels / 1e6)) + " million on the faces of things; make them larger");
+  }
+
   struct Thing {
     Solid solid;
     Cuboid around;
