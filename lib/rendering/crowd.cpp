@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include <GL/gl.h>
 #include <GL/glext.h>
@@ -13,8 +14,8 @@
 namespace robosim {
 namespace {
 
-/// Smaller than this in the picture [pixels, radius], a thing is drawn roughly.
-constexpr float kRoughBelow_px = 14;
+/// Smaller than this in the picture [pixels, radius], a thing is drawn roughly, and more roughly.
+constexpr float kRoughBelow_px = 14, kTinyBelow_px = 5;
 
 template <typename Element>
 void bindAttribute(unsigned location, int size, unsigned type, bool normalized, std::size_t offset) {
@@ -58,40 +59,42 @@ void GlMesh::free() {
   members_.destroy();
 }
 
-Crowd::Crowd(Mesh full, Mesh rough) : full_(std::move(full)), rough_(std::move(rough)) {
+Crowd::Crowd(Mesh full, Mesh rough, Mesh tiny) {
   float low_m = 1e9f, high_m = -1e9f, around_m = 0;
-  for (const auto& v : full_.mesh().vertices) {
+  for (const auto& v : full.vertices) {
     low_m = std::min(low_m, v.z_m);
     high_m = std::max(high_m, v.z_m);
     around_m = std::max(around_m, std::hypot(v.x_m, v.y_m));
   }
   middle_ = {0, 0, (low_m + high_m) / 2};
   radius_m_ = std::hypot(around_m, (high_m - low_m) / 2);
+  levels_.push_back({GlMesh(std::move(full)), std::numeric_limits<float>::infinity(), {}});
+  if (!rough.vertices.empty()) levels_.push_back({GlMesh(std::move(rough)), kRoughBelow_px, {}});
+  if (!tiny.vertices.empty()) levels_.push_back({GlMesh(std::move(tiny)), kTinyBelow_px, {}});
 }
 
 mrpt::opengl::shader_list_t Crowd::requiredShaders() const { return {kSolidShader}; }
 
 void Crowd::render(const RenderContext& rc) const {
   const ViewVolume view(*rc.state);
-  near_.clear();
-  far_.clear();
+  for (auto& level : levels_) level.members.clear();
   for (const Member& member : members_) {
     const mrpt::math::TPoint3Df center(member.x_m, member.y_m, middle_.z);
     if (!view.mayHold(center, radius_m_)) continue;
-    const bool is_far = !rough_.mesh().vertices.empty() && view.radius_px(center, radius_m_) < kRoughBelow_px;
-    (is_far ? far_ : near_).push_back(member);
+    const float radius_px = levels_.size() > 1 ? view.radius_px(center, radius_m_) : 0;
+    auto level = levels_.rbegin();
+    while (radius_px >= level->below_px) ++level;
+    level->members.push_back(member);
   }
   ViewUniforms::set(*rc.shader, *rc.state);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  full_.draw(near_);
-  rough_.draw(far_);
+  for (auto& level : levels_) level.mesh.draw(level.members);
   glDisable(GL_CULL_FACE);
 }
 
 void Crowd::freeOpenGLResources() {
-  full_.free();
-  rough_.free();
+  for (auto& level : levels_) level.mesh.free();
 }
 
 }  // namespace robosim

@@ -39,8 +39,8 @@ class GlMesh {
 /// Any number of things that look the same: one call to the driver draws all that are in view.
 class Crowd : public Drawable {
  public:
-  /// @param rough what is drawn instead where it is small; may be empty, for never
-  Crowd(Mesh full, Mesh rough);
+  /// @param rough, tiny what is drawn instead where it is small, and smaller still; may be empty, for never
+  explicit Crowd(Mesh full, Mesh rough = {}, Mesh tiny = {});
 
   /// To be put where they are before each frame.
   std::vector<Member>& members() { return members_; }
@@ -53,8 +53,12 @@ class Crowd : public Drawable {
   std::vector<Member> members_;
   mrpt::math::TPoint3Df middle_;  ///< of a ball about the mesh, on its axis
   float radius_m_ = 0;
-  mutable GlMesh full_, rough_;
-  mutable std::vector<Member> near_, far_;  ///< those in view of this frame
+  struct Level {
+    GlMesh mesh;
+    float below_px;               ///< drawn where its radius on the picture is less
+    std::vector<Member> members;  ///< those in view of this frame
+  };
+  mutable std::vector<Level> levels_;  ///< the most detailed first
 };
 
 }  // namespace robosim

@@ -27,7 +27,7 @@ constexpr double kPioneerRadius_m = 0.267;
 class RobotBuilder {
  public:
   RobotBuilder(const RobotModel& model, const Body& body, Detail detail)
-      : model_(model), full_(detail == Detail::full) {
+      : model_(model), detail_(detail), full_(detail == Detail::full) {
     const auto* box = std::get_if<Cube>(&body.shape);
     ahead_m_ = box ? box->length_m / 2 : std::get<Cylinder>(body.shape).radius_m;
     aside_m_ = box ? box->width_m / 2 : ahead_m_;
@@ -38,6 +38,11 @@ class RobotBuilder {
   }
 
   Mesh build() {
+    if (detail_ == Detail::tiny) {
+      prism(hull(has_deck_ ? 1 : 1.4), 0, 1, kPaint, kShadedPaint);
+      addArrow(has_deck_ ? 0.42 : 0, 0.3);
+      return mesh_;
+    }
     if (has_deck_) {
       buildDeck();
     } else {
@@ -227,6 +232,7 @@ class RobotBuilder {
   }
 
   const RobotModel& model_;
+  const Detail detail_;
   const bool full_;
   bool has_deck_ = false;
   double ahead_m_ = 0, aside_m_ = 0;  ///< half of its length and width

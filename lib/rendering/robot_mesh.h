@@ -4,8 +4,8 @@
 
 namespace robosim {
 
-/// How much of a robot is drawn: all of it, or what is seen of it from afar.
-enum class Detail { full, rough };
+/// How much of a robot is drawn: all of it, what is seen of it from afar, or what a few pixels show.
+enum class Detail { full, rough, tiny };
 
 /// What robots of a model look like: body, wheels, a mark in front, and the sensors that one can see, each where it is
 /// mounted. Stands on z = 0 with its centre at x = y = 0, looking along x; its paint is the robot's own colour.

@@ -96,7 +96,7 @@ struct WorldScene::Impl {
 
 void WorldScene::Impl::addObjects(const World& world) {
   for (Square& square : squaresOf(world)) {
-    auto bodies = std::make_shared<Crowd>(std::move(square.bodies), Mesh{});
+    auto bodies = std::make_shared<Crowd>(std::move(square.bodies));
     bodies->members() = {at(square.middle.x, square.middle.y)};
     all.push_back(bodies);
     auto shadows = std::make_shared<Shadows>(std::move(square.shadows), world.bounds);
@@ -119,7 +119,8 @@ void WorldScene::Impl::addRobots(const World& world, const Fleet& fleet) {
       Mesh shadow;
       addShadow(shadow, circlePoints({}, 0.9 * body.coveringRadius(), 24), body.heights().z_max_m);
       kin.push_back({std::make_shared<Crowd>(robotMesh(*robot.model, body, Detail::full),
-                                             robotMesh(*robot.model, body, Detail::rough)),
+                                             robotMesh(*robot.model, body, Detail::rough),
+                                             robotMesh(*robot.model, body, Detail::tiny)),
                      std::make_shared<Shadows>(std::move(shadow), world.bounds)});
       all.push_back(kin.back().robots);
       all.push_back(kin.back().shadows);
