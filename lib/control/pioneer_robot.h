@@ -139,8 +139,8 @@ class PioneerRobot {
   bool isRightMotorStalled() const { return robot_.stalled(); }
   int getStallValue() const { return robot_.stalled() ? 0x0101 : 0; }  ///< bit 0: left wheel, bit 8: right wheel
   double getRobotRadius() const;                                       ///< [mm]
-  /// Always 13.0 V, a Pioneer's charged battery: no battery is simulated.
-  double getBatteryVoltage() const { return 13.0; }
+  /// Without a battery to measure 13.0 V, as if it were always charged.
+  double getBatteryVoltage() const { return robot_.battery().value_or(13.0); }
   ///@}
 
   /// @name Requests (2005)

@@ -29,6 +29,7 @@ class Robot {
   const Echoes& infrared() const { return echoes(SensorKind::infrared); }
   std::optional<double> heat() const { return scalar(SensorKind::heat); }
   std::optional<double> compass() const { return scalar(SensorKind::compass); }  ///< [rad], world frame
+  std::optional<double> battery() const { return scalar(SensorKind::battery); }  ///< [V]
   const std::vector<std::uint8_t>& bumper() const;
   const Odometry& odometry() const;
   const Image& image() const;  ///< empty, too, in a step without a picture

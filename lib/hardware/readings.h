@@ -26,7 +26,7 @@ struct Echo {
 /// Sonar, laser, infrared: an echo per beam of the sensor's SensorInfo.
 using Echoes = std::vector<Echo>;
 
-/// Heat [°C-like units of the world file] or compass [rad, world frame, (-π, π]].
+/// Heat [°C-like units of the world file], compass [rad, world frame, (-π, π]] or battery [V].
 struct Scalar {
   double value = 0;
   bool operator==(const Scalar&) const = default;

@@ -42,6 +42,8 @@ const char* nameOf(SensorKind kind) {
       return "camera";
     case SensorKind::blob_finder:
       return "blob_finder";
+    case SensorKind::battery:
+      return "battery";
   }
   return "unknown";
 }

@@ -8,7 +8,18 @@
 
 namespace robosim {
 
-enum class SensorKind : std::uint8_t { sonar, laser, infrared, heat, bumper, odometry, compass, camera, blob_finder };
+enum class SensorKind : std::uint8_t {
+  sonar,
+  laser,
+  infrared,
+  heat,
+  bumper,
+  odometry,
+  compass,
+  camera,
+  blob_finder,
+  battery
+};
 
 /// The word for a kind in files, labels and messages: "sonar", "laser", …
 const char* nameOf(SensorKind);

@@ -243,6 +243,7 @@ Readings blankReadings(const std::vector<SensorInfo>& sensors) {
         break;
       case SensorKind::heat:
       case SensorKind::compass:
+      case SensorKind::battery:
         readings.measurements.emplace_back(Scalar{});
         break;
       case SensorKind::bumper:

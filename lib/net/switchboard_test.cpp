@@ -66,7 +66,7 @@ TEST(Switchboard, HearsOneWhoSpeaksOnceBesideOneWhoSpeaksWithoutEnd) {
     return listener;
   };
   const auto patience = std::chrono::minutes(1);
-  const auto waitUntil = [&](const std::function<bool()>& is_enough) {
+  const auto wait_until = [&](const std::function<bool()>& is_enough) {
     switchboard.waitUntil(Switchboard::Clock::now() + patience, is_enough);
     EXPECT_TRUE(is_enough());
   };
@@ -74,17 +74,17 @@ TEST(Switchboard, HearsOneWhoSpeaksOnceBesideOneWhoSpeaksWithoutEnd) {
   auto of_chatterer = listen();
   Talker chatterer(switchboard.port(0));
   auto chatter = std::async(std::launch::async, [&] { chatterer.say(1'000'000); });
-  waitUntil([&] { return of_chatterer->heard > 0; });
+  wait_until([&] { return of_chatterer->heard > 0; });
   auto of_other = listen();
   Talker other(switchboard.port(0));
   auto hello = std::async(std::launch::async, [&] { other.say(1); });
-  waitUntil([&] { return of_other->heard == 1; });
+  wait_until([&] { return of_other->heard == 1; });
   hello.get();
   // Each time the same: what the chatterer has said by now lies here, and the other speaks after that.
   for (int i = 0; i < 10; ++i) {
     std::async(std::launch::async, [&] { other.say(1); }).get();
     const int heard_before = of_chatterer->heard;
-    waitUntil([&] { return of_other->heard == i + 2; });
+    wait_until([&] { return of_other->heard == i + 2; });
     EXPECT_LT(of_chatterer->heard - heard_before, 100);
   }
   chatterer.giveUp();

@@ -8,7 +8,7 @@ namespace robosim {
 namespace {
 
 static_assert(static_cast<int>(SensorKind::sonar) == wire::SONAR &&
-              static_cast<int>(SensorKind::blob_finder) == wire::BLOB_FINDER && wire::SensorKind_ARRAYSIZE == 9);
+              static_cast<int>(SensorKind::battery) == wire::BATTERY && wire::SensorKind_ARRAYSIZE == 10);
 
 void checkFinite(std::initializer_list<double> values) {
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) return;

@@ -1,6 +1,7 @@
 #include "recording/measurements.h"
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBatteryState.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -18,6 +19,7 @@ namespace {
 
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationBatteryState;
 using mrpt::obs::CObservationGasSensors;
 using mrpt::obs::CObservationImage;
 using mrpt::obs::CObservationIMU;
@@ -81,6 +83,11 @@ Scalar heatFrom(const CObservationGasSensors& heat, const SensorInfo& sensor) {
 Scalar yawFrom(const CObservationIMU& compass, const SensorInfo& sensor) {
   if (!compass.has(mrpt::obs::IMU_YAW)) refuse(compass, sensor, "it has no yaw");
   return {compass.get(mrpt::obs::IMU_YAW)};
+}
+
+Scalar voltageFrom(const CObservationBatteryState& battery, const SensorInfo& sensor) {
+  if (!battery.voltageMainRobotBatteryIsValid) refuse(battery, sensor, "it has no voltage of the main battery");
+  return {battery.voltageMainRobotBattery};
 }
 
 Contacts contactsFrom(const CObservationRawDAQ& bumper, const SensorInfo& sensor) {
@@ -152,6 +159,8 @@ Measurement measurementFrom(const CObservation& observation, const SensorInfo& s
       return odometryFrom(as<CObservationOdometry>(observation, sensor));
     case SensorKind::compass:
       return yawFrom(as<CObservationIMU>(observation, sensor), sensor);
+    case SensorKind::battery:
+      return voltageFrom(as<CObservationBatteryState>(observation, sensor), sensor);
     case SensorKind::camera:
       return imageFrom(as<CObservationImage>(observation, sensor), sensor);
     case SensorKind::blob_finder:

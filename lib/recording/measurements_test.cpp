@@ -83,6 +83,11 @@ TEST(Measurements, ARobotThatDoesNotTurnDoesNotTurnWhenReadBack) {
   EXPECT_EQ(std::get<Odometry>(thereAndBack(plainSensor(SensorKind::odometry, "odometry"), straight)), straight);
 }
 
+TEST(Measurements, ABatterysVoltageIsTheSameAgain) {
+  const Scalar voltage{12.123456789012345};
+  EXPECT_EQ(std::get<Scalar>(thereAndBack(plainSensor(SensorKind::battery, "battery"), voltage)), voltage);
+}
+
 TEST(Measurements, AnOdometryHeadingBeyondATurnStaysAsItWas) {
   const Odometry turned{{0, 0, 7.123456789012345}, 0, 1};
   EXPECT_EQ(std::get<Odometry>(thereAndBack(plainSensor(SensorKind::odometry, "odometry"), turned)), turned);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBatteryState.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -24,6 +25,7 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservationBatteryState;
 using mrpt::obs::CObservationGasSensors;
 using mrpt::obs::CObservationIMU;
 using mrpt::obs::CObservationOdometry;
@@ -106,6 +108,12 @@ CObservation::Ptr makeCompass(const SensorInfo& sensor) {
   return compass;
 }
 
+CObservation::Ptr makeBattery() {
+  auto battery = CObservationBatteryState::Create();
+  battery->voltageMainRobotBatteryIsValid = true;
+  return battery;
+}
+
 CObservation::Ptr makeBumper(const SensorInfo& sensor) {
   auto bumper = CObservationRawDAQ::Create();
   bumper->DIN.resize((sensor.beams.size() + 7) / 8);
@@ -186,6 +194,8 @@ CObservation::Ptr makeObservation(const SensorInfo& sensor) {
       return makePicture(sensor);
     case SensorKind::blob_finder:
       return CObservationRawDAQ::Create();
+    case SensorKind::battery:
+      return makeBattery();
   }
   assert(!"a kind of sensor that no observation has been chosen for");
   return {};
@@ -224,6 +234,9 @@ bool fill(CObservation& observation, const SensorInfo& sensor, const Measurement
     }
     case SensorKind::blob_finder:
       return fill(static_cast<CObservationRawDAQ&>(observation), std::get<Blobs>(measurement));
+    case SensorKind::battery:
+      static_cast<CObservationBatteryState&>(observation).voltageMainRobotBattery = std::get<Scalar>(measurement).value;
+      break;
   }
   return true;
 }
@@ -240,6 +253,7 @@ Measurement probeOf(const SensorInfo& sensor, Rng& rng) {
     }
     case SensorKind::heat:
     case SensorKind::compass:
+    case SensorKind::battery:
       return Scalar{rng.uniform()};
     case SensorKind::bumper:
       return Contacts{std::vector<std::uint8_t>(sensor.beams.size())};
@@ -371,6 +385,8 @@ std::vector<Imprint::Number> RobotObservations::changingNumbers(std::size_t i) {
     }
   } else if (const auto* compass = dynamic_cast<const CObservationIMU*>(&observation)) {
     numbers.push_back(number(compass->rawMeasurements[mrpt::obs::IMU_YAW]));
+  } else if (const auto* battery = dynamic_cast<const CObservationBatteryState*>(&observation)) {
+    numbers.push_back(number(battery->voltageMainRobotBattery));
   } else {
     numbers.clear();
   }

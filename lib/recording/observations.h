@@ -44,6 +44,7 @@ inline constexpr const char* kGroundTruth = "GROUND_TRUTH";
 ///  * heat: CObservationGasSensors, one e-nose with only a temperature, in single precision
 ///  * bumper: CObservationRawDAQ, segment i is digital input i (bit i % 8 of byte i / 8)
 ///  * compass: CObservationIMU with only a yaw
+///  * battery: CObservationBatteryState with the main battery's voltage
 ///  * odometry: CObservationOdometry. Stock icp-slam makes NaN of an angular speed of exactly 0, so 0 is written as
 ///    kNoTurn_radps
 ///  * camera: CObservationImage, the JPEG file's very bytes, embedded or in a file of its own

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationBatteryState.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -43,9 +44,9 @@ TEST(Observations, ComeInTheOrderGroundTruthOdometryThenTheOthersAsMounted) {
   for (const auto& observation : observations.of(sampleReadings(robot, 1), mrpt::math::TPose2D(1, 2, 3))) {
     labels.push_back(observation->sensorLabel);
   }
-  EXPECT_EQ(labels,
-            (std::vector<std::string>{"rover/GROUND_TRUTH", "rover/odometry", "rover/sonar", "rover/laser",
-                                      "rover/beam", "rover/infrared", "rover/heat", "rover/bumper", "rover/compass"}));
+  EXPECT_EQ(labels, (std::vector<std::string>{"rover/GROUND_TRUTH", "rover/odometry", "rover/sonar", "rover/laser",
+                                              "rover/beam", "rover/infrared", "rover/heat", "rover/bumper",
+                                              "rover/compass", "rover/battery"}));
 }
 
 TEST(Observations, HaveACamerasPictureAndItsBlobsOnlyInAStepThatHasOne) {
@@ -66,7 +67,7 @@ TEST(Observations, LeaveOutAGroundTruthThatNobodyKnows) {
   const RobotInfo robot = sampleRobot("rover");
   RobotObservations observations(robot);
   const auto list = observations.of(sampleReadings(robot, 1), std::nullopt);
-  ASSERT_EQ(list.size(), 8u);
+  ASSERT_EQ(list.size(), 9u);
   EXPECT_EQ(list[0]->sensorLabel, "rover/odometry");
 }
 
@@ -99,6 +100,14 @@ TEST(Observations, ASonarRingIsOneObservationOfAllItsRangesAndPlaces) {
   EXPECT_EQ(range.sensedData[0].sensedDistance, 1.25f);
   EXPECT_EQ(range.sensedData[1].sensorID, 1);
   EXPECT_EQ(range.sensedData[1].sensedDistance, 4.5f);
+}
+
+TEST(Observations, ABatteryIsTheVoltageOfTheMainOne) {
+  const auto battery =
+      recorded<mrpt::obs::CObservationBatteryState>(plainSensor(SensorKind::battery, "battery"), Scalar{12.75});
+  EXPECT_TRUE(battery.voltageMainRobotBatteryIsValid);
+  EXPECT_EQ(battery.voltageMainRobotBattery, 12.75);
+  EXPECT_FALSE(battery.voltageMainRobotComputerIsValid);
 }
 
 TEST(Observations, ARangeWithoutEchoIsALittleMoreThanTheSensorsMaximumWhateverTheSensorReads) {

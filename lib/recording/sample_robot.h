@@ -40,7 +40,7 @@ inline SensorInfo sampleScanner(double range_max_m = 8) {
 }
 
 /// Mounted, in this order: sonar (16), laser (181 beams), beam (a laser that pans), infrared (2), heat, bumper
-/// (10 segments), odometry, compass.
+/// (10 segments), odometry, compass, battery.
 inline RobotInfo sampleRobot(const std::string& name) {
   std::vector<Beam> ring, bumper;
   for (int i = 0; i < 16; ++i) ring.push_back(beamAt(0.2 * std::cos(i), 0.2 * std::sin(i), 0.15, (i - 8) * M_PI / 8));
@@ -57,7 +57,7 @@ inline RobotInfo sampleRobot(const std::string& name) {
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{
       sonar, sampleScanner(), beam, infrared, plainSensor(SensorKind::heat, "heat", {beamAt(0, 0, 0.4, 0)}),
       plainSensor(SensorKind::bumper, "bumper", bumper), plainSensor(SensorKind::odometry, "odometry"),
-      plainSensor(SensorKind::compass, "compass")});
+      plainSensor(SensorKind::compass, "compass"), plainSensor(SensorKind::battery, "battery")});
   return robot;
 }
 
@@ -120,6 +120,9 @@ inline Readings sampleReadings(const RobotInfo& robot, std::uint64_t step) {
         break;
       case SensorKind::compass:
         readings.measurements.emplace_back(Scalar{rng.uniform(-M_PI, M_PI)});
+        break;
+      case SensorKind::battery:
+        readings.measurements.emplace_back(Scalar{rng.uniform(11, 13)});
         break;
       case SensorKind::bumper: {
         Contacts contacts;

@@ -1,5 +1,6 @@
 #include "sensors/registry.h"
 
+#include "sensors/battery.h"
 #include "sensors/blob_finder.h"
 #include "sensors/bumper.h"
 #include "sensors/camera.h"
@@ -48,6 +49,8 @@ constexpr SensorType kTypes[] = {
      [](XmlReader& r, const Mount&) -> Made { return makeCompass(CompassOptions::read(r)); }, nullptr},
     {"camera", "Colour pictures.",
      [](XmlReader& r, const Mount&) -> Made { return makeCamera(CameraOptions::read(r)); }, nullptr},
+    {"battery", "The battery's voltage, which falls with use.",
+     [](XmlReader& r, const Mount&) -> Made { return makeBattery(BatteryOptions::read(r)); }, nullptr},
     {"blob_finder", "The largest spot of each of some colours in a camera's picture.", readBlobFinder, nullptr},
 };
 // clang-format on

@@ -63,6 +63,23 @@ TEST(Bumper, FeelsNothingWithAGapOfACentimetre) {
   EXPECT_EQ(std::get<Contacts>(robot.sense(*sensorFrom("<bumper/>"))).pressed, std::vector<std::uint8_t>(12, 0));
 }
 
+TEST(Battery, FallsWithUseDownToEmpty) {
+  OneRobot robot({});
+  const auto battery = sensorFrom("<battery full_v='13' empty_v='11' standing_h='1' driving_h='0.5'/>");
+  const auto voltage = [&] { return std::get<Scalar>(robot.sense(*battery)).value; };
+  const double standing_v = 2 * 0.1 / 3600;  // of 2 V, in a step of 0.1 s
+  const double at_first = voltage();
+  EXPECT_NEAR(at_first - voltage(), standing_v, 1e-12);
+  robot.motion = {0.1, 0};
+  EXPECT_NEAR(at_first - voltage(), 3 * standing_v, 1e-12) << "driving takes twice as much";
+  robot.motion = {0, 0.1};
+  EXPECT_NEAR(at_first - voltage(), 5 * standing_v, 1e-12) << "so does turning";
+  for (int i = 0; i < 36000; ++i) voltage();
+  EXPECT_EQ(voltage(), 11);
+}
+
+TEST(Battery, MustBeEmptyBelowFull) { EXPECT_THROW(sensorFrom("<battery full_v='11' empty_v='12'/>"), ConfigError); }
+
 TEST(Odometry, AddsUpArcsExactly) {
   // A quarter circle of radius 1 m in nine steps of 10° ends at (1, 1), heading 90°.
   OneRobot robot({});

@@ -185,7 +185,7 @@ function showReadings() {
   $('r-bumper').textContent = bumper === null ? 'none' : pressed ? 'touches' : update.stalled ? 'stalled' : 'free';
   $('r-bumper').classList.toggle('alarm', pressed > 0 || update.stalled);
   const battery = reading('battery');
-  $('r-battery').textContent = battery === null ? 'none' : `${Math.round(battery)} %`;
+  $('r-battery').textContent = battery === null ? 'none' : `${battery.toFixed(2)} V`;
   document.body.dataset.step = update.step;
   showMode();
 }
