@@ -2,15 +2,20 @@
 
 #include <algorithm>
 
+#include "base/error_list.h"
 #include "maze/controllers.h"
 #include "robosim/arguments.h"
 #include "robosim/run_outputs.h"
 #include "robosim/subcommands.h"
+#include "robosim/text.h"
 
 namespace robosim {
 namespace {
 
 void replay(const ReplayArguments& arguments) {
+  if (arguments.from_s && arguments.to_s && *arguments.from_s > *arguments.to_s) {
+    throw ConfigError("--from is later than --to");
+  }
   if (!arguments.check.empty()) return checkRun(arguments);
   if (!arguments.controller.empty()) return replayToController(arguments);
   if (arguments.print) return printObservations(arguments);
@@ -26,19 +31,28 @@ bool ReplayArguments::wants(const std::string& robot, const std::string& sensor)
   return holds(robots, robot) && holds(sensors, sensor);
 }
 
+void failInterrupted(double read_s) {
+  throw std::runtime_error("interrupted; only the first " + fixed(read_s, 1) + " s of the recording were read");
+}
+
 void addReplay(CLI::App& program) {
   auto* command =
       program.add_subcommand("replay", "Summarise a recorded run, print it, run it again, or feed it to a controller");
   auto a = std::make_shared<ReplayArguments>();
   command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog, of RoboSim's or anybody's")->type_name("FILE")->required();
-  command->add_option("--robot", a->robots, "only this one; may be given several times")->type_name("NAME");
-  command
-      ->add_option(
-          "--sensor", a->sensors,
-          "only this one, by its label on the robot (sonar, laser, GROUND_TRUTH, …); may be given several times")
-      ->type_name("LABEL");
-  command->add_option("--from", a->from_s, "leave out what is earlier")->type_name("SECONDS")->check(numberIn(0, 1e18));
-  command->add_option("--to", a->to_s, "leave out what is later")->type_name("SECONDS")->check(numberIn(0, 1e18));
+  auto* robot = command->add_option("--robot", a->robots, "only this one; may be given several times");
+  robot->type_name("NAME");
+  auto* sensor =
+      command
+          ->add_option(
+              "--sensor", a->sensors,
+              "only this one, by its label on the robot (sonar, laser, GROUND_TRUTH, …); may be given several times")
+          ->type_name("LABEL");
+  auto* from =
+      command->add_option("--from", a->from_s, "leave out what is earlier, counted from its first observation");
+  from->type_name("SECONDS")->check(numberIn(0, 1e18));
+  auto* to = command->add_option("--to", a->to_s, "leave out what is later");
+  to->type_name("SECONDS")->check(numberIn(0, 1e18));
 
   auto* print = command->add_flag("--print", a->print, "print each observation, a line each");
   command->add_option("--speed", a->speed, "of printing: recorded seconds per second (1 is real time) or max")
@@ -65,8 +79,8 @@ void addReplay(CLI::App& program) {
                                  "run this world again with the recorded seed, and say whether it is the same run; if "
                                  "not, where it first differs")
                     ->type_name("WORLD");
-  controller->excludes(print);
-  check->excludes(print)->excludes(controller);
+  controller->excludes(print)->excludes(sensor)->excludes(from)->excludes(to);
+  check->excludes(print)->excludes(controller)->excludes(robot)->excludes(sensor)->excludes(from)->excludes(to);
   command->add_flag("--json", a->json, "print the summary as one JSON object")
       ->excludes(print)
       ->excludes(controller)

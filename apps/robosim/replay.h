@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,10 +8,9 @@ namespace robosim {
 /// What a person says of a recording to be replayed.
 struct ReplayArguments {
   std::string rawlog;
-  std::vector<std::string> robots;   ///< only these; empty for all
-  std::vector<std::string> sensors;  ///< only these, by the second half of their labels; empty for all
-  double from_s = 0;
-  double to_s = 1e18;
+  std::vector<std::string> robots;     ///< only these; empty for all
+  std::vector<std::string> sensors;    ///< only these, by the second half of their labels; empty for all
+  std::optional<double> from_s, to_s;  ///< since the recording's first observation
   bool print = false;
   std::string speed = "max";
   std::string controller;  ///< of the world of the recording; "recorded": each robot's own
@@ -20,6 +20,9 @@ struct ReplayArguments {
 
   bool wants(const std::string& robot, const std::string& sensor) const;
 };
+
+/// Ends a replay that was interrupted.
+[[noreturn]] void failInterrupted(double read_s);
 
 /// Says what is in a recording, ours or anybody's.
 void summarise(const ReplayArguments&);

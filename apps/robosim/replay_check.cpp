@@ -62,13 +62,13 @@ struct MeasurementDifference {
     if (recorded.turn_radps != here.turn_radps) return differ("turn [rad/s]", recorded.turn_radps, here.turn_radps);
     return std::nullopt;
   }
-  // A picture comes back compressed anew, and differs with the driver that drew it: doc/decisions/pictures.md.
+  // A picture differs with the driver that drew it (doc/decisions/pictures.md), and is not read.
   std::optional<std::string> operator()(const Image&) const { return std::nullopt; }
   std::optional<std::string> operator()(const Blobs&) const { return std::nullopt; }
 };
 
 std::optional<std::string> differenceOf(const RecordedRobot& recorded, const RobotInfo& robot, const Readings& now,
-                                        const mrpt::math::TPose2D& world_from_robot) {
+                                        const mrpt::math::TPose2D& world_from_robot, bool is_told_of_winner) {
   if (const auto& truth = recorded.world_from_robot) {
     // A heading is recorded as a matrix, whose angle is the same but for rounding.
     constexpr double kRounding_rad = 1e-12;
@@ -85,7 +85,7 @@ std::optional<std::string> differenceOf(const RecordedRobot& recorded, const Rob
   if (recorded.command && recorded.readings.stalled != now.stalled) {
     return std::string("stalled: recorded ") + (recorded.readings.stalled ? "yes" : "no");
   }
-  if (recorded.command && recorded.readings.winner != now.winner) {
+  if (recorded.command && is_told_of_winner && recorded.readings.winner != now.winner) {
     return "winner: recorded \"" + recorded.readings.winner + "\", now \"" + now.winner + '"';
   }
   if (recorded.readings.inbox != now.inbox) {
@@ -102,7 +102,7 @@ class RunAgain {
         source_(readWorldSource(arguments.check)),
         run_(worldWithControllers(source_, note), options(note), elsewhere(note)),
         reader_(arguments.rawlog),
-        recorded_(reader_, robots(), note.period_s) {}
+        recorded_(reader_, robots(), note.period_s, Pictures::leave_out) {}
 
   /// @return whether the run is the same
   bool check() {
@@ -112,6 +112,7 @@ class RunAgain {
     const Interrupt interrupt;
     Progress progress;
     auto now = recorded_.next();
+    if (now) checkDriven(*now);
     std::uint64_t steps = 0;
     while (now) {
       if (interrupt.asked()) throw std::runtime_error("interrupted; nothing was decided");
@@ -126,8 +127,12 @@ class RunAgain {
       now = recorded_.next();
       if (now) step(*now);
     }
+    if (steps == 0) {
+      throw ConfigError(printable(reader_.trouble().value_or("the recording")) + "; it has no whole step to compare");
+    }
     if (reader_.trouble()) {
-      std::cout << *reader_.trouble() << '\n' << "What there is, " << withCommas(steps) << " steps, is the same.\n";
+      std::cout << printable(*reader_.trouble()) << '\n'
+                << "What there is, " << withCommas(steps) << " steps, is the same.\n";
       return true;
     }
     return sameDigest(steps);
@@ -158,6 +163,25 @@ class RunAgain {
     for (const auto& controller : note.controllers) elsewhere.push_back(controller.empty() ? 1 : 0);
     return elsewhere;
   }
+  /// Controllers decide the same again, but what somebody else had a robot do and say must all be in the recording.
+  void checkDriven(const std::vector<RecordedRobot>& recorded) const {
+    const auto absent = std::find_if(recorded.begin(), recorded.end(), [](const auto& r) { return r.is_absent; });
+    const auto driven = std::find(note_.controllers.begin(), note_.controllers.end(), "");
+    if (absent == recorded.end() || driven == note_.controllers.end()) return;
+    const auto& robots = run_.environment().fleet().robots;
+    throw ConfigError("robot " + robots[static_cast<std::size_t>(driven - note_.controllers.begin())].info.name +
+                      " was driven from elsewhere, and robot " +
+                      robots[static_cast<std::size_t>(absent - recorded.begin())].info.name +
+                      " is not in this recording, so the run cannot be had again; record with --rawlog-format obs");
+  }
+  /// Only its own recording knows that a robot has won.
+  bool isToldOfWinner(const std::vector<RecordedRobot>& recorded, const std::string& winner) const {
+    const auto& robots = run_.environment().fleet().robots;
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+      if (recorded[i].is_absent && robots[i].info.name == winner) return false;
+    }
+    return true;
+  }
   std::vector<RobotInfo> robots() const {
     std::vector<RobotInfo> robots;
     for (const auto& robot : run_.environment().fleet().robots) robots.push_back(robot.info);
@@ -166,9 +190,11 @@ class RunAgain {
   std::optional<std::string> firstDifference(const std::vector<RecordedRobot>& recorded) const {
     const Environment& environment = run_.environment();
     for (std::size_t i = 0; i < recorded.size(); ++i) {
+      if (recorded[i].is_absent) continue;
       const auto& robot = environment.fleet().robots[i].info;
       const auto difference =
-          differenceOf(recorded[i], robot, environment.state().readings[i], environment.state().world_from_robot[i]);
+          differenceOf(recorded[i], robot, environment.state().readings[i], environment.state().world_from_robot[i],
+                       isToldOfWinner(recorded, environment.state().readings[i].winner));
       if (difference) return "robot " + robot.name + ", " + *difference;
     }
     return std::nullopt;

@@ -9,6 +9,7 @@
 #include "robosim/interrupt.h"
 #include "robosim/local_run.h"
 #include "robosim/replay.h"
+#include "robosim/replay_words.h"
 #include "robosim/run_note.h"
 #include "robosim/text.h"
 
@@ -19,14 +20,6 @@ double biggestDifference(const Command& a, const Command& b) {
   if (a.activity != b.activity) return std::numeric_limits<double>::infinity();
   return std::max({std::abs(a.speed_mps - b.speed_mps), std::abs(a.turn_radps - b.turn_radps),
                    static_cast<double>(std::abs(a.laser_pan_rad - b.laser_pan_rad))});
-}
-
-std::string inWords(const Command& command) {
-  std::string text = fixed(command.speed_mps, 3) + " m/s, " + fixed(command.turn_radps, 3) + " rad/s";
-  if (command.laser_pan_rad != 0) text += ", pan " + fixed(command.laser_pan_rad, 3) + " rad";
-  if (command.activity == Activity::halted) text += ", halted";
-  if (command.activity == Activity::found) text += ", found";
-  return text;
 }
 
 /// A controller at work on the recording of one robot.
@@ -84,9 +77,12 @@ void replayToController(const ReplayArguments& arguments) {
   RawlogReader reader(arguments.rawlog);
   RecordedSteps steps(reader, infos, note.period_s);
   bool first = true;
+  double read_s = 0;
   while (auto step = steps.next()) {
-    if (interrupt.asked()) break;
+    if (interrupt.asked()) failInterrupted(read_s);
+    read_s = step->front().readings.time.seconds();
     for (std::size_t i = 0; i < robots.size(); ++i) {
+      if ((*step)[i].is_absent) robots[i].reset();
       if (!robots[i]) continue;
       // The recorded command of a step was decided on the readings of the step before.
       if (!first) robots[i]->compare((*step)[i], arguments.tolerance);
@@ -96,7 +92,12 @@ void replayToController(const ReplayArguments& arguments) {
     first = false;
   }
 
-  if (reader.trouble()) std::cout << *reader.trouble() << '\n';
+  const auto was_compared = [](const auto& robot) { return robot && robot->compared > 0; };
+  if (std::none_of(robots.begin(), robots.end(), was_compared)) {
+    throw ConfigError(printable(reader.trouble().value_or(arguments.rawlog)) +
+                      "; it has no two whole steps of a robot to replay, so no command to compare");
+  }
+  if (reader.trouble()) std::cout << printable(*reader.trouble()) << '\n';
   Rows rows;
   for (const auto& robot : robots) {
     if (!robot) continue;

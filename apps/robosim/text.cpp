@@ -46,6 +46,28 @@ std::string fixed(double number, int digits) {
   return buffer;
 }
 
+std::string printable(const std::string& text) {
+  std::string safe;
+  const auto escape = [&](unsigned char byte) {
+    char buffer[8];
+    std::snprintf(buffer, sizeof buffer, "\\x%02x", byte);
+    safe += buffer;
+  };
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(text[i]);
+    const auto next = static_cast<unsigned char>(i + 1 < text.size() ? text[i + 1] : 0);
+    if (byte < 0x20 || byte == 0x7f) {
+      escape(byte);
+    } else if (byte == 0xc2 && next >= 0x80 && next < 0xa0) {  // U+0080 to U+009F in UTF-8
+      escape(next);
+      ++i;
+    } else {
+      safe += text[i];
+    }
+  }
+  return safe;
+}
+
 std::string table(const Rows& rows) { return laidOut(rows, true); }
 std::string listing(const Rows& rows) { return laidOut(rows, false); }
 

@@ -78,7 +78,7 @@ class RawlogView final : public ViewSource {
     std::vector<RobotInfo> robots;
     for (const auto& robot : world_.fleet.robots) robots.push_back(robot.info);
     RawlogReader reader(file);
-    RecordedSteps steps(reader, robots, note.period_s);
+    RecordedSteps steps(reader, robots, note.period_s, Pictures::leave_out);
     Progress progress;
     while (auto step = steps.next()) {
       moments_.push_back(toShown(std::move(*step)));

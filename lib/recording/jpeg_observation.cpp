@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -44,6 +45,26 @@ class Unchanged : public mrpt::obs::CObservationImage {
   }
 };
 
+/// The file beside the recording that a picture lies in, which may be named by a stranger.
+std::string fileOf(const mrpt::img::CImage& image) {
+  namespace fs = std::filesystem;
+  constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
+  const fs::path name = image.getExternalStorageFile();
+  if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) {
+    throw RecordingError(name.string() + ": is no picture of the recording's own folder; it is not opened");
+  }
+  const fs::path path = fs::path(mrpt::img::CImage::getImagesPathBase()) / name;
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
+    throw RecordingError(path.string() + ": is no file, let alone a picture");
+  }
+  const auto size = fs::file_size(path, error);
+  if (!error && size > kMostBytes) throw RecordingError(path.string() + ": is larger than 64 MiB, so it is no picture");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw RecordingError(path.string() + ": cannot be read; is the folder of pictures beside the recording?");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 }  // namespace
 
 JpegObservation::JpegObservation() { image = placeholder().picture; }
@@ -67,12 +88,7 @@ void JpegObservation::serializeTo(mrpt::serialization::CArchive& out) const {
 }
 
 std::string jpegOf(const mrpt::obs::CObservationImage& observation) {
-  if (observation.image.isExternallyStored()) {
-    const std::string name = observation.image.getExternalStorageFileAbsolutePath();
-    std::ifstream file(name, std::ios::binary);
-    if (!file) throw RecordingError(name + ": cannot be read; is the folder of pictures beside the recording?");
-    return {std::istreambuf_iterator<char>(file), {}};
-  }
+  if (observation.image.isExternallyStored()) return fileOf(observation.image);
   mrpt::io::CMemoryStream stream;
   observation.image.saveToStreamAsJPEG(stream);
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};

@@ -19,7 +19,9 @@ class JpegObservation : public mrpt::obs::CObservationImage {
 
 /// The picture of an observation as a JPEG file. That of a file of its own comes as it is in there; one that lies in
 /// the recording has been unpacked by MRPT, and is compressed anew.
-/// @throws std::exception when the file is not there, or there is no picture.
+/// @throws RecordingError when that file is not there, is not in the recording's folder of pictures (or below it), is
+/// no
+///         regular file, or is larger than 64 MiB; std::exception when there is no picture.
 std::string jpegOf(const mrpt::obs::CObservationImage&);
 
 }  // namespace robosim

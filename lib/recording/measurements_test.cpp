@@ -1,5 +1,7 @@
 #include "recording/measurements.h"
 
+#include <fstream>
+
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationGasSensors.h>
@@ -12,6 +14,7 @@
 #include "recording/observations.h"
 #include "recording/recording_error.h"
 #include "recording/sample_robot.h"
+#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {
@@ -163,6 +166,43 @@ TEST(Measurements, AnObservationWithoutAPictureOrWithBlobsOfOtherColoursIsRefuse
   EXPECT_NE(refusal(blobs, finder).find("holds 0 values in place of 14"), std::string::npos);
   blobs.AIN_double.assign(14, -1);
   EXPECT_NE(refusal(blobs, finder).find("it has a blob that is in no picture"), std::string::npos);
+}
+
+class PictureFileTest : public TestFolder {
+ protected:
+  PictureFileTest() {
+    std::filesystem::create_directories(in("run_Images/folder"));
+    mrpt::img::CImage::setImagesPathBase(in("run_Images").string());
+    std::ofstream(in("beside.jpg")) << "not for us";
+  }
+  ~PictureFileTest() override { mrpt::img::CImage::setImagesPathBase("."); }
+
+  static std::string refusalOf(const std::string& name) {
+    mrpt::obs::CObservationImage observation;
+    observation.image.setExternalStorage(name);
+    return refusal(observation, sampleCamera());
+  }
+};
+
+TEST_F(PictureFileTest, APictureLiesInTheRecordingsFolderAndNowhereElse) {
+  for (const std::string& name : {in("beside.jpg").string(), std::string("../beside.jpg"),
+                                  std::string("folder/../../beside.jpg"), std::string("/dev////zero")}) {
+    EXPECT_EQ(refusalOf(name), name + ": is no picture of the recording's own folder; it is not opened");
+  }
+  std::ofstream(in("run_Images/folder/in.jpg")) << "a picture";
+  mrpt::obs::CObservationImage observation;
+  observation.image.setExternalStorage("folder/in.jpg");
+  EXPECT_EQ(jpegOf(observation), "a picture");
+}
+
+TEST_F(PictureFileTest, APictureIsAFileOfBearableSize) {
+  EXPECT_EQ(refusalOf("folder"), in("run_Images/folder").string() + ": is no file, let alone a picture");
+  std::ofstream(in("run_Images/large.jpg")) << "a";
+  std::filesystem::resize_file(in("run_Images/large.jpg"), (64 << 20) + 1);
+  EXPECT_EQ(refusalOf("large.jpg"),
+            in("run_Images/large.jpg").string() + ": is larger than 64 MiB, so it is no picture");
+  EXPECT_EQ(refusalOf("none.jpg"),
+            in("run_Images/none.jpg").string() + ": cannot be read; is the folder of pictures beside the recording?");
 }
 
 TEST(Measurements, AnObservationOfAnotherSizeIsRefused) {

@@ -17,6 +17,7 @@
 #include "base/random.h"
 #include "recording/fan.h"
 #include "recording/jpeg_observation.h"
+#include "recording/observation_times.h"
 
 namespace robosim {
 namespace {
@@ -275,7 +276,7 @@ mrpt::Clock::time_point timestampOf(const SimTime& time) {
 }
 
 double secondsSinceStart(mrpt::Clock::time_point timestamp) {
-  return std::chrono::duration<double>(timestamp - mrpt::Clock::fromDouble(kEpochUnixSeconds)).count();
+  return secondsBetween(mrpt::Clock::fromDouble(kEpochUnixSeconds), timestamp);
 }
 
 std::string sensorLabel(const std::string& robot, const std::string& sensor) { return robot + "/" + sensor; }

@@ -13,12 +13,26 @@
 #include <zlib.h>
 
 #include "base/error_list.h"
+#include "recording/memory_bound.h"
 
 namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
+
+/// What no honest entry asks for in one piece: the largest pictures and clouds of points are a tenth of it.
+constexpr std::size_t kMostPieceBytes = std::size_t{256} << 20;
+/// Of one entry in memory: a piece, and as much again for what else it has.
+constexpr std::size_t kMostEntryBytes = 2 * kMostPieceBytes;
+/// Entries from one look at the process's memory to the next.
+constexpr std::uint64_t kEntriesPerLook = 16;
+
+/// An entry that is not what it says it is.
+class AsksForTooMuch : public std::exception {
+ public:
+  const char* what() const noexcept override { return "the next entry asks for more than 256 MiB; it is damaged"; }
+};
 
 /// An MRPT archive of the bytes of a file, compressed or not, that knows where it is. MRPT's own stream does not tell
 /// an end from a fault.
@@ -28,6 +42,8 @@ class GzipArchive : public mrpt::serialization::CArchive {
 
   std::string getArchiveDescription() const override { return "rawlog"; }
   std::uint64_t position() const { return position_; }
+  /// Whether a piece was asked for that is larger than any.
+  bool askedTooMuch() const { return asked_too_much_; }
   /// Whether everything has been read, and nothing was missing.
   bool atEnd() {
     const int byte = gzgetc(file_);
@@ -48,10 +64,11 @@ class GzipArchive : public mrpt::serialization::CArchive {
  protected:
   std::size_t write(const void*, std::size_t) override { throw std::logic_error("GzipArchive only reads"); }
   std::size_t read(void* to, std::size_t size) override {
+    asked_too_much_ = asked_too_much_ || size > kMostPieceBytes;
+    if (asked_too_much_) throw AsksForTooMuch();
     std::size_t done = 0;
     while (done < size) {
-      constexpr std::size_t kMost = 1U << 30;
-      const int got = gzread(file_, static_cast<char*>(to) + done, static_cast<unsigned>(std::min(size - done, kMost)));
+      const int got = gzread(file_, static_cast<char*>(to) + done, static_cast<unsigned>(size - done));
       if (got <= 0) break;
       done += static_cast<std::size_t>(got);
     }
@@ -62,6 +79,7 @@ class GzipArchive : public mrpt::serialization::CArchive {
  private:
   gzFile file_;
   std::uint64_t position_ = 0;
+  bool asked_too_much_ = false;
 };
 
 /// Every object begins with the length of its class's name, its highest bit set, and the name: C… with a namespace
@@ -69,7 +87,7 @@ class GzipArchive : public mrpt::serialization::CArchive {
 bool looksLikeRawlog(gzFile file) {
   unsigned char head[3];
   if (gzread(file, head, sizeof head) != sizeof head) return false;
-  gzrewind(file);
+  for (auto i = sizeof head; i > 0; --i) gzungetc(head[i - 1], file);  // a pipe cannot be rewound
   const auto* const name = reinterpret_cast<const char*>(head + 1);
   return head[0] >= 0x84 && (name[0] == 'C' || std::memcmp(name, "mr", 2) == 0);
 }
@@ -89,6 +107,7 @@ struct RawlogReader::Impl {
 
   gzFile file;
   GzipArchive archive;
+  MemoryBound bound{kMostEntryBytes};
   std::string name;
   std::deque<CObservation::Ptr> ready;
   mrpt::poses::CPose2D odom_from_robot;  ///< added up from actions
@@ -108,11 +127,20 @@ void RawlogReader::Impl::readEntry() {
     at_end = true;
     return;
   }
+  if (entries % kEntriesPerLook == 0) bound.measure();
   try {
-    const auto object = archive.ReadObject<mrpt::serialization::CSerializable>();
+    // MRPT makes room for as much as a number in the file says before it reads on.
+    mrpt::serialization::CSerializable::Ptr object;
+    {
+      const MemoryBound::Hold hold(bound);
+      object = archive.ReadObject<mrpt::serialization::CSerializable>();
+    }
     ++entries;
     take(object);
+  } catch (const std::bad_alloc&) {
+    stop(AsksForTooMuch().what());
   } catch (const std::exception& error) {
+    if (archive.askedTooMuch()) return stop(AsksForTooMuch().what());
     if (const std::string fault = archive.fault(); !fault.empty()) return stop(fault);
     if (archive.atEnd()) return stop("it is cut off");
     // MRPT puts the place in its source before the message, and a call stack after it.

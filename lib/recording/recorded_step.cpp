@@ -23,13 +23,43 @@ CObservation::Ptr find(const std::vector<std::pair<std::string, CObservation::Pt
   return at == observations.end() ? nullptr : at->second;
 }
 
+/// Of a sensor that has not measured.
+Measurement blank(const SensorInfo& sensor) {
+  switch (sensor.kind) {
+    case SensorKind::laser:
+    case SensorKind::sonar:
+    case SensorKind::infrared:
+      return Echoes(sensor.beams.size());
+    case SensorKind::heat:
+    case SensorKind::compass:
+      return Scalar{};
+    case SensorKind::bumper:
+      return Contacts{std::vector<std::uint8_t>(sensor.beams.size())};
+    case SensorKind::odometry:
+      return Odometry{};
+    case SensorKind::camera:
+      return Image{};
+    case SensorKind::blob_finder:
+      return blankBlobs(sensor);
+  }
+  return Image{};
+}
+
+RecordedRobot absent(const RobotInfo& robot, SimTime time) {
+  RecordedRobot recorded;
+  recorded.is_absent = true;
+  recorded.readings.time = time;
+  for (const auto& sensor : *robot.sensors) recorded.readings.measurements.push_back(blank(sensor));
+  return recorded;
+}
+
 /// Whether a recording has nothing of a sensor in steps in which it told nothing.
 bool tellsNowAndThen(SensorKind kind) { return kind == SensorKind::camera || kind == SensorKind::blob_finder; }
 
 }  // namespace
 
-RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s)
-    : reader_(reader), robots_(std::move(robots)), period_s_(period_s) {
+RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s, Pictures pictures)
+    : reader_(reader), robots_(std::move(robots)), period_s_(period_s), pictures_(pictures) {
   ahead_ = nextOfRobots();
 }
 
@@ -67,8 +97,18 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
   }
   // Of a file that was cut off nobody knows what the last step would have had.
   if (!ahead_ && reader_.trouble()) return std::nullopt;
+  if (is_absent_.empty()) {
+    for (const auto& observations : by_robot) is_absent_.push_back(observations.empty() ? 1 : 0);
+    if (std::find(is_absent_.begin(), is_absent_.end(), 0) == is_absent_.end()) {
+      throw RecordingError("none of these robots is in the recording; give the world that it was made with");
+    }
+  }
   std::vector<RecordedRobot> robots;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
+    if (is_absent_[i]) {
+      robots.push_back(absent(robots_[i], {step, period_s_}));
+      continue;
+    }
     auto whole = put(robots_[i], by_robot[i], step);
     if (!whole) {
       throw RecordingError("robot \"" + robots_[i].name + "\" is not whole in step " + std::to_string(step) +
@@ -102,8 +142,11 @@ std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Ob
     const auto observation = find(observations, sensor.label);
     if (!observation) {
       if (!tellsNowAndThen(sensor.kind)) return std::nullopt;
-      readings.measurements.push_back(sensor.kind == SensorKind::camera ? Measurement(Image{})
-                                                                        : Measurement(blankBlobs(sensor)));
+      readings.measurements.push_back(blank(sensor));
+      continue;
+    }
+    if (sensor.kind == SensorKind::camera && pictures_ == Pictures::leave_out) {
+      readings.measurements.emplace_back(Image{});
       continue;
     }
     readings.measurements.push_back(measurementFrom(*observation, sensor, readings.laser_pan_rad));

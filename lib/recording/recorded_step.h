@@ -14,21 +14,29 @@ namespace robosim {
 
 /// What a recording of ours holds of one robot and one time step.
 struct RecordedRobot {
+  /// Of a robot that the recording knows nothing of: with several robots, the form of pairs has a file for each. What
+  /// else stands here is then blank, with a measurement for each sensor.
+  bool is_absent = false;
   Readings readings;
   std::optional<mrpt::math::TPose2D> world_from_robot;  ///< ground truth
   std::optional<Command> command;                       ///< that the step was made with
 };
+
+/// Whether the pictures of cameras are read, or left empty. They are most of a recording, and may lie in a folder that
+/// is not at hand.
+enum class Pictures { keep, leave_out };
 
 /// A recording of ours as it was made: step by step, the readings of every robot, bit for bit.
 class RecordedSteps {
  public:
   /// @param robots that it was made with, in any order
   /// @param period_s of its steps
-  RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s);
+  RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s,
+                Pictures pictures = Pictures::keep);
 
   /// The next step, robots as given; nullopt at the end. A step that is not whole, at the end of a file that was cut
-  /// off, is left out.
-  /// @throws RecordingError for an observation that such robots would not have recorded.
+  /// off, is left out. A robot of which the first step has no observation is absent in all of them.
+  /// @throws RecordingError for an observation that such robots would not have recorded, or when all are absent.
   std::optional<std::vector<RecordedRobot>> next();
 
   /// The last note so far; empty for none.
@@ -44,6 +52,8 @@ class RecordedSteps {
   RawlogReader& reader_;
   std::vector<RobotInfo> robots_;
   double period_s_;
+  Pictures pictures_;
+  std::vector<std::uint8_t> is_absent_;  ///< by robot; empty before the first step
   std::string note_;
   mrpt::obs::CObservation::Ptr ahead_;  ///< the first of the next step
 };

@@ -1,5 +1,6 @@
 #include "recording/recorded_step.h"
 
+#include <cstring>
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 
 #include "base/error_list.h"
 #include "recording/byte_archive.h"
+#include "recording/memory_bound.h"
 #include "recording/observations.h"
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
@@ -108,18 +110,79 @@ TEST_F(RecordedStepsTest, OfAFileThatIsCutOffAllWholeStepsComeBackAndTheRestIsTo
   }
 }
 
-TEST_F(RecordedStepsTest, ARobotThatTheRecordingDoesNotHaveIsTold) {
+std::string refusal(RecordedSteps& steps) {
+  try {
+    steps.next();
+  } catch (const RecordingError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+TEST_F(RecordedStepsTest, ARobotThatTheRecordingKnowsNothingOfIsAbsentWithBlankMeasurements) {
   record(2);
   RawlogReader reader(file);
   robots.push_back(sampleRobot("c"));
   RecordedSteps steps(reader, robots, 0.1);
-  try {
-    steps.next();
-    FAIL();
-  } catch (const RecordingError& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "robot \"c\" is not whole in step 0 of the recording; give the world that it was made with");
+  for (std::size_t k = 0; k < 2; ++k) {
+    const auto step = steps.next();
+    ASSERT_TRUE(step);
+    EXPECT_FALSE((*step)[1].is_absent);
+    EXPECT_EQ((*step)[1].readings.measurements, written[k][1].measurements);
+    const RecordedRobot& absent = (*step)[2];
+    EXPECT_TRUE(absent.is_absent);
+    EXPECT_FALSE(absent.world_from_robot);
+    EXPECT_FALSE(absent.command);
+    ASSERT_EQ(absent.readings.measurements.size(), robots[2].sensors->size());
+    EXPECT_EQ(absent.readings.measurements[0], Measurement(Echoes(16)));
   }
+}
+
+TEST_F(RecordedStepsTest, OfEachFileOfPairsTheOtherRobotsAreAbsent) {
+  record(3, RawlogFormat::sensory_frames);
+  RawlogReader reader(in("run_b.rawlog"));
+  RecordedSteps steps(reader, robots, 0.1);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto step = steps.next();
+    ASSERT_TRUE(step);
+    EXPECT_TRUE((*step)[0].is_absent);
+    EXPECT_FALSE((*step)[1].is_absent);
+    EXPECT_EQ((*step)[1].readings.measurements, written[k][1].measurements);
+  }
+  EXPECT_FALSE(steps.next());
+}
+
+TEST_F(RecordedStepsTest, ARobotWithAnotherSensorAndAWorldOfOtherRobotsAreTold) {
+  record(2);
+  std::vector<SensorInfo> sensors = *robots[1].sensors;
+  sensors.push_back(plainSensor(SensorKind::heat, "another"));
+  robots[1].sensors = std::make_shared<const std::vector<SensorInfo>>(sensors);
+  RawlogReader reader(file);
+  RecordedSteps steps(reader, robots, 0.1);
+  EXPECT_EQ(refusal(steps),
+            "robot \"b\" is not whole in step 0 of the recording; give the world that it was made with");
+  RawlogReader again(file);
+  RecordedSteps others(again, {sampleRobot("c"), sampleRobot("d")}, 0.1);
+  EXPECT_EQ(refusal(others), "none of these robots is in the recording; give the world that it was made with");
+}
+
+TEST_F(RecordedStepsTest, WithoutItsFolderOfPicturesARecordingComesBackWithoutPictures) {
+  const std::vector<RobotInfo> seeing{seeingRobot("a")};
+  RawlogWriter writer(file, seeing, RawlogFormat::observations, RawlogImages::external);
+  const std::vector<Readings> readings{sampleReadings(seeing[0], 0)};
+  writer.write(readings, {});
+  writer.close();
+  std::filesystem::remove_all(in("run_Images"));
+  RawlogReader reader(file);
+  RecordedSteps steps(reader, seeing, 0.1, Pictures::leave_out);
+  const auto step = steps.next();
+  ASSERT_TRUE(step);
+  EXPECT_EQ((*step)[0].readings.measurements[0], readings[0].measurements[0]);
+  EXPECT_EQ((*step)[0].readings.measurements[1], Measurement(Image{}));
+  EXPECT_EQ((*step)[0].readings.measurements[2], readings[0].measurements[2]) << "blobs lie in the rawlog itself";
+  RawlogReader again(file);
+  RecordedSteps with_pictures(again, seeing, 0.1);
+  EXPECT_NE(refusal(with_pictures).find("is the folder of pictures beside the recording?"), std::string::npos);
 }
 
 TEST_F(RecordedStepsTest, AFileOfPairsReadsBackToo) {
@@ -171,6 +234,55 @@ TEST_F(RecordedStepsTest, ADamagedEntryEndsTheReadingWithAWordOnWhereAndWhy) {
   ASSERT_TRUE(reader.trouble());
   EXPECT_NE(reader.trouble()->find("after 1 entry"), std::string::npos) << *reader.trouble();
   EXPECT_NE(reader.trouble()->find("the next entry cannot be read"), std::string::npos) << *reader.trouble();
+}
+
+/// Has a file of an odometry and a scan, in which a number that says how much follows is too great.
+class DamagedCountTest : public RecordedStepsTest {
+ protected:
+  /// @param count the bytes of the number, and of what follows it
+  void write(const std::vector<std::uint8_t>& count, std::uint32_t damaged) {
+    ByteArchive archive;
+    mrpt::obs::CObservationOdometry odometry;
+    odometry.sensorLabel = "WHEELS";
+    archive << odometry;
+    const std::size_t first = archive.bytes.size();
+    mrpt::obs::CObservation2DRangeScan scan;
+    scan.sensorLabel = "SCANNER";
+    scan.resizeScanAndAssign(3, 4, true);
+    archive << scan;
+    const auto at = std::search(archive.bytes.begin() + static_cast<std::ptrdiff_t>(first), archive.bytes.end(),
+                                count.begin(), count.end());
+    ASSERT_NE(at, archive.bytes.end());
+    std::memcpy(&*at, &damaged, sizeof damaged);
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(archive.bytes.data()), static_cast<std::streamsize>(archive.bytes.size()));
+  }
+  void expectRefusal();
+};
+
+void DamagedCountTest::expectRefusal() {
+  rusage before{}, after{};
+  getrusage(RUSAGE_SELF, &before);
+  RawlogReader reader(file);
+  EXPECT_TRUE(reader.next());
+  EXPECT_FALSE(reader.next());
+  getrusage(RUSAGE_SELF, &after);
+  ASSERT_TRUE(reader.trouble());
+  EXPECT_NE(reader.trouble()->find("after 1 entry"), std::string::npos) << *reader.trouble();
+  EXPECT_NE(reader.trouble()->find("the next entry asks for more than 256 MiB; it is damaged"), std::string::npos)
+      << *reader.trouble();
+  constexpr long kMiB_kib = 1024;
+  EXPECT_LT(after.ru_maxrss - before.ru_maxrss, (MemoryBound::kBounds ? 100 : 2000) * kMiB_kib);
+}
+
+TEST_F(DamagedCountTest, ALabelThatIsLongerThanAnyEndsTheReadingAndTakesNoMemory) {
+  write({7, 0, 0, 0, 'S', 'C'}, 768U << 20);
+  expectRefusal();
+}
+
+TEST_F(DamagedCountTest, AScanOfMoreRangesThanAnyEndsTheReadingAndTakesNoMemory) {
+  write({3, 0, 0, 0, 0, 0, 0x80, 0x40}, 192U << 20);  // 3 ranges; 4 m
+  expectRefusal();
 }
 
 TEST_F(RecordedStepsTest, AnUncompressedRawlogOfOthersIsReadAsWell) {

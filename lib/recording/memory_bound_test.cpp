@@ -1,0 +1,46 @@
+#include "recording/memory_bound.h"
+
+#include <new>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kMiB = std::size_t{1} << 20;
+
+bool canTake(std::size_t bytes) {
+  try {
+    const std::vector<char> memory(bytes);
+    return memory.size() == bytes;
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+}
+
+TEST(MemoryBound, LetsThatMuchBeTakenAndNoMoreUntilItIsLetGo) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
+  MemoryBound bound(64 * kMiB);
+  bound.measure();
+  {
+    const MemoryBound::Hold hold(bound);
+    EXPECT_TRUE(canTake(48 * kMiB));
+    EXPECT_EQ(canTake(96 * kMiB), !MemoryBound::kBounds);
+  }
+  EXPECT_TRUE(canTake(96 * kMiB));
+  rlimit after{};
+  ASSERT_EQ(getrlimit(RLIMIT_DATA, &after), 0);
+  EXPECT_EQ(after.rlim_cur, before.rlim_cur);
+  EXPECT_EQ(after.rlim_max, before.rlim_max);
+}
+
+TEST(MemoryBound, BoundsNothingBeforeItHasMeasured) {
+  const MemoryBound bound(kMiB);
+  const MemoryBound::Hold hold(bound);
+  EXPECT_TRUE(canTake(64 * kMiB));
+}
+
+}  // namespace
+}  // namespace robosim
