@@ -68,7 +68,7 @@ void benchView(const Arguments& arguments) {
   std::vector<Contender> contenders;
   for (const Kind& kind : kKinds) {
     drawings.push_back(std::make_unique<ViewDrawing>(
-        source, [&kind](const LoadedWorld& world) { return panesOf(kind, world.world); }));
+        source, [&kind](const LoadedWorld& world, AbsentRobots) { return panesOf(kind, world.world); }));
     contenders.push_back({.work = [&source, &drawing = *drawings.back()] {
       source.advance(0);
       drawing.draw(kSize);

@@ -1,5 +1,5 @@
 #include <algorithm>
-#include <filesystem>
+#include <sstream>
 
 #include "base/error_list.h"
 #include "rendering/offscreen_renderer.h"
@@ -23,37 +23,41 @@ struct Arguments {
   std::string size = "1280x800";
 };
 
-std::size_t robotNamed(const std::string& name, const Fleet& fleet) {
+std::optional<std::size_t> robotNamed(const std::string& name, const Fleet& fleet, AbsentRobots absent) {
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
     if (fleet.robots[i].info.name == name) return i;
   }
+  if (absent == AbsentRobots::not_followed) return std::nullopt;
   std::string names;
   for (const auto& robot : fleet.robots) {
     if (names.size() > 200) break;
     names += (names.empty() ? "" : ", ") + robot.info.name;
   }
-  throw ConfigError("there is no robot " + name + "; there " + (fleet.robots.size() == 1 ? "is " : "are ") + names);
+  if (names.empty()) names = "none";
+  throw ConfigError("there is no robot " + name + "; there " + (fleet.robots.size() <= 1 ? "is " : "are ") + names);
 }
 
 /// "2d", "3d@Pioneer1"
-Pane paneFrom(const std::string& text, const LoadedWorld& world) {
+Pane paneFrom(const std::string& text, const LoadedWorld& world, AbsentRobots absent) {
   const auto at = text.find('@');
   const std::string kind = text.substr(0, at);
   if (kind != "2d" && kind != "3d") throw ConfigError("--view " + text + ": must be 2d, 3d, 2d@ROBOT or 3d@ROBOT");
   std::optional<std::size_t> follow;
-  if (at != std::string::npos) follow = robotNamed(text.substr(at + 1), world.fleet);
+  if (at != std::string::npos) follow = robotNamed(text.substr(at + 1), world.fleet, absent);
   return makePane(kind == "3d", follow, world.world);
 }
 
-std::vector<Pane> panesFor(const Arguments& a, const LoadedWorld& world) {
+std::vector<Pane> panesFor(const Arguments& a, const LoadedWorld& world, AbsentRobots absent) {
   std::vector<Pane> panes;
   const auto add = [&](bool is_3d) {
     if (a.follow.empty()) panes.push_back(makePane(is_3d, std::nullopt, world.world));
-    for (const auto& name : a.follow) panes.push_back(makePane(is_3d, robotNamed(name, world.fleet), world.world));
+    for (const auto& name : a.follow) {
+      panes.push_back(makePane(is_3d, robotNamed(name, world.fleet, absent), world.world));
+    }
   };
   if (a.is_2d || (!a.is_3d && a.views.empty())) add(false);
   if (a.is_3d) add(true);
-  for (const auto& view : a.views) panes.push_back(paneFrom(view, world));
+  for (const auto& view : a.views) panes.push_back(paneFrom(view, world, absent));
   constexpr std::size_t kMostPanes = 16;
   if (panes.size() > kMostPanes) throw ConfigError("a picture has room for 16 views; ask for fewer");
   return panes;
@@ -69,6 +73,32 @@ Size sizeFrom(const std::string& text) {
   return size;
 }
 
+/// 100 → "100", 59.9 → "59.9".
+std::string brief(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+/// @throws ConfigError for what would do nothing, or show nothing.
+void checkTimes(const Arguments& a, const ViewSource& source) {
+  const ViewTimes& times = a.times;
+  const auto duration_s = source.duration();
+  const auto refuse = [](bool is_given, const std::string& option, const std::string& why) {
+    if (is_given) throw ConfigError("--" + option + ": " + why);
+  };
+  for (const auto& [option, given] : {std::pair{"from", times.from_s}, {"to", times.to_s}, {"speed", times.speed}}) {
+    refuse(given && !duration_s, option, "is of a recording, and " + a.source + " is none");
+  }
+  refuse(times.speed && !a.offscreen.empty() && !isVideo(a.offscreen), "speed", "a picture has none; leave it out");
+  refuse(times.for_s && (!isVideo(a.offscreen) || duration_s), "for",
+         "is of a video of a run that goes on; leave it out");
+  if (!times.from_s) return;
+  const std::string from = "from " + brief(*times.from_s);
+  refuse(times.to_s && *times.to_s < *times.from_s, from, "is later than --to " + brief(*times.to_s));
+  refuse(*times.from_s > *duration_s, from, "the recording ends at " + brief(*duration_s) + " s");
+}
+
 void view(const Arguments& a) {
   const Size size = sizeFrom(a.size);
   if (!a.offscreen.empty()) {
@@ -76,7 +106,8 @@ void view(const Arguments& a) {
     refuseSameFile({{"SOURCE", a.source}, {"--offscreen", a.offscreen}});
   }
   const auto source = openView(a.source, a.connection);
-  const auto make_panes = [&a](const LoadedWorld& world) { return panesFor(a, world); };
+  checkTimes(a, *source);
+  const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
   if (a.offscreen.empty()) {
     showWindow(*source, make_panes, size, a.times);
   } else {
@@ -87,11 +118,11 @@ void view(const Arguments& a) {
 }  // namespace
 
 void addView(CLI::App& program) {
-  auto* command = program.add_subcommand("view", "Look at a running environment, a recording, or a world");
+  auto* command = program.add_subcommand("view", "Look at a running environment, a recording, a world, or a map");
   auto a = std::make_shared<Arguments>();
   command
       ->add_option("SOURCE", a->source,
-                   "the address of a running environment (HOST:PORT), a world file, or a rawlog, anybody's")
+                   "the address of a running environment (HOST:PORT), a world file, a map, or a rawlog, anybody's")
       ->type_name("ADDRESS|FILE")
       ->required();
   command->add_flag("--2d", a->is_2d, "from above, to scale (the default)");
@@ -120,7 +151,7 @@ void addView(CLI::App& program) {
       ->check(numberIn(0.1, 1e6));
   command->add_option("--speed", a->times.speed, "of a recording: recorded seconds per second")
       ->check(numberIn(0.001, 1e6))
-      ->capture_default_str();
+      ->default_str("1");
   command->add_option("--fps", a->times.fps, "pictures a second of a video")
       ->check(numberIn(1, 120))
       ->capture_default_str();

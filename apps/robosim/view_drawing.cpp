@@ -7,12 +7,12 @@ namespace robosim {
 
 ViewDrawing::ViewDrawing(ViewSource& source, MakePanes make_panes)
     : source_(source), make_panes_(std::move(make_panes)), world_number_(source.worldNumber()) {
-  make();
+  make(AbsentRobots::refused);
 }
 
-void ViewDrawing::make() {
+void ViewDrawing::make(AbsentRobots absent) {
   const LoadedWorld& world = source_.world();
-  auto panes = make_panes_(world);
+  auto panes = make_panes_(world, absent);
   Panes::Draw3d draw_3d;
   if (std::any_of(panes.begin(), panes.end(), [](const Pane& pane) { return pane.is_3d; })) {
     auto renderer = std::make_shared<OffscreenRenderer>(world.world, world.fleet);
@@ -27,7 +27,9 @@ void ViewDrawing::make() {
 }
 
 cv::Mat ViewDrawing::draw(Size size) {
-  if (std::exchange(world_number_, source_.worldNumber()) != source_.worldNumber()) make();
+  if (std::exchange(world_number_, source_.worldNumber()) != source_.worldNumber()) {
+    make(AbsentRobots::not_followed);
+  }
   panes_->resize(size.width_px, size.height_px);
   trails_.add(source_.shown());
   if (auto wanted = panes_->wantedReadings(); !has_asked_ || wanted != wanted_) {

@@ -3,9 +3,11 @@
 #include <iostream>
 #include <thread>
 
+#include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "base/error_list.h"
+#include "base/whole_file.h"
 #include "rendering/png_file.h"
 #include "robosim/interrupt.h"
 #include "robosim/progress.h"
@@ -17,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool isVideo(const std::string& file) { return fs::path(file).extension() == ".mp4"; }
-
 /// Grows under another name, and has its own when it is whole.
 class Video {
  public:
   Video(const fs::path& file, Size size, double fps) : file_(file), part_(file.string() + ".part.mp4") {
-    writer_.open(part_.string(), cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps,
+    // What is wrong, we tell.
+    cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+    writer_.open(part_.string(), cv::CAP_FFMPEG, cv::VideoWriter::fourcc('m', 'p', '4', 'v'), fps,
                  {size.width_px & ~1, size.height_px & ~1});
     if (!writer_.isOpened()) {
       throw ConfigError(part_.string() +
@@ -45,7 +47,11 @@ class Video {
   }
   void commit() {
     writer_.release();
-    fs::rename(part_, file_);
+    std::error_code error;
+    fs::rename(part_, file_, error);
+    if (error) {
+      throw std::runtime_error(file_.string() + ": cannot be written (" + error.message() + "); choose another place");
+    }
   }
 
  private:
@@ -53,17 +59,29 @@ class Video {
   cv::VideoWriter writer_;
 };
 
+[[noreturn]] void throwInterrupted() { throw std::runtime_error("interrupted; nothing was written"); }
+
+/// Where a recording, or the part of it that is wanted, ends.
+double endOf(double duration_s, const ViewTimes& times) {
+  return std::min(times.to_s.value_or(duration_s), duration_s);
+}
+
 void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times,
                   const std::string& file) {
   if (const auto duration_s = source.duration()) {
-    // Through what came before, so that there are trails.
-    constexpr double kStride_s = 0.2;
-    const double end_s = std::min(times.to_s.value_or(*duration_s), *duration_s);
+    // Through what came before, so that there are trails: from moment to moment, however far they lie apart.
+    const Interrupt interrupt;
+    Progress progress;
+    const double end_s = endOf(*duration_s, times);
     source.pause(true);
-    for (double t = times.from_s; t < end_s; t += kStride_s) {
-      source.seek(t);
-      source.advance(0);
+    source.seek(times.from_s.value_or(0));
+    source.advance(0);
+    while (source.shown().time_s < end_s && !source.isOver()) {
+      if (interrupt.asked()) throwInterrupted();
       drawing.note();
+      if (progress.due()) progress.show(fixed(source.shown().time_s, 1) + " of " + fixed(end_s, 1) + " s …");
+      source.step();
+      source.advance(0);
     }
     source.seek(end_s);
   }
@@ -75,13 +93,14 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   const Interrupt interrupt;
   Progress progress;
   Video video(file, size, times.fps);
-  const auto duration_s = source.duration();
-  if (duration_s) {
-    const double end_s = std::min(times.to_s.value_or(*duration_s), *duration_s);
+  if (const auto duration_s = source.duration()) {
+    const double end_s = endOf(*duration_s, times);
+    const double frame_s = times.speed.value_or(1) / times.fps;
     source.pause(true);
     for (std::uint64_t frame = 0;; ++frame) {
-      const double t = times.from_s + static_cast<double>(frame) * times.speed / times.fps;
-      if (t > end_s + 1e-9 || interrupt.asked()) break;
+      const double t = times.from_s.value_or(0) + static_cast<double>(frame) * frame_s;
+      if (t > end_s + 1e-9) break;
+      if (interrupt.asked()) throwInterrupted();
       source.seek(t);
       source.advance(0);
       video.add(drawing.draw(size));
@@ -106,12 +125,13 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
 
 }  // namespace
 
+bool isVideo(const std::string& file) { return fs::path(file).extension() == ".mp4"; }
+
 void checkOffscreenFile(const std::string& file) {
-  if (isVideo(file)) return;
-  if (fs::path(file).extension() != ".png") {
+  if (!isVideo(file) && fs::path(file).extension() != ".png") {
     throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or .mp4, for a video");
   }
-  checkPngFile(file);
+  checkWritable(file);
 }
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,

@@ -15,23 +15,29 @@ struct Size {
 
 /// Which part of a source is shown, and how fast.
 struct ViewTimes {
-  double from_s = 0;
+  std::optional<double> from_s;
   std::optional<double> to_s;
   std::optional<double> for_s;  ///< of the clock
-  double speed = 1;
+  std::optional<double> speed;
   double fps = 20;
 };
 
+/// Views of a world that are to ride on a robot that it has not.
+enum class AbsentRobots { refused, not_followed };
+
 /// The views of a world; made anew when a run goes on with another one.
-using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&)>;
+using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&, AbsentRobots)>;
 
 /// Opens a window, and returns when the person has closed it.
 /// @throws ConfigError when there is no screen.
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times);
 
+bool isVideo(const std::string& file);
 /// @throws ConfigError for a name that ends in neither .png nor .mp4, or a file that cannot be written
 void checkOffscreenFile(const std::string& file);
 /// Writes a picture or a video.
+/// @throws std::runtime_error when it is interrupted, or there is no room for the file; nothing is written then. But
+/// the video of a run that goes on has what there was to see before Ctrl-C.
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
                     const std::string& file);
 
@@ -46,7 +52,7 @@ class ViewDrawing {
   Panes& panes() { return *panes_; }
 
  private:
-  void make();
+  void make(AbsentRobots absent);
 
   ViewSource& source_;
   MakePanes make_panes_;

@@ -36,6 +36,9 @@ class RawlogView final : public ViewSource {
       moments_ = std::move(foreign.moments);
       trouble_ = std::move(foreign.trouble);
     }
+    // A damaged recording may go back in time.
+    std::stable_sort(moments_.begin(), moments_.end(),
+                     [](const Shown& a, const Shown& b) { return a.time_s < b.time_s; });
     if (moments_.empty()) throw ConfigError(file + ": holds no whole step" + (trouble_.empty() ? "" : "; " + trouble_));
   }
 
@@ -60,7 +63,7 @@ class RawlogView final : public ViewSource {
   double speed() const override { return speed_; }
   void setSpeed(double speed) override { speed_ = speed; }
   std::optional<double> duration() const override { return moments_.back().time_s; }
-  void seek(double time_s) override { time_s_ = std::clamp(time_s, 0.0, moments_.back().time_s); }
+  void seek(double time_s) override { time_s_ = std::clamp(time_s, 0.0, std::max(0.0, moments_.back().time_s)); }
 
  private:
   /// nullopt for a recording that is not of RoboSim's, or of a world too large to be kept with it.

@@ -12,7 +12,7 @@
 
 namespace robosim {
 
-/// Where a view has its moments from: a world file, a recording, or a run that goes on elsewhere.
+/// Where a view has its moments from: a world file or a map, a recording, or a run that goes on elsewhere.
 class ViewSource {
  public:
   virtual ~ViewSource() = default;
@@ -37,6 +37,7 @@ class ViewSource {
   virtual bool canPlay() const { return false; }
   virtual bool isPaused() const { return false; }
   virtual void pause(bool) {}
+  /// Halts, and goes on to the next moment with advance(0).
   virtual void step() {}
   virtual double speed() const { return 1; }
   virtual void setSpeed(double) {}
@@ -54,14 +55,14 @@ class ViewSource {
 /// The newest step of an environment in this process, with everybody's readings.
 Shown shownOf(const Environment& environment);
 
-/// A world as it begins.
+/// A world as it begins; a map's file stands for a world that is nothing but this map.
 std::unique_ptr<ViewSource> viewWorld(const std::string& file);
 /// A recording, of RoboSim's or anybody's.
 std::unique_ptr<ViewSource> viewRawlog(const std::string& file);
 /// A run that goes on; the environment never waits for its viewers.
 std::unique_ptr<ViewSource> viewEnvironment(const ConnectionArguments& connection);
 
-/// Any of them: an address (HOST:PORT), or a file that begins as a world or a rawlog does.
+/// Any of them: an address (HOST:PORT), a map by its name, or a file that begins as a world or a rawlog does.
 /// @throws ConfigError when it is none.
 std::unique_ptr<ViewSource> openView(const std::string& source, ConnectionArguments connection);
 

@@ -1,5 +1,6 @@
 #include <chrono>
 #include <cstdlib>
+#include <functional>
 #include <iostream>
 
 #include <mrpt/gui/CDisplayWindowGUI.h>
@@ -25,15 +26,20 @@ constexpr int kEscape = 256, kRight = 262, kLeft = 263;
 /// What is drawn, as large as the window; hands on what the mouse does.
 class PictureWidget final : public nanogui::Widget {
  public:
-  PictureWidget(nanogui::Widget* parent, ViewSource& source, ViewDrawing& drawing)
-      : Widget(parent), source_(source), drawing_(drawing) {}
+  /// @param fail is told, with the exception in flight, that a repaint went wrong; nanogui's loop would swallow it
+  PictureWidget(nanogui::Widget* parent, ViewSource& source, ViewDrawing& drawing, std::function<void()> fail)
+      : Widget(parent), source_(source), drawing_(drawing), fail_(std::move(fail)) {}
 
   /// Draws anew before the next repaint.
   void renew() { is_old_ = true; }
 
   void draw(NVGcontext* context) override {
     if (mSize.x() < 1 || mSize.y() < 1) return;
-    if (is_old_ || drawn_size_ != mSize) upload(context);
+    try {
+      if (is_old_ || drawn_size_ != mSize) upload(context);
+    } catch (...) {
+      return fail_();
+    }
     const auto paint =
         nvgImagePattern(context, 0, 0, static_cast<float>(mSize.x()), static_cast<float>(mSize.y()), 0, image_, 1);
     nvgBeginPath(context);
@@ -81,6 +87,7 @@ class PictureWidget final : public nanogui::Widget {
 
   ViewSource& source_;
   ViewDrawing& drawing_;
+  std::function<void()> fail_;
   int image_ = 0;
   Vector2i drawn_size_ = Vector2i::Zero();
   Vector2i pressed_at_ = Vector2i::Zero();
@@ -95,20 +102,23 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         source_(source),
         times_(times),
         drawing_(source, make_panes) {
-    picture_ = new PictureWidget(this, source_, drawing_);
+    picture_ = new PictureWidget(this, source_, drawing_, [this] { fail(); });
     if (source_.canPlay()) addBar();
     if (source_.duration()) {
-      source_.seek(times.from_s);
-      source_.setSpeed(times.speed);
+      source_.seek(times.from_s.value_or(0));
+      source_.setSpeed(times.speed.value_or(1));
     }
     addLoopCallback([this] { goOn(); });
-    addKeyboardCallback(
-        [this](int key, int, int action, int) { return (action == kPressed || action == kRepeated) && handle(key); });
-    layOut();
+    addKeyboardCallback([this](int key, int, int action, int) {
+      // A key that is held winds on and on, but does not turn things on and off.
+      const bool is_wanted = action == kPressed || (action == kRepeated && (key == kLeft || key == kRight));
+      return is_wanted && handle(key);
+    });
     performLayout();
+    layOut();
   }
 
-  /// What went wrong in a repaint, where exceptions do not get through.
+  /// What went wrong while the window was open, where exceptions do not get through.
   std::exception_ptr failure() const { return failure_; }
 
  private:
@@ -148,12 +158,13 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     });
   }
 
+  /// The picture, and the bar below it.
   void layOut() {
+    constexpr int kGap_px = 6;
+    const int below_px = bar_ ? bar_->height() + 2 * kGap_px : 0;
     picture_->setPosition(Vector2i(0, 0));
-    picture_->setSize(size());
-    if (!bar_) return;
-    bar_->setPosition(
-        Vector2i(std::max(0, (width() - bar_->width()) / 2), std::max(0, height() - bar_->height() - 10)));
+    picture_->setSize(Vector2i(width(), std::max(0, height() - below_px)));
+    if (bar_) bar_->setPosition(Vector2i(std::max(0, (width() - bar_->width()) / 2), picture_->height() + kGap_px));
   }
 
   void showStatus() {
@@ -162,7 +173,8 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     std::string text = fixed(source_.shown().time_s, 1) + " s";
     if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
     if (source_.speed() > 0) text += ", " + fixed(source_.speed(), source_.speed() < 1 ? 2 : 0) + " x";
-    if (const auto remark = source_.remark(); !remark.empty()) text += "; " + remark;
+    // Of a recording it is a long one, and has been told.
+    if (const auto remark = source_.remark(); !remark.empty()) text += "; " + (duration_s ? "not whole" : remark);
     status_->setCaption(text);
     pause_->setCaption(source_.isPaused() ? "Go on" : "Pause");
     if (slider_) slider_->setValue(static_cast<float>(source_.shown().time_s / std::max(1e-9, *duration_s)));
@@ -232,9 +244,13 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     try {
       work();
     } catch (...) {
-      failure_ = std::current_exception();
-      nanogui::leave();
+      fail();
     }
+  }
+  /// The window closes; the first failure is the cause.
+  void fail() {
+    if (!failure_) failure_ = std::current_exception();
+    nanogui::leave();
   }
 
   const Interrupt interrupt_;
@@ -251,10 +267,23 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
   std::exception_ptr failure_;
 };
 
+[[noreturn]] void throwNoScreen(const std::string& why) {
+  throw ConfigError("there is no screen to open a window on (" + why +
+                    "); write a picture instead: --offscreen view.png, or a video: --offscreen view.mp4");
+}
+
 /// nanogui's library, for as long as there is a window.
 class Nanogui {
  public:
-  Nanogui() { nanogui::init(); }
+  Nanogui() {
+    const char* const display = std::getenv("DISPLAY");
+    if (!display || !*display) throwNoScreen("DISPLAY is not set");
+    try {
+      nanogui::init();
+    } catch (const std::exception&) {
+      throwNoScreen("DISPLAY is " + std::string(display) + ", which does not answer");
+    }
+  }
   ~Nanogui() { nanogui::shutdown(); }
   Nanogui(const Nanogui&) = delete;
   Nanogui& operator=(const Nanogui&) = delete;
@@ -263,19 +292,11 @@ class Nanogui {
 }  // namespace
 
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times) {
-  const auto is_set = [](const char* name) {
-    const char* const value = std::getenv(name);
-    return value && *value;
-  };
-  if (!is_set("DISPLAY")) {
-    throw ConfigError(
-        "there is no screen to open a window on (DISPLAY is not set); write a picture instead: --offscreen view.png, "
-        "or a video: --offscreen view.mp4");
-  }
   std::exception_ptr failure;
   try {
     const Nanogui nanogui;
     nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times));
+    if (const auto remark = source.remark(); !remark.empty()) std::cerr << "robosim view: " << remark << '\n';
     window->drawAll();
     window->setVisible(true);
     constexpr int kPeriod_ms = 40;

@@ -17,7 +17,39 @@ constexpr int kGap_px = 4;
 constexpr std::size_t kMostWithReadings = 20;
 constexpr double kRound_m = 6;  ///< of a robot that a 2D pane follows, at first
 
-double extentOf(const Bounds2D& b) { return std::max(b.x_max - b.x_min, b.y_max - b.y_min); }
+/// How high things stand in a world.
+double topOf(const World& world) {
+  double top_m = 0;
+  for (const auto& object : world.objects) top_m = std::max(top_m, object.body.heights().z_max_m);
+  for (const auto& map : world.maps) top_m = std::max(top_m, map.heights().z_max_m);
+  return top_m;
+}
+
+/// How far from its target an eye in the air must be to have all of a world in its picture.
+double distanceToShow(const World& world, const AirCamera& air, double width_px, double height_px) {
+  constexpr double kMargin = 1.03;
+  const double half_width = std::tan(air.field_of_view_rad / 2) / kMargin;  // of the picture, a metre ahead
+  const double half_height = half_width * height_px / width_px;
+  const TPose3D from_target = [&] {
+    AirCamera at_target = air;
+    at_target.distance_m = 0;
+    return at_target.worldFromCamera(nullptr);
+  }();
+  const Bounds2D& b = world.bounds;
+  double distance_m = 0.3;
+  for (const double x : {b.x_min, b.x_max}) {
+    for (const double y : {b.y_min, b.y_max}) {
+      for (const double z : {0.0, topOf(world)}) {
+        // Ahead, to the left and up from the target, as the eye looks.
+        mrpt::math::TPoint3D corner;
+        from_target.inverseComposePoint({x, y, z}, corner);
+        const double ahead_m = std::max(std::abs(corner.y) / half_width, std::abs(corner.z) / half_height);
+        distance_m = std::max(distance_m, ahead_m - corner.x);
+      }
+    }
+  }
+  return distance_m;
+}
 
 }  // namespace
 
@@ -39,8 +71,7 @@ Pane makePane(bool is_3d, std::optional<std::size_t> follow, const World& world)
   pane.follow = follow;
   const Bounds2D& b = world.bounds;
   pane.air.target = {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2};
-  // Near enough that the ground fills the picture.
-  pane.air.distance_m = follow ? 4 : 1.05 * extentOf(b);
+  if (follow) pane.air.distance_m = 4;  // else as far as the picture's size asks for
   pane.air.elevation_rad = follow ? 0.45 : 0.85;
   return pane;
 }
@@ -69,8 +100,7 @@ void Panes::fit(Pane& pane, std::size_t index) const {
     pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(rect.width, rect.height) / kRound_m);
   }
   pane.air = makePane(pane.is_3d, pane.follow, world_).air;
-  // The field of view is that of the picture's width; a low picture shows less of the ground.
-  if (!pane.follow) pane.air.distance_m *= std::max(1.0, 0.8 * rect.width / rect.height);
+  if (!pane.follow) pane.air.distance_m = distanceToShow(world_, pane.air, rect.width, rect.height);
 }
 
 cv::Rect Panes::rectOf(std::size_t pane) const {

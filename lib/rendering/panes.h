@@ -33,7 +33,7 @@ struct Pane {
   AirCamera air;                      ///< of a 3D pane
 };
 
-/// What a pane is at first: all of the world, or the surroundings of a robot.
+/// What a pane is at first: all of the world, once it is known how large it is drawn, or the surroundings of a robot.
 Pane makePane(bool is_3d, std::optional<std::size_t> follow, const World& world);
 
 /// Several views of one run, side by side on a picture.

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 #include "rendering/panes.h"
 
@@ -110,6 +111,63 @@ TEST_F(TopViewTest, TintsWhatASonarSeesToBeFreeAndDotsItsEcho) {
   }());
 }
 
+TEST_F(TopViewTest, TintsWhatAScanSeesToBeFreeAndDotsItsEchoes) {
+  // To the left, ahead and to the right of where it sits, the middle one heard nothing.
+  SensorInfo laser;
+  laser.kind = SensorKind::laser;
+  laser.range_max_m = laser.no_echo_m = 1;
+  for (const double yaw : {std::numbers::pi / 2, 0.0, -std::numbers::pi / 2})
+    laser.beams.push_back({{0, 0, 0.2, yaw, 0, 0}});
+  fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{laser});
+  shown.robots[0].readings.emplace();
+  shown.robots[0].readings->measurements = {Echoes{{0.9F, {0, 0.9F, 0}}, {1, {1, 0, 0}}, {0.9F, {0, -0.9F, 0}}}};
+  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  const auto is_tinted = [&](const TPoint2D& p) {
+    const cv::Vec3b pixel = at(picture, p);
+    return pixel[2] > pixel[0] + 10;  // reddish
+  };
+  // A triangle from (5, 3.4) to (6, 2.5) to (5, 1.6), behind the robot of 0.5 m.
+  EXPECT_TRUE(is_tinted({5.53, 2.53 + 0.3}));
+  EXPECT_FALSE(is_tinted({5.53, 2.53 + 0.55})) << "beyond the line between two echoes";
+  EXPECT_FALSE(is_tinted({4.93, 2.53 + 0.6})) << "behind the laser";
+  const cv::Vec3b dot = at(picture, {5, 3.4});
+  EXPECT_GT(dot[2], dot[0] + 100) << "a dot where the echo came from";
+  const cv::Vec3b tip = at(picture, {6, 2.5});
+  EXPECT_LT(tip[2], tip[0] + 100) << "none where nothing was heard";
+}
+
+TEST_F(TopViewTest, TakesASensorThatHasNotMeasuredYet) {
+  shown.robots[0].readings.emplace();
+  shown.robots[0].readings->measurements = {Echoes{}};
+  const cv::Mat silent = TopView(world, fleet).draw(shown, trails, camera, layers);
+  shown.robots[0].readings.reset();
+  const cv::Mat without = TopView(world, fleet).draw(shown, trails, camera, layers);
+  EXPECT_EQ(cv::norm(silent, without, cv::NORM_INF), 0);
+}
+
+TEST_F(TopViewTest, WritesTheHeatThatARobotFeelsBesideIt) {
+  SensorInfo heat;
+  heat.kind = SensorKind::heat;
+  fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{heat});
+  const auto pictureAt = [&](double heat_now) {
+    shown.robots[0].readings.emplace();
+    shown.robots[0].readings->measurements = {Scalar{heat_now}};
+    return TopView(world, fleet).draw(shown, trails, camera, layers);
+  };
+  const cv::Mat cold = pictureAt(0), warm = pictureAt(7), hot = pictureAt(40);
+  // Below and to the right of the robot, "heat 7" and "heat 40" at 11 px or so, and nowhere else.
+  const cv::Rect beside(523 + 38, 349 + 32, 80, 24);
+  const auto inkOf = [&](const cv::Mat& picture, const cv::Rect& part) {
+    cv::Mat difference;
+    cv::absdiff(picture(part), cold(part), difference);
+    return cv::sum(difference)[0];
+  };
+  const cv::Rect all(0, 0, 1048, 700);
+  EXPECT_GT(inkOf(warm, beside), 1000);
+  EXPECT_EQ(inkOf(warm, beside), inkOf(warm, all));
+  EXPECT_GT(inkOf(hot, beside), inkOf(warm, beside)) << "two digits";
+}
+
 TEST_F(TopViewTest, ShowsTheWayThatARobotHasCome) {
   Shown before = shown;
   for (int i = 0; i <= 20; ++i) {
@@ -189,6 +247,47 @@ TEST_F(TopViewTest, OnlyThoseFollowedTellTheirReadingsWhereThereAreMany) {
   EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings()[4], 0);
   fleet.robots.resize(20);
   EXPECT_TRUE(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings().empty()) << "all";
+}
+
+TEST_F(TopViewTest, FromTheAirAPaneOfAnySizeShowsTheWholeWorldAtFirstAndOnAskingForEverything) {
+  WorldObject tower = world.objects[0];
+  tower.body.height_m = 4;
+  tower.body.center_z_m = 2;
+  world.objects.push_back(tower);
+  for (const cv::Size size : {cv::Size(500, 600), {600, 600}, {900, 600}, {1280, 400}}) {
+    CameraInfo camera_info;
+    mrpt::math::TPose3D world_from_camera;
+    Panes panes(world, fleet, {makePane(true, std::nullopt, world)},
+                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>) {
+                  camera_info = info;
+                  world_from_camera = pose;
+                  return cv::Mat(cv::Size(size), CV_8UC3);
+                });
+    panes.resize(size.width, size.height);
+    /// How far out of the picture's middle the farthest corner lies: 1 is the picture's edge.
+    const auto farthest = [&] {
+      panes.draw(shown, trails);
+      double share = 0;
+      for (const double x : {0.0, 10.0}) {
+        for (const double y : {0.0, 5.0}) {
+          for (const double z : {0.0, 4.0}) {
+            const auto p = world_from_camera.inverseComposePoint({x, y, z});
+            EXPECT_GT(p.x, 0) << "ahead";
+            const double px_per_slope = camera_info.focalLength();
+            share = std::max({share, std::abs(p.y) / p.x * px_per_slope / (size.width / 2.0),
+                              std::abs(p.z) / p.x * px_per_slope / (size.height / 2.0)});
+          }
+        }
+      }
+      return share;
+    };
+    EXPECT_LE(farthest(), 1) << size.width << " × " << size.height;
+    EXPECT_GE(farthest(), 0.9) << "and no smaller than it must be";
+    panes.zoom({10, 10}, 3);
+    EXPECT_GT(farthest(), 1);
+    panes.showAll();
+    EXPECT_LE(farthest(), 1) << size.width << " × " << size.height;
+  }
 }
 
 TEST(AirCamera, LooksAtItsTargetFromWhereItIs) {

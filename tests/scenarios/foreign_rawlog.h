@@ -11,14 +11,15 @@ namespace robosim {
 
 /// As a stranger's robot would record: a laser and odometry, in MRPT's own words, without a robot's name. It goes 4.9 m
 /// along x in 9.8 s, and sees a half circle of 4 m around it.
-inline void writeForeignRawlog(const std::filesystem::path& file) {
+/// @param early how much too early its first observation claims to be
+inline void writeForeignRawlog(const std::filesystem::path& file, mrpt::Clock::duration early = {}) {
   mrpt::io::CFileGZOutputStream stream(file.string());
   auto archive = mrpt::serialization::archiveFrom(stream);
   for (int i = 0; i < 50; ++i) {
     const auto time = mrpt::Clock::fromDouble(1.2e9 + 0.2 * i);
     mrpt::obs::CObservationOdometry odometry;
     odometry.sensorLabel = "ODOMETRY";
-    odometry.timestamp = time;
+    odometry.timestamp = i == 0 ? time - early : time;
     odometry.odometry = {0.1 * i, 0, 0};
     archive << odometry;
     mrpt::obs::CObservation2DRangeScan scan;

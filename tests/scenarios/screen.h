@@ -10,10 +10,13 @@
 
 namespace robosim {
 
-/// An X server without a screen, and what one sees on it.
+/// An X server without a screen, and what one sees on it. It does not begin anew when the last program leaves, which
+/// would turn away the next, nor does it repeat keys that a slow machine is late to release.
 class Screen {
  public:
-  Screen() : server_("/usr/bin/Xvfb", {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp"}) {
+  Screen()
+      : server_("/usr/bin/Xvfb",
+                {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset", "-r"}) {
     server_.waitForOutput("\n");
     display_ = ":" + server_.output().substr(0, server_.output().find('\n'));
     setenv("DISPLAY", display_.c_str(), 1);

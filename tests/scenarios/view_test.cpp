@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
@@ -114,10 +115,65 @@ TEST(View, SaysWhatIsWrongWithItsArguments) {
   EXPECT_NE(error(hall + " --offscreen x.mp4").find("nothing moves in a world that does not run"), std::string::npos);
   EXPECT_NE(error(hall + " --size 10x10 --offscreen x.png").find("--size 10x10: must be"), std::string::npos);
   EXPECT_NE(error(hall + " --view 4d --offscreen x.png").find("--view 4d: must be 2d"), std::string::npos);
+  EXPECT_NE(error("worlds --offscreen x.png").find("worlds: is a folder; name a file in it"), std::string::npos);
+  EXPECT_NE(error("none.gridmap --offscreen x.png").find("there is no such file"), std::string::npos);
   EXPECT_NE(error("worlds/none.xml --offscreen x.png").find("there is no such file"), std::string::npos);
   EXPECT_NE(error("worlds/small_maze.xml --offscreen worlds/small_maze.xml").find("must end in"), std::string::npos);
   unsetenv("DISPLAY");
   EXPECT_NE(error(hall).find("there is no screen to open a window on"), std::string::npos);
+  setenv("DISPLAY", ":nowhere", 1);
+  const std::string dead = error(hall);
+  unsetenv("DISPLAY");
+  EXPECT_NE(dead.find("DISPLAY is :nowhere, which does not answer"), std::string::npos) << dead;
+  EXPECT_NE(dead.find("--offscreen view.png"), std::string::npos) << dead;
+}
+
+TEST(View, RefusesTimesThatShowNothingOrDoNothing) {
+  const auto folder = emptyFolder();
+  const auto hall = quoted(writeHall(folder)), run = quoted(folder / "run.rawlog");
+  ASSERT_EQ(runProgram("run " + hall + " --time 3 --record " + run).exit_code, 0);
+  const auto expectError = [&](const std::string& arguments, const std::string& file, const std::string& text) {
+    const Ended view = runProgram("view " + arguments + " --offscreen " + quoted(folder / file));
+    EXPECT_EQ(view.exit_code, 1) << arguments;
+    EXPECT_NE(view.err.find(text), std::string::npos) << view.err;
+    EXPECT_FALSE(fs::exists(folder / file)) << arguments;
+  };
+  for (const char* file : {"x.mp4", "x.png"}) {
+    expectError(run + " --from 100", file, "--from 100: the recording ends at 3 s");
+    expectError(run + " --from 3 --to 1", file, "--from 3: is later than --to 1");
+    expectError(hall + " --to 1", file, "--to: is of a recording");
+  }
+  expectError(run + " --speed 2", "x.png", "--speed: a picture has none");
+  expectError(run + " --for 2", "x.mp4", "--for: is of a video of a run that goes on");
+}
+
+TEST(View, SaysBeforeItReadsAnythingThatAVideoCannotBeWritten) {
+  const auto folder = emptyFolder();
+  fs::create_directory(folder / "folder.mp4");
+  const Ended is_folder = runProgram("view none.rawlog --offscreen " + quoted(folder / "folder.mp4"));
+  EXPECT_EQ(is_folder.exit_code, 1);
+  EXPECT_EQ(is_folder.err, "robosim: " + (folder / "folder.mp4").string() + ": is a folder; name a file in it\n");
+  const Ended no_folder = runProgram("view none.rawlog --offscreen " + quoted(folder / "none/x.mp4"));
+  EXPECT_EQ(no_folder.exit_code, 1);
+  EXPECT_EQ(countOf("\n", no_folder.err), 1u) << no_folder.err;
+  EXPECT_NE(no_folder.err.find("check that its folder exists"), std::string::npos) << no_folder.err;
+}
+
+TEST(View, ShowsMapsAsWorlds) {
+  const auto folder = emptyFolder();
+  for (const std::string map : {"lab.yaml", "office.map", "opho2_1.gridmap.gz"}) {
+    const Ended view = runProgram("view maps/" + map + " --size 400x400 --offscreen " + quoted(folder / "map.png"));
+    ASSERT_EQ(view.exit_code, 0) << view.err;
+    const cv::Mat picture = cv::imread((folder / "map.png").string());
+    cv::Mat white;
+    cv::inRange(picture, cv::Scalar(255, 255, 255), cv::Scalar(255, 255, 255), white);
+    EXPECT_GT(cv::countNonZero(white), 1000) << map << " has a floor";
+    EXPECT_LT(cv::countNonZero(white), 400 * 400 - 1000) << map << " has walls";
+    fs::remove(folder / "map.png");
+  }
+  const Ended picture = runProgram("view maps/courtyard.png --offscreen " + quoted(folder / "map.png"));
+  EXPECT_EQ(picture.exit_code, 1);
+  EXPECT_NE(picture.err.find("a picture does not say how large it is"), std::string::npos) << picture.err;
 }
 
 TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
@@ -136,20 +192,39 @@ TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
 /// A window on a run, when it has been drawn.
 class RunWindow {
  public:
-  RunWindow(const ServedWorld& world, const std::string& token, const Screen& screen)
-      : view_((setenv("ROBOSIM_TOKEN", token.c_str(), 1), std::vector{"view"s, world.dialOptions().address})) {
-    const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
-    EXPECT_GE(screen.waitForPixels(100'000, is_lit, emptyFolder(), view_), 100'000) << view_.error();
+  RunWindow(const ServedWorld& world, const std::string& token, const Screen& screen,
+            const std::vector<std::string>& more = {})
+      : screen_(screen), view_((setenv("ROBOSIM_TOKEN", token.c_str(), 1), words(world, more))) {
+    EXPECT_GE(waitUntilLit(), 100'000) << view_.error();
   }
   ~RunWindow() { unsetenv("ROBOSIM_TOKEN"); }
   static void press(const std::string& keys) { runCommand("xdotool search --name RoboSim windowfocus key " + keys); }
   bool isOpen() { return view_.isRunning(); }
+  int waitUntilLit() {
+    const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
+    return screen_.waitForPixels(100'000, is_lit, emptyFolder(), view_);
+  }
+  /// Waits until much of the screen is another.
+  void waitForChange(const cv::Mat& before) {
+    cv::Mat difference, differs;
+    do {
+      cv::absdiff(screen_.shot(emptyFolder()), before, difference);
+      cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(0, 0, 0), differs);
+    } while (isOpen() && cv::countNonZero(differs) > 1024 * 768 - 20'000);
+  }
   Ended quit() {
     press("q");
     return view_.wait();
   }
 
  private:
+  static std::vector<std::string> words(const ServedWorld& world, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"view", world.dialOptions().address};
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  }
+
+  const Screen& screen_;
   StartedProgram view_;
 };
 
@@ -183,6 +258,34 @@ TEST(View, PausesAndStepsARunForWhoeverMayOperateItAndForNobodyElse) {
   while (window.isOpen() && panel.status().phase() != wire::RUNNING) {
   }
   EXPECT_EQ(window.quit().exit_code, 0);
+}
+
+TEST(View, GoesOnWithAnotherWorldThatHasNotTheRobotItRidesOn) {
+  const std::string master = "master-0123456789ab";
+  ServedWorld::Options options;
+  options.server.access = Access::parse(master + " operator\n", "tokens");
+  options.server.is_paused = true;
+  ServedWorld world(options);
+  DialOptions dialled = world.dialOptions();
+  dialled.token = master;
+  ControlPanel panel(dialled);
+  const Screen screen;
+  RunWindow window(world, master, screen, {"--follow", "Pioneer1"});
+  const cv::Mat before = screen.shot(emptyFolder());
+  panel.load(readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml"));
+  window.waitForChange(before);
+  EXPECT_TRUE(window.isOpen());
+  EXPECT_GE(window.waitUntilLit(), 100'000) << "the window has not closed";
+  EXPECT_EQ(window.quit().exit_code, 0);
+}
+
+TEST(View, ShowsARecordingWhoseFirstTimeIsYearsBeforeTheOthers) {
+  const auto folder = emptyFolder();
+  writeForeignRawlog(folder / "foreign.rawlog", std::chrono::hours(24 * 365 * 31));
+  const Ended view =
+      runProgram("view " + quoted(folder / "foreign.rawlog") + " --offscreen " + quoted(folder / "seen.png"));
+  EXPECT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_TRUE(fs::exists(folder / "seen.png"));
 }
 
 TEST(View, ShowsSomebodyElsesRecording) {

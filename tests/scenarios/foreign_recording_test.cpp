@@ -1,0 +1,193 @@
+// Recordings that RoboSim did not make, as a view shows them: with odd times, odd numbers, and robots and sensors that
+// come late.
+#include "robosim/foreign_recording.h"
+
+#include <cmath>
+#include <limits>
+
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZOutputStream.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/serialization/CArchive.h>
+#include <mrpt/system/datetime.h>
+
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+/// Writes a rawlog, observation by observation.
+class Stranger {
+ public:
+  Stranger() : file_(emptyFolder() / "foreign.rawlog"), stream_(file_.string()) {}
+
+  static mrpt::Clock::time_point at(double time_s) {
+    return mrpt::Clock::time_point(mrpt::Clock::duration(13'000'000'000'000'000 + std::llround(time_s * 1e7)));
+  }
+
+  void drive(const std::string& label, mrpt::Clock::time_point time, double x_m, double y_m = 0) {
+    mrpt::obs::CObservationOdometry odometry;
+    odometry.sensorLabel = label;
+    odometry.timestamp = time;
+    odometry.odometry = {x_m, y_m, 0};
+    archive_ << odometry;
+  }
+  void scan(const std::string& label, mrpt::Clock::time_point time, std::size_t beams) {
+    mrpt::obs::CObservation2DRangeScan scan;
+    scan.sensorLabel = label;
+    scan.timestamp = time;
+    scan.aperture = static_cast<float>(M_PI);
+    scan.maxRange = 80;
+    scan.resizeScanAndAssign(beams, 4, true);
+    archive_ << scan;
+  }
+  void act(mrpt::Clock::time_point time, double ahead_m) {
+    mrpt::obs::CActionRobotMovement2D movement;
+    movement.timestamp = time;
+    movement.computeFromOdometry({ahead_m, 0, 0}, {});
+    mrpt::obs::CActionCollection actions;
+    actions.insert(movement);
+    archive_ << actions;
+  }
+  ForeignRecording read() {
+    stream_.close();
+    return readForeignRecording(file_.string());
+  }
+
+ private:
+  std::filesystem::path file_;
+  mrpt::io::CFileGZOutputStream stream_;
+  mrpt::serialization::CArchiveStreamBase<mrpt::io::CFileGZOutputStream> archive_{stream_};
+};
+
+std::vector<double> timesOf(const ForeignRecording& recording) {
+  std::vector<double> times;
+  for (const auto& moment : recording.moments) times.push_back(moment.time_s);
+  return times;
+}
+
+/// Of the first robot.
+std::vector<double> wayOf(const ForeignRecording& recording) {
+  std::vector<double> way;
+  for (const auto& moment : recording.moments) way.push_back(moment.robots.at(0).world_from_robot.x);
+  return way;
+}
+
+const Echoes& echoesOf(const Shown& moment, std::size_t sensor) {
+  return std::get<Echoes>(moment.robots.at(0).readings.value().measurements.at(sensor));
+}
+
+TEST(ForeignRecording, PutsMomentsInTheOrderOfTimeFromTheEarliestOn) {
+  Stranger stranger;
+  for (const double time_s : {0.5, 1.0, 0.0, 1.5}) stranger.drive("odo", Stranger::at(time_s), 2 * time_s);
+  const ForeignRecording recording = stranger.read();
+  EXPECT_EQ(timesOf(recording), (std::vector{0.0, 0.5, 1.0, 1.5}));
+  EXPECT_EQ(wayOf(recording), (std::vector{0.0, 1.0, 2.0, 3.0}));
+  EXPECT_EQ(recording.moments.back().step, 3u);
+}
+
+TEST(ForeignRecording, GivesWhatHasNoTimeThatOfTheObservationBeforeIt) {
+  Stranger stranger;
+  stranger.drive("odo", INVALID_TIMESTAMP, 1);
+  stranger.drive("odo", Stranger::at(2), 2);
+  stranger.drive("odo", INVALID_TIMESTAMP, 3);
+  stranger.drive("odo", Stranger::at(4), 4);
+  const ForeignRecording recording = stranger.read();
+  EXPECT_EQ(timesOf(recording), (std::vector{0.0, 2.0}));
+  EXPECT_EQ(wayOf(recording), (std::vector{3.0, 4.0}));
+}
+
+TEST(ForeignRecording, WithoutAnyTimeGoesOnByATenthOfASecondAnEntry) {
+  Stranger stranger;
+  for (const double x_m : {1, 2, 3}) stranger.drive("odo", INVALID_TIMESTAMP, x_m);
+  const ForeignRecording recording = stranger.read();
+  ASSERT_EQ(recording.moments.size(), 3u);
+  EXPECT_DOUBLE_EQ(recording.moments[2].time_s, 0.2);
+  EXPECT_EQ(wayOf(recording), (std::vector{1.0, 2.0, 3.0}));
+}
+
+TEST(ForeignRecording, BearsTheFarthestTimesThatThereAre) {
+  using Time = mrpt::Clock::time_point;
+  Stranger stranger;
+  stranger.drive("odo", Time::max(), 2);
+  stranger.drive("odo", Time(mrpt::Clock::duration(1)), 1);
+  const ForeignRecording recording = stranger.read();
+  EXPECT_EQ(wayOf(recording), (std::vector{1.0, 2.0}));
+  EXPECT_NEAR(recording.moments.back().time_s, 9.22e11, 1e10) << "2^63 times 100 ns";
+}
+
+TEST(ForeignRecording, ShowsASensorFromItsFirstReadingOnWhateverOthersDoLater) {
+  Stranger stranger;
+  stranger.drive("odo", Stranger::at(0), 0);
+  stranger.scan("front", Stranger::at(0), 5);
+  stranger.scan("back", Stranger::at(1), 3);
+  const ForeignRecording recording = stranger.read();
+  ASSERT_EQ(recording.moments.size(), 2u);
+  EXPECT_EQ(echoesOf(recording.moments[0], 0).size(), 5u);
+  EXPECT_EQ(echoesOf(recording.moments[0], 1).size(), 0u) << "it has not measured yet";
+  EXPECT_EQ(echoesOf(recording.moments[1], 1).size(), 3u);
+}
+
+TEST(ForeignRecording, HasABeamForEveryEchoOfAScanThatChangesItsSize) {
+  Stranger stranger;
+  for (const std::size_t beams : {5, 0, 1, 3}) stranger.scan("laser", Stranger::at(static_cast<double>(beams)), beams);
+  const ForeignRecording recording = stranger.read();
+  const SensorInfo& laser = recording.world.fleet.robots.at(0).info.sensors->at(0);
+  for (const auto& moment : recording.moments) EXPECT_LE(echoesOf(moment, 0).size(), laser.beams.size());
+  EXPECT_EQ(echoesOf(recording.moments.back(), 0).size(), 5u);
+}
+
+TEST(ForeignRecording, HasAScanOfOneBeamLookAhead) {
+  Stranger stranger;
+  stranger.scan("laser", Stranger::at(0), 1);
+  const ForeignRecording recording = stranger.read();
+  EXPECT_EQ(recording.world.fleet.robots.at(0).info.sensors->at(0).beams.at(0).robot_from_beam.yaw, 0);
+  EXPECT_EQ(echoesOf(recording.moments.at(0), 0).at(0).point_m, mrpt::math::TPoint3Df(4, 0, 0));
+}
+
+TEST(ForeignRecording, HasWhoComesLateStandAtHisFirstPlaceWithoutReadings) {
+  Stranger stranger;
+  stranger.drive("Ann/odo", Stranger::at(0), 1);
+  stranger.drive("Bob/odo", Stranger::at(1), 7, 8);
+  stranger.drive("Bob/odo", Stranger::at(2), 9, 8);
+  const ForeignRecording recording = stranger.read();
+  ASSERT_EQ(recording.moments.size(), 3u);
+  const ShownRobot& bob = recording.moments[0].robots.at(1);
+  EXPECT_EQ(bob.world_from_robot, mrpt::math::TPose2D(7, 8, 0));
+  EXPECT_FALSE(bob.readings);
+  EXPECT_EQ(recording.moments[2].robots[1].world_from_robot.x, 9);
+}
+
+TEST(ForeignRecording, GivesActionsToTheOnlyRobotThatHasAName) {
+  Stranger one;
+  one.act(Stranger::at(0), 0.5);
+  one.scan("Ann/laser", Stranger::at(0), 5);
+  one.act(Stranger::at(1), 0.5);
+  const ForeignRecording recording = one.read();
+  ASSERT_EQ(recording.world.fleet.robots.size(), 1u);
+  EXPECT_EQ(recording.world.fleet.robots[0].info.name, "Ann");
+  EXPECT_EQ(wayOf(recording), (std::vector{0.5, 1.0}));
+
+  Stranger two;
+  two.act(Stranger::at(0), 0.5);
+  two.scan("Ann/laser", Stranger::at(0), 5);
+  two.scan("Bob/laser", Stranger::at(0), 5);
+  EXPECT_EQ(two.read().world.fleet.robots.size(), 3u) << "whose they are nobody knows";
+}
+
+TEST(ForeignRecording, LeavesOutPlacesBeyondAllMapsAndSaysSo) {
+  Stranger stranger;
+  stranger.drive("odo", Stranger::at(0), 1);
+  stranger.drive("odo", Stranger::at(1), 1e300);
+  stranger.drive("odo", Stranger::at(2), std::numeric_limits<double>::quiet_NaN());
+  stranger.drive("odo", Stranger::at(3), 2);
+  const ForeignRecording recording = stranger.read();
+  EXPECT_EQ(wayOf(recording), (std::vector{1.0, 2.0}));
+  EXPECT_EQ(recording.trouble, "2 observations lie more than 10,000 km away, or nowhere; left out");
+}
+
+}  // namespace
+}  // namespace robosim

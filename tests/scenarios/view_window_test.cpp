@@ -1,0 +1,214 @@
+// The windows of `robosim view` under Xvfb: what keys, the bar and its slider do.
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
+
+#include "tests/scenarios/program.h"
+#include "tests/scenarios/screen.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace std::string_literals;
+
+bool isBlue(const cv::Vec3b& pixel) { return pixel[0] > 120 && pixel[2] < 80; }
+
+int bluesIn(const cv::Mat& picture) {
+  int count = 0;
+  for (int y = 0; y < picture.rows; ++y) {
+    for (int x = 0; x < picture.cols; ++x) count += isBlue(picture.at<cv::Vec3b>(y, x)) ? 1 : 0;
+  }
+  return count;
+}
+
+bool areSame(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF) == 0; }
+
+/// 10 m × 10 m: blue boxes of 2 m × 2 m on the upper and the lower edge, and a robot in the middle.
+fs::path writeHall(const fs::path& folder) {
+  std::ofstream out(folder / "hall.xml");
+  out << "<world><surface><size><xmin>0</xmin><xmax>10</xmax><ymin>0</ymin><ymax>10</ymax></size>";
+  for (const int y : {1, 9}) {
+    out << "<object><shape><primitive><cube><name>Box" << y << "</name><x>8</x><y>" << y << "</y><z>0.5</z>"
+        << "<length>2</length><width>2</width><height>1</height><color>0 0 "
+           "1</color></cube></primitive></shape></object>";
+  }
+  out << R"(<object><shape><robot><model>pioneer3dx</model><name>Ann</name><x>5</x><y>5</y><color>1 0 0</color>
+    <controller>wander</controller></robot></shape></object></surface></world>)";
+  return folder / "hall.xml";
+}
+
+/// The hall, run for 20 s.
+fs::path recordHall(const fs::path& folder) {
+  const auto rawlog = folder / "run.rawlog";
+  const Ended run = runProgram("run '" + writeHall(folder).string() + "' --time 20 --record '" + rawlog.string() + "'");
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return rawlog;
+}
+
+/// A window of `robosim view`, once it has been drawn.
+class Window {
+ public:
+  Window(const fs::path& folder, const std::vector<std::string>& arguments) : folder_(folder), view_(arguments) {
+    screen_.waitForPixels(2000, isBlue, folder, view_);
+    start_ = last_ = settled();
+  }
+
+  /// What was to be seen first.
+  const cv::Mat& start() const { return start_; }
+  /// What is to be seen after keys, or what else `xdotool` can do, have changed something.
+  cv::Mat after(const std::string& keys) { return afterDoing("windowfocus key " + keys); }
+  cv::Mat afterDoing(const std::string& what) {
+    const cv::Mat before = last_;
+    runCommand("xdotool search --name RoboSim " + what);
+    for (int tries = 0; tries < 600 && view_.isRunning(); ++tries) {
+      if (!areSame(screen_.shot(folder_), before)) return last_ = settled();
+    }
+    ADD_FAILURE() << what << " changes nothing; " << view_.error();
+    return before;
+  }
+  std::string error() const { return view_.error(); }
+  int quit() {
+    runCommand("xdotool search --name RoboSim windowfocus key q");
+    return view_.wait().exit_code;
+  }
+
+ private:
+  /// As soon as nothing changes any more.
+  cv::Mat settled() {
+    cv::Mat last = screen_.shot(folder_);
+    while (view_.isRunning()) {
+      cv::Mat next = screen_.shot(folder_);
+      if (areSame(next, last)) break;
+      last = next;
+    }
+    return last;
+  }
+
+  fs::path folder_;
+  Screen screen_;
+  StartedProgram view_;
+  cv::Mat start_, last_;
+};
+
+/// So slow that nothing moves by itself while a test looks: 100 s a step.
+const std::vector<std::string> kHardlyMoving{"--speed", "0.001", "--size", "900x700"};
+
+std::vector<std::string> viewOf(const fs::path& file, const std::vector<std::string>& more = kHardlyMoving) {
+  std::vector<std::string> words{"view", file.string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
+TEST(ViewWindow, WindsARecordingBackAndOnByKeys) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const cv::Mat paused = window.after("space");
+  const cv::Mat at_5_s = window.after("Right");
+  EXPECT_FALSE(areSame(at_5_s, paused));
+  EXPECT_TRUE(areSame(window.after("Left"), paused));
+  const cv::Mat first_step = window.after("s");
+  EXPECT_FALSE(areSame(first_step, at_5_s));
+  EXPECT_TRUE(areSame(window.after("Left"), paused)) << "no farther back than the beginning";
+  EXPECT_TRUE(areSame(window.after("space"), window.start())) << "goes on";
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, RidesOnARobotAndShowsEverythingAgain) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const cv::Mat riding = window.after("f");
+  EXPECT_LT(bluesIn(riding), bluesIn(window.start())) << "the boxes are beyond 3 m";
+  EXPECT_TRUE(areSame(window.after("0"), window.start()));
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, HidesAndShowsTrailsSensorsAndNames) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const cv::Mat all = window.after("Right");
+  std::vector<cv::Mat> less;
+  for (const char* key : {"t", "v", "n"}) {
+    less.push_back(window.after(key));
+    EXPECT_TRUE(areSame(window.after(key), all)) << key;
+  }
+  EXPECT_FALSE(areSame(less[0], less[1]));
+  EXPECT_FALSE(areSame(less[1], less[2]));
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, TellsTheSpeedThatKeysChange) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const cv::Mat slowest = window.after("space plus");  // 0.01, the least, and halted
+  const cv::Mat faster = window.after("plus");
+  EXPECT_FALSE(areSame(faster, slowest));
+  EXPECT_TRUE(areSame(window.after("minus"), slowest));
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, HasASliderThatWindsARecording) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const cv::Mat start = window.after("space");
+  const cv::Mat at_5_s = window.after("Right");
+  // Of the bar, the slider's knob at its left end is the first thing that has changed.
+  const cv::Rect bar(0, 700 - 30, 900, 20);
+  cv::Mat difference;
+  cv::absdiff(start(bar), at_5_s(bar), difference);
+  int left = 0;
+  while (left < bar.width && cv::norm(difference.col(left), cv::NORM_INF) == 0) ++left;
+  ASSERT_LT(left, bar.width) << "the knob has moved";
+  const auto clickAt = [&](int x) {
+    return window.afterDoing("mousemove --window %1 " + std::to_string(x) + " " + std::to_string(bar.y + 8) +
+                             " click 1");
+  };
+  const cv::Mat middle = clickAt(left + 150);
+  const cv::Rect picture(0, 0, 900, 600);
+  EXPECT_FALSE(areSame(middle(picture), at_5_s(picture)));
+  EXPECT_TRUE(areSame(clickAt(left)(picture), start(picture)));
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, HasItsBarBelowThePictureAndNotUponIt) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const int above = bluesIn(window.start()(cv::Rect(0, 0, 1024, 350)));
+  const int below = bluesIn(window.start()(cv::Rect(0, 350, 1024, 350)));
+  EXPECT_GT(above, 5000);
+  EXPECT_NEAR(below, above, 300) << "the box on the lower edge is as large as that on the upper";
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, SaysOnTheTerminalWhyARecordingEndsEarly) {
+  const auto folder = emptyFolder();
+  const auto rawlog = recordHall(folder);
+  fs::resize_file(rawlog, fs::file_size(rawlog) / 2);
+  Window window(folder, viewOf(rawlog));
+  EXPECT_EQ(countOf("robosim view: " + rawlog.string() + ": ends early", window.error()), 1u) << window.error();
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, ShowsAWorldFromTheAirAsAPictureFileDoes) {
+  const auto folder = emptyFolder();
+  const auto hall = writeHall(folder);
+  const std::vector<std::string> how{"--3d", "--size", "600x500"};
+  Window window(folder, viewOf(hall, how));
+  const auto file = folder / "air.png";
+  ASSERT_EQ(
+      runProgram("view '" + hall.string() + "' --3d --size 600x500 --offscreen '" + file.string() + "'").exit_code, 0);
+  const cv::Mat picture = cv::imread(file.string());
+  const cv::Mat seen = window.start()(cv::Rect(0, 0, 600, 500));
+  EXPECT_GT(bluesIn(picture), 2000);
+  EXPECT_LT(cv::norm(seen, picture, cv::NORM_L1) / static_cast<double>(3 * picture.total()), 1);
+  const cv::Mat turned =
+      window.afterDoing("windowfocus mousemove --window %1 300 250 mousedown 1 mousemove_relative 90 0 mouseup 1");
+  EXPECT_GT(bluesIn(turned), 1000);
+  EXPECT_TRUE(areSame(window.after("0"), window.start()));
+  EXPECT_EQ(window.quit(), 0);
+}
+
+}  // namespace
+}  // namespace robosim
