@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hardware/blank_measurement.h"
+
 namespace robosim {
 namespace {
 
@@ -234,32 +236,7 @@ void decode(const wire::RobotReadings& in, const std::string& to, Readings& out)
 
 Readings blankReadings(const std::vector<SensorInfo>& sensors) {
   Readings readings;
-  for (const auto& sensor : sensors) {
-    switch (sensor.kind) {
-      case SensorKind::sonar:
-      case SensorKind::laser:
-      case SensorKind::infrared:
-        readings.measurements.emplace_back(Echoes(sensor.beams.size()));
-        break;
-      case SensorKind::heat:
-      case SensorKind::compass:
-      case SensorKind::battery:
-        readings.measurements.emplace_back(Scalar{});
-        break;
-      case SensorKind::bumper:
-        readings.measurements.emplace_back(Contacts{std::vector<std::uint8_t>(sensor.beams.size())});
-        break;
-      case SensorKind::odometry:
-        readings.measurements.emplace_back(Odometry{});
-        break;
-      case SensorKind::camera:
-        readings.measurements.emplace_back(Image{});
-        break;
-      case SensorKind::blob_finder:
-        readings.measurements.emplace_back(blankBlobs(sensor));
-        break;
-    }
-  }
+  for (const auto& sensor : sensors) readings.measurements.push_back(blankMeasurement(sensor));
   return readings;
 }
 

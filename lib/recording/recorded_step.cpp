@@ -6,6 +6,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
+#include "hardware/blank_measurement.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
@@ -23,33 +24,11 @@ CObservation::Ptr find(const std::vector<std::pair<std::string, CObservation::Pt
   return at == observations.end() ? nullptr : at->second;
 }
 
-/// Of a sensor that has not measured.
-Measurement blank(const SensorInfo& sensor) {
-  switch (sensor.kind) {
-    case SensorKind::laser:
-    case SensorKind::sonar:
-    case SensorKind::infrared:
-      return Echoes(sensor.beams.size());
-    case SensorKind::heat:
-    case SensorKind::compass:
-      return Scalar{};
-    case SensorKind::bumper:
-      return Contacts{std::vector<std::uint8_t>(sensor.beams.size())};
-    case SensorKind::odometry:
-      return Odometry{};
-    case SensorKind::camera:
-      return Image{};
-    case SensorKind::blob_finder:
-      return blankBlobs(sensor);
-  }
-  return Image{};
-}
-
 RecordedRobot absent(const RobotInfo& robot, SimTime time) {
   RecordedRobot recorded;
   recorded.is_absent = true;
   recorded.readings.time = time;
-  for (const auto& sensor : *robot.sensors) recorded.readings.measurements.push_back(blank(sensor));
+  for (const auto& sensor : *robot.sensors) recorded.readings.measurements.push_back(blankMeasurement(sensor));
   return recorded;
 }
 
@@ -142,7 +121,7 @@ std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Ob
     const auto observation = find(observations, sensor.label);
     if (!observation) {
       if (!tellsNowAndThen(sensor.kind)) return std::nullopt;
-      readings.measurements.push_back(blank(sensor));
+      readings.measurements.push_back(blankMeasurement(sensor));
       continue;
     }
     if (sensor.kind == SensorKind::camera && pictures_ == Pictures::leave_out) {
