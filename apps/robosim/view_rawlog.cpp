@@ -84,10 +84,21 @@ class RawlogView final : public ViewSource {
     RecordedSteps steps(reader, robots, note.period_s, Pictures::leave_out);
     Progress progress;
     while (auto step = steps.next()) {
+      leaveOutAbsent(*step);
       moments_.push_back(toShown(std::move(*step)));
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
     trouble_ = reader.trouble().value_or("");
+  }
+
+  /// Robots of which the recording has nothing are not shown; in the first step they leave the fleet, too.
+  void leaveOutAbsent(std::vector<RecordedRobot>& robots) {
+    auto& fleet = world_.fleet.robots;
+    if (fleet.size() == robots.size()) {
+      std::size_t i = 0;
+      std::erase_if(fleet, [&](const auto&) { return robots[i++].is_absent; });
+    }
+    std::erase_if(robots, [](const auto& robot) { return robot.is_absent; });
   }
 
   /// The last moment that is not later.

@@ -258,7 +258,7 @@ TEST(RobotWire, RefusesAWelcomeThatMakesNoSense) {
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams(1); }), "");
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_beams(0, kNan); }), "");
   EXPECT_NE(complaint_after([](auto& bad) {
-              bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind(static_cast<wire::SensorKind>(9));
+              bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind(static_cast<wire::SensorKind>(10));
             }),
             "");
   const auto camera_after = [&](const std::function<void(wire::CameraDescription&)>& spoil) {

@@ -120,7 +120,7 @@ TEST_F(StockTools, RawlogEditCountsTheObservationsOfEverySensor) {
   const ToolRun info = runTool("rawlog-edit -i run.rawlog --info", folder_);
   EXPECT_EQ(info.exit_code, 0) << info.output;
   for (const char* expected :
-       {"Overall number of objects         : 270", "Observations format               : Yes",
+       {"Overall number of objects         : 300", "Observations format               : Yes",
         "Earliest timestamp                : 1104537600.000000 (2005/01/01,00:00:00.000000 UTC)",
         "Latest timestamp                  : 1104537602.900000", "rover/GROUND_TRUTH /     30 /10.000 /2.900",
         "rover/sonar", "rover/laser", "rover/beam", "rover/infrared", "rover/heat", "rover/bumper", "rover/odometry",

@@ -179,7 +179,7 @@ TEST(Sonar, SaysWhatIsWrongWithItsElement) {
   EXPECT_EQ(complaint("<sonar beamwidth_deg='20'><at/></sonar>").find("sensor.xml:1: <sonar>: unknown attribute"), 0u);
   EXPECT_EQ(complaint("<radar/>"),
             "sensor.xml:1: <radar>: is no sensor; there are: sonar, laser, heat, infrared, bumper, odometry, compass, "
-            "camera, blob_finder, "
+            "camera, battery, blob_finder, "
             "and 2005's <sensor>");
 }
 

@@ -84,7 +84,8 @@ test('after a switch one sees through the other robot', async () => {
   await page.keyboard.press('n');
   await page.waitForFunction(() => document.querySelector('#robot-name').textContent === 'Bob');
   await page.waitForFunction(() => document.querySelector('#camera').dataset.step > 0);
-  const { column, expected } = await lookAt('Bob');
+  const { step } = await shown();  // what stands there may still be what Ann sees
+  const { column, expected } = await lookAt('Bob', step);
   assert.ok(Math.abs(column - expected) < 3, `in column ${column}, and should be in ${expected}`);
   assert.deepEqual(page.problems, []);
 });

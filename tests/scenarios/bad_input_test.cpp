@@ -186,7 +186,11 @@ TEST_F(BadInput, OfAControlPanel) {
   for (const std::uint64_t steps : {std::uint64_t{0}, UINT64_MAX}) {
     expectRefusal([&] { panel.step(steps); }, "must lie in [1, 1000000000]");
   }
-  expectRefusal([&] { panel.load(WorldSource{"broken.xml", "<world>" + kHuge + "</world>", {}, {}}); }, "broken.xml:1: ");
+  expectRefusal(
+      [&] {
+        panel.load(WorldSource{"broken.xml", "<world>" + kHuge + "</world>", {}, {}});
+      },
+      "broken.xml:1: ");
   for (const std::string bytes : {"nonsense", ""}) {
     expectError(howLoadEnds(world_.dialOptions(), bytes, 3), grpc::StatusCode::INVALID_ARGUMENT,
                 "make no robosim.wire.World");
