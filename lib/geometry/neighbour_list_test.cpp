@@ -19,7 +19,7 @@ struct Found {
 Found near(const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
   Found found;
   found.was_all = list.visitNear(
-      from, [&] { return reach_m; }, [&](std::uint32_t solid, bool) { found.solids.push_back(solid); });
+      from, [&] { return reach_m; }, [&](std::uint32_t solid) { found.solids.push_back(solid); });
   return found;
 }
 

@@ -160,16 +160,16 @@ class Gathering {
  public:
   Gathering(Batch& batch, const Index& index, std::size_t first_body, BodyId except)
       : batch_(batch),
-        rough_(index.rough().data()),
         front_(batch.front(), index.middle()),
-        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body),
-                    except == kNoBody ? -1 : static_cast<std::int64_t>(except)} {}
+        except_(static_cast<std::uint32_t>(except) - static_cast<std::uint32_t>(first_body)),
+        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body)} {}
 
-  void add(std::uint32_t index) { add(rough_[index], index); }
-  void add(const RoughSolid& solid, std::uint32_t index) {
-    pack_.addIf(front_.mayHold(solid), solid, index);
+  /// Whether a solid matters is anybody's guess, so nothing here branches on it.
+  void addIf(bool wanted, const RoughSolid& solid, std::uint32_t index) {
+    pack_.addIf(wanted & front_.mayHold(solid) & (index != except_), solid, index);
     if (pack_.isFull()) finish();
   }
+  void add(const RoughSolid& solid, std::uint32_t index) { addIf(true, solid, index); }
   void finish() {
     if (pack_.count == 0) return;
     batch_.meet(candidates_);
@@ -184,8 +184,8 @@ class Gathering {
   }
 
   Batch& batch_;
-  const RoughSolid* rough_;
   RoughFront front_;
+  std::uint32_t except_;  ///< counted as the index does
   Candidates::Pack& pack_ = emptyPack();
   Candidates candidates_;
 };
@@ -218,7 +218,7 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
     stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
       for (const auto i : pack.indices()) cast(BodyId{i});
     });
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) { cast(movingBody(disc.index)); });
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) { cast(movingBody(entry.index)); });
   }
   if (!best) return {};
   best.point = ray.at(best.distance_m);
@@ -253,10 +253,11 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
         }
       });
   if (movingCount() > 0) {
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
-      const double across = dx * (disc.y - ray.origin.y) - dy * (disc.x - ray.origin.x);
-      if (std::abs(across) > disc.reach_m) return;
-      cast(moving_index_.items()[disc.index], movingBody(disc.index));
+    const auto at = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
+      const float across = rough.dx * (entry.solid.y - at.y) - rough.dy * (entry.solid.x - at.x);
+      if (std::abs(across) > entry.solid.reach() + at.lost_m) return;
+      cast(moving_index_.items()[entry.index], movingBody(entry.index));
     });
   }
   return best;
@@ -267,9 +268,8 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   if (batch.size() == 0) return;
   Gathering stationary(batch, stationary_index_, 0, except);
   const auto reach = [&] { return batch.reach(); };
-  if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i, bool is_sure) {
-        if (is_sure || stationary_index_.items()[i].isWithin(reach(), batch.center())) stationary.add(i);
-      })) {
+  if (!near.visitNear(batch.center(), reach,
+                      [&](std::uint32_t i) { stationary.add(stationary_index_.rough()[i], i); })) {
     Seen& seen = Seen::begin(stationaryCount());
     const CellsAhead ahead(batch.front(), {stationary_index_.xMin(), stationary_index_.yMin()},
                            stationary_index_.cellSize());
@@ -285,8 +285,10 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   stationary.finish();
 
   Gathering moving(batch, moving_index_, stationaryCount(), except);
-  const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
-  visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
+  const Near surroundings(batch.center(), batch.reach(), moving_index_.middle());
+  moving_index_.visitNear(surroundings.bounds(), [&](const CenterIndex::Entry& entry) {
+    moving.addIf(surroundings.mayHold(entry.solid), entry.solid, entry.index);
+  });
   moving.finish();
   batch.finish();
 }
@@ -338,7 +340,7 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
       }
     }
   }
-  moving_index_.visitNear(reach, [&](const CenterIndex::Disc& disc) { sense(movingBody(disc.index)); });
+  moving_index_.visitNear(reach, [&](const CenterIndex::Entry& entry) { sense(movingBody(entry.index)); });
   return best ? best : Hit{};
 }
 
@@ -367,8 +369,8 @@ void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) con
 
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  moving_index_.visitNear(area, [&](const CenterIndex::Disc& disc) {
-    if (meet(moving_index_.items()[disc.index].bounds(), area)) found.push_back(movingBody(disc.index));
+  moving_index_.visitNear(area, [&](const CenterIndex::Entry& entry) {
+    if (meet(moving_index_.items()[entry.index].bounds(), area)) found.push_back(movingBody(entry.index));
   });
   std::sort(found.begin() + begin, found.end());
 }

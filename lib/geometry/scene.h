@@ -69,7 +69,7 @@ class Scene {
   void visitStationary(const mrpt::math::TPoint2D& at, double reach_m, const NeighbourList& near,
                        const Visit& visit) const {
     const auto reach = [&] { return reach_m; };
-    if (near.visitNear(at, reach, [&](std::uint32_t solid, bool) { visit(BodyId{solid}); })) return;
+    if (near.visitNear(at, reach, [&](std::uint32_t solid) { visit(BodyId{solid}); })) return;
     static thread_local std::vector<BodyId> found;
     found.clear();
     stationaryNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m}, found);
@@ -78,13 +78,10 @@ class Scene {
   /// Calls visit(body) for every moving solid within `reach_m` of a point, each once, and maybe for some beyond.
   template <typename Visit>
   void visitMoving(const mrpt::math::TPoint2D& at, double reach_m, const Visit& visit) const {
-    moving_index_.visitNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m},
-                            [&](const CenterIndex::Disc& disc) {
-                              const double dx = disc.x - at.x;
-                              const double dy = disc.y - at.y;
-                              const double far = reach_m + disc.reach_m;
-                              if (dx * dx + dy * dy <= far * far) visit(movingBody(disc.index));
-                            });
+    const Near near(at, reach_m, moving_index_.middle());
+    moving_index_.visitNear(near.bounds(), [&](const CenterIndex::Entry& entry) {
+      if (near.mayHold(entry.solid)) visit(movingBody(entry.index));
+    });
   }
 
   /// Appends the bodies near `area`, in ascending order, each once: all that reach into it, and none whose bounding
