@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/level_ray.h"
 #include "geometry/vector_loops.h"
@@ -14,6 +15,8 @@ using mrpt::math::TPoint2D;
 constexpr std::size_t kBlock = RayFan::kBlock;
 /// Rounding may make a solid seem this much [m] farther off than it is.
 constexpr double kSlack_m = 1e-9;
+constexpr double kFloatMax = std::numeric_limits<float>::max();
+
 /// Rays of a batch as bare arrays: what the loops below need to become vector instructions.
 struct Rays {
   const double* __restrict x;
@@ -163,6 +166,8 @@ void RayBatch::layOut() {
   const LevelFrame panned(world_from_fan_, pan_rad_);
   putInWorld({fan.x_.data(), fan.y_.data(), fan.dx_.data(), fan.dy_.data()}, count, world_from_fan_, panned,
              farthest_m_, x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data());
+  // What fills the last block up never meets anything.
+  std::fill(distance_.begin() + static_cast<std::ptrdiff_t>(size()), distance_.end(), -kFloatMax);
   if (fan.isNarrow()) {
     cones_.place(fan.cones_, panned, farthest_m_);
     passing_.resize(cones_.blocks());
@@ -171,7 +176,6 @@ void RayBatch::layOut() {
     seeFrom(center_.x, center_.y, rays, count, rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(),
             rough_distance_.data());
     passing_.resize(fan.blocks());
-    open_ = count;
   }
 }
 
@@ -229,14 +233,10 @@ void RayBatch::meetByRay(const Candidates& candidates) {
 void RayBatch::settle() {
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
   pairs_.settle([&](std::uint32_t ray, double t, std::int64_t with) {
-    const bool was_open = rays.body[ray] == kNothing;
     keep(rays, ray, t, with);
     rough_distance_[ray] = static_cast<float>(rays.distance[ray]);
-    open_ -= (was_open & (rays.body[ray] != kNothing)) ? 1 : 0;
   });
-  // While one ray has met nothing, what is farthest is the range.
-  if (open_ == 0)
-    farthest_m_ = *std::max_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(size()));
+  farthest_m_ = largest(distance_.data(), distance_.size());
 }
 
 }  // namespace robosim
