@@ -18,7 +18,7 @@ struct Candidates {
   const Pack& pack;
   const GridItem* items;        ///< by index
   mrpt::math::TPoint2D middle;  ///< from where the pack sees its solids
-  std::uint32_t first_body;     ///< the number among all bodies of index 0
+  std::uint32_t first_body;     ///< the number among all bodies of the items' number 0
 
   /// How many of the pack a loop looks at, in whole vectors.
   std::size_t lanes() const { return (pack.count + 15) / 16 * 16; }
@@ -38,9 +38,8 @@ struct Candidates {
       }
       for (; marks != 0; marks &= marks - 1) {
         const auto at = static_cast<std::uint32_t>(std::countr_zero(marks));
-        const std::uint32_t index = pack.index[begin + at / kMaskBits];
-        const GridItem& item = items[index];
-        if (item.heights.contains(z_m)) meet(item, std::int64_t{first_body} + index, first + at % kMaskBits);
+        const GridItem& item = items[pack.index[begin + at / kMaskBits]];
+        if (item.heights.contains(z_m)) meet(item, std::int64_t{first_body} + item.number, first + at % kMaskBits);
       }
     }
   }

@@ -26,7 +26,7 @@ class CenterIndex {
   CenterIndex(const Bounds2D& area, double cell_m, std::size_t solids);
 
   /// Sets a solid; takes effect with build().
-  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid); }
+  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid, static_cast<std::uint32_t>(i)); }
   void build();
 
   /// The solids, in the order given.

@@ -16,8 +16,9 @@ struct GridItem {
   double half_width_m = 0;
   double round_m = 0;  ///< radius of a circle; 0 for a box
   HeightSpan heights;
+  std::uint32_t number = 0;  ///< in the order that the index was given its solids
 
-  static GridItem from(const Solid&);
+  static GridItem from(const Solid&, std::uint32_t number);
   Solid solid() const;
   bool isCircle() const { return round_m > 0; }
   /// Radius [m] of the disc about its centre that covers it.

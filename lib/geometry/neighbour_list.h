@@ -16,7 +16,7 @@ class NeighbourList {
  public:
   struct Neighbour {
     float nearest_m;      ///< from the anchor to its outline, rounded down
-    std::uint32_t solid;  ///< in the scene's order
+    std::uint32_t solid;  ///< in the order of the index
     auto operator<=>(const Neighbour&) const = default;
   };
 

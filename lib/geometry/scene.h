@@ -41,6 +41,8 @@ class Scene {
   std::size_t stationaryCount() const { return stationary_index_.items().size(); }
   std::size_t movingCount() const { return moving_index_.items().size(); }
   BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationaryCount() + i)); }
+  /// @param index as in a NeighbourList
+  BodyId stationaryBody(std::uint32_t index) const { return BodyId{stationary_index_.items()[index].number}; }
   std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationaryCount(); }
   Solid solid(BodyId body) const;
 
@@ -63,17 +65,17 @@ class Scene {
   /// are very many).
   void update(NeighbourList& near, const mrpt::math::TPoint2D& at, double reach_m) const;
 
-  /// Calls visit(body) for every stationary solid within `reach_m` of a point, in no order, maybe more than once, and
+  /// Calls visit(solid) for every stationary solid within `reach_m` of a point, in no order, maybe more than once, and
   /// maybe for some beyond.
   template <typename Visit>
   void visitStationary(const mrpt::math::TPoint2D& at, double reach_m, const NeighbourList& near,
                        const Visit& visit) const {
     const auto reach = [&] { return reach_m; };
-    if (near.visitNear(at, reach, [&](std::uint32_t solid) { visit(BodyId{solid}); })) return;
+    if (near.visitNear(at, reach, [&](std::uint32_t i) { visit(stationary_index_.items()[i].solid()); })) return;
     static thread_local std::vector<BodyId> found;
     found.clear();
     stationaryNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m}, found);
-    for (const BodyId body : found) visit(body);
+    for (const BodyId body : found) visit(solid(body));
   }
   /// Calls visit(body) for every moving solid within `reach_m` of a point, each once, and maybe for some beyond.
   template <typename Visit>
