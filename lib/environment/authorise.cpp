@@ -61,8 +61,7 @@ void Authority::clip(const Scene& scene, const NeighbourList& near, std::size_t 
   const double reach_m = mover.radius_m + std::abs(path.length_m) + kContactGap_m;
 
   path.end_fraction = firstExit(path, mover.radius_m, surface_);
-  scene.visitStationary(startOf(path), reach_m, near, [&](BodyId body) {
-    const Solid solid = scene.solid(body);
+  scene.visitStationary(startOf(path), reach_m, near, [&](const Solid& solid) {
     if (!solid.heights.overlaps(mover.heights)) return;
     path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, solid.outline));
   });

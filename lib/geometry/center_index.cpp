@@ -10,9 +10,8 @@ CenterIndex::CenterIndex(const Bounds2D& area, double cell_m, std::size_t solids
       rows_(cellsIn(area.y_max - area.y_min, cell_m)),
       begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0),
       items_(solids),
-      rough_(solids),
       cell_(solids),
-      discs_(solids) {}
+      entries_(solids) {}
 
 void CenterIndex::build() {
   std::fill(begin_.begin(), begin_.end(), 0);
@@ -20,7 +19,6 @@ void CenterIndex::build() {
   centers_ = {kInfinity, -kInfinity, kInfinity, -kInfinity};
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const GridItem& item = items_[i];
-    rough_[i] = RoughSolid::from(item, middle());
     reach_max_m_ = std::max(reach_max_m_, item.reach());
     centers_ = {std::min(centers_.x_min, item.x), std::max(centers_.x_max, item.x), std::min(centers_.y_min, item.y),
                 std::max(centers_.y_max, item.y)};
@@ -31,8 +29,7 @@ void CenterIndex::build() {
   for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
   // Filled from the back, so that each cell's end becomes its begin and its solids stay in the order given.
   for (std::size_t i = items_.size(); i-- > 0;) {
-    const GridItem& item = items_[i];
-    discs_[--begin_[cell_[i]]] = {item.x, item.y, item.reach(), static_cast<std::uint32_t>(i)};
+    entries_[--begin_[cell_[i]]] = {RoughSolid::from(items_[i], middle()), static_cast<std::uint32_t>(i)};
   }
 }
 

@@ -17,26 +17,24 @@ namespace robosim {
 /// outwards of them.
 class CenterIndex {
  public:
-  /// A solid as its cell lists it.
-  struct Disc {
-    double x = 0, y = 0;  ///< centre [m]
-    double reach_m = 0;   ///< radius of the disc about it that covers the solid
+  /// A solid as its cell lists it: all that tells whether it matters, so that nothing else is read of those that don't.
+  struct Entry {
+    RoughSolid solid;
     std::uint32_t index = 0;
   };
 
   CenterIndex(const Bounds2D& area, double cell_m, std::size_t solids);
 
   /// Sets a solid; takes effect with build().
-  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid); }
+  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid, static_cast<std::uint32_t>(i)); }
   void build();
 
   /// The solids, in the order given.
   std::span<const GridItem> items() const { return items_; }
-  std::span<const RoughSolid> rough() const { return rough_; }
   /// From where the rough solids are seen.
   mrpt::math::TPoint2D middle() const { return {(area_.x_min + area_.x_max) / 2, (area_.y_min + area_.y_max) / 2}; }
 
-  /// Calls visit(disc) for each solid whose disc may reach into `area`, each once.
+  /// Calls visit(entry) for each solid that may reach into `area`, each once.
   template <typename Visit>
   void visitNear(const Bounds2D& area, const Visit& visit) const {
     const int top = row(area.y_max + reach_max_m_);
@@ -45,8 +43,7 @@ class CenterIndex {
     }
   }
 
-  /// Calls visit(disc) for each solid whose disc a ray may meet before reach(), each once; reach() may shrink
-  /// meanwhile.
+  /// Calls visit(entry) for each solid that a ray may meet before reach(), each once; reach() may shrink meanwhile.
   template <typename Reach, typename Visit>
   void visitAlong(const Ray& ray, const Reach& reach, const Visit& visit) const {
     const double out = reach_max_m_ + kMargin_m;
@@ -89,7 +86,7 @@ class CenterIndex {
   template <typename Visit>
   void visitRow(int row, double x_min, double x_max, const Visit& visit) const {
     const std::uint32_t end = begin_[cellAt(row, column(x_max)) + 1];
-    for (std::uint32_t i = begin_[cellAt(row, column(x_min))]; i < end; ++i) visit(discs_[i]);
+    for (std::uint32_t i = begin_[cellAt(row, column(x_min))]; i < end; ++i) visit(entries_[i]);
   }
 
   /// Keeps of [from, to] where origin + t·direction lies in [low, high].
@@ -111,9 +108,8 @@ class CenterIndex {
   Bounds2D centers_;                  ///< of all solids
   std::vector<std::uint32_t> begin_;  ///< by cell, and the end
   std::vector<GridItem> items_;       ///< as given
-  std::vector<RoughSolid> rough_;     ///< as given
   std::vector<std::uint32_t> cell_;   ///< of each
-  std::vector<Disc> discs_;           ///< by cell
+  std::vector<Entry> entries_;        ///< by cell
 };
 
 }  // namespace robosim

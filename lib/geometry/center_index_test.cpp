@@ -11,7 +11,7 @@ namespace {
 
 std::vector<std::uint32_t> near(const CenterIndex& index, const Bounds2D& area) {
   std::vector<std::uint32_t> found;
-  index.visitNear(area, [&](const CenterIndex::Disc& disc) { found.push_back(disc.index); });
+  index.visitNear(area, [&](const CenterIndex::Entry& entry) { found.push_back(entry.index); });
   std::sort(found.begin(), found.end());
   return found;
 }
@@ -56,7 +56,7 @@ TEST(CenterIndex, LeavesOutNothingNearAnAreaOrAlongARayAndNamesEachOnce) {
     const double range_m = rng.below(4) ? rng.uniform(0, 30) : std::numeric_limits<double>::infinity();
     std::vector<std::uint32_t> along;
     index.visitAlong(
-        ray, [&] { return range_m; }, [&](const CenterIndex::Disc& disc) { along.push_back(disc.index); });
+        ray, [&] { return range_m; }, [&](const CenterIndex::Entry& entry) { along.push_back(entry.index); });
     std::sort(along.begin(), along.end());
     ASSERT_EQ(std::adjacent_find(along.begin(), along.end()), along.end()) << "seed " << seed;
 

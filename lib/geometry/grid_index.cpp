@@ -53,12 +53,30 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
   }
 }
 
-void GridIndex::build(std::span<const Solid> solids) {
+void GridIndex::sort(std::span<const Solid> solids) {
+  const auto cellOfCenter = [&](const Solid& solid) {
+    return std::visit([&](const auto& shape) { return cellAt(column(shape.center.x), row(shape.center.y)); },
+                      solid.outline);
+  };
+  std::fill(begin_.begin(), begin_.end(), 0);
+  for (const auto& solid : solids) ++begin_[cellOfCenter(solid)];
+  std::uint32_t sum = 0;
+  for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
   items_.resize(solids.size());
+  index_of_.resize(solids.size());
+  // From the back, so that solids of a cell stay in the order given.
+  for (std::size_t number = solids.size(); number-- > 0;) {
+    const std::uint32_t index = --begin_[cellOfCenter(solids[number])];
+    items_[index] = GridItem::from(solids[number], static_cast<std::uint32_t>(number));
+    index_of_[number] = index;
+  }
+}
+
+void GridIndex::build(std::span<const Solid> solids) {
+  sort(solids);
   rough_.resize(solids.size());
   std::fill(count_.begin(), count_.end(), 0);
-  for (std::size_t i = 0; i < solids.size(); ++i) {
-    items_[i] = GridItem::from(solids[i]);
+  for (std::size_t i = 0; i < items_.size(); ++i) {
     rough_[i] = RoughSolid::from(items_[i], middle());
     forCells(items_[i], [&](std::size_t cell) { ++count_[cell]; });
   }

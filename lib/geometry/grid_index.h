@@ -31,9 +31,12 @@ class GridIndex {
   /// Lists each solid in every cell that its outline reaches.
   void build(std::span<const Solid> solids);
 
-  /// The solids, in the order given.
+  /// The solids, by the cell of their centre: those near each other in the plane are so in memory, too, for who asks
+  /// about one soon asks about the other. Indices here are of this order; GridItem::number tells the one given.
   std::span<const GridItem> items() const { return items_; }
   std::span<const RoughSolid> rough() const { return rough_; }
+  /// The index of a solid by its number.
+  std::uint32_t indexOf(std::size_t number) const { return index_of_[number]; }
   /// From where the rough solids are seen.
   mrpt::math::TPoint2D middle() const { return {(area_.x_min + area_.x_max) / 2, (area_.y_min + area_.y_max) / 2}; }
 
@@ -45,7 +48,7 @@ class GridIndex {
   /// Column or row of a coordinate, pulled onto the rim when it lies outside.
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
-  /// The solids in a cell, in the order they were given.
+  /// The solids in a cell.
   std::span<const Pack> cell(int column, int row) const { return cell(cellAt(column, row)); }
 
   /// Whether a cell goes on outwards without end.
@@ -106,17 +109,20 @@ class GridIndex {
   std::span<const Pack> cell(std::size_t at) const {
     return {packs_.data() + begin_[at], packs_.data() + begin_[at + 1]};
   }
+  /// Sets the items, by the cell of their centre.
+  void sort(std::span<const Solid> solids);
   template <typename Visit>
   void forCells(const GridItem& item, const Visit& visit) const;
 
   Bounds2D area_;
   double cell_m_, per_m_;
   int columns_, rows_;
-  std::vector<GridItem> items_;       ///< one per solid
-  std::vector<RoughSolid> rough_;     ///< one per solid
-  std::vector<std::uint32_t> count_;  ///< of solids, by cell
-  std::vector<std::uint32_t> begin_;  ///< first pack, by cell, and the end
-  std::vector<Pack> packs_;           ///< by cell
+  std::vector<GridItem> items_;          ///< one per solid
+  std::vector<RoughSolid> rough_;        ///< one per solid
+  std::vector<std::uint32_t> index_of_;  ///< by number
+  std::vector<std::uint32_t> count_;     ///< of solids, by cell
+  std::vector<std::uint32_t> begin_;     ///< first pack, by cell, and the end
+  std::vector<Pack> packs_;              ///< by cell
 };
 
 }  // namespace robosim

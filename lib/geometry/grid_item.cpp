@@ -2,8 +2,9 @@
 
 namespace robosim {
 
-GridItem GridItem::from(const Solid& solid) {
+GridItem GridItem::from(const Solid& solid, std::uint32_t number) {
   GridItem item;
+  item.number = number;
   item.heights = solid.heights;
   if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
     item.x = circle->center.x;

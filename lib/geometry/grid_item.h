@@ -16,17 +16,14 @@ struct GridItem {
   double half_width_m = 0;
   double round_m = 0;  ///< radius of a circle; 0 for a box
   HeightSpan heights;
+  std::uint32_t number = 0;  ///< in the order that the index was given its solids
 
-  static GridItem from(const Solid&);
+  static GridItem from(const Solid&, std::uint32_t number);
   Solid solid() const;
   bool isCircle() const { return round_m > 0; }
   /// Radius [m] of the disc about its centre that covers it.
   double reach() const;
   Bounds2D bounds() const;
-  /// Whether some of the solid outline lies no further than `far_m` from a point.
-  bool isWithin(double far_m, const mrpt::math::TPoint2D& of) const {
-    return squaredToBox(of) <= (far_m + round_m) * (far_m + round_m);
-  }
   /// Distance [m] from a point to the solid outline; 0 inside.
   double distanceTo(const mrpt::math::TPoint2D& p) const { return std::max(0.0, std::sqrt(squaredToBox(p)) - round_m); }
 

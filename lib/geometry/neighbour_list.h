@@ -16,7 +16,7 @@ class NeighbourList {
  public:
   struct Neighbour {
     float nearest_m;      ///< from the anchor to its outline, rounded down
-    std::uint32_t solid;  ///< in the scene's order
+    std::uint32_t solid;  ///< in the order of the index
     auto operator<=>(const Neighbour&) const = default;
   };
 
@@ -34,15 +34,14 @@ class NeighbourList {
     return covered_m_ < 0 ? std::numeric_limits<double>::infinity() : (p - anchor_).norm() + kSlack_m;
   }
 
-  /// Calls visit(solid, is_sure) for what may lie within reach() of `from`, the nearest first; reach() may shrink
-  /// meanwhile. `is_sure` says that it does lie within.
+  /// Calls visit(solid) for what may lie within reach() of `from`, the nearest first; reach() may shrink meanwhile.
   /// @return whether that was all there is; if not, the list does not reach far enough.
   template <typename Reach, typename Visit>
   bool visitNear(const mrpt::math::TPoint2D& from, const Reach& reach, const Visit& visit) const {
     const double drift_m = driftTo(from);
     for (const auto& neighbour : nearest_first_) {
       if (neighbour.nearest_m - drift_m > reach()) return true;
-      visit(neighbour.solid, neighbour.nearest_m + drift_m < reach());
+      visit(neighbour.solid);
     }
     return reach() + drift_m <= covered_m_;
   }

@@ -16,10 +16,11 @@ struct Found {
   bool was_all = false;
 };
 
-Found near(const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
+Found near(const Scene& scene, const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
   Found found;
   found.was_all = list.visitNear(
-      from, [&] { return reach_m; }, [&](std::uint32_t solid, bool) { found.solids.push_back(solid); });
+      from, [&] { return reach_m; },
+      [&](std::uint32_t i) { found.solids.push_back(static_cast<std::uint32_t>(scene.stationaryBody(i))); });
   return found;
 }
 
@@ -31,7 +32,7 @@ Scene pillarsAhead() {
 }
 
 TEST(NeighbourList, ThatIsEmptyKnowsNothingAndSaysSo) {
-  const Found found = near(NeighbourList(), {0, 0}, 0.1);
+  const Found found = near(pillarsAhead(), NeighbourList(), {0, 0}, 0.1);
   EXPECT_TRUE(found.solids.empty());
   EXPECT_FALSE(found.was_all);
 }
@@ -40,22 +41,22 @@ TEST(NeighbourList, NamesTheNearestFirstAsFarAsOneReaches) {
   const Scene scene = pillarsAhead();
   NeighbourList list;
   scene.update(list, {0, 0}, 5);
-  EXPECT_EQ(near(list, {0, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3}));
-  EXPECT_EQ(near(list, {0, 0}, 5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
-  EXPECT_TRUE(near(list, {0, 0}, 5).was_all);
-  EXPECT_FALSE(near(list, {0, 0}, 19).was_all) << "it was made for 5 m";
+  EXPECT_EQ(near(scene, list, {0, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3}));
+  EXPECT_EQ(near(scene, list, {0, 0}, 5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
+  EXPECT_TRUE(near(scene, list, {0, 0}, 5).was_all);
+  EXPECT_FALSE(near(scene, list, {0, 0}, 19).was_all) << "it was made for 5 m";
 }
 
 TEST(NeighbourList, StaysTrueWhileItsOwnerMovesAndIsMadeAnewFartherOff) {
   const Scene scene = pillarsAhead();
   NeighbourList list;
   scene.update(list, {0, 0}, 2.5);
-  EXPECT_TRUE(near(list, {0.6, 0}, 2.5).was_all) << "within the skin";
-  EXPECT_EQ(near(list, {0.6, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
-  EXPECT_FALSE(near(list, {17, 0}, 2.5).was_all);
+  EXPECT_TRUE(near(scene, list, {0.6, 0}, 2.5).was_all) << "within the skin";
+  EXPECT_EQ(near(scene, list, {0.6, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
+  EXPECT_FALSE(near(scene, list, {17, 0}, 2.5).was_all);
   scene.update(list, {17, 0}, 2.5);
-  EXPECT_TRUE(near(list, {17, 0}, 2.5).was_all);
-  EXPECT_EQ(near(list, {17, 0}, 3.5).solids, (std::vector<std::uint32_t>{2}));
+  EXPECT_TRUE(near(scene, list, {17, 0}, 2.5).was_all);
+  EXPECT_EQ(near(scene, list, {17, 0}, 3.5).solids, (std::vector<std::uint32_t>{2}));
 }
 
 TEST(NeighbourList, LeavesOutNothingThatLiesWithinReach) {
@@ -70,7 +71,7 @@ TEST(NeighbourList, LeavesOutNothingThatLiesWithinReach) {
     for (int step = 0; step < 20; ++step) {
       at += {rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3)};
       scene.update(list, at, reach_m);
-      const Found found = near(list, at, reach_m);
+      const Found found = near(scene, list, at, reach_m);
       if (!found.was_all) continue;  // very many: the nearest of them are known, and that there are more
       const std::set<std::uint32_t> listed(found.solids.begin(), found.solids.end());
       ASSERT_EQ(listed.size(), found.solids.size()) << "each once, seed " << seed;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/level_ray.h"
 #include "geometry/vector_loops.h"
@@ -14,6 +15,8 @@ using mrpt::math::TPoint2D;
 constexpr std::size_t kBlock = RayFan::kBlock;
 /// Rounding may make a solid seem this much [m] farther off than it is.
 constexpr double kSlack_m = 1e-9;
+constexpr double kFloatMax = std::numeric_limits<float>::max();
+
 /// Rays of a batch as bare arrays: what the loops below need to become vector instructions.
 struct Rays {
   const double* __restrict x;
@@ -46,6 +49,49 @@ void meetBox(const Rays& rays, std::size_t begin, std::size_t end, double x, dou
   for (std::size_t i = begin; i < end; ++i) {
     keep(rays, i, enterBox(x - rays.x[i], y - rays.y[i], rays.dx[i], rays.dy[i], ux, uy, half_length, half_width),
          body);
+  }
+}
+
+/// Rays of a fan, in its own frame.
+struct RaysOfFan {
+  const double* __restrict x;
+  const double* __restrict y;
+  const double* __restrict dx;
+  const double* __restrict dy;
+};
+
+/// Puts the rays of a fan where its carrier is; none has met anything yet.
+/// @param panned `frame`, but turned as the rays are turned about their own origins
+ROBOSIM_VECTOR_CLONES
+void putInWorld(const RaysOfFan& of, std::size_t count, const LevelFrame& frame, const LevelFrame& panned,
+                double range_m, double* __restrict x, double* __restrict y, double* __restrict dx,
+                double* __restrict dy, double* __restrict distance, std::int64_t* __restrict body) {
+  const double x0 = frame.x();
+  const double y0 = frame.y();
+  const double cos = frame.cos();
+  const double sin = frame.sin();
+  const double panned_cos = panned.cos();
+  const double panned_sin = panned.sin();
+  for (std::size_t i = 0; i < count; ++i) {
+    x[i] = x0 + cos * of.x[i] - sin * of.y[i];
+    y[i] = y0 + sin * of.x[i] + cos * of.y[i];
+    dx[i] = panned_cos * of.dx[i] - panned_sin * of.dy[i];
+    dy[i] = panned_sin * of.dx[i] + panned_cos * of.dy[i];
+    distance[i] = range_m;
+    body[i] = RayBatch::kNothing;
+  }
+}
+
+/// Sees rays from a place, in single precision.
+ROBOSIM_VECTOR_CLONES
+void seeFrom(double x0, double y0, const Rays& rays, std::size_t count, float* __restrict x, float* __restrict y,
+             float* __restrict dx, float* __restrict dy, float* __restrict distance) {
+  for (std::size_t i = 0; i < count; ++i) {
+    x[i] = static_cast<float>(rays.x[i] - x0);
+    y[i] = static_cast<float>(rays.y[i] - y0);
+    dx[i] = static_cast<float>(rays.dx[i]);
+    dy[i] = static_cast<float>(rays.dy[i]);
+    distance[i] = static_cast<float>(rays.distance[i]);
   }
 }
 
@@ -111,28 +157,26 @@ Front RayBatch::front() const {
 void RayBatch::layOut() {
   is_laid_out_ = true;
   const RayFan& fan = *fan_;
-  const LevelFrame& frame = world_from_fan_;
-  const double range_m = farthest_m_;
-  const std::size_t rays = fan.x_.size();
-  for (auto* field : {&x_, &y_, &dx_, &dy_}) field->resize(rays);
-  transform(fan.x_.data(), fan.y_.data(), rays, frame.x(), frame.y(), frame.cos(), frame.sin(), x_.data(), y_.data());
-  const LevelFrame panned(frame, pan_rad_);
-  transform(fan.dx_.data(), fan.dy_.data(), rays, 0, 0, panned.cos(), panned.sin(), dx_.data(), dy_.data());
-  distance_.assign(rays, range_m);
-  body_.assign(rays, kNothing);
-
-  const std::size_t blocks = fan.blocks();
-  if (!fan.isNarrow()) {
-    for (auto* field : {&rough_x_, &rough_y_, &rough_dx_, &rough_dy_}) field->resize(rays);
-    roughly(x_.data(), y_.data(), rays, center_.x, center_.y, rough_x_.data(), rough_y_.data());
-    roughly(dx_.data(), dy_.data(), rays, 0, 0, rough_dx_.data(), rough_dy_.data());
-    rough_distance_.assign(rays, static_cast<float>(range_m));
-    passing_.resize(blocks);
-    open_ = rays;
-    return;
+  const std::size_t count = fan.x_.size();
+  if (x_.size() != count) {
+    for (auto* field : {&x_, &y_, &dx_, &dy_, &distance_}) field->resize(count);
+    for (auto* field : {&rough_x_, &rough_y_, &rough_dx_, &rough_dy_, &rough_distance_}) field->resize(count);
+    body_.resize(count);
   }
-  cones_.place(fan.cones_, panned, range_m);
-  passing_.resize(cones_.blocks());
+  const LevelFrame panned(world_from_fan_, pan_rad_);
+  putInWorld({fan.x_.data(), fan.y_.data(), fan.dx_.data(), fan.dy_.data()}, count, world_from_fan_, panned,
+             farthest_m_, x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data());
+  // What fills the last block up never meets anything.
+  std::fill(distance_.begin() + static_cast<std::ptrdiff_t>(size()), distance_.end(), -kFloatMax);
+  if (fan.isNarrow()) {
+    cones_.place(fan.cones_, panned, farthest_m_);
+    passing_.resize(cones_.blocks());
+  } else {
+    const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
+    seeFrom(center_.x, center_.y, rays, count, rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(),
+            rough_distance_.data());
+    passing_.resize(fan.blocks());
+  }
 }
 
 void RayBatch::meet(const Candidates& candidates) {
@@ -189,14 +233,10 @@ void RayBatch::meetByRay(const Candidates& candidates) {
 void RayBatch::settle() {
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
   pairs_.settle([&](std::uint32_t ray, double t, std::int64_t with) {
-    const bool was_open = rays.body[ray] == kNothing;
     keep(rays, ray, t, with);
     rough_distance_[ray] = static_cast<float>(rays.distance[ray]);
-    open_ -= (was_open & (rays.body[ray] != kNothing)) ? 1 : 0;
   });
-  // While one ray has met nothing, what is farthest is the range.
-  if (open_ == 0)
-    farthest_m_ = *std::max_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(size()));
+  farthest_m_ = largest(distance_.data(), distance_.size());
 }
 
 }  // namespace robosim

@@ -73,7 +73,6 @@ class RayBatch {
 
   // Any other fan's, by ray, as seen from the centre.
   std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;
-  std::size_t open_ = 0;  ///< rays that have met nothing yet
   RayPairs pairs_;
 };
 

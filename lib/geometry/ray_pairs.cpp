@@ -11,30 +11,25 @@ constexpr std::size_t kLanes = 8;
 
 std::size_t wholeVectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
+/// Both ways for each pair, for a box and for a circle: two half-filled vectors would cost as much, and sorting the
+/// pairs more.
 ROBOSIM_VECTOR_CLONES
-void enterAll(std::size_t count, const double* __restrict ox, const double* __restrict oy, const double* __restrict dx,
-              const double* __restrict dy, const double* __restrict radius, double* __restrict entered) {
-  for (std::size_t k = 0; k < count; ++k) entered[k] = enterCircle(ox[k], oy[k], dx[k], dy[k], radius[k]);
-}
-
-ROBOSIM_VECTOR_CLONES
-void enterAll(std::size_t count, const double* __restrict ox, const double* __restrict oy, const double* __restrict dx,
-              const double* __restrict dy, const double* __restrict ux, const double* __restrict uy,
-              const double* __restrict half_length, const double* __restrict half_width, double* __restrict entered) {
+void enter(std::size_t count, const double* __restrict ox, const double* __restrict oy, const double* __restrict dx,
+           const double* __restrict dy, const double* __restrict axis_x, const double* __restrict axis_y,
+           const double* __restrict half_length, const double* __restrict half_width, const double* __restrict round,
+           double* __restrict entered) {
   for (std::size_t k = 0; k < count; ++k) {
-    entered[k] = enterBox(ox[k], oy[k], dx[k], dy[k], ux[k], uy[k], half_length[k], half_width[k]);
+    const double circle = enterCircle(ox[k], oy[k], dx[k], dy[k], round[k]);
+    const double box = enterBox(ox[k], oy[k], dx[k], dy[k], axis_x[k], axis_y[k], half_length[k], half_width[k]);
+    entered[k] = round[k] > 0 ? circle : box;
   }
 }
 
 }  // namespace
 
-void RayPairs::enterCircles(Pairs& p) {
-  enterAll(wholeVectors(p.count), p.ox.data(), p.oy.data(), p.dx.data(), p.dy.data(), p.a.data(), p.entered.data());
-}
-
-void RayPairs::enterBoxes(Pairs& p) {
-  enterAll(wholeVectors(p.count), p.ox.data(), p.oy.data(), p.dx.data(), p.dy.data(), p.ux.data(), p.uy.data(),
-           p.a.data(), p.b.data(), p.entered.data());
+void RayPairs::enterAll() {
+  enter(wholeVectors(count_), ox_.data(), oy_.data(), dx_.data(), dy_.data(), axis_x_.data(), axis_y_.data(),
+        half_length_.data(), half_width_.data(), round_.data(), entered_.data());
 }
 
 }  // namespace robosim

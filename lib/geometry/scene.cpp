@@ -158,18 +158,19 @@ void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach,
 template <typename Batch, typename Index>
 class Gathering {
  public:
-  Gathering(Batch& batch, const Index& index, std::size_t first_body, BodyId except)
+  /// @param except an index, which is left out; one beyond all leaves out nothing
+  Gathering(Batch& batch, const Index& index, std::size_t first_body, std::uint32_t except)
       : batch_(batch),
-        rough_(index.rough().data()),
         front_(batch.front(), index.middle()),
-        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body),
-                    except == kNoBody ? -1 : static_cast<std::int64_t>(except)} {}
+        except_(except),
+        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body)} {}
 
-  void add(std::uint32_t index) { add(rough_[index], index); }
-  void add(const RoughSolid& solid, std::uint32_t index) {
-    pack_.addIf(front_.mayHold(solid), solid, index);
+  /// Whether a solid matters is anybody's guess, so nothing here branches on it.
+  void addIf(bool wanted, const RoughSolid& solid, std::uint32_t index) {
+    pack_.addIf(wanted & front_.mayHold(solid) & (index != except_), solid, index);
     if (pack_.isFull()) finish();
   }
+  void add(const RoughSolid& solid, std::uint32_t index) { addIf(true, solid, index); }
   void finish() {
     if (pack_.count == 0) return;
     batch_.meet(candidates_);
@@ -184,8 +185,8 @@ class Gathering {
   }
 
   Batch& batch_;
-  const RoughSolid* rough_;
   RoughFront front_;
+  std::uint32_t except_;
   Candidates::Pack& pack_ = emptyPack();
   Candidates candidates_;
 };
@@ -201,7 +202,9 @@ Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, con
 
 Solid Scene::solid(BodyId body) const {
   const auto i = static_cast<std::size_t>(body);
-  return (i < stationaryCount() ? stationary_index_.items()[i] : moving_index_.items()[i - stationaryCount()]).solid();
+  return (i < stationaryCount() ? stationary_index_.items()[stationary_index_.indexOf(i)]
+                                : moving_index_.items()[i - stationaryCount()])
+      .solid();
 }
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
@@ -216,9 +219,9 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
       if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
     };
     stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
-      for (const auto i : pack.indices()) cast(BodyId{i});
+      for (const auto i : pack.indices()) cast(stationaryBody(i));
     });
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) { cast(movingBody(disc.index)); });
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) { cast(movingBody(entry.index)); });
   }
   if (!best) return {};
   best.point = ray.at(best.distance_m);
@@ -248,15 +251,16 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
       ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
         std::uint32_t passed = passedBy(rough, pack, static_cast<float>(best.distance_m));
         for (; passed != 0; passed &= passed - 1) {
-          const std::uint32_t i = pack.index[std::countr_zero(passed)];
-          cast(items[i], BodyId{i});
+          const GridItem& item = items[pack.index[std::countr_zero(passed)]];
+          cast(item, BodyId{item.number});
         }
       });
   if (movingCount() > 0) {
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Disc& disc) {
-      const double across = dx * (disc.y - ray.origin.y) - dy * (disc.x - ray.origin.x);
-      if (std::abs(across) > disc.reach_m) return;
-      cast(moving_index_.items()[disc.index], movingBody(disc.index));
+    const auto at = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
+    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
+      const float across = rough.dx * (entry.solid.y - at.y) - rough.dy * (entry.solid.x - at.x);
+      if (std::abs(across) > entry.solid.reach() + at.lost_m) return;
+      cast(moving_index_.items()[entry.index], movingBody(entry.index));
     });
   }
   return best;
@@ -265,11 +269,13 @@ Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
 template <typename Batch>
 void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
   if (batch.size() == 0) return;
-  Gathering stationary(batch, stationary_index_, 0, except);
+  const auto number = static_cast<std::size_t>(except);
+  constexpr auto kNone = static_cast<std::uint32_t>(kNoBody);
+  Gathering stationary(batch, stationary_index_, 0,
+                       number < stationaryCount() ? stationary_index_.indexOf(number) : kNone);
   const auto reach = [&] { return batch.reach(); };
-  if (!near.visitNear(batch.center(), reach, [&](std::uint32_t i, bool is_sure) {
-        if (is_sure || stationary_index_.items()[i].isWithin(reach(), batch.center())) stationary.add(i);
-      })) {
+  if (!near.visitNear(batch.center(), reach,
+                      [&](std::uint32_t i) { stationary.add(stationary_index_.rough()[i], i); })) {
     Seen& seen = Seen::begin(stationaryCount());
     const CellsAhead ahead(batch.front(), {stationary_index_.xMin(), stationary_index_.yMin()},
                            stationary_index_.cellSize());
@@ -284,9 +290,12 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
   }
   stationary.finish();
 
-  Gathering moving(batch, moving_index_, stationaryCount(), except);
-  const double far = std::min(batch.reach(), std::numeric_limits<double>::max());
-  visitMoving(batch.center(), far, [&](BodyId body) { moving.add(static_cast<std::uint32_t>(movingIndex(body))); });
+  Gathering moving(batch, moving_index_, stationaryCount(),
+                   number < stationaryCount() ? kNone : static_cast<std::uint32_t>(movingIndex(except)));
+  const Near surroundings(batch.center(), batch.reach(), moving_index_.middle());
+  moving_index_.visitNear(surroundings.bounds(), [&](const CenterIndex::Entry& entry) {
+    moving.addIf(surroundings.mayHold(entry.solid), entry.solid, entry.index);
+  });
   moving.finish();
   batch.finish();
 }
@@ -334,11 +343,11 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
       const auto listed = grid.cell(column, row);
       if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
       for (const auto& pack : listed) {
-        for (const auto i : pack.indices()) sense(BodyId{i});
+        for (const auto i : pack.indices()) sense(stationaryBody(i));
       }
     }
   }
-  moving_index_.visitNear(reach, [&](const CenterIndex::Disc& disc) { sense(movingBody(disc.index)); });
+  moving_index_.visitNear(reach, [&](const CenterIndex::Entry& entry) { sense(movingBody(entry.index)); });
   return best ? best : Hit{};
 }
 
@@ -359,7 +368,8 @@ void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
 void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
   forCells(area, [&](std::uint32_t i) {
-    if (meet(stationary_index_.items()[i].bounds(), area)) found.push_back(BodyId{i});
+    const GridItem& item = stationary_index_.items()[i];
+    if (meet(item.bounds(), area)) found.push_back(BodyId{item.number});
   });
   std::sort(found.begin() + begin, found.end());
   found.erase(std::unique(found.begin() + begin, found.end()), found.end());
@@ -367,8 +377,8 @@ void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) con
 
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  moving_index_.visitNear(area, [&](const CenterIndex::Disc& disc) {
-    if (meet(moving_index_.items()[disc.index].bounds(), area)) found.push_back(movingBody(disc.index));
+  moving_index_.visitNear(area, [&](const CenterIndex::Entry& entry) {
+    if (meet(moving_index_.items()[entry.index].bounds(), area)) found.push_back(movingBody(entry.index));
   });
   std::sort(found.begin() + begin, found.end());
 }

@@ -41,6 +41,8 @@ class Scene {
   std::size_t stationaryCount() const { return stationary_index_.items().size(); }
   std::size_t movingCount() const { return moving_index_.items().size(); }
   BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationaryCount() + i)); }
+  /// @param index as in a NeighbourList
+  BodyId stationaryBody(std::uint32_t index) const { return BodyId{stationary_index_.items()[index].number}; }
   std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationaryCount(); }
   Solid solid(BodyId body) const;
 
@@ -63,28 +65,25 @@ class Scene {
   /// are very many).
   void update(NeighbourList& near, const mrpt::math::TPoint2D& at, double reach_m) const;
 
-  /// Calls visit(body) for every stationary solid within `reach_m` of a point, in no order, maybe more than once, and
+  /// Calls visit(solid) for every stationary solid within `reach_m` of a point, in no order, maybe more than once, and
   /// maybe for some beyond.
   template <typename Visit>
   void visitStationary(const mrpt::math::TPoint2D& at, double reach_m, const NeighbourList& near,
                        const Visit& visit) const {
     const auto reach = [&] { return reach_m; };
-    if (near.visitNear(at, reach, [&](std::uint32_t solid, bool) { visit(BodyId{solid}); })) return;
+    if (near.visitNear(at, reach, [&](std::uint32_t i) { visit(stationary_index_.items()[i].solid()); })) return;
     static thread_local std::vector<BodyId> found;
     found.clear();
     stationaryNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m}, found);
-    for (const BodyId body : found) visit(body);
+    for (const BodyId body : found) visit(solid(body));
   }
   /// Calls visit(body) for every moving solid within `reach_m` of a point, each once, and maybe for some beyond.
   template <typename Visit>
   void visitMoving(const mrpt::math::TPoint2D& at, double reach_m, const Visit& visit) const {
-    moving_index_.visitNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m},
-                            [&](const CenterIndex::Disc& disc) {
-                              const double dx = disc.x - at.x;
-                              const double dy = disc.y - at.y;
-                              const double far = reach_m + disc.reach_m;
-                              if (dx * dx + dy * dy <= far * far) visit(movingBody(disc.index));
-                            });
+    const Near near(at, reach_m, moving_index_.middle());
+    moving_index_.visitNear(near.bounds(), [&](const CenterIndex::Entry& entry) {
+      if (near.mayHold(entry.solid)) visit(movingBody(entry.index));
+    });
   }
 
   /// Appends the bodies near `area`, in ascending order, each once: all that reach into it, and none whose bounding

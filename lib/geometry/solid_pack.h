@@ -16,7 +16,7 @@ struct alignas(32) SolidPack {
   static constexpr std::size_t kMost = Most;
 
   float x[Most], y[Most], axis_x[Most], axis_y[Most], half_length_m[Most], half_width_m[Most], round_m[Most];
-  std::uint32_t index[Most];  ///< in the scene's order
+  std::uint32_t index[Most];  ///< in the order of the index
   std::uint32_t count = 0;
 
   SolidPack() {

@@ -11,13 +11,4 @@ void transform(const double* __restrict x, const double* __restrict y, std::size
   }
 }
 
-ROBOSIM_VECTOR_CLONES
-void roughly(const double* __restrict x, const double* __restrict y, std::size_t count, double x0, double y0,
-             float* __restrict rough_x, float* __restrict rough_y) {
-  for (std::size_t i = 0; i < count; ++i) {
-    rough_x[i] = static_cast<float>(x[i] - x0);
-    rough_y[i] = static_cast<float>(y[i] - y0);
-  }
-}
-
 }  // namespace robosim

@@ -21,10 +21,6 @@ constexpr auto kMaskBit = [] {
 void transform(const double* __restrict x, const double* __restrict y, std::size_t count, double x0, double y0,
                double cos, double sin, double* __restrict to_x, double* __restrict to_y);
 
-/// Points as seen from (x0, y0), in single precision.
-void roughly(const double* __restrict x, const double* __restrict y, std::size_t count, double x0, double y0,
-             float* __restrict rough_x, float* __restrict rough_y);
-
 /// The largest of some numbers, at least four, a multiple of four.
 inline double largest(const double* numbers, std::size_t count) {
   double most[4] = {numbers[0], numbers[1], numbers[2], numbers[3]};

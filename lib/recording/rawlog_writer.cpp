@@ -30,7 +30,7 @@ using mrpt::math::TPose2D;
 constexpr std::size_t kChunkBytes = 64 * 1024;
 /// Readings of one robot and one step that are handed to the background at a time: enough that starting a thread for
 /// them costs nothing to speak of, and little to lose with a killed program.
-constexpr std::size_t kReadingsABatch = 1024;
+constexpr std::size_t kReadingsABatch = 256;
 
 /// Observations of one robot on their way to bytes.
 struct Track {

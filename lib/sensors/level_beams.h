@@ -16,21 +16,24 @@ class LevelBeams {
   /// Where a beam starts and looks, robot frame, before panning.
   const Ray& operator[](std::size_t i) const { return beams_[i]; }
 
-  /// Casts each beam of a robot, all turned by `pan_rad`, and calls visit(i, distance_m, body) for every one that meets
-  /// something nearer than the range.
+  /// Casts each beam of a robot, all turned by `pan_rad`, and calls visit(i, distance_m, body) for all beams of a
+  /// height where anything is near: with the range and kNoBody for a beam that meets nothing.
+  /// @return whether anything is near any beam
   template <typename Visit>
-  void cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
+  bool cast(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const Visit& visit) const {
     static thread_local RayBatch batch;  // its arrays serve all robots of a thread
+    bool any = false;
     for (const auto& tier : tiers_) {
       batch.place(tier.fan, now.frames[robot], range_m, pan_rad);
       now.scene.castRays(batch, now.bodyOf(robot), now.near[robot]);
       if (batch.isUntouched()) continue;
+      any = true;
       for (std::size_t k = 0; k < tier.beams.size(); ++k) {
-        const auto body = batch.body(k);
-        if (body == RayBatch::kNothing) continue;
-        visit(tier.beams[k], batch.distance(k), BodyId(static_cast<std::uint32_t>(body)));
+        static_assert(BodyId{static_cast<std::uint32_t>(RayBatch::kNothing)} == kNoBody);
+        visit(tier.beams[k], batch.distance(k), BodyId{static_cast<std::uint32_t>(batch.body(k))});
       }
     }
+    return any;
   }
 
  private:

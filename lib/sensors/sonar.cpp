@@ -102,7 +102,7 @@ class Sonar : public Sensor {
     heard.assign(sonars_.size(), {});
     if (options_.model == SonarModel::rays && options_.rays == 1) {
       axes_.cast(now, robot, 0, options_.range_max_m, [&](std::size_t i, double distance_m, BodyId body) {
-        heard[i] = {distance_m, sonars_[i].axis, body};
+        if (body != kNoBody) heard[i] = {distance_m, sonars_[i].axis, body};
       });
       return;
     }
