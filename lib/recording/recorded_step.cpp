@@ -51,6 +51,7 @@ CObservation::Ptr RecordedSteps::nextOfRobots() {
       return observation;
     }
   }
+  ahead_position_ = kNowhere;
   return {};
 }
 

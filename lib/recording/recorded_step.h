@@ -39,7 +39,8 @@ class RecordedSteps {
   /// @throws RecordingError for an observation that such robots would not have recorded, or when all are absent.
   std::optional<std::vector<RecordedRobot>> next();
 
-  /// Where the next step begins; for seek().
+  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+  /// Where the next step begins, for seek(); kNowhere at the end.
   std::uint64_t position() const { return ahead_position_; }
   /// Goes to a step that next() has given, or would give; the reader must keep places.
   void seek(std::uint64_t position);
