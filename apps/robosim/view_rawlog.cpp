@@ -17,7 +17,7 @@ class RawlogView final : public ViewSource {
   std::string title() const override { return title_; }
 
   bool advance(double wall_s) override {
-    if (!is_paused_) time_s_ = std::min(time_s_ + wall_s * speed_, times_.back());
+    if (!is_paused_) time_s_ = std::min(pastGap(time_s_ + wall_s * speed_, speed_), times_.back());
     return goTo(time_s_);
   }
   bool isOver() const override { return at_ + 1 == times_.size(); }
@@ -34,12 +34,22 @@ class RawlogView final : public ViewSource {
   void setSpeed(double speed) override { speed_ = speed; }
   std::optional<double> duration() const override { return times_.back(); }
   void seek(double time_s) override { time_s_ = std::clamp(time_s, 0.0, std::max(0.0, times_.back())); }
+  double pastGap(double time_s, double speed) const override {
+    // Seconds of whoever looks; but however slowly he looks, the steps of a run are no gaps.
+    constexpr double kLongest_s = 10, kStill_s = 1;
+    const std::size_t at = momentAt(time_s);
+    if (at + 1 == times_.size() || times_[at + 1] - times_[at] <= kLongest_s * std::max(1.0, speed)) return time_s;
+    return time_s - times_[at] <= kStill_s * speed ? time_s : times_[at + 1];
+  }
 
  private:
   /// The last moment that is not later.
-  bool goTo(double time_s) {
+  std::size_t momentAt(double time_s) const {
     const auto after = std::upper_bound(times_.begin(), times_.end(), time_s + 1e-9);
-    const auto at = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - times_.begin() - 1));
+    return static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, after - times_.begin() - 1));
+  }
+  bool goTo(double time_s) {
+    const std::size_t at = momentAt(time_s);
     if (std::exchange(at_, at) == at) return false;
     shown_ = moments_->at(at);
     return true;

@@ -288,6 +288,24 @@ TEST(View, ShowsARecordingWhoseFirstTimeIsYearsBeforeTheOthers) {
   EXPECT_TRUE(fs::exists(folder / "seen.png"));
 }
 
+TEST(View, LeavesYearsInWhichNothingWasRecordedOutOfAVideo) {
+  const auto folder = emptyFolder();
+  writeForeignRawlog(folder / "foreign.rawlog", std::chrono::hours(24 * 365 * 31));
+  const std::string command = "view " + quoted(folder / "foreign.rawlog") + " --size 320x240 --fps 10 --offscreen " +
+                              quoted(folder / "seen.mp4");
+  const Ended part = runProgram(command + " --to 1e6");
+  EXPECT_NE(part.err.find("robosim view: nothing was recorded for 999998.9 s, in a gap at 1.1 s"), std::string::npos)
+      << part.err;
+  const Ended view = runProgram(command);
+  EXPECT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_NE(view.err.find("robosim view: nothing was recorded for 97761599"), std::string::npos) << view.err;
+  EXPECT_NE(view.err.find(" s, in a gap at 1.1 s; the video leaves that out"), std::string::npos) << view.err;
+  cv::VideoCapture video((folder / "seen.mp4").string());
+  int frames = 0;
+  for (cv::Mat frame; video.read(frame);) ++frames;
+  EXPECT_EQ(frames, 11 + 99) << "the first moment for a second, and then 9.8 s";
+}
+
 TEST(View, ShowsSomebodyElsesRecording) {
   const auto folder = emptyFolder();
   writeForeignRawlog(folder / "foreign.rawlog");
