@@ -59,6 +59,25 @@ class Video {
   cv::VideoWriter writer_;
 };
 
+/// Gaps of a recording that a video has not.
+class LeftOut {
+ public:
+  void add(double from_s, double to_s) {
+    if (count_++ == 0) first_s_ = from_s;
+    total_s_ += to_s - from_s;
+  }
+  void tell() const {
+    if (count_ == 0) return;
+    std::cerr << "robosim view: nothing was recorded for " << fixed(total_s_, 1) << " s, in "
+              << (count_ == 1 ? "a gap" : withCommas(count_) + " gaps, the first") << " at " << fixed(first_s_, 1)
+              << " s; the video leaves that out\n";
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  double first_s_ = 0, total_s_ = 0;
+};
+
 [[noreturn]] void throwInterrupted() { throw std::runtime_error("interrupted; nothing was written"); }
 
 /// Where a recording, or the part of it that is wanted, ends.
@@ -95,17 +114,25 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   Video video(file, size, times.fps);
   if (const auto duration_s = source.duration()) {
     const double end_s = endOf(*duration_s, times);
-    const double frame_s = times.speed.value_or(1) / times.fps;
+    const double speed = times.speed.value_or(1);
+    LeftOut left_out;
     source.pause(true);
-    for (std::uint64_t frame = 0;; ++frame) {
-      const double t = times.from_s.value_or(0) + static_cast<double>(frame) * frame_s;
-      if (t > end_s + 1e-9) break;
+    double begin_s = times.from_s.value_or(0);
+    std::uint64_t frame = 0;  // since then
+    for (double t = begin_s; t <= end_s + 1e-9;) {
       if (interrupt.asked()) throwInterrupted();
       source.seek(t);
       source.advance(0);
       video.add(drawing.draw(size));
       if (progress.due()) progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s …");
+      t = begin_s + static_cast<double>(++frame) * speed / times.fps;
+      if (const double past_s = source.pastGap(t, speed); past_s > t) {
+        left_out.add(t, std::min(past_s, end_s));
+        t = begin_s = past_s;
+        frame = 0;
+      }
     }
+    left_out.tell();
   } else {
     // A run that goes on: what it shows whenever a picture is due.
     using Clock = std::chrono::steady_clock;

@@ -46,6 +46,10 @@ class ViewSource {
   ///@{
   virtual std::optional<double> duration() const { return std::nullopt; }
   virtual void seek(double /*time_s*/) {}
+  /// A time to be shown; or, when it lies in a long gap in which nothing was recorded and has been still for a while,
+  /// when that ends. Clocks that were set while a robot recorded leave gaps of years.
+  /// @param speed recorded seconds per second
+  virtual double pastGap(double time_s, double /*speed*/) const { return time_s; }
   ///@}
 
   /// Whose sensors are shown: by robot, 1 for those; empty for all.

@@ -187,7 +187,11 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     safely([this, factor] { source_.setSpeed(std::clamp(source_.speed() * factor, 0.01, 1000.0)); });
   }
   void seekBy(double seconds) {
-    if (source_.duration()) source_.seek(source_.shown().time_s + seconds);
+    if (!source_.duration()) return;
+    safely([this, seconds] {
+      source_.seek(source_.shown().time_s + seconds);
+      source_.advance(0);  // the next key may come before the next repaint
+    });
   }
 
   bool handle(int key) {

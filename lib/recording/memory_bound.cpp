@@ -11,10 +11,15 @@
 
 /// In place of MRPT's own, which gives null where there is no memory left. The elements of its aligned vectors (the
 /// ranges of a scan) would then be written to null.
+///
+/// It does so because a program's own function goes before that of a shared library (linked with a static MRPT, there
+/// would be two, which is an error of the linker), and because MRPT frees with std::free(). It stands in this file, so
+/// that no program has a MemoryBound without it.
 void* mrpt::aligned_malloc(std::size_t size, std::size_t alignment) {
   const std::size_t whole = (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment;
-  if (void* const memory = std::aligned_alloc(alignment, whole)) return memory;
-  throw std::bad_alloc();
+  void* const memory = whole >= size ? std::aligned_alloc(alignment, whole) : nullptr;
+  if (!memory) throw std::bad_alloc();
+  return memory;
 }
 
 namespace robosim {

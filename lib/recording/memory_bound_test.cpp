@@ -1,9 +1,11 @@
 #include "recording/memory_bound.h"
 
+#include <cstdint>
 #include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <mrpt/core/aligned_allocator.h>
 
 namespace robosim {
 namespace {
@@ -40,6 +42,15 @@ TEST(MemoryBound, BoundsNothingBeforeItHasMeasured) {
   const MemoryBound bound(kMiB);
   const MemoryBound::Hold hold(bound);
   EXPECT_TRUE(canTake(64 * kMiB));
+}
+
+TEST(MemoryBound, ComesWithAnAllocatorOfMrptThatThrowsWhereThereIsNoMemory) {
+  if (!MemoryBound::kBounds) GTEST_SKIP() << "the sanitizer would end the program";
+  EXPECT_THROW(mrpt::aligned_malloc(std::size_t{1} << 60, 64), std::bad_alloc);
+  EXPECT_THROW(mrpt::aligned_malloc(~std::size_t{0}, 64), std::bad_alloc);
+  void* const memory = mrpt::aligned_malloc(100, 64);
+  EXPECT_EQ(reinterpret_cast<std::uintptr_t>(memory) % 64, 0U);
+  mrpt::aligned_free(memory);
 }
 
 }  // namespace

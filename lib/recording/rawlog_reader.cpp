@@ -1,8 +1,8 @@
 #include "recording/rawlog_reader.h"
 
-#include <cerrno>
 #include <cstring>
 #include <deque>
+#include <system_error>
 
 #include <mrpt/img/CImage.h>
 #include <mrpt/obs/CActionCollection.h>
@@ -10,7 +10,6 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
-#include <zlib.h>
 
 #include "base/error_list.h"
 #include "recording/memory_bound.h"
@@ -34,60 +33,33 @@ class AsksForTooMuch : public std::exception {
   const char* what() const noexcept override { return "the next entry asks for more than 256 MiB; it is damaged"; }
 };
 
-/// An MRPT archive of the bytes of a file, compressed or not, that knows where it is. MRPT's own stream does not tell
-/// an end from a fault.
-class GzipArchive : public mrpt::serialization::CArchive {
+/// An MRPT archive of the bytes of a file.
+class UnpackedArchive : public mrpt::serialization::CArchive {
  public:
-  explicit GzipArchive(gzFile file) : file_(file) {}
+  explicit UnpackedArchive(UnpackedFile& file) : file_(file) {}
 
   std::string getArchiveDescription() const override { return "rawlog"; }
-  std::uint64_t position() const { return position_; }
   /// Whether a piece was asked for that is larger than any.
   bool askedTooMuch() const { return asked_too_much_; }
-  /// Whether everything has been read, and nothing was missing.
-  bool atEnd() {
-    const int byte = gzgetc(file_);
-    if (byte >= 0) {
-      gzungetc(byte, file_);
-      return false;
-    }
-    return fault().empty();
-  }
-  /// What is wrong with the compressed file; empty for nothing.
-  std::string fault() const {
-    int number = Z_OK;
-    const char* const text = gzerror(file_, &number);
-    if (number == Z_OK || number == Z_STREAM_END) return {};
-    return number == Z_BUF_ERROR ? "it is cut off" : text;
-  }
 
  protected:
-  std::size_t write(const void*, std::size_t) override { throw std::logic_error("GzipArchive only reads"); }
+  std::size_t write(const void*, std::size_t) override { throw std::logic_error("UnpackedArchive only reads"); }
   std::size_t read(void* to, std::size_t size) override {
     asked_too_much_ = asked_too_much_ || size > kMostPieceBytes;
     if (asked_too_much_) throw AsksForTooMuch();
-    std::size_t done = 0;
-    while (done < size) {
-      const int got = gzread(file_, static_cast<char*>(to) + done, static_cast<unsigned>(size - done));
-      if (got <= 0) break;
-      done += static_cast<std::size_t>(got);
-    }
-    position_ += done;
-    return done;
+    return file_.read(to, size);
   }
 
  private:
-  gzFile file_;
-  std::uint64_t position_ = 0;
+  UnpackedFile& file_;
   bool asked_too_much_ = false;
 };
 
 /// Every object begins with the length of its class's name, its highest bit set, and the name: C… with a namespace
 /// before it or not.
-bool looksLikeRawlog(gzFile file) {
+bool looksLikeRawlog(UnpackedFile& file) {
   unsigned char head[3];
-  if (gzread(file, head, sizeof head) != sizeof head) return false;
-  for (auto i = sizeof head; i > 0; --i) gzungetc(head[i - 1], file);  // a pipe cannot be rewound
+  if (file.peek(head, sizeof head) != sizeof head) return false;
   const auto* const name = reinterpret_cast<const char*>(head + 1);
   return head[0] >= 0x84 && (name[0] == 'C' || std::memcmp(name, "mr", 2) == 0);
 }
@@ -95,23 +67,21 @@ bool looksLikeRawlog(gzFile file) {
 }  // namespace
 
 struct RawlogReader::Impl {
-  Impl(gzFile opened, std::string called) : file(opened), archive(opened), name(std::move(called)) {}
-  ~Impl() { gzclose(file); }
-  Impl(const Impl&) = delete;
-  Impl& operator=(const Impl&) = delete;
+  Impl(const fs::path& path, Places places) : file(path, places), name(path.string()) {}
 
   void readEntry();
   void take(const mrpt::serialization::CSerializable::Ptr& object);
   void take(const mrpt::obs::CActionCollection& actions);
   void stop(const std::string& why);
 
-  gzFile file;
-  GzipArchive archive;
+  UnpackedFile file;
+  UnpackedArchive archive{file};
   MemoryBound bound{kMostEntryBytes};
   std::string name;
   std::deque<CObservation::Ptr> ready;
+  std::uint64_t entry_position = 0;      ///< of those
   mrpt::poses::CPose2D odom_from_robot;  ///< added up from actions
-  std::uint64_t entries = 0, left_out = 0;
+  std::uint64_t entries = 0, left_out = 0, looks = 0;
   bool at_end = false;
   std::optional<std::string> trouble;
 };
@@ -119,15 +89,16 @@ struct RawlogReader::Impl {
 void RawlogReader::Impl::stop(const std::string& why) {
   at_end = true;
   trouble = name + ": ends early, after " + std::to_string(entries) + (entries == 1 ? " entry" : " entries") +
-            " (byte " + std::to_string(archive.position()) + " when unpacked): " + why;
+            " (byte " + std::to_string(file.position()) + " when unpacked): " + why;
 }
 
 void RawlogReader::Impl::readEntry() {
-  if (archive.atEnd()) {
+  if (file.atEnd()) {
     at_end = true;
     return;
   }
-  if (entries % kEntriesPerLook == 0) bound.measure();
+  if (looks++ % kEntriesPerLook == 0) bound.measure();
+  entry_position = file.position();
   try {
     // MRPT makes room for as much as a number in the file says before it reads on.
     mrpt::serialization::CSerializable::Ptr object;
@@ -141,8 +112,8 @@ void RawlogReader::Impl::readEntry() {
     stop(AsksForTooMuch().what());
   } catch (const std::exception& error) {
     if (archive.askedTooMuch()) return stop(AsksForTooMuch().what());
-    if (const std::string fault = archive.fault(); !fault.empty()) return stop(fault);
-    if (archive.atEnd()) return stop("it is cut off");
+    if (const std::string& fault = file.fault(); !fault.empty()) return stop(fault);
+    if (file.atEnd()) return stop("it is cut off");
     // MRPT puts the place in its source before the message, and a call stack after it.
     std::string what = error.what();
     if (const auto at = what.find("Message:"); at != std::string::npos) what.erase(0, at + 8);
@@ -176,18 +147,17 @@ void RawlogReader::Impl::take(const mrpt::obs::CActionCollection& actions) {
   ready.push_back(odometry);
 }
 
-RawlogReader::RawlogReader(const fs::path& file) {
+RawlogReader::RawlogReader(const fs::path& file, Places places) {
   std::error_code ignored;
   if (fs::is_directory(file, ignored)) throw ConfigError(file.string() + ": is a folder; give a rawlog in it");
-  const gzFile opened = gzopen(file.c_str(), "rb");
-  if (!opened) {
-    throw ConfigError(file.string() + ": cannot be read: " + std::strerror(errno) + "; give an MRPT rawlog");
+  try {
+    impl_ = std::make_unique<Impl>(file, places);
+  } catch (const std::system_error& error) {
+    throw ConfigError(file.string() + ": cannot be read: " + error.code().message() + "; give an MRPT rawlog");
   }
-  impl_ = std::make_unique<Impl>(opened, file.string());
-  gzbuffer(opened, 128 * 1024);
   // Where MRPT looks for pictures in files of their own; it knows one such folder for a program.
   mrpt::img::CImage::setImagesPathBase((file.parent_path() / (file.stem().string() + "_Images")).string());
-  if (!looksLikeRawlog(opened)) {
+  if (!looksLikeRawlog(impl_->file)) {
     throw ConfigError(file.string() +
                       ": is no MRPT rawlog, which begins with the name of a class; make one with robosim run --record");
   }
@@ -201,6 +171,14 @@ CObservation::Ptr RawlogReader::next() {
   auto observation = std::move(impl_->ready.front());
   impl_->ready.pop_front();
   return observation;
+}
+
+std::uint64_t RawlogReader::position() const { return impl_->entry_position; }
+
+void RawlogReader::seek(std::uint64_t position) {
+  impl_->ready.clear();
+  impl_->at_end = false;
+  impl_->file.seek(position);
 }
 
 const std::optional<std::string>& RawlogReader::trouble() const { return impl_->trouble; }

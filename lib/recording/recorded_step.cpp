@@ -47,10 +47,17 @@ CObservation::Ptr RecordedSteps::nextOfRobots() {
     if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(observation)) {
       note_ = comment->text;
     } else if (!partsOf(observation->sensorLabel).robot.empty()) {
+      ahead_position_ = reader_.position();
       return observation;
     }
   }
+  ahead_position_ = kNowhere;
   return {};
+}
+
+void RecordedSteps::seek(std::uint64_t position) {
+  reader_.seek(position);
+  ahead_ = nextOfRobots();
 }
 
 std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {

@@ -39,6 +39,12 @@ class RecordedSteps {
   /// @throws RecordingError for an observation that such robots would not have recorded, or when all are absent.
   std::optional<std::vector<RecordedRobot>> next();
 
+  static constexpr std::uint64_t kNowhere = ~std::uint64_t{0};
+  /// Where the next step begins, for seek(); kNowhere at the end.
+  std::uint64_t position() const { return ahead_position_; }
+  /// Goes to a step that next() has given, or would give; the reader must keep places.
+  void seek(std::uint64_t position);
+
   /// The last note so far; empty for none.
   const std::string& note() const { return note_; }
 
@@ -56,6 +62,7 @@ class RecordedSteps {
   std::vector<std::uint8_t> is_absent_;  ///< by robot; empty before the first step
   std::string note_;
   mrpt::obs::CObservation::Ptr ahead_;  ///< the first of the next step
+  std::uint64_t ahead_position_ = 0;
 };
 
 }  // namespace robosim

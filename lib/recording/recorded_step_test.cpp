@@ -110,6 +110,34 @@ TEST_F(RecordedStepsTest, OfAFileThatIsCutOffAllWholeStepsComeBackAndTheRestIsTo
   }
 }
 
+TEST_F(RecordedStepsTest, AnyStepThatWasReadCanBeReadAgain) {
+  for (const RawlogFormat format : {RawlogFormat::observations, RawlogFormat::sensory_frames}) {
+    const bool has_both = format == RawlogFormat::observations;
+    written.clear();
+    record(50, format);
+    RawlogReader reader(has_both ? file : in("run_b.rawlog"), RawlogReader::Places::keep);
+    RecordedSteps steps(reader, robots, 0.1);
+    std::vector<std::uint64_t> places;
+    do {
+      places.push_back(steps.position());
+    } while (steps.next());
+    EXPECT_EQ(places.back(), RecordedSteps::kNowhere);
+    ASSERT_EQ(places.size(), 51U);
+    for (const std::size_t k : {49, 0, 20, 21, 3}) {
+      steps.seek(places[k]);
+      const auto step = steps.next();
+      ASSERT_TRUE(step) << k;
+      EXPECT_EQ(step->front().is_absent, !has_both);
+      if (has_both) {
+        EXPECT_EQ(step->front().readings.measurements, written[k].front().measurements) << k;
+      }
+      EXPECT_EQ(step->back().readings.measurements, written[k].back().measurements) << k;
+      EXPECT_EQ(step->back().readings.inbox, written[k].back().inbox) << k;
+      EXPECT_EQ(steps.position(), places[k + 1]);
+    }
+  }
+}
+
 std::string refusal(RecordedSteps& steps) {
   try {
     steps.next();

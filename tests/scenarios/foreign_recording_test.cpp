@@ -11,6 +11,7 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/system/datetime.h>
 
@@ -52,25 +53,59 @@ class Stranger {
     actions.insert(movement);
     archive_ << actions;
   }
-  ForeignRecording read() {
+  /// A frame of two scans that see as far as they are told.
+  void frame(mrpt::Clock::time_point time, float front_m, float back_m) {
+    mrpt::obs::CSensoryFrame frame;
+    for (const auto& [label, range_m] : {std::pair{"front", front_m}, {"back", back_m}}) {
+      const auto scan = mrpt::obs::CObservation2DRangeScan::Create();
+      scan->sensorLabel = label;
+      scan->timestamp = time;
+      scan->maxRange = 80;
+      scan->resizeScanAndAssign(3, range_m, true);
+      frame.insert(scan);
+    }
+    archive_ << frame;
+  }
+  struct Recording {
+    LoadedWorld world;
+    std::vector<Shown> moments;
+    std::string trouble;
+  };
+  Recording read() {
     stream_.close();
-    return readForeignRecording(file_.string());
+    const auto recorded = readForeignRecording(file_.string());
+    Recording recording{recorded->world(), {}, recorded->trouble()};
+    for (std::size_t i = 0; i < recorded->times().size(); ++i) {
+      recording.moments.push_back(recorded->at(i));
+      EXPECT_EQ(recording.moments.back().time_s, recorded->times()[i]);
+    }
+    for (std::size_t i = recording.moments.size(); i-- > 0;) expectSame(recorded->at(i), recording.moments[i]);
+    return recording;
   }
 
  private:
+  static void expectSame(const Shown& a, const Shown& b) {
+    for (std::size_t i = 0; i < b.robots.size(); ++i) {
+      EXPECT_EQ(a.robots.at(i).world_from_robot, b.robots[i].world_from_robot);
+      ASSERT_EQ(a.robots[i].readings.has_value(), b.robots[i].readings.has_value());
+      if (!b.robots[i].readings) continue;
+      EXPECT_EQ(a.robots[i].readings->measurements, b.robots[i].readings->measurements);
+    }
+  }
+
   std::filesystem::path file_;
   mrpt::io::CFileGZOutputStream stream_;
   mrpt::serialization::CArchiveStreamBase<mrpt::io::CFileGZOutputStream> archive_{stream_};
 };
 
-std::vector<double> timesOf(const ForeignRecording& recording) {
+std::vector<double> timesOf(const Stranger::Recording& recording) {
   std::vector<double> times;
   for (const auto& moment : recording.moments) times.push_back(moment.time_s);
   return times;
 }
 
 /// Of the first robot.
-std::vector<double> wayOf(const ForeignRecording& recording) {
+std::vector<double> wayOf(const Stranger::Recording& recording) {
   std::vector<double> way;
   for (const auto& moment : recording.moments) way.push_back(moment.robots.at(0).world_from_robot.x);
   return way;
@@ -83,7 +118,7 @@ const Echoes& echoesOf(const Shown& moment, std::size_t sensor) {
 TEST(ForeignRecording, PutsMomentsInTheOrderOfTimeFromTheEarliestOn) {
   Stranger stranger;
   for (const double time_s : {0.5, 1.0, 0.0, 1.5}) stranger.drive("odo", Stranger::at(time_s), 2 * time_s);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   EXPECT_EQ(timesOf(recording), (std::vector{0.0, 0.5, 1.0, 1.5}));
   EXPECT_EQ(wayOf(recording), (std::vector{0.0, 1.0, 2.0, 3.0}));
   EXPECT_EQ(recording.moments.back().step, 3u);
@@ -95,15 +130,15 @@ TEST(ForeignRecording, GivesWhatHasNoTimeThatOfTheObservationBeforeIt) {
   stranger.drive("odo", Stranger::at(2), 2);
   stranger.drive("odo", INVALID_TIMESTAMP, 3);
   stranger.drive("odo", Stranger::at(4), 4);
-  const ForeignRecording recording = stranger.read();
-  EXPECT_EQ(timesOf(recording), (std::vector{0.0, 2.0}));
-  EXPECT_EQ(wayOf(recording), (std::vector{3.0, 4.0}));
+  const Stranger::Recording recording = stranger.read();
+  EXPECT_EQ(timesOf(recording), (std::vector{0.0, 0.1, 2.1})) << "a tenth of a second until there is a time";
+  EXPECT_EQ(wayOf(recording), (std::vector{1.0, 3.0, 4.0}));
 }
 
 TEST(ForeignRecording, WithoutAnyTimeGoesOnByATenthOfASecondAnEntry) {
   Stranger stranger;
   for (const double x_m : {1, 2, 3}) stranger.drive("odo", INVALID_TIMESTAMP, x_m);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   ASSERT_EQ(recording.moments.size(), 3u);
   EXPECT_DOUBLE_EQ(recording.moments[2].time_s, 0.2);
   EXPECT_EQ(wayOf(recording), (std::vector{1.0, 2.0, 3.0}));
@@ -114,7 +149,7 @@ TEST(ForeignRecording, BearsTheFarthestTimesThatThereAre) {
   Stranger stranger;
   stranger.drive("odo", Time::max(), 2);
   stranger.drive("odo", Time(mrpt::Clock::duration(1)), 1);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   EXPECT_EQ(wayOf(recording), (std::vector{1.0, 2.0}));
   EXPECT_NEAR(recording.moments.back().time_s, 9.22e11, 1e10) << "2^63 times 100 ns";
 }
@@ -124,17 +159,32 @@ TEST(ForeignRecording, ShowsASensorFromItsFirstReadingOnWhateverOthersDoLater) {
   stranger.drive("odo", Stranger::at(0), 0);
   stranger.scan("front", Stranger::at(0), 5);
   stranger.scan("back", Stranger::at(1), 3);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   ASSERT_EQ(recording.moments.size(), 2u);
   EXPECT_EQ(echoesOf(recording.moments[0], 0).size(), 5u);
   EXPECT_EQ(echoesOf(recording.moments[0], 1).size(), 0u) << "it has not measured yet";
   EXPECT_EQ(echoesOf(recording.moments[1], 1).size(), 3u);
 }
 
+TEST(ForeignRecording, FindsEachObservationOfAFrameAgain) {
+  Stranger stranger;
+  for (int i = 0; i < 3; ++i) {
+    const auto ahead_m = static_cast<float>(i);
+    stranger.act(Stranger::at(i), 0.5);
+    stranger.frame(Stranger::at(i), 10 + ahead_m, 20 + ahead_m);
+  }
+  const Stranger::Recording recording = stranger.read();
+  EXPECT_EQ(wayOf(recording), (std::vector{0.5, 1.0, 1.5}));
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(echoesOf(recording.moments.at(i), 0).at(0).range_m, 10 + static_cast<float>(i));
+    EXPECT_EQ(echoesOf(recording.moments.at(i), 1).at(0).range_m, 20 + static_cast<float>(i));
+  }
+}
+
 TEST(ForeignRecording, HasABeamForEveryEchoOfAScanThatChangesItsSize) {
   Stranger stranger;
   for (const std::size_t beams : {5, 0, 1, 3}) stranger.scan("laser", Stranger::at(static_cast<double>(beams)), beams);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   const SensorInfo& laser = recording.world.fleet.robots.at(0).info.sensors->at(0);
   for (const auto& moment : recording.moments) EXPECT_LE(echoesOf(moment, 0).size(), laser.beams.size());
   EXPECT_EQ(echoesOf(recording.moments.back(), 0).size(), 5u);
@@ -143,7 +193,7 @@ TEST(ForeignRecording, HasABeamForEveryEchoOfAScanThatChangesItsSize) {
 TEST(ForeignRecording, HasAScanOfOneBeamLookAhead) {
   Stranger stranger;
   stranger.scan("laser", Stranger::at(0), 1);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   EXPECT_EQ(recording.world.fleet.robots.at(0).info.sensors->at(0).beams.at(0).robot_from_beam.yaw, 0);
   EXPECT_EQ(echoesOf(recording.moments.at(0), 0).at(0).point_m, mrpt::math::TPoint3Df(4, 0, 0));
 }
@@ -153,7 +203,7 @@ TEST(ForeignRecording, HasWhoComesLateStandAtHisFirstPlaceWithoutReadings) {
   stranger.drive("Ann/odo", Stranger::at(0), 1);
   stranger.drive("Bob/odo", Stranger::at(1), 7, 8);
   stranger.drive("Bob/odo", Stranger::at(2), 9, 8);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   ASSERT_EQ(recording.moments.size(), 3u);
   const ShownRobot& bob = recording.moments[0].robots.at(1);
   EXPECT_EQ(bob.world_from_robot, mrpt::math::TPose2D(7, 8, 0));
@@ -166,7 +216,7 @@ TEST(ForeignRecording, GivesActionsToTheOnlyRobotThatHasAName) {
   one.act(Stranger::at(0), 0.5);
   one.scan("Ann/laser", Stranger::at(0), 5);
   one.act(Stranger::at(1), 0.5);
-  const ForeignRecording recording = one.read();
+  const Stranger::Recording recording = one.read();
   ASSERT_EQ(recording.world.fleet.robots.size(), 1u);
   EXPECT_EQ(recording.world.fleet.robots[0].info.name, "Ann");
   EXPECT_EQ(wayOf(recording), (std::vector{0.5, 1.0}));
@@ -184,7 +234,7 @@ TEST(ForeignRecording, LeavesOutPlacesBeyondAllMapsAndSaysSo) {
   stranger.drive("odo", Stranger::at(1), 1e300);
   stranger.drive("odo", Stranger::at(2), std::numeric_limits<double>::quiet_NaN());
   stranger.drive("odo", Stranger::at(3), 2);
-  const ForeignRecording recording = stranger.read();
+  const Stranger::Recording recording = stranger.read();
   EXPECT_EQ(wayOf(recording), (std::vector{1.0, 2.0}));
   EXPECT_EQ(recording.trouble, "2 observations lie more than 10,000 km away, or nowhere; left out");
 }

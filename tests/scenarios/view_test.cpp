@@ -4,10 +4,12 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "robosim/recorded_moments.h"
 #include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
@@ -89,6 +91,20 @@ TEST(View, WritesAVideoOfARecording) {
   EXPECT_EQ(first.size(), cv::Size(320, 240));
   EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robot has moved";
   EXPECT_FALSE(fs::exists(folder / "run.mp4.part.mp4"));
+}
+
+TEST(View, KeepsLittleOfALongRecordingInMemory) {
+  const auto folder = emptyFolder();
+  const auto rawlog = folder / "run.rawlog";
+  ASSERT_EQ(runProgram("run " + quoted(writeHall(folder)) + " --time 300 --record " + quoted(rawlog)).exit_code, 0);
+  readMoments(rawlog.string());  // what is made once for the program
+  const std::size_t before = mallinfo2().uordblks + mallinfo2().hblkhd;
+  const auto moments = readMoments(rawlog.string());
+  const std::size_t after = mallinfo2().uordblks + mallinfo2().hblkhd;
+  ASSERT_EQ(moments->times().size(), 3001u);
+  EXPECT_LT(after, before + 2'000'000) << "the scans alone are 8 MB";
+  EXPECT_EQ(moments->at(3000).step, 3000u);
+  EXPECT_EQ(moments->at(7).step, 7u);
 }
 
 TEST(View, ShowsARunThatGoesOnAndLetsItGoOn) {
@@ -286,6 +302,24 @@ TEST(View, ShowsARecordingWhoseFirstTimeIsYearsBeforeTheOthers) {
       runProgram("view " + quoted(folder / "foreign.rawlog") + " --offscreen " + quoted(folder / "seen.png"));
   EXPECT_EQ(view.exit_code, 0) << view.err;
   EXPECT_TRUE(fs::exists(folder / "seen.png"));
+}
+
+TEST(View, LeavesYearsInWhichNothingWasRecordedOutOfAVideo) {
+  const auto folder = emptyFolder();
+  writeForeignRawlog(folder / "foreign.rawlog", std::chrono::hours(24 * 365 * 31));
+  const std::string command = "view " + quoted(folder / "foreign.rawlog") + " --size 320x240 --fps 10 --offscreen " +
+                              quoted(folder / "seen.mp4");
+  const Ended part = runProgram(command + " --to 1e6");
+  EXPECT_NE(part.err.find("robosim view: nothing was recorded for 999998.9 s, in a gap at 1.1 s"), std::string::npos)
+      << part.err;
+  const Ended view = runProgram(command);
+  EXPECT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_NE(view.err.find("robosim view: nothing was recorded for 97761599"), std::string::npos) << view.err;
+  EXPECT_NE(view.err.find(" s, in a gap at 1.1 s; the video leaves that out"), std::string::npos) << view.err;
+  cv::VideoCapture video((folder / "seen.mp4").string());
+  int frames = 0;
+  for (cv::Mat frame; video.read(frame);) ++frames;
+  EXPECT_EQ(frames, 11 + 99) << "the first moment for a second, and then 9.8 s";
 }
 
 TEST(View, ShowsSomebodyElsesRecording) {
