@@ -307,20 +307,31 @@ void Scene::senseSectors(SectorBatch& batch, BodyId except, const NeighbourList&
 
 void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) const {
   if (near.driftTo(at) <= kSkin_m) return;
-  static thread_local std::vector<NeighbourList::Neighbour> found;
-  found.clear();
+  // Distance and index in one number, which sorts by the first as it is: the bits of floats that are not negative do.
+  static thread_local std::vector<std::uint64_t> found;
   double covered_m = reach_m + kSkin_m;
+  std::size_t count = 0;
   forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](std::uint32_t i) {
     const double nearest_m = stationary_index_.items()[i].distanceTo(at);
-    if (nearest_m <= covered_m) found.push_back({static_cast<float>(nearest_m * kRoundDown), i});
+    const auto rounded_m = static_cast<float>(nearest_m * kRoundDown);
+    if (count == found.size()) found.resize(2 * count + 64);
+    found[count] = std::uint64_t{std::bit_cast<std::uint32_t>(rounded_m)} << 32 | i;
+    count += nearest_m <= covered_m ? 1 : 0;  // anybody's guess, so without a branch
   });
-  std::sort(found.begin(), found.end());
-  found.erase(std::unique(found.begin(), found.end()), found.end());
-  if (found.size() > kMostNeighbours) {
-    covered_m = found[kMostNeighbours].nearest_m;
-    found.resize(kMostNeighbours);
+  const auto begin = found.begin();
+  std::sort(begin, begin + static_cast<std::ptrdiff_t>(count));
+  const auto end = std::unique(begin, begin + static_cast<std::ptrdiff_t>(count));
+  const auto distance = [](std::uint64_t key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); };
+  static thread_local std::vector<NeighbourList::Neighbour> nearest_first;
+  nearest_first.clear();
+  for (auto key = begin; key != end; ++key) {
+    if (nearest_first.size() == kMostNeighbours) {
+      covered_m = distance(*key);
+      break;
+    }
+    nearest_first.push_back({distance(*key), static_cast<std::uint32_t>(*key)});
   }
-  near.set(at, covered_m, found);
+  near.set(at, covered_m, nearest_first);
 }
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
