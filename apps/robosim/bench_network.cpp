@@ -98,7 +98,8 @@ void addBenchNetwork(CLI::App& bench) {
   auto* command = bench.add_subcommand("network", "How many steps a second robots in other processes can follow");
   auto a = std::make_shared<Arguments>();
   command
-      ->add_option("--crowd", a->crowds, "may be given several times; without, 1x1, 10x1, 100x1 and 1x1000 are measured")
+      ->add_option("--crowd", a->crowds,
+                   "may be given several times; without, 1x1, 10x1, 100x1 and 1x1000 are measured")
       ->type_name("PROCESSESxROBOTS_EACH");
   command->add_option("--windows", a->bench.windows, "how many times to measure each; the median is told")
       ->check(CLI::Range(1, 1000))
@@ -107,6 +108,8 @@ void addBenchNetwork(CLI::App& bench) {
       ->check(numberIn(1e-6, 3600))
       ->type_name("SECONDS")
       ->capture_default_str();
+  command->add_flag("--one-by-one", a->bench.one_by_one,
+                    "start a program for each process, rather than one 'robosim robot --apart' for all");
   auto* cert = command->add_option("--tls-cert", a->bench.tls_cert, "measure with TLS: a certificate for 127.0.0.1")
                    ->type_name("FILE")
                    ->check(fileName());

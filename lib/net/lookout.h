@@ -43,7 +43,7 @@ class Lookout {
  private:
   static constexpr int kEnough = 3;
   static constexpr int kProof = 64;
-  static constexpr int kSleepsLeast = 16;
+  static constexpr int kSleepsLeast = 64;
   static constexpr int kSleepsMost = 8192;
 
   int soon_in_a_row_ = 0;

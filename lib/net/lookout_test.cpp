@@ -56,7 +56,7 @@ TEST(Lookout, LearnsNothingFromMessagesThatWereThereAlready) {
 
 TEST(Lookout, IsPutOffTwiceAsLongEachTimeItIsInVain) {
   Lookout lookout;
-  for (const int sleeps : {16, 32, 64, 128}) {
+  for (const int sleeps : {64, 128, 256, 512}) {
     failAtOnce(lookout);
     EXPECT_EQ(sleepsUntilWorthwhile(lookout), sleeps);
   }
@@ -70,7 +70,7 @@ TEST(Lookout, IsPutOffForAShortTimeWhenItHasBeenGoodForLong) {
   sleepTimes(lookout, sleepsUntilWorthwhile(lookout), microseconds(50));
   for (int i = 0; i < 64; ++i) lookout.succeeded();
   lookout.failed();
-  EXPECT_EQ(sleepsUntilWorthwhile(lookout), 16);
+  EXPECT_EQ(sleepsUntilWorthwhile(lookout), 64);
 }
 
 }  // namespace

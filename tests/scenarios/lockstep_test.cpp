@@ -59,6 +59,24 @@ TEST(Lockstep, IsTheSameRunWithRobotsIn1And3And10ProcessesAnd0And1And2GeometryWo
   }
 }
 
+TEST(Lockstep, IsTheSameRunWithEachRobotInAProcessThatOneProgramMakes) {
+  const auto in_one = nlohmann::json::parse(runProgram("run worlds/small_maze.xml --json --controller wander").out);
+  ServedWorld world(robotsElsewhere("worlds/small_maze.xml", in_one["steps"]));
+  const auto robots = startRobots({"Pioneer1", "Scout1", "--apart"}, world.dialOptions().address);
+  EXPECT_EQ(world.wait(), Served::to_its_end);
+  EXPECT_EQ(robots->wait().exit_code, 0) << robots->error();
+  EXPECT_EQ(world.digest(), in_one["digest"]);
+  EXPECT_NE(world.log().find("robot Pioneer1 ("), std::string::npos) << world.log();
+  EXPECT_NE(world.log().find("robot Scout1 ("), std::string::npos) << world.log();
+}
+
+TEST(Lockstep, TellsOfTheProcessesOfOneProgramThatHaveFailed) {
+  ServedWorld world(robotsElsewhere("worlds/small_maze.xml", 5));
+  const auto robots = startRobots({"Nobody", "Noone", "--apart"}, world.dialOptions().address);
+  EXPECT_NE(robots->wait().exit_code, 0);
+  EXPECT_NE(robots->error().find("2 of 2 processes have failed"), std::string::npos) << robots->error();
+}
+
 TEST(Lockstep, CarriesGoldMessagesBetweenProcessesAsInOne) {
   const Ended run = runProgram("run worlds/small_maze.xml --json");
   const auto in_one = nlohmann::json::parse(run.out);
