@@ -17,7 +17,7 @@ class Lookout {
   static constexpr Duration kPatience = std::chrono::microseconds(100);  ///< to look out for so long, no longer
   static constexpr Duration kSoon = std::chrono::microseconds(200);      ///< one that slept so long was woken soon
   static constexpr Duration kAtOnce = std::chrono::microseconds(5);      ///< it was there already: that tells nothing
-  static constexpr Duration kInterruption = std::chrono::microseconds(30);  ///< between two looks: another ran here
+  static constexpr Duration kInterruption = std::chrono::microseconds(50);  ///< between two looks: another ran here
 
   /// Whether to look out for the next message, rather than sleep.
   bool isWorthwhile() const { return soon_in_a_row_ >= kEnough && sleeps_to_come_ == 0; }
@@ -42,7 +42,7 @@ class Lookout {
 
  private:
   static constexpr int kEnough = 3;
-  static constexpr int kProof = 64;
+  static constexpr int kProof = 1000;
   static constexpr int kSleepsLeast = 64;
   static constexpr int kSleepsMost = 8192;
 

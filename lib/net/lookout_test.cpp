@@ -68,7 +68,7 @@ TEST(Lookout, IsPutOffForAShortTimeWhenItHasBeenGoodForLong) {
   Lookout lookout;
   for (int i = 0; i < 5; ++i) failAtOnce(lookout);
   sleepTimes(lookout, sleepsUntilWorthwhile(lookout), microseconds(50));
-  for (int i = 0; i < 64; ++i) lookout.succeeded();
+  for (int i = 0; i < 1000; ++i) lookout.succeeded();
   lookout.failed();
   EXPECT_EQ(sleepsUntilWorthwhile(lookout), 64);
 }
