@@ -57,7 +57,7 @@ class RobotProgram {
   RobotProgram& operator=(const RobotProgram&) = delete;
 
   /// Of all its processes together, once they are there.
-  double cpu_s() {
+  double cpuSeconds() {
     if (processes_.empty()) findProcesses();
     double sum_s = 0;
     for (const auto id : processes_) {
@@ -136,7 +136,7 @@ class MeasuredRun final : public ServedRun {
 
   Times now() const {
     Times times{Clocks::now()};
-    for (const auto& program : programs_) times.robots_cpu_s += program->cpu_s();
+    for (const auto& program : programs_) times.robots_cpu_s += program->cpuSeconds();
     return times;
   }
 
