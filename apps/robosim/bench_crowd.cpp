@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <fstream>
 #include <memory>
 #include <vector>
 
@@ -28,11 +29,13 @@ constexpr Workload kLoad{
     "<infrared range_min_m='0' range_max_m='0.1'><ring count='30' radius_m='0.25' z_m='0.2'/></infrared>",
     46};
 
-/// `robosim robot` in a process of its own, which ends with this.
-class RobotProcess {
+/// `robosim robot`, which ends with this.
+class RobotProgram {
  public:
-  RobotProcess(const std::vector<std::string>& names, int port, const std::string& trusted_certificate) {
+  /// @param apart each robot in a process of its own
+  RobotProgram(const std::vector<std::string>& names, int port, const std::string& trusted_certificate, bool apart) {
     std::vector<std::string> words{"robosim", "robot"};
+    if (apart) words.emplace_back("--apart");
     words.insert(words.end(), names.begin(), names.end());
     words.insert(words.end(), {"--environment", std::to_string(port), "--controller", "wander"});
     if (!trusted_certificate.empty()) words.insert(words.end(), {"--tls-ca", trusted_certificate});
@@ -46,22 +49,36 @@ class RobotProcess {
     posix_spawn_file_actions_destroy(&quiet);
     if (error != 0) throw std::runtime_error("cannot start a process of robots: " + std::string(std::strerror(error)));
   }
-  ~RobotProcess() {
+  ~RobotProgram() {
     kill(id_, SIGKILL);
     waitpid(id_, nullptr, 0);
   }
-  RobotProcess(const RobotProcess&) = delete;
-  RobotProcess& operator=(const RobotProcess&) = delete;
+  RobotProgram(const RobotProgram&) = delete;
+  RobotProgram& operator=(const RobotProgram&) = delete;
 
-  double cpu_s() const {
-    clockid_t clock{};
-    timespec time{};
-    if (clock_getcpuclockid(id_, &clock) != 0 || clock_gettime(clock, &time) != 0) return 0;
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+  /// Of all its processes together, once they are there.
+  double cpuSeconds() {
+    if (processes_.empty()) findProcesses();
+    double sum_s = 0;
+    for (const auto id : processes_) {
+      clockid_t clock{};
+      timespec time{};
+      if (clock_getcpuclockid(id, &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
+      sum_s += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+    return sum_s;
   }
 
  private:
+  void findProcesses() {
+    const std::string id = std::to_string(id_);
+    std::ifstream made("/proc/" + id + "/task/" + id + "/children");
+    processes_.assign(1, id_);
+    for (pid_t child = 0; made >> child;) processes_.push_back(child);
+  }
+
   pid_t id_ = 0;
+  std::vector<pid_t> processes_;
 };
 
 double median(std::vector<double> values) {
@@ -78,9 +95,11 @@ class MeasuredRun final : public ServedRun {
 
   /// Has the robots come to where this is served.
   void invite(int port) {
-    const auto each = static_cast<std::ptrdiff_t>(bench_.crowd.robots_each);
-    for (auto name = exhibit_->robot_names.begin(); name != exhibit_->robot_names.end(); name += each) {
-      processes_.push_back(std::make_unique<RobotProcess>(std::vector(name, name + each), port, bench_.tls_cert));
+    const bool apart = bench_.crowd.processes > 1 && bench_.crowd.robots_each == 1 && !bench_.one_by_one;
+    const auto& names = exhibit_->robot_names;
+    const auto each = static_cast<std::ptrdiff_t>(apart ? names.size() : bench_.crowd.robots_each);
+    for (auto name = names.begin(); name != names.end(); name += each) {
+      programs_.push_back(std::make_unique<RobotProgram>(std::vector(name, name + each), port, bench_.tls_cert, apart));
     }
   }
 
@@ -117,12 +136,12 @@ class MeasuredRun final : public ServedRun {
 
   Times now() const {
     Times times{Clocks::now()};
-    for (const auto& process : processes_) times.robots_cpu_s += process->cpu_s();
+    for (const auto& program : programs_) times.robots_cpu_s += program->cpuSeconds();
     return times;
   }
 
   void note(const Times& end) {
-    const double us_each = 1e6 / static_cast<double>(steps_ * processes_.size());
+    const double us_each = 1e6 / static_cast<double>(steps_ * bench_.crowd.processes);
     steps_per_s_.push_back(static_cast<double>(steps_) / (end.own.wall_s - window_start_.own.wall_s));
     environment_cpu_us_.push_back((end.own.cpu_s - window_start_.own.cpu_s) * us_each);
     robots_cpu_us_.push_back((end.robots_cpu_s - window_start_.robots_cpu_s) * us_each);
@@ -131,7 +150,7 @@ class MeasuredRun final : public ServedRun {
   const CrowdBench& bench_;
   Environment environment_;
   std::shared_ptr<const Exhibit> exhibit_;
-  std::vector<std::unique_ptr<RobotProcess>> processes_;
+  std::vector<std::unique_ptr<RobotProgram>> programs_;
   Times window_start_;
   bool is_warm_ = false;
   std::uint64_t steps_ = 0;

@@ -13,6 +13,7 @@ struct CrowdBench {
   CrowdSize crowd;
   int windows = 5;                ///< how many times to measure
   double window_s = 1;            ///< how long each time
+  bool one_by_one = false;        ///< every process a program by itself; else `robosim robot --apart`, where it can be
   std::string tls_cert, tls_key;  ///< empty: without TLS
 };
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <iostream>
 
 #include <nlohmann/json.hpp>
@@ -17,11 +18,28 @@ struct AimedCrowd {
   CrowdSize crowd;
   double aim_steps_per_s = 0;  ///< 0 for none
 
-  std::string word() const { return std::to_string(crowd.processes) + "x" + std::to_string(crowd.robots_each); }
   std::string text() const { return withCommas(crowd.processes) + " × " + withCommas(crowd.robots_each); }
 };
 
 constexpr AimedCrowd kCrowds[] = {{{1, 1}, 10000}, {{10, 1}}, {{100, 1}, 300}, {{1, 1000}, 100}};
+
+/// A crowd as one names it on the command line: "100x1". @throws CLI::ValidationError for what is none
+AimedCrowd crowdOf(const std::string& word) {
+  CrowdSize crowd;
+  const auto* const end = word.data() + word.size();
+  const auto [x, error] = std::from_chars(word.data(), end, crowd.processes);
+  const bool is_half_read = error == std::errc{} && x != end && *x == 'x';
+  const auto [rest, error_of_robots] = std::from_chars(is_half_read ? x + 1 : end, end, crowd.robots_each);
+  const auto is_in_reach = [](std::size_t n) { return n >= 1 && n <= 10'000; };
+  if (!is_half_read || error_of_robots != std::errc{} || rest != end || !is_in_reach(crowd.processes) ||
+      !is_in_reach(crowd.robots_each)) {
+    throw CLI::ValidationError("--crowd", "'" + word + "' is no crowd; name processes and robots in each, 100x1 say");
+  }
+  const auto* const known = std::find_if(std::begin(kCrowds), std::end(kCrowds), [&](const AimedCrowd& aimed) {
+    return aimed.crowd.processes == crowd.processes && aimed.crowd.robots_each == crowd.robots_each;
+  });
+  return known == std::end(kCrowds) ? AimedCrowd{crowd} : *known;
+}
 
 struct Arguments {
   std::vector<std::string> crowds;
@@ -29,8 +47,11 @@ struct Arguments {
   bool json = false;
 };
 
-bool isWanted(const AimedCrowd& aimed, const std::vector<std::string>& words) {
-  return words.empty() || std::find(words.begin(), words.end(), aimed.word()) != words.end();
+std::vector<AimedCrowd> wanted(const std::vector<std::string>& words) {
+  std::vector<AimedCrowd> crowds(std::begin(kCrowds), std::end(kCrowds));
+  if (!words.empty()) crowds.clear();
+  for (const auto& word : words) crowds.push_back(crowdOf(word));
+  return crowds;
 }
 
 void print(const CrowdSize& crowd, const CrowdFigures& figures) {
@@ -51,8 +72,7 @@ std::vector<std::string> rowOf(const AimedCrowd& aimed, const CrowdFigures& figu
 void benchNetwork(const Arguments& arguments) {
   const Company company;
   Rows rows{{"processes × robots", "steps/s", "to reach", "environment, µs", "each process, µs"}};
-  for (const AimedCrowd& aimed : kCrowds) {
-    if (!isWanted(aimed, arguments.crowds)) continue;
+  for (const AimedCrowd& aimed : wanted(arguments.crowds)) {
     {
       Progress progress;
       if (progress.due()) progress.show(aimed.text() + " …");
@@ -77,10 +97,10 @@ void benchNetwork(const Arguments& arguments) {
 void addBenchNetwork(CLI::App& bench) {
   auto* command = bench.add_subcommand("network", "How many steps a second robots in other processes can follow");
   auto a = std::make_shared<Arguments>();
-  std::vector<std::string> words;
-  for (const AimedCrowd& aimed : kCrowds) words.push_back(aimed.word());
-  command->add_option("--crowd", a->crowds, "processes x robots in each; may be given several times; all without")
-      ->check(CLI::IsMember(words));
+  command
+      ->add_option("--crowd", a->crowds,
+                   "may be given several times; without, 1x1, 10x1, 100x1 and 1x1000 are measured")
+      ->type_name("PROCESSESxROBOTS_EACH");
   command->add_option("--windows", a->bench.windows, "how many times to measure each; the median is told")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -88,6 +108,8 @@ void addBenchNetwork(CLI::App& bench) {
       ->check(numberIn(1e-6, 3600))
       ->type_name("SECONDS")
       ->capture_default_str();
+  command->add_flag("--one-by-one", a->bench.one_by_one,
+                    "start a program for each process, rather than one 'robosim robot --apart' for all");
   auto* cert = command->add_option("--tls-cert", a->bench.tls_cert, "measure with TLS: a certificate for 127.0.0.1")
                    ->type_name("FILE")
                    ->check(fileName());

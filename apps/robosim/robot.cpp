@@ -8,6 +8,7 @@
 #include "net/listen.h"
 #include "net/redial.h"
 #include "remote/remote_port.h"
+#include "robosim/apart.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
 #include "robosim/local_run.h"
@@ -18,6 +19,7 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> names;
+  bool apart = false;
   ConnectionArguments connection;
   std::string controller;
   double patience_s = 10;
@@ -112,12 +114,22 @@ void driveRobots(const Arguments& arguments) {
   std::cout << "the run is over after " << crew.stepNumber() << " steps" << std::endl;
 }
 
+/// Each robot in a process of its own.
+void driveRobotsApart(Arguments arguments) {
+  const auto mine = goOnApart(arguments.names.size());
+  if (!mine) return;
+  arguments.names = {arguments.names[*mine]};
+  driveRobots(arguments);
+}
+
 }  // namespace
 
 void addRobot(CLI::App& program) {
   auto* command = program.add_subcommand("robot", "Drive one or many robots of an environment elsewhere");
   auto a = std::make_shared<Arguments>();
   command->add_option("NAME", a->names, "robots of the environment's world")->required();
+  auto* apart = command->add_flag("--apart", a->apart,
+                                  "each robot in a process of its own; many take half the time of as many programs");
   addConnectionOptions(*command, a->connection);
   command->add_option("--controller", a->controller, "for all these robots, in place of what the world names")
       ->check(CLI::IsMember(controllerNames()));
@@ -127,7 +139,8 @@ void addRobot(CLI::App& program) {
           "--remote-port", a->remote_port,
           "let people drive these robots: where 'robosim remote' finds them. Until one does, their controllers "
           "drive")
-      ->type_name("[HOST:]PORT");
+      ->type_name("[HOST:]PORT")
+      ->excludes(apart);
   command
       ->add_option("--dead-man", a->dead_man_s,
                    "a robot that a person drives stops when it has heard nothing from them for so long")
@@ -135,7 +148,7 @@ void addRobot(CLI::App& program) {
       ->type_name("SECONDS")
       ->capture_default_str();
   addListenerOptions(*command, a->listener);
-  command->callback([a] { driveRobots(*a); });
+  command->callback([a] { a->apart ? driveRobotsApart(*a) : driveRobots(*a); });
 }
 
 }  // namespace robosim

@@ -4,6 +4,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "net/client_stream.h"
 #include "net/robot_wire.h"
 #include "net/robots.grpc.pb.h"
 
@@ -73,16 +74,12 @@ class FarRobot final : public Hardware {
 }  // namespace
 
 struct NetworkHardware::Impl {
-  /// One connection; gRPC's context serves for one call only.
-  struct Call {
-    grpc::ClientContext context;
-    std::unique_ptr<grpc::ClientReaderWriter<wire::FromRobots, wire::ToRobots>> stream;
-  };
+  using Stream = ClientStream<wire::FromRobots, wire::ToRobots>;
 
   DialOptions dialled;
   std::vector<std::string> names;
   std::unique_ptr<wire::Robots::Stub> stub;
-  std::unique_ptr<Call> call;  ///< null when there is no connection
+  std::unique_ptr<Stream> stream;  ///< null when there is no connection
   wire::FromRobots out;
   wire::ToRobots in;
   RobotsWelcome welcome;
@@ -98,34 +95,24 @@ struct NetworkHardware::Impl {
     readFirstStep();
   }
 
-  ~Impl() { hangUp(); }
-
-  void hangUp() {
-    if (!call) return;
-    call->context.TryCancel();
-    call->stream->Finish();
-    call.reset();
-  }
-
   /// Says hello, and is welcomed.
   RobotsWelcome join(const std::string& world_version) {
-    call = std::make_unique<Call>();
-    showToken(call->context, dialled);
-    call->stream = stub->Drive(&call->context);
+    stream.reset();
+    stream = std::make_unique<Stream>(
+        dialled, [&](auto* context, auto* queue, void* tag) { return stub->AsyncDrive(context, queue, tag); });
     wire::FromRobots first;
     auto& hello = *first.mutable_hello();
     hello.set_protocol(kProtocolVersion);
     hello.set_world_version(world_version);
     for (const auto& name : names) hello.add_names(name);
-    call->stream->Write(first);
-    if (!call->stream->Read(&in)) fail();
+    stream->write(first);
+    if (!stream->read(in)) fail();
     RobotsWelcome welcomed = decode(in.welcome());
     if (welcomed.seats.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
     return welcomed;
   }
 
   void rejoin() {
-    hangUp();
     const std::uint64_t last_step = step;
     const RobotsWelcome again = join(welcome.world_version);
     readFirstStep();
@@ -137,7 +124,7 @@ struct NetworkHardware::Impl {
 
   /// @return false when the stream has ended
   bool readStep() {
-    if (!call->stream->Read(&in)) return false;
+    if (!stream->read(in)) return false;
     if (static_cast<std::size_t>(in.robots_size()) != robots.size()) {
       throw WireError("readings of " + std::to_string(in.robots_size()) + " robots for " +
                       std::to_string(robots.size()));
@@ -157,13 +144,13 @@ struct NetworkHardware::Impl {
   }
 
   grpc::Status finish() {
-    const grpc::Status status = call->stream->Finish();
-    call.reset();
+    const grpc::Status status = stream->finish();
+    stream.reset();
     return status;
   }
 
   [[noreturn]] void fail(const grpc::Status& status) {
-    hangUp();
+    stream.reset();
     throw ConnectionError(status, dialled);
   }
 
@@ -178,8 +165,7 @@ struct NetworkHardware::Impl {
     out.clear_letters();
     out.clear_check_win();
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
-    // A stream that has broken says why when it is read.
-    call->stream->Write(out);
+    stream->write(out);
     if (readStep()) return true;
     const grpc::Status status = finish();
     if (!status.ok()) fail(status);

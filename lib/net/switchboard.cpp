@@ -19,8 +19,6 @@ gpr_timespec timespecOf(Switchboard::Clock::time_point until) {
   return gpr_time_add(gpr_now(GPR_CLOCK_MONOTONIC), gpr_time_from_nanos(wait.count(), GPR_TIMESPAN));
 }
 
-gpr_timespec atOnce() { return gpr_time_0(GPR_CLOCK_MONOTONIC); }
-
 }  // namespace
 
 Switchboard::Switchboard(const std::vector<Offer>& offers, const PortOptions& options) {
@@ -52,29 +50,34 @@ Switchboard::Line Switchboard::line(std::size_t offer) {
   return {this, queue(), desks_[desk_of_offer_[offer]].queue.get()};
 }
 
-bool Switchboard::takeOne(grpc::ServerCompletionQueue& queue, gpr_timespec until) {
+void Switchboard::waitForOne(gpr_timespec until) {
   void* tag = nullptr;
   bool ok = false;
-  if (queue.AsyncNext(&tag, &ok, until) != grpc::CompletionQueue::GOT_EVENT) return false;
+  if (awaitEvent(*queue(), lookout_, until, tag, ok)) static_cast<Event*>(tag)->happened(ok);
+}
+
+bool Switchboard::takeOne(grpc::ServerCompletionQueue& queue) {
+  void* tag = nullptr;
+  bool ok = false;
+  if (queue.AsyncNext(&tag, &ok, gpr_time_0(GPR_CLOCK_MONOTONIC)) != grpc::CompletionQueue::GOT_EVENT) return false;
   static_cast<Event*>(tag)->happened(ok);
   return true;
 }
 
 void Switchboard::takeFromOtherDesks() {
   for (std::size_t d = 1; d < desks_.size(); ++d) {
-    for (int n = 0; n < kAtOnce && takeOne(*desks_[d].queue, atOnce()); ++n) {
+    for (int n = 0; n < kAtOnce && takeOne(*desks_[d].queue); ++n) {
     }
   }
 }
 
 void Switchboard::waitUntil(Clock::time_point until, const std::function<bool()>& is_enough) {
-  auto& queue = *desks_.front().queue;
   bool has_waited = false;
   while (!is_enough()) {
     const auto now = Clock::now();
     if (has_waited && now >= until) return;
     takeFromOtherDesks();
-    takeOne(queue, timespecOf(desks_.size() == 1 ? until : std::min(until, now + kRound)));
+    waitForOne(timespecOf(desks_.size() == 1 ? until : std::min(until, now + kRound)));
     has_waited = true;
   }
   if (!has_waited) glance();
@@ -85,7 +88,7 @@ void Switchboard::glance() {
   if (now - last_glance_ < kGlance) return;
   last_glance_ = now;
   takeFromOtherDesks();
-  for (int n = 0; n < kAtOnce && takeOne(*desks_.front().queue, atOnce()); ++n) {
+  for (int n = 0; n < kAtOnce && takeOne(*desks_.front().queue); ++n) {
   }
 }
 
@@ -99,7 +102,7 @@ void Switchboard::close() {
   });
   while (calls_ > 0) {
     takeFromOtherDesks();
-    takeOne(*desks_.front().queue, timespecOf(Clock::now() + kRound));
+    waitForOne(timespecOf(Clock::now() + kRound));
   }
   closing.join();
   for (const auto& desk : desks_) {

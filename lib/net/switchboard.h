@@ -7,6 +7,7 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include "net/lookout.h"
 #include "net/open_port.h"
 
 namespace robosim {
@@ -89,13 +90,15 @@ class Switchboard {
     std::unique_ptr<grpc::ServerCompletionQueue> queue;
     OpenPort open;
   };
-  bool takeOne(grpc::ServerCompletionQueue& queue, gpr_timespec until);
+  void waitForOne(gpr_timespec until);
+  bool takeOne(grpc::ServerCompletionQueue& queue);
   void takeFromOtherDesks();
   void glance();
 
   std::vector<Desk> desks_;                 ///< the first one's queue is that of all calls
   std::vector<std::size_t> desk_of_offer_;  ///< by offer
   std::size_t calls_ = 0;
+  Lookout lookout_;
   Clock::time_point last_glance_;
   bool is_closed_ = false;
 };

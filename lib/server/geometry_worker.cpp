@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "environment/environment.h"
+#include "net/client_stream.h"
 #include "net/geometry.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "robots/world_source.h"
@@ -52,16 +53,12 @@ void doTask(const wire::Task& task, Environment& environment) {
 }  // namespace
 
 struct GeometryWorker::Impl {
-  /// One connection; gRPC's context serves for one call only.
-  struct Call {
-    grpc::ClientContext context;
-    std::unique_ptr<grpc::ClientReaderWriter<wire::FromWorker, wire::ToWorker>> stream;
-  };
+  using Stream = ClientStream<wire::FromWorker, wire::ToWorker>;
 
   DialOptions dialled;
   int threads;
   std::unique_ptr<wire::Geometry::Stub> stub;
-  std::unique_ptr<Call> call;  ///< null when there is no connection
+  std::unique_ptr<Stream> stream;  ///< null when there is no connection
   wire::FromWorker out;
   wire::ToWorker in;
   std::unique_ptr<Environment> replica;
@@ -69,24 +66,14 @@ struct GeometryWorker::Impl {
   Impl(const DialOptions& options, int the_threads)
       : dialled(options), threads(the_threads), stub(wire::Geometry::NewStub(dial(options))) {}
 
-  ~Impl() { hangUp(); }
-
-  void hangUp() {
-    if (!call) return;
-    call->context.TryCancel();
-    call->stream->Finish();
-    call.reset();
-  }
-
   void connect() {
-    hangUp();
-    call = std::make_unique<Call>();
-    showToken(call->context, dialled);
-    call->stream = stub->Work(&call->context);
+    stream.reset();
+    stream = std::make_unique<Stream>(
+        dialled, [&](auto* context, auto* queue, void* tag) { return stub->AsyncWork(context, queue, tag); });
     out.Clear();
     out.mutable_hello()->set_protocol(kProtocolVersion);
-    call->stream->Write(out);
-    if (!call->stream->Read(&in)) {
+    stream->write(out);
+    if (!stream->read(in)) {
       finish();
       throw ConnectionError({grpc::StatusCode::CANCELLED, "the run is over"}, dialled);
     }
@@ -95,8 +82,8 @@ struct GeometryWorker::Impl {
 
   /// @throws ConnectionError unless the run has come to its end.
   void finish() {
-    const grpc::Status status = call->stream->Finish();
-    call.reset();
+    const grpc::Status status = stream->finish();
+    stream.reset();
     if (!status.ok()) throw ConnectionError(status, dialled);
   }
 
@@ -105,12 +92,12 @@ struct GeometryWorker::Impl {
     replica = replicaOf(in.replica(), threads);
     out.Clear();
     out.set_world_version(versionOf(decode(in.replica().world())));
-    call->stream->Write(out);
+    stream->write(out);
     out.Clear();
   }
 
   void work() {
-    while (call->stream->Read(&in)) {
+    while (stream->read(in)) {
       if (in.has_replica()) {
         build();
       } else {
@@ -133,7 +120,7 @@ struct GeometryWorker::Impl {
       const auto many = std::max<std::size_t>(1, kPieceBytes / std::max<std::size_t>(1, result.ByteSizeLong()));
       result.set_end(static_cast<std::uint32_t>(std::min<std::size_t>(begin + many, in.task().end())));
       encode(*replica, result);
-      call->stream->Write(out);
+      stream->write(out);
       begin = result.end();
     }
   }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include <arpa/inet.h>
+#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -195,6 +196,35 @@ TEST_F(BadInput, OfAControlPanel) {
     expectError(howLoadEnds(world_.dialOptions(), bytes, 3), grpc::StatusCode::INVALID_ARGUMENT,
                 "make no robosim.wire.World");
   }
+  expectTheOthersNoticeNothing();
+}
+
+/// How a call with one request ends, where these bytes are the request.
+grpc::Status howCallEnds(const DialOptions& dialled, const std::string& method, const std::string& bytes) {
+  grpc::ClientContext context;
+  const grpc::Slice slice(bytes);
+  const grpc::ByteBuffer request(&slice, 1);
+  grpc::ByteBuffer reply;
+  std::promise<grpc::Status> end;
+  grpc::GenericStub stub(dial(dialled));
+  stub.UnaryCall(&context, method, {}, &request, &reply,
+                 [&](grpc::Status status) { end.set_value(std::move(status)); });
+  return end.get_future().get();
+}
+
+TEST_F(BadInput, OfCallsWithOneRequest) {
+  const std::string service = "/robosim.wire.ControlPanel/";
+  const std::string five_mb(5 << 20, 'x');
+  const auto& at = world_.dialOptions();
+  for (const std::string method : {"Start", "Pause", "Step", "SetSpeed", "Stop", "Status"}) {
+    EXPECT_FALSE(howCallEnds(at, service + method, "\xff\xff no message").ok()) << method;
+    expectError(howCallEnds(at, service + method, ""), grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the");
+    expectError(howCallEnds(at, service + method, five_mb), grpc::StatusCode::RESOURCE_EXHAUSTED, "larger than max");
+  }
+  expectError(howCallEnds(at, service + "Fly", ""), grpc::StatusCode::UNIMPLEMENTED, "");
+  Panel panel(world_);
+  EXPECT_EQ(panel.status().robots_connected(), 1u) << "and calls that are as they should be are answered";
+  panel.setSpeed(0);
   expectTheOthersNoticeNothing();
 }
 

@@ -52,10 +52,29 @@ std::string digestWith(std::size_t processes, std::size_t workers) {
 
 TEST(Lockstep, IsTheSameRunWithRobotsIn1And3And10ProcessesAnd0And1And2GeometryWorkers) {
   const std::string one_process = digestInOneProcess(kWorld, kSteps, "wander");
-  for (const std::size_t processes : {1, 3, 10}) EXPECT_EQ(digestWith(processes, 0), one_process) << processes;
-  EXPECT_EQ(digestWith(1, 1), one_process);
-  EXPECT_EQ(digestWith(3, 2), one_process);
-  EXPECT_EQ(digestWith(10, 1), one_process);
+  for (const std::size_t processes : {1, 3, 10}) {
+    for (const std::size_t workers : {0, 1, 2}) {
+      EXPECT_EQ(digestWith(processes, workers), one_process) << processes << " processes, " << workers << " workers";
+    }
+  }
+}
+
+TEST(Lockstep, IsTheSameRunWithEachRobotInAProcessThatOneProgramMakes) {
+  const auto in_one = nlohmann::json::parse(runProgram("run worlds/small_maze.xml --json --controller wander").out);
+  ServedWorld world(robotsElsewhere("worlds/small_maze.xml", in_one["steps"]));
+  const auto robots = startRobots({"Pioneer1", "Scout1", "--apart"}, world.dialOptions().address);
+  EXPECT_EQ(world.wait(), Served::to_its_end);
+  EXPECT_EQ(robots->wait().exit_code, 0) << robots->error();
+  EXPECT_EQ(world.digest(), in_one["digest"]);
+  EXPECT_NE(world.log().find("robot Pioneer1 ("), std::string::npos) << world.log();
+  EXPECT_NE(world.log().find("robot Scout1 ("), std::string::npos) << world.log();
+}
+
+TEST(Lockstep, TellsOfTheProcessesOfOneProgramThatHaveFailed) {
+  ServedWorld world(robotsElsewhere("worlds/small_maze.xml", 5));
+  const auto robots = startRobots({"Nobody", "Noone", "--apart"}, world.dialOptions().address);
+  EXPECT_NE(robots->wait().exit_code, 0);
+  EXPECT_NE(robots->error().find("2 of 2 processes have failed"), std::string::npos) << robots->error();
 }
 
 TEST(Lockstep, CarriesGoldMessagesBetweenProcessesAsInOne) {
