@@ -35,20 +35,29 @@ inline void keep(const Rays& rays, std::size_t i, double t, std::int64_t body) {
   rays.body[i] = keeps ? body : rays.body[i];
 }
 
+/// Rays that a loop holds against a solid at once.
+constexpr std::size_t kLanes = 8;
+static_assert(kBlock % kLanes == 0);
+
+/// Holds a solid against `vectors` times kLanes rays.
 ROBOSIM_VECTOR_CLONES
-void meetCircle(const Rays& rays, std::size_t begin, std::size_t end, double x, double y, double radius,
+void meetCircle(const Rays& rays, std::size_t begin, std::size_t vectors, double x, double y, double radius,
                 std::int64_t body) {
-  for (std::size_t i = begin; i < end; ++i) {
-    keep(rays, i, enterCircle(x - rays.x[i], y - rays.y[i], rays.dx[i], rays.dy[i], radius), body);
+  for (; vectors > 0; --vectors, begin += kLanes) {
+    for (std::size_t i = begin; i < begin + kLanes; ++i) {
+      keep(rays, i, enterCircle(x - rays.x[i], y - rays.y[i], rays.dx[i], rays.dy[i], radius), body);
+    }
   }
 }
 
 ROBOSIM_VECTOR_CLONES
-void meetBox(const Rays& rays, std::size_t begin, std::size_t end, double x, double y, double ux, double uy,
+void meetBox(const Rays& rays, std::size_t begin, std::size_t vectors, double x, double y, double ux, double uy,
              double half_length, double half_width, std::int64_t body) {
-  for (std::size_t i = begin; i < end; ++i) {
-    keep(rays, i, enterBox(x - rays.x[i], y - rays.y[i], rays.dx[i], rays.dy[i], ux, uy, half_length, half_width),
-         body);
+  for (; vectors > 0; --vectors, begin += kLanes) {
+    for (std::size_t i = begin; i < begin + kLanes; ++i) {
+      keep(rays, i, enterBox(x - rays.x[i], y - rays.y[i], rays.dx[i], rays.dy[i], ux, uy, half_length, half_width),
+           body);
+    }
   }
 }
 
@@ -168,10 +177,7 @@ void RayBatch::layOut() {
              farthest_m_, x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data());
   // What fills the last block up never meets anything.
   std::fill(distance_.begin() + static_cast<std::ptrdiff_t>(size()), distance_.end(), -kFloatMax);
-  if (fan.isNarrow()) {
-    cones_.place(fan.cones_, panned, farthest_m_);
-    passing_.resize(cones_.blocks());
-  } else {
+  if (!fan.isSweep()) {
     const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
     seeFrom(center_.x, center_.y, rays, count, rough_x_.data(), rough_y_.data(), rough_dx_.data(), rough_dy_.data(),
             rough_distance_.data());
@@ -181,38 +187,34 @@ void RayBatch::layOut() {
 
 void RayBatch::meet(const Candidates& candidates) {
   if (!is_laid_out_) layOut();
-  if (fan_->isNarrow()) {
-    meetByBlock(candidates);
+  if (fan_->isSweep()) {
+    meetByBearing(candidates);
   } else {
     meetByRay(candidates);
   }
 }
 
-void RayBatch::meetByBlock(const Candidates& candidates) {
-  cones_.find(RoughPlace::from(center_, 0, candidates.middle, spread_m_), candidates, passing_);
-  for (std::size_t cones = 0; cones < cones_.blocks(); ++cones) {
-    const auto first = static_cast<std::uint32_t>(cones * RoughSectors::kBlock);
-    candidates.forEachMark(
-        passing_[cones], z_m_, first,
-        [&](const GridItem& item, std::int64_t body, std::uint32_t block) { meetBlock(item, body, block); });
-  }
-  farthest_m_ = 0;
-  for (std::size_t block = 0; block < fan_->blocks(); ++block) {
-    const double far_m = largest(distance_.data() + block * kBlock, kBlock);
-    cones_.setReach(block, far_m);
-    farthest_m_ = std::max(farthest_m_, far_m);
-  }
-}
-
-void RayBatch::meetBlock(const GridItem& item, std::int64_t body, std::size_t block) {
+void RayBatch::meetByBearing(const Candidates& candidates) {
+  RayBearings::Ranges ranges;
+  fan_->bearings_.find(RoughPlace::from(center_, 0, candidates.middle, spread_m_),
+                       LevelFrame(world_from_fan_, pan_rad_).turnToWorld(fan_->bearings_.ahead()), candidates, ranges);
   const Rays rays{x_.data(), y_.data(), dx_.data(), dy_.data(), distance_.data(), body_.data()};
-  const std::size_t begin = block * kBlock;
-  const std::size_t end = begin + kBlock;
-  if (item.isCircle()) {
-    meetCircle(rays, begin, end, item.x, item.y, item.round_m, body);
-  } else {
-    meetBox(rays, begin, end, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m, body);
+  for (std::size_t k = 0; k < candidates.pack.count; ++k) {
+    const GridItem& item = candidates.items[candidates.pack.index[k]];
+    if (ranges[k].begin == ranges[k].end || !item.heights.contains(z_m_)) continue;
+    // In whole vectors: it is no matter that a few rays more are held against it.
+    const std::size_t vectors = (ranges[k].end - ranges[k].begin + kLanes - 1) / kLanes;
+    const std::size_t begin = std::min(std::size_t{ranges[k].begin}, x_.size() - vectors * kLanes);
+    if (largest(distance_.data() + begin, vectors * kLanes) < ranges[k].nearest_m) continue;  // it is hidden from all
+    const std::int64_t body = std::int64_t{candidates.first_body} + item.number;
+    if (item.isCircle()) {
+      meetCircle(rays, begin, vectors, item.x, item.y, item.round_m, body);
+    } else {
+      meetBox(rays, begin, vectors, item.x, item.y, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m,
+              body);
+    }
   }
+  farthest_m_ = largest(distance_.data(), distance_.size());
 }
 
 void RayBatch::meetByRay(const Candidates& candidates) {

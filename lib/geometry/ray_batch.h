@@ -7,7 +7,6 @@
 #include "geometry/level_frame.h"
 #include "geometry/ray_fan.h"
 #include "geometry/ray_pairs.h"
-#include "geometry/rough_sectors.h"
 
 namespace robosim {
 
@@ -38,7 +37,7 @@ class RayBatch {
   void meet(const Candidates& candidates);
   /// Call once when all solids have been met.
   void finish() {
-    if (is_laid_out_ && !fan_->isNarrow()) settle();
+    if (is_laid_out_ && !fan_->isSweep()) settle();
   }
 
   /// Whether there was nothing to hold against any ray.
@@ -52,8 +51,7 @@ class RayBatch {
   /// nothing.
   void layOut();
   void meetByRay(const Candidates& candidates);
-  void meetByBlock(const Candidates& candidates);
-  void meetBlock(const GridItem& item, std::int64_t body, std::size_t block);
+  void meetByBearing(const Candidates& candidates);
   void settle();
 
   const RayFan* fan_ = nullptr;
@@ -68,8 +66,6 @@ class RayBatch {
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
   std::vector<Candidates::Masks> passing_;  ///< which rays, or cones, candidates pass
-
-  RoughSectors cones_;  ///< a narrow fan's, by block of rays: what holds their directions
 
   // Any other fan's, by ray, as seen from the centre.
   std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;

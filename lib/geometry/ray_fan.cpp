@@ -8,7 +8,6 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kNarrow_rad = 0.6;
 /// Rounding may turn a ray aside by as much.
 constexpr double kSlack_rad = 1e-9;
 
@@ -25,7 +24,7 @@ TPoint2D facingOf(std::span<const Ray> rays) {
 
 }  // namespace
 
-RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
+RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()), bearings_(rays) {
   if (rays.empty()) return;
   z_m_ = rays.front().origin.z;
   for (const auto& ray : rays) middle_ += {ray.origin.x, ray.origin.y};
@@ -43,23 +42,6 @@ RayFan::RayFan(std::span<const Ray> rays) : size_(rays.size()) {
     dx_.push_back(ray.direction.x);
     dy_.push_back(ray.direction.y);
   }
-  std::vector<Sector> cones;
-  for (std::size_t first = 0; first < padded; first += kBlock) {
-    const std::size_t last = first + kBlock - 1;
-    TPoint2D axis(dx_[first] + dx_[last], dy_[first] + dy_[last]);
-    if (axis.norm() < 1e-6) axis = {dx_[first], dy_[first]};
-    double half_width_rad = 0;
-    for (std::size_t i = first; i <= last; ++i) {
-      const double across = axis.x * dy_[i] - axis.y * dx_[i];
-      const double along = axis.x * dx_[i] + axis.y * dy_[i];
-      half_width_rad = std::max(half_width_rad, std::abs(std::atan2(across, along)));
-    }
-    // Wider ones are not told from a half-plane; a little more than it is, so that no rounding leaves a ray out.
-    is_narrow_ = is_narrow_ && half_width_rad < kNarrow_rad;
-    cones.push_back(Sector::towards({middle_.x, middle_.y, z_m_}, std::atan2(axis.y, axis.x),
-                                    std::min(half_width_rad, kNarrow_rad) + 1e-6));
-  }
-  cones_ = SectorFan(cones);
 }
 
 }  // namespace robosim

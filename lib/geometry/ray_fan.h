@@ -5,7 +5,7 @@
 #include <mrpt/math/TPoint2D.h>
 
 #include "geometry/ray.h"
-#include "geometry/sector_fan.h"
+#include "geometry/ray_bearings.h"
 
 namespace robosim {
 
@@ -27,9 +27,8 @@ class RayFan {
   const mrpt::math::TPoint2D& middle() const { return middle_; }
   /// Distance from there to the farthest origin [m].
   double spread() const { return spread_m_; }
-  /// Whether each block looks much the same way, so that most solids are aside of most whole blocks: a laser, not a
-  /// ring of sonars.
-  bool isNarrow() const { return is_narrow_; }
+  /// Whether there are many rays that go round: a laser, not a ring of sonars.
+  bool isSweep() const { return bearings_.goRound() && size_ > 2 * kBlock; }
   /// Where the fan faces, when no ray looks more than 90° aside of it: a unit vector; (0, 0) for one that looks all
   /// ways.
   const mrpt::math::TPoint2D& facing() const { return facing_; }
@@ -41,10 +40,9 @@ class RayFan {
   double z_m_ = 0;
   mrpt::math::TPoint2D middle_;
   double spread_m_ = 0;
-  bool is_narrow_ = true;
   mrpt::math::TPoint2D facing_;
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray; the last one repeated up to a whole block
-  SectorFan cones_;                      ///< by block: from the middle, all directions of the block's rays
+  RayBearings bearings_;
 };
 
 }  // namespace robosim
