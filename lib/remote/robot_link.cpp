@@ -36,6 +36,7 @@ struct RobotLink::Shared {
   std::mutex mutex;
   std::condition_variable call_has_ended;
   Call* call = nullptr;  ///< null when there is none
+  int calls = 0;         ///< that have begun and are not deleted yet
   RobotNews news;
   bool is_live = false;
   /// @name What is to be sent, in this order
@@ -130,7 +131,6 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
   void OnDone(const grpc::Status& status) override {
     const auto shared = shared_;
     const std::string problem = complaint_.empty() ? told(status, shared->dialled, shared->robot) : complaint_;
-    delete this;
     {
       const std::lock_guard lock(shared->mutex);
       shared->call = nullptr;
@@ -141,9 +141,12 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
                                  status.error_code() == grpc::StatusCode::PERMISSION_DENIED ||
                                  status.error_code() == grpc::StatusCode::FAILED_PRECONDITION;
       shared->forgetOrders();
-      shared->call_has_ended.notify_all();
     }
+    delete this;  // not before nobody finds it any more
     shared->ring();
+    const std::lock_guard lock(shared->mutex);
+    --shared->calls;
+    shared->call_has_ended.notify_all();
   }
 
   /// Takes over what came. @return false for nonsense, which ends the call
@@ -236,13 +239,14 @@ RobotLink::RobotLink(std::string robot, DialOptions dialled, std::function<void(
 RobotLink::~RobotLink() {
   std::unique_lock lock(shared_->mutex);
   if (shared_->call) shared_->call->cancel();
-  shared_->call_has_ended.wait(lock, [&] { return !shared_->call; });
+  shared_->call_has_ended.wait(lock, [&] { return shared_->calls == 0; });
 }
 
 void RobotLink::connect() {
   const std::lock_guard lock(shared_->mutex);
   if (shared_->call) return;
   shared_->init_is_due = shared_->init.has_value();
+  ++shared_->calls;
   shared_->call = new Call(shared_);
   shared_->call->sendNext();
 }
