@@ -249,14 +249,15 @@ struct Environment::Impl {
       if (state.activity[i] == Activity::active) {
         state.activity[i] = i == *state.winner ? Activity::found : Activity::halted;
       }
-      setCommand(i, commands[i]);  // with the new activity
     }
   }
 
-  /// A robot that has halted has done so for good, whatever it says; and a replica learns of it from its command.
-  void setCommand(std::size_t robot, const Command& command) {
-    commands[robot] = command;
-    if (state.activity[robot] != Activity::active) commands[robot].activity = state.activity[robot];
+  void setCommand(std::size_t robot, const Command& command) { commands[robot] = nextCommand(robot, command); }
+
+  /// A robot that has halted has done so for good, whatever it says.
+  Command nextCommand(std::size_t robot, Command command) const {
+    if (state.activity[robot] != Activity::active) command.activity = state.activity[robot];
+    return command;
   }
 
   void resume(const Moment& moment) {
@@ -323,7 +324,7 @@ Moment Environment::moment() const {
   return {now.time.step, now.world_from_robot, now.speed_mps, now.turn_radps, now.activity, impl_->commands};
 }
 void Environment::resume(const Moment& moment) { impl_->resume(moment); }
-const Command& Environment::command(std::size_t robot) const { return impl_->commands[robot]; }
+Command Environment::nextCommand(std::size_t robot) const { return impl_->nextCommand(robot, impl_->commands[robot]); }
 std::span<const Command> Environment::commands() const { return impl_->commands; }
 
 bool Environment::allHalted() const {

@@ -94,8 +94,9 @@ class Environment {
   Measurement& measurement(std::size_t robot, std::size_t slot);
   void finish();  ///< delivers messages; the remaining sensors sense; decides who has won
 
-  const Command& command(std::size_t robot) const;  ///< the last one
-  std::span<const Command> commands() const;        ///< of all robots
+  /// What the robot will be told in the next step: its last command, but for one that has been halted since.
+  Command nextCommand(std::size_t robot) const;
+  std::span<const Command> commands() const;  ///< of all robots; after a step, those that it was taken with
   Moment moment() const;                            ///< between steps
   /// Goes on from there. @pre `moment` is of an environment with the same world, fleet and options.
   void resume(const Moment& moment);

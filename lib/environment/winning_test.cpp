@@ -44,6 +44,27 @@ TEST(Winning, ARobotThatAsksWithinTheWinDistanceWinsAndAllHalt) {
   EXPECT_EQ(environment->state().winner, 1u);
 }
 
+TEST(Winning, DoesNotChangeTheCommandsOfTheStepInWhichItIsDecided) {
+  // Whoever runs a recording again must be told what the robots were driven with: here they turned on.
+  Contest contest;
+  contest.robot("a", 5);
+  contest.robot("b", 1);
+  const auto environment = contest.start();
+  for (const std::size_t robot : {0, 1}) environment->setCommand(robot, {.turn_radps = 0.5});
+  environment->checkWin(1);
+  environment->step();
+  ASSERT_EQ(environment->state().winner, 1u);
+  for (const auto& command : environment->commands()) EXPECT_EQ(command.activity, Activity::active);
+  EXPECT_NE(environment->state().turn_radps[0], 0);
+  EXPECT_EQ(environment->nextCommand(0).activity, Activity::halted);
+  EXPECT_EQ(environment->nextCommand(1).activity, Activity::found);
+
+  for (const std::size_t robot : {0, 1}) environment->setCommand(robot, {.turn_radps = 0.5});
+  environment->step();
+  EXPECT_EQ(environment->commands()[0].activity, Activity::halted);
+  EXPECT_EQ(environment->commands()[1].activity, Activity::found);
+}
+
 TEST(Winning, ARobotThatIsTooFarIsToldSoOnceAndTheRunGoesOn) {
   Contest contest(0.79);
   contest.robot("a", 1.25);

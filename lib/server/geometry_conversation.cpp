@@ -166,8 +166,9 @@ void GeometryConversation::step(Environment& environment) {
 
   wire::Task task;
   for (std::size_t i = 0; i < n; ++i) {
-    if (environment.command(i) == told_[i]) continue;
-    told_[i] = environment.command(i);
+    const Command command = environment.nextCommand(i);
+    if (command == told_[i]) continue;
+    told_[i] = command;
     encode(told_[i], static_cast<std::uint32_t>(i), *task.add_commands());
   }
   wire::Moment moment;
