@@ -38,7 +38,7 @@ void takeReadings(Environment& from, Environment& to, RobotRange range) {
 void stepTogether(Environment& owner, Environment& replica, RobotRange share) {
   const RobotRange every{0, owner.robotCount()};
   const RobotRange others[] = {{0, share.begin}, {share.end, every.end}};
-  for (std::size_t i = 0; i < every.end; ++i) replica.setCommand(i, owner.command(i));
+  for (std::size_t i = 0; i < every.end; ++i) replica.setCommand(i, owner.nextCommand(i));
   owner.begin();
   replica.begin();
 
