@@ -46,9 +46,9 @@ TEST(Winning, ARobotThatAsksWithinTheWinDistanceWinsAndAllHalt) {
 
 TEST(Winning, DoesNotChangeTheCommandsOfTheStepInWhichItIsDecided) {
   // Whoever runs a recording again must be told what the robots were driven with: here they turned on.
-  Contest contest;
+  Contest contest(0.81);
   contest.robot("a", 5);
-  contest.robot("b", 1);
+  contest.robot("b", 1.25);
   const auto environment = contest.start();
   for (const std::size_t robot : {0, 1}) environment->setCommand(robot, {.turn_radps = 0.5});
   environment->checkWin(1);
