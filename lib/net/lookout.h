@@ -14,10 +14,10 @@ class Lookout {
  public:
   using Duration = std::chrono::nanoseconds;
 
-  static constexpr Duration kPatience = std::chrono::microseconds(100);  ///< to look out for so long, no longer
-  static constexpr Duration kSoon = std::chrono::microseconds(200);      ///< one that slept so long was woken soon
+  static constexpr Duration kPatience = std::chrono::microseconds(300);  ///< to look out for so long, no longer
+  static constexpr Duration kSoon = std::chrono::microseconds(300);      ///< one that slept so long was woken soon
   static constexpr Duration kAtOnce = std::chrono::microseconds(5);      ///< it was there already: that tells nothing
-  static constexpr Duration kInterruption = std::chrono::microseconds(150);  ///< between two looks: another ran here
+  static constexpr Duration kInterruption = std::chrono::microseconds(1000);  ///< between two looks: another ran here
 
   /// Whether to look out for the next message, rather than sleep.
   bool isWorthwhile() const { return soon_in_a_row_ >= kEnough && sleeps_to_come_ == 0; }

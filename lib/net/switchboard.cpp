@@ -53,7 +53,9 @@ Switchboard::Line Switchboard::line(std::size_t offer) {
 void Switchboard::waitForOne(gpr_timespec until) {
   void* tag = nullptr;
   bool ok = false;
-  if (awaitEvent(*queue(), lookout_, until, tag, ok)) static_cast<Event*>(tag)->happened(ok);
+  const bool has_come = looks_out_ ? awaitEvent(*queue(), lookout_, until, tag, ok)
+                                   : queue()->AsyncNext(&tag, &ok, until) == grpc::CompletionQueue::GOT_EVENT;
+  if (has_come) static_cast<Event*>(tag)->happened(ok);
 }
 
 bool Switchboard::takeOne(grpc::ServerCompletionQueue& queue) {

@@ -66,6 +66,8 @@ class Switchboard {
 
   /// Has things happen until `is_enough`, or the time has come. What is due already may happen in any case.
   void waitUntil(Clock::time_point until, const std::function<bool()>& is_enough);
+  /// Whether it may look out for what comes (Lookout) rather than sleep.
+  void lookOut(bool may) { looks_out_ = may; }
 
   /// Takes no more calls, and waits until those that are there have come to their ends; after a second it cuts them
   /// off.
@@ -98,6 +100,7 @@ class Switchboard {
   std::vector<Desk> desks_;                 ///< the first one's queue is that of all calls
   std::vector<std::size_t> desk_of_offer_;  ///< by offer
   std::size_t calls_ = 0;
+  bool looks_out_ = true;
   Lookout lookout_;
   Clock::time_point last_glance_;
   bool is_closed_ = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <thread>
 
 #include "base/error_list.h"
 #include "net/switchboard.h"
@@ -158,6 +159,8 @@ struct EnvironmentServer::Impl {
   /// @return whether it is time to step
   bool isTimeToStep() {
     const auto is_time = [&] { return lobby.now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
+    // Where the robots' processes want all processors, one that looks out for their answers is in their way.
+    switchboard.lookOut(robots.processes() < std::thread::hardware_concurrency());
     const auto until_due = due - lobby.now();
     lobby.nap(until_due > Clock::duration::zero() ? until_due : Lobby::kNap, [&] { return lobby.rang || is_time(); });
     return is_time();

@@ -42,6 +42,7 @@ class RobotConversation final : public wire::Robots::WithRawMethod_Drive<wire::R
   void sayGoodbye();
 
   std::size_t connected() const;                ///< robots
+  std::size_t processes() const { return streams_.size(); }
   std::vector<std::string> absent() const;      ///< networked robots that are not connected
   std::uint64_t late() const { return late_; }  ///< what handOver() returned, summed over the run
 
