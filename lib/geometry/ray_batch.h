@@ -65,10 +65,10 @@ class RayBatch {
   std::vector<double> x_, y_, dx_, dy_;  ///< by ray, as in the fan
   std::vector<double> distance_;
   std::vector<std::int64_t> body_;
-  std::vector<Candidates::Masks> passing_;  ///< which rays, or cones, candidates pass
 
-  // Any other fan's, by ray, as seen from the centre.
-  std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;
+  // Of a fan that is no sweep.
+  std::vector<float> rough_x_, rough_y_, rough_dx_, rough_dy_, rough_distance_;  ///< by ray, as seen from the centre
+  std::vector<Candidates::Masks> passing_;  ///< by block: which of its rays candidates pass
   RayPairs pairs_;
 };
 
