@@ -151,15 +151,14 @@ struct Environment::Impl {
 
   void takeCommands() {
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
-      const Command& command = commands[i];
+      Command& command = commands[i];
       if (state.activity[i] == Activity::active) state.activity[i] = command.activity;
+      command.activity = state.activity[i];
       state.laser_pan_rad[i] =
           std::isfinite(command.laser_pan_rad)
               ? std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2))
               : 0;
-      Command wish = command;
-      wish.activity = state.activity[i];
-      const DriveSpeeds speeds = reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, wish,
+      const DriveSpeeds speeds = reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command,
                                                  fleet.robots[i].info.limits, options.period_s);
       state.speed_mps[i] = speeds.speed_mps;
       state.turn_radps[i] = speeds.turn_radps;

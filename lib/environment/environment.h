@@ -97,7 +97,7 @@ class Environment {
   /// What the robot will be told in the next step: its last command, but for one that has been halted since.
   Command nextCommand(std::size_t robot) const;
   std::span<const Command> commands() const;  ///< of all robots; after a step, those that it was taken with
-  Moment moment() const;                            ///< between steps
+  Moment moment() const;                      ///< between steps
   /// Goes on from there. @pre `moment` is of an environment with the same world, fleet and options.
   void resume(const Moment& moment);
   ///@}

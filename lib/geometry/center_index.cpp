@@ -11,7 +11,9 @@ CenterIndex::CenterIndex(const Bounds2D& area, double cell_m, std::size_t solids
       begin_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0),
       items_(solids),
       cell_(solids),
-      entries_(solids) {}
+      entries_(solids) {
+  for (std::size_t i = 0; i < solids; ++i) items_[i].number = static_cast<std::uint32_t>(i);
+}
 
 void CenterIndex::build() {
   std::fill(begin_.begin(), begin_.end(), 0);

@@ -1,5 +1,6 @@
 #include "geometry/ray_batch.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -10,15 +11,23 @@
 namespace robosim {
 namespace {
 
+/// Where rays are carried, and turned about their own origins.
+struct Mounting {
+  LevelFrame carrier;
+  double pan_rad = 0;
+};
+
 /// Casts level rays as a batch and one by one, and says where the two differ; empty if nowhere.
-std::string difference(const Scene& scene, const std::vector<Ray>& rays, double range_m, BodyId except,
-                       const NeighbourList& near) {
+/// @param batch may have been used for others
+std::string difference(const Scene& scene, const std::vector<Ray>& rays, const Mounting& mounting, double range_m,
+                       BodyId except, const NeighbourList& near, RayBatch& batch) {
   const RayFan fan(rays);
-  RayBatch batch;
-  batch.place(fan, {}, range_m);
+  batch.place(fan, mounting.carrier, range_m, mounting.pan_rad);
   scene.castRays(batch, except, near);
+  const LevelFrame panned(mounting.carrier, mounting.pan_rad);
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const Hit hit = scene.castRay(rays[i], range_m, except);
+    const Ray ray{mounting.carrier.pointToWorld(rays[i].origin), panned.turnToWorld(rays[i].direction)};
+    const Hit hit = scene.castRay(ray, range_m, except);
     const bool same = hit ? batch.body(i) == static_cast<std::int64_t>(hit.body) && batch.distance(i) == hit.distance_m
                           : batch.body(i) == RayBatch::kNothing && batch.distance(i) == range_m;
     if (!same) return "ray " + std::to_string(i) + " of " + std::to_string(rays.size());
@@ -27,6 +36,7 @@ std::string difference(const Scene& scene, const std::vector<Ray>& rays, double 
 }
 
 TEST(RayBatch, GivesTheSameBitsAsItsRaysOneByOne) {
+  RayBatch batch;
   for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
     Rng rng(seed);
     const SolidSpread spread{.size_max_m = rng.uniform(0.2, 6), .lattice_m = seed % 4 == 0 ? 0.125 : 0};
@@ -42,23 +52,34 @@ TEST(RayBatch, GivesTheSameBitsAsItsRaysOneByOne) {
     const double first = seed % 4 == 0 ? 0 : rng.uniform(-M_PI, M_PI);
     const std::size_t count = 1 + rng.below(200);
     const double field = rng.below(2) ? 2 * M_PI : rng.uniform(0.01, M_PI);
+    // A whole circle with the last ray on the first, or before it.
+    const std::size_t parts = count > 1 && rng.below(2) ? count - 1 : count;
     std::vector<Ray> rays;
     for (std::size_t i = 0; i < count; ++i) {
-      const double angle = first + field * static_cast<double>(i) / static_cast<double>(count);
+      const double angle = first + field * static_cast<double>(i) / static_cast<double>(parts);
       const mrpt::math::TPoint3D origin(center.x + spread_m * std::cos(angle), center.y + spread_m * std::sin(angle),
                                         z_m);
       rays.push_back(Ray::towards(origin, angle));
     }
+    if (seed % 5 == 0) std::reverse(rays.begin(), rays.end());
+    if (seed % 11 == 0) std::rotate(rays.begin(), rays.begin() + static_cast<std::ptrdiff_t>(count / 3), rays.end());
+    Mounting mounting;
+    if (rng.below(2)) {
+      const auto at = randomPoint(rng, {-3, 3, -3, 3});
+      mounting = {LevelFrame({at.x, at.y, rng.uniform(-M_PI, M_PI)}, rng.uniform(0, 0.3)), rng.uniform(-1.6, 1.6)};
+    }
+    const auto world_center = mounting.carrier.pointToWorld(center);
     const double ranges[] = {0, 0.3, 5, 8, 100, INFINITY};
     const BodyId except =
         moving > 0 && rng.below(2) ? scene.movingBody(rng.below(static_cast<std::uint32_t>(moving))) : kNoBody;
     const double range_m = ranges[rng.below(6)];
-    EXPECT_EQ(difference(scene, rays, range_m, except, {}), "") << "seed " << seed;
+    EXPECT_EQ(difference(scene, rays, mounting, range_m, except, {}, batch), "") << "seed " << seed;
     // And from lists of neighbours: made here, made a step away, and made for less than the range.
     for (const double away_m : {0.0, 0.3, 0.6}) {
       NeighbourList near;
-      scene.update(near, {center.x + away_m, center.y}, rng.below(2) ? range_m + spread_m : range_m / 2);
-      EXPECT_EQ(difference(scene, rays, range_m, except, near), "") << "seed " << seed << ", list " << away_m;
+      scene.update(near, {world_center.x + away_m, world_center.y}, rng.below(2) ? range_m + spread_m : range_m / 2);
+      EXPECT_EQ(difference(scene, rays, mounting, range_m, except, near, batch), "")
+          << "seed " << seed << ", list " << away_m;
     }
   }
 }

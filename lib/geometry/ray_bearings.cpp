@@ -78,7 +78,8 @@ void findBins(const RoughPlace& place, float ahead_x, float ahead_y, const Candi
     const float center = roughBearing(ahead_x * y - ahead_y * x, ahead_x * x + ahead_y * y);
     const float right = center + (right_12 < right_34 ? right_12 : right_34) - wider;
     const float left = center + (left_12 < left_34 ? left_34 : left_12) + wider;
-    const bool is_all_round = is_near | !(right > -kPi) | !(left < kPi);
+    // The last: where no solid is, in the rest of the last vector, nothing is a number that could be a bin.
+    const bool is_all_round = is_near | !(right > -kPi) | !(left < kPi) | !(right <= left);
     first[k] = static_cast<std::int32_t>(is_all_round ? 0 : (right + kPi) * per_rad);
     last[k] = static_cast<std::int32_t>(is_all_round ? bins : (left + kPi) * per_rad);
     nearest_m[k] = nearest - round;
@@ -99,7 +100,7 @@ RayBearings::RayBearings(std::span<const Ray> rays) {
     turned_rad.push_back(turned_rad.back() + std::max(0.0, turn_rad));
   }
   const double field_rad = turned_rad.back();
-  if (field_rad > 2 * M_PI) return;
+  if (field_rad > 2 * M_PI + kRounding_rad) return;
   go_round_ = true;
   const double cos = std::cos(field_rad / 2);
   const double sin = std::sin(field_rad / 2);

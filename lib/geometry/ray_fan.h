@@ -10,8 +10,8 @@
 namespace robosim {
 
 /// Level rays of one height that start near one place, in the frame of what carries them: those of a laser, or of a
-/// ring of sonars. What can be worked out once for all times that they are cast (RayBatch) is worked out here. Rays
-/// that are neighbours by direction should be neighbours in the fan: they are looked at in blocks.
+/// ring of sonars. What can be worked out once for all times that they are cast (RayBatch) is worked out here. Many
+/// rays should go round counter-clockwise: then each solid is held only against those of its bearing.
 class RayFan {
  public:
   static constexpr std::size_t kBlock = 16;

@@ -11,17 +11,15 @@ bool next(grpc::CompletionQueue& queue, gpr_timespec until, void*& tag, bool& ok
   return queue.AsyncNext(&tag, &ok, until) == grpc::CompletionQueue::GOT_EVENT;
 }
 
-bool lookOut(grpc::CompletionQueue& queue, Lookout& lookout, void*& tag, bool& ok) {
+bool lookOut(grpc::CompletionQueue& queue, Lookout& lookout, gpr_timespec until, void*& tag, bool& ok) {
   const auto start = Clock::now();
-  for (auto looked = start; looked - start < Lookout::kPatience;) {
+  while (Clock::now() - start < Lookout::kPatience) {
     if (next(queue, gpr_time_0(GPR_CLOCK_MONOTONIC), tag, ok)) {
       lookout.succeeded();
       return true;
     }
+    if (gpr_time_cmp(gpr_now(until.clock_type), until) >= 0) return false;
     std::this_thread::yield();  // the peer may be the one that wants this processor
-    const auto now = Clock::now();
-    if (now - looked > Lookout::kInterruption) break;
-    looked = now;
   }
   lookout.failed();
   return false;
@@ -30,7 +28,7 @@ bool lookOut(grpc::CompletionQueue& queue, Lookout& lookout, void*& tag, bool& o
 }  // namespace
 
 bool awaitEvent(grpc::CompletionQueue& queue, Lookout& lookout, gpr_timespec until, void*& tag, bool& ok) {
-  if (lookout.isWorthwhile() && lookOut(queue, lookout, tag, ok)) return true;
+  if (lookout.isWorthwhile() && lookOut(queue, lookout, until, tag, ok)) return true;
   const auto start = Clock::now();
   const bool has_come = next(queue, until, tag, ok);
   lookout.slept(has_come ? Clock::now() - start : Lookout::Duration::max());

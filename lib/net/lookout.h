@@ -17,7 +17,6 @@ class Lookout {
   static constexpr Duration kPatience = std::chrono::microseconds(300);  ///< to look out for so long, no longer
   static constexpr Duration kSoon = std::chrono::microseconds(300);      ///< one that slept so long was woken soon
   static constexpr Duration kAtOnce = std::chrono::microseconds(5);      ///< it was there already: that tells nothing
-  static constexpr Duration kInterruption = std::chrono::microseconds(1000);  ///< between two looks: another ran here
 
   /// Whether to look out for the next message, rather than sleep.
   bool isWorthwhile() const { return soon_in_a_row_ >= kEnough && sleeps_to_come_ == 0; }
@@ -30,10 +29,10 @@ class Lookout {
   }
   /// One has looked out, and the message came.
   void succeeded() {
-    if (++successes_ >= kProof) sleeps_next_time_ = kSleepsLeast;
+    if (successes_ < kProof && ++successes_ == kProof) sleeps_next_time_ = kSleepsLeast;
   }
-  /// One has looked out, and no message came, or another program wanted the processor. The next try is put off; for
-  /// twice as long as the last time if that was no good either.
+  /// One has looked out, and no message came. The next try is put off; for twice as long as the last time if that was
+  /// no good either.
   void failed() {
     sleeps_to_come_ = sleeps_next_time_;
     if (successes_ < kProof && sleeps_next_time_ < kSleepsMost) sleeps_next_time_ *= 2;

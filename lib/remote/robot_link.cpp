@@ -246,8 +246,8 @@ void RobotLink::connect() {
   const std::lock_guard lock(shared_->mutex);
   if (shared_->call) return;
   shared_->init_is_due = shared_->init.has_value();
-  ++shared_->calls;
   shared_->call = new Call(shared_);
+  ++shared_->calls;
   shared_->call->sendNext();
 }
 

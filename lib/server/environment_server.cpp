@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <optional>
-#include <thread>
+
+#include <sched.h>
 
 #include "base/error_list.h"
 #include "net/switchboard.h"
@@ -18,6 +19,12 @@ using Clock = Lobby::Clock;
 
 Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
+}
+
+/// Processors that this process may run on.
+std::size_t processorsForUs() {
+  cpu_set_t ours;
+  return sched_getaffinity(0, sizeof ours, &ours) == 0 ? static_cast<std::size_t>(CPU_COUNT(&ours)) : 1;
 }
 
 /// How many steps a second the run takes of late.
@@ -160,7 +167,8 @@ struct EnvironmentServer::Impl {
   bool isTimeToStep() {
     const auto is_time = [&] { return lobby.now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
     // Where the robots' processes want all processors, one that looks out for their answers is in their way.
-    switchboard.lookOut(robots.processes() < std::thread::hardware_concurrency());
+    static const std::size_t processors = processorsForUs();
+    switchboard.lookOut(robots.processes() < processors);
     const auto until_due = due - lobby.now();
     lobby.nap(until_due > Clock::duration::zero() ? until_due : Lobby::kNap, [&] { return lobby.rang || is_time(); });
     return is_time();

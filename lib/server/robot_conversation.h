@@ -41,7 +41,7 @@ class RobotConversation final : public wire::Robots::WithRawMethod_Drive<wire::R
   /// The run is over.
   void sayGoodbye();
 
-  std::size_t connected() const;                ///< robots
+  std::size_t connected() const;  ///< robots
   std::size_t processes() const { return streams_.size(); }
   std::vector<std::string> absent() const;      ///< networked robots that are not connected
   std::uint64_t late() const { return late_; }  ///< what handOver() returned, summed over the run
