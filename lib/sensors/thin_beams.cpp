@@ -45,7 +45,7 @@ void tellAll(const BeamFields& beams, std::size_t count, const LevelFrame& pan, 
     const bool is_echo = range_m < range_max_m;
     const float at_m = is_echo ? range_m : no_echo_m;
     const double out_m = at_m;
-    echoes[i].range_m = is_echo & (range_m < range_min_m) ? range_min_m : at_m;
+    echoes[i].range_m = (is_echo & (range_m < range_min_m)) ? range_min_m : at_m;
     echoes[i].point_m.x = static_cast<float>(x[i] + (cos * dx[i] - sin * dy[i]) * out_m);
     echoes[i].point_m.y = static_cast<float>(y[i] + (sin * dx[i] + cos * dy[i]) * out_m);
     echoes[i].point_m.z = static_cast<float>(z[i] + dz[i] * out_m);
