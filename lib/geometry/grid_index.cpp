@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace robosim {
 namespace {
@@ -54,19 +55,20 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
 }
 
 void GridIndex::sort(std::span<const Solid> solids) {
-  const auto cell_of_center = [&](const Solid& solid) {
-    return std::visit([&](const auto& shape) { return cellAt(column(shape.center.x), row(shape.center.y)); },
-                      solid.outline);
-  };
+  const std::size_t count = solids.size();
+  items_.resize(count);
+  index_of_.resize(count);
   std::fill(begin_.begin(), begin_.end(), 0);
-  for (const auto& solid : solids) ++begin_[cell_of_center(solid)];
+  for (std::size_t number = 0; number < count; ++number) {
+    const auto cell = std::visit([&](const auto& shape) { return cellAt(column(shape.center.x), row(shape.center.y)); },
+                                 solids[number].outline);
+    index_of_[number] = static_cast<std::uint32_t>(cell);  // for now
+    ++begin_[cell];
+  }
   std::uint32_t sum = 0;
-  for (auto& begin : begin_) begin = sum += begin;  // each cell's end, for now
-  items_.resize(solids.size());
-  index_of_.resize(solids.size());
-  // From the back, so that solids of a cell stay in the order given.
-  for (std::size_t number = solids.size(); number-- > 0;) {
-    const std::uint32_t index = --begin_[cell_of_center(solids[number])];
+  for (auto& begin : begin_) sum += std::exchange(begin, sum);
+  for (std::size_t number = 0; number < count; ++number) {
+    const std::uint32_t index = begin_[index_of_[number]]++;
     items_[index] = GridItem::from(solids[number], static_cast<std::uint32_t>(number));
     index_of_[number] = index;
   }

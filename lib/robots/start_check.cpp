@@ -54,6 +54,23 @@ class RobotsSoFar {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
+/// Of the solids, those that each robot may reach to, in ascending order. Asked of the solids, not of the robots: a map
+/// has millions of them, few are near a robot, and an index of them all would be made for nothing else.
+std::vector<std::vector<std::size_t>> solidsNear(const std::vector<RobotStart>& robots,
+                                                 const std::vector<Solid>& solids, const Bounds2D& world_bounds) {
+  Scene scene({}, robots.size(), world_bounds);
+  for (std::size_t i = 0; i < robots.size(); ++i) scene.place(i, {robots[i].disc, robots[i].heights});
+  scene.freeze();
+  std::vector<std::vector<std::size_t>> near(robots.size());
+  std::vector<BodyId> reached;
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    reached.clear();
+    scene.movingNear(boundsOf(solids[i].outline), reached);
+    for (const auto robot : reached) near[scene.movingIndex(robot)].push_back(i);
+  }
+  return near;
+}
+
 /// The map that a solid of stationarySolids() comes from; null for an object's.
 const WorldMap* mapWith(const World& world, std::size_t solid) {
   if (solid < world.objects.size()) return nullptr;
@@ -75,9 +92,9 @@ Circle withoutSeam(const Circle& disc, const WorldMap& map) {
 
 void checkStarts(const World& world, const std::vector<RobotStart>& robots, const std::string& world_file,
                  ErrorList& errors) {
-  const Scene standing(stationarySolids(world), 0, world.bounds);
+  const std::vector<Solid> solids = stationarySolids(world);
+  const auto solids_near = solidsNear(robots, solids, world.bounds);
   RobotsSoFar so_far(robots);
-  std::vector<BodyId> near;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const RobotStart& robot = robots[i];
     const auto report = [&](const std::string& fault) {
@@ -87,15 +104,12 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
       report("stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>");
       continue;
     }
-    near.clear();
-    standing.stationaryNear(boundsOf(robot.disc), near);
     const WorldMap* met = nullptr;
-    for (const auto body : near) {
-      const auto index = static_cast<std::size_t>(body);
+    for (const auto index : solids_near[i]) {
       const WorldMap* map = mapWith(world, index);
       if (map == met && met) continue;
       const Circle disc = map ? withoutSeam(robot.disc, *map) : robot.disc;
-      if (!overlap({disc, robot.heights}, standing.solid(body))) continue;
+      if (!overlap({disc, robot.heights}, solids[index])) continue;
       if (map) {
         met = map;
         report("overlaps what the map '" + map->file + "' of line " + std::to_string(map->line.number) +
