@@ -4,11 +4,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/random.h"
+#include "base/scratch_folder.h"
 #include "environment/environment.h"
 #include "robosim/bench_process.h"
 #include "robosim/bench_rounds.h"
 #include "robosim/progress.h"
-#include "robosim/scratch_folder.h"
 #include "robosim/subcommands.h"
 #include "robosim/text.h"
 #include "robots/fleet.h"

@@ -1,8 +1,8 @@
 #include "robosim/bench_robots.h"
 
+#include "base/scratch_folder.h"
 #include "robosim/bench_process.h"
 #include "robosim/local_run.h"
-#include "robosim/scratch_folder.h"
 
 namespace robosim {
 namespace {

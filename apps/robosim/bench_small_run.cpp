@@ -1,9 +1,9 @@
 #include "robosim/bench_small_run.h"
 
+#include "base/scratch_folder.h"
 #include "recording/rawlog_writer.h"
 #include "robosim/bench_process.h"
 #include "robosim/local_run.h"
-#include "robosim/scratch_folder.h"
 
 namespace robosim {
 namespace {

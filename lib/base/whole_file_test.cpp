@@ -3,9 +3,9 @@
 #include <functional>
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include "base/error_list.h"
+#include "base/scratch_folder.h"
 
 namespace robosim {
 namespace {
@@ -14,13 +14,6 @@ namespace fs = std::filesystem;
 
 class WholeFileTest : public testing::Test {
  protected:
-  WholeFileTest()
-      : folder_(fs::path(testing::TempDir()) / ("robosim_whole_file_" + std::to_string(getpid()) + "_" +
-                                                testing::UnitTest::GetInstance()->current_test_info()->name())) {
-    fs::create_directories(folder_);
-  }
-  ~WholeFileTest() override { fs::remove_all(folder_); }
-
   static std::string textOf(const fs::path& file) { return readWholeFile(file, 1000, "is it?"); }
   static std::string errorOf(const std::function<void()>& act) {
     try {
@@ -31,7 +24,7 @@ class WholeFileTest : public testing::Test {
     return "none";
   }
 
-  fs::path folder_;
+  const ScratchFolder folder_;
 };
 
 TEST_F(WholeFileTest, HasItsNameOnlyFromCommitOn) {
@@ -60,7 +53,7 @@ TEST_F(WholeFileTest, LeavesEverythingAsItWasWithoutCommit) {
   checkWritable(file);
   checkWritable(folder_ / "new.txt");
   EXPECT_EQ(textOf(file), "before");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
 }
 
 TEST_F(WholeFileTest, WritesThroughALink) {
@@ -74,8 +67,8 @@ TEST_F(WholeFileTest, WritesThroughALink) {
 }
 
 TEST_F(WholeFileTest, SaysWhyThereCanBeNoSuchFile) {
-  const std::string here = folder_.string();
-  EXPECT_EQ(errorOf([&] { checkWritable(folder_); }), here + ": is a folder; name a file in it");
+  const std::string here = folder_.path().string();
+  EXPECT_EQ(errorOf([&] { checkWritable(folder_.path()); }), here + ": is a folder; name a file in it");
   EXPECT_EQ(errorOf([&] { checkWritable(here + "/"); }), here + "/: is no name for a file; give one");
   EXPECT_EQ(errorOf([&] { checkWritable(here + "/none/a.txt"); }),
             here +
@@ -105,7 +98,7 @@ TEST_F(WholeFileTest, ReadsNoMoreThanItMay) {
   EXPECT_EQ(readWholeFile(folder_ / "a.txt", 2 << 20, "is it?").size(), 2u << 20);
   EXPECT_EQ(errorOf([&] { readWholeFile(folder_ / "a.txt", 1 << 20, "is it?"); }),
             (folder_ / "a.txt").string() + ": is larger than 1 MiB, the most that is read; is it?");
-  EXPECT_EQ(errorOf([&] { textOf(folder_); }), folder_.string() + ": is a directory; name a file in it");
+  EXPECT_EQ(errorOf([&] { textOf(folder_); }), folder_.path().string() + ": is a directory; name a file in it");
   EXPECT_EQ(errorOf([&] { textOf(folder_ / "b"); }), (folder_ / "b").string() + ": no such file; check the path");
 }
 

@@ -13,6 +13,7 @@
 
 #include "base/error_list.h"
 #include "base/random.h"
+#include "base/scratch_folder.h"
 
 namespace robosim {
 namespace {
@@ -44,15 +45,12 @@ std::string repeated(const std::string& text, int times) {
 
 class XmlFile : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path holding(const std::string& text) const {
     const auto file = folder_ / "a.xml";
     std::ofstream(file, std::ios::binary) << text;
     return file;
   }
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const ScratchFolder folder_;
 };
 
 TEST(XmlElement, KeepsNamesTextsAttributesChildrenAndLines) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
+#include "base/scratch_folder.h"
 
 namespace robosim {
 namespace {
@@ -91,7 +92,8 @@ TEST(Access, SaysWhichLineOfTheFileIsWrongWithoutTellingTheToken) {
 }
 
 TEST(Access, RefusesAFileThatOthersMayRead) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "robosim_tokens";
+  const ScratchFolder folder;
+  const auto file = folder / "tokens";
   std::ofstream(file) << kTokens;
   using std::filesystem::perms;
   for (const perms open : {perms::others_read, perms::group_read}) {
@@ -105,7 +107,6 @@ TEST(Access, RefusesAFileThatOthersMayRead) {
   }
   std::filesystem::permissions(file, perms::owner_read | perms::owner_write);
   EXPECT_TRUE(Access::read(file).check(kViewer, Right::look).ok());
-  std::filesystem::remove(file);
 }
 
 TEST(Access, SaysWhenItsFileCannotBeRead) {

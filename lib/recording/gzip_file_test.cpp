@@ -12,6 +12,7 @@
 
 #include "base/error_list.h"
 #include "base/random.h"
+#include "recording/full_disk.h"
 #include "recording/recording_error.h"
 #include "recording/test_folder.h"
 

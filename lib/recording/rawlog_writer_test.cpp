@@ -11,6 +11,7 @@
 #include <mrpt/obs/CRawlog.h>
 
 #include "base/error_list.h"
+#include "recording/full_disk.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"

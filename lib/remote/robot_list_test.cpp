@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/scratch_folder.h"
+
 namespace robosim {
 namespace {
 
@@ -11,14 +13,13 @@ using Lines = std::vector<std::string>;
 
 /// What is said against a list of this text, without the file's name.
 Lines faults(const std::string& text) {
-  const auto file = std::filesystem::path(testing::TempDir()) /
-                    (testing::UnitTest::GetInstance()->current_test_info()->name() + std::string(".xml"));
+  const ScratchFolder folder;
+  const auto file = folder / "robots.xml";
   std::ofstream(file) << text;
   ErrorList errors;
   readRobotList(file, errors);
   Lines lines;
   for (const auto& error : errors.errors()) lines.push_back(error.substr(file.string().size()));
-  std::filesystem::remove(file);
   return lines;
 }
 

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/scratch_folder.h"
+
 namespace robosim {
 namespace {
 
@@ -18,15 +20,7 @@ using mrpt::math::TPose2D;
 /// A folder of a test's own, gone after it.
 class PlanFile : public testing::Test {
  protected:
-  PlanFile() {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("plan_") + testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~PlanFile() override { fs::remove_all(folder_); }
-
-  fs::path folder_;
+  const ScratchFolder folder_;
 };
 
 WorldObject object(const std::string& name, std::variant<Cylinder, Cube> shape, const TPose2D& pose,
@@ -254,7 +248,7 @@ TEST_F(PlanFile, IsLeftAsItWasByTheCheck) {
   std::string text;
   std::getline(std::ifstream(folder_ / "plan.png"), text);
   EXPECT_EQ(text, "as it was");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
 }
 
 TEST_F(PlanFile, LeavesNothingHalfWrittenOnAFullDisk) {
@@ -262,7 +256,7 @@ TEST_F(PlanFile, LeavesNothingHalfWrittenOnAFullDisk) {
   fs::create_symlink("/dev/full", folder_ / "plan.png.part");
   EXPECT_EQ(errorOf([&] { Scene10x5().draw(folder_ / "plan.png"); }),
             (folder_ / "plan.png").string() + ": cannot be written (No space left on device); choose another place");
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 }  // namespace

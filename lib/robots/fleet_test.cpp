@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/scratch_folder.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -58,13 +59,11 @@ Lines faults(const std::string& text) {
 class WorldFolder : public testing::Test {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_ / "robots"); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  const std::filesystem::path folder_ =
-      std::filesystem::path(testing::TempDir()) / testing::UnitTest::GetInstance()->current_test_info()->name();
+  const ScratchFolder folder_;
 };
 
 TEST(Fleet, HasTheWorldsRobotsInItsOrder) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "base/scratch_folder.h"
 #include "world/map_samples.h"
 
 namespace robosim {
@@ -37,8 +38,7 @@ TEST(RosMap, MayBeTurnedNegatedScaledOrRaw) {
 
 TEST(RosMap, IsReadAsMrptReadsItWhereMrptKnowsBlackFromWhite) {
   // MRPT keeps a pixel's darkness itself, and knows no thresholds; on black and white both must say the same.
-  const auto folder = std::filesystem::path(testing::TempDir()) / "robosim_ros_map";
-  std::filesystem::create_directories(folder);
+  const ScratchFolder folder;
   Rng rng(2, RandomPurpose::test);
   cv::Mat picture(30, 47, CV_8U);
   for (int i = 0; i < static_cast<int>(picture.total()); ++i) {
@@ -59,7 +59,6 @@ TEST(RosMap, IsReadAsMrptReadsItWhereMrptKnowsBlackFromWhite) {
       ASSERT_EQ(ours.at(x, y), is_free ? Occupancy::free : Occupancy::occupied) << x << " " << y;
     }
   }
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "base/scratch_folder.h"
 #include "world/map_samples.h"
 #include "world/world_file.h"
 
@@ -166,13 +167,12 @@ TEST(WorldMap, SurvivesWriting) {
 
 class MapAsWorld : public testing::Test {
  protected:
-  MapAsWorld() : folder_(std::filesystem::path(testing::TempDir()) / "robosim_map_as_world") {
+  MapAsWorld() {
     std::filesystem::create_directories(folder_ / "maps");
     for (const auto& [name, text] : kFiles) std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-  ~MapAsWorld() override { std::filesystem::remove_all(folder_); }
 
-  std::filesystem::path folder_;
+  const ScratchFolder folder_;
 };
 
 TEST_F(MapAsWorld, IsAWorldOfNothingButTheMap) {

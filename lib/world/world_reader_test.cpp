@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
+#include "base/scratch_folder.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -268,12 +269,12 @@ TEST(WorldReader, RefusesWhatIsNoXmlFile) {
 }
 
 TEST(WorldReader, RefusesTwoHundredMegabytes) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "two_hundred_megabytes.xml";
+  const ScratchFolder folder;
+  const auto file = folder / "two_hundred_megabytes.xml";
   std::ofstream(file) << "<world>";
   std::filesystem::resize_file(file, 200'000'000);
   ErrorList errors;
   readWorld(file, errors);
-  std::filesystem::remove(file);
   EXPECT_EQ(errors.errors(),
             Lines{file.string() + ": is larger than 128 MiB, the most that is read; is it a world file?"});
 }

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "robosim/scratch_folder.h"
+#include "base/scratch_folder.h"
 #include "tests/instructions/counts.h"
 #include "tests/instructions/loads.h"
 #include "tests/stock_tools.h"

@@ -1,4 +1,4 @@
-#include "robosim/scratch_folder.h"
+#include "base/scratch_folder.h"
 
 #include <cstdlib>
 #include <stdexcept>
