@@ -5,14 +5,14 @@
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
-#include "base/scratch_folder.h"
+#include "base/test_folder.h"
 
 namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
 
-class WholeFileTest : public testing::Test {
+class WholeFileTest : public TestFolder {
  protected:
   static std::string textOf(const fs::path& file) { return readWholeFile(file, 1000, "is it?"); }
   static std::string errorOf(const std::function<void()>& act) {
@@ -23,8 +23,6 @@ class WholeFileTest : public testing::Test {
     }
     return "none";
   }
-
-  const ScratchFolder folder_;
 };
 
 TEST_F(WholeFileTest, HasItsNameOnlyFromCommitOn) {
@@ -53,7 +51,7 @@ TEST_F(WholeFileTest, LeavesEverythingAsItWasWithoutCommit) {
   checkWritable(file);
   checkWritable(folder_ / "new.txt");
   EXPECT_EQ(textOf(file), "before");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), fs::directory_iterator()), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
 }
 
 TEST_F(WholeFileTest, WritesThroughALink) {
@@ -67,8 +65,8 @@ TEST_F(WholeFileTest, WritesThroughALink) {
 }
 
 TEST_F(WholeFileTest, SaysWhyThereCanBeNoSuchFile) {
-  const std::string here = folder_.path().string();
-  EXPECT_EQ(errorOf([&] { checkWritable(folder_.path()); }), here + ": is a folder; name a file in it");
+  const std::string here = folder_.string();
+  EXPECT_EQ(errorOf([&] { checkWritable(folder_); }), here + ": is a folder; name a file in it");
   EXPECT_EQ(errorOf([&] { checkWritable(here + "/"); }), here + "/: is no name for a file; give one");
   EXPECT_EQ(errorOf([&] { checkWritable(here + "/none/a.txt"); }),
             here +
@@ -98,7 +96,7 @@ TEST_F(WholeFileTest, ReadsNoMoreThanItMay) {
   EXPECT_EQ(readWholeFile(folder_ / "a.txt", 2 << 20, "is it?").size(), 2u << 20);
   EXPECT_EQ(errorOf([&] { readWholeFile(folder_ / "a.txt", 1 << 20, "is it?"); }),
             (folder_ / "a.txt").string() + ": is larger than 1 MiB, the most that is read; is it?");
-  EXPECT_EQ(errorOf([&] { textOf(folder_); }), folder_.path().string() + ": is a directory; name a file in it");
+  EXPECT_EQ(errorOf([&] { textOf(folder_); }), folder_.string() + ": is a directory; name a file in it");
   EXPECT_EQ(errorOf([&] { textOf(folder_ / "b"); }), (folder_ / "b").string() + ": no such file; check the path");
 }
 

@@ -13,7 +13,7 @@
 
 #include "base/error_list.h"
 #include "base/random.h"
-#include "base/scratch_folder.h"
+#include "base/test_folder.h"
 
 namespace robosim {
 namespace {
@@ -43,14 +43,13 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 
-class XmlFile : public testing::Test {
+class XmlFile : public TestFolder {
  protected:
   std::filesystem::path holding(const std::string& text) const {
     const auto file = folder_ / "a.xml";
     std::ofstream(file, std::ios::binary) << text;
     return file;
   }
-  const ScratchFolder folder_;
 };
 
 TEST(XmlElement, KeepsNamesTextsAttributesChildrenAndLines) {

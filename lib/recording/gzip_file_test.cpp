@@ -12,9 +12,9 @@
 
 #include "base/error_list.h"
 #include "base/random.h"
+#include "base/test_folder.h"
 #include "recording/full_disk.h"
 #include "recording/recording_error.h"
-#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -11,12 +11,12 @@
 #include <mrpt/obs/CRawlog.h>
 
 #include "base/error_list.h"
+#include "base/test_folder.h"
 #include "recording/full_disk.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
 #include "recording/sample_robot.h"
-#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {

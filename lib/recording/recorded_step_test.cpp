@@ -8,13 +8,13 @@
 #include <mrpt/obs/CObservationOdometry.h>
 
 #include "base/error_list.h"
+#include "base/test_folder.h"
 #include "recording/byte_archive.h"
 #include "recording/memory_bound.h"
 #include "recording/observations.h"
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
 #include "recording/sample_robot.h"
-#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/test_folder.h"
 #include "recording/rawlog_writer.h"
 #include "recording/sample_robot.h"
-#include "recording/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "recording/test_folder.h"
+#include "base/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/scratch_folder.h"
+#include "base/test_folder.h"
 
 namespace robosim {
 namespace {
@@ -17,11 +17,7 @@ namespace fs = std::filesystem;
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-/// A folder of a test's own, gone after it.
-class PlanFile : public testing::Test {
- protected:
-  const ScratchFolder folder_;
-};
+using PlanFile = TestFolder;
 
 WorldObject object(const std::string& name, std::variant<Cylinder, Cube> shape, const TPose2D& pose,
                    const std::array<float, 3>& color, double heat_celsius = 0) {
@@ -248,7 +244,7 @@ TEST_F(PlanFile, IsLeftAsItWasByTheCheck) {
   std::string text;
   std::getline(std::ifstream(folder_ / "plan.png"), text);
   EXPECT_EQ(text, "as it was");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
 TEST_F(PlanFile, LeavesNothingHalfWrittenOnAFullDisk) {
@@ -256,7 +252,7 @@ TEST_F(PlanFile, LeavesNothingHalfWrittenOnAFullDisk) {
   fs::create_symlink("/dev/full", folder_ / "plan.png.part");
   EXPECT_EQ(errorOf([&] { Scene10x5().draw(folder_ / "plan.png"); }),
             (folder_ / "plan.png").string() + ": cannot be written (No space left on device); choose another place");
-  EXPECT_TRUE(fs::is_empty(folder_.path()));
+  EXPECT_TRUE(fs::is_empty(folder_));
 }
 
 }  // namespace

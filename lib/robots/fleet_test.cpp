@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/scratch_folder.h"
+#include "base/test_folder.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -56,14 +56,13 @@ Lines faults(const std::string& text) {
   return errors.errors();
 }
 
-class WorldFolder : public testing::Test {
+class WorldFolder : public TestFolder {
  protected:
   void SetUp() override { std::filesystem::create_directories(folder_ / "robots"); }
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(folder_ / name) << text;
     return folder_ / name;
   }
-  const ScratchFolder folder_;
 };
 
 TEST(Fleet, HasTheWorldsRobotsInItsOrder) {

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "base/scratch_folder.h"
+#include "base/test_folder.h"
 #include "world/map_samples.h"
 #include "world/world_file.h"
 
@@ -165,14 +165,12 @@ TEST(WorldMap, SurvivesWriting) {
   }
 }
 
-class MapAsWorld : public testing::Test {
+class MapAsWorld : public TestFolder {
  protected:
   MapAsWorld() {
     std::filesystem::create_directories(folder_ / "maps");
     for (const auto& [name, text] : kFiles) std::ofstream(folder_ / name, std::ios::binary) << text;
   }
-
-  const ScratchFolder folder_;
 };
 
 TEST_F(MapAsWorld, IsAWorldOfNothingButTheMap) {
