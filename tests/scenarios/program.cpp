@@ -11,6 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/scratch_folder.h"
+
 namespace robosim {
 
 std::string textOf(const std::filesystem::path& file) {
@@ -26,26 +28,23 @@ std::size_t countOf(const std::string& part, const std::string& text) {
   return count;
 }
 
-std::filesystem::path emptyFolder() {
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  auto folder = std::filesystem::path(testing::TempDir()) /
-                (std::string("robosim_") + test->test_suite_name() + "_" + test->name());
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
+namespace {
+
+/// Of this run of the tests, gone when it ends.
+const std::filesystem::path& scratch() {
+  static const ScratchFolder folder;
+  return folder.path();
 }
 
-namespace {
+std::string testName() {
+  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+  return std::string(test->test_suite_name()) + "_" + test->name();
+}
 
 /// Where the output of the test's next program goes.
 std::string outputStem() {
   static int programs = 0;
-  const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::string stem = testing::TempDir() + "/robosim_program_" + test->test_suite_name() + "_" + test->name() +
-                           "_" + std::to_string(++programs);
-  std::filesystem::remove(stem + ".out");
-  std::filesystem::remove(stem + ".err");
-  return stem;
+  return scratch() / (testName() + "_program_" + std::to_string(++programs));
 }
 
 Ended ended(int status, const std::string& stem) {
@@ -53,6 +52,13 @@ Ended ended(int status, const std::string& stem) {
 }
 
 }  // namespace
+
+std::filesystem::path emptyFolder() {
+  auto folder = scratch() / testName();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
 
 StartedProgram::StartedProgram(const std::vector<std::string>& arguments)
     : StartedProgram(ROBOSIM_PROGRAM, arguments) {}
@@ -62,7 +68,6 @@ StartedProgram::StartedProgram(const std::string& program, const std::vector<std
   std::vector<char*> words{const_cast<char*>(program.c_str())};
   for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
-  std::filesystem::remove(stem_ + ".out");  // of an earlier test run
   process_ = fork();
   if (process_ != 0) return;
   const bool ready = chdir(ROBOSIM_SOURCE_DIR) == 0 && std::freopen((stem_ + ".out").c_str(), "w", stdout) &&
