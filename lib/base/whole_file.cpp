@@ -34,6 +34,8 @@ std::string readWholeFile(const fs::path& file, std::size_t most_bytes, const st
   std::ifstream in(file, std::ios::binary);
   if (!in) throw ConfigError(name + ": cannot be opened for reading; check its permissions");
   std::string text;
+  const std::uintmax_t size = fs::file_size(file, error);  // of what is no ordinary file, there is none
+  if (!error && size <= most_bytes) text.reserve(size);
   char block[1 << 16];
   while (in.read(block, sizeof block) || in.gcount() > 0) {
     text.append(block, static_cast<std::size_t>(in.gcount()));

@@ -40,6 +40,9 @@ void refuseDeclaration(const tinyxml2::XMLNode& node, const std::string& file) {
 
 XmlElement copied(const tinyxml2::XMLElement& from, const std::string& file) {
   XmlElement to{.name = from.Name(), .text = {}, .attributes = {}, .children = {}, .line = {from.GetLineNum()}};
+  std::size_t count = 0;
+  for (auto* child = from.FirstChildElement(); child; child = child->NextSiblingElement()) ++count;
+  to.children.reserve(count);  // no more than needed: a large world's file makes millions of elements
   for (auto* a = from.FirstAttribute(); a; a = a->Next()) to.attributes.emplace_back(a->Name(), trimmed(a->Value()));
   for (auto* node = from.FirstChild(); node; node = node->NextSibling()) {
     if (auto* child = node->ToElement()) to.children.push_back(copied(*child, file));
