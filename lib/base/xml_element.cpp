@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <limits>
+#include <string_view>
 
 #include <tinyxml2.h>
 
@@ -12,10 +13,10 @@
 namespace robosim {
 namespace {
 
-std::string trimmed(const std::string& text) {
+std::string_view trimmed(std::string_view text) {
   const char* white = " \t\r\n";
   const auto first = text.find_first_not_of(white);
-  return first == std::string::npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
+  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
 }
 
 template <typename Number>
@@ -49,7 +50,7 @@ XmlElement copied(const tinyxml2::XMLElement& from, const std::string& file) {
     if (auto* text = node->ToText()) to.text += text->Value();
     refuseDeclaration(*node, file);
   }
-  to.text = trimmed(to.text);
+  if (const auto text = trimmed(to.text); text.size() != to.text.size()) to.text = std::string(text);
   return to;
 }
 

@@ -1,5 +1,6 @@
 #include "base/xml_reader.h"
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 
@@ -39,7 +40,7 @@ std::string describe(const Bounds& bounds, const std::string& unit) {
 }  // namespace
 
 XmlReader::XmlReader(const XmlElement& element, std::string file, ErrorList& errors)
-    : element_(&element), file_(std::move(file)), errors_(&errors) {}
+    : element_(&element), file_(std::make_shared<const std::string>(std::move(file))), errors_(&errors) {}
 
 bool XmlReader::has(const std::string& setting) const {
   for (const auto& [name, value] : element_->attributes) {
@@ -51,30 +52,47 @@ bool XmlReader::has(const std::string& setting) const {
   return false;
 }
 
+bool XmlReader::ask(const std::string& setting) {
+  if (isAsked(setting)) return false;
+  asked_.push_back(setting);
+  return true;
+}
+
+bool XmlReader::isAsked(const std::string& setting) const {
+  return std::find(asked_.begin(), asked_.end(), setting) != asked_.end();
+}
+
 std::optional<XmlReader::Found> XmlReader::find(const std::string& setting) {
-  const bool is_news = asked_.insert(setting).second;
+  const bool is_news = ask(setting);
   std::optional<Found> found;
   for (const auto& [name, value] : element_->attributes) {
-    if (name != setting) continue;
-    found = Found{value, element_->line.number, "<" + element_->name + " " + name + "=\"" + value + "\">"};
+    if (name == setting) found.emplace(Found{value, element_->line.number, &name});
   }
   for (const auto& child : element_->children) {
     if (child.name != setting) continue;
     if (found) {
-      if (is_news) XmlReader(child, file_, *errors_).error("is given twice in <" + element_->name + ">; keep one");
+      if (is_news) XmlReader(child, *this).error("is given twice in <" + element_->name + ">; keep one");
       break;
     }
-    found = Found{child.text, child.line.number, "<" + setting + ">" + child.text + "</" + setting + ">"};
+    found.emplace(Found{child.text, child.line.number, nullptr});
     // A value holds text only; anything else inside it is an unknown tag like any other.
-    XmlReader inner(child, file_, *errors_);
-    inner.asked_.insert("");
-    if (is_news) inner.finish();
+    if (!is_news || (child.children.empty() && child.attributes.empty())) continue;
+    XmlReader inner(child, *this);
+    inner.ask("");
+    inner.finish();
   }
   return found;
 }
 
+void XmlReader::reportFault(const Found& found, const std::string& setting, const std::string& fault) {
+  errors_->add(*file_, found.line,
+               (found.attribute ? "<" + element_->name + " " + *found.attribute + "=\"" + found.text + "\">"
+                                : "<" + setting + ">" + found.text + "</" + setting + ">") +
+                   fault);
+}
+
 std::optional<double> XmlReader::checked(const Found& found, const std::string& setting, const Bounds& bounds,
-                                         const std::string& mend) {
+                                         const std::function<std::string()>& mend) {
   const auto value = parseNumber(found.text);
   std::string fault;
   if (!value) {
@@ -86,7 +104,7 @@ std::optional<double> XmlReader::checked(const Found& found, const std::string& 
   } else {
     return value;
   }
-  errors_->add(file_, found.line, found.quoted + ": " + fault + mend);
+  reportFault(found, setting, ": " + fault + mend());
   return std::nullopt;
 }
 
@@ -96,7 +114,7 @@ double XmlReader::length(const std::string& setting, Bounds bounds, double unit_
   const auto found = find(setting);
   if (!found) {
     error("<" + setting + "> is missing; add it");
-  } else if (checked(*found, setting, bounds, "; write a number there")) {
+  } else if (checked(*found, setting, bounds, [] { return "; write a number there"; })) {
     return toNumber(found->text, unit_m);
   }
   return (bounds.contain(1) ? 1 : bounds.max) * unit_m;
@@ -109,15 +127,15 @@ double XmlReader::number(const std::string& setting, Bounds bounds, double other
 double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m, double otherwise_m) {
   const auto found = find(setting);
   if (!found) return otherwise_m;
-  const std::string mend = "; drop it for the default, " + toText(otherwise_m, unit_m);
+  const auto mend = [&] { return "; drop it for the default, " + toText(otherwise_m, unit_m); };
   return checked(*found, setting, bounds, mend) ? toNumber(found->text, unit_m) : otherwise_m;
 }
 
 double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double otherwise_rad) {
   const auto found = find(setting);
   if (!found) return otherwise_rad;
-  const auto value_deg =
-      checked(*found, setting, bounds_deg, "; drop it for the default, " + toText(otherwise_rad, kRadPerDeg));
+  const auto mend = [&] { return "; drop it for the default, " + toText(otherwise_rad, kRadPerDeg); };
+  const auto value_deg = checked(*found, setting, bounds_deg, mend);
   return value_deg ? *value_deg * kRadPerDeg : otherwise_rad;
 }
 
@@ -126,7 +144,7 @@ std::string XmlReader::word(const std::string& setting) {
   if (!found) {
     error("<" + setting + "> is missing; add it");
   } else if (found->text.empty()) {
-    errors_->add(file_, found->line, found->quoted + ": is empty; write a word there");
+    reportFault(*found, setting, ": is empty; write a word there");
   } else {
     return found->text;
   }
@@ -135,16 +153,12 @@ std::string XmlReader::word(const std::string& setting) {
 
 std::string XmlReader::word(const std::string& setting, const std::string& otherwise) {
   if (has(setting)) return word(setting);
-  asked_.insert(setting);
+  ask(setting);
   return otherwise;
 }
 
 bool XmlReader::flag(const std::string& setting, bool otherwise) {
   return choice<bool>(setting, {{"0", false}, {"1", true}}, otherwise);
-}
-
-void XmlReader::reportChoice(const Found& found, const std::string& accepted) {
-  errors_->add(file_, found.line, found.quoted + ": is unknown; accepted are: " + accepted);
 }
 
 std::vector<double> XmlReader::numbers(const std::string& setting, std::size_t count, Bounds bounds,
@@ -156,15 +170,13 @@ std::vector<double> XmlReader::numbers(const std::string& setting, std::size_t c
   for (std::string word; words >> word;) {
     const auto value = parseNumber(word);
     if (!value || !std::isfinite(*value) || !bounds.contain(*value)) {
-      errors_->add(file_, found->line,
-                   found->quoted + ": '" + word + "' is no number that fits; it " + describe(bounds, unitOf(setting)));
+      reportFault(*found, setting, ": '" + word + "' is no number that fits; it " + describe(bounds, unitOf(setting)));
       return otherwise;
     }
     values.push_back(*value);
   }
   if (values.size() == count) return values;
-  errors_->add(file_, found->line,
-               found->quoted + ": has " + std::to_string(values.size()) + " numbers; write " + std::to_string(count));
+  reportFault(*found, setting, ": has " + std::to_string(values.size()) + " numbers; write " + std::to_string(count));
   return otherwise;
 }
 
@@ -181,14 +193,14 @@ XmlReader XmlReader::requiredChild(const std::string& tag) {
   // The missing element's own missing settings are no news: its reader reports to nobody.
   static thread_local ErrorList nobody;
   nobody = {};
-  return {kNothing, file_, nobody};
+  return {kNothing, *file_, nobody};
 }
 
 std::vector<XmlReader> XmlReader::all(const std::string& tag) {
-  asked_.insert(tag);
+  ask(tag);
   std::vector<XmlReader> found;
   for (const auto& child : element_->children) {
-    if (child.name == tag) found.emplace_back(child, file_, *errors_);
+    if (child.name == tag) found.push_back(XmlReader(child, *this));
   }
   return found;
 }
@@ -196,39 +208,41 @@ std::vector<XmlReader> XmlReader::all(const std::string& tag) {
 std::vector<XmlReader> XmlReader::all() {
   all_asked_ = true;
   std::vector<XmlReader> found;
-  for (const auto& child : element_->children) found.emplace_back(child, file_, *errors_);
+  for (const auto& child : element_->children) found.push_back(XmlReader(child, *this));
   return found;
 }
 
 void XmlReader::error(const std::string& what) {
-  errors_->add(file_, element_->line.number, "<" + element_->name + ">: " + what);
+  errors_->add(*file_, element_->line.number, "<" + element_->name + ">: " + what);
 }
 
 void XmlReader::errorAt(const std::string& setting, const std::string& what) {
   if (const auto found = find(setting)) {
-    errors_->add(file_, found->line, found->quoted + ": " + what);
+    reportFault(*found, setting, ": " + what);
   } else {
     error(what);
   }
 }
 
 void XmlReader::finish() {
-  std::string accepted;
-  for (const auto& name : asked_) {
-    if (!name.empty()) accepted += (accepted.empty() ? "" : ", ") + name;
-  }
-  const std::string mend =
-      accepted.empty() ? "; nothing but text is accepted here" : "; accepted here are: " + accepted;
+  const auto mend = [&] {
+    std::sort(asked_.begin(), asked_.end());
+    std::string accepted;
+    for (const auto& name : asked_) {
+      if (!name.empty()) accepted += (accepted.empty() ? "" : ", ") + name;
+    }
+    return accepted.empty() ? "; nothing but text is accepted here" : "; accepted here are: " + accepted;
+  };
   for (const auto& [name, value] : element_->attributes) {
-    if (!asked_.contains(name)) error("unknown attribute " + name + "=\"" + value + "\"" + mend);
+    if (!isAsked(name)) error("unknown attribute " + name + "=\"" + value + "\"" + mend());
   }
   for (const auto& child : element_->children) {
-    if (!all_asked_ && !asked_.contains(child.name)) {
-      errors_->add(file_, child.line.number, "<" + child.name + ">: unknown tag in <" + element_->name + ">" + mend);
+    if (!all_asked_ && !isAsked(child.name)) {
+      errors_->add(*file_, child.line.number, "<" + child.name + ">: unknown tag in <" + element_->name + ">" + mend());
     }
   }
   // "" is asked for where the text is the value.
-  if (!element_->text.empty() && !asked_.contains("")) {
+  if (!element_->text.empty() && !isAsked("")) {
     error("the text '" + element_->text.substr(0, 40) + "' has no meaning here; take it out");
   }
 }

@@ -1,8 +1,9 @@
 #pragma once
+#include <functional>
 #include <initializer_list>
 #include <limits>
+#include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,7 +37,7 @@ class XmlReader {
   const std::string& name() const { return element_->name; }
   const XmlElement& element() const { return *element_; }
   SourceLine line() const { return element_->line; }
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return *file_; }
 
   bool has(const std::string& setting) const;
 
@@ -81,20 +82,29 @@ class XmlReader {
   void finish();
 
  private:
+  /// A setting as it stands in the file.
   struct Found {
-    std::string text;
+    const std::string& text;
     int line = 0;
-    std::string quoted;  ///< as it stands in the file: <x>…</x> or <element x="…">
+    const std::string* attribute = nullptr;  ///< its name; null where it is a child
   };
+  /// The reader of an element inside another.
+  XmlReader(const XmlElement& element, const XmlReader& outer)
+      : element_(&element), file_(outer.file_), errors_(outer.errors_) {}
+
+  /// @return whether nobody has asked for it before
+  bool ask(const std::string& setting);
+  bool isAsked(const std::string& setting) const;
   std::optional<Found> find(const std::string& setting);
+  /// @param mend what to say after a fault; called when there is one
   std::optional<double> checked(const Found& found, const std::string& setting, const Bounds& bounds,
-                                const std::string& mend);
-  void reportChoice(const Found& found, const std::string& accepted);
+                                const std::function<std::string()>& mend);
+  void reportFault(const Found& found, const std::string& setting, const std::string& fault);
 
   const XmlElement* element_;
-  std::string file_;
+  std::shared_ptr<const std::string> file_;  ///< one for all the readers of a file, of which there may be millions
   ErrorList* errors_;
-  std::set<std::string> asked_;
+  std::vector<std::string> asked_;
   bool all_asked_ = false;
 };
 
@@ -103,12 +113,12 @@ Value XmlReader::choice(const std::string& setting, std::initializer_list<std::p
                         Value otherwise) {
   const auto found = find(setting);
   if (!found) return otherwise;
-  std::string accepted;
   for (const auto& [text, value] : choices) {
     if (found->text == text) return value;
-    accepted += (accepted.empty() ? "" : ", ") + std::string(text);
   }
-  reportChoice(*found, accepted);
+  std::string accepted;
+  for (const auto& [text, value] : choices) accepted += (accepted.empty() ? "" : ", ") + std::string(text);
+  reportFault(*found, setting, ": is unknown; accepted are: " + accepted);
   return otherwise;
 }
 
