@@ -184,7 +184,10 @@ class EmbreeCaster : public RayCaster {
     }
   }
 
-  void castSingles(double range_m) override {
+  /// One by one, too: that is its fastest way. Handed over as an array (rtcIntersect1M) they take nearly twice as long.
+  void castSingles(double range_m) override { castSinglesAlone(range_m); }
+
+  void castSinglesAlone(double range_m) override {
     const FlushDenormals flush;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

@@ -67,8 +67,8 @@ class TargetList {
 
 void addRays(const RayBench& rays, TargetList& list) {
   for (const auto& f : rays.figures) {
-    const bool scans = f.what == "scans";
-    const double wanted = scans ? 1 : 2;
+    if (f.what == "single rays, each alone") continue;  // told for whoever has but one
+    const double wanted = f.what == "scans" ? 1 : 2;
     const std::string what = "rays: " + f.what + " to " + fixed(f.range_m, 0) + " m, beside Embree's " + f.peer_call;
     if (rays.peer.empty()) {
       list.add({what, "≥ " + fixed(wanted, 2) + " times", "no Embree", std::nullopt});

@@ -10,6 +10,8 @@
 
 namespace robosim {
 
+struct RayWalks;
+
 /// How many cells of a size cover an extent: at least 1, and no more than 32768.
 int cellsIn(double extent_m, double cell_m);
 /// The cell of a coordinate that is counted in cells, pulled onto the rim when it lies outside.
@@ -51,6 +53,9 @@ class GridIndex {
   /// The solids in a cell.
   std::span<const Pack> cell(int column, int row) const { return cell(cellAt(column, row)); }
 
+  /// The packs of all cells, one cell after another; and an empty one at the end.
+  std::span<const Pack> packs() const { return packs_; }
+
   /// Whether a cell goes on outwards without end.
   bool isOnRim(int column, int row) const {
     return column == 0 || row == 0 || column == columns_ - 1 || row == rows_ - 1;
@@ -76,6 +81,13 @@ class GridIndex {
       y.cross(!in_x);
     }
   }
+
+  /// visitAlong() for many level rays in step: start() brings each to the first pack of its origin's cell, goOn() all
+  /// to their next.
+  ///@{
+  void start(RayWalks& walks) const;
+  void goOn(RayWalks& walks) const;
+  ///@}
 
  private:
   /// The way along one axis.

@@ -35,8 +35,6 @@ inline void keep(const Rays& rays, std::size_t i, double t, std::int64_t body) {
   rays.body[i] = keeps ? body : rays.body[i];
 }
 
-/// Rays that a loop holds against a solid at once.
-constexpr std::size_t kLanes = 8;
 static_assert(kBlock % kLanes == 0);
 
 /// Holds a solid against `vectors` times kLanes rays.
@@ -203,7 +201,7 @@ void RayBatch::meetByBearing(const Candidates& candidates) {
     const GridItem& item = candidates.items[candidates.pack.index[k]];
     if (ranges[k].begin == ranges[k].end || !item.heights.contains(z_m_)) continue;
     // In whole vectors: it is no matter that a few rays more are held against it.
-    const std::size_t vectors = (ranges[k].end - ranges[k].begin + kLanes - 1) / kLanes;
+    const std::size_t vectors = wholeVectors(ranges[k].end - ranges[k].begin) / kLanes;
     const std::size_t begin = std::min(std::size_t{ranges[k].begin}, x_.size() - vectors * kLanes);
     if (largest(distance_.data() + begin, vectors * kLanes) < ranges[k].nearest_m) continue;  // it is hidden from all
     const std::int64_t body = std::int64_t{candidates.first_body} + item.number;

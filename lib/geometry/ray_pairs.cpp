@@ -1,15 +1,10 @@
 #include "geometry/ray_pairs.h"
 
 #include "geometry/level_ray.h"
-#include "geometry/vector_clones.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
-
-/// As many as a vector holds: what is over the count in the last one is worked out too, and not looked at.
-constexpr std::size_t kLanes = 8;
-
-std::size_t wholeVectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
 /// Both ways for each pair, for a box and for a circle: two half-filled vectors would cost as much, and sorting the
 /// pairs more.

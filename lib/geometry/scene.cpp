@@ -1,10 +1,13 @@
 #include "geometry/scene.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
 #include "geometry/level_ray.h"
+#include "geometry/ray_stream.h"
+#include "geometry/rough_ray.h"
 #include "geometry/vector_loops.h"
 
 namespace robosim {
@@ -21,9 +24,9 @@ constexpr std::size_t kMostNeighbours = 64;
 /// A little less than 1: no number times this grows when it becomes a float.
 constexpr double kRoundDown = 1 - 1e-7;
 
-/// Stationary solids in a cell on average, those aside that reach over its borders: some fill a pack, few need a
-/// second.
-constexpr double kStationaryPerCell = 2.5;
+/// Stationary solids in a cell on average, those aside that reach over its borders: many fill most of a pack, few need
+/// a second.
+constexpr double kStationaryPerCell = 3.5;
 constexpr double kMovingPerCell = 1;
 
 double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
@@ -33,6 +36,25 @@ double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
 
 bool better(double distance_m, BodyId body, const Hit& best) {
   return distance_m < best.distance_m || (distance_m == best.distance_m && best.body != kNoBody && body < best.body);
+}
+
+/// Holds a level ray against a solid.
+[[gnu::always_inline]] inline void castAt(const GridItem& item, BodyId body, const Ray& ray, BodyId except, Hit& best) {
+  if (!item.heights.contains(ray.origin.z)) return;
+  const double ox = item.x - ray.origin.x;
+  const double oy = item.y - ray.origin.y;
+  const double dx = ray.direction.x;
+  const double dy = ray.direction.y;
+  const double met_m = item.isCircle()
+                           ? enterCircle(ox, oy, dx, dy, item.round_m)
+                           : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
+  if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
+}
+
+/// What a ray met, if anything, from how far it went. Which of both is anybody's guess, so without a branch.
+inline void complete(const Ray& ray, Hit& hit) {
+  hit.point = ray.at(hit.distance_m);
+  hit.distance_m = hit ? hit.distance_m : kInfinity;
 }
 
 Bounds2D boundsOf(const Sector& sector, double range_m) {
@@ -62,31 +84,6 @@ double distanceToCell(const GridIndex& grid, int column, int row, const TPoint2D
 
 bool meet(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
-}
-
-/// A level ray in single precision, from the middle of the scene.
-struct RoughRay {
-  float x, y, lost_m, dx, dy;
-};
-
-/// Which solids of a pack lie on a ray's way nearer than its reach, by the rectangle about each that lies along and
-/// across the ray: bit i for solid i.
-[[gnu::always_inline]] inline std::uint32_t passedBy(const RoughRay& ray, const GridIndex::Pack& pack, float reach_m) {
-  std::uint32_t passed = 0;
-  for (std::size_t i = 0; i < GridIndex::Pack::kMost; ++i) {
-    const float ox = pack.x[i] - ray.x;
-    const float oy = pack.y[i] - ray.y;
-    const float round = pack.round_m[i] + ray.lost_m;
-    const float along = ray.dx * ox + ray.dy * oy;
-    const float across = std::abs(ray.dx * oy - ray.dy * ox);
-    const float slope_a = std::abs(ray.dx * pack.axis_x[i] + ray.dy * pack.axis_y[i]);
-    const float slope_b = std::abs(ray.dy * pack.axis_x[i] - ray.dx * pack.axis_y[i]);
-    const float wide = pack.half_length_m[i] * slope_b + pack.half_width_m[i] * slope_a + round;
-    const float deep = pack.half_length_m[i] * slope_a + pack.half_width_m[i] * slope_b + round;
-    const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= reach_m);
-    passed += passes ? kMaskBit[i] : 0;
-  }
-  return passed;
 }
 
 /// Marks which bodies a question has looked at already: a body is listed in every cell it reaches into. One for each
@@ -209,10 +206,11 @@ Solid Scene::solid(BodyId body) const {
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
   Hit best;
+  best.distance_m = range_m;
   if (ray.direction.z == 0) {
-    best = castLevel(ray, range_m, except);
+    castAmongStationary(ray, except, best);
+    if (movingCount() > 0) castAmongMoving(ray, except, best);
   } else {
-    best.distance_m = range_m;
     const auto reach = [&] { return best.distance_m; };
     const auto cast = [&](BodyId body) {
       const double met_m = intersect(ray, solid(body)).value_or(kInfinity);
@@ -223,47 +221,60 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
     });
     moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) { cast(movingBody(entry.index)); });
   }
-  if (!best) return {};
-  best.point = ray.at(best.distance_m);
+  complete(ray, best);
   return best;
 }
 
+void Scene::castRays(std::span<const Ray> rays, double range_m, std::span<Hit> hits, BodyId except) const {
+  static thread_local RayStream stream;
+  const bool any_moving = movingCount() > 0;
+  for (std::size_t first = 0; first < rays.size(); first += RayStream::kMost) {
+    const auto some = rays.subspan(first, std::min(RayStream::kMost, rays.size() - first));
+    stream.cast(some, stationary_index_, range_m, static_cast<std::uint32_t>(except));
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const Ray& ray = some[i];
+      Hit& hit = hits[first + i];
+      if (ray.direction.z == 0) {
+        hit.distance_m = stream.distance(i);
+        hit.body = BodyId(static_cast<std::uint32_t>(stream.body(i)));
+        if (any_moving) castAmongMoving(ray, except, hit);
+        complete(ray, hit);
+      } else {
+        hit = castRay(ray, range_m, except);
+      }
+    }
+  }
+}
+
 ROBOSIM_VECTOR_CLONES
-Hit Scene::castLevel(const Ray& ray, double range_m, BodyId except) const {
-  Hit best;
-  best.distance_m = range_m;
+void Scene::castAmongStationary(const Ray& ray, BodyId except, Hit& best) const {
   const auto reach = [&] { return best.distance_m; };
-  const double dx = ray.direction.x;
-  const double dy = ray.direction.y;
-  const auto cast = [&](const GridItem& item, BodyId body) __attribute__((always_inline)) {
-    if (!item.heights.contains(ray.origin.z)) return;
-    const double ox = item.x - ray.origin.x;
-    const double oy = item.y - ray.origin.y;
-    const double met_m =
-        item.isCircle() ? enterCircle(ox, oy, dx, dy, item.round_m)
-                        : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
-    if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
-  };
   const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
-  const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(dx), static_cast<float>(dy)};
+  const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(ray.direction.x),
+                       static_cast<float>(ray.direction.y)};
   const GridItem* items = stationary_index_.items().data();
   stationary_index_.visitAlong(
       ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
-        std::uint32_t passed = passedBy(rough, pack, static_cast<float>(best.distance_m));
+        PackMarks marks = {};
+        markPassed(rough, pack, static_cast<float>(best.distance_m), kPackBits, marks);
+        std::uint32_t passed = together(marks);
         for (; passed != 0; passed &= passed - 1) {
           const GridItem& item = items[pack.index[std::countr_zero(passed)]];
-          cast(item, BodyId{item.number});
+          castAt(item, BodyId{item.number}, ray, except, best);
         }
       });
-  if (movingCount() > 0) {
-    const auto at = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
-      const float across = rough.dx * (entry.solid.y - at.y) - rough.dy * (entry.solid.x - at.x);
-      if (std::abs(across) > entry.solid.reach() + at.lost_m) return;
-      cast(moving_index_.items()[entry.index], movingBody(entry.index));
-    });
-  }
-  return best;
+}
+
+void Scene::castAmongMoving(const Ray& ray, BodyId except, Hit& best) const {
+  const auto reach = [&] { return best.distance_m; };
+  const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
+  const auto dx = static_cast<float>(ray.direction.x);
+  const auto dy = static_cast<float>(ray.direction.y);
+  moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
+    const float across = dx * (entry.solid.y - from.y) - dy * (entry.solid.x - from.x);
+    if (std::abs(across) > entry.solid.reach() + from.lost_m) return;
+    castAt(moving_index_.items()[entry.index], movingBody(entry.index), ray, except, best);
+  });
 }
 
 template <typename Batch>

@@ -134,11 +134,11 @@ const Family kFamilies[] = {
     {"boxes of all sizes", {.size_min_m = 0.001, .size_max_m = 30, .circle_share = 0}, 30, {-10, 10, -10, 10}},
     {"mostly beyond the area", {.area = {-20, 20, -20, 20}}, 60, {-4, 5, -3, 2}},
     {"far beyond the area", {.area = {100, 120, -20, 20}}, 20, {-5, 5, -5, 5}},
-    // With so many solids, of which two thirds stand still, the cells are 2 m, 1 m and 0.5 m wide: faces, corners and
+    // With so many solids, of which two thirds stand still, the cells are 4 m, 2 m and 1 m wide: faces, corners and
     // rays lie on their borders.
-    {"on a lattice of large cells", {.area = {-8, 8, -8, 8}, .size_max_m = 6, .lattice_m = 0.5}, 18, {-8, 8, -8, 8}},
-    {"on a lattice", {.area = {-8, 8, -8, 8}, .lattice_m = 1}, 90, {-8, 8, -8, 8}},
-    {"on a lattice of small cells", {.area = {-4, 4, -4, 4}, .size_max_m = 2, .lattice_m = 0.5}, 90, {-4, 4, -4, 4}},
+    {"on a lattice of large cells", {.area = {-8, 8, -8, 8}, .size_max_m = 3, .lattice_m = 0.5}, 78, {-8, 8, -8, 8}},
+    {"on a lattice", {.area = {-8, 8, -8, 8}, .size_max_m = 1, .lattice_m = 1}, 330, {-8, 8, -8, 8}},
+    {"on a lattice of small cells", {.area = {-4, 4, -4, 4}, .size_max_m = 0.5, .lattice_m = 0.5}, 330, {-4, 4, -4, 4}},
     {"in a corridor", {.area = {-100, 100, -1, 1}, .size_max_m = 1}, 200, {-100, 100, -1, 1}},
 };
 
@@ -229,6 +229,25 @@ TEST(Scene, CastsEveryRayAsALoopOverAllSolidsDoes) {
     }
   });
   EXPECT_GT(hits, 30000);
+}
+
+TEST(Scene, CastsManyRaysTogetherAsItDoesOneByOne) {
+  int hits = 0;
+  forManyScenes(5, [&](Rng& rng, const Scene& scene, const Bounds2D& area, const std::string& name) {
+    std::vector<Ray> rays(rng.below(4) ? rng.below(20) : rng.below(400));
+    for (auto& ray : rays) ray = someRay(rng, area);
+    const double range = someRange(rng);
+    const BodyId except = someBody(rng, scene);
+    std::vector<Hit> together(rays.size());
+    scene.castRays(rays, range, together, except);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Hit alone = scene.castRay(rays[i], range, except);
+      ASSERT_TRUE(isSame(together[i], alone)) << name << ", ray " << i << " of " << rays.size() << ", range " << range;
+      ASSERT_TRUE(alone || together[i].distance_m == kInfinity) << name << ", ray " << i;
+      hits += alone ? 1 : 0;
+    }
+  });
+  EXPECT_GT(hits, 70000);
 }
 
 TEST(Scene, SensesEverySectorAsALoopOverAllSolidsDoes) {

@@ -69,8 +69,8 @@ TEST(Scene, GivesATieToTheLowestBody) {
 TEST(Scene, SeesWhatARayOnlyTouchesOnTheBordersOfCells) {
   const double s = std::sqrt(0.5);
   for (double at = -7; at <= 7; ++at) {
-    // 60 solids on 16 m × 16 m make cells of 1 m, with borders at all whole metres; all but two lie far overhead.
-    std::vector<Solid> solids(60, {Circle{{at, at}, 0.1}, {50, 51}});
+    // So many solids on 16 m × 16 m make cells of 1 m, with borders at all whole metres; all but two lie far overhead.
+    std::vector<Solid> solids(892, {Circle{{at, at}, 0.1}, {50, 51}});
     solids[0] = {OrientedBox{{at - 0.25, 7}, {1, 0}, 0.25, 0.5}, {0, 2}};           // left of x = at
     solids[1] = {OrientedBox{{at + 0.25, at - 0.25}, {1, 0}, 0.25, 0.25}, {4, 6}};  // its corner at (at, at)
     const Scene scene(solids, 0, {-8, 8, -8, 8});

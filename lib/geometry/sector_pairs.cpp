@@ -3,15 +3,10 @@
 #include <cmath>
 
 #include "geometry/level_ray.h"
-#include "geometry/vector_clones.h"
+#include "geometry/vector_loops.h"
 
 namespace robosim {
 namespace {
-
-/// As many as a vector holds: what is over the count in the last one is worked out too, and not looked at.
-constexpr std::size_t kLanes = 8;
-
-std::size_t wholeVectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
 
 /// Pairs as bare arrays: what the loops below need to become vector instructions.
 struct Arrays {

@@ -17,6 +17,11 @@ constexpr auto kMaskBit = [] {
   return bits;
 }();
 
+/// Doubles in the widest vector.
+constexpr std::size_t kLanes = 8;
+/// As many as whole vectors hold: what is over the count in the last one is worked out too, and not looked at.
+constexpr std::size_t wholeVectors(std::size_t count) { return (count + kLanes - 1) / kLanes * kLanes; }
+
 /// Turns points about the origin and moves them by (x0, y0).
 void transform(const double* __restrict x, const double* __restrict y, std::size_t count, double x0, double y0,
                double cos, double sin, double* __restrict to_x, double* __restrict to_y);
