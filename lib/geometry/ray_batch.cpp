@@ -103,7 +103,7 @@ void seeFrom(double x0, double y0, const Rays& rays, std::size_t count, float* _
 }
 
 /// Rays of a block as seen from the batch's centre, in single precision: enough to tell which are worth a sum.
-struct RoughRays {
+struct RoughBlock {
   const float* __restrict x;
   const float* __restrict y;
   const float* __restrict dx;
@@ -115,7 +115,7 @@ struct RoughRays {
 /// they have met something. Finding that out costs less than the sum for where a ray enters a solid, and of rays that
 /// look all ways few do.
 ROBOSIM_VECTOR_CLONES
-void findPassing(const RoughRays& rays, const RoughPlace& place, const Candidates::Pack& solids,
+void findPassing(const RoughBlock& rays, const RoughPlace& place, const Candidates::Pack& solids,
                  std::uint32_t* __restrict passing) {
   for (std::size_t k = 0; k < solids.count; ++k) {
     const float x = solids.x[k] - place.x;
