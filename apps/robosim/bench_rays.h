@@ -12,7 +12,7 @@ namespace robosim {
 /// One way of casting rays to one range, by RoboSim and by a peer in turns.
 struct RayFigures {
   static constexpr double kRaysPerPlace = 181;
-  std::string what;       ///< "scans", "single rays" or "single rays, each alone"
+  std::string what;       ///< "scans", "single rays in arrays" or "single rays, each alone"
   std::string peer_call;  ///< what the peer does it with
   double range_m = 0;
   std::size_t places = 0;  ///< from each of which 181 rays go; of single rays, as many as 181 a place

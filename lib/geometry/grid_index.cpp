@@ -86,7 +86,7 @@ void GridIndex::build(std::span<const Solid> solids) {
   for (std::size_t cell = 0; cell < count_.size(); ++cell) {
     begin_[cell + 1] = begin_[cell] + (count_[cell] + Pack::kMost - 1) / Pack::kMost;
   }
-  packs_.assign(begin_.back() + 1, Pack());
+  packs_.assign(begin_.back() + 1, Pack());  // one more: who walks looks at a pack in an empty cell, too
   std::fill(count_.begin(), count_.end(), 0);
   for (std::size_t i = 0; i < items_.size(); ++i) {
     forCells(items_[i], [&](std::size_t cell) {

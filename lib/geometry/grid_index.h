@@ -12,6 +12,10 @@ namespace robosim {
 
 struct RayWalks;
 
+/// A ray whose direction has less than this of an axis crosses no border on it: its next one would be too far for a
+/// number.
+constexpr double kLeastSlope = 1e-300;
+
 /// How many cells of a size cover an extent: at least 1, and no more than 32768.
 int cellsIn(double extent_m, double cell_m);
 /// The cell of a coordinate that is counted in cells, pulled onto the rim when it lies outside.
@@ -75,7 +79,7 @@ class GridIndex {
       for (const auto& pack : cell(static_cast<std::size_t>(at))) visit(pack);
       // Which border is next is anybody's guess, so it is told without a branch.
       const bool in_x = x.next <= y.next;
-      if ((in_x ? x.next : y.next) >= reach()) return;
+      if (!((in_x ? x.next : y.next) < reach())) return;
       at += in_x ? step_x : step_y;
       x.cross(in_x);
       y.cross(!in_x);
@@ -105,7 +109,7 @@ class GridIndex {
   Walk walk(double origin, double direction, double low, int cell, int count) const {
     Walk w;
     w.left = direction > 0 ? count - 1 - cell : cell;
-    if (direction == 0 || w.left == 0) {
+    if (std::abs(direction) <= kLeastSlope || w.left == 0) {
       w.left = 0;
       return w;
     }

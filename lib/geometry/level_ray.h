@@ -25,15 +25,15 @@ inline double enterBox(double ox, double oy, double dx, double dy, double ux, do
   // A ray along a pair of faces is given a slope so small that it stays between them for ever, or never comes there;
   // and the faces lie so little further out that a ray along a face itself counts as between. Neither changes any other
   // sum.
-  constexpr double kLeastSlope = 1e-300;
-  constexpr double kLeastGap = 1e-280;  // over kLeastSlope it is 1e20 m
+  constexpr double kLeast = 1e-300;
+  constexpr double kLeastGap = 1e-280;  // over kLeast it is 1e20 m
   // The ray in the box's own frame, and the stretch of it between each pair of faces.
   const double a = -(ox * ux + oy * uy);
   const double b = -(oy * ux - ox * uy);
   const double slope_a = dx * ux + dy * uy;
   const double slope_b = dy * ux - dx * uy;
-  const double per_a = 1 / (slope_a == 0 ? kLeastSlope : slope_a);
-  const double per_b = 1 / (slope_b == 0 ? kLeastSlope : slope_b);
+  const double per_a = 1 / (slope_a == 0 ? kLeast : slope_a);
+  const double per_b = 1 / (slope_b == 0 ? kLeast : slope_b);
   const double a1 = (-half_length - a - kLeastGap) * per_a;
   const double a2 = (half_length - a + kLeastGap) * per_a;
   const double b1 = (-half_width - b - kLeastGap) * per_b;

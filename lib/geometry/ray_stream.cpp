@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 
 #include "geometry/vector_clones.h"
 
 namespace robosim {
 
 void RayStream::cast(std::span<const Ray> rays, const GridIndex& index, double range_m, std::uint32_t except) {
+  assert(rays.size() <= kMost);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     walks_.x[i] = rays[i].origin.x;
     walks_.y[i] = rays[i].origin.y;
@@ -18,6 +20,7 @@ void RayStream::cast(std::span<const Ray> rays, const GridIndex& index, double r
   walks_.going_count = rays.size();
   std::fill_n(walks_.reach_m.of, kMost, range_m);
   body_.fill(kNothing);
+  if (index.items().empty()) return;
   rough_.set(walks_, index.middle());
   for (index.start(walks_); walks_.going_count > 0; index.goOn(walks_)) {
     rough_.findPassed(walks_, index.packs().data(), passed_);

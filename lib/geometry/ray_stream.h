@@ -20,8 +20,8 @@ class RayStream {
   /// What body() is for a ray that has met nothing: lower than any body, so that nothing at the range itself is kept.
   static constexpr std::int64_t kNothing = -1;
 
-  /// Casts rays, kMost at most and each with direction.z == 0, among the solids of an index. A tie goes to the lowest
-  /// number.
+  /// Casts level rays, kMost at most, among the solids of an index. A tie goes to the lowest number. Of a ray that is
+  /// not level the answer means nothing.
   /// @param except the number of a solid that is left out; one beyond all leaves out nothing
   void cast(std::span<const Ray> rays, const GridIndex& index, double range_m, std::uint32_t except);
 

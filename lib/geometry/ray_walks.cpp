@@ -31,8 +31,8 @@ void startAlong(const GridAxis& axis, const double* __restrict from, const doubl
     const double in_cells = (from[i] - low_m) * per_m;
     const double on_grid = in_cells > 0 ? (in_cells < last ? in_cells : last) : 0.0;
     const std::int64_t at = static_cast<std::int32_t>(on_grid);
-    const Choice up = direction[i] > 0 ? -1 : 0;
-    const Choice down = direction[i] < 0 ? -1 : 0;
+    const Choice up = direction[i] > kLeastSlope ? -1 : 0;
+    const Choice down = direction[i] < -kLeastSlope ? -1 : 0;
     const std::int64_t left = (up & (count - 1 - at)) + (down & at);
     const double per = 1 / direction[i];
     const double next_m = (low_m + static_cast<double>(at - up) * cell_m - from[i]) * per;
@@ -65,7 +65,7 @@ void goOnAll(RayWalks& walks) {
     const std::int64_t step_x = walks.along_x.step[i];
     const std::int64_t step_y = walks.along_y.step[i];
     const double border_m = next_x_m <= next_y_m ? next_x_m : next_y_m;
-    const Choice in_cell = next_pack < walks.last_pack[i] ? -1 : 0;
+    const Choice in_cell = next_pack < walks.end_pack[i] ? -1 : 0;
     const Choice in_reach = border_m < reach_m ? -1 : 0;
     const Choice first_x = next_x_m <= next_y_m ? -1 : 0;
     const Choice to_next_cell = ~in_cell & in_reach;
@@ -92,7 +92,7 @@ void GridIndex::start(RayWalks& walks) const {
   for (std::size_t i = 0; i < walks.going_count; ++i) {
     const auto cell = static_cast<std::size_t>(walks.cell[i]);
     walks.pack[i] = begin_[cell];
-    walks.last_pack[i] = begin_[cell + 1];
+    walks.end_pack[i] = begin_[cell + 1];
     walks.going[i] = static_cast<std::uint32_t>(i);
   }
   fillUp(walks);
@@ -107,8 +107,8 @@ void GridIndex::goOn(RayWalks& walks) const {
     const std::int64_t cell = walks.cell[i];
     const std::int64_t first = begin[cell];
     const std::int64_t pack = walks.pack[i];
-    walks.pack[i] = pack < walks.last_pack[i] ? pack : first;
-    walks.last_pack[i] = begin[cell + 1];
+    walks.pack[i] = pack < walks.end_pack[i] ? pack : first;
+    walks.end_pack[i] = begin[cell + 1];
     walks.going[still_going] = i;
     still_going -= static_cast<std::size_t>(walks.goes_on[i]);
   }

@@ -25,8 +25,8 @@ struct RayWalks {
   Field<std::uint32_t> going;
 
   // The rest is how a ray goes on; by axis as in GridIndex::visitAlong().
-  Field<std::int64_t> last_pack, cell;  ///< the end of the cell's packs; its number
-  Field<std::int64_t> goes_on;          ///< -1 where there is a next pack within reach, 0 elsewhere
+  Field<std::int64_t> end_pack, cell;  ///< the end of the cell's packs; its number
+  Field<std::int64_t> goes_on;         ///< -1 where there is a next pack within reach, 0 elsewhere
   struct Axis {
     Field<double> next_m, delta_m;
     Field<std::int64_t> left, step;  ///< step: to the number of the next cell

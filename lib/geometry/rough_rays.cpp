@@ -2,13 +2,14 @@
 // found here decides nothing but who is looked at closely.
 #include "geometry/rough_rays.h"
 
+#include "geometry/rough_solid.h"
 #include "geometry/vector_clones.h"
 
 namespace robosim {
 
 ROBOSIM_VECTOR_CLONES
 void RoughRays::set(const RayWalks& walks, const mrpt::math::TPoint2D& middle) {
-  const mrpt::math::TPoint2D here = middle;
+  const mrpt::math::TPoint2D here = middle;  // which nothing below can change, as far as the compiler can tell
   for (std::size_t i = 0; i < RayWalks::kMost; ++i) {
     const auto from = RoughPlace::from({walks.x[i], walks.y[i]}, 0, here);
     x_[i] = from.x;

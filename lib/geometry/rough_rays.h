@@ -3,6 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <mrpt/math/TPoint2D.h>
+
 #include "geometry/ray_walks.h"
 #include "geometry/rough_ray.h"
 

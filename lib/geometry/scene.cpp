@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cassert>
 #include <cmath>
 
 #include "geometry/level_ray.h"
@@ -226,22 +227,26 @@ Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
 }
 
 void Scene::castRays(std::span<const Ray> rays, double range_m, std::span<Hit> hits, BodyId except) const {
+  assert(hits.size() >= rays.size());
+  // A few rays cost as much together as RayStream::kMost.
+  constexpr std::size_t kFew = 24;
   static thread_local RayStream stream;
   const bool any_moving = movingCount() > 0;
   for (std::size_t first = 0; first < rays.size(); first += RayStream::kMost) {
     const auto some = rays.subspan(first, std::min(RayStream::kMost, rays.size() - first));
-    stream.cast(some, stationary_index_, range_m, static_cast<std::uint32_t>(except));
+    const bool are_few = some.size() < kFew;
+    if (!are_few) stream.cast(some, stationary_index_, range_m, static_cast<std::uint32_t>(except));
     for (std::size_t i = 0; i < some.size(); ++i) {
       const Ray& ray = some[i];
       Hit& hit = hits[first + i];
-      if (ray.direction.z == 0) {
-        hit.distance_m = stream.distance(i);
-        hit.body = BodyId(static_cast<std::uint32_t>(stream.body(i)));
-        if (any_moving) castAmongMoving(ray, except, hit);
-        complete(ray, hit);
-      } else {
+      if (are_few || ray.direction.z != 0) {
         hit = castRay(ray, range_m, except);
+        continue;
       }
+      hit.distance_m = stream.distance(i);
+      hit.body = BodyId(static_cast<std::uint32_t>(stream.body(i)));
+      if (any_moving) castAmongMoving(ray, except, hit);
+      complete(ray, hit);
     }
   }
 }

@@ -57,7 +57,7 @@ class Scene {
   Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
 
   /// Casts rays that have nothing in common, as castRay() would one by one; for many of them in half the time.
-  /// @param hits as many as rays
+  /// @param hits at least as many as rays
   void castRays(std::span<const Ray> rays, double range_m, std::span<Hit> hits, BodyId except = kNoBody) const;
 
   /// Casts all rays of a batch, as castRay() would one by one. `near`, where its owner has one, saves the search.

@@ -82,6 +82,40 @@ TEST(Scene, SeesWhatARayOnlyTouchesOnTheBordersOfCells) {
   }
 }
 
+TEST(Scene, KnowsWhatARayMeetsThatHardlyLeavesAnAxis) {
+  // 1 m cells; the ray starts on the border of two rows, and goes from it by less than any number tells.
+  std::vector<Solid> solids(892, {Circle{{0, 0}, 0.1}, {50, 51}});
+  solids[0] = {OrientedBox{{5, 1}, {1, 0}, 0.5, 0.5}, {0, 2}};
+  const Scene scene(solids, 0, {-8, 8, -8, 8});
+  for (const double slope : {0.0, 1e-310, -1e-310, 1e-299, -1e-299}) {
+    const std::vector<Ray> rays(30, Ray{{-7.5, 1, 1}, {1, slope, 0}});
+    std::vector<Hit> hits(rays.size());
+    scene.castRays(rays, 20, hits);
+    EXPECT_EQ(scene.castRay(rays[0], 20).distance_m, 12) << slope;
+    for (const auto& hit : hits) EXPECT_EQ(hit.distance_m, 12) << slope;
+  }
+}
+
+TEST(Scene, MeetsNothingWithRaysThatAreNowhereOrGoNowhere) {
+  const double nan = std::nan("");
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const auto& solids : {std::vector<Solid>{}, std::vector<Solid>{{Circle{{5, 0}, 1}, {0, 1}}}}) {
+    const Scene scene(solids, 0, {-9, 9, -9, 9});
+    for (const double x : {nan, infinity, -infinity, 1e45}) {
+      const std::vector<Ray> rays(30, Ray{{x, 0, 0.5}, {0.6, 0.8, 0}});
+      std::vector<Hit> hits(rays.size());
+      scene.castRays(rays, 20, hits);
+      for (const auto& hit : hits) EXPECT_FALSE(hit) << x;
+      EXPECT_FALSE(scene.castRay(rays[0], 20)) << x;
+    }
+    const std::vector<Ray> rays(30, Ray{{0, 0, 0.5}, {1, 0, 0}});
+    std::vector<Hit> hits(rays.size());
+    scene.castRays(rays, nan, hits);
+    for (const auto& hit : hits) EXPECT_FALSE(hit) << "within a range that is no number";
+    EXPECT_FALSE(scene.castRay(rays[0], nan));
+  }
+}
+
 TEST(Scene, TakesAMoveIntoAccountWithFreeze) {
   Scene scene({}, 1, {-10, 10, -10, 10});
   for (double x : {5.0, -5.0, 500.0, 3.0}) {
