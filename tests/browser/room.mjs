@@ -1,6 +1,6 @@
 // A room for the tests: 12 x 12 m, with gold 3 m ahead of Ann and 1 m to her left, and Bob behind her.
 
-import { writeFileSync } from 'node:fs';
+import { rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 
@@ -9,6 +9,7 @@ export const GOLD = { x: 3, y: 1, z: 0.25 };
 // `ann`, `bob`: types of robot
 export function writeRoom(ann = 'pioneer3dx', bob = 'scout') {
   const file = join(tmpdir(), `robosim_room_${process.pid}.xml`);
+  process.once('exit', () => rmSync(file, { force: true }));
   writeFileSync(file, `<world><surface>
     <size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>
     <object><shape><primitive><cylinder><name>Gold</name><x>${GOLD.x}</x><y>${GOLD.y}</y><z>${GOLD.z}</z>
