@@ -16,7 +16,7 @@ namespace {
 std::string_view trimmed(std::string_view text) {
   const char* white = " \t\r\n";
   const auto first = text.find_first_not_of(white);
-  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
 }
 
 template <typename Number>

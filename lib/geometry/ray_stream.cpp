@@ -63,10 +63,12 @@ void RayStream::meetPassed(const GridIndex& index, std::uint32_t except) {
 
 void RayStream::settle() {
   pairs_.settle([&](std::uint32_t i, double distance_m, std::int64_t body) {
+    const double before_m = walks_.reach_m[i];
+    const std::int64_t body_before = body_[i];
     // Anybody's guess, too, so without a branch.
-    const bool keeps = (distance_m < walks_.reach_m[i]) | ((distance_m == walks_.reach_m[i]) & (body < body_[i]));
-    walks_.reach_m[i] = keeps ? distance_m : walks_.reach_m[i];
-    body_[i] = keeps ? body : body_[i];
+    const bool keeps = (distance_m < before_m) | ((distance_m == before_m) & (body < body_before));
+    walks_.reach_m[i] = keeps ? distance_m : before_m;
+    body_[i] = keeps ? body : body_before;
   });
 }
 

@@ -25,19 +25,19 @@ class RecordedStepsTest : public TestFolder {
  protected:
   /// Records steps of two robots, with mail and commands.
   void record(std::size_t steps, RawlogFormat format = RawlogFormat::observations) {
-    RawlogWriter writer(file, robots, format, RawlogImages::embedded, "first note");
+    RawlogWriter writer(file_, robots_, format, RawlogImages::embedded, "first note");
     for (std::size_t step = 0; step < steps; ++step) {
-      written.push_back(readingsAt(step));
-      truth.push_back({TPose2D(1, 0.1 * static_cast<double>(step), 0.25), TPose2D(2, 3, -1)});
-      commands.push_back({{0.1, 0.2, 0.5F, Activity::active, step == 3}, {0.3, -0.4, 0, Activity::halted}});
-      writer.write(written.back(), truth.back(), commands.back());
+      written_.push_back(readingsAt(step));
+      truth_.push_back({TPose2D(1, 0.1 * static_cast<double>(step), 0.25), TPose2D(2, 3, -1)});
+      commands_.push_back({{0.1, 0.2, 0.5F, Activity::active, step == 3}, {0.3, -0.4, 0, Activity::halted}});
+      writer.write(written_.back(), truth_.back(), commands_.back());
     }
     writer.close("last note");
   }
 
   std::vector<Readings> readingsAt(std::size_t step) const {
-    std::vector<Readings> readings{withoutPictures(sampleReadings(robots[0], step)),
-                                   withoutPictures(sampleReadings(robots[1], step + 1000))};
+    std::vector<Readings> readings{withoutPictures(sampleReadings(robots_[0], step)),
+                                   withoutPictures(sampleReadings(robots_[1], step + 1000))};
     readings[1].time.step = step;
     readings[0].stalled = step % 3 == 0;
     readings[1].is_too_far = step == 7;
@@ -53,17 +53,17 @@ class RecordedStepsTest : public TestFolder {
     return readings;
   }
 
-  std::filesystem::path file = in("run.rawlog");
-  std::vector<RobotInfo> robots{sampleRobot("a"), sampleRobot("b")};
-  std::vector<std::vector<Readings>> written;
-  std::vector<std::vector<TPose2D>> truth;
-  std::vector<std::vector<Command>> commands;
+  std::filesystem::path file_ = in("run.rawlog");
+  std::vector<RobotInfo> robots_{sampleRobot("a"), sampleRobot("b")};
+  std::vector<std::vector<Readings>> written_;
+  std::vector<std::vector<TPose2D>> truth_;
+  std::vector<std::vector<Command>> commands_;
 };
 
 TEST_F(RecordedStepsTest, EveryReadingCommandAndMessageComesBackBitForBit) {
   record(50);
-  RawlogReader reader(file);
-  RecordedSteps steps(reader, robots, 0.1);
+  RawlogReader reader(file_);
+  RecordedSteps steps(reader, robots_, 0.1);
   EXPECT_EQ(steps.note(), "first note");
   for (std::size_t k = 0; k < 50; ++k) {
     const auto step = steps.next();
@@ -72,16 +72,16 @@ TEST_F(RecordedStepsTest, EveryReadingCommandAndMessageComesBackBitForBit) {
     for (std::size_t i = 0; i < 2; ++i) {
       const RecordedRobot& read = (*step)[i];
       EXPECT_EQ(read.readings.time.step, k);
-      EXPECT_EQ(read.readings.measurements, written[k][i].measurements) << "robot " << i << ", step " << k;
-      EXPECT_EQ(read.readings.stalled, written[k][i].stalled);
-      EXPECT_EQ(read.readings.laser_pan_rad, written[k][i].laser_pan_rad);
-      EXPECT_EQ(read.readings.inbox, written[k][i].inbox);
-      EXPECT_EQ(read.readings.is_too_far, written[k][i].is_too_far);
-      EXPECT_EQ(read.readings.winner, written[k][i].winner);
-      EXPECT_EQ(read.command, commands[k][i]);
+      EXPECT_EQ(read.readings.measurements, written_[k][i].measurements) << "robot " << i << ", step " << k;
+      EXPECT_EQ(read.readings.stalled, written_[k][i].stalled);
+      EXPECT_EQ(read.readings.laser_pan_rad, written_[k][i].laser_pan_rad);
+      EXPECT_EQ(read.readings.inbox, written_[k][i].inbox);
+      EXPECT_EQ(read.readings.is_too_far, written_[k][i].is_too_far);
+      EXPECT_EQ(read.readings.winner, written_[k][i].winner);
+      EXPECT_EQ(read.command, commands_[k][i]);
       ASSERT_TRUE(read.world_from_robot);
-      EXPECT_EQ(read.world_from_robot->y, truth[k][i].y);
-      EXPECT_NEAR(read.world_from_robot->phi, truth[k][i].phi, 1e-15);
+      EXPECT_EQ(read.world_from_robot->y, truth_[k][i].y);
+      EXPECT_NEAR(read.world_from_robot->phi, truth_[k][i].phi, 1e-15);
     }
   }
   EXPECT_FALSE(steps.next());
@@ -91,15 +91,15 @@ TEST_F(RecordedStepsTest, EveryReadingCommandAndMessageComesBackBitForBit) {
 
 TEST_F(RecordedStepsTest, OfAFileThatIsCutOffAllWholeStepsComeBackAndTheRestIsTold) {
   record(50);
-  const auto size = std::filesystem::file_size(file);
+  const auto size = std::filesystem::file_size(file_);
   for (const double share : {0.2, 0.5, 0.9, 0.999}) {
-    std::filesystem::copy_file(file, in("cut.rawlog"), std::filesystem::copy_options::overwrite_existing);
+    std::filesystem::copy_file(file_, in("cut.rawlog"), std::filesystem::copy_options::overwrite_existing);
     std::filesystem::resize_file(in("cut.rawlog"), static_cast<std::uintmax_t>(share * static_cast<double>(size)));
     RawlogReader reader(in("cut.rawlog"));
-    RecordedSteps steps(reader, robots, 0.1);
+    RecordedSteps steps(reader, robots_, 0.1);
     std::size_t whole = 0;
     while (const auto step = steps.next()) {
-      EXPECT_EQ((*step)[1].readings.measurements, written[whole][1].measurements);
+      EXPECT_EQ((*step)[1].readings.measurements, written_[whole][1].measurements);
       ++whole;
     }
     EXPECT_LT(whole, 50U + (share > 0.99 ? 1U : 0U)) << share;
@@ -113,10 +113,10 @@ TEST_F(RecordedStepsTest, OfAFileThatIsCutOffAllWholeStepsComeBackAndTheRestIsTo
 TEST_F(RecordedStepsTest, AnyStepThatWasReadCanBeReadAgain) {
   for (const RawlogFormat format : {RawlogFormat::observations, RawlogFormat::sensory_frames}) {
     const bool has_both = format == RawlogFormat::observations;
-    written.clear();
+    written_.clear();
     record(50, format);
-    RawlogReader reader(has_both ? file : in("run_b.rawlog"), RawlogReader::Places::keep);
-    RecordedSteps steps(reader, robots, 0.1);
+    RawlogReader reader(has_both ? file_ : in("run_b.rawlog"), RawlogReader::Places::keep);
+    RecordedSteps steps(reader, robots_, 0.1);
     std::vector<std::uint64_t> places;
     do {
       places.push_back(steps.position());
@@ -129,10 +129,10 @@ TEST_F(RecordedStepsTest, AnyStepThatWasReadCanBeReadAgain) {
       ASSERT_TRUE(step) << k;
       EXPECT_EQ(step->front().is_absent, !has_both);
       if (has_both) {
-        EXPECT_EQ(step->front().readings.measurements, written[k].front().measurements) << k;
+        EXPECT_EQ(step->front().readings.measurements, written_[k].front().measurements) << k;
       }
-      EXPECT_EQ(step->back().readings.measurements, written[k].back().measurements) << k;
-      EXPECT_EQ(step->back().readings.inbox, written[k].back().inbox) << k;
+      EXPECT_EQ(step->back().readings.measurements, written_[k].back().measurements) << k;
+      EXPECT_EQ(step->back().readings.inbox, written_[k].back().inbox) << k;
       EXPECT_EQ(steps.position(), places[k + 1]);
     }
   }
@@ -149,19 +149,19 @@ std::string refusal(RecordedSteps& steps) {
 
 TEST_F(RecordedStepsTest, ARobotThatTheRecordingKnowsNothingOfIsAbsentWithBlankMeasurements) {
   record(2);
-  RawlogReader reader(file);
-  robots.push_back(sampleRobot("c"));
-  RecordedSteps steps(reader, robots, 0.1);
+  RawlogReader reader(file_);
+  robots_.push_back(sampleRobot("c"));
+  RecordedSteps steps(reader, robots_, 0.1);
   for (std::size_t k = 0; k < 2; ++k) {
     const auto step = steps.next();
     ASSERT_TRUE(step);
     EXPECT_FALSE((*step)[1].is_absent);
-    EXPECT_EQ((*step)[1].readings.measurements, written[k][1].measurements);
+    EXPECT_EQ((*step)[1].readings.measurements, written_[k][1].measurements);
     const RecordedRobot& absent = (*step)[2];
     EXPECT_TRUE(absent.is_absent);
     EXPECT_FALSE(absent.world_from_robot);
     EXPECT_FALSE(absent.command);
-    ASSERT_EQ(absent.readings.measurements.size(), robots[2].sensors->size());
+    ASSERT_EQ(absent.readings.measurements.size(), robots_[2].sensors->size());
     EXPECT_EQ(absent.readings.measurements[0], Measurement(Echoes(16)));
   }
 }
@@ -169,59 +169,59 @@ TEST_F(RecordedStepsTest, ARobotThatTheRecordingKnowsNothingOfIsAbsentWithBlankM
 TEST_F(RecordedStepsTest, OfEachFileOfPairsTheOtherRobotsAreAbsent) {
   record(3, RawlogFormat::sensory_frames);
   RawlogReader reader(in("run_b.rawlog"));
-  RecordedSteps steps(reader, robots, 0.1);
+  RecordedSteps steps(reader, robots_, 0.1);
   for (std::size_t k = 0; k < 3; ++k) {
     const auto step = steps.next();
     ASSERT_TRUE(step);
     EXPECT_TRUE((*step)[0].is_absent);
     EXPECT_FALSE((*step)[1].is_absent);
-    EXPECT_EQ((*step)[1].readings.measurements, written[k][1].measurements);
+    EXPECT_EQ((*step)[1].readings.measurements, written_[k][1].measurements);
   }
   EXPECT_FALSE(steps.next());
 }
 
 TEST_F(RecordedStepsTest, ARobotWithAnotherSensorAndAWorldOfOtherRobotsAreTold) {
   record(2);
-  std::vector<SensorInfo> sensors = *robots[1].sensors;
+  std::vector<SensorInfo> sensors = *robots_[1].sensors;
   sensors.push_back(plainSensor(SensorKind::heat, "another"));
-  robots[1].sensors = std::make_shared<const std::vector<SensorInfo>>(sensors);
-  RawlogReader reader(file);
-  RecordedSteps steps(reader, robots, 0.1);
+  robots_[1].sensors = std::make_shared<const std::vector<SensorInfo>>(sensors);
+  RawlogReader reader(file_);
+  RecordedSteps steps(reader, robots_, 0.1);
   EXPECT_EQ(refusal(steps),
             "robot \"b\" is not whole in step 0 of the recording; give the world that it was made with");
-  RawlogReader again(file);
+  RawlogReader again(file_);
   RecordedSteps others(again, {sampleRobot("c"), sampleRobot("d")}, 0.1);
   EXPECT_EQ(refusal(others), "none of these robots is in the recording; give the world that it was made with");
 }
 
 TEST_F(RecordedStepsTest, WithoutItsFolderOfPicturesARecordingComesBackWithoutPictures) {
   const std::vector<RobotInfo> seeing{seeingRobot("a")};
-  RawlogWriter writer(file, seeing, RawlogFormat::observations, RawlogImages::external);
+  RawlogWriter writer(file_, seeing, RawlogFormat::observations, RawlogImages::external);
   const std::vector<Readings> readings{sampleReadings(seeing[0], 0)};
   writer.write(readings, {});
   writer.close();
   std::filesystem::remove_all(in("run_Images"));
-  RawlogReader reader(file);
+  RawlogReader reader(file_);
   RecordedSteps steps(reader, seeing, 0.1, Pictures::leave_out);
   const auto step = steps.next();
   ASSERT_TRUE(step);
   EXPECT_EQ((*step)[0].readings.measurements[0], readings[0].measurements[0]);
   EXPECT_EQ((*step)[0].readings.measurements[1], Measurement(Image{}));
   EXPECT_EQ((*step)[0].readings.measurements[2], readings[0].measurements[2]) << "blobs lie in the rawlog itself";
-  RawlogReader again(file);
+  RawlogReader again(file_);
   RecordedSteps with_pictures(again, seeing, 0.1);
   EXPECT_NE(refusal(with_pictures).find("is the folder of pictures beside the recording?"), std::string::npos);
 }
 
 TEST_F(RecordedStepsTest, AFileOfPairsReadsBackToo) {
-  robots = {sampleRobot("a")};
-  RawlogWriter writer(file, robots, RawlogFormat::sensory_frames, RawlogImages::embedded, "note");
-  const std::vector<Readings> readings{withoutPictures(sampleReadings(robots[0], 0))};
+  robots_ = {sampleRobot("a")};
+  RawlogWriter writer(file_, robots_, RawlogFormat::sensory_frames, RawlogImages::embedded, "note");
+  const std::vector<Readings> readings{withoutPictures(sampleReadings(robots_[0], 0))};
   const std::vector<Command> command{{0.5, 0, 0, Activity::active}};
   writer.write(readings, {}, command);
   writer.close();
-  RawlogReader reader(file);
-  RecordedSteps steps(reader, robots, 0.1);
+  RawlogReader reader(file_);
+  RecordedSteps steps(reader, robots_, 0.1);
   const auto step = steps.next();
   ASSERT_TRUE(step);
   EXPECT_EQ((*step)[0].readings.measurements, readings[0].measurements);
@@ -239,10 +239,10 @@ std::string refusal(const std::filesystem::path& file) {
 }
 
 TEST_F(RecordedStepsTest, WhatIsNoRawlogIsRefused) {
-  std::ofstream(file) << "<world/>";
-  EXPECT_NE(refusal(file).find("is no MRPT rawlog"), std::string::npos);
-  std::ofstream(file, std::ios::trunc).close();
-  EXPECT_NE(refusal(file).find("is no MRPT rawlog"), std::string::npos);
+  std::ofstream(file_) << "<world/>";
+  EXPECT_NE(refusal(file_).find("is no MRPT rawlog"), std::string::npos);
+  std::ofstream(file_, std::ios::trunc).close();
+  EXPECT_NE(refusal(file_).find("is no MRPT rawlog"), std::string::npos);
   EXPECT_NE(refusal(folder_).find("is a folder"), std::string::npos);
   EXPECT_NE(refusal(in("none")).find("No such file"), std::string::npos);
 }
@@ -254,9 +254,9 @@ TEST_F(RecordedStepsTest, ADamagedEntryEndsTheReadingWithAWordOnWhereAndWhy) {
   const std::size_t first = archive.bytes.size();
   archive << odometry;
   archive.bytes[first + 20] ^= 0x55;  // in the second's class name
-  std::ofstream(file, std::ios::binary)
+  std::ofstream(file_, std::ios::binary)
       .write(reinterpret_cast<const char*>(archive.bytes.data()), static_cast<std::streamsize>(archive.bytes.size()));
-  RawlogReader reader(file);
+  RawlogReader reader(file_);
   EXPECT_TRUE(reader.next());
   EXPECT_FALSE(reader.next());
   ASSERT_TRUE(reader.trouble());
@@ -282,7 +282,7 @@ class DamagedCountTest : public RecordedStepsTest {
                                 count.begin(), count.end());
     ASSERT_NE(at, archive.bytes.end());
     std::memcpy(&*at, &damaged, sizeof damaged);
-    std::ofstream(file, std::ios::binary)
+    std::ofstream(file_, std::ios::binary)
         .write(reinterpret_cast<const char*>(archive.bytes.data()), static_cast<std::streamsize>(archive.bytes.size()));
   }
   void expectRefusal();
@@ -291,7 +291,7 @@ class DamagedCountTest : public RecordedStepsTest {
 void DamagedCountTest::expectRefusal() {
   rusage before{}, after{};
   getrusage(RUSAGE_SELF, &before);
-  RawlogReader reader(file);
+  RawlogReader reader(file_);
   EXPECT_TRUE(reader.next());
   EXPECT_FALSE(reader.next());
   getrusage(RUSAGE_SELF, &after);
@@ -318,9 +318,9 @@ TEST_F(RecordedStepsTest, AnUncompressedRawlogOfOthersIsReadAsWell) {
   mrpt::obs::CObservation2DRangeScan scan;
   scan.sensorLabel = "SICK";
   archive << scan;
-  std::ofstream(file, std::ios::binary)
+  std::ofstream(file_, std::ios::binary)
       .write(reinterpret_cast<const char*>(archive.bytes.data()), static_cast<std::streamsize>(archive.bytes.size()));
-  RawlogReader reader(file);
+  RawlogReader reader(file_);
   const auto read = reader.next();
   ASSERT_TRUE(read);
   EXPECT_EQ(read->sensorLabel, "SICK");

@@ -30,7 +30,7 @@ class UnpackedFileTest : public TestFolder {
   }
   /// Appends to a file, as a gzip file of its own.
   void pack(const std::string& bytes, int level = 1) {
-    const gzFile out = gzopen(file.c_str(), ("ab" + std::to_string(level)).c_str());
+    const gzFile out = gzopen(file_.c_str(), ("ab" + std::to_string(level)).c_str());
     gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
     gzclose(out);
   }
@@ -47,7 +47,7 @@ class UnpackedFileTest : public TestFolder {
     return bytes;
   }
   void expectThatItCanBeWound(const std::string& bytes) {
-    UnpackedFile unpacked(file, Places::keep);
+    UnpackedFile unpacked(file_, Places::keep);
     EXPECT_EQ(readAll(unpacked), bytes);
     EXPECT_TRUE(unpacked.atEnd());
     std::mt19937 random(2);
@@ -63,7 +63,7 @@ class UnpackedFileTest : public TestFolder {
     EXPECT_EQ(readAll(unpacked), bytes) << "all of it again";
   }
 
-  std::filesystem::path file = in("bytes.gz");
+  std::filesystem::path file_ = in("bytes.gz");
 };
 
 TEST_F(UnpackedFileTest, OneGzipFileCanBeWoundToAnyByte) {
@@ -81,13 +81,13 @@ TEST_F(UnpackedFileTest, SeveralInOneAndThoseThatAreNotCompressedCanBeWound) {
 
 TEST_F(UnpackedFileTest, AFileThatIsNotPackedCanBeWound) {
   const std::string bytes = content();
-  std::ofstream(file, std::ios::binary) << bytes;
+  std::ofstream(file_, std::ios::binary) << bytes;
   expectThatItCanBeWound(bytes);
 }
 
 TEST_F(UnpackedFileTest, PeekedBytesAreReadAgain) {
   pack("rawlog");
-  UnpackedFile unpacked(file);
+  UnpackedFile unpacked(file_);
   char head[3];
   ASSERT_EQ(unpacked.peek(head, 3), 3U);
   EXPECT_EQ(std::string(head, 3), "raw");
@@ -101,8 +101,8 @@ TEST_F(UnpackedFileTest, PeekedBytesAreReadAgain) {
 TEST_F(UnpackedFileTest, WhereOneIsCutOffWhatStandsBeforeIsReadAndTheRestIsTold) {
   const std::string bytes = content();
   pack(bytes);
-  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 2);
-  UnpackedFile unpacked(file, Places::keep);
+  std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
+  UnpackedFile unpacked(file_, Places::keep);
   const std::string half = readAll(unpacked);
   EXPECT_GT(half.size(), bytes.size() / 3);
   EXPECT_EQ(half, bytes.substr(0, half.size()));
@@ -117,12 +117,12 @@ TEST_F(UnpackedFileTest, WhereOneIsCutOffWhatStandsBeforeIsReadAndTheRestIsTold)
 TEST_F(UnpackedFileTest, ADamagedOneEndsWithAFault) {
   const std::string bytes = content(1'000'000);
   pack(bytes);
-  std::fstream damaged(file, std::ios::binary | std::ios::in | std::ios::out);
+  std::fstream damaged(file_, std::ios::binary | std::ios::in | std::ios::out);
   damaged.seekp(200'000);
   damaged << std::string(64, '\xff');
   damaged.close();
   for (const Places places : {Places::forget, Places::keep}) {
-    UnpackedFile unpacked(file, places);
+    UnpackedFile unpacked(file_, places);
     readAll(unpacked);
     EXPECT_FALSE(unpacked.atEnd());
     EXPECT_NE(unpacked.fault(), "");
@@ -131,8 +131,8 @@ TEST_F(UnpackedFileTest, ADamagedOneEndsWithAFault) {
 
 TEST_F(UnpackedFileTest, WhatStandsBehindAGzipFileAndIsNoneIsNothing) {
   pack("rawlog");
-  std::ofstream(file, std::ios::binary | std::ios::app) << "rubbish";
-  UnpackedFile unpacked(file);
+  std::ofstream(file_, std::ios::binary | std::ios::app) << "rubbish";
+  UnpackedFile unpacked(file_);
   EXPECT_EQ(readAll(unpacked), "rawlog");
   EXPECT_TRUE(unpacked.atEnd());
 }
