@@ -39,19 +39,19 @@ void refuseDeclaration(const tinyxml2::XMLNode& node, const std::string& file) {
   if (node.ToUnknown()) throw at(file, node.GetLineNum(), "a <!…> declaration has no place here; take it out");
 }
 
-XmlElement copied(const tinyxml2::XMLElement& from, const std::string& file) {
-  XmlElement to{.name = from.Name(), .text = {}, .attributes = {}, .children = {}, .line = {from.GetLineNum()}};
+void copy(const tinyxml2::XMLElement& from, const std::string& file, XmlElement& to) {
+  to.name = from.Name();
+  to.line = {from.GetLineNum()};
   std::size_t count = 0;
   for (auto* child = from.FirstChildElement(); child; child = child->NextSiblingElement()) ++count;
   to.children.reserve(count);  // no more than needed: a large world's file makes millions of elements
   for (auto* a = from.FirstAttribute(); a; a = a->Next()) to.attributes.emplace_back(a->Name(), trimmed(a->Value()));
   for (auto* node = from.FirstChild(); node; node = node->NextSibling()) {
-    if (auto* child = node->ToElement()) to.children.push_back(copied(*child, file));
+    if (auto* child = node->ToElement()) copy(*child, file, to.children.emplace_back());
     if (auto* text = node->ToText()) to.text += text->Value();
     refuseDeclaration(*node, file);
   }
   if (const auto text = trimmed(to.text); text.size() != to.text.size()) to.text = std::string(text);
-  return to;
 }
 
 class IndentedByTwo : public tinyxml2::XMLPrinter {
@@ -111,7 +111,7 @@ XmlElement& XmlElement::add(std::string child_name, std::string child_text) {
   return children.back();
 }
 
-XmlElement parseXml(const std::string& text, const std::string& file) {
+XmlElement parseXml(std::string text, const std::string& file) {
   if (trimmed(text).empty()) throw at(file, 1, "the file is empty; an XML document was expected");
   if (text.find('\0') != std::string::npos) throw at(file, 1, "this is not XML: it holds a zero byte");
   refuseBloated(text, file);
@@ -130,7 +130,11 @@ XmlElement parseXml(const std::string& text, const std::string& file) {
     throw at(file, other->GetLineNum(),
              std::string("a second root element <") + other->Name() + ">; an XML file has one");
   }
-  return copied(*document.RootElement(), file);
+  text = {};  // which may be 100 MB, and what follows wants memory
+  text.shrink_to_fit();
+  XmlElement root;
+  copy(*document.RootElement(), file, root);
+  return root;
 }
 
 std::string readXmlText(const std::filesystem::path& file) {

@@ -39,7 +39,7 @@ XmlElement readXmlFile(const std::filesystem::path& file);
 /// The text alone. @throws ConfigError as far as that needs no look inside.
 std::string readXmlText(const std::filesystem::path& file);
 /// The same from text; `file` names it in errors.
-XmlElement parseXml(const std::string& text, const std::string& file);
+XmlElement parseXml(std::string text, const std::string& file);
 
 /// The element as an XML document, indented by two blanks, with a final newline.
 std::string toXml(const XmlElement& root);

@@ -184,7 +184,7 @@ std::optional<XmlReader> XmlReader::child(const std::string& tag) {
   auto found = all(tag);
   if (found.empty()) return std::nullopt;
   if (found.size() > 1) found[1].error("is given twice in <" + element_->name + ">; keep one");
-  return found.front();
+  return std::move(found.front());
 }
 
 XmlReader XmlReader::requiredChild(const std::string& tag) {

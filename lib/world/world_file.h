@@ -15,9 +15,9 @@ namespace robosim {
 /// @param file may be a map itself: see readWorldText()
 World readWorld(const std::filesystem::path& file, ErrorList& errors);
 /// The same from text; `file` names it in errors, and maps are taken from the shelf.
-World parseWorld(const std::string& text, const std::string& file, const FileShelf& shelf, ErrorList& errors);
+World parseWorld(std::string text, const std::string& file, const FileShelf& shelf, ErrorList& errors);
 /// The same of a world that names no other file.
-World parseWorld(const std::string& text, const std::string& file, ErrorList& errors);
+World parseWorld(std::string text, const std::string& file, ErrorList& errors);
 
 /// The text of a world file. A map's file stands for a world that is nothing but this map, with a Pioneer where the
 /// map says that a robot starts, if it does.

@@ -306,18 +306,18 @@ World readWorld(const std::filesystem::path& file, ErrorList& errors) {
   }
 }
 
-World parseWorld(const std::string& text, const std::string& file, const FileShelf& shelf, ErrorList& errors) {
+World parseWorld(std::string text, const std::string& file, const FileShelf& shelf, ErrorList& errors) {
   try {
-    return WorldReader(parseXml(text, file), file, shelf, errors).read();
+    return WorldReader(parseXml(std::move(text), file), file, shelf, errors).read();
   } catch (const ConfigError& error) {
     errors.add(error);
     return {};
   }
 }
 
-World parseWorld(const std::string& text, const std::string& file, ErrorList& errors) {
+World parseWorld(std::string text, const std::string& file, ErrorList& errors) {
   const FileTexts none;
-  return parseWorld(text, file, shelfOf(file, none), errors);
+  return parseWorld(std::move(text), file, shelfOf(file, none), errors);
 }
 
 }  // namespace robosim
