@@ -67,7 +67,6 @@ class TargetList {
 
 void addRays(const RayBench& rays, TargetList& list) {
   for (const auto& f : rays.figures) {
-    if (f.what == "single rays, each alone") continue;  // what is wanted is for those who have many
     const double wanted = f.what == "scans" ? 1 : 2;
     const std::string what = "rays: " + f.what + " to " + fixed(f.range_m, 0) + " m, beside Embree's " + f.peer_call;
     if (rays.peer.empty()) {

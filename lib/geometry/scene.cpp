@@ -1,7 +1,6 @@
 #include "geometry/scene.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cassert>
 #include <cmath>
