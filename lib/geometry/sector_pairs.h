@@ -35,7 +35,7 @@ class SectorPairs {
     pairs.right_y[k] = right.y;
     pairs.ux[k] = item.axis_x;
     pairs.uy[k] = item.axis_y;
-    pairs.a[k] = item.isCircle() ? item.round_m : item.half_length_m;
+    pairs.a[k] = item.half_length_m + item.round_m;  // one of which is 0
     pairs.b[k] = item.half_width_m;
   }
   /// Whether there is enough to settle; if there is, settle() before any more than kEnough others are added.
