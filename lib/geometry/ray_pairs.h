@@ -39,7 +39,7 @@ class RayPairs {
   }
 
  private:
-  static constexpr std::size_t kMost = 16;
+  static constexpr std::size_t kMost = 32;
   template <typename T>
   using Field = std::array<T, kMost>;
 

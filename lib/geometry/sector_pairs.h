@@ -12,7 +12,7 @@ namespace robosim {
 /// enough of them to work out together.
 class SectorPairs {
  public:
-  static constexpr std::size_t kEnough = 16;
+  static constexpr std::size_t kEnough = 48;
 
   /// Of a pair: the nearest point of the solid within the sector, from the apex, and its distance; infinite for none.
   struct Nearest {
