@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -66,23 +67,31 @@ class GridIndex {
   }
 
   /// Visits the packs of the cells that a ray goes through, in its order, until the next cell begins at or beyond
-  /// reach() (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987). Cells on the
-  /// rim go on outwards without end.
+  /// reach() (Amanatides & Woo, "A fast voxel traversal algorithm for ray tracing", Eurographics 1987); for an empty
+  /// cell, any pack. Cells on the rim go on outwards without end.
   template <typename Reach, typename Visit>
   [[gnu::always_inline]] inline void visitAlong(const Ray& ray, const Reach& reach, const Visit& visit) const {
-    Walk x = walk(ray.origin.x, ray.direction.x, area_.x_min, column(ray.origin.x), columns_);
-    Walk y = walk(ray.origin.y, ray.direction.y, area_.y_min, row(ray.origin.y), rows_);
-    const std::ptrdiff_t step_x = ray.direction.x > 0 ? 1 : -1;
-    const std::ptrdiff_t step_y = ray.direction.y > 0 ? columns_ : -columns_;
-    auto at = static_cast<std::ptrdiff_t>(cellAt(column(ray.origin.x), row(ray.origin.y)));
+    const int first_column = column(ray.origin.x);
+    const int first_row = row(ray.origin.y);
+    std::size_t at = cellAt(first_column, first_row);
+    std::uint32_t pack = begin_[at];
+    std::uint32_t end = begin_[at + 1];
+    Walk x = walk(ray.origin.x, ray.direction.x, area_.x_min, first_column, columns_, 1);
+    Walk y = walk(ray.origin.y, ray.direction.y, area_.y_min, first_row, rows_, columns_);
     while (true) {
-      for (const auto& pack : cell(static_cast<std::size_t>(at))) visit(pack);
-      // Which border is next is anybody's guess, so it is told without a branch.
-      const bool in_x = x.next <= y.next;
-      if (!((in_x ? x.next : y.next) < reach())) return;
-      at += in_x ? step_x : step_y;
+      visit(packs_[pack]);
+      if (++pack < end) continue;
+      // Which border is next is anybody's guess, and g++ makes a branch of every choice between doubles. But such as
+      // are not negative have the order of their bits, and of these it is the sign of a difference that tells.
+      const auto next_x = std::bit_cast<std::int64_t>(x.next);
+      const auto next_y = std::bit_cast<std::int64_t>(y.next);
+      const std::int64_t in_x = (next_x - next_y - 1) >> 63;  // -1 for yes, 0 for no
+      if (!(std::bit_cast<double>(next_y + ((next_x - next_y) & in_x)) < reach())) return;
+      at += static_cast<std::size_t>((x.step & in_x) + (y.step & ~in_x));
       x.cross(in_x);
-      y.cross(!in_x);
+      y.cross(~in_x);
+      pack = begin_[at];
+      end = begin_[at + 1];
     }
   }
 
@@ -98,24 +107,26 @@ class GridIndex {
   struct Walk {
     double next = std::numeric_limits<double>::infinity();  ///< distance along the ray to the next border
     double delta = 0;                                       ///< and between borders
-    int left = 0;                                           ///< borders still to cross before the rim
+    std::int64_t left = 0;                                  ///< borders still to cross before the rim
+    std::int64_t step = 0;                                  ///< to the number of the next cell
 
-    void cross(bool crosses) {
-      left -= crosses ? 1 : 0;
-      const double after = next + (crosses ? delta : 0.0);
-      next = left == 0 ? std::numeric_limits<double>::infinity() : after;
+    /// @param crosses -1 for yes, 0 for no
+    void cross(std::int64_t crosses) {
+      left += crosses;
+      next += std::bit_cast<double>(std::bit_cast<std::int64_t>(delta) & crosses);
+      if (left <= 0) next = std::numeric_limits<double>::infinity();
     }
   };
-  Walk walk(double origin, double direction, double low, int cell, int count) const {
-    Walk w;
-    w.left = direction > 0 ? count - 1 - cell : cell;
-    if (std::abs(direction) <= kLeastSlope || w.left == 0) {
-      w.left = 0;
-      return w;
-    }
+  Walk walk(double origin, double direction, double low, int cell, int count, int stride) const {
+    const std::int64_t down = std::bit_cast<std::int64_t>(direction) >> 63;  // -1 for yes, 0 for no
     const double per = 1 / direction;
-    w.next = (low + (cell + (direction > 0 ? 1 : 0)) * cell_m_ - origin) * per;
+    const double next = (low + static_cast<double>(cell + 1 + down) * cell_m_ - origin) * per;
+    Walk w;
+    w.left = (cell & down) | ((count - 1 - cell) & ~down);
+    w.step = (stride ^ down) - down;
     w.delta = cell_m_ * std::abs(per);
+    w.next = next > 0 ? next : 0.0;
+    if (w.left == 0 || std::abs(direction) <= kLeastSlope) w.next = std::numeric_limits<double>::infinity();
     return w;
   }
 

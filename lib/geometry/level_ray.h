@@ -40,8 +40,9 @@ inline double enterBox(double ox, double oy, double dx, double dy, double ux, do
   const double b2 = (half_width - b + kLeastGap) * per_b;
   const double a_from = a1 < a2 ? a1 : a2;
   const double b_from = b1 < b2 ? b1 : b2;
-  const double a_to = a1 < a2 ? a2 : a1;
-  const double b_to = b1 < b2 ? b2 : b1;
+  // Asked the other way round: of two choices by one question g++ makes a branch, of one a minimum or a maximum.
+  const double a_to = a2 < a1 ? a1 : a2;
+  const double b_to = b2 < b1 ? b1 : b2;
   const double from = a_from > b_from ? a_from : b_from;
   const double to = a_to < b_to ? a_to : b_to;
   const double near = from > 0 ? from : 0.0;

@@ -6,6 +6,12 @@
 #include "geometry/vector_clones.h"
 
 namespace robosim {
+namespace {
+
+/// Bit i for solid i of a pack.
+constexpr PackMarks kPackBits = {1, 2, 4, 8, 16, 32, 64, 128};
+
+}  // namespace
 
 ROBOSIM_VECTOR_CLONES
 void RoughRays::set(const RayWalks& walks, const mrpt::math::TPoint2D& middle) {
@@ -28,8 +34,9 @@ void RoughRays::findPassed(const RayWalks& walks, const GridIndex::Pack* packs, 
     PackMarks marks = {};
     for (std::size_t k = 0; k < kInMarks; ++k) {
       const std::uint32_t i = walks.going[first + k];
-      markPassed(ray(i), packs[walks.pack[i]], static_cast<float>(walks.reach_m[i]),
-                 kPackBits << static_cast<std::int32_t>(8 * k), marks);
+      PackMarks passed_by_one;
+      lookAt(ray(i), packs[walks.pack[i]], static_cast<float>(walks.reach_m[i]), passed_by_one);
+      marks |= passed_by_one & (kPackBits << static_cast<std::int32_t>(8 * k));
     }
     const std::uint64_t before = first % RayWalks::kTogether == 0 ? 0 : passed[first / RayWalks::kTogether];
     passed[first / RayWalks::kTogether] = before | std::uint64_t{together(marks)}

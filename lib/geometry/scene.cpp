@@ -11,6 +11,23 @@
 #include "geometry/vector_loops.h"
 
 namespace robosim {
+
+/// A Hit without its point, which is for the last: small enough for a processor's registers.
+struct NearestSoFar {
+  double distance_m;
+  BodyId body = kNoBody;
+
+  /// A tie goes to the lowest body.
+  bool isWorseThan(double other_m, BodyId other) const {
+    return other_m < distance_m || (other_m == distance_m && body != kNoBody && other < body);
+  }
+  void keepBetter(double other_m, BodyId other, BodyId except) {
+    if (!isWorseThan(other_m, other) || other == except) return;
+    distance_m = other_m;
+    body = other;
+  }
+};
+
 namespace {
 
 using mrpt::math::TPoint2D;
@@ -34,12 +51,9 @@ double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
   return std::max(0.25, std::sqrt(square_m2 * per_cell / static_cast<double>(solids + 4)));
 }
 
-bool better(double distance_m, BodyId body, const Hit& best) {
-  return distance_m < best.distance_m || (distance_m == best.distance_m && best.body != kNoBody && body < best.body);
-}
-
 /// Holds a level ray against a solid.
-[[gnu::always_inline]] inline void castAt(const GridItem& item, BodyId body, const Ray& ray, BodyId except, Hit& best) {
+[[gnu::always_inline]] inline void castAt(const GridItem& item, BodyId body, const Ray& ray, BodyId except,
+                                          NearestSoFar& best) {
   if (!item.heights.contains(ray.origin.z)) return;
   const double ox = item.x - ray.origin.x;
   const double oy = item.y - ray.origin.y;
@@ -48,13 +62,12 @@ bool better(double distance_m, BodyId body, const Hit& best) {
   const double met_m = item.isCircle()
                            ? enterCircle(ox, oy, dx, dy, item.round_m)
                            : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
-  if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
+  best.keepBetter(met_m, body, except);
 }
 
 /// What a ray met, if anything, from how far it went. Which of both is anybody's guess, so without a branch.
-inline void complete(const Ray& ray, Hit& hit) {
-  hit.point = ray.at(hit.distance_m);
-  hit.distance_m = hit ? hit.distance_m : kInfinity;
+inline Hit complete(const Ray& ray, const NearestSoFar& met) {
+  return {met.body != kNoBody ? met.distance_m : kInfinity, met.body, ray.at(met.distance_m)};
 }
 
 Bounds2D boundsOf(const Sector& sector, double range_m) {
@@ -205,24 +218,14 @@ Solid Scene::solid(BodyId body) const {
 }
 
 Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
-  Hit best;
-  best.distance_m = range_m;
-  if (ray.direction.z == 0) {
+  NearestSoFar best{range_m};
+  if (ray.direction.z != 0) {
+    castAslant(ray, except, best);
+  } else {
     castAmongStationary(ray, except, best);
     if (movingCount() > 0) castAmongMoving(ray, except, best);
-  } else {
-    const auto reach = [&] { return best.distance_m; };
-    const auto cast = [&](BodyId body) {
-      const double met_m = intersect(ray, solid(body)).value_or(kInfinity);
-      if (better(met_m, body, best) && body != except) best = {met_m, body, {}};
-    };
-    stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
-      for (const auto i : pack.indices()) cast(stationaryBody(i));
-    });
-    moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) { cast(movingBody(entry.index)); });
   }
-  complete(ray, best);
-  return best;
+  return complete(ray, best);
 }
 
 void Scene::castRays(std::span<const Ray> rays, double range_m, std::span<Hit> hits, BodyId except) const {
@@ -237,39 +240,50 @@ void Scene::castRays(std::span<const Ray> rays, double range_m, std::span<Hit> h
     if (!are_few) stream.cast(some, stationary_index_, range_m, static_cast<std::uint32_t>(except));
     for (std::size_t i = 0; i < some.size(); ++i) {
       const Ray& ray = some[i];
-      Hit& hit = hits[first + i];
       if (are_few || ray.direction.z != 0) {
-        hit = castRay(ray, range_m, except);
+        hits[first + i] = castRay(ray, range_m, except);
         continue;
       }
-      hit.distance_m = stream.distance(i);
-      hit.body = BodyId(static_cast<std::uint32_t>(stream.body(i)));
-      if (any_moving) castAmongMoving(ray, except, hit);
-      complete(ray, hit);
+      NearestSoFar best{stream.distance(i), BodyId(static_cast<std::uint32_t>(stream.body(i)))};
+      if (any_moving) castAmongMoving(ray, except, best);
+      hits[first + i] = complete(ray, best);
     }
   }
 }
 
-ROBOSIM_VECTOR_CLONES
-void Scene::castAmongStationary(const Ray& ray, BodyId except, Hit& best) const {
+void Scene::castAslant(const Ray& ray, BodyId except, NearestSoFar& best) const {
   const auto reach = [&] { return best.distance_m; };
+  const auto cast = [&](BodyId body) {
+    best.keepBetter(intersect(ray, solid(body)).value_or(kInfinity), body, except);
+  };
+  stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
+    for (const auto i : pack.indices()) cast(stationaryBody(i));
+  });
+  moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) { cast(movingBody(entry.index)); });
+}
+
+ROBOSIM_VECTOR_CLONES
+void Scene::castAmongStationary(const Ray& ray, BodyId except, NearestSoFar& best) const {
+  if (stationaryCount() == 0) return;
   const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
   const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(ray.direction.x),
                        static_cast<float>(ray.direction.y)};
   const GridItem* items = stationary_index_.items().data();
+  NearestSoFar nearest = best;
+  const auto reach = [&] { return nearest.distance_m; };
   stationary_index_.visitAlong(
       ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
-        PackMarks marks = {};
-        markPassed(rough, pack, static_cast<float>(best.distance_m), kPackBits, marks);
-        std::uint32_t passed = together(marks);
-        for (; passed != 0; passed &= passed - 1) {
-          const GridItem& item = items[pack.index[std::countr_zero(passed)]];
-          castAt(item, BodyId{item.number}, ray, except, best);
+        PackMarks marks;
+        lookAt(rough, pack, static_cast<float>(nearest.distance_m), marks);
+        for (std::uint64_t passed = inBytes(marks); passed != 0; passed &= passed - 1) {
+          const GridItem& item = items[pack.index[std::countr_zero(passed) / 8]];
+          castAt(item, BodyId{item.number}, ray, except, nearest);
         }
       });
+  best = nearest;
 }
 
-void Scene::castAmongMoving(const Ray& ray, BodyId except, Hit& best) const {
+void Scene::castAmongMoving(const Ray& ray, BodyId except, NearestSoFar& best) const {
   const auto reach = [&] { return best.distance_m; };
   const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
   const auto dx = static_cast<float>(ray.direction.x);
@@ -350,16 +364,16 @@ void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) cons
 }
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
-  Hit best;
-  best.distance_m = range_m;
+  NearestSoFar best{range_m};
+  TPoint2D point;
   const TPoint2D apex(sector.apex.x, sector.apex.y);
   const Bounds2D reach = boundsOf(sector, range_m);
   const auto sense = [&](BodyId body) {
     if (body == except) return;
     const auto met = nearestInSector(sector, solid(body));
-    if (met && better(met->distance_m, body, best)) {
-      best = {met->distance_m, body, {met->point.x, met->point.y, sector.apex.z}};
-    }
+    if (!met || !best.isWorseThan(met->distance_m, body)) return;
+    best = {met->distance_m, body};
+    point = met->point;
   };
   const GridIndex& grid = stationary_index_;
   const int right = grid.column(reach.x_max);
@@ -374,7 +388,8 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
     }
   }
   moving_index_.visitNear(reach, [&](const CenterIndex::Entry& entry) { sense(movingBody(entry.index)); });
-  return best ? best : Hit{};
+  if (best.body == kNoBody) return {};
+  return {best.distance_m, best.body, {point.x, point.y, sector.apex.z}};
 }
 
 template <typename Visit>

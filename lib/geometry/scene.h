@@ -31,6 +31,8 @@ struct Hit {
   explicit operator bool() const { return body != kNoBody; }
 };
 
+struct NearestSoFar;  // in scene.cpp
+
 /// All solids of a world at one moment, indexed for fast questions. The stationary ones are indexed once; after the
 /// moving ones have moved, freeze() indexes those again, in linear time and without allocating. Every question is const
 /// and may be asked from any number of threads. A body may be left out of a question: the one who asks.
@@ -97,10 +99,11 @@ class Scene {
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
-  /// What a level ray meets nearer than what it has met so far; without the point.
+  /// What a ray meets nearer than the best so far: a level one, and one that is not.
   ///@{
-  void castAmongStationary(const Ray& ray, BodyId except, Hit& best) const;
-  void castAmongMoving(const Ray& ray, BodyId except, Hit& best) const;
+  void castAmongStationary(const Ray& ray, BodyId except, NearestSoFar& best) const;
+  void castAmongMoving(const Ray& ray, BodyId except, NearestSoFar& best) const;
+  void castAslant(const Ray& ray, BodyId except, NearestSoFar& best) const;
   ///@}
   /// Holds every body that may matter against a batch, the nearest first.
   template <typename Batch>
