@@ -137,7 +137,8 @@ void findPassing(const RoughBlock& rays, const RoughPlace& place, const Candidat
       const float slope_b = std::abs(dy * axis_x - dx * axis_y);
       const float wide = half_length * slope_b + half_width * slope_a + round;
       const float deep = half_length * slope_a + half_width * slope_b + round;
-      const bool passes = (across <= wide) & (along >= -deep) & (along - deep <= rays.distance[i]);
+      const float beyond = along - rays.distance[i];  // as in rough_ray.h
+      const bool passes = (across <= wide) & ((beyond > -along ? beyond : -along) <= deep);
       bits += passes ? kMaskBit[i] : 0;
     }
     passing[k] = bits;
