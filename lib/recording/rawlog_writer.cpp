@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <deque>
-#include <future>
 #include <optional>
 #include <set>
 #include <string>
@@ -14,6 +13,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
+#include "base/background.h"
 #include "base/error_list.h"
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
@@ -28,9 +28,9 @@ using mrpt::math::TPose2D;
 
 /// Compressed at a time: little enough to stay in the processor's cache.
 constexpr std::size_t kChunkBytes = 64 * 1024;
-/// Readings of one robot and one step that are handed to the background at a time: enough that starting a thread for
+/// Readings of one robot and one step that are handed to the background at a time: enough that waking its thread for
 /// them costs nothing to speak of, and little to lose with a killed program.
-constexpr std::size_t kReadingsABatch = 256;
+constexpr std::size_t kReadingsABatch = 512;
 
 /// Observations of one robot on their way to bytes.
 struct Track {
@@ -113,15 +113,15 @@ struct RawlogWriter::Impl {
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
-  SimTime last;                  ///< of what was written
-  std::future<void> background;  ///< at work on `recording`; the first to be destroyed, which waits for it
+  SimTime last;           ///< of what was written
+  Background background;  ///< at work on `recording`; the first to be destroyed, which waits for it
 };
 
 void RawlogWriter::Impl::handOver() {
   const std::size_t steps = std::exchange(filled, 0);
-  if (background.valid()) background.get();
+  background.wait();
   std::swap(filling, recording);
-  background = std::async(std::launch::async, [this, steps] {
+  background.start([this, steps] {
     for (std::size_t i = 0; i < steps; ++i) record(recording[i]);
   });
 }
@@ -191,7 +191,7 @@ void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPo
 
 void RawlogWriter::close(const std::string& note) {
   impl_->handOver();
-  impl_->background.get();
+  impl_->background.wait();
   impl_->comment(note);
   for (auto& output : impl_->outputs) output->flush(0);
   for (auto& output : impl_->outputs) {
