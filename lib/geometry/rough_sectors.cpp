@@ -55,9 +55,10 @@ struct SolidInView {
     return solid.half_length * std::abs(dy * solid.axis_x - dx * solid.axis_y) +
            solid.half_width * std::abs(dx * solid.axis_x + dy * solid.axis_y) + solid.round;
   };
-  return (sector.right_x * oy - sector.right_y * ox >= -half(sector.right_x, sector.right_y)) &
-         (ox * sector.left_y - oy * sector.left_x >= -half(sector.left_x, sector.left_y)) &
-         (sector.axis_x * ox + sector.axis_y * oy - half(-sector.axis_y, sector.axis_x) <= sector.reach);
+  const bool right_of_left = ox * sector.left_y - oy * sector.left_x >= -half(sector.left_x, sector.left_y);
+  const bool left_of_right = sector.right_x * oy - sector.right_y * ox >= -half(sector.right_x, sector.right_y);
+  const bool in_reach = sector.axis_x * ox + sector.axis_y * oy - half(-sector.axis_y, sector.axis_x) <= sector.reach;
+  return left_of_right & right_of_left & in_reach;
 }
 
 /// Of few solids, each is held against all sectors of the block at once.
