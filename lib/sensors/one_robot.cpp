@@ -2,8 +2,8 @@
 
 namespace robosim {
 
-OneRobot::OneRobot(std::vector<Solid> solids, const mrpt::math::TPose2D& pose)
-    : world_from_robot(pose), scene_(std::move(solids), 1, {-20, 20, -20, 20}), readings_(1) {}
+OneRobot::OneRobot(const std::vector<Solid>& solids, const mrpt::math::TPose2D& pose)
+    : world_from_robot(pose), scene_(solids, 1, {-20, 20, -20, 20}), readings_(1) {}
 
 Measurement OneRobot::sense(const Sensor& sensor) {
   scene_.place(0, {Circle{{world_from_robot.x, world_from_robot.y}, 0.2}, {0, 0.3}});

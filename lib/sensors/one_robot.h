@@ -11,7 +11,7 @@ namespace robosim {
 class OneRobot {
  public:
   /// The robot is a disc of 0.2 m radius, 0.3 m high, at `world_from_robot`.
-  explicit OneRobot(std::vector<Solid> solids, const mrpt::math::TPose2D& world_from_robot = {0, 0, 0});
+  explicit OneRobot(const std::vector<Solid>& solids, const mrpt::math::TPose2D& world_from_robot = {0, 0, 0});
 
   /// The sensor's measurement in the next time step.
   Measurement sense(const Sensor& sensor);
