@@ -1,6 +1,7 @@
 #include "base/background.h"
 
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 namespace robosim {
@@ -15,7 +16,7 @@ Background::~Background() {
 }
 
 void Background::start(std::function<void()> work) {
-  assert(!done_.valid());
+  assert(!done_.valid() || done_.wait_for(std::chrono::seconds(0)) == std::future_status::ready);
   work_ = std::packaged_task<void()>(std::move(work));
   done_ = work_.get_future();
   has_work_.release();
@@ -26,7 +27,10 @@ void Background::wait() {
 }
 
 void Background::doWork() {
-  for (has_work_.acquire(); !ends_; has_work_.acquire()) work_();
+  for (has_work_.acquire(); !ends_; has_work_.acquire()) {
+    auto work = std::exchange(work_, {});  // once it is done, the next may come
+    work();
+  }
 }
 
 }  // namespace robosim

@@ -34,7 +34,8 @@ GridIndex::GridIndex(const Bounds2D& area, double cell_m)
       columns_(cellsIn(area.x_max - area.x_min, cell_m)),
       rows_(cellsIn(area.y_max - area.y_min, cell_m)),
       count_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0),
-      begin_(count_.size() + 1, 0) {}
+      begin_(count_.size() + 1, 0),
+      packs_(1) {}
 
 template <typename Visit>
 void GridIndex::forCells(const GridItem& item, const Visit& visit) const {

@@ -154,7 +154,7 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
                            RawlogImages images, const std::string& note)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
-  impl_->filling.resize(1 + kReadingsABatch / std::max<std::size_t>(1, robots.size()));
+  impl_->filling.resize(std::max<std::size_t>(1, kReadingsABatch / std::max<std::size_t>(1, robots.size())));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
     const auto& sensors = *robot.sensors;

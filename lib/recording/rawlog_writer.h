@@ -46,7 +46,8 @@ class RawlogWriter {
                const std::string& note = "");
   ~RawlogWriter();
 
-  /// Records one time step. What goes wrong in the background is thrown by a later call, by close() at the latest.
+  /// Records one time step. What goes wrong in the background is thrown by a later call, and by close() in any
+  /// case: a recording with a hole gets no name.
   /// @param readings one per robot, in the order of the constructor's.
   /// @param world_from_robot where each robot really is; empty when nobody knows.
   /// @param commands that the robots obeyed in this step; empty when nobody knows.

@@ -89,6 +89,21 @@ TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
   }
 }
 
+TEST_F(RawlogWriterTest, LosesNoStepAndRepeatsNoneOfManyBatches) {
+  const std::vector<std::string> names{"robot1", "robot2", "robot3", "robot4"};
+  for (const std::size_t robots : {1, 2, 4}) {
+    const SampleRun run({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(robots)});
+    RawlogWriter writer(in("run.rawlog"), run.robots);
+    run.record(writer, 1300);
+    CRawlog rawlog = loaded(in("run.rawlog"));
+    const std::size_t a_step = robots * (1 + run.robots[0].sensors->size());
+    ASSERT_EQ(rawlog.size(), 1300 * a_step);
+    for (std::size_t entry = 0; entry < rawlog.size(); ++entry) {
+      ASSERT_EQ(rawlog.getAsObservation(entry)->timestamp, timestampOf({entry / a_step, 0.1})) << "entry " << entry;
+    }
+  }
+}
+
 TEST_F(RawlogWriterTest, KeepsTheGroundTruthOfEachRobot) {
   const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
@@ -128,7 +143,7 @@ TEST_F(RawlogWriterTest, TheSameRunIsTheSameFile) {
 TEST_F(RawlogWriterTest, ATruncatedRecordingReadsUpToTheCut) {
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
-  run.record(writer, 500);
+  run.record(writer, 1300);
   const CRawlog whole = loaded(in("run.rawlog"));
   fs::resize_file(in("run.rawlog"), fs::file_size(in("run.rawlog")) / 2);
 
@@ -148,8 +163,8 @@ TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
   fs::copy_file(in("run.rawlog.part"), in("left.rawlog"));
   CRawlog left;
   left.loadFromRawLogFile(in("left.rawlog").string());
-  // Up to two batches of 1025 steps, and some 120 steps more inside the compressor, were still in memory.
-  EXPECT_GT(left.size(), 2800 * (1 + run.robots[0].sensors->size()));
+  // Up to two batches of 512 steps, and some 120 steps more inside the compressor, were still in memory.
+  EXPECT_GT(left.size(), 3850 * (1 + run.robots[0].sensors->size()));
 }
 
 TEST_F(RawlogWriterTest, DropsWhatIsNotClosed) {
@@ -390,6 +405,21 @@ TEST_F(RawlogWriterTest, ReplacesThePicturesOfAnEarlierRecordingThatHaveTheSameN
   }
   EXPECT_EQ(filesInFolder(), (std::set<std::string>{"run.rawlog", "run_Images"}));
   EXPECT_EQ(namesIn(in("run_Images")).size(), 14u);
+}
+
+TEST_F(RawlogWriterTest, GivesNoNameToARecordingWithAHole) {
+  const SeeingRun run;
+  RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
+  {
+    const FullDisk full(100);
+    const auto write_on = [&] {
+      for (std::uint64_t step = 0; step < 2000; ++step) writer.write(run.readings(step), {});
+    };
+    EXPECT_THROW(write_on(), RecordingError);
+  }
+  for (std::uint64_t step = 0; step < 10; ++step) writer.write(run.readings(step), {});  // there is room again
+  EXPECT_THROW(writer.close(), RecordingError);
+  EXPECT_FALSE(fs::exists(in("run.rawlog")));
 }
 
 TEST_F(RawlogWriterTest, SaysWhenPicturesCannotBeWritten) {
