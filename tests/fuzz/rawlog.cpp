@@ -1,9 +1,11 @@
 // A rawlog of anybody's, compressed or not: read to its end, given times, and taken for a recording of ours.
+#include <atomic>
 #include <cstdlib>
 #include <filesystem>
 #include <new>
 #include <stdexcept>
 
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -15,15 +17,30 @@
 
 using namespace robosim;
 
-// MRPT takes as much memory as a number in the file says. MemoryBound makes that fail where there is no sanitizer;
-// where there is one, this does. NOLINTNEXTLINE: the name is the sanitizer's
+namespace {
+
+constexpr std::size_t kMostBytes = std::size_t{1} << 30;
+std::atomic<std::size_t> taken_bytes = 0;
+
+}  // namespace
+
+// MRPT takes as much memory as a number in the file says, at once or in many pieces. MemoryBound makes that fail where
+// there is no sanitizer; where there is one, this does. NOLINTNEXTLINE: the name is the sanitizer's
 extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1:max_allocation_size_mb=512"; }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  void* const memory = taken_bytes < kMostBytes ? std::malloc(size == 0 ? 1 : size) : nullptr;
+  taken_bytes += malloc_usable_size(memory);
+  return memory;
+}
 void* operator new(std::size_t size) {
-  if (void* const memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  if (void* const memory = operator new(size, std::nothrow)) return memory;
   throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory) noexcept {
+  taken_bytes -= malloc_usable_size(memory);
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept { operator delete(memory); }
 
 namespace {
 
