@@ -81,7 +81,7 @@ void Crowd::render(const RenderContext& rc) const {
   for (const Member& member : members_) {
     const mrpt::math::TPoint3Df center(member.x_m, member.y_m, middle_.z);
     if (!view.mayHold(center, radius_m_)) continue;
-    const float radius_px = levels_.size() > 1 ? view.radius_px(center, radius_m_) : 0;
+    const float radius_px = levels_.size() > 1 ? view.radiusPx(center, radius_m_) : 0;
     auto level = levels_.rbegin();
     while (radius_px >= level->below_px) ++level;
     level->members.push_back(member);

@@ -209,13 +209,13 @@ TEST(OffscreenRenderer, MakesWallsDistinctFromGroundSkyAndEachOther) {
   OffscreenRenderer renderer(world, {});
   // From above its corner: two of its sides and its top.
   const cv::Mat picture = renderer.picture(kCamera, at(1.3, -1.2, 1.8, M_PI / 4, 0.6), {});
-  const auto expectedAt = [&](const TPoint3D& point) {
+  const auto expected_at = [&](const TPoint3D& point) {
     const mrpt::poses::CPose3D world_from_camera(at(1.3, -1.2, 1.8, M_PI / 4, 0.6));
     const auto p = world_from_camera.inverseComposePoint(point);
     return pixel(picture, static_cast<int>(120 - 160 * p.z / p.x), static_cast<int>(160 - 160 * p.y / p.x));
   };
-  const std::vector<cv::Vec3b> faces{expectedAt({2, 0, 0.6}), expectedAt({2.5, -0.5, 0.6}), expectedAt({2.5, 0, 1})};
-  const auto ground = expectedAt({1.6, -0.6, 0});
+  const std::vector<cv::Vec3b> faces{expected_at({2, 0, 0.6}), expected_at({2.5, -0.5, 0.6}), expected_at({2.5, 0, 1})};
+  const auto ground = expected_at({1.6, -0.6, 0});
   const auto sky = pixel(renderer.picture(kCamera, at(0, 0, 1), {}), 20, 160);
   for (std::size_t i = 0; i < faces.size(); ++i) {
     EXPECT_GT(difference(faces[i], sky), 30) << i;

@@ -9,7 +9,6 @@
 namespace robosim {
 namespace {
 
-using mrpt::math::TPose2D;
 
 World smallWorld() {
   World world;

@@ -64,7 +64,7 @@ class Drawing {
 
  private:
   TPoint2D pixelOf(const TPose2D& pose) const { return view_.toPixel({pose.x, pose.y}); }
-  double radius_px(std::size_t robot) const {
+  double radiusPx(std::size_t robot) const {
     return std::max(kRobotRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
   }
   bool isOnPicture(const TPoint2D& pixel, double margin_px) const {
@@ -156,7 +156,7 @@ class Drawing {
   void drawRobot(std::size_t i) {
     const ShownRobot& robot = shown_.robots[i];
     const TPoint2D center = pixelOf(robot.world_from_robot);
-    const double radius = radius_px(i);
+    const double radius = radiusPx(i);
     if (!isOnPicture(center, radius + 8)) return;
     if (robot.stalled) canvas_.disc(center, radius + 3, kStallColor);
     if (robot.activity == Activity::found) canvas_.disc(center, radius + 3.5, kGlowColor);
@@ -198,8 +198,8 @@ class Drawing {
   void drawHeat(std::size_t i, double heat) {
     if (heat < 0.5) return;
     const TPoint2D center = pixelOf(shown_.robots[i].world_from_robot);
-    canvas_.text({center.x + radius_px(i) * 0.7 + 4, center.y + radius_px(i) * 0.7 + 8},
-                 mrpt::format("heat %.0f", heat), kTextSize_px, mix(kGlowColor, {0.5f, 0, 0}, 0.5f));
+    canvas_.text({center.x + radiusPx(i) * 0.7 + 4, center.y + radiusPx(i) * 0.7 + 8}, mrpt::format("heat %.0f", heat),
+                 kTextSize_px, mix(kGlowColor, {0.5f, 0, 0}, 0.5f));
   }
 
   void writeNames() {
@@ -209,13 +209,13 @@ class Drawing {
     for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
       const TPoint2D center = pixelOf(shown_.robots[i].world_from_robot);
       if (!isOnPicture(center, 0)) continue;
-      names.keepClear(center, radius_px(i), radius_px(i));
+      names.keepClear(center, radiusPx(i), radiusPx(i));
       seen.push_back(i);
     }
     names.writeHotObjects(world_);
     if (seen.size() > kMostNames) return;
     for (const std::size_t i : seen) {
-      names.write(fleet_.robots[i].info.name, pixelOf(shown_.robots[i].world_from_robot), radius_px(i), radius_px(i),
+      names.write(fleet_.robots[i].info.name, pixelOf(shown_.robots[i].world_from_robot), radiusPx(i), radiusPx(i),
                   mix(robotColor(i), {0, 0, 0}, 0.35f));
     }
   }
@@ -289,7 +289,7 @@ cv::Mat TopView::draw(const Shown& shown, const Trails& trails, const TopViewCam
     Canvas with_things(floor);
     drawThings(with_things, world_);
     Canvas::Layer things = with_things.differenceFrom(floor);
-    stills_.reset(new Stills{std::move(floor), std::move(things)});
+    stills_ = std::make_unique<Stills>(Stills{std::move(floor), std::move(things)});
   }
   return Drawing(world_, fleet_, shown, stills_->floor, &stills_->things).draw(trails, layers);
 }

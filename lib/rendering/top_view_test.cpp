@@ -15,8 +15,7 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 /// 10 m × 5 m with a blue box of 2 m × 1 m in its lower left quarter, and two robots of 0.5 m radius.
-class TopViewTest : public testing::Test {
- protected:
+struct TopViewTest : testing::Test {
   TopViewTest() {
     world.name = "hall";
     world.bounds = {0, 10, 0, 5};
@@ -149,23 +148,23 @@ TEST_F(TopViewTest, WritesTheHeatThatARobotFeelsBesideIt) {
   SensorInfo heat;
   heat.kind = SensorKind::heat;
   fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{heat});
-  const auto pictureAt = [&](double heat_now) {
+  const auto picture_at = [&](double heat_now) {
     shown.robots[0].readings.emplace();
     shown.robots[0].readings->measurements = {Scalar{heat_now}};
     return TopView(world, fleet).draw(shown, trails, camera, layers);
   };
-  const cv::Mat cold = pictureAt(0), warm = pictureAt(7), hot = pictureAt(40);
+  const cv::Mat cold = picture_at(0), warm = picture_at(7), hot = picture_at(40);
   // Below and to the right of the robot, "heat 7" and "heat 40" at 11 px or so, and nowhere else.
   const cv::Rect beside(523 + 38, 349 + 32, 80, 24);
-  const auto inkOf = [&](const cv::Mat& picture, const cv::Rect& part) {
+  const auto ink_of = [&](const cv::Mat& picture, const cv::Rect& part) {
     cv::Mat difference;
     cv::absdiff(picture(part), cold(part), difference);
     return cv::sum(difference)[0];
   };
   const cv::Rect all(0, 0, 1048, 700);
-  EXPECT_GT(inkOf(warm, beside), 1000);
-  EXPECT_EQ(inkOf(warm, beside), inkOf(warm, all));
-  EXPECT_GT(inkOf(hot, beside), inkOf(warm, beside)) << "two digits";
+  EXPECT_GT(ink_of(warm, beside), 1000);
+  EXPECT_EQ(ink_of(warm, beside), ink_of(warm, all));
+  EXPECT_GT(ink_of(hot, beside), ink_of(warm, beside)) << "two digits";
 }
 
 TEST_F(TopViewTest, ShowsTheWayThatARobotHasCome) {
@@ -237,7 +236,7 @@ TEST_F(TopViewTest, DraggingMovesTheGroundWithTheHandAndAClickFollowsARobot) {
   // He is where the hand took him: click there.
   panes.click(bob + TPoint2D(-100, 50), shown);
   const cv::Mat picture = panes.draw(shown, trails);
-  const cv::Vec3b blue = picture.at<cv::Vec3b>(349 + 25, 523);
+  const auto& blue = picture.at<cv::Vec3b>(349 + 25, 523);
   EXPECT_GT(blue[0], 2 * blue[2]) << "the second robot, which is blue, is in the middle now";
 }
 

@@ -24,7 +24,7 @@ bool ViewVolume::mayHold(const mrpt::math::TPoint3Df& center, float radius_m) co
   return std::all_of(sides_.begin(), sides_.end(), [&](const Plane& side) { return side.of(center) > -radius_m; });
 }
 
-float ViewVolume::radius_px(const mrpt::math::TPoint3Df& center, float radius_m) const {
+float ViewVolume::radiusPx(const mrpt::math::TPoint3Df& center, float radius_m) const {
   return radius_m * px_per_radian_ / std::max(depth_.of(center), 1e-3f);
 }
 

@@ -14,7 +14,7 @@ class ViewVolume {
   /// Whether any of a ball may be in the picture.
   bool mayHold(const mrpt::math::TPoint3Df& center, float radius_m) const;
   /// How large a ball in the picture is [pixels]: its radius, about.
-  float radius_px(const mrpt::math::TPoint3Df& center, float radius_m) const;
+  float radiusPx(const mrpt::math::TPoint3Df& center, float radius_m) const;
 
  private:
   struct Plane {

@@ -135,9 +135,9 @@ class ActivmediaReader {
   }
 
   void readMetadata(const std::vector<std::string>& words) {
-    const auto valueAt = [&](std::size_t i) { return i < words.size() ? parsed(words[i]) : std::nullopt; };
+    const auto value_at = [&](std::size_t i) { return i < words.size() ? parsed(words[i]) : std::nullopt; };
     if (words[0] == "Resolution:") {
-      const auto mm = valueAt(1);
+      const auto mm = value_at(1);
       if (!mm || *mm < 0 || *mm > kCellMax_m * 1000) {
         fail("the resolution must be a number in [0, 100000] millimetres; 0 stands for the usual one, 20");
       }
@@ -209,7 +209,7 @@ class ActivmediaReader {
     if (points_.empty()) return;
     struct Cell {
       std::int64_t row, column;
-      auto operator<=>(const Cell&) const = default;
+      auto operator<=>(const Cell&) const = default;  // NOLINT(modernize-use-nullptr): no pointer is here
     };
     std::vector<Cell> cells;
     for (const auto& [x, y] : points_)

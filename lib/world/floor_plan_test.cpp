@@ -250,8 +250,8 @@ TEST(FloorPlanBruteForce, ADiscComesAsFarAsTheCellsLetIt) {
     for (int i = 0; i < 20; ++i) {
       const TPoint2D from = map.place(rng);
       const double radius_m = rng.uniform(0.02, 0.4);
-      const auto isClear = [&](const Solid& solid) { return distance(solid.outline, from) > radius_m + 1e-4; };
-      if (!std::all_of(cells.begin(), cells.end(), isClear)) continue;
+      const auto is_clear = [&](const Solid& solid) { return distance(solid.outline, from) > radius_m + 1e-4; };
+      if (!std::all_of(cells.begin(), cells.end(), is_clear)) continue;
       const Path path{{from.x, from.y, map.direction(rng)}, rng.uniform(-2, 2), rng.uniform(-1, 1)};
       double slow = 1, fast = 1;
       for (const auto& cell : cells) slow = std::min(slow, firstContact(path, radius_m, cell.outline));

@@ -168,27 +168,28 @@ TEST(MalformedMaps, OfRos) {
             Lines{"maps/a.pgm: is cut off: its pixels take at least 1 bytes, and 0 are left"});
 }
 
+std::string bigEndian(std::size_t value) {
+  std::string bytes;
+  for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift);
+  return bytes;
+}
+
 /// A chunk of a PNG file with the check sum that it ought to have.
 std::string chunk(const std::string& type, const std::string& data) {
-  const auto big_endian = [](std::size_t value) {
-    std::string bytes;
-    for (const int shift : {24, 16, 8, 0}) bytes += static_cast<char>(value >> shift);
-    return bytes;
-  };
   std::uint32_t crc = 0xffffffff;  // bit by bit: PNG specification, annex D
   for (const char c : type + data) {
     crc ^= static_cast<unsigned char>(c);
     for (int i = 0; i < 8; ++i) crc = crc & 1 ? crc >> 1 ^ 0xedb88320 : crc >> 1;
   }
-  return big_endian(data.size()) + type + data + big_endian(crc ^ 0xffffffff);
+  return bigEndian(data.size()) + type + data + bigEndian(crc ^ 0xffffffff);
 }
 
 TEST(MalformedMaps, ThatArePictures) {
   const std::string good = pngBytes(cv::Mat(20, 30, CV_8U, cv::Scalar(0)));
   ASSERT_EQ(faultsOf("a.png", {{"a.png", good}}, ofPixels(0.05)), Lines{});
   const std::string signature = good.substr(0, 8);
-  const auto header = [](const char* width, const char* height) {
-    return chunk("IHDR", std::string(width, 4) + std::string(height, 4) + std::string("\x08\x00\x00\x00\x00", 5));
+  const auto header = [](std::size_t width, std::size_t height) {
+    return chunk("IHDR", bigEndian(width) + bigEndian(height) + std::string("\x08\x00\x00\x00\x00", 5));
   };
   std::string flipped = good;
   flipped[45] = static_cast<char>(flipped[45] ^ 1);
@@ -212,9 +213,8 @@ TEST(MalformedMaps, ThatArePictures) {
        ": is cut off: the part at byte " + std::to_string(good.size() - 12) + " is missing"},
       {flipped, ": is damaged: the part at byte 33 has a wrong check sum"},
       {signature + chunk("IDAT", "xxx") + chunk("IEND", ""), ": is damaged: it has no header"},
-      {signature + header("\0\0\0\0", "\0\0\0\1") + chunk("IEND", ""),
-       ": its header tells of 0 × 1 pixels, which is none"},
-      {signature + header("\x7f\xff\xff\xff", "\x7f\xff\xff\xff") + chunk("IEND", ""),
+      {signature + header(0, 1) + chunk("IEND", ""), ": its header tells of 0 × 1 pixels, which is none"},
+      {signature + header(0x7fffffff, 0x7fffffff) + chunk("IEND", ""),
        ": its header tells of 2147483647 × 2147483647 pixels; a map may have 67108864 cells at most, so make it "
        "smaller"},
       {"P5", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},

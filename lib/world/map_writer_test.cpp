@@ -62,13 +62,13 @@ std::optional<Occupancy> slowly(const std::vector<Solid>& solids, const Bounds2D
     return std::any_of(solids.begin(), solids.end(),
                        [&](const Solid& solid) { return solid.heights.overlaps(heights) && overlap(piece, solid); });
   };
-  const auto isOver = [&](double by_m) {
+  const auto is_over = [&](double by_m) {
     return x + by_m < surface.x_max && surface.x_min < x + side_m - by_m && y + by_m < surface.y_max &&
            surface.y_min < y + side_m - by_m && z + by_m < heights.z_max_m && heights.z_min_m < z + height_m - by_m;
   };
   const auto known = [&](double by_m) {
     if (meets(by_m)) return Occupancy::occupied;
-    return isOver(by_m) ? Occupancy::free : Occupancy::unknown;
+    return is_over(by_m) ? Occupancy::free : Occupancy::unknown;
   };
   const Occupancy least = known(2 * kTouch_m), most = known(kTouch_m / 100);
   return least == most ? std::optional(least) : std::nullopt;
