@@ -126,12 +126,12 @@ TEST(Camera, ReachesARobotInAnotherProcess) {
   ServedWorld world(options);
   NetworkHardware robots(world.dialOptions(), {"Ann", "Bob"});
   const auto& sensors = *robots.robot(0).info().sensors;
-  const auto slotOf = [&](SensorKind kind) {
+  const auto slot_of = [&](SensorKind kind) {
     const auto found =
         std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; });
     return static_cast<std::size_t>(found - sensors.begin());
   };
-  const std::size_t camera = slotOf(SensorKind::camera), finder = slotOf(SensorKind::blob_finder);
+  const std::size_t camera = slot_of(SensorKind::camera), finder = slot_of(SensorKind::blob_finder);
   EXPECT_EQ(sensors.at(camera).camera.width_px, 320u);
   EXPECT_EQ(sensors.at(finder).colors, std::vector<std::string>{"gold"});
   std::string taken;

@@ -148,19 +148,19 @@ TEST(View, RefusesTimesThatShowNothingOrDoNothing) {
   const auto folder = emptyFolder();
   const auto hall = quoted(writeHall(folder)), run = quoted(folder / "run.rawlog");
   ASSERT_EQ(runProgram("run " + hall + " --time 3 --record " + run).exit_code, 0);
-  const auto expectError = [&](const std::string& arguments, const std::string& file, const std::string& text) {
+  const auto expect_error = [&](const std::string& arguments, const std::string& file, const std::string& text) {
     const Ended view = runProgram("view " + arguments + " --offscreen " + quoted(folder / file));
     EXPECT_EQ(view.exit_code, 1) << arguments;
     EXPECT_NE(view.err.find(text), std::string::npos) << view.err;
     EXPECT_FALSE(fs::exists(folder / file)) << arguments;
   };
   for (const char* file : {"x.mp4", "x.png"}) {
-    expectError(run + " --from 100", file, "--from 100: the recording ends at 3 s");
-    expectError(run + " --from 3 --to 1", file, "--from 3: is later than --to 1");
-    expectError(hall + " --to 1", file, "--to: is of a recording");
+    expect_error(run + " --from 100", file, "--from 100: the recording ends at 3 s");
+    expect_error(run + " --from 3 --to 1", file, "--from 3: is later than --to 1");
+    expect_error(hall + " --to 1", file, "--to: is of a recording");
   }
-  expectError(run + " --speed 2", "x.png", "--speed: a picture has none");
-  expectError(run + " --for 2", "x.mp4", "--for: is of a video of a run that goes on");
+  expect_error(run + " --speed 2", "x.png", "--speed: a picture has none");
+  expect_error(run + " --for 2", "x.mp4", "--for: is of a video of a run that goes on");
 }
 
 TEST(View, SaysBeforeItReadsAnythingThatAVideoCannotBeWritten) {
@@ -214,7 +214,7 @@ class RunWindow {
     EXPECT_GE(waitUntilLit(), 100'000) << view_.error();
   }
   ~RunWindow() { unsetenv("ROBOSIM_TOKEN"); }
-  static void press(const std::string& keys) { runCommand("xdotool search --name RoboSim windowfocus key " + keys); }
+  void press(const std::string& keys) const { runCommand("xdotool search --name RoboSim windowfocus key " + keys); }
   bool isOpen() { return view_.isRunning(); }
   int waitUntilLit() {
     const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
@@ -325,19 +325,19 @@ TEST(View, LeavesYearsInWhichNothingWasRecordedOutOfAVideo) {
 TEST(View, ShowsSomebodyElsesRecording) {
   const auto folder = emptyFolder();
   writeForeignRawlog(folder / "foreign.rawlog");
-  const auto pictureAt = [&](double time_s) {
+  const auto picture_at = [&](double time_s) {
     const Ended view = runProgram("view " + quoted(folder / "foreign.rawlog") + " --size 600x600 --to " +
                                   std::to_string(time_s) + " --offscreen " + quoted(folder / "seen.png"));
     EXPECT_EQ(view.exit_code, 0) << view.err;
     return cv::imread((folder / "seen.png").string());
   };
-  const cv::Mat start = pictureAt(0), end = pictureAt(9.8);
+  const cv::Mat start = picture_at(0), end = picture_at(9.8);
   const auto reds = [](const cv::Mat& picture) {  // the scan's tint and dots
     double x = 0;
     int count = 0;
     for (int row = 40; row < picture.rows; ++row) {
       for (int column = 0; column < picture.cols; ++column) {
-        const auto pixel = picture.at<cv::Vec3b>(row, column);
+        const auto& pixel = picture.at<cv::Vec3b>(row, column);
         if (pixel[2] < pixel[1] + 20) continue;
         x += column;
         ++count;
