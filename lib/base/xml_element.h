@@ -32,14 +32,11 @@ struct XmlElement {
 constexpr std::size_t kMaxXmlFileBytes = 128u << 20;
 
 /// Reads a whole file into its root element.
-/// @throws ConfigError "file:line: what" when the file is missing, a directory, empty, larger than kMaxXmlFileBytes,
-/// not well-formed, deeper than 98 elements, bloated (more than 4 million elements, or 1000 attributes of one), or has
-/// a DOCTYPE (entities of its own are refused, never expanded).
+/// @throws ConfigError "file:line: what" when the file is missing, a directory, or larger than kMaxXmlFileBytes, or as
+/// parseXml() does.
 XmlElement readXmlFile(const std::filesystem::path& file);
 /// The text alone. @throws ConfigError as far as that needs no look inside.
 std::string readXmlText(const std::filesystem::path& file);
-/// The same from text; `file` names it in errors.
-XmlElement parseXml(std::string text, const std::string& file);
 
 /// The element as an XML document, indented by two blanks, with a final newline.
 std::string toXml(const XmlElement& root);

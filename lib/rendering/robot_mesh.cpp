@@ -98,7 +98,7 @@ class RobotBuilder {
   /// each.
   std::vector<TPoint2D> hull(double wider) const {
     static const std::vector<TPoint2D> fine{{0.648, 0},     {0.612, 0.199},  {0.493, 0.406}, {0.369, 0.51},
-                                             {-0.683, 0.51}, {-0.836, 0.382}, {-0.935, 0.21}, {-0.973, 0}};
+                                            {-0.683, 0.51}, {-0.836, 0.382}, {-0.935, 0.21}, {-0.973, 0}};
     static const std::vector<TPoint2D> rough{{0.64, 0.1}, {0.37, 0.51}, {-0.68, 0.51}, {-0.96, 0.1}};
     const auto& left = full_ ? fine : rough;
     std::vector<TPoint2D> outline;

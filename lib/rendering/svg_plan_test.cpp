@@ -4,11 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "base/xml_element.h"
+#include "base/xml_parser.h"
 
 namespace robosim {
 namespace {
-
 
 World smallWorld() {
   World world;

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "base/test_folder.h"
+#include "base/xml_parser.h"
 #include "world/world_file.h"
 
 namespace robosim {

@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/xml_parser.h"
+
 namespace robosim {
 namespace {
 

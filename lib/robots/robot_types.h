@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "base/xml_element.h"
+#include "base/xml_parser.h"
 
 namespace robosim {
 

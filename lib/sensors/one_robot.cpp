@@ -1,5 +1,7 @@
 #include "sensors/one_robot.h"
 
+#include "base/xml_parser.h"
+
 namespace robosim {
 
 OneRobot::OneRobot(const std::vector<Solid>& solids, const mrpt::math::TPose2D& pose)

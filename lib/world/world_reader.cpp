@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/xml_parser.h"
 #include "base/xml_reader.h"
 #include "world/world_file.h"
 

@@ -372,15 +372,22 @@ TEST(Faults, OfAnEnvironmentKilledEndItsRobotsWhenTheirPatienceHasEnded) {
 }
 
 TEST(Faults, OfNamesThatAreNotUtf8AreToldBeforeAnyoneConnects) {
-  const auto world = emptyFolder() / "latin_1.xml";
+  const auto folder = emptyFolder();
   std::string text = textOf(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml");
+  std::ofstream(folder / "maze_\xE9.xml", std::ios::binary) << text;
   for (auto at = text.find("Scout1"); at != std::string::npos; at = text.find("Scout1")) {
     text.replace(at, 6, "Pr\xF9zkumn\xEDk");
   }
-  std::ofstream(world, std::ios::binary) << text;
-  const Ended ended = runProgram("serve '" + world.string() + "' --listen :0");
-  EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.err.find("the name of the robot 'Pr?zkumn?k' is not UTF-8"), std::string::npos) << ended.err;
+  std::ofstream(folder / "latin_1.xml", std::ios::binary) << text;
+  const std::pair<const char*, const char*> faults[] = {
+      {"maze_\xE9.xml", "the name of the world 'maze_?' is not UTF-8"},
+      {"latin_1.xml", "latin_1.xml:105: a letter is not in UTF-8"},
+  };
+  for (const auto& [world, fault] : faults) {
+    const Ended ended = runProgram("serve '" + (folder / world).string() + "' --listen :0");
+    EXPECT_EQ(ended.exit_code, 1);
+    EXPECT_NE(ended.err.find(fault), std::string::npos) << ended.err;
+  }
 }
 
 TEST(Realtime, LetsALateRobotKeepItsLastCommandAndSaysHowOften) {

@@ -1,0 +1,192 @@
+#include "base/xml_parser.h"
+
+#include <algorithm>
+#include <exception>
+#include <iterator>
+#include <memory>
+#include <new>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <expat.h>
+
+#include "base/error_list.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kMostDeep = 98;
+
+std::string_view trimmed(std::string_view text) {
+  const char* white = " \t\r\n";
+  const auto first = text.find_first_not_of(white);
+  return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(white) - first + 1);
+}
+
+ConfigError at(const std::string& file, int line, const std::string& what) {
+  return ConfigError(file + ":" + std::to_string(line) + ": " + what);
+}
+
+/// A small file may hold millions of elements, each a few hundred bytes in memory; and the parser compares the
+/// attributes of an element. So both are counted first: by '<', and by the quotation marks between two of them.
+void refuseBloated(const std::string& text, const std::string& file) {
+  constexpr std::size_t max_tags = 8'000'000;
+  constexpr std::size_t max_quotes = 2'000;
+  std::size_t tags = 0, quotes = 0;
+  int line = 1;
+  for (const char c : text) {
+    if (c == '\n') ++line;
+    if (c == '"' || c == '\'') ++quotes;
+    if (c == '<') {
+      ++tags;
+      quotes = 0;
+    }
+    if (tags > max_tags) throw at(file, line, "more than 4 million elements; split the file");
+    if (quotes > max_quotes) throw at(file, line, "an element with more than 1000 attributes; is this a world file?");
+  }
+}
+
+/// One document on its way from text to elements. Expat calls for each part that it has read, so that text and
+/// elements are all that there ever is in memory.
+class Document {
+ public:
+  Document(const std::string& text, const std::string& file) : text_(text), file_(file) {
+    if (!parser_) throw std::bad_alloc();
+    XML_SetUserData(parser_.get(), this);
+    XML_SetElementHandler(
+        parser_.get(),
+        [](void* of, const char* name, const char** attributes) {
+          doIn(of, [&](Document& document) { document.open(name, attributes); });
+        },
+        [](void* of, const char*) { doIn(of, [](Document& document) { document.close(); }); });
+    XML_SetCharacterDataHandler(parser_.get(), [](void* of, const char* more, int size) {
+      doIn(of, [&](Document& document) { document.addText({more, static_cast<std::size_t>(size)}); });
+    });
+  }
+
+  XmlElement read() {
+    const auto status = XML_Parse(parser_.get(), text_.data(), static_cast<int>(text_.size()), XML_TRUE);
+    if (failure_) std::rethrow_exception(failure_);
+    if (status != XML_STATUS_OK) throw at(file_, line(), fault());
+    return std::move(done_.front());
+  }
+
+ private:
+  struct Open {
+    XmlElement element;
+    std::size_t first_child;  ///< among those done
+  };
+
+  /// Lets no exception into Expat, which is C.
+  template <typename Work>
+  static void doIn(void* of, const Work& work) {
+    auto& document = *static_cast<Document*>(of);
+    try {
+      work(document);
+    } catch (...) {
+      document.failure_ = std::current_exception();
+      XML_StopParser(document.parser_.get(), XML_FALSE);
+    }
+  }
+
+  void open(const char* name, const char** attributes) {
+    if (open_.size() == kMostDeep) {
+      throw at(file_, line(), mendHere("elements lie more than 98 deep"));
+    }
+    XmlElement element{.name = name, .text = {}, .attributes = {}, .children = {}, .line = {line()}};
+    for (; *attributes; attributes += 2) element.attributes.emplace_back(attributes[0], trimmed(attributes[1]));
+    open_.push_back({std::move(element), done_.size()});
+  }
+
+  void addText(std::string_view more) {
+    std::string& text = open_.back().element.text;
+    if (!text.empty() || !trimmed(more).empty()) text += more;
+  }
+
+  void close() {
+    auto [element, first_child] = std::move(open_.back());
+    open_.pop_back();
+    if (const auto text = trimmed(element.text); text.size() != element.text.size()) element.text = std::string(text);
+    const auto children = done_.begin() + static_cast<std::ptrdiff_t>(first_child);
+    // No more room than needed: a large world's file makes millions of elements.
+    element.children.assign(std::move_iterator(children), std::move_iterator(done_.end()));
+    done_.erase(children, done_.end());
+    done_.push_back(std::move(element));
+  }
+
+  int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser_.get())); }
+
+  /// What is wrong where the parser stands, and the mend.
+  std::string fault() const {
+    const auto position = static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
+    const auto before = std::string_view(text_).substr(0, position);
+    const auto rest = std::string_view(text_).substr(before.size());
+    if (rest.starts_with("<!--")) return mendHere("a comment is not closed by -->");
+    const bool is_declaration = before.ends_with("<!") || (rest.starts_with("<!") && !rest.starts_with("<![CDATA["));
+    if (is_declaration) return "a <!…> declaration has no place here; take it out";
+    switch (XML_GetErrorCode(parser_.get())) {
+      case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
+        if (!rest.starts_with('<')) break;
+        return "a second root element " + std::string(rest.substr(0, rest.find_first_of(" \t\r\n/>", 1))) +
+               ">; an XML file has one";
+      case XML_ERROR_NO_ELEMENTS:
+        if (open_.empty()) return "there is no element in the file";
+        [[fallthrough]];
+      case XML_ERROR_TAG_MISMATCH:
+        return mendHere("an element is closed by another's tag, or not at all (was the file cut off?)");
+      case XML_ERROR_MISPLACED_XML_PI:
+        return "<?xml …?> must be the first there is in the file; take out what stands before it";
+      case XML_ERROR_UNDEFINED_ENTITY:
+        return std::string(rest.substr(0, rest.find(';'))) + "; stands for nothing; write the letter itself";
+      case XML_ERROR_UNKNOWN_ENCODING:
+      case XML_ERROR_INCORRECT_ENCODING:
+        return "the encoding that the file names is not known, or not that of the file; save it as UTF-8";
+      case XML_ERROR_DUPLICATE_ATTRIBUTE:
+        return mendHere(kAttribute);
+      case XML_ERROR_INVALID_TOKEN: {
+        if (!rest.empty() && static_cast<unsigned char>(rest[0]) >= 0x80) {
+          return "a letter is not in UTF-8, as the file says that it is; save it as UTF-8";
+        }
+        if (before.ends_with('&') || rest.starts_with('&')) return "a & stands for itself only as &amp;; write that";
+        const auto tag = before.find_last_of("<>");
+        if (tag != std::string_view::npos && before[tag] == '<' &&
+            before.find_first_of(" \t\r\n", tag) != std::string_view::npos) {
+          return mendHere(kAttribute);
+        }
+        break;
+      }
+      default:
+        break;
+    }
+    return mendHere("this is not XML, or the file was cut off");
+  }
+
+  static std::string mendHere(const char* what) { return what + std::string("; mend the file here or just before"); }
+  static constexpr const char* kAttribute = "an attribute is given twice, or is not name=\"value\"";
+
+  const std::string& text_;
+  const std::string& file_;
+  std::unique_ptr<XML_ParserStruct, decltype(&XML_ParserFree)> parser_{XML_ParserCreate(nullptr), &XML_ParserFree};
+  std::vector<Open> open_;        ///< the root first
+  std::vector<XmlElement> done_;  ///< children of the open ones; those of the root first
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+XmlElement parseXml(std::string text, const std::string& file) {
+  if (trimmed(text).empty()) throw at(file, 1, "the file is empty; an XML document was expected");
+  if (text.find('\0') != std::string::npos) throw at(file, 1, "this is not XML: it holds a zero byte");
+  refuseBloated(text, file);
+  // A DOCTYPE is looked for before parsing, so that whoever wrote entities hears of them and not of a later '>'.
+  if (const auto doctype = text.find("<!DOCTYPE"); doctype != std::string::npos) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(doctype), '\n');
+    throw at(file, static_cast<int>(line), "a DOCTYPE (and with it entities) is not accepted; take it out");
+  }
+  XmlElement root = Document(text, file).read();
+  std::string().swap(text);  // which may be 100 MB, and who reads on wants memory
+  return root;
+}
+
+}  // namespace robosim

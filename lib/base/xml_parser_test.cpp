@@ -1,0 +1,122 @@
+#include "base/xml_parser.h"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "base/error_list.h"
+
+namespace robosim {
+namespace {
+
+/// What parseXml() says against a text.
+std::string fault(const std::string& text) {
+  try {
+    parseXml(text, "a.xml");
+  } catch (const ConfigError& error) {
+    return error.what();
+  }
+  return "none";
+}
+
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+TEST(XmlParser, ReadsNamesTextsAttributesChildrenAndLines) {
+  const XmlElement root =
+      parseXml("<?xml version=\"1.0\"?>\n<a x=\"1\" y=' two '>\n  <b> some\ntext </b>\n  <c/>\n</a>", "");
+  EXPECT_EQ(root.name, "a");
+  EXPECT_EQ(root.line.number, 2);
+  EXPECT_EQ(root.text, "");
+  ASSERT_EQ(root.attributes.size(), 2u);
+  EXPECT_EQ(root.attributes[1], std::make_pair(std::string("y"), std::string("two")));
+  ASSERT_EQ(root.children.size(), 2u);
+  EXPECT_EQ(root.children[0].text, "some\ntext");
+  EXPECT_EQ(root.children[1].name, "c");
+  EXPECT_EQ(root.children[1].line.number, 5);
+}
+
+TEST(XmlParser, RefusesWhatIsNotXmlAndSaysWhere) {
+  EXPECT_EQ(fault(""), "a.xml:1: the file is empty; an XML document was expected");
+  EXPECT_EQ(fault(" \n\t"), "a.xml:1: the file is empty; an XML document was expected");
+  EXPECT_EQ(fault("hello"), "a.xml:1: this is not XML, or the file was cut off; mend the file here or just before");
+  EXPECT_EQ(fault(std::string("<a>\0</a>", 8)), "a.xml:1: this is not XML: it holds a zero byte");
+  EXPECT_EQ(fault("<!-- only a remark -->"), "a.xml:1: there is no element in the file");
+  EXPECT_EQ(fault("<a/>\n<b/>"), "a.xml:2: a second root element <b>; an XML file has one");
+  EXPECT_EQ(fault("<a>\n<b></c>\n</a>"),
+            "a.xml:2: an element is closed by another's tag, or not at all (was the file cut off?); mend the file here "
+            "or just before");
+  EXPECT_EQ(fault("<a>\n<b x=\"1\" x=\"2\"/></a>"),
+            "a.xml:2: an attribute is given twice, or is not name=\"value\"; mend the file here or just before");
+  EXPECT_EQ(fault("<a>\n<b x=1/></a>"),
+            "a.xml:2: an attribute is given twice, or is not name=\"value\"; mend the file here or just before");
+  EXPECT_EQ(fault("<a>\n<b>"),
+            "a.xml:2: an element is closed by another's tag, or not at all (was the file cut off?); mend the file here "
+            "or just before");
+  EXPECT_EQ(fault("<a/>\nhello"),
+            "a.xml:2: this is not XML, or the file was cut off; mend the file here or just before");
+  EXPECT_EQ(fault("\n<?xml version='1.0'?><a/>"),
+            "a.xml:2: <?xml …?> must be the first there is in the file; take out what stands before it");
+  EXPECT_EQ(fault("<a>\n<!-- b"), "a.xml:2: a comment is not closed by -->; mend the file here or just before");
+}
+
+TEST(XmlParser, RefusesATruncatedFileWhereverItWasCut) {
+  const std::string whole = "<?xml version=\"1.0\"?>\n<world unit=\"1\">\n  <a>1.5</a>\n  <b/>\n</world>";
+  for (std::size_t length = 1; length < whole.size(); ++length) {
+    EXPECT_NE(fault(whole.substr(0, length)), "none") << whole.substr(0, length);
+  }
+  EXPECT_EQ(fault(whole), "none");
+}
+
+TEST(XmlParser, RefusesADoctypeBeforeAnyEntityIsExpanded) {
+  std::string laughs = "<?xml version=\"1.0\"?>\n<!DOCTYPE lolz [\n<!ENTITY lol0 \"lol\">\n";
+  for (int i = 1; i < 10; ++i) {
+    const std::string inner = "&lol" + std::to_string(i - 1) + ";";
+    laughs += "<!ENTITY lol" + std::to_string(i) + " \"" + repeated(inner, 10) + "\">\n";
+  }
+  laughs += "]>\n<world>&lol9;</world>\n";
+  EXPECT_EQ(fault(laughs), "a.xml:2: a DOCTYPE (and with it entities) is not accepted; take it out");
+  EXPECT_EQ(fault("<!doctype a>\n<a/>"), "a.xml:1: a <!…> declaration has no place here; take it out");
+  EXPECT_EQ(fault("<a/>\n<!ELEMENT b>"), "a.xml:2: a <!…> declaration has no place here; take it out");
+  EXPECT_EQ(fault("<a>\n<!ELEMENT b></a>"), "a.xml:2: a <!…> declaration has no place here; take it out");
+}
+
+TEST(XmlParser, RefusesWhatIsTooDeepOrBloated) {
+  EXPECT_EQ(fault(repeated("<a>", 98) + "text" + repeated("</a>", 98)), "none");
+  const std::string too_deep = "a.xml:1: elements lie more than 98 deep; mend the file here or just before";
+  EXPECT_EQ(fault(repeated("<a>", 99) + repeated("</a>", 99)), too_deep);
+  EXPECT_EQ(fault(repeated("<a>", 1000000)), too_deep);
+  EXPECT_EQ(fault("<a>\n" + repeated("<b/>", 8000000) + "</a>"),
+            "a.xml:2: more than 4 million elements; split the file");
+  std::string attributes;
+  for (int i = 0; i < 1001; ++i) attributes += " x" + std::to_string(i) + "=''";
+  EXPECT_EQ(fault("<a" + attributes + "/>"),
+            "a.xml:1: an element with more than 1000 attributes; is this a world file?");
+}
+
+TEST(XmlParser, PutsAnElementsTextTogetherFromItsParts) {
+  EXPECT_EQ(parseXml("<a>one &lt;<!-- a remark --> t&#119;o<![CDATA[ <&> ]]>\n</a>", "").text, "one < two <&>");
+  EXPECT_EQ(parseXml("<a>\n  <b/>\n  some\r\n  text <c/>\n</a>", "").text, "some\n  text");
+  EXPECT_EQ(parseXml("<a x='1 &amp; 2'/>", "").attributes[0].second, "1 & 2");
+}
+
+TEST(XmlParser, ReadsLettersOfAnyEncodingThatTheFileNames) {
+  EXPECT_EQ(parseXml("<a>M\xC3\xBCnchen</a>", "").text, "München");
+  EXPECT_EQ(parseXml("<?xml version='1.0' encoding='ISO-8859-1'?><a>M\xFCnchen</a>", "").text, "München");
+  EXPECT_EQ(fault("<a>\nM\xFCnchen</a>"),
+            "a.xml:2: a letter is not in UTF-8, as the file says that it is; save it as UTF-8");
+  EXPECT_EQ(fault("<?xml version='1.0' encoding='klingon'?>\n<a/>"),
+            "a.xml:1: the encoding that the file names is not known, or not that of the file; save it as UTF-8");
+}
+
+TEST(XmlParser, SaysWhatToWriteForAnAmpersand) {
+  EXPECT_EQ(fault("<a>\nthis & that</a>"), "a.xml:2: a & stands for itself only as &amp;; write that");
+  EXPECT_EQ(fault("<a>\n<b x='this & that'/></a>"), "a.xml:2: a & stands for itself only as &amp;; write that");
+  EXPECT_EQ(fault("<a>\nthis&nbsp;that</a>"), "a.xml:2: &nbsp; stands for nothing; write the letter itself");
+}
+
+}  // namespace
+}  // namespace robosim
