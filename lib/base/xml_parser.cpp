@@ -1,6 +1,7 @@
 #include "base/xml_parser.h"
 
 #include <algorithm>
+#include <array>
 #include <exception>
 #include <iterator>
 #include <memory>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include <expat.h>
+#include <iconv.h>
+#include <strings.h>
 
 #include "base/error_list.h"
 
@@ -47,6 +50,32 @@ void refuseBloated(const std::string& text, const std::string& file) {
   }
 }
 
+/// What Expat asks for where a file names an encoding that is none of its own, UTF-8 and ISO 8859-1 among them: the
+/// letter of each byte. Only what people commonly had before UTF-8 is known: a stranger's file shall not choose among
+/// all that iconv has.
+int tellLetters(void*, const char* name, XML_Encoding* encoding) {
+  const auto is_one = [&](std::string_view family) { return strncasecmp(name, family.data(), family.size()) == 0; };
+  constexpr std::string_view families[] = {"ISO-8859-", "windows-125", "CP125", "KOI8-"};
+  if (std::none_of(std::begin(families), std::end(families), is_one)) return XML_STATUS_ERROR;
+  const iconv_t converter = iconv_open("UCS-4LE", name);
+  if (converter == reinterpret_cast<iconv_t>(-1)) return XML_STATUS_ERROR;
+  for (int byte = 0; byte < 256; ++byte) {
+    char in = static_cast<char>(byte);
+    char* from = &in;
+    std::size_t left = 1;
+    std::array<unsigned char, 4> letter{};
+    char* to = reinterpret_cast<char*>(letter.data());
+    std::size_t room = letter.size();
+    iconv(converter, nullptr, nullptr, nullptr, nullptr);
+    const bool is_known = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1) && room == 0;
+    encoding->map[byte] = is_known ? letter[0] | letter[1] << 8 | letter[2] << 16 : -1;
+  }
+  iconv_close(converter);
+  encoding->convert = nullptr;
+  encoding->release = nullptr;
+  return XML_STATUS_OK;
+}
+
 /// One document on its way from text to elements. Expat calls for each part that it has read, so that text and
 /// elements are all that there ever is in memory.
 class Document {
@@ -54,6 +83,7 @@ class Document {
   Document(const std::string& text, const std::string& file) : text_(text), file_(file) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
+    XML_SetUnknownEncodingHandler(parser_.get(), tellLetters, nullptr);
     XML_SetElementHandler(
         parser_.get(),
         [](void* of, const char* name, const char** attributes) {
@@ -146,9 +176,9 @@ class Document {
         return mendHere(kAttribute);
       case XML_ERROR_INVALID_TOKEN: {
         if (!rest.empty() && static_cast<unsigned char>(rest[0]) >= 0x80) {
-          return "a letter is not in UTF-8, as the file says that it is; save it as UTF-8";
+          return "a letter is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8";
         }
-        if (before.ends_with('&') || rest.starts_with('&')) return "a & stands for itself only as &amp;; write that";
+        if (before.ends_with('&') || rest.starts_with('&')) return "an & that is meant as such is written &amp; in XML";
         const auto tag = before.find_last_of("<>");
         if (tag != std::string_view::npos && before[tag] == '<' &&
             before.find_first_of(" \t\r\n", tag) != std::string_view::npos) {

@@ -106,15 +106,20 @@ TEST(XmlParser, PutsAnElementsTextTogetherFromItsParts) {
 TEST(XmlParser, ReadsLettersOfAnyEncodingThatTheFileNames) {
   EXPECT_EQ(parseXml("<a>M\xC3\xBCnchen</a>", "").text, "München");
   EXPECT_EQ(parseXml("<?xml version='1.0' encoding='ISO-8859-1'?><a>M\xFCnchen</a>", "").text, "München");
-  EXPECT_EQ(fault("<a>\nM\xFCnchen</a>"),
-            "a.xml:2: a letter is not in UTF-8, as the file says that it is; save it as UTF-8");
-  EXPECT_EQ(fault("<?xml version='1.0' encoding='klingon'?>\n<a/>"),
-            "a.xml:1: the encoding that the file names is not known, or not that of the file; save it as UTF-8");
+  EXPECT_EQ(parseXml("<?xml version='1.0' encoding='windows-1250'?><a>Pr\xF9zkumn\xEDk</a>", "").text, "Průzkumník");
+  EXPECT_EQ(
+      fault("<a>\nM\xFCnchen</a>"),
+      "a.xml:2: a letter is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8");
+  for (const char* unknown : {"klingon", "Shift_JIS", "ISO-8859-99"}) {
+    EXPECT_EQ(fault("<?xml version='1.0' encoding='" + std::string(unknown) + "'?>\n<a/>"),
+              "a.xml:1: the encoding that the file names is not known, or not that of the file; save it as UTF-8")
+        << unknown;
+  }
 }
 
 TEST(XmlParser, SaysWhatToWriteForAnAmpersand) {
-  EXPECT_EQ(fault("<a>\nthis & that</a>"), "a.xml:2: a & stands for itself only as &amp;; write that");
-  EXPECT_EQ(fault("<a>\n<b x='this & that'/></a>"), "a.xml:2: a & stands for itself only as &amp;; write that");
+  EXPECT_EQ(fault("<a>\nthis & that</a>"), "a.xml:2: an & that is meant as such is written &amp; in XML");
+  EXPECT_EQ(fault("<a>\n<b x='this & that'/></a>"), "a.xml:2: an & that is meant as such is written &amp; in XML");
   EXPECT_EQ(fault("<a>\nthis&nbsp;that</a>"), "a.xml:2: &nbsp; stands for nothing; write the letter itself");
 }
 

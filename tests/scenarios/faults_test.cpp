@@ -381,7 +381,7 @@ TEST(Faults, OfNamesThatAreNotUtf8AreToldBeforeAnyoneConnects) {
   std::ofstream(folder / "latin_1.xml", std::ios::binary) << text;
   const std::pair<const char*, const char*> faults[] = {
       {"maze_\xE9.xml", "the name of the world 'maze_?' is not UTF-8"},
-      {"latin_1.xml", "latin_1.xml:105: a letter is not in UTF-8"},
+      {"latin_1.xml", "latin_1.xml:105: a letter is not in the file's encoding"},
   };
   for (const auto& [world, fault] : faults) {
     const Ended ended = runProgram("serve '" + (folder / world).string() + "' --listen :0");
