@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -34,7 +35,7 @@ auto newsIn(const RemoteState& state) {
 
 /// A camera's newest picture, which a control that misses steps must not miss too.
 struct Picture {
-  std::uint64_t step = 0;
+  std::optional<std::uint64_t> step;  ///< none before its first picture
   std::string jpeg;
 };
 
@@ -132,7 +133,7 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ToRobot, wire::
   void sitDown(Seat& at) {
     seat = &at;
     wants_welcome_ = true;
-    told_pictures_.assign(at.pictures.size(), 0);
+    told_pictures_.assign(at.pictures.size(), std::nullopt);
     encoded_pictures_ = told_pictures_;
   }
   void ask(Topic topic) { asked_[topic] = true; }
@@ -201,7 +202,7 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ToRobot, wire::
       encoded_pictures_[i] = picture.step;
       if (picture.step <= told_pictures_[i]) continue;
       message.mutable_readings()->mutable_measurements(static_cast<int>(i))->set_jpeg(picture.jpeg);
-      message.set_picture_step(std::max(message.picture_step(), picture.step));
+      message.set_picture_step(std::max(message.picture_step(), *picture.step));
     }
   }
 
@@ -223,7 +224,7 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ToRobot, wire::
   bool wants_welcome_ = false;
   std::array<bool, kTopics> asked_{}, is_due_{};
   std::array<wire::FromRobot, kTopics> due_;
-  std::vector<std::uint64_t> told_pictures_, encoded_pictures_;  ///< by sensor: the last one's step
+  std::vector<std::optional<std::uint64_t>> told_pictures_, encoded_pictures_;  ///< by sensor: the last one's step
 };
 
 RemotePort::Impl::Impl(const Options& the_options, const Run& the_run, const std::vector<RemoteControlRobot*>& robots)

@@ -240,6 +240,10 @@ RobotLink::~RobotLink() {
   std::unique_lock lock(shared_->mutex);
   if (shared_->call) shared_->call->cancel();
   shared_->call_has_ended.wait(lock, [&] { return shared_->calls == 0; });
+  // Here, for a call that has just ended may hold what is shared a little longer, and a connection must not be closed
+  // by gRPC's own thread, which would wait for itself.
+  const auto stub = std::move(shared_->stub);
+  lock.unlock();
 }
 
 void RobotLink::connect() {
