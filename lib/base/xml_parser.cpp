@@ -50,9 +50,8 @@ void refuseBloated(const std::string& text, const std::string& file) {
   }
 }
 
-/// What Expat asks for where a file names an encoding that is none of its own, UTF-8 and ISO 8859-1 among them: the
-/// letter of each byte. Only what people commonly had before UTF-8 is known: a stranger's file shall not choose among
-/// all that iconv has.
+/// Tells Expat the letter of each byte in an encoding that it does not know by itself, as it knows UTF-8. Only what
+/// people commonly had before UTF-8 is told: a stranger's file shall not choose among all that iconv has.
 int tellLetters(void*, const char* name, XML_Encoding* encoding) {
   const auto is_one = [&](std::string_view family) { return strncasecmp(name, family.data(), family.size()) == 0; };
   constexpr std::string_view families[] = {"ISO-8859-", "windows-125", "CP125", "KOI8-"};
