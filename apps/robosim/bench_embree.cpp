@@ -184,10 +184,8 @@ class EmbreeCaster : public RayCaster {
     }
   }
 
-  /// One by one, too: that is its fastest way. Handed over as an array (rtcIntersect1M) they take nearly twice as long.
-  void castSingles(double range_m) override { castSinglesAlone(range_m); }
-
-  void castSinglesAlone(double range_m) override {
+  /// That is its fastest way, too: handed over as an array (rtcIntersect1M) they take nearly twice as long.
+  void castSingles(double range_m) override {
     const FlushDenormals flush;
     RTCIntersectContext context;
     rtcInitIntersectContext(&context);

@@ -14,15 +14,13 @@ class RayCaster {
   virtual std::string name() const = 0;
   /// Casts all beams of all scans, together as far as it can.
   virtual void castScans(double range_m) = 0;
-  /// Casts all single rays, which have nothing in common, as many at a time as it likes.
+  /// Casts all single rays, which have nothing in common, with a call for each.
   virtual void castSingles(double range_m) = 0;
-  /// The same, each alone.
-  virtual void castSinglesAlone(double range_m) = 0;
   /// What ray `i` of the last cast met, in metres; the range when it met nothing.
   virtual double distance(std::size_t i) const = 0;
 };
 
-/// RoboSim: a batch a scan, and Scene::castRays() or castRay().
+/// RoboSim: a batch a scan, and Scene::castRay().
 std::unique_ptr<RayCaster> makeSceneCaster(const RayScene&);
 
 /// Embree 3, or null where it is not to be had. It lives in a module of its own beside the program, which is loaded

@@ -46,8 +46,7 @@ RayBench benchHere(std::uint64_t seed, double least_s) {
   const RayTruth beams(scene.solids, scene.beams);
   const RayTruth singles(scene.solids, scene.singles);
   const Way ways[] = {{"scans", "rtcIntersect16, coherent", &RayCaster::castScans, beams},
-                      {"single rays in arrays", "rtcIntersect1", &RayCaster::castSingles, singles},
-                      {"single rays, each alone", "rtcIntersect1", &RayCaster::castSinglesAlone, singles}};
+                      {"single rays", "rtcIntersect1", &RayCaster::castSingles, singles}};
   for (const auto& way : ways) {
     for (const double range_m : {8.0, 20.0}) {
       std::vector<Contender> contenders{contender(*ours, way, range_m)};

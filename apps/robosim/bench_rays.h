@@ -12,7 +12,7 @@ namespace robosim {
 /// One way of casting rays to one range, by RoboSim and by a peer in turns.
 struct RayFigures {
   static constexpr double kRaysPerPlace = 181;
-  std::string what;       ///< "scans", "single rays in arrays" or "single rays, each alone"
+  std::string what;       ///< "scans" or "single rays"
   std::string peer_call;  ///< what the peer does it with
   double range_m = 0;
   std::size_t places = 0;  ///< from each of which 181 rays go; of single rays, as many as 181 a place
@@ -33,8 +33,8 @@ struct RayBench {
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RayBench, peer, why_no_peer, answers, peak_rss_mb, figures)
 
-/// Casts scans, and single rays in an array and each alone, to 8 m and to 20 m, one thread, beside Embree where that is
-/// to be had; and compares every answer of both with brute force.
+/// Casts scans and single rays to 8 m and to 20 m, one thread, beside Embree where that is to be had; and compares
+/// every answer of both with brute force.
 /// @throws std::runtime_error when an answer differs by more than 1e-9 m, or 1 mm from Embree's single precision
 RayBench benchRays(std::uint64_t seed, double least_s);
 

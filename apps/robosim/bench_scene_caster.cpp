@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <span>
 #include <vector>
 
 #include "geometry/scene.h"
@@ -30,14 +29,6 @@ class SceneCaster : public RayCaster {
   }
 
   void castSingles(double range_m) override {
-    for (std::size_t first = 0; first < singles_.size(); first += kAtATime) {
-      const auto some = std::span(singles_).subspan(first, std::min(kAtATime, singles_.size() - first));
-      scene_.castRays(some, range_m, hits_);
-      for (std::size_t i = 0; i < some.size(); ++i) distance_m_[first + i] = std::min(hits_[i].distance_m, range_m);
-    }
-  }
-
-  void castSinglesAlone(double range_m) override {
     for (std::size_t i = 0; i < singles_.size(); ++i) {
       distance_m_[i] = std::min(scene_.castRay(singles_[i], range_m).distance_m, range_m);
     }
@@ -46,8 +37,6 @@ class SceneCaster : public RayCaster {
   double distance(std::size_t i) const override { return distance_m_[i]; }
 
  private:
-  static constexpr std::size_t kAtATime = 256;
-
   /// In the scanner's frame.
   static std::vector<Ray> beams() {
     std::vector<Ray> beams;
@@ -60,7 +49,6 @@ class SceneCaster : public RayCaster {
   std::vector<mrpt::math::TPose2D> world_from_scanner_;
   RayFan fan_;
   std::vector<Ray> singles_;
-  std::vector<Hit> hits_ = std::vector<Hit>(kAtATime);
   std::vector<double> distance_m_;
 };
 

@@ -57,7 +57,7 @@ class CenterIndex {
     const bool up = y_to >= y_from;
     int r = row(up ? y_from - out : y_from + out);
     const int last = row(up ? y_to + out : y_to - out);
-    for (;; r += up ? 1 : -1) {
+    for (;; r += r < last ? 1 : -1) {
       // The part of the ray that comes near enough to the row.
       double begin = from;
       double end = std::min(to, reach());

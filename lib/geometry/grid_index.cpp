@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <functional>
+#include <numeric>
 
 namespace robosim {
 namespace {
@@ -24,7 +25,8 @@ bool reaches(const GridItem& box, double center_x, double center_y, double half_
 }  // namespace
 
 int cellsIn(double extent_m, double cell_m) {
-  return static_cast<int>(std::clamp(std::ceil(extent_m / cell_m), 1.0, 32768.0));
+  const double cells = std::ceil(extent_m / cell_m);
+  return cells > 1 ? static_cast<int>(std::min<double>(cells, kMostCells)) : 1;  // also where it is no number
 }
 
 GridIndex::GridIndex(const Bounds2D& area, double cell_m)
@@ -33,9 +35,10 @@ GridIndex::GridIndex(const Bounds2D& area, double cell_m)
       per_m_(1 / cell_m),
       columns_(cellsIn(area.x_max - area.x_min, cell_m)),
       rows_(cellsIn(area.y_max - area.y_min, cell_m)),
-      count_(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0),
-      begin_(count_.size() + 1, 0),
-      packs_(1) {}
+      middle_((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2),
+      low_{area.x_min, area.y_min},
+      cells_{static_cast<double>(columns_), static_cast<double>(rows_)},
+      packs_(cellCount()) {}
 
 template <typename Visit>
 void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
@@ -49,7 +52,7 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
     for (int x = left; x <= right; ++x) {
       if (item.isCircle() || in_one || isOnRim(x, y) ||
           reaches(item, area_.x_min + (x + 0.5) * cell_m_, area_.y_min + (y + 0.5) * cell_m_, cell_m_ / 2)) {
-        visit(static_cast<std::size_t>(y) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(x));
+        visit(cellAt(x, y));
       }
     }
   }
@@ -59,17 +62,16 @@ void GridIndex::sort(std::span<const Solid> solids) {
   const std::size_t count = solids.size();
   items_.resize(count);
   index_of_.resize(count);
-  std::fill(begin_.begin(), begin_.end(), 0);
+  std::vector<std::uint32_t> begin(cellCount());
   for (std::size_t number = 0; number < count; ++number) {
     const auto cell = std::visit([&](const auto& shape) { return cellAt(column(shape.center.x), row(shape.center.y)); },
                                  solids[number].outline);
     index_of_[number] = static_cast<std::uint32_t>(cell);  // for now
-    ++begin_[cell];
+    ++begin[cell];
   }
-  std::uint32_t sum = 0;
-  for (auto& begin : begin_) sum += std::exchange(begin, sum);
+  std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0U);
   for (std::size_t number = 0; number < count; ++number) {
-    const std::uint32_t index = begin_[index_of_[number]]++;
+    const std::uint32_t index = begin[index_of_[number]]++;
     items_[index] = GridItem::from(solids[number], static_cast<std::uint32_t>(number));
     index_of_[number] = index;
   }
@@ -78,22 +80,69 @@ void GridIndex::sort(std::span<const Solid> solids) {
 void GridIndex::build(std::span<const Solid> solids) {
   sort(solids);
   rough_.resize(solids.size());
-  std::fill(count_.begin(), count_.end(), 0);
+  holds_all_ = true;
+  std::vector<std::uint32_t> counts(cellCount());
   for (std::size_t i = 0; i < items_.size(); ++i) {
     rough_[i] = RoughSolid::from(items_[i], middle());
-    forCells(items_[i], [&](std::size_t cell) { ++count_[cell]; });
+    holds_all_ = holds_all_ && holdsAll(items_[i]);
+    forCells(items_[i], [&](std::size_t cell) { ++counts[cell]; });
   }
-  begin_[0] = 0;
-  for (std::size_t cell = 0; cell < count_.size(); ++cell) {
-    begin_[cell + 1] = begin_[cell] + (count_[cell] + Pack::kMost - 1) / Pack::kMost;
-  }
-  packs_.assign(begin_.back() + 1, Pack());  // one more: who walks looks at a pack in an empty cell, too
-  std::fill(count_.begin(), count_.end(), 0);
+  makePacks(counts);
+  std::vector<std::uint32_t> filled(cellCount());
   for (std::size_t i = 0; i < items_.size(); ++i) {
+    const double room_m = lost(items_[i]);
+    const double reach_m = items_[i].reach() + room_m;
     forCells(items_[i], [&](std::size_t cell) {
-      packs_[begin_[cell] + count_[cell]++ / Pack::kMost].add(rough_[i], static_cast<std::uint32_t>(i));
+      const std::size_t place = filled[cell]++;
+      const std::size_t nth = std::min(place / CellPack::kBeforeLink, CellPack::packsFor(counts[cell]) - 1);
+      // Those that a cell goes on in lie side by side.
+      const std::size_t pack = nth == 0 ? cell : packs_[cell].next() + nth - 1;
+      const std::size_t in_pack = place - nth * CellPack::kBeforeLink;
+      packs_[pack].set(in_pack, rough_[i], reach_m, static_cast<std::uint32_t>(i));
+      if (!rectangles_.empty()) rectangles_[pack].set(in_pack, items_[i], room_m);
     });
   }
+}
+
+void GridIndex::makePacks(const std::vector<std::uint32_t>& counts) {
+  packs_.clear();
+  packs_.reserve(std::transform_reduce(counts.begin(), counts.end(), std::size_t{0}, std::plus(), CellPack::packsFor));
+  packs_.resize(cellCount());
+  for (std::size_t cell = 0; cell < cellCount(); ++cell) {
+    std::size_t pack = cell;
+    for (std::size_t more = CellPack::packsFor(counts[cell]); more > 1; --more) {
+      packs_[pack].goOnIn(static_cast<std::uint32_t>(packs_.size()));
+      pack = packs_.size();
+      packs_.emplace_back();
+    }
+  }
+  rectangles_.assign(areManyLong() ? packs_.size() : 0, CellRectangles());
+}
+
+double GridIndex::roomAtRim(double cell_m) {
+  constexpr double kCells = 1.0 / (1 << 20);  // GridWalk ends 2^-24 of a cell before
+  return kMargin_m + kCells * cell_m;
+}
+
+bool GridIndex::holdsAll(const GridItem& item) const {
+  const double room_m = roomAtRim(cell_m_);
+  const Bounds2D bounds = item.bounds();
+  return bounds.x_min >= area_.x_min + room_m && bounds.x_max <= area_.x_min + columns_ * cell_m_ - room_m &&
+         bounds.y_min >= area_.y_min + room_m && bounds.y_max <= area_.y_min + rows_ * cell_m_ - room_m;
+}
+
+bool GridIndex::areManyLong() const {
+  constexpr double kLong = 3;  // times as long as wide
+  const auto are_long = std::count_if(items_.begin(), items_.end(), [](const GridItem& item) {
+    return std::max(item.half_length_m, item.half_width_m) > kLong * std::min(item.half_length_m, item.half_width_m);
+  });
+  return 4 * static_cast<std::size_t>(are_long) > items_.size();
+}
+
+double GridIndex::lost(const GridItem& item) const {
+  const double far_m =
+      std::abs(item.x - middle().x) + std::abs(item.y - middle().y) + item.reach() + cell_m_ * (columns_ + rows_);
+  return kRoughLoss * far_m + kMargin_m;
 }
 
 }  // namespace robosim

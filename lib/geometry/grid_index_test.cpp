@@ -12,9 +12,7 @@ namespace {
 
 std::vector<std::uint32_t> listed(const GridIndex& grid, int column, int row) {
   std::vector<std::uint32_t> numbers;
-  for (const auto& pack : grid.cell(column, row)) {
-    for (const auto i : pack.indices()) numbers.push_back(grid.items()[i].number);
-  }
+  grid.visitCell(column, row, [&](std::uint32_t i) { numbers.push_back(grid.items()[i].number); });
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
@@ -98,7 +96,7 @@ TEST(GridIndex, ListsAThinWallAslantOnlyAlongItsWay) {
   grid.build(std::vector<Solid>{{OrientedBox::from({50, 50, 0.7}, 130, 0.1), {0, 1}}});
   int cells = 0;
   for (int row = 0; row < grid.rows(); ++row) {
-    for (int column = 0; column < grid.columns(); ++column) cells += !grid.cell(column, row).empty();
+    for (int column = 0; column < grid.columns(); ++column) cells += !listed(grid, column, row).empty();
   }
   // It crosses about 100 columns and 84 rows: a cell for each border crossed, and not the 8,400 of its bounds.
   EXPECT_GT(cells, 150);

@@ -4,6 +4,14 @@
 
 namespace robosim {
 
+/// A ray along a pair of a box's faces is given a slope so small that it stays between them for ever, or never comes
+/// there; and the faces lie so little further out that a ray along a face itself counts as between. Neither changes any
+/// other sum.
+///@{
+constexpr double kLeastFaceSlope = 1e-300;
+constexpr double kLeastFaceGap_m = 1e-280;  ///< over kLeastFaceSlope it is 1e20 m
+///@}
+
 /// @name Where a level ray enters an outline
 /// Distance [m] from the ray's origin, 0 from inside, infinity for a miss. (ox, oy) leads from the ray's origin to the
 /// outline's centre; (dx, dy) is the ray's direction, a unit vector. One formula for a ray alone and for rays in a
@@ -22,22 +30,17 @@ inline double enterCircle(double ox, double oy, double dx, double dy, double rad
 /// @param ux,uy unit vector along the box's length
 inline double enterBox(double ox, double oy, double dx, double dy, double ux, double uy, double half_length,
                        double half_width) {
-  // A ray along a pair of faces is given a slope so small that it stays between them for ever, or never comes there;
-  // and the faces lie so little further out that a ray along a face itself counts as between. Neither changes any other
-  // sum.
-  constexpr double kLeast = 1e-300;
-  constexpr double kLeastGap = 1e-280;  // over kLeast it is 1e20 m
   // The ray in the box's own frame, and the stretch of it between each pair of faces.
   const double a = -(ox * ux + oy * uy);
   const double b = -(oy * ux - ox * uy);
   const double slope_a = dx * ux + dy * uy;
   const double slope_b = dy * ux - dx * uy;
-  const double per_a = 1 / (slope_a == 0 ? kLeast : slope_a);
-  const double per_b = 1 / (slope_b == 0 ? kLeast : slope_b);
-  const double a1 = (-half_length - a - kLeastGap) * per_a;
-  const double a2 = (half_length - a + kLeastGap) * per_a;
-  const double b1 = (-half_width - b - kLeastGap) * per_b;
-  const double b2 = (half_width - b + kLeastGap) * per_b;
+  const double per_a = 1 / (slope_a == 0 ? kLeastFaceSlope : slope_a);
+  const double per_b = 1 / (slope_b == 0 ? kLeastFaceSlope : slope_b);
+  const double a1 = (-half_length - a - kLeastFaceGap_m) * per_a;
+  const double a2 = (half_length - a + kLeastFaceGap_m) * per_a;
+  const double b1 = (-half_width - b - kLeastFaceGap_m) * per_b;
+  const double b2 = (half_width - b + kLeastFaceGap_m) * per_b;
   const double a_from = a1 < a2 ? a1 : a2;
   const double b_from = b1 < b2 ? b1 : b2;
   // Asked the other way round: of two choices by one question g++ makes a branch, of one a minimum or a maximum.

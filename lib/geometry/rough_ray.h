@@ -1,69 +1,72 @@
 #pragma once
-#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
-#include "geometry/grid_index.h"
+#include "geometry/cell_pack.h"
+
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
 
 namespace robosim {
 
-/// A level ray in single precision, as seen from the middle of the scene.
+/// A level ray in single precision, as seen from the middle of a grid that holds its origin.
 struct RoughRay {
-  float x, y, lost_m, dx, dy;
+  float x, y, dx, dy;
+
+  /// Marks the solids of a pack that the ray may meet nearer than its reach, by the disc about each, or by its
+  /// rectangle where there are such: bit i for solid i. Of the compiler's own vector types, for g++ 12 makes no vector
+  /// instructions of the loop; in a function with ROBOSIM_VECTOR_CLONES these are what each processor has. No sum waits
+  /// for one that it does not need, for until the marks are there a processor may go on in vain.
+  [[gnu::always_inline]] std::uint32_t passed(const CellPack& pack, const CellRectangles* rectangles,
+                                              float reach_m) const {
+    const auto& less_reach = reinterpret_cast<const Floats&>(pack.less_reach_m);
+    const Floats ox = reinterpret_cast<const Floats&>(pack.x) - x;
+    const Floats oy = reinterpret_cast<const Floats&>(pack.y) - y;
+    const Floats along = dx * ox + dy * oy;
+    Floats across = dx * oy - dy * ox;
+    dropSign(across);
+    // How much too far aside the solid is, or too far behind, or too far ahead: all are negative where it is passed.
+    // Where there is no solid, nothing is, whatever the ray's numbers are: `across` lost its sign before anything was
+    // added, so what is infinite or no number comes without one.
+    Floats aside = across + less_reach;
+    if (rectangles != nullptr) {
+      const auto& axis_x = reinterpret_cast<const Floats&>(rectangles->axis_x);
+      const auto& axis_y = reinterpret_cast<const Floats&>(rectangles->axis_y);
+      Floats slope_a = dx * axis_x + dy * axis_y;
+      Floats slope_b = dy * axis_x - dx * axis_y;
+      dropSign(slope_a);
+      dropSign(slope_b);
+      aside = across - (reinterpret_cast<const Floats&>(rectangles->half_length_m) * slope_b +
+                        reinterpret_cast<const Floats&>(rectangles->half_width_m) * slope_a);
+    }
+    const Floats behind = less_reach - along;
+    const Floats ahead = along + (less_reach - reach_m);
+    const Bits signs = asBits(aside) & asBits(behind) & asBits(ahead);
+    return signsOf(signs);
+  }
+
+ private:
+  using Floats [[gnu::vector_size(sizeof(float) * CellPack::kMost), gnu::may_alias]] = float;
+  using Bits [[gnu::vector_size(sizeof(float) * CellPack::kMost), gnu::may_alias]] = std::int32_t;
+
+  // By reference, for g++ warns of functions that take or return vectors.
+  [[gnu::always_inline]] static const Bits& asBits(const Floats& of) { return reinterpret_cast<const Bits&>(of); }
+  [[gnu::always_inline]] static void dropSign(Floats& of) {
+    reinterpret_cast<Bits&>(of) &= std::numeric_limits<std::int32_t>::max();
+  }
+  /// The sign of each number, in a bit.
+  [[gnu::always_inline]] static std::uint32_t signsOf(const Bits& of) {
+#ifdef __SSE__
+    const auto* halves = reinterpret_cast<const __m128*>(&of);
+    return static_cast<std::uint32_t>(_mm_movemask_ps(halves[0]) | _mm_movemask_ps(halves[1]) << 4);
+#else
+    std::uint32_t signs = 0;
+    for (std::size_t i = 0; i < CellPack::kMost; ++i) signs |= static_cast<std::uint32_t>(of[i]) >> 31 << i;
+    return signs;
+#endif
+  }
 };
-
-/// A number for each solid of a pack. Of the compiler's own vector types, for no loop of GCC 12 that marks several
-/// packs becomes vector instructions; in a function with ROBOSIM_VECTOR_CLONES these are what each processor has.
-///@{
-using PackFloats [[gnu::vector_size(sizeof(float) * GridIndex::Pack::kMost), gnu::may_alias]] = float;
-using PackMarks [[gnu::vector_size(sizeof(float) * GridIndex::Pack::kMost)]] = std::int32_t;
-///@}
-
-/// Finds which solids of a pack lie on a ray's way nearer than its reach, by the rectangle about each that lies along
-/// and across the ray.
-/// @param passed -1 for those, 0 for others (no result, for g++ warns of a function that returns vectors)
-[[gnu::always_inline]] inline void lookAt(const RoughRay& ray, const GridIndex::Pack& pack, float reach_m,
-                                          PackMarks& passed) {
-  const auto& x = reinterpret_cast<const PackFloats&>(pack.x);
-  const auto& y = reinterpret_cast<const PackFloats&>(pack.y);
-  const auto& axis_x = reinterpret_cast<const PackFloats&>(pack.axis_x);
-  const auto& axis_y = reinterpret_cast<const PackFloats&>(pack.axis_y);
-  const auto& half_length = reinterpret_cast<const PackFloats&>(pack.half_length_m);
-  const auto& half_width = reinterpret_cast<const PackFloats&>(pack.half_width_m);
-  const auto& round_m = reinterpret_cast<const PackFloats&>(pack.round_m);
-  const auto drop_sign = [](PackFloats & of) __attribute__((always_inline)) {
-    constexpr std::int32_t kAllButTheSign = 0x7fffffff;
-    of = reinterpret_cast<PackFloats>(reinterpret_cast<PackMarks&>(of) & kAllButTheSign);
-  };
-  const PackFloats ox = x - ray.x;
-  const PackFloats oy = y - ray.y;
-  const PackFloats round = round_m + ray.lost_m;
-  const PackFloats along = ray.dx * ox + ray.dy * oy;
-  PackFloats across = ray.dx * oy - ray.dy * ox;
-  PackFloats slope_a = ray.dx * axis_x + ray.dy * axis_y;
-  PackFloats slope_b = ray.dy * axis_x - ray.dx * axis_y;
-  for (auto* value : {&across, &slope_a, &slope_b}) drop_sign(*value);
-  const PackFloats wide = half_length * slope_b + (half_width * slope_a + round);
-  const PackFloats deep = half_length * slope_a + (half_width * slope_b + round);
-  // How far the solid's middle lies behind the origin or beyond the reach; `deep`, for which a processor waits longest,
-  // comes in last.
-  const PackFloats beyond = along - reach_m;
-  const PackFloats off = beyond > -along ? beyond : -along;
-  passed = (across <= wide) & (off <= deep);
-}
-
-/// Marks in one number, a byte each: bit 8 i for solid i.
-[[gnu::always_inline]] inline std::uint64_t inBytes(const PackMarks& marks) {
-  using Bytes [[gnu::vector_size(GridIndex::Pack::kMost)]] = std::int8_t;
-  return std::bit_cast<std::uint64_t>(__builtin_convertvector(marks, Bytes)) & 0x0101010101010101U;
-}
-
-/// All of some marks in one number.
-[[gnu::always_inline]] inline std::uint32_t together(const PackMarks& marks) {
-  PackMarks all = marks | __builtin_shufflevector(marks, marks, 4, 5, 6, 7, 4, 5, 6, 7);
-  all |= __builtin_shufflevector(all, all, 2, 3, 2, 3, 2, 3, 2, 3);
-  all |= __builtin_shufflevector(all, all, 1, 1, 1, 1, 1, 1, 1, 1);
-  return static_cast<std::uint32_t>(all[0]);
-}
 
 }  // namespace robosim

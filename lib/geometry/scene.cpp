@@ -5,28 +5,10 @@
 #include <cassert>
 #include <cmath>
 
-#include "geometry/level_ray.h"
-#include "geometry/ray_stream.h"
-#include "geometry/rough_ray.h"
+#include "geometry/nearest_so_far.h"
 #include "geometry/vector_loops.h"
 
 namespace robosim {
-
-/// A Hit without its point, which is for the last: small enough for a processor's registers.
-struct NearestSoFar {
-  double distance_m;
-  BodyId body = kNoBody;
-
-  /// A tie goes to the lowest body.
-  bool isWorseThan(double other_m, BodyId other) const {
-    return other_m < distance_m || (other_m == distance_m && body != kNoBody && other < body);
-  }
-  void keepBetter(double other_m, BodyId other, BodyId except) {
-    if (!isWorseThan(other_m, other) || other == except) return;
-    distance_m = other_m;
-    body = other;
-  }
-};
 
 namespace {
 
@@ -51,25 +33,6 @@ double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
   return std::max(0.25, std::sqrt(square_m2 * per_cell / static_cast<double>(solids + 4)));
 }
 
-/// Holds a level ray against a solid.
-[[gnu::always_inline]] inline void castAt(const GridItem& item, BodyId body, const Ray& ray, BodyId except,
-                                          NearestSoFar& best) {
-  if (!item.heights.contains(ray.origin.z)) return;
-  const double ox = item.x - ray.origin.x;
-  const double oy = item.y - ray.origin.y;
-  const double dx = ray.direction.x;
-  const double dy = ray.direction.y;
-  const double met_m = item.isCircle()
-                           ? enterCircle(ox, oy, dx, dy, item.round_m)
-                           : enterBox(ox, oy, dx, dy, item.axis_x, item.axis_y, item.half_length_m, item.half_width_m);
-  best.keepBetter(met_m, body, except);
-}
-
-/// What a ray met, if anything, from how far it went. Which of both is anybody's guess, so without a branch.
-inline Hit complete(const Ray& ray, const NearestSoFar& met) {
-  return {met.body != kNoBody ? met.distance_m : kInfinity, met.body, ray.at(met.distance_m)};
-}
-
 Bounds2D boundsOf(const Sector& sector, double range_m) {
   Bounds2D b{sector.apex.x, sector.apex.x, sector.apex.y, sector.apex.y};
   const auto include = [&](const TPoint2D& direction) {
@@ -83,6 +46,35 @@ Bounds2D boundsOf(const Sector& sector, double range_m) {
     if (sector.holds(most)) include(most);
   }
   return b;
+}
+
+/// An area, and cells around it as far as solids reach that lie not far beyond: most often there is nothing then that a
+/// ray might meet outside. Those that go further are left to the cells of the rim, for a solid may be as far or as long
+/// as it likes.
+Bounds2D grownFor(const std::vector<Solid>& solids, const Bounds2D& area, double cell_m) {
+  const double room_m = 2 * GridIndex::roomAtRim(cell_m);
+  const double most_x = std::max(cell_m, (area.x_max - area.x_min) / 2);
+  const double most_y = std::max(cell_m, (area.y_max - area.y_min) / 2);
+  Bounds2D all = area;
+  for (const auto& solid : solids) {
+    const Bounds2D bounds = boundsOf(solid.outline);
+    const Bounds2D with{std::min(all.x_min, bounds.x_min - room_m), std::max(all.x_max, bounds.x_max + room_m),
+                        std::min(all.y_min, bounds.y_min - room_m), std::max(all.y_max, bounds.y_max + room_m)};
+    if (area.x_min - with.x_min <= most_x && with.x_max - area.x_max <= most_x && area.y_min - with.y_min <= most_y &&
+        with.y_max - area.y_max <= most_y) {
+      all = with;
+    }
+  }
+  const auto in_cells = [&](double length_m) { return std::ceil(length_m / cell_m) * cell_m; };
+  const Bounds2D grown{area.x_min - in_cells(area.x_min - all.x_min), all.x_max,
+                       area.y_min - in_cells(area.y_min - all.y_min), all.y_max};
+  const double longer_m = std::max(grown.x_max - grown.x_min, grown.y_max - grown.y_min);
+  return longer_m <= kMostCells * cell_m ? grown : area;
+}
+
+GridIndex gridFor(const std::vector<Solid>& stationary, const Bounds2D& area) {
+  const double cell_m = cellFor(area, stationary.size(), kStationaryPerCell);
+  return {grownFor(stationary, area, cell_m), cell_m};
 }
 
 /// Distance [m] from a point to a cell; cells on the rim go on outwards.
@@ -204,7 +196,7 @@ class Gathering {
 }  // namespace
 
 Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area)
-    : stationary_index_(area, cellFor(area, stationary.size(), kStationaryPerCell)),
+    : stationary_index_(gridFor(stationary, area)),
       moving_index_(area, cellFor(area, moving_count, kMovingPerCell), moving_count) {
   stationary_index_.build(stationary);
   freeze();
@@ -215,84 +207,6 @@ Solid Scene::solid(BodyId body) const {
   return (i < stationaryCount() ? stationary_index_.items()[stationary_index_.indexOf(i)]
                                 : moving_index_.items()[i - stationaryCount()])
       .solid();
-}
-
-Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
-  NearestSoFar best{range_m};
-  if (ray.direction.z != 0) {
-    castAslant(ray, except, best);
-  } else {
-    castAmongStationary(ray, except, best);
-    if (movingCount() > 0) castAmongMoving(ray, except, best);
-  }
-  return complete(ray, best);
-}
-
-void Scene::castRays(std::span<const Ray> rays, double range_m, std::span<Hit> hits, BodyId except) const {
-  assert(hits.size() >= rays.size());
-  // A few rays cost as much together as RayStream::kMost.
-  constexpr std::size_t kFew = 24;
-  static thread_local RayStream stream;
-  const bool any_moving = movingCount() > 0;
-  for (std::size_t first = 0; first < rays.size(); first += RayStream::kMost) {
-    const auto some = rays.subspan(first, std::min(RayStream::kMost, rays.size() - first));
-    const bool are_few = some.size() < kFew;
-    if (!are_few) stream.cast(some, stationary_index_, range_m, static_cast<std::uint32_t>(except));
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      const Ray& ray = some[i];
-      if (are_few || ray.direction.z != 0) {
-        hits[first + i] = castRay(ray, range_m, except);
-        continue;
-      }
-      NearestSoFar best{stream.distance(i), BodyId(static_cast<std::uint32_t>(stream.body(i)))};
-      if (any_moving) castAmongMoving(ray, except, best);
-      hits[first + i] = complete(ray, best);
-    }
-  }
-}
-
-void Scene::castAslant(const Ray& ray, BodyId except, NearestSoFar& best) const {
-  const auto reach = [&] { return best.distance_m; };
-  const auto cast = [&](BodyId body) {
-    best.keepBetter(intersect(ray, solid(body)).value_or(kInfinity), body, except);
-  };
-  stationary_index_.visitAlong(ray, reach, [&](const GridIndex::Pack& pack) {
-    for (const auto i : pack.indices()) cast(stationaryBody(i));
-  });
-  moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) { cast(movingBody(entry.index)); });
-}
-
-ROBOSIM_VECTOR_CLONES
-void Scene::castAmongStationary(const Ray& ray, BodyId except, NearestSoFar& best) const {
-  if (stationaryCount() == 0) return;
-  const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, stationary_index_.middle());
-  const RoughRay rough{from.x, from.y, from.lost_m, static_cast<float>(ray.direction.x),
-                       static_cast<float>(ray.direction.y)};
-  const GridItem* items = stationary_index_.items().data();
-  NearestSoFar nearest = best;
-  const auto reach = [&] { return nearest.distance_m; };
-  stationary_index_.visitAlong(
-      ray, reach, [&](const GridIndex::Pack& pack) __attribute__((always_inline)) {
-        PackMarks marks;
-        lookAt(rough, pack, static_cast<float>(nearest.distance_m), marks);
-        for (std::uint64_t passed = inBytes(marks); passed != 0; passed &= passed - 1) {
-          const GridItem& item = items[pack.index[std::countr_zero(passed) / 8]];
-          castAt(item, BodyId{item.number}, ray, except, nearest);
-        }
-      });
-  best = nearest;
-}
-
-void Scene::castAmongMoving(const Ray& ray, BodyId except, NearestSoFar& best) const {
-  const auto reach = [&] { return best.distance_m; };
-  const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
-  const auto dx = static_cast<float>(ray.direction.x);
-  const auto dy = static_cast<float>(ray.direction.y);
-  moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
-    const float across = dx * (entry.solid.y - from.y) - dy * (entry.solid.x - from.x);
-    if (std::abs(across) > entry.solid.reach() + from.lost_m) return;
-    castAt(moving_index_.items()[entry.index], movingBody(entry.index), ray, except, best);
-  });
 }
 
 template <typename Batch>
@@ -310,11 +224,9 @@ void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) cons
                            stationary_index_.cellSize());
     outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
       if (!ahead.mayHold(column, row) && !stationary_index_.isOnRim(column, row)) return;
-      for (const auto& pack : stationary_index_.cell(column, row)) {
-        for (std::size_t i = 0; i < pack.count; ++i) {
-          if (seen.isFirst(pack.index[i])) stationary.add(pack.solid(i), pack.index[i]);
-        }
-      }
+      stationary_index_.visitCell(column, row, [&](std::uint32_t i) {
+        if (seen.isFirst(i)) stationary.add(stationary_index_.rough()[i], i);
+      });
     });
   }
   stationary.finish();
@@ -380,11 +292,8 @@ Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) cons
   const int top = grid.row(reach.y_max);
   for (int row = grid.row(reach.y_min); row <= top; ++row) {
     for (int column = grid.column(reach.x_min); column <= right; ++column) {
-      const auto listed = grid.cell(column, row);
-      if (listed.empty() || distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-      for (const auto& pack : listed) {
-        for (const auto i : pack.indices()) sense(stationaryBody(i));
-      }
+      if (distanceToCell(grid, column, row, apex) > best.distance_m) continue;
+      grid.visitCell(column, row, [&](std::uint32_t i) { sense(stationaryBody(i)); });
     }
   }
   moving_index_.visitNear(reach, [&](const CenterIndex::Entry& entry) { sense(movingBody(entry.index)); });
@@ -399,9 +308,7 @@ void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
   const int top = grid.row(area.y_max);
   for (int row = grid.row(area.y_min); row <= top; ++row) {
     for (int column = grid.column(area.x_min); column <= right; ++column) {
-      for (const auto& pack : grid.cell(column, row)) {
-        for (const auto i : pack.indices()) visit(i);
-      }
+      grid.visitCell(column, row, visit);
     }
   }
 }

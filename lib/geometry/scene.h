@@ -31,7 +31,7 @@ struct Hit {
   explicit operator bool() const { return body != kNoBody; }
 };
 
-struct NearestSoFar;  // in scene.cpp
+struct NearestSoFar;
 
 /// All solids of a world at one moment, indexed for fast questions. The stationary ones are indexed once; after the
 /// moving ones have moved, freeze() indexes those again, in linear time and without allocating. Every question is const
@@ -57,10 +57,6 @@ class Scene {
   Hit castRay(const Ray&, double range_m, BodyId except = kNoBody) const;
   /// The nearest point of any solid inside the sector strictly nearer than `range_m`. A tie goes to the lowest BodyId.
   Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
-
-  /// Casts rays that have nothing in common, as castRay() would one by one; for many of them in two thirds of the time.
-  /// @param hits at least as many as rays
-  void castRays(std::span<const Ray> rays, double range_m, std::span<Hit> hits, BodyId except = kNoBody) const;
 
   /// Casts all rays of a batch, as castRay() would one by one. `near`, where its owner has one, saves the search.
   void castRays(RayBatch& batch, BodyId except = kNoBody, const NeighbourList& near = {}) const;
@@ -99,12 +95,10 @@ class Scene {
   void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
-  /// What a ray meets nearer than the best so far: a level one, and one that is not.
-  ///@{
-  void castAmongStationary(const Ray& ray, BodyId except, NearestSoFar& best) const;
-  void castAmongMoving(const Ray& ray, BodyId except, NearestSoFar& best) const;
-  void castAslant(const Ray& ray, BodyId except, NearestSoFar& best) const;
-  ///@}
+  /// castRay() for any ray: one that is not level, or is not among what the grid holds.
+  Hit castAnyRay(const Ray&, double range_m, BodyId except) const;
+  /// The best so far, or a moving solid that a level ray meets nearer.
+  Hit castAmongMoving(const Ray& ray, BodyId except, NearestSoFar best) const;
   /// Holds every body that may matter against a batch, the nearest first.
   template <typename Batch>
   void meetAll(Batch& batch, BodyId except, const NeighbourList& near) const;

@@ -34,8 +34,6 @@ TEST(Scene, NeitherFreezesNorAnswersWithNewMemoryOnceItsArraysHaveTheirSize) {
   for (int moment = 0; moment < 20; ++moment) moments.push_back(randomSolids(rng, kMoving, spread));
   std::vector<BodyId> near;
   near.reserve(10000);
-  std::vector<Ray> rays(300);
-  std::vector<Hit> hits(rays.size());
   const auto live = [&] {
     for (const auto& moment : moments) {
       for (std::size_t i = 0; i < kMoving; ++i) scene.place(i, moment[i]);
@@ -47,8 +45,6 @@ TEST(Scene, NeitherFreezesNorAnswersWithNewMemoryOnceItsArraysHaveTheirSize) {
         scene.castRay(ray, 5);
         scene.senseSector(Sector::towards(ray.origin, 1, 0.2), 5);
       }
-      for (auto& ray : rays) ray = randomLevelRay(rng, spread.area, 0, 2);
-      scene.castRays(rays, 5, hits);
     }
   };
   live();

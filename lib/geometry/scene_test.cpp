@@ -88,31 +88,47 @@ TEST(Scene, KnowsWhatARayMeetsThatHardlyLeavesAnAxis) {
   solids[0] = {OrientedBox{{5, 1}, {1, 0}, 0.5, 0.5}, {0, 2}};
   const Scene scene(solids, 0, {-8, 8, -8, 8});
   for (const double slope : {0.0, 1e-310, -1e-310, 1e-299, -1e-299}) {
-    const std::vector<Ray> rays(30, Ray{{-7.5, 1, 1}, {1, slope, 0}});
-    std::vector<Hit> hits(rays.size());
-    scene.castRays(rays, 20, hits);
-    EXPECT_EQ(scene.castRay(rays[0], 20).distance_m, 12) << slope;
-    for (const auto& hit : hits) EXPECT_EQ(hit.distance_m, 12) << slope;
+    EXPECT_EQ(scene.castRay({{-7.5, 1, 1}, {1, slope, 0}}, 20).distance_m, 12) << slope;
   }
+}
+
+TEST(Scene, MeetsWhatLiesBeyondItsAreaFromInsideAndFromOutside) {
+  const std::vector<Solid> solids{{Circle{{1, 0}, 0.5}, {0, 1}}, {Circle{{100, 0}, 1}, {0, 1}}};
+  for (const bool with_another_beyond : {false, true}) {
+    std::vector<Solid> all = solids;
+    if (!with_another_beyond) all.pop_back();
+    const Scene scene(all, 0, {-2, 2, -2, 2});
+    EXPECT_EQ(scene.castRay({{-1, 0, 0.5}, {1, 0, 0}}, 200).distance_m, 1.5);
+    EXPECT_EQ(scene.castRay({{-50, 0, 0.5}, {1, 0, 0}}, 200).distance_m, 50.5) << "from outside";
+    EXPECT_EQ(bool(scene.castRay({{1.75, 0, 0.5}, {1, 0, 0}}, 200)), with_another_beyond) << "out of the area";
+    EXPECT_EQ(bool(scene.castRay({{3, 0, 0.5}, {1, 0, 0}}, 200)), with_another_beyond) << "outside all the way";
+    EXPECT_FALSE(scene.castRay({{1.75, 0, 0.5}, {1, 0, 0}}, 90)) << "within the range";
+    EXPECT_FALSE(scene.castRay({{1.75, 0, 0.5}, {0, 1, 0}}, 200));
+  }
+  // A solid whose centre lies inside is met where it reaches out of the area, near or far.
+  const Scene scene({{OrientedBox{{0, 0}, {1, 0}, 5, 0.5}, {0, 1}}}, 0, {-2, 2, -2, 2});
+  EXPECT_EQ(scene.castRay({{4.5, -1.5, 0.5}, {0, 1, 0}}, 9).distance_m, 1);
+  EXPECT_EQ(scene.castRay({{9, 0, 0.5}, {-1, 0, 0}}, 9).distance_m, 4);
+  std::vector<Solid> many(1000, {Circle{{1, 1}, 0.1}, {50, 51}});
+  many.push_back({OrientedBox{{0, 0}, {0.6, 0.8}, 1e6, 0.5}, {0, 1}});
+  const Scene far(many, 0, {-10, 10, -10, 10});
+  EXPECT_NEAR(far.castRay({{3, -1, 0.5}, {-0.8, 0.6, 0}}, 9).distance_m, 2.5, 1e-12);
+  EXPECT_NEAR(far.castRay({{6003, 7999, 0.5}, {-0.8, 0.6, 0}}, 9).distance_m, 2.5, 1e-9);
 }
 
 TEST(Scene, MeetsNothingWithRaysThatAreNowhereOrGoNowhere) {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const auto& solids : {std::vector<Solid>{}, std::vector<Solid>{{Circle{{5, 0}, 1}, {0, 1}}}}) {
+  const Solid wall{OrientedBox{{5, 0}, {0, 1}, 4, 0.1}, {0, 1}};
+  for (const auto& solids : {std::vector<Solid>{}, {{Circle{{5, 0}, 1}, {0, 1}}}, {wall}}) {
     const Scene scene(solids, 0, {-9, 9, -9, 9});
     for (const double x : {nan, infinity, -infinity, 1e45}) {
-      const std::vector<Ray> rays(30, Ray{{x, 0, 0.5}, {0.6, 0.8, 0}});
-      std::vector<Hit> hits(rays.size());
-      scene.castRays(rays, 20, hits);
-      for (const auto& hit : hits) EXPECT_FALSE(hit) << x;
-      EXPECT_FALSE(scene.castRay(rays[0], 20)) << x;
+      EXPECT_FALSE(scene.castRay({{x, 0, 0.5}, {0.6, 0.8, 0}}, 20)) << x;
+      EXPECT_FALSE(scene.castRay({{0, x, 0.5}, {0.6, 0.8, 0}}, 20)) << x;
+      EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {x, 0.8, 0}}, 20)) << x;
+      EXPECT_FALSE(scene.castRay({{-20, 3, 0.5}, {0.1, x, 0}}, 20)) << x;
     }
-    const std::vector<Ray> rays(30, Ray{{0, 0, 0.5}, {1, 0, 0}});
-    std::vector<Hit> hits(rays.size());
-    scene.castRays(rays, nan, hits);
-    for (const auto& hit : hits) EXPECT_FALSE(hit) << "within a range that is no number";
-    EXPECT_FALSE(scene.castRay(rays[0], nan));
+    EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {1, 0, 0}}, nan)) << "within a range that is no number";
   }
 }
 

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <span>
 
 #include "geometry/rough_solid.h"
 
@@ -37,11 +36,7 @@ struct alignas(32) SolidPack {
     index[count] = solid_index;
     count += wanted ? 1 : 0;
   }
-  RoughSolid solid(std::size_t i) const {
-    return {x[i], y[i], axis_x[i], axis_y[i], half_length_m[i], half_width_m[i], round_m[i]};
-  }
   bool isFull() const { return count == Most; }
-  std::span<const std::uint32_t> indices() const { return {index, count}; }
 };
 
 }  // namespace robosim

@@ -63,8 +63,6 @@ constexpr InstructionLoad kLoads[] = {
     {"rays, scans to 20 m", "ray", [] { return rays(&RayCaster::castScans, 20); }},
     {"rays, single rays to 8 m", "ray", [] { return rays(&RayCaster::castSingles, 8); }},
     {"rays, single rays to 20 m", "ray", [] { return rays(&RayCaster::castSingles, 20); }},
-    {"rays, each alone to 8 m", "ray", [] { return rays(&RayCaster::castSinglesAlone, 8); }},
-    {"rays, each alone to 20 m", "ray", [] { return rays(&RayCaster::castSinglesAlone, 20); }},
     {"opho2_1", "robot-step", smallRun},
     {"loading maze_20x20", "world", loading},
 };
