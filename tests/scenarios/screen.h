@@ -1,4 +1,5 @@
 #pragma once
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
@@ -28,7 +29,16 @@ class Screen {
   ~Screen() {
     unsetenv("DISPLAY");
     unsetenv("ASAN_OPTIONS");
+    server_.signal(SIGTERM);  // so that it takes its lock and its socket away
+    server_.wait();
   }
+
+  /// What has act() press keys, as `xdotool` names them, where the focus is (window 0) rather than in a window it is
+  /// told of: when a key closes the window, its release would be sent to that, and the server would hold it for pressed
+  /// and, as nothing is repeated, not pass it on to the next window.
+  static std::string keys(const std::string& names) { return "windowfocus key --window 0 " + names; }
+  /// Has `xdotool` do something in RoboSim's window.
+  void act(const std::string& what) const { runCommand("xdotool search --name RoboSim " + what); }
 
   cv::Mat shot(const std::filesystem::path& folder) const {
     const auto file = folder / "screen.png";

@@ -200,7 +200,7 @@ TEST(View, OpensAWindowThatShowsTheWorldAndClosesOnQ) {
   // Wherever the window is put, a blue square of 120 px appears in it.
   const int blue = screen.waitForPixels(12000, isBlue, folder, view);
   EXPECT_NEAR(blue, 120 * 120, 1000) << view.error();
-  runCommand("xdotool search --name RoboSim windowfocus key q");
+  screen.act(Screen::keys("q"));
   const Ended ended = view.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
 }
@@ -214,7 +214,7 @@ class RunWindow {
     EXPECT_GE(waitUntilLit(), 100'000) << view_.error();
   }
   ~RunWindow() { unsetenv("ROBOSIM_TOKEN"); }
-  void press(const std::string& keys) const { runCommand("xdotool search --name RoboSim windowfocus key " + keys); }
+  void press(const std::string& keys) const { screen_.act(Screen::keys(keys)); }
   bool isOpen() { return view_.isRunning(); }
   int waitUntilLit() {
     const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };

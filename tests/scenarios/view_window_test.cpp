@@ -62,10 +62,10 @@ class Window {
   /// What was to be seen first.
   const cv::Mat& start() const { return start_; }
   /// What is to be seen after keys, or what else `xdotool` can do, have changed something.
-  cv::Mat after(const std::string& keys) { return afterDoing("windowfocus key " + keys); }
+  cv::Mat after(const std::string& keys) { return afterDoing(Screen::keys(keys)); }
   cv::Mat afterDoing(const std::string& what) {
     const cv::Mat before = last_;
-    runCommand("xdotool search --name RoboSim " + what);
+    screen_.act(what);
     for (int tries = 0; tries < 200 && view_.isRunning(); ++tries) {
       if (!areSame(screen_.shot(folder_), before)) return last_ = settled();
     }
@@ -74,7 +74,7 @@ class Window {
   }
   /// Whether the part above the bar comes to be this picture.
   bool comesToShow(const cv::Mat& wanted, const std::string& what) {
-    runCommand("xdotool search --name RoboSim " + what);
+    screen_.act(what);
     for (int tries = 0; tries < 200 && view_.isRunning(); ++tries) {
       last_ = screen_.shot(folder_);
       if (areSame(picturePart(last_), wanted)) return last_ = settled(), true;
@@ -83,12 +83,12 @@ class Window {
   }
   /// How the program ends when this is done.
   Ended endAfter(const std::string& what) {
-    runCommand("xdotool search --name RoboSim " + what);
+    screen_.act(what);
     return view_.wait();
   }
   std::string error() const { return view_.error(); }
   int quit() {
-    runCommand("xdotool search --name RoboSim windowfocus key q");
+    screen_.act(Screen::keys("q"));
     return view_.wait().exit_code;
   }
 
@@ -155,9 +155,9 @@ TEST(ViewWindow, WindsARecordingToWhereTheSliderIsPut) {
   const cv::Mat middle =
       picturePart(window.afterDoing("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1"));
   for (const cv::Mat& other : {begin, at_15_s, end}) EXPECT_FALSE(areSame(middle, other));
-  EXPECT_TRUE(window.comesToShow(end, "windowfocus key Right Right Right")) << "from 5 s on, or later";
+  EXPECT_TRUE(window.comesToShow(end, Screen::keys("Right Right Right"))) << "from 5 s on, or later";
   window.afterDoing("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1");
-  EXPECT_TRUE(window.comesToShow(begin, "windowfocus key Left Left Left")) << "from 15 s on, or sooner";
+  EXPECT_TRUE(window.comesToShow(begin, Screen::keys("Left Left Left"))) << "from 15 s on, or sooner";
   EXPECT_EQ(window.quit(), 0);
 }
 
