@@ -59,8 +59,14 @@ test('far from the gold nobody has won', async () => {
 
 test('at the gold the person has won, and everything says so', async () => {
   for (const [x, y] of WAY) await driveTo(x, y);
-  await moveStick(page, 0, 0);
-  await session.truth.standstill('Pioneer1');
+  // Where pictures come late one drives past it.
+  const [goal_x, goal_y] = WAY.at(-1);
+  for (let off = Infinity; off > 0.3;) {
+    await driveTo(goal_x, goal_y);
+    await moveStick(page, 0, 0);
+    const at = await session.truth.standstill('Pioneer1');
+    off = Math.hypot(goal_x - at.x, goal_y - at.y);
+  }
   await page.click('#check-win');
 
   await page.waitForSelector('#won', { state: 'visible' });

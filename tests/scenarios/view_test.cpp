@@ -2,6 +2,7 @@
 
 #include <cstdlib>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -351,9 +352,15 @@ TEST(View, ShowsSomebodyElsesRecording) {
 
 TEST(View, WritesAVideoOfARunThatGoesOn) {
   const auto folder = emptyFolder();
-  Serving serving({"--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
-  const Ended view =
-      runProgram("view " + serving.address() + " --size 320x240 --fps 10 --offscreen " + quoted(folder / "run.mp4"));
+  Serving serving({"--paused", "--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
+  StartedProgram program(
+      {"view", serving.address(), "--size", "320x240", "--fps", "10", "--offscreen", (folder / "run.mp4").string()});
+  DialOptions dialled;
+  dialled.address = serving.address();
+  ControlPanel panel(dialled);
+  while (program.isRunning() && panel.status().viewers() == 0) std::this_thread::yield();
+  panel.start();
+  const Ended view = program.wait();
   ASSERT_EQ(view.exit_code, 0) << view.err;
   cv::VideoCapture video((folder / "run.mp4").string());
   cv::Mat first, last;
