@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "geometry/random_scene.h"
 #include "geometry/scene.h"
+#include "geometry/testing/slow_scene.h"
 
 namespace robosim {
 namespace {
@@ -17,86 +18,21 @@ using mrpt::math::TPoint3D;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::size_t bodyCount(const Scene& scene) { return scene.stationaryCount() + scene.movingCount(); }
 Outline rectangle(const Bounds2D& b) {
   return OrientedBox{
       {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2}, {1, 0}, (b.x_max - b.x_min) / 2, (b.y_max - b.y_min) / 2};
 }
-BodyId body(std::size_t i) { return BodyId(static_cast<std::uint32_t>(i)); }
 
-/// The solid, larger all around by a hair.
-Solid grown(Solid solid, double hair_m) {
-  if (auto* circle = std::get_if<Circle>(&solid.outline)) {
-    circle->radius_m += hair_m;
-  } else {
-    auto& box = std::get<OrientedBox>(solid.outline);
-    box.half_length_m += hair_m;
-    box.half_width_m += hair_m;
-  }
-  solid.heights.z_min_m -= hair_m;
-  solid.heights.z_max_m += hair_m;
-  return solid;
+testing::AssertionResult isNothing(const std::string& wrong) {
+  return wrong.empty() ? testing::AssertionSuccess() : testing::AssertionFailure() << wrong;
 }
 
-/// What castRay is to find, asked of one solid after the other.
-Hit castRaySlowly(const Scene& scene, const Ray& ray, double range_m, BodyId except, double hair_m = 0) {
-  Hit best;
-  for (std::size_t i = 0; i < bodyCount(scene); ++i) {
-    if (body(i) == except) continue;
-    const Solid& solid = scene.solid(body(i));
-    const auto distance_m = intersect(ray, hair_m == 0 ? solid : grown(solid, hair_m));
-    if (distance_m && *distance_m < range_m && *distance_m < best.distance_m) {
-      best = {*distance_m, body(i), ray.at(*distance_m)};
-    }
-  }
-  return best;
-}
-
-/// Whether castRay finds the same body within 1e-9 m. It may reckon otherwise than intersect() in the last digits; so
-/// where a hair decides whether or which solid the ray meets within range, any answer between those for solids a hair
-/// larger and smaller will do, if the ray really meets the body named.
 testing::AssertionResult isExact(const Scene& scene, const Ray& ray, double range_m, BodyId except) {
-  constexpr double kHair_m = 1e-11, kSame_m = 1e-9;
-  const Hit fast = scene.castRay(ray, range_m, except), slow = castRaySlowly(scene, ray, range_m, except);
-  if (fast && !((fast.point - ray.at(fast.distance_m)).norm() == 0 && fast.distance_m < range_m)) {
-    return testing::AssertionFailure() << "its point is not on the ray at " << fast.distance_m << " m, within range";
-  }
-  if (fast.body == slow.body && (!slow || std::abs(fast.distance_m - slow.distance_m) < kSame_m)) {
-    return testing::AssertionSuccess();
-  }
-  const Hit first = castRaySlowly(scene, ray, kInfinity, except, kHair_m);
-  const Hit last = castRaySlowly(scene, ray, kInfinity, except, -kHair_m);
-  const bool in_order = std::min(first.distance_m, range_m) - kSame_m <= std::min(fast.distance_m, range_m) &&
-                        std::min(fast.distance_m, range_m) <= std::min(last.distance_m, range_m) + kSame_m;
-  const auto named = fast ? intersect(ray, grown(scene.solid(fast.body), kHair_m)) : std::nullopt;
-  const bool is_there = !fast || (fast.body != except && named && *named <= fast.distance_m + kSame_m);
-  if (in_order && is_there) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "got body " << static_cast<std::uint32_t>(fast.body) << " at "
-                                     << fast.distance_m << " m, expected body " << static_cast<std::uint32_t>(slow.body)
-                                     << " at " << slow.distance_m << " m";
-}
-
-Hit senseSectorSlowly(const Scene& scene, const Sector& sector, double range_m, BodyId except) {
-  Hit best;
-  for (std::size_t i = 0; i < bodyCount(scene); ++i) {
-    if (body(i) == except) continue;
-    const auto hit = nearestInSector(sector, scene.solid(body(i)));
-    if (hit && hit->distance_m < range_m && hit->distance_m < best.distance_m) {
-      best = {hit->distance_m, body(i), {hit->point.x, hit->point.y, sector.apex.z}};
-    }
-  }
-  return best;
+  return isNothing(whatIsWrong(scene.castRay(ray, range_m, except), scene, ray, range_m, except));
 }
 
 /// Bit for bit: the index only chooses which solids to ask.
-testing::AssertionResult isSame(const Hit& fast, const Hit& slow) {
-  if (fast.body == slow.body && fast.distance_m == slow.distance_m && (!slow || fast.point == slow.point)) {
-    return testing::AssertionSuccess();
-  }
-  return testing::AssertionFailure() << "got body " << static_cast<std::uint32_t>(fast.body) << " at "
-                                     << fast.distance_m << " m, expected body " << static_cast<std::uint32_t>(slow.body)
-                                     << " at " << slow.distance_m << " m";
-}
+testing::AssertionResult isSame(const Hit& fast, const Hit& slow) { return isNothing(whatDiffers(fast, slow)); }
 
 /// Whether `found` names bodies from `first` to before `last` in order, each once: all that reach into the area, and
 /// none whose bounds do not meet it.
