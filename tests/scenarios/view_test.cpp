@@ -355,9 +355,7 @@ TEST(View, WritesAVideoOfARunThatGoesOn) {
   Serving serving({"--paused", "--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
   StartedProgram program(
       {"view", serving.address(), "--size", "320x240", "--fps", "10", "--offscreen", (folder / "run.mp4").string()});
-  DialOptions dialled;
-  dialled.address = serving.address();
-  ControlPanel panel(dialled);
+  ControlPanel panel({.address = serving.address()});
   while (program.isRunning() && panel.status().viewers() == 0) std::this_thread::yield();
   panel.start();
   const Ended view = program.wait();
