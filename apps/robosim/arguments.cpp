@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "base/xml_element.h"
 

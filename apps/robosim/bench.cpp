@@ -1,3 +1,5 @@
+#include <CLI/CLI.hpp>
+
 #include "robosim/subcommands.h"
 
 namespace robosim {

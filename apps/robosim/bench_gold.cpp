@@ -7,6 +7,8 @@
 #include <limits>
 #include <mutex>
 
+#include <CLI/CLI.hpp>
+
 #include "environment/start_poses.h"
 #include "maze/controllers.h"
 #include "robosim/arguments.h"

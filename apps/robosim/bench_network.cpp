@@ -2,6 +2,7 @@
 #include <charconv>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
 #include "robosim/arguments.h"

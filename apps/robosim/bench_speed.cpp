@@ -2,6 +2,8 @@
 #include <iostream>
 #include <type_traits>
 
+#include <CLI/CLI.hpp>
+
 #include "robosim/arguments.h"
 #include "robosim/bench_process.h"
 #include "robosim/bench_tables.h"

@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "net/private_file.h"
 #include "robosim/arguments.h"

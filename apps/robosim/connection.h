@@ -2,12 +2,14 @@
 #include <optional>
 #include <string>
 
-#include <CLI/CLI.hpp>
-
 #include "net/access.h"
 #include "net/dial.h"
 #include "net/listen.h"
 #include "net/tls.h"
+
+namespace CLI {
+class App;
+}
 
 namespace robosim {
 

@@ -2,6 +2,8 @@
 #include <functional>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"

@@ -3,6 +3,8 @@
 #include <iostream>
 #include <map>
 
+#include <CLI/CLI.hpp>
+
 #include "base/whole_file.h"
 #include "rendering/stock_scene.h"
 #include "rendering/svg_plan.h"

@@ -1,5 +1,7 @@
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
 #include "net/redial.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"

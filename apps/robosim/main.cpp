@@ -1,5 +1,7 @@
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "robosim/subcommands.h"
 

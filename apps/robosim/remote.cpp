@@ -2,6 +2,8 @@
 #include <iostream>
 #include <optional>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "remote/console.h"
 #include "remote/robot_list.h"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "maze/controllers.h"
 #include "robosim/arguments.h"

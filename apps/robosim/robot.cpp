@@ -1,6 +1,7 @@
 #include <chrono>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <google/protobuf/stubs/logging.h>
 
 #include "control/network_hardware.h"

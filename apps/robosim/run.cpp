@@ -2,6 +2,8 @@
 #include <chrono>
 #include <thread>
 
+#include <CLI/CLI.hpp>
+
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"
 #include "robosim/interrupt.h"

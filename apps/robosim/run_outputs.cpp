@@ -2,6 +2,8 @@
 
 #include <iostream>
 
+#include <CLI/CLI.hpp>
+
 #include "maze/controllers.h"
 #include "rendering/plan.h"
 #include "robosim/arguments.h"

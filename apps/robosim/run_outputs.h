@@ -4,13 +4,15 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
 #include "recording/rawlog_writer.h"
 #include "robosim/local_run.h"
 #include "robosim/run_note.h"
 #include "robosim/run_summary.h"
 #include "robosim/tracks.h"
+
+namespace CLI {
+class App;
+}
 
 namespace robosim {
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 
+#include <CLI/CLI.hpp>
 #include <google/protobuf/stubs/logging.h>
 
 #include "base/error_list.h"

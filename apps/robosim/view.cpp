@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include <CLI/CLI.hpp>
+
 #include "base/error_list.h"
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"

@@ -1,12 +1,8 @@
 #pragma once
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <memory>
-
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 namespace robosim {
 
@@ -15,28 +11,23 @@ namespace robosim {
 class Workers {
  public:
   /// @param threads 1 or more; more than the machine has cores is honoured (tests on small machines want it).
-  explicit Workers(int threads)
-      : threads_(std::max(1, threads)),
-        allowance_(oneapi::tbb::global_control::max_allowed_parallelism,
-                   std::max<std::size_t>(static_cast<std::size_t>(threads_),
-                                         static_cast<std::size_t>(oneapi::tbb::info::default_concurrency()))),
-        arena_(std::make_unique<oneapi::tbb::task_arena>(threads_)) {}
+  explicit Workers(int threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
 
   int threads() const { return threads_; }
 
   /// Calls work(begin, end) for pieces of [0, n) of at most `chunk`, and returns when all are done.
   template <typename Work>
   void forChunks(std::size_t n, std::size_t chunk, const Work& work) const {
-    if (n == 0) return;
-    if (threads_ == 1 || n <= chunk) {
-      for (std::size_t begin = 0; begin < n; begin += chunk) work(begin, std::min(n, begin + chunk));
-      return;
+    const auto do_chunk = [&](std::size_t i) { work(i * chunk, std::min(n, (i + 1) * chunk)); };
+    const std::size_t chunks = (n + chunk - 1) / chunk;
+    if (threads_ == 1 || chunks <= 1) {
+      for (std::size_t i = 0; i < chunks; ++i) do_chunk(i);
+    } else {
+      shareOut(chunks, std::cref(do_chunk));  // by reference: a function of its own could take memory, once a step
     }
-    arena_->execute([&] {
-      const std::size_t chunks = (n + chunk - 1) / chunk;
-      oneapi::tbb::parallel_for(std::size_t{0}, chunks,
-                                [&](std::size_t i) { work(i * chunk, std::min(n, (i + 1) * chunk)); });
-    });
   }
 
   /// Calls work(i) for every i of [0, n).
@@ -48,9 +39,12 @@ class Workers {
   }
 
  private:
+  class Threads;  // oneTBB's, whose headers are as much to compile as all else that includes this one
+
+  void shareOut(std::size_t pieces, const std::function<void(std::size_t)>& work) const;
+
   int threads_;
-  oneapi::tbb::global_control allowance_;
-  std::unique_ptr<oneapi::tbb::task_arena> arena_;
+  std::unique_ptr<Threads> shared_;
 };
 
 }  // namespace robosim
