@@ -3,8 +3,8 @@
 #include <mutex>
 #include <thread>
 
+#include "robosim/run_operator.h"
 #include "robosim/view_source.h"
-#include "server/control_panel.h"
 #include "server/viewer.h"
 
 namespace robosim {
@@ -18,14 +18,8 @@ class EnvironmentView final : public ViewSource {
         dialled_(connection.dialOptions()),
         viewer_(dialled_, ReadingsWish{.of_all = true, .of = {}}),
         world_(viewer_.sight().world),
-        shown_(toShown(viewer_.sight())),
-        may_operate_(viewer_.sight().may_operate) {
-    if (may_operate_) {
-      panel_ = std::make_unique<ControlPanel>(dialled_);
-      const auto status = panel_->status();
-      is_paused_ = status.phase() == wire::PAUSED;
-      speed_ = status.speed();
-    }
+        shown_(toShown(viewer_.sight())) {
+    if (viewer_.sight().may_operate) operator_ = std::make_unique<RunOperator>(dialled_);
     waiting_ = std::thread([this] { wait(); });
   }
   ~EnvironmentView() override {
@@ -57,21 +51,12 @@ class EnvironmentView final : public ViewSource {
   }
   std::string remark() const override { return isOver() ? "the run is over" : ""; }
 
-  bool canPlay() const override { return may_operate_; }
-  bool isPaused() const override { return is_paused_; }
-  void pause(bool paused) override {
-    paused ? panel_->pause() : panel_->start();
-    is_paused_ = paused;
-  }
-  void step() override {
-    panel_->step(1);
-    is_paused_ = true;
-  }
-  double speed() const override { return speed_; }
-  void setSpeed(double speed) override {
-    panel_->setSpeed(speed);
-    speed_ = speed;
-  }
+  bool canPlay() const override { return operator_ && !isOver(); }
+  bool isPaused() const override { return operator_ && operator_->isPaused(); }
+  void pause(bool paused) override { operator_->pause(paused); }
+  void step() override { operator_->step(); }
+  double speed() const override { return operator_ ? operator_->speed() : 1; }
+  void setSpeed(double speed) override { operator_->setSpeed(speed); }
   void want(const std::vector<std::uint8_t>& robots) override {
     ReadingsWish wish{.of_all = robots.empty(), .of = {}};
     for (std::size_t i = 0; i < robots.size(); ++i) {
@@ -116,10 +101,7 @@ class EnvironmentView final : public ViewSource {
   LoadedWorld world_;
   int world_number_ = 0;
   Shown shown_;
-  bool may_operate_;
-  std::unique_ptr<ControlPanel> panel_;
-  bool is_paused_ = false;
-  double speed_ = 1;
+  std::unique_ptr<RunOperator> operator_;  ///< null for who may only look
 
   mutable std::mutex mutex_;  ///< of what follows
   std::optional<Shown> next_;

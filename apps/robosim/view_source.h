@@ -39,7 +39,7 @@ class ViewSource {
   virtual void pause(bool) {}
   /// Halts, and goes on to the next moment with advance(0).
   virtual void step() {}
-  virtual double speed() const { return 1; }
+  virtual double speed() const { return 1; }  ///< seconds a second; 0: as fast as it can
   virtual void setSpeed(double) {}
   ///@}
   /// @name Of a recording, in seconds

@@ -129,7 +129,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     pause_ = bar_->add<nanogui::Button>("Pause");
     pause_->setFixedWidth(70);
     pause_->setCallback([this] { togglePause(); });
-    bar_->add<nanogui::Button>("Step")->setCallback([this] { safely([this] { source_.step(); }); });
+    bar_->add<nanogui::Button>("Step")->setCallback([this] { step(); });
     bar_->add<nanogui::Button>("Slower")->setCallback([this] { changeSpeed(0.5); });
     bar_->add<nanogui::Button>("Faster")->setCallback([this] { changeSpeed(2); });
     if (source_.duration()) {
@@ -152,7 +152,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       last_ = now;
       if (source_.advance(since.count())) picture_->renew();
       if (times_.to_s && source_.duration() && source_.shown().time_s >= *times_.to_s) source_.pause(true);
-      if (interrupt_.asked()) nanogui::leave();
+      if (interrupt_.asked()) close();
       showStatus();
       layOut();
     });
@@ -172,20 +172,30 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     const auto duration_s = source_.duration();
     std::string text = fixed(source_.shown().time_s, 1) + " s";
     if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
-    if (source_.speed() > 0) text += ", " + fixed(source_.speed(), source_.speed() < 1 ? 2 : 0) + " x";
+    const double speed = source_.speed();
+    text += speed == 0 ? ", as fast as it can" : ", " + fixed(speed, speed < 1 ? 2 : 0) + " x";
     // Of a recording it is a long one, and has been told.
     if (const auto remark = source_.remark(); !remark.empty()) text += "; " + (duration_s ? "not whole" : remark);
     status_->setCaption(text);
     pause_->setCaption(source_.isPaused() ? "Go on" : "Pause");
+    for (auto* part : bar_->children()) part->setEnabled(source_.canPlay());
     if (slider_) slider_->setValue(static_cast<float>(source_.shown().time_s / std::max(1e-9, *duration_s)));
   }
 
+  /// @name What the bar and the keys do, as long as there is something to do it to
+  ///@{
   void togglePause() {
-    safely([this] { source_.pause(!source_.isPaused()); });
+    if (source_.canPlay()) safely([this] { source_.pause(!source_.isPaused()); });
+  }
+  void step() {
+    if (source_.canPlay()) safely([this] { source_.step(); });
   }
   void changeSpeed(double factor) {
-    safely([this, factor] { source_.setSpeed(std::clamp(source_.speed() * factor, 0.01, 1000.0)); });
+    const double speed = source_.speed();
+    if (!source_.canPlay() || (speed == 0 && factor > 1)) return;
+    safely([&] { source_.setSpeed(speed == 0 ? 1 : std::clamp(speed * factor, 0.01, 1000.0)); });
   }
+  ///@}
   void seekBy(double seconds) {
     if (!source_.duration()) return;
     safely([this, seconds] {
@@ -197,17 +207,17 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
   bool handle(int key) {
     switch (key) {
       case ' ':
-        if (source_.canPlay()) togglePause();
+        togglePause();
         break;
       case 'S':
-        if (source_.canPlay()) safely([this] { source_.step(); });
+        step();
         break;
       case '=':
       case '+':
-        if (source_.canPlay()) changeSpeed(2);
+        changeSpeed(2);
         break;
       case '-':
-        if (source_.canPlay()) changeSpeed(0.5);
+        changeSpeed(0.5);
         break;
       case kLeft:
         seekBy(-5);
@@ -232,7 +242,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         break;
       case 'Q':
       case kEscape:
-        nanogui::leave();
+        close();
         break;
       default:
         return false;
@@ -251,10 +261,13 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       fail();
     }
   }
+  /// A window that is not to be seen ends nanogui's loop. Its own leave() does so only when an event happens to come: it
+  /// ends the thread that makes them at once, and on the way to a repaint the loop has yet to wait for one.
+  void close() { setVisible(false); }
   /// The window closes; the first failure is the cause.
   void fail() {
     if (!failure_) failure_ = std::current_exception();
-    nanogui::leave();
+    close();
   }
 
   const Interrupt interrupt_;

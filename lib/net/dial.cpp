@@ -14,6 +14,10 @@ std::string told(const grpc::Status& status, const DialOptions& dialled) {
     return "the environment at " + dialled.address +
            " has nothing of the kind; is this the port for what you want of it? (serve --listen viewers=…,robots=…)";
   }
+  // gRPC's own word, for whoever did not say more.
+  if (status.error_code() == grpc::StatusCode::CANCELLED && status.error_message() == "CANCELLED") {
+    return "the environment at " + dialled.address + " hung up before it answered; its run may just have ended";
+  }
   if (status.error_code() != grpc::StatusCode::UNAVAILABLE) {
     return "the environment at " + dialled.address + ": " + status.error_message();
   }

@@ -14,17 +14,44 @@ constexpr std::size_t kPieceBytes = 1 << 20;
 
 }  // namespace
 
+/// What goes with a call, which leave() can end.
+class ControlPanel::Call {
+ public:
+  explicit Call(ControlPanel& panel) : panel_(panel) {
+    showToken(context, panel.dialled_);
+    const std::lock_guard lock(panel_.mutex_);
+    panel_.in_flight_ = &context;
+    if (panel_.has_left_) context.TryCancel();
+  }
+  ~Call() {
+    const std::lock_guard lock(panel_.mutex_);
+    panel_.in_flight_ = nullptr;
+  }
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  grpc::ClientContext context;
+
+ private:
+  ControlPanel& panel_;
+};
+
 ControlPanel::ControlPanel(const DialOptions& dial_options)
     : dialled_(dial_options), stub_(wire::ControlPanel::NewStub(dial(dial_options))) {}
 
 template <typename Method, typename Request>
 wire::RunStatus ControlPanel::call(Method method, Request request) {
-  grpc::ClientContext context;
-  showToken(context, dialled_);
+  Call call(*this);
   request.set_protocol(kProtocolVersion);
   wire::RunStatus status;
-  check((stub_.get()->*method)(&context, request, &status));
+  check((stub_.get()->*method)(&call.context, request, &status));
   return status;
+}
+
+void ControlPanel::leave() {
+  const std::lock_guard lock(mutex_);
+  has_left_ = true;
+  if (in_flight_) in_flight_->TryCancel();
 }
 
 void ControlPanel::check(const grpc::Status& status) const {
@@ -52,9 +79,8 @@ wire::RunStatus ControlPanel::load(const WorldSource& world) {
   wire::WorldSource message;
   encode(world, message);
   const std::string bytes = message.SerializeAsString();
-  grpc::ClientContext context;
-  showToken(context, dialled_);
-  const auto stream = stub_->Load(&context);
+  Call call(*this);
+  const auto stream = stub_->Load(&call.context);
   wire::WorldPiece piece;
   piece.set_protocol(kProtocolVersion);
   for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
@@ -71,9 +97,8 @@ wire::RunStatus ControlPanel::load(const WorldSource& world) {
 
 void ControlPanel::watch(std::chrono::duration<double> period,
                          const std::function<void(const wire::RunStatus&)>& show) {
-  grpc::ClientContext context;
-  showToken(context, dialled_);
-  const auto stream = stub_->Watch(&context);
+  Call call(*this);
+  const auto stream = stub_->Watch(&call.context);
   wire::PanelRequest request;
   request.set_protocol(kProtocolVersion);
   wire::RunStatus status;

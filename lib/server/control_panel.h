@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <mutex>
 
 #include "net/control_panel.grpc.pb.h"
 #include "net/dial.h"
@@ -16,6 +17,8 @@ namespace robosim {
 class ControlPanel {
  public:
   explicit ControlPanel(const DialOptions& dial_options);
+  ControlPanel(const ControlPanel&) = delete;
+  ControlPanel& operator=(const ControlPanel&) = delete;
 
   wire::RunStatus start();
   wire::RunStatus pause();
@@ -29,13 +32,20 @@ class ControlPanel {
   /// Calls `show` with a report again and again, until the run is over.
   void watch(std::chrono::duration<double> period, const std::function<void(const wire::RunStatus&)>& show);
 
+  /// From any thread, for good: ends a call that waits, with a ConnectionError.
+  void leave();
+
  private:
+  class Call;
   template <typename Method, typename Request>
   wire::RunStatus call(Method method, Request request);
   void check(const grpc::Status& status) const;
 
   DialOptions dialled_;
   std::unique_ptr<wire::ControlPanel::Stub> stub_;
+  std::mutex mutex_;                          ///< of what follows
+  grpc::ClientContext* in_flight_ = nullptr;  ///< of the call that waits, if any
+  bool has_left_ = false;
 };
 
 }  // namespace robosim

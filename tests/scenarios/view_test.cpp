@@ -277,6 +277,35 @@ TEST(View, PausesAndStepsARunForWhoeverMayOperateItAndForNobodyElse) {
   EXPECT_EQ(window.quit().exit_code, 0);
 }
 
+TEST(View, SlowsARunThatIsAsFastAsItCanDownToRealTimeAndDoesNotHastenIt) {
+  ServedWorld world({});
+  Panel panel(world);
+  const Screen screen;
+  RunWindow window(world, "", screen);
+  EXPECT_EQ(panel.status().speed(), 0);
+  window.press("plus");
+  window.press("minus");
+  while (window.isOpen() && panel.status().speed() == 0) {
+  }
+  EXPECT_EQ(panel.status().speed(), 1);
+  EXPECT_EQ(window.quit().exit_code, 0);
+}
+
+TEST(View, StaysOpenWhenTheRunIsOverWhateverIsPressed) {
+  ServedWorld::Options options;
+  options.server.speed = 1;
+  ServedWorld world(options);
+  const Screen screen;
+  RunWindow window(world, "", screen);
+  Panel(world).stop();
+  EXPECT_EQ(world.wait(), Served::stopped);
+  for (const char* key : {"space", "s", "plus", "minus"}) window.press(key);
+  EXPECT_GE(window.waitUntilLit(), 100'000);
+  const Ended ended = window.quit();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(ended.err, "");
+}
+
 TEST(View, GoesOnWithAnotherWorldThatHasNotTheRobotItRidesOn) {
   const std::string master = "master-0123456789ab";
   ServedWorld::Options options;

@@ -86,6 +86,10 @@ class Window {
     screen_.act(what);
     return view_.wait();
   }
+  Ended interrupt() {
+    view_.interrupt();
+    return view_.wait();
+  }
   std::string error() const { return view_.error(); }
   int quit() {
     screen_.act(Screen::keys("q"));
@@ -173,6 +177,15 @@ TEST(ViewWindow, ClosesWithAWordAndACodeWhenItCannotShowWhatItIsAskedFor) {
   const Ended ended = window.endAfter("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(ended.err, "robosim: " + rawlog.string() + ": has changed since it was opened; open it anew\n");
+}
+
+TEST(ViewWindow, ClosesOnCtrlCAtOnceWithoutAnyOtherEvent) {
+  const auto folder = emptyFolder();
+  const auto rawlog = recordHall(folder);
+  for (int i = 0; i < 4; ++i) {  // for it was a matter of chance
+    const Ended ended = Window(folder, viewOf(rawlog)).interrupt();
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  }
 }
 
 TEST(ViewWindow, RidesOnARobotAndShowsEverythingAgain) {
