@@ -114,6 +114,7 @@ void benchGold(const Arguments& arguments) {
   std::vector<LoadedWorld> worlds;
   for (const auto& file : arguments.worlds) worlds.push_back(loadWorldToRun(file, arguments.controller));
   for (const auto& file : arguments.worlds) refuseSameFile({{"WORLD", file}, {"--csv", arguments.csv}});
+  const Interrupt interrupt;
   // Opened before the work, so that an unwritable path costs nobody the wait; an older file of that name stays until
   // the end.
   const std::string unfinished = arguments.csv + ".part";
@@ -125,12 +126,12 @@ void benchGold(const Arguments& arguments) {
 
   const auto runs_per_world = static_cast<std::size_t>(arguments.runs);
   std::vector<RunSummary> runs(worlds.size() * runs_per_world);
-  Interrupt interrupt;
   {
     Progress progress;
     std::mutex progress_mutex;
     std::size_t done = 0;
     Workers(arguments.threads).forEach(runs.size(), 1, [&](std::size_t i) {
+      if (interrupt.asked()) return;
       runs[i] = runOnce(worlds[i / runs_per_world], arguments, arguments.seed + i % runs_per_world, interrupt);
       const std::lock_guard lock(progress_mutex);
       ++done;

@@ -9,6 +9,7 @@
 #include "environment/environment.h"
 #include "robosim/bench_process.h"
 #include "robosim/bench_rounds.h"
+#include "robosim/interrupt.h"
 #include "robosim/progress.h"
 #include "robosim/subcommands.h"
 #include "robosim/text.h"
@@ -84,6 +85,7 @@ struct Arguments {
 };
 
 void benchMaps(const Arguments& arguments) {
+  const Interrupt interrupt;  // ends the process that measures; this one then puts away its files
   const ScratchFolder scratch;
   Rows rows{{"map", "occupied cells", "boxes", "load, CPU [s]", "on the clock [s]", "holds [MB]", "peak [MB]"}};
   auto all = nlohmann::json::array();
@@ -94,6 +96,7 @@ void benchMaps(const Arguments& arguments) {
       if (progress.due()) progress.show(std::string("loading ") + kind.name);
       const auto world = writeWorld(kind, arguments.side, scratch.path());
       figures = inOwnProcess([&] { return measure(world); });
+      if (interrupt.asked()) throw std::runtime_error(kInterrupted);
     }
     rows.push_back({kind.name, withCommas(figures["occupied"]), withCommas(figures["boxes"]),
                     fixed(figures["load_cpu_s"], 2), fixed(figures["load_wall_s"], 2), fixed(figures["held_mb"], 0),

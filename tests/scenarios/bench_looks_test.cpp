@@ -1,5 +1,8 @@
 // What is measured of cameras, views and maps: small loads, so that they are known to run.
+#include <cstdlib>
+#include <filesystem>
 #include <sstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -38,6 +41,20 @@ TEST(BenchView, TellsHowManyFramesASecondEachKindOfViewHas) {
     EXPECT_GT(figures["cpu_s_per_frame"], 0.0);
   }
   EXPECT_EQ(views, (std::vector<std::string>{"2d", "3d", "both"}));
+}
+
+TEST(BenchMaps, EndsWhenInterruptedAndLeavesNothingBehind) {
+  const auto folder = emptyFolder();
+  const auto is_empty = [&] { return std::filesystem::is_empty(folder); };
+  setenv("TMPDIR", folder.c_str(), 1);
+  StartedProgram bench({"bench", "maps", "--side", "4000"});
+  unsetenv("TMPDIR");
+  while (is_empty() && bench.isRunning()) std::this_thread::yield();
+  bench.interrupt();
+  const Ended ended = bench.wait();
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_EQ(ended.err, "robosim: interrupted before all was measured\n");
+  EXPECT_TRUE(is_empty());
 }
 
 TEST(BenchMaps, TellsHowLongMapsOfSeveralKindsTakeToLoad) {

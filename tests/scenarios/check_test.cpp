@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -75,6 +76,18 @@ TEST(BenchGold, PrintsTheSameTableForAnyNumberOfThreads) {
   EXPECT_NE(one.out.find("100.0 %"), std::string::npos) << one.out;
   EXPECT_EQ(textOf(folder / "1.csv"), textOf(folder / "2.csv"));
   EXPECT_EQ(textOf(folder / "1.csv").substr(0, 16), "world,seed,gold_");
+}
+
+TEST(BenchGold, EndsWhenInterruptedHoweverManyRunsAreLeft) {
+  const auto folder = emptyFolder();
+  StartedProgram bench({"bench", "gold", "worlds/small_maze.xml", "--runs", "1000000", "--threads", "2", "--csv",
+                        (folder / "runs.csv").string()});
+  while (!std::filesystem::exists(folder / "runs.csv.part") && bench.isRunning()) std::this_thread::yield();
+  bench.interrupt();
+  const Ended ended = bench.wait();
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("interrupted before all runs were done"), std::string::npos) << ended.err;
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
 TEST(BenchGold, CountsOnlyGoldThatIsThere) {
