@@ -26,7 +26,15 @@ struct Shown {
   std::vector<ShownRobot> robots;  ///< in the world's order
 };
 
-/// The ways that robots have come, for views to draw: a point for every few centimetres; of the latest ones only.
+/// A point of the way that a robot has come.
+struct TrailPoint {
+  mrpt::math::TPoint2D at;
+  bool is_after_gap = false;  ///< how it came from the point before is not known
+};
+
+/// The ways that robots have come, for views to draw: a point for every few centimetres; of the latest ones only. From
+/// one step to the next they go straight; over steps that were not shown (a recording wound on, a run faster than
+/// pictures) as well, up to 1 m: farther away, there may be a wall in between.
 class Trails {
  public:
   /// @param most points a robot
@@ -35,12 +43,12 @@ class Trails {
   void add(const Shown& shown);
   void clear() { of_robot_.clear(); }
   /// By robot, the oldest first.
-  const std::vector<std::vector<mrpt::math::TPoint2D>>& ofRobot() const { return of_robot_; }
+  const std::vector<std::vector<TrailPoint>>& ofRobot() const { return of_robot_; }
 
  private:
   std::size_t most_;
   std::uint64_t last_step_ = 0;
-  std::vector<std::vector<mrpt::math::TPoint2D>> of_robot_;
+  std::vector<std::vector<TrailPoint>> of_robot_;
 };
 
 }  // namespace robosim

@@ -76,12 +76,17 @@ class Drawing {
     for (std::size_t i = 0; i < trails.ofRobot().size() && i < shown_.robots.size(); ++i) {
       std::vector<TPoint2D> way;
       constexpr double kStride_px = 1.5;
-      for (const auto& point : trails.ofRobot()[i]) {
+      const auto draw_way = [&] { canvas_.polyline(way, 1.6, mix(robotColor(i), kFloorColor, 0.35f)); };
+      for (const auto& [point, is_after_gap] : trails.ofRobot()[i]) {
         const TPoint2D pixel = view_.toPixel(point);
+        if (is_after_gap) {
+          draw_way();
+          way.clear();
+        }
         if (way.empty() || (pixel - way.back()).norm() >= kStride_px) way.push_back(pixel);
       }
       way.push_back(pixelOf(shown_.robots[i].world_from_robot));
-      canvas_.polyline(way, 1.6, mix(robotColor(i), kFloorColor, 0.35f));
+      draw_way();
     }
   }
 

@@ -189,10 +189,32 @@ TEST_F(TopViewTest, TrailsForgetTheOldestAndBeginAnewWhenTheRunIsWoundBack) {
     few.add(moment);
   }
   EXPECT_LE(few.ofRobot()[0].size(), 10U);
-  EXPECT_EQ(few.ofRobot()[0].back().x, 99);
+  EXPECT_EQ(few.ofRobot()[0].back().at.x, 99);
   moment.step = 5;
   few.add(moment);
   EXPECT_EQ(few.ofRobot()[0].size(), 1U);
+}
+
+TEST_F(TopViewTest, TrailsDoNotJumpOverWhatWasNotShown) {
+  Shown before = shown;
+  const auto come_to = [&](std::uint64_t step, double x) {
+    before.step = step;
+    before.robots[0].world_from_robot = {x, 3.53, 0};
+    trails.add(before);
+  };
+  come_to(0, 1);
+  come_to(50, 1.9);  // so little that it may as well have come straight
+  come_to(100, 4);   // wound on
+  come_to(101, 6);   // fast
+  shown.robots[0].world_from_robot = {6, 3.53, 0};
+  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  const auto is_red = [&](double x) {
+    const cv::Vec3b pixel = at(picture, {x, 3.53});
+    return pixel[2] > pixel[0] + 40;
+  };
+  EXPECT_TRUE(is_red(1.45));
+  EXPECT_FALSE(is_red(2.95));
+  EXPECT_TRUE(is_red(4.95));
 }
 
 TEST_F(TopViewTest, ARobotThatIsFollowedStaysInTheMiddle) {
