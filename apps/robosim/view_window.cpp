@@ -199,9 +199,22 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
   void seekBy(double seconds) {
     if (!source_.duration()) return;
     safely([this, seconds] {
-      source_.seek(source_.shown().time_s + seconds);
+      const double time_s = source_.shown().time_s + seconds;
+      if (seconds > 0) followTo(time_s);
+      source_.seek(time_s);
       source_.advance(0);  // the next key may come before the next repaint
     });
+  }
+  /// From moment to moment, so that there are trails of what is left out.
+  void followTo(double time_s) {
+    const bool was_paused = source_.isPaused();
+    while (!source_.isOver()) {
+      source_.step();
+      source_.advance(0);
+      if (source_.shown().time_s > time_s) break;
+      drawing_.note();
+    }
+    source_.pause(was_paused);
   }
 
   bool handle(int key) {
@@ -261,8 +274,8 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       fail();
     }
   }
-  /// A window that is not to be seen ends nanogui's loop. Its own leave() does so only when an event happens to come: it
-  /// ends the thread that makes them at once, and on the way to a repaint the loop has yet to wait for one.
+  /// A window that is not to be seen ends nanogui's loop. Its own leave() does so only when an event happens to come:
+  /// it ends the thread that makes them at once, and on the way to a repaint the loop has yet to wait for one.
   void close() { setVisible(false); }
   /// The window closes; the first failure is the cause.
   void fail() {
