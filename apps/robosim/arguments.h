@@ -4,10 +4,7 @@
 #include <utility>
 #include <vector>
 
-namespace CLI {
-class App;
-class Validator;
-}  // namespace CLI
+#include "robosim/cli11_names.h"
 
 namespace robosim {
 

@@ -6,10 +6,7 @@
 #include "net/dial.h"
 #include "net/listen.h"
 #include "net/tls.h"
-
-namespace CLI {
-class App;
-}
+#include "robosim/cli11_names.h"
 
 namespace robosim {
 

@@ -5,14 +5,11 @@
 #include <vector>
 
 #include "recording/rawlog_writer.h"
+#include "robosim/cli11_names.h"
 #include "robosim/local_run.h"
 #include "robosim/run_note.h"
 #include "robosim/run_summary.h"
 #include "robosim/tracks.h"
-
-namespace CLI {
-class App;
-}
 
 namespace robosim {
 

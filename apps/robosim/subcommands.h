@@ -1,8 +1,5 @@
 #pragma once
-
-namespace CLI {
-class App;
-}
+#include "robosim/cli11_names.h"
 
 namespace robosim {
 
