@@ -1,4 +1,5 @@
 // The control panel, and what a person meets who works it.
+#include <functional>
 #include <future>
 
 #include <gtest/gtest.h>
@@ -72,6 +73,31 @@ TEST(ControlPanel, TellsWhoWaitsForStepsThatAnotherPanelPaused) {
     EXPECT_EQ(error.code(), grpc::StatusCode::ABORTED);
     EXPECT_NE(std::string(error.what()).find("another control panel has paused the run"), std::string::npos);
   }
+}
+
+TEST(ControlPanel, EndsACallThatWaitsAndEveryLaterOneWhenItLeaves) {
+  ServedWorld::Options options = paused();
+  options.robots_elsewhere = true;  // and never there, so that no step is ever done
+  ServedWorld world(options);
+  Panel panel(world);
+  const auto code_of = [](const std::function<void()>& call) {
+    try {
+      call();
+    } catch (const ConnectionError& error) {
+      return error.code();
+    }
+    return grpc::StatusCode::OK;
+  };
+  auto waiting = std::async(std::launch::async, [&] { return code_of([&] { panel.step(1); }); });
+  world.waitForLog(": step");
+  panel.leave();
+  EXPECT_EQ(waiting.get(), grpc::StatusCode::CANCELLED);
+  EXPECT_EQ(code_of([&] { panel.status(); }), grpc::StatusCode::CANCELLED);
+}
+
+TEST(ConnectionError, SaysInWordsThatTheEnvironmentHungUp) {
+  const ConnectionError error({grpc::StatusCode::CANCELLED, "CANCELLED"}, {.address = "lab:3000"});
+  EXPECT_STREQ(error.what(), "the environment at lab:3000 hung up before it answered; its run may just have ended");
 }
 
 TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheOldOneIfItIsNoGood) {
