@@ -95,8 +95,8 @@ void benchMaps(const Arguments& arguments) {
       Progress progress;
       if (progress.due()) progress.show(std::string("loading ") + kind.name);
       const auto world = writeWorld(kind, arguments.side, scratch.path());
-      figures = inOwnProcess([&] { return measure(world); });
       if (interrupt.asked()) throw std::runtime_error(kInterrupted);
+      figures = inOwnProcess([&] { return measure(world); });
     }
     rows.push_back({kind.name, withCommas(figures["occupied"]), withCommas(figures["boxes"]),
                     fixed(figures["load_cpu_s"], 2), fixed(figures["load_wall_s"], 2), fixed(figures["held_mb"], 0),

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include <nlohmann/json.hpp>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>

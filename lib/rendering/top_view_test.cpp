@@ -217,6 +217,18 @@ TEST_F(TopViewTest, TrailsDoNotJumpOverWhatWasNotShown) {
   EXPECT_TRUE(is_red(4.95));
 }
 
+TEST_F(TopViewTest, DrawsTrailsWhoseOldestPartIsForgottenAndThatBeginAfterAGap) {
+  Trails few(2);
+  Shown before = shown;
+  for (std::uint64_t i = 0; i < 5; ++i) {
+    before.step = 10 * i;
+    before.robots[0].world_from_robot = {1 + 2.0 * static_cast<double>(i), 3.53, 0};
+    few.add(before);
+    ASSERT_EQ(few.ofRobot()[0].front().is_after_gap, i >= 2);
+    TopView(world, fleet).draw(before, few, camera, layers);
+  }
+}
+
 TEST_F(TopViewTest, ARobotThatIsFollowedStaysInTheMiddle) {
   camera.follow = 1;
   const TPoint2D pixel = TopView::groundView(shown, camera).toPixel({8, 4});

@@ -16,12 +16,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-ServedWorld::Options paused() {
-  ServedWorld::Options options;
-  options.server.is_paused = true;
-  return options;
-}
-
 TEST(ControlPanel, StepsAPausedRunAndWaitsUntilTheStepsAreDone) {
   ServedWorld world(paused());
   Panel panel(world);

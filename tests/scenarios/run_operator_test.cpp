@@ -17,12 +17,6 @@ void waitUntil(const Condition& holds) {
   while (!holds()) std::this_thread::yield();
 }
 
-ServedWorld::Options paused() {
-  ServedWorld::Options options;
-  options.server.is_paused = true;
-  return options;
-}
-
 TEST(RunOperator, BeginsAsTheRunStands) {
   ServedWorld::Options options = paused();
   options.server.speed = 3;

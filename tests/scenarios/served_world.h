@@ -74,4 +74,10 @@ class ServedWorld final : private ServedRun {
   std::thread thread_;
 };
 
+inline ServedWorld::Options paused() {
+  ServedWorld::Options options;
+  options.server.is_paused = true;
+  return options;
+}
+
 }  // namespace robosim

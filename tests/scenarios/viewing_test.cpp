@@ -16,12 +16,6 @@
 namespace robosim {
 namespace {
 
-ServedWorld::Options paused() {
-  ServedWorld::Options options;
-  options.server.is_paused = true;
-  return options;
-}
-
 /// A viewer that shows what comes over the wire.
 class RawViewer {
  public:
