@@ -1,26 +1,26 @@
-# cmake -DROOM=r -DUSES="a;b" -DLIB=dir -P check_includes.cmake: fails on an #include of a room beyond USES.
+# cmake -DMODULE=r -DUSES="a;b" -DLIB=dir -P check_includes.cmake: fails on an #include of a module beyond USES.
 cmake_minimum_required(VERSION 3.25)
-file(GLOB rooms RELATIVE ${LIB} ${LIB}/*)
-file(GLOB_RECURSE files ${LIB}/${ROOM}/*.h ${LIB}/${ROOM}/*.cpp)
-set(allowed ${ROOM} ${USES})
+file(GLOB modules RELATIVE ${LIB} ${LIB}/*)
+file(GLOB_RECURSE files ${LIB}/${MODULE}/*.h ${LIB}/${MODULE}/*.cpp)
+set(allowed ${MODULE} ${USES})
 set(failed FALSE)
 foreach(file IN LISTS files)
   file(STRINGS ${file} detours REGEX "^[ \t]*#[ \t]*include[ \t]*\"(\\.\\./|robosim/)")
   foreach(line IN LISTS detours)
-    message(SEND_ERROR "${file}: ${line}\n  a room includes by \"room/file.h\", and never from apps/.")
+    message(SEND_ERROR "${file}: ${line}\n  a module includes by \"module/file.h\", and never from apps/.")
     set(failed TRUE)
   endforeach()
   file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"][a-z0-9_]+/")
   foreach(line IN LISTS lines)
-    string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([a-z0-9_]+)/.*" "\\1" room "${line}")
-    if(IS_DIRECTORY ${LIB}/${room} AND NOT room IN_LIST allowed)
-      message(SEND_ERROR "${file}: ${line}\n  room '${ROOM}' may include only: ${allowed}. "
-                         "Move the code to the room that may, or add '${room}' to USES in lib/CMakeLists.txt and to the "
+    string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([a-z0-9_]+)/.*" "\\1" module "${line}")
+    if(IS_DIRECTORY ${LIB}/${module} AND NOT module IN_LIST allowed)
+      message(SEND_ERROR "${file}: ${line}\n  module '${MODULE}' may include only: ${allowed}. "
+                         "Move the code to the module that may, or add '${module}' to USES in lib/CMakeLists.txt and to the "
                          "table in doc/architecture.md, if it lies further down.")
       set(failed TRUE)
     endif()
   endforeach()
 endforeach()
 if(NOT failed)
-  message(STATUS "room '${ROOM}' includes only: ${allowed}")
+  message(STATUS "module '${MODULE}' includes only: ${allowed}")
 endif()

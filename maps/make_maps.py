@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Makes the maps of this folder, each in one of the formats that RoboSim reads, and writes them beside itself.
+"""Writes the maps of this folder, each in one of the formats that RoboSim reads.
 
-opho2_1.gridmap.gz is not among them: RoboSim made it from a world (README.md)."""
+opho2_1.gridmap.gz is exported from a world (README.md)."""
 import math
 import pathlib
 import struct
@@ -20,7 +20,7 @@ class Picture:
         self.shades = [[shade] * self.columns for _ in range(self.rows)]
 
     def paint(self, shade, is_inside):
-        """Paints every pixel whose middle is inside."""
+        """Paints every pixel whose centre is inside."""
         for row in range(self.rows):
             for column in range(self.columns):
                 if is_inside(self.left + (column + 0.5) * self.cell, self.bottom + (row + 0.5) * self.cell):
@@ -61,7 +61,7 @@ class Picture:
 
 
 def make_lab():
-    """An L-shaped floor: a corridor, five rooms, benches, tables and pillars; outside nothing is known."""
+    """An L-shaped floor: a corridor, five rooms, benches, tables and pillars; cells outside are unknown."""
     lab = Picture(-0.5, -0.5, 15, 11, 0.05, UNKNOWN)
     for x1, y1, x2, y2 in [(0, 0, 14, 6), (0, 6, 9, 10)]:
         lab.box(FREE, x1, y1, x2, y2)
@@ -86,7 +86,7 @@ def make_lab():
 
 
 def make_courtyard():
-    """A walled yard, 20 m × 15 m, drawn as somebody would paint it: light ground, gray paving, black walls."""
+    """A walled yard, 20 m × 15 m, as a picture: light ground, gray paving, black walls."""
     yard = Picture(0, 0, 20, 15, 0.1, 235)
     yard.box(190, 3, 3, 17, 12)  # paving, too light to be a wall
     for x1, y1, x2, y2 in [(0, 0, 20, 0.3), (0, 14.7, 20, 15), (0, 0, 0.3, 15), (19.7, 0, 20, 15)]:
@@ -100,7 +100,7 @@ def make_courtyard():
 
 
 def make_office():
-    """A small office in ActivMedia's format: walls as lines, what a laser saw of three tables and a sofa as points."""
+    """A small office in ActivMedia's format: walls as lines, laser points of three tables and a sofa."""
     walls = [(0, 0, 12000, 0), (12000, 0, 12000, 8000), (12000, 8000, 0, 8000), (0, 8000, 0, 0)]
     walls += [(5000, 0, 5000, 1800), (5000, 3200, 5000, 8000), (5000, 4600, 7000, 4600), (8400, 4600, 12000, 4600)]
     walls += [(0, 5200, 1600, 5200), (3000, 5200, 5000, 5200)]

@@ -12,9 +12,12 @@
 #include <mrpt/core/exceptions.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/math/TPose2D.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/serialization/CArchive.h>
 #include <sys/wait.h>
+
+#include "recording/observation_writer.h"
 
 namespace robosim {
 namespace {
@@ -75,27 +78,38 @@ void forEachObservation(const fs::path& rawlog, const std::function<void(const C
 }
 
 PathError icpSlamError(const fs::path& rawlog, const std::string& robot, const std::string& laser,
-                       const fs::path& folder) {
+                       const std::string& settings, const fs::path& folder) {
   const std::string laser_label = robot + "/" + laser;
-  const std::string ini = ROBOSIM_SOURCE_DIR "/tests/data/icp-slam.ini";
+  const std::string ini = ROBOSIM_SOURCE_DIR "/doc/examples/slam/" + settings;
   fs::create_directories(folder);
-  mustRun("rawlog-edit -q -w -i '" + fs::absolute(rawlog).string() + "' -o slam.rawlog --keep-label '" + laser_label +
-              "," + robot + "/odometry'",
-          folder);
+  ObservationWriter selected(folder / "slam.rawlog", {});
+  forEachObservation(rawlog, [&](const CObservation::Ptr& observation) {
+    const std::string& label = observation->sensorLabel;
+    if (label == laser_label || label == robot + "/odometry") selected.write(*observation);
+  });
+  selected.commit();
   mustRun("icp-slam '" + ini + "' slam.rawlog", folder);
 
   const auto truth = groundTruthOf(rawlog, robot);
   const auto path = estimatedPath(folder / "icp-slam" / "log_estimated_path.txt");
   PathError error;
   std::size_t entry = 0;
-  double sum_m2 = 0;
+  double sum_m2 = 0, odometry_sum_m2 = 0;
+  TPose2D odom_from_robot;
+  const auto distance = [&](const TPose2D& start_from_robot, const TPose2D& true_pose) {
+    const TPose2D world_from_robot = truth.begin()->second + start_from_robot;
+    return std::hypot(world_from_robot.x - true_pose.x, world_from_robot.y - true_pose.y);
+  };
   forEachObservation(folder / "slam.rawlog", [&](const CObservation::Ptr& observation) {
     const std::size_t i = entry++;
+    if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get())) {
+      odom_from_robot = odometry->odometry.asTPose();
+    }
     if (observation->sensorLabel != laser_label) return;
     if (i >= path.size()) throw std::runtime_error("icp-slam ended before entry " + std::to_string(i));
-    const TPose2D world_from_robot = truth.begin()->second + path[i];
     const TPose2D& true_pose = truth.at(observation->timestamp);
-    const double off_m = std::hypot(world_from_robot.x - true_pose.x, world_from_robot.y - true_pose.y);
+    const double off_m = distance(path[i], true_pose);
+    odometry_sum_m2 += std::pow(distance(odom_from_robot, true_pose), 2);
     if (!std::isfinite(off_m)) throw std::runtime_error("icp-slam lost itself at entry " + std::to_string(i));
     sum_m2 += off_m * off_m;
     error.worst_m = std::max(error.worst_m, off_m);
@@ -103,6 +117,7 @@ PathError icpSlamError(const fs::path& rawlog, const std::string& robot, const s
   });
   if (error.poses == 0) throw std::runtime_error(rawlog.string() + " has no scan of " + laser_label);
   error.rms_m = std::sqrt(sum_m2 / static_cast<double>(error.poses));
+  error.odometry_rms_m = std::sqrt(odometry_sum_m2 / static_cast<double>(error.poses));
   return error;
 }
 

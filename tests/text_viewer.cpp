@@ -1,5 +1,4 @@
-// A viewer for tests, and for whoever has no screen: a line for each frame, and one for each robot named with what its
-// sensors measured.
+// A text viewer for tests: a line for each frame, and a line with the measurements of each selected robot.
 //
 //     robosim_text_viewer HOST:PORT [ROBOT… | all]
 #include <algorithm>
@@ -8,16 +7,19 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <variant>
 
+#include "client/viewer.h"
+#include "hardware/measurement_fields.h"
+#include "net/host_port.h"
 #include "net/listen.h"
-#include "server/viewer.h"
 
 namespace robosim {
 namespace {
 
-ReadingsWish wishFor(std::span<char*> names, const Fleet& fleet) {
-  ReadingsWish wish;
+ReadingsSelection wishFor(std::span<char*> names, const Fleet& fleet) {
+  ReadingsSelection wish;
   for (const std::string name : names) {
     const auto found = std::find_if(fleet.robots.begin(), fleet.robots.end(),
                                     [&](const FleetRobot& robot) { return robot.info.name == name; });
@@ -38,30 +40,25 @@ struct Printer {
                                           [](const Echo& a, const Echo& b) { return a.range_m < b.range_m; });
     std::cout << "nearest of " << echoes.size() << ' ' << (echoes.empty() ? 0 : nearest->range_m);
   }
-  void operator()(const Scalar& scalar) const { std::cout << scalar.value; }
-  void operator()(const Contacts& contacts) const {
-    for (const auto segment : contacts.pressed) std::cout << static_cast<int>(segment);
-  }
-  void operator()(const Odometry& odometry) const {
-    const auto& at = odometry.odom_from_robot;
-    std::cout << at.x << ' ' << at.y << ' ' << at.phi;
-  }
   void operator()(const Image& image) const { std::cout << image.jpeg.size() << " bytes"; }
-  void operator()(const Blobs& blobs) const {
-    for (const auto& blob : blobs.of_color) std::cout << blob.color << ' ' << blob.pixels << ' ';
+  void operator()(const auto& measurement) const {
+    const char* separator = "";
+    forNumbers(measurement, [&](const auto&, auto number, std::size_t) {
+      std::cout << std::exchange(separator, " ") << static_cast<double>(number);
+    });
   }
 };
 
-void print(const Sight& sight) {
-  std::cout << "step " << sight.step;
-  const auto& robots = sight.world.fleet.robots;
+void print(const ViewedRun& viewed_run) {
+  std::cout << "step " << viewed_run.snapshot.step;
+  const auto& robots = viewed_run.world.fleet.robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const auto& at = sight.robots[i].world_from_robot;
+    const auto& at = viewed_run.snapshot.robots[i].world_from_robot;
     std::cout << "; " << robots[i].info.name << ' ' << at.x << ' ' << at.y << ' ' << at.phi;
   }
   std::cout << '\n';
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const Readings* readings = sight.readingsOf(i);
+    const Readings* readings = viewed_run.readingsOf(i);
     if (!readings) continue;
     std::cout << "  " << robots[i].info.name;
     for (std::size_t k = 0; k < readings->measurements.size(); ++k) {
@@ -81,9 +78,9 @@ int main(int argc, char** argv) {
   try {
     const std::span<char*> arguments(argv + 1, argv + argc);
     Viewer viewer({.address = hostAndPort(arguments.empty() ? kDefaultListen : arguments[0])});
-    print(viewer.sight());
-    if (arguments.size() > 1) viewer.want(wishFor(arguments.subspan(1), viewer.sight().world.fleet));
-    while (viewer.look()) print(viewer.sight());
+    print(viewer.run());
+    if (arguments.size() > 1) viewer.select(wishFor(arguments.subspan(1), viewer.run().world.fleet));
+    while (viewer.waitForFrame()) print(viewer.run());
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "robosim_text_viewer: " << error.what() << '\n';

@@ -13,7 +13,7 @@ STEPS = [(1, 0), (0, 1), (-1, 0), (0, -1)]
 
 
 class Maze:
-    """Cells (column, row); `open` holds the pairs of neighbouring cells with no wall between them."""
+    """Cells (column, row); `open` contains the pairs of adjacent cells without a wall between them."""
 
     def __init__(self, columns, rows, loops, rng):
         self.columns, self.rows = columns, rows
@@ -37,7 +37,7 @@ class Maze:
         return [near for near in self.neighbours(cell) if self.is_open(cell, near)]
 
     def _carve(self, rng):
-        """A random walk that never enters a cell twice and backs out of dead ends: every cell can be reached."""
+        """Randomised depth-first search with backtracking: all cells are connected."""
         way = [(0, 0)]
         seen = set(way)
         while way:
@@ -66,7 +66,7 @@ class Maze:
         return (cell[0] - (self.columns - 1) / 2) * PITCH, (cell[1] - (self.rows - 1) / 2) * PITCH
 
     def walls(self):
-        """As few boxes as there are straight runs of wall: (x, y, length along x, length along y)."""
+        """One box per straight run of wall: (x, y, length along x, length along y)."""
         for row in range(self.rows + 1):
             stands = [not self.is_open((c, row - 1), (c, row)) for c in range(self.columns)]
             for first, last in runs(stands):
@@ -104,9 +104,9 @@ def main():
     parser.add_argument("--columns", type=int, default=20)
     parser.add_argument("--rows", type=int, default=20)
     parser.add_argument("--robots", type=int, default=8)
-    parser.add_argument("--loops", type=float, default=0.1, help="share of the inner walls taken out again")
+    parser.add_argument("--loops", type=float, default=0.1, help="fraction of the inner walls that is removed")
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--types", default="pioneer3dx,scout", help="robots' types, which take turns")
+    parser.add_argument("--types", default="pioneer3dx,scout", help="robot types, used in turn")
     parser.add_argument("--controller", default="gold_finder")
     given = parser.parse_args()
 

@@ -13,7 +13,7 @@ COLORS = ["0.55 0.46 0.37", "0.62 0.55 0.46", "0.45 0.47 0.42", "0.5 0.38 0.3"]
 
 
 class Scatter:
-    """Random places at which discs keep a gap to each other and to the walls."""
+    """Random positions of discs with a minimum gap to each other and to the walls."""
 
     def __init__(self, rng, gap):
         self.rng, self.gap, self.discs = rng, gap, []

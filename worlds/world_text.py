@@ -10,7 +10,7 @@ def number(value):
 
 
 def color_of(index, saturation=0.75, brightness=0.9):
-    """A colour for the index-th robot: hues a golden angle apart, so that neighbours in a list look different."""
+    """A colour for the index-th robot: hues a golden angle apart, so that adjacent indices differ clearly."""
     hue = index * 0.381966 % 1 * 6
     rest = [abs(hue - 3) - 1, 2 - abs(hue - 2), 2 - abs(hue - 4)]
     return " ".join(number(brightness * (1 - saturation * (1 - min(1, max(0, part))))) for part in rest)
@@ -40,7 +40,7 @@ def gold(x, y):
 
 
 def robots(places, controller, types=("pioneer3dx", "scout")):
-    """Robots at (x, y, direction), Pioneers and Scouts in turn, each with the next one for its neighbour."""
+    """Robots at (x, y, direction), types in turn; the neighbour of each is the next one."""
     names = [("Pioneer" if i % 2 == 0 else "Scout") + str(i // 2 + 1) for i in range(len(places))]
     text = ""
     for i, (x, y, direction) in enumerate(places):

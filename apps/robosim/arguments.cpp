@@ -1,8 +1,10 @@
 #include "robosim/arguments.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <iostream>
 
 #include <CLI/CLI.hpp>
 
@@ -23,6 +25,18 @@ CLI::Validator numberIn(double low, double high) {
           ""};
 }
 
+CLI::Validator wholeNumberIn(int low, int high) {
+  return {[=](std::string& text) -> std::string {
+            int number = 0;
+            const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+            const bool fits =
+                error == std::errc{} && stop == text.data() + text.size() && number >= low && number <= high;
+            return fits ? ""
+                        : text + ": must be a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+          },
+          ""};
+}
+
 CLI::Validator seedNumber() {
   return {[](std::string& text) -> std::string {
             std::uint64_t number = 0;
@@ -35,7 +49,7 @@ CLI::Validator seedNumber() {
 }
 
 CLI::Validator fileName() {
-  return {[](std::string& text) -> std::string { return text.empty() ? "the file's name is empty" : ""; }, ""};
+  return {[](std::string& text) -> std::string { return text.empty() ? "the file name is empty" : ""; }, ""};
 }
 
 double speedNumber(const std::string& speed) {
@@ -48,8 +62,65 @@ double speedNumber(const std::string& speed) {
   return number;
 }
 
+void addTime(CLI::App& command, double& time_s, const std::string& help) {
+  command.add_option("--time", time_s, help + "; 0.001 to 1,000,000,000 s")
+      ->check(numberIn(1e-3, 1e9))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+}
+
+void addStep(CLI::App& command, double& period_s) {
+  command.add_option("--step", period_s, "simulated length of a time step; 0.001 to 1 s")
+      ->check(numberIn(0.001, 1))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+}
+
+void addThreads(CLI::App& command, int& threads, const std::string& help) {
+  command.add_option("--threads", threads, help + "; 1 to 1024")
+      ->check(wholeNumberIn(1, 1024))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+}
+
+void warnOfPartialStep(double time_s, double period_s) {
+  const double steps = std::max(1.0, std::floor(time_s / period_s + 0.5));
+  if (std::abs(steps * period_s - time_s) <= 1e-6 * time_s) return;
+  std::cerr << "robosim: --time " + toText(time_s) + " is not a multiple of the time step of " + toText(period_s) +
+                   " s: a run ends after " + toText(std::round(steps * period_s * 1e6) / 1e6) + " s at the latest\n";
+}
+
+void addRobotOptions(CLI::App& command, WorldChanges& changes) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--robot",
+          [&changes](const std::vector<std::string>& texts) {
+            for (const auto& text : texts) changes.robots.push_back(AddedRobot::parse(text));
+          },
+          "add a robot: type, position in metres, and heading in degrees from the x axis, as in "
+          "pioneer3dx@1,2,90; repeatable")
+      ->type_name("TYPE@X,Y,HEADING")
+      ->allow_extra_args(false);
+  command
+      .add_option_function<std::string>(
+          "--random-robots",
+          [&changes](const std::string& text) {
+            const std::size_t comma = std::min(text.find(','), text.size());
+            const auto [stop, error] = std::from_chars(text.data(), text.data() + comma, changes.random_robots);
+            const bool is_count = error == std::errc{} && stop == text.data() + comma && changes.random_robots >= 1 &&
+                                  changes.random_robots <= 100000;
+            if (!is_count || comma + 1 == text.size()) {
+              throw ConfigError("--random-robots " + text +
+                                ": must be a whole number from 1 to 100000, optionally with a type, as in 5,scout");
+            }
+            if (comma < text.size()) changes.random_model = text.substr(comma + 1);
+          },
+          "add robots at random free places, as in 5 or 5,scout; 1 to 100000; the default type is pioneer3dx")
+      ->type_name("NUMBER[,TYPE]");
+}
+
 void addPatience(CLI::App& command, double& patience_s) {
-  command.add_option("--patience", patience_s, "how long to call again when the connection breaks")
+  command.add_option("--patience", patience_s, "how long to reconnect after the connection breaks")
       ->check(numberIn(0, 1e6))
       ->type_name("SECONDS")
       ->capture_default_str();

@@ -4,25 +4,39 @@
 #include <utility>
 #include <vector>
 
+#include "environment/world_changes.h"
 #include "robosim/cli11_names.h"
 
 namespace robosim {
 
 /// Accepts a finite number in [low, high].
 CLI::Validator numberIn(double low, double high);
+/// Accepts a whole number in [low, high].
+CLI::Validator wholeNumberIn(int low, int high);
 /// Accepts a whole number from 0 to 2^64 - 1; CLI11 alone would turn -1 into the largest.
 CLI::Validator seedNumber();
-/// Refuses an empty text, as an unset shell variable leaves behind.
+/// Rejects an empty text, as from an unset shell variable.
 CLI::Validator fileName();
 
-/// What `--speed` says: simulated seconds a second; 0 for "max", as many as it can. @throws ConfigError
+/// Parses `--speed`: simulated seconds per second; 0 for "max" (unlimited). @throws ConfigError
 double speedNumber(const std::string& speed);
 
-/// Adds `--patience SECONDS`: how long a client calls again when its connection breaks.
+/// Adds `--time`, `--step` and `--threads`, common to all commands that run a world.
+///@{
+void addTime(CLI::App& command, double& time_s, const std::string& help);
+void addStep(CLI::App& command, double& period_s);
+void addThreads(CLI::App& command, int& threads, const std::string& help);
+///@}
+/// Warns on standard error when a time is not a multiple of the time step: the run then ends at the nearest multiple.
+void warnOfPartialStep(double time_s, double period_s);
+/// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
+void addRobotOptions(CLI::App& command, WorldChanges& changes);
+
+/// Adds `--patience SECONDS`: how long a client reconnects after its connection breaks.
 void addPatience(CLI::App& command, double& patience_s);
 
-/// Refuses that two of a command's files are one and the same, so that none is written over another.
-/// @param files what each is, as the user knows it, and its path; empty paths count for nothing
+/// Rejects arguments of a command that name the same file twice, so that no file is overwritten by another.
+/// @param files role of each file in error texts, and its path; empty paths are ignored
 /// @throws ConfigError
 void refuseSameFile(const std::vector<std::pair<std::string, std::filesystem::path>>& files);
 

@@ -1,28 +1,99 @@
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/printable_text.h"
+#include "base/text_table.h"
+#include "base/xml_parser.h"
+#include "environment/free_space.h"
+#include "environment/world_changes.h"
 #include "maze/controllers.h"
 #include "remote/robot_list.h"
-#include "robosim/local_run.h"
+#include "robosim/arguments.h"
 #include "robosim/subcommands.h"
-#include "robosim/text.h"
 #include "robots/fleet.h"
+#include "run/json_text.h"
+#include "run/local_run.h"
+#include "world/map_writer.h"
 #include "world/world_file.h"
 
 namespace robosim {
 namespace {
 
-/// What a file holds, or what is wrong with it.
+/// Contents of a checked file, or its errors.
 struct Checked {
   ErrorList errors;
   std::string kind;
   std::vector<std::string> robots;
   std::size_t objects = 0;
   std::size_t maps = 0;
-  Rows contents;  ///< for a person
+  double open_edge_m = 0;
+  std::vector<std::string> warnings;
+  Rows contents;  ///< text output
 };
+
+/// A pose in metres and degrees, to the millimetre and the tenth of a degree.
+std::string placeText(const mrpt::math::TPose2D& pose) {
+  return "at (" + fixed(pose.x, 3) + ", " + fixed(pose.y, 3) + ") m, heading " + fixed(pose.phi * 180 / M_PI, 1) + "°";
+}
+
+/// Name of the start pose that a map assigns to this robot: "start 1 of maps/office.map"; empty for a robot with its
+/// own.
+std::string startText(const World& world, const mrpt::math::TPose2D& pose) {
+  for (const auto& map : world.maps) {
+    for (std::size_t i = 0; i < map.plan.starts.size(); ++i) {
+      const auto start = map.world_from_map + map.plan.starts[i];
+      if (start.x == pose.x && start.y == pose.y) {
+        return ", start " + std::to_string(i + 1) + " of " + std::to_string(map.plan.starts.size()) + " of the map " +
+               map.file;
+      }
+    }
+  }
+  return "";
+}
+
+/// Total length of walls, pillars and boxes in plan, along their longer sides.
+double wallLength(const World& world) {
+  double length_m = 0;
+  for (const auto& object : world.objects) {
+    const auto* cube = std::get_if<Cube>(&object.body.shape);
+    if (cube) length_m += std::max(cube->length_m, cube->width_m);
+  }
+  for (const auto& map : world.maps) {
+    for (const auto& cells : map.plan.occupied) length_m += std::max(cells.columns, cells.rows) * map.plan.cell_m;
+    for (const auto& box : map.plan.boxes) length_m += std::max(box.length_m, box.width_m);
+  }
+  return length_m;
+}
+
+/// Warns where robots can reach the edge of the world, which stops them like a wall but returns no echoes.
+void checkEdge(const World& world, const Fleet& fleet, Checked& checked) {
+  constexpr double kMaxCells = 2e7;
+  constexpr double kUsualRadius_m = 0.25;
+  double radius_m = fleet.robots.empty() ? kUsualRadius_m : fleet.robots.front().info.radius_m;
+  std::vector<HeightSpan> heights;
+  std::vector<mrpt::math::TPoint2D> starts;
+  for (const auto& robot : fleet.robots) {
+    radius_m = std::min(radius_m, robot.info.radius_m);
+    heights.push_back(robot.body.heights());
+    starts.emplace_back(robot.world_from_start.x, robot.world_from_start.y);
+  }
+  const auto& b = world.bounds;
+  if (!((b.x_max - b.x_min) / radius_m * ((b.y_max - b.y_min) / radius_m) * 4 < kMaxCells)) {
+    checked.contents.push_back({"edge", "not examined: the surface is too large"});
+    return;
+  }
+  FreeSpace free(world, radius_m, robotHeights(heights));
+  if (starts.empty()) free.blockUnknown(world);
+  checked.open_edge_m = free.openEdge(starts.empty() ? free.largestRegion() : free.reachableFrom(starts));
+  if (checked.open_edge_m == 0) return;
+  checked.warnings.push_back("robots can reach " + fixed(checked.open_edge_m, 1) +
+                             " m of the surface's edge, where no wall stands: the edge stops them, and no sensor but a "
+                             "bumper and a stall notices it; close it with walls if that is not meant");
+}
 
 std::string describe(const FloorPlan& plan) {
   std::string text;
@@ -35,11 +106,19 @@ std::string describe(const FloorPlan& plan) {
   return text;
 }
 
-void checkWorld(const std::string& file, Checked& checked) {
-  LoadedWorld loaded;
-  loaded.world = readWorld(file, checked.errors);
+/// Changes of a world, and the seed for random places.
+struct Additions {
+  WorldChanges changes;
+  std::uint64_t seed = 1;
+};
+
+void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
+  LoadedWorld loaded{std::move(world_in_file), {}};
   loaded.fleet =
       buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), controllerNames(), checked.errors);
+  if (!additions.changes.isNone() && checked.errors.empty()) {
+    loaded = loadWorld(withChanges(readWorldSource(file), additions.changes, additions.seed), controllerNames());
+  }
   if (checked.errors.empty()) checkControllers(loaded, file, "", checked.errors);
   const World& world = loaded.world;
   const Fleet& fleet = loaded.fleet;
@@ -53,26 +132,28 @@ void checkWorld(const std::string& file, Checked& checked) {
   checked.contents = {{"surface", fixed(b.x_max - b.x_min, 1) + " m × " + fixed(b.y_max - b.y_min, 1) +
                                       " m; one length unit of the file is " + toText(world.unit_m) + " m"},
                       {"objects", std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot"},
+                      {"walls", fixed(wallLength(world), 1) + " m in total, along their longer sides"},
                       {"robots", std::to_string(world.robots.size())}};
   for (const auto& map : world.maps)
     checked.contents.insert(checked.contents.end() - 1, {"map " + map.file, describe(map.plan)});
-  constexpr std::size_t kMostListed = 20;
-  for (std::size_t i = 0; i < std::min(kMostListed, fleet.robots.size()); ++i) {
+  constexpr std::size_t kMaxListed = 20;
+  for (std::size_t i = 0; i < std::min(kMaxListed, fleet.robots.size()); ++i) {
     const auto& robot = fleet.robots[i];
     std::string sensors;
     for (const auto& sensor : *robot.info.sensors) sensors += (sensors.empty() ? "" : " ") + sensor.label;
     checked.contents.push_back(
-        {"  " + robot.info.name, robot.info.model + ", " +
-                                     (robot.controller.empty() ? "default controller" : robot.controller) + ", " +
-                                     sensors});
+        {"  " + robot.info.name,
+         robot.info.model + ", " + (robot.controller.empty() ? "default controller" : robot.controller) + ", " +
+             sensors + "; " + placeText(robot.world_from_start) + startText(world, robot.world_from_start)});
   }
-  if (fleet.robots.size() > kMostListed) {
-    checked.contents.push_back({"  …", std::to_string(fleet.robots.size() - kMostListed) + " more"});
+  if (fleet.robots.size() > kMaxListed) {
+    checked.contents.push_back({"  …", std::to_string(fleet.robots.size() - kMaxListed) + " more"});
   }
+  if (checked.errors.empty()) checkEdge(world, fleet, checked);
 }
 
-void checkRobotList(const std::string& file, Checked& checked) {
-  const auto robots = readRobotList(file, checked.errors);
+void checkRobotList(const std::string& file, const XmlElement& root, Checked& checked) {
+  const auto robots = robotListFrom(root, file, checked.errors);
   checked.contents.push_back({"robots", std::to_string(robots.size())});
   for (const auto& robot : robots) {
     checked.robots.push_back(robot.name);
@@ -81,30 +162,40 @@ void checkRobotList(const std::string& file, Checked& checked) {
   }
 }
 
-void checkRobotModel(const std::string& file, Checked& checked) {
-  const RobotModel model = readRobotModel(file, checked.errors);
+void checkRobotModel(const std::string& file, const XmlElement& root, Checked& checked) {
+  const RobotModel model = modelOf(root, file, {}, checked.errors);
   checked.robots.push_back(model.name);
   checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};
   if (!model.sensor_infos) return;
   for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
 }
 
-Checked check(const std::string& file) {
+Checked check(const std::string& file, const Additions& additions) {
   Checked checked;
+  const auto refuse_additions = [&] {
+    if (additions.changes.isNone()) return;
+    throw ConfigError(file + ": is a " + checked.kind + "; --robot and --random-robots add to a world or a map only");
+  };
   try {
-    const std::string root = isMapFile(file) ? "map" : readXmlFile(file).name;
-    if (root == "map") {
+    if (isMapFile(file)) {
       checked.kind = "map";
-      checkWorld(file, checked);
-    } else if (root == "RobotInfo") {
+      checkWorld(file, readWorld(file, checked.errors), additions, checked);
+      return checked;
+    }
+    // Read once, because a pipe can be read only once.
+    std::string text = readXmlText(file);
+    const XmlElement root = parseXml(text, file);
+    if (root.name == "RobotInfo") {
       checked.kind = "robot list";
-      checkRobotList(file, checked);
-    } else if (root == "robot") {
+      refuse_additions();
+      checkRobotList(file, root, checked);
+    } else if (root.name == "robot") {
       checked.kind = "robot type";
-      checkRobotModel(file, checked);
+      refuse_additions();
+      checkRobotModel(file, root, checked);
     } else {
       checked.kind = "world";
-      checkWorld(file, checked);
+      checkWorld(file, parseWorld(std::move(text), file, filesOnDisk(file), checked.errors), additions, checked);
     }
   } catch (const ConfigError& error) {
     checked.errors.add(error);
@@ -115,21 +206,25 @@ Checked check(const std::string& file) {
 void report(const std::string& file, const Checked& checked, bool as_json) {
   const bool ok = checked.errors.empty();
   if (as_json) {
-    std::cout << nlohmann::ordered_json{{"file", file},
-                                        {"kind", checked.kind},
-                                        {"ok", ok},
-                                        {"errors", checked.errors.errors()},
-                                        {"robots", checked.robots},
-                                        {"objects", checked.objects},
-                                        {"maps", checked.maps}}
-                     .dump(2, ' ', false, nlohmann::json::error_handler_t::replace)
+    std::cout << jsonText({{"file", file},
+                           {"kind", checked.kind},
+                           {"ok", ok},
+                           {"errors", checked.errors.errors()},
+                           {"warnings", checked.warnings},
+                           {"open_edge_m", checked.open_edge_m},
+                           {"robots", checked.robots},
+                           {"objects", checked.objects},
+                           {"maps", checked.maps}})
               << '\n';
   } else if (ok) {
-    std::cout << "ok: " << file << " (" << checked.kind << ")\n" << listing(checked.contents);
+    std::cout << "ok: " << printableText(file) << " (" << checked.kind << ")\n" << listing(checked.contents);
+    for (const auto& warning : checked.warnings) {
+      std::cout << "warning: " << printableText(file) << ": " << warning << '\n';
+    }
   } else {
     for (const auto& error : checked.errors.errors()) std::cout << error << '\n';
     const auto count = checked.errors.errors().size();
-    std::cout << file << ": " << count << (count == 1 ? " error\n" : " errors\n");
+    std::cout << printableText(file) << ": " << count << (count == 1 ? " error\n" : " errors\n");
   }
   if (!ok) throw Exit{kBadInput};
 }
@@ -139,15 +234,22 @@ void report(const std::string& file, const Checked& checked, bool as_json) {
 void addCheck(CLI::App& program) {
   struct Arguments {
     std::string file;
+    Additions additions;
     bool json = false;
   };
-  auto* command =
-      program.add_subcommand("check", "Say whether a world file is right and what is in it, or list every error");
+  auto* command = addSubcommand(program, "check");
   auto arguments = std::make_shared<Arguments>();
   command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")->required();
+  addRobotOptions(*command, arguments->additions.changes);
+  command->add_option("--seed", arguments->additions.seed, "seed of the positions of --random-robots; 0 to 2^64 - 1")
+      ->check(seedNumber())
+      ->type_name("NUMBER")
+      ->capture_default_str();
   command->add_flag("--json", arguments->json,
-                    "print one JSON object: ok, errors, robots (names), objects and maps (counts)");
-  command->callback([arguments] { report(arguments->file, check(arguments->file), arguments->json); });
+                    "print one JSON object: ok, errors, warnings, open_edge_m, robots (names), objects and maps "
+                    "(counts)");
+  command->callback(
+      [arguments] { report(arguments->file, check(arguments->file, arguments->additions), arguments->json); });
 }
 
 }  // namespace robosim

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Of CLI11, what headers name: all of it takes as long to compile as most files that include them.
+/// Forward declarations of CLI11: its header takes as long to compile as most files that include it.
 namespace CLI {  // NOLINT(readability-identifier-naming): its own name
 class App;
 class Validator;

@@ -1,30 +1,54 @@
 #include "robosim/connection.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <cstdlib>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
 
 #include "base/error_list.h"
+#include "net/host_port.h"
 #include "net/private_file.h"
 #include "robosim/arguments.h"
+#include "robosim/reload_signal.h"
 
 namespace robosim {
 namespace {
 
-/// The first word of the file. @throws ConfigError when there is none, or more.
+/// The only word of the file. @throws ConfigError when there is none, or more.
 std::string tokenIn(const std::string& file) {
   std::istringstream words(readPrivateFile(file, "the file of your token"));
   std::string token, more;
-  if (!(words >> token) || words >> more) throw ConfigError(file + ": must have your token and nothing else");
+  if (!(words >> token) || words >> more) throw ConfigError(file + ": must contain the token and nothing else");
   return token;
+}
+
+/// The flag that occurs, of two alternatives.
+void refuseInsecure(CLI::App& command) {
+  if (command.get_option_no_throw("--insecure") != nullptr) return;
+  const auto refuse = [](std::int64_t) {
+    throw ConfigError(
+        "--insecure is now two options: --send-token-unencrypted, to send your token to another machine without TLS; "
+        "and --listen-unprotected, to listen to other machines without TLS and tokens");
+  };
+  command.add_flag_function("--insecure", refuse)->group("");
 }
 
 }  // namespace
 
-DialOptions ConnectionArguments::dialOptions() const {
-  DialOptions options;
+ConnectOptions ConnectionArguments::connectOptions(double patience_s) const {
+  ConnectOptions options = connectOptions();
+  // The connection attempt and the diagnosis of a TLS failure together stay within `patience_s`.
+  constexpr double kMinMs = 100;
+  const double half_ms = std::clamp(patience_s * 1000 / 2, kMinMs, static_cast<double>(options.connect_limit.count()));
+  options.connect_limit = std::chrono::milliseconds(static_cast<std::int64_t>(half_ms));
+  return options;
+}
+
+ConnectOptions ConnectionArguments::connectOptions() const {
+  ConnectOptions options;
   options.address = hostAndPort(environment);
   options.tls = tls || !tls_ca.empty();
   if (!tls_ca.empty()) options.trusted_pem = readTrustedCertificates(tls_ca);
@@ -35,15 +59,15 @@ DialOptions ConnectionArguments::dialOptions() const {
     options.token = from_variable;
   }
   if (!std::all_of(options.token.begin(), options.token.end(), [](char c) { return c > ' ' && c <= '~'; })) {
-    throw ConfigError("your token has characters that no token has; look at " +
+    throw ConfigError("the token has invalid characters; check " +
                       (token_file.empty() ? "the environment variable ROBOSIM_TOKEN" : token_file));
   }
-  options.insecure = insecure;
+  options.may_send_token_unencrypted = send_token_unencrypted;
   return options;
 }
 
 void addConnectionOptions(CLI::App& command, ConnectionArguments& a) {
-  command.add_option("--environment", a.environment, "where 'robosim serve' listens")
+  command.add_option("--environment", a.environment, "address of 'robosim serve'")
       ->type_name("HOST:PORT")
       ->capture_default_str();
   addSecurityOptions(command, a);
@@ -52,38 +76,52 @@ void addConnectionOptions(CLI::App& command, ConnectionArguments& a) {
 void addSecurityOptions(CLI::App& command, ConnectionArguments& a) {
   command
       .add_option("--tls-ca", a.tls_ca,
-                  "speak TLS, and trust this certificate (PEM): the environment's, or its signer's")
+                  "use TLS, and trust this certificate (PEM): that of the environment or of its issuer")
       ->type_name("FILE")
       ->check(fileName());
-  command.add_flag("--tls", a.tls, "speak TLS, and trust whom this system trusts");
-  command.add_option("--token-file", a.token_file, "your token, if the environment asks for one; or set ROBOSIM_TOKEN")
+  command.add_flag("--tls", a.tls, "use TLS, and trust the certificates that this system trusts");
+  command.add_option("--token-file", a.token_file, "file with the access token, if required; or set ROBOSIM_TOKEN")
       ->type_name("FILE")
       ->check(fileName());
-  command.add_flag("--insecure", a.insecure, "send the token to another machine also without TLS");
+  command.add_flag("--send-token-unencrypted", a.send_token_unencrypted,
+                   "send the token to other machines without TLS; it can then be intercepted");
+  refuseInsecure(command);
 }
 
 std::optional<TlsIdentity> ListenerArguments::identity() const {
   if (tls_cert.empty() != tls_key.empty()) {
-    throw ConfigError("--tls-cert and --tls-key belong together: give both, or neither");
+    throw ConfigError("--tls-cert and --tls-key must be given together");
   }
   if (tls_cert.empty()) return std::nullopt;
   return TlsIdentity::read(tls_cert, tls_key);
 }
 
-Access ListenerArguments::access() const { return tokens.empty() ? Access() : Access::read(tokens); }
+Access ListenerArguments::access(const std::function<void(const std::string&)>& log) const {
+  if (tokens.empty()) return {};
+  Access::Options options;
+  options.log = log;
+  options.is_reload_requested = isReloadAsked;
+  Access access = Access::read(tokens, options);
+  catchReloadSignal();
+  return access;
+}
 
 void addListenerOptions(CLI::App& command, ListenerArguments& a) {
-  command.add_option("--tls-cert", a.tls_cert, "speak TLS, with this certificate (PEM)")
+  command.add_option("--tls-cert", a.tls_cert, "use TLS, with this certificate (PEM)")
       ->type_name("FILE")
       ->check(fileName());
-  command.add_option("--tls-key", a.tls_key, "its private key (PEM), which nobody but its owner may read")
+  command.add_option("--tls-key", a.tls_key, "its private key (PEM), readable by its owner only")
       ->type_name("FILE")
       ->check(fileName());
   command
       .add_option("--tokens", a.tokens,
-                  "who may come in: a line 'TOKEN viewer', 'TOKEN robot NAME...' or 'TOKEN operator' for each")
+                  "permitted clients: one line 'TOKEN ROLE [name=NAME] [expires=2027-01-31]' each, where ROLE is "
+                  "viewer, robot ROBOT..., geometry or operator; reloaded when it changes, and at SIGHUP")
       ->type_name("FILE")
       ->check(fileName());
+  command.add_flag("--listen-unprotected", a.unprotected,
+                   "listen on other interfaces without TLS and tokens: any client has full access");
+  refuseInsecure(command);
 }
 
 }  // namespace robosim

@@ -1,44 +1,48 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 
 #include "net/access.h"
-#include "net/dial.h"
+#include "net/connect.h"
 #include "net/listen.h"
 #include "net/tls.h"
 #include "robosim/cli11_names.h"
 
 namespace robosim {
 
-/// How a person says to which environment a program connects, and with which right.
+/// Options of a client: address of the environment and credentials.
 struct ConnectionArguments {
   std::string environment = kDefaultListen;
   bool tls = false;
   std::string tls_ca, token_file;
-  bool insecure = false;
+  bool send_token_unencrypted = false;
 
-  /// Reads the files; the token is in the file, or else in the environment variable ROBOSIM_TOKEN: never on the command
-  /// line, where `ps` shows it to everyone.
+  /// Reads the files. The token comes from a file or from the environment variable ROBOSIM_TOKEN, never from the
+  /// command line, which `ps` shows to all users.
   /// @throws ConfigError
-  DialOptions dialOptions() const;
+  ConnectOptions connectOptions() const;
+  /// The same for a client that reconnects for `patience_s` seconds, which also limits the duration of each attempt.
+  ConnectOptions connectOptions(double patience_s) const;
 };
 
-/// Adds `--environment ADDRESS`, and what addSecurityOptions() adds.
+/// Adds `--environment ADDRESS` and the options of addSecurityOptions().
 void addConnectionOptions(CLI::App& command, ConnectionArguments& arguments);
 void addSecurityOptions(CLI::App& command, ConnectionArguments& arguments);
 
-/// How a person says who may come in where a program listens.
+/// Options of a listening program: TLS and access tokens.
 struct ListenerArguments {
   std::string tls_cert, tls_key, tokens;
-  bool insecure = false;
+  bool unprotected = false;
 
-  /// Absent: without TLS. @throws ConfigError
+  /// nullopt: without TLS. @throws ConfigError
   std::optional<TlsIdentity> identity() const;
+  /// The token file is reloaded when it changes, and at SIGHUP. @param log receives a line of text
   /// @throws ConfigError
-  Access access() const;
+  Access access(const std::function<void(const std::string&)>& log) const;
 };
 
-/// Adds `--tls-cert`, `--tls-key` and `--tokens`.
+/// Adds `--tls-cert`, `--tls-key`, `--tokens` and `--listen-unprotected`.
 void addListenerOptions(CLI::App& command, ListenerArguments& arguments);
 
 }  // namespace robosim

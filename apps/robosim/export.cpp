@@ -1,18 +1,22 @@
 #include <algorithm>
+#include <cctype>
 #include <functional>
 #include <iostream>
 #include <map>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
-#include "base/whole_file.h"
+#include "base/atomic_file.h"
+#include "base/printable_text.h"
+#include "base/progress.h"
+#include "base/text_table.h"
 #include "rendering/stock_scene.h"
 #include "rendering/svg_plan.h"
 #include "robosim/arguments.h"
-#include "robosim/progress.h"
 #include "robosim/subcommands.h"
-#include "robosim/text.h"
 #include "robots/fleet.h"
+#include "run/output_files.h"
 #include "world/map_writer.h"
 
 namespace robosim {
@@ -23,17 +27,18 @@ namespace fs = std::filesystem;
 struct Arguments {
   std::string world;
   std::vector<std::string> outs;
-  double resolution_m = MapExtent().cell_m;
-  std::vector<double> heights_m;  ///< none, or from and to
+  std::optional<double> resolution_m;  ///< default: that of the map, else of MapExtent
+  std::vector<double> heights_m;       ///< empty, or minimum and maximum
 };
 
-/// Files to be written, by path: some formats have two.
+/// Files to be written, by path: some formats consist of two files.
 using Files = std::map<fs::path, std::string>;
 
-/// What the formats are made from, each made when the first asks for it.
+/// Lazily created inputs of the formats.
 class Source {
  public:
-  explicit Source(const Arguments& arguments) : arguments_(arguments), loaded_(loadWorld(arguments.world, {})) {}
+  Source(const Arguments& arguments, Progress& progress)
+      : arguments_(arguments), progress_(progress), loaded_(loadWorld(arguments.world, {})) {}
 
   const LoadedWorld& loaded() const { return loaded_; }
 
@@ -43,16 +48,18 @@ class Source {
   }
 
   std::string octomap(OctomapForm form) {
-    Progress progress;
     return toOctomap(loaded_.world, extent(heightsOfAll(loaded_.world)), form, [&](double share) {
-      if (progress.due()) progress.show("OctoMap: " + fixed(100 * share, 0) + " %");
+      if (progress_.due()) progress_.show("OctoMap: " + fixed(100 * share, 0) + " %");
     });
   }
 
  private:
   MapExtent extent(const HeightSpan& otherwise) const {
+    MapExtent extent = extentOfMap(loaded_.world).value_or(MapExtent());
+    if (arguments_.resolution_m) extent.cell_m = *arguments_.resolution_m;
     const auto& heights = arguments_.heights_m;
-    return {arguments_.resolution_m, heights.empty() ? otherwise : HeightSpan{heights[0], heights[1]}};
+    extent.heights = heights.empty() ? otherwise : HeightSpan{heights[0], heights[1]};
+    return extent;
   }
 
   HeightSpan heightsOfRobots() const {
@@ -62,21 +69,36 @@ class Source {
   }
 
   const Arguments& arguments_;
+  Progress& progress_;
   LoadedWorld loaded_;
   std::optional<OccupancyGrid> grid_;
 };
 
 fs::path withEnding(fs::path file, const char* ending) { return file.replace_extension(ending); }
 
-/// The picture and the .yaml, whichever of the two was named.
-void makeRosMap(Source& source, const fs::path& out, Files& files) {
-  const fs::path picture = withEnding(out, ".png");
-  RosMap map = toRosMap(source.grid(), picture.filename().string());
-  files[picture] = std::move(map.png);
-  files[withEnding(out, ".yaml")] = std::move(map.yaml);
+std::string lowerCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
 }
 
-/// A format is told by the ending of a file's name. Another one gets a line here.
+bool endsWith(const fs::path& file, const std::string& ending) {
+  return lowerCase(file.filename().string()).ends_with(lowerCase(ending));
+}
+
+/// The .yaml file and its image, of which `out` is one.
+std::pair<fs::path, fs::path> rosFiles(const fs::path& out) {
+  if (endsWith(out, ".png")) return {withEnding(out, ".yaml"), out};
+  return {out, withEnding(out, ".png")};
+}
+
+void makeRosMap(Source& source, const fs::path& out, Files& files) {
+  const auto [yaml, picture] = rosFiles(out);
+  RosMap map = toRosMap(source.grid(), picture.filename().string());
+  files[picture] = std::move(map.png);
+  files[yaml] = std::move(map.yaml);
+}
+
+/// Formats by file name extension, case-insensitive. To add a format, add a line here.
 struct Format {
   const char* ending;
   const char* help;
@@ -87,8 +109,10 @@ const std::vector<Format>& formats() {
   static const std::vector<Format> all{
       {".gridmap", "MRPT's occupancy grid",
        [](Source& source, const fs::path& out, Files& files) { files[out] = toGridmap(source.grid()); }},
-      {".yaml", "ROS's map_server, with its picture in a .png beside it", makeRosMap},
-      {".png", "the same, named by the picture", makeRosMap},
+      {".gridmap.gz", "the same, compressed",
+       [](Source& source, const fs::path& out, Files& files) { files[out] = gzipped(toGridmap(source.grid())); }},
+      {".yaml", "ROS's map_server, with its image in a .png next to it", makeRosMap},
+      {".png", "the same, by the name of the image", makeRosMap},
       {".bt", "OctoMap, free or occupied",
        [](Source& source, const fs::path& out, Files& files) { files[out] = source.octomap(OctomapForm::binary); }},
       {".ot", "OctoMap, with probabilities",
@@ -110,17 +134,18 @@ const std::vector<Format>& formats() {
 const Format& formatOf(const fs::path& out) {
   std::vector<std::string> endings;
   for (const auto& format : formats()) {
-    if (out.extension() == format.ending) return format;
+    if (endsWith(out, format.ending)) return format;
     endings.emplace_back(format.ending);
   }
-  throw ConfigError(out.string() + ": is of no known format; give it a name that ends in one of: " + listed(endings));
+  throw ConfigError(out.string() + ": unknown format; use a name that ends in one of: " + listed(endings));
 }
 
-/// The files that a format will write for this name.
+/// Files that a format writes for this name.
 std::vector<fs::path> filesOf(const fs::path& out) {
   const std::string ending = formatOf(out).ending;
-  if (ending == ".yaml" || ending == ".png") return {withEnding(out, ".yaml"), withEnding(out, ".png")};
-  return {out};
+  if (ending != ".yaml" && ending != ".png") return {out};
+  const auto [yaml, picture] = rosFiles(out);
+  return {yaml, picture};
 }
 
 void check(const Arguments& arguments) {
@@ -134,7 +159,7 @@ void check(const Arguments& arguments) {
   }
   std::vector<std::pair<std::string, fs::path>> all{{"WORLD", arguments.world}};
   for (const auto& [file, out] : outs) {
-    all.emplace_back(file == out ? "OUT" : "what belongs to " + out, file);
+    all.emplace_back(file == out ? "OUT" : "companion file of " + out, file);
     checkWritable(file);
   }
   refuseSameFile(all);
@@ -142,45 +167,60 @@ void check(const Arguments& arguments) {
 
 void exportWorld(const Arguments& arguments) {
   check(arguments);
-  Source source(arguments);
+  std::optional<Progress> shown(std::in_place);
+  Progress& progress = *shown;
+  progress.show("reading " + arguments.world + " …");
+  Source source(arguments, progress);
+  const auto inputs = inputFilesOf(arguments.world, source.loaded().world);
+  for (const auto& out : arguments.outs) refuseOverwriting(inputs, filesOf(out));
   Files files;
-  for (const auto& out : arguments.outs) formatOf(out).make(source, out, files);
-  // No file takes its name before all are written, so that none is left beside an old one that belonged to it.
-  std::vector<std::unique_ptr<WholeFile>> written;
+  for (const auto& out : arguments.outs) {
+    progress.show("creating " + out + " …");
+    formatOf(out).make(source, out, files);
+  }
+  progress.show("writing …");
+  // All files are renamed after all have been written, so that files of different exports never mix.
+  std::vector<std::unique_ptr<AtomicFile>> written;
   for (const auto& [file, bytes] : files) {
-    written.push_back(std::make_unique<WholeFile>(file));
+    written.push_back(std::make_unique<AtomicFile>(file));
     written.back()->write(bytes);
     written.back()->finish();
   }
   for (auto& file : written) file->commit();
-  for (const auto& [file, bytes] : files) std::cout << file.string() << ": " << withCommas(bytes.size()) << " bytes\n";
+  shown.reset();  // clears its line
+  for (const auto& [file, bytes] : files)
+    std::cout << printableText(file.string()) << ": " << withCommas(bytes.size()) << " bytes\n";
 }
 
 std::string formatsHelp() {
   Rows rows;
   for (const auto& format : formats()) rows.push_back({"  " + std::string(format.ending), format.help});
-  return "Formats, by the ending of OUT:\n" + listing(rows) +
+  return "Formats, by the extension of OUT:\n" + listing(rows) +
          "Try:  robosim export worlds/opho2_1.xml opho2_1.gridmap opho2_1.yaml opho2_1.bt opho2_1.svg";
 }
 
 }  // namespace
 
 void addExport(CLI::App& program) {
-  auto* command = program.add_subcommand("export", "Write a world as a map for other programs, or as a plan");
+  auto* command = addSubcommand(program, "export");
   auto arguments = std::make_shared<Arguments>();
-  command->add_option("WORLD", arguments->world, "world file, or a map's file")->type_name("FILE")->required();
-  command->add_option("OUT", arguments->outs, "files to write, each of the format that its name ends in")
+  command->add_option("WORLD", arguments->world, "world file or map file")->type_name("FILE")->required();
+  command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")
       ->type_name("FILE")
       ->required()
       ->check(fileName());
-  command->add_option("--resolution", arguments->resolution_m, "side of a cell or voxel, metres")
-      ->check(numberIn(0.001, kCellMax_m))
-      ->type_name("METRES")
-      ->capture_default_str();
   command
-      ->add_option("--heights", arguments->heights_m,
-                   "what stands between these counts, metres above the ground; default: for a grid what may be in a "
-                   "robot's way, for an OctoMap everything")
+      ->add_option("--resolution", arguments->resolution_m,
+                   "side of a cell or voxel, 0.001 to 100 m; default: that of the world's map, whose cells are then "
+                   "kept as they "
+                   "are, and 0.05 m for a world without a map of cells")
+      ->check(numberIn(0.001, kCellMax_m))
+      ->type_name("METRES");
+  command
+      ->add_option(
+          "--heights", arguments->heights_m,
+          "include only objects between these heights above the ground, -1000 to 1000 m; default: for a grid what can "
+          "collide with a robot, for an OctoMap everything")
       ->check(numberIn(-1000, 1000))
       ->type_name("LOW HIGH")
       ->expected(2);

@@ -1,64 +1,41 @@
+// The command `robosim`: starts the executable that contains the requested subcommand. It links no library of its own,
+// so that --help, --version and errors appear at once.
+#include <cerrno>
+#include <cstring>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
-#include "base/error_list.h"
+#include "base/program_folder.h"
+#include "robosim/program.h"
 #include "robosim/subcommands.h"
 
+namespace robosim {
 namespace {
 
-int fail(robosim::ExitCode code, const std::string& what) {
-  std::cout.flush();
-  std::cerr << "robosim: " << what << '\n';
-  return code;
+/// Replaces this process by the executable in the folder of this one.
+int start(const char* part, char** argv) {
+  try {
+    const auto file = programFolder() / part;
+    execv(file.c_str(), argv);
+    std::cerr << "robosim: cannot start " << file.string() << ": " << std::strerror(errno)
+              << "; install RoboSim again\n";
+  } catch (const std::exception& error) {
+    std::cerr << "robosim: " << error.what() << '\n';
+  }
+  return kRunFailed;
 }
 
-bool hasSubcommand(const CLI::App& program, const std::string& name) {
-  return !program.get_subcommands([&](const CLI::App* command) { return command->check_name(name); }).empty();
+void addAll(CLI::App& program) {
+  for (const auto& subcommand : kSubcommands) addSubcommand(program, subcommand.name);
 }
 
 }  // namespace
+}  // namespace robosim
 
 int main(int argc, char** argv) {
-  CLI::App program(
-      "RoboSim simulates many sensing, talking, cooperating mobile robots, and keeps their runs as MRPT rawlogs.");
-  program.name("robosim");
-  program.set_version_flag("--version", "robosim " ROBOSIM_VERSION);
-  program.require_subcommand(1);
-  program.footer(
-      "Try:  robosim run worlds/opho2_1.xml --picture run.png\n"
-      "Exit: 0 done, 1 bad input, 2 the run itself failed.");
-  robosim::addRun(program);
-  robosim::addServe(program);
-  robosim::addRobot(program);
-  robosim::addRemote(program);
-  robosim::addGeometry(program);
-  robosim::addControl(program);
-  robosim::addView(program);
-  robosim::addReplay(program);
-  robosim::addCheck(program);
-  robosim::addExport(program);
-  robosim::addBench(program);
-
-  // CLI11 would call an unknown subcommand a missing one.
-  if (const std::string first = argc > 1 ? argv[1] : "-"; first.find('-') != 0 && !hasSubcommand(program, first)) {
-    return fail(robosim::kBadInput, "there is no subcommand '" + first + "'; see robosim --help");
-  }
-  try {
-    program.parse(argc, argv);
-    std::cout.flush();
-    if (!std::cout) return fail(robosim::kRunFailed, "standard output could not be written; is the disk full?");
-    return robosim::kDone;
-  } catch (const CLI::ParseError& error) {
-    // Help and version are no errors; everything else that CLI11 refuses is bad input, whatever its own number for it.
-    return program.exit(error) == 0 ? robosim::kDone : robosim::kBadInput;
-  } catch (const robosim::Exit& exit) {
-    return exit.code;
-  } catch (const robosim::ConfigError& error) {
-    return fail(robosim::kBadInput, error.what());
-  } catch (const std::invalid_argument& error) {
-    return fail(robosim::kBadInput, error.what());
-  } catch (const std::exception& error) {
-    return fail(robosim::kRunFailed, error.what());
-  }
+  const robosim::Subcommand* subcommand = argc > 1 ? robosim::subcommandNamed(argv[1]) : nullptr;
+  if (subcommand) return robosim::start(subcommand->part, argv);
+  return robosim::executeRobosim({robosim::addAll}, argc, argv);
 }

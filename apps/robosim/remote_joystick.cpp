@@ -8,10 +8,11 @@
 
 #include <unistd.h>
 
+#include "base/printable_text.h"
+#include "base/text_table.h"
 #include "remote/joystick.h"
-#include "remote/stick_pilot.h"
-#include "remote/team_notes.h"
-#include "robosim/text.h"
+#include "remote/joystick_driver.h"
+#include "remote/team_events.h"
 
 namespace robosim {
 namespace {
@@ -30,17 +31,17 @@ struct NearestEcho {
   double operator()(const auto&) const { return INFINITY; }
 };
 
-std::string howDriven(const RobotNews& news) {
-  if (!news.is_up) return news.problem.empty() ? "calling it" : "down: " + news.problem;
+std::string driveState(const RobotNews& news) {
+  if (!news.is_up) return news.problem.empty() ? "connecting" : "down: " + news.problem;
   const RemoteState& state = news.state;
   if (!state.winner.empty()) return state.winner + " has won";
-  if (!state.is_yours) return state.driver.empty() ? "nobody drives" : state.driver + " drives";
+  if (!state.is_yours) return state.driver.empty() ? "no driver" : state.driver + " drives";
   if (state.autonomous) return "autonomous";
   return state.why_stopped.empty() ? "you drive" : "stopped: " + state.why_stopped;
 }
 
 /// "Pioneer1: 12.3 s, 0.40 m/s, 12 °/s, heat 3.1, nearest 0.84 m; you drive"
-std::string lineFor(const RemoteControl::Robot& robot) {
+std::string statusText(const RemoteControl::Robot& robot) {
   const RobotNews& news = robot.news;
   std::string line = robot.name + ": ";
   if (news.update && news.is_up) {
@@ -57,24 +58,24 @@ std::string lineFor(const RemoteControl::Robot& robot) {
     if (std::isfinite(nearest_m)) line += ", nearest " + fixed(nearest_m, 2) + " m";
     line += readings.stalled ? ", stalled; " : "; ";
   }
-  return line + howDriven(news);
+  return line + driveState(news);
 }
 
-/// The line that tells how it goes.
+/// The status line.
 class StatusLine {
  public:
-  ~StatusLine() { wipe(); }
+  ~StatusLine() { clear(); }
 
   void show(const std::string& text, Clock::time_point now) {
     if (now < next_) return;
     next_ = now + (on_terminal_ ? 200ms : 1000ms);
-    wipe();
-    std::printf(on_terminal_ ? "%s" : "%s\n", text.c_str());
+    clear();
+    std::printf(on_terminal_ ? "%s" : "%s\n", printableText(text).c_str());
     std::fflush(stdout);
     is_shown_ = true;
   }
-  /// Room for another line.
-  void wipe() {
+  /// Clears the line, so that other output can follow.
+  void clear() {
     if (on_terminal_ && is_shown_) std::printf("\r\033[K");
     std::fflush(stdout);
     is_shown_ = false;
@@ -91,40 +92,42 @@ class StatusLine {
 void driveByJoystick(RemoteControl& control, int number, const std::function<bool()>& interrupted,
                      const std::function<void(const std::string&)>& log) {
   Joystick joystick(number);
-  StickPilot pilot;
-  TeamNotes notes;
+  JoystickDriver driver;
+  TeamEvents events;
   StatusLine line;
   const std::string device = "joystick " + std::to_string(number);
-  const auto tell = [&](const std::string& text) {
-    line.wipe();
+  const auto report = [&](const std::string& text) {
+    line.clear();
     log(text);
   };
   bool has_stick = false;
-  bool has_told = false;
+  bool has_reported = false;
   while (!interrupted()) {
     const auto now = Clock::now();
     control.tick();
     const auto robots = control.robots();
-    for (const auto& note : notes.news(robots)) tell(note.text);
+    for (const auto& event : events.news(robots)) report(event.text);
     const auto stick = joystick.read();
-    if (!has_told || has_stick != stick.has_value()) {
+    if (!has_reported || has_stick != stick.has_value()) {
       has_stick = stick.has_value();
-      tell(has_stick ? device + " drives " + robots.front().name
-                     : "no " + device + " (/dev/input/js" + std::to_string(number) +
-                           "): plug one in, and see that you may read it; the robot stands");
+      report(has_stick ? device + " drives " + robots.front().name
+                       : "no " + device + " (/dev/input/js" + std::to_string(number) +
+                             "): connect a joystick and check its read permission; the robot stands still");
     }
-    has_told = true;
-    // Without a stick nothing is said: the robot's dead man's handle stops it.
+    has_reported = true;
+    // Without a joystick nothing is sent, so that the robot's dead man's switch stops it.
+    if (!stick) driver = JoystickDriver();
     if (stick && robots.front().news.info) {
-      const auto wish = pilot.wish(*stick, robots.front().news.info->limits, now);
-      control.send(wish.order);
-      if (wish.checks_win) control.send({.type = RemoteType::check_win});
-      if (wish.switches) {
+      const auto output = driver.convert(*stick, robots.front().news.info->limits, now);
+      control.send(output.order);
+      if (output.checks_win) control.send({.type = RemoteType::check_win});
+      if (output.switches) {
         const bool done = control.switchPrimary();
-        tell(done ? device + " drives " + control.primary().name : "there is no other robot that could be driven now");
+        if (done) driver.latch();
+        report(done ? device + " drives " + control.primary().name : "no other robot can be driven now");
       }
     }
-    line.show(lineFor(robots.front()), now);
+    line.show(statusText(robots.front()), now);
     std::this_thread::sleep_for(kPause);
   }
 }

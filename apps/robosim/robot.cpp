@@ -4,16 +4,18 @@
 #include <CLI/CLI.hpp>
 #include <google/protobuf/stubs/logging.h>
 
+#include "base/fork_processes.h"
+#include "base/log.h"
 #include "control/network_hardware.h"
 #include "maze/controllers.h"
+#include "net/host_port.h"
 #include "net/listen.h"
-#include "net/redial.h"
+#include "net/reconnector.h"
 #include "remote/remote_port.h"
-#include "robosim/apart.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
-#include "robosim/local_run.h"
 #include "robosim/subcommands.h"
+#include "run/local_run.h"
 
 namespace robosim {
 namespace {
@@ -29,42 +31,37 @@ struct Arguments {
   double dead_man_s = 0.5;
 };
 
-void log(const std::string& line) { std::cerr << "robosim robot: " + line + "\n"; }
+void log(const std::string& line) { logLine("robot", line); }
 
-struct Seat {
+struct DrivenRobot {
   Robot robot;
   std::unique_ptr<Controller> controller;
 };
 
-std::string controllerOf(const NetworkHardware& robots, std::size_t i, const std::string& instead) {
-  if (!instead.empty()) return instead;
-  return robots.controller(i).empty() ? kDefaultController : robots.controller(i);
-}
-
-/// Nobody may steer these robots from afar by mistake. @throws ConfigError
+/// Requires explicit protection of remote control. @throws ConfigError
 RemotePort::Options portOptions(const Arguments& arguments) {
   RemotePort::Options options;
   options.listen = hostAndPort(arguments.remote_port);
   options.tls = arguments.listener.identity();
-  options.access = arguments.listener.access();
-  if (!arguments.connection.insecure) {
-    refuseExposure("--remote-port", options.listen, options.tls.has_value(), !options.access.isOpen());
+  options.access = arguments.listener.access(log);
+  if (!arguments.listener.unprotected) {
+    checkExposure("--remote-port", options.listen, options.tls.has_value(), !options.access.isOpen());
   }
   options.log = log;
   return options;
 }
 
-/// The robots of this process, and who drives them: their controllers, or with --remote-port persons, too.
-class Crew {
+/// The robots of this process with their controllers and, with --remote-port, remote control.
+class RobotProcess {
  public:
-  explicit Crew(const Arguments& arguments)
+  explicit RobotProcess(const Arguments& arguments)
       : port_options_(arguments.remote_port.empty() ? RemotePort::Options{} : portOptions(arguments)),
-        robots_(arguments.connection.dialOptions(), arguments.names) {
+        robots_(arguments.connection.connectOptions(arguments.patience_s), arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
-      auto controller = makeController(controllerOf(robots_, i, arguments.controller), setup);
+      auto controller = makeController(controllerOf(robots_.controller(i), arguments.controller), setup);
       if (arguments.remote_port.empty()) {
-        seats_.push_back({Robot(robots_.robot(i)), std::move(controller)});
+        driven_robots_.push_back({Robot(robots_.robot(i)), std::move(controller)});
       } else {
         addRemote(robots_.robot(i), std::move(controller), arguments.dead_man_s);
       }
@@ -73,19 +70,22 @@ class Crew {
   }
 
   void drive() {
+    if (robots_.hasAnswered() && !robots_.nextStep()) return;
     do {
-      for (auto& seat : seats_) seat.controller->step(seat.robot);
+      for (auto& driven : driven_robots_) driven.controller->step(driven.robot);
       for (auto& robot : remote_robots_) robot->step();
-      if (port_) port_->tell();
+      if (port_) port_->publish();
     } while (robots_.nextStep());
   }
   void rejoin() { robots_.rejoin(); }
+  std::size_t unconfirmedMessages() const { return robots_.unconfirmedMessages(); }
   std::uint64_t stepNumber() { return robots_.robot(0).readings().time.step; }
 
  private:
   void addRemote(Hardware& hardware, std::unique_ptr<Controller> controller, double dead_man_s) {
     RemoteControlRobot::Options options;
-    options.dead_man = std::chrono::duration_cast<Helm::Clock::duration>(std::chrono::duration<double>(dead_man_s));
+    options.dead_man =
+        std::chrono::duration_cast<DriveCommandFilter::Clock::duration>(std::chrono::duration<double>(dead_man_s));
     options.log = log;
     remote_robots_.push_back(std::make_unique<RemoteControlRobot>(hardware, std::move(controller), options));
   }
@@ -96,28 +96,34 @@ class Crew {
     port_ = std::make_unique<RemotePort>(
         port_options_, RemotePort::Run{robots_.world(), robots_.seed(), robots_.robot(0).readings().time.period_s},
         robots);
-    const std::string& address = port_options_.listen;
-    log("remote control on " + address.substr(0, address.rfind(':') + 1) + std::to_string(port_->port()));
+    log("remote control on " + withPort(port_options_.listen, port_->port()));
   }
 
   RemotePort::Options port_options_;
   NetworkHardware robots_;
-  std::vector<Seat> seats_;
+  std::vector<DrivenRobot> driven_robots_;
   std::vector<std::unique_ptr<RemoteControlRobot>> remote_robots_;
   std::unique_ptr<RemotePort> port_;
 };
 
 void driveRobots(const Arguments& arguments) {
-  google::protobuf::SetLogHandler(nullptr);  // what a remote control sends amiss, our own log tells
-  Crew crew(arguments);
-  Redial redial(std::chrono::duration<double>(arguments.patience_s), log);
-  redial.keepTalking([&] { crew.drive(); }, [&] { crew.rejoin(); });
-  std::cout << "the run is over after " << crew.stepNumber() << " steps" << std::endl;
+  google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
+  RobotProcess process(arguments);
+  Reconnector reconnector(std::chrono::duration<double>(arguments.patience_s), log);
+  try {
+    reconnector.run([&] { process.drive(); }, [&] { process.rejoin(); });
+  } catch (const ConnectionError&) {
+    if (const std::size_t lost = process.unconfirmedMessages(); lost > 0) {
+      log("the environment has not confirmed the last " + std::to_string(lost) + " messages to other robots");
+    }
+    throw;
+  }
+  std::cout << "the run is over after " << process.stepNumber() << " steps" << std::endl;
 }
 
-/// Each robot in a process of its own.
+/// Runs each robot in a separate process.
 void driveRobotsApart(Arguments arguments) {
-  const auto mine = goOnApart(arguments.names.size());
+  const auto mine = forkProcesses(arguments.names.size());
   if (!mine) return;
   arguments.names = {arguments.names[*mine]};
   driveRobots(arguments);
@@ -126,25 +132,24 @@ void driveRobotsApart(Arguments arguments) {
 }  // namespace
 
 void addRobot(CLI::App& program) {
-  auto* command = program.add_subcommand("robot", "Drive one or many robots of an environment elsewhere");
+  auto* command = addSubcommand(program, "robot");
   auto a = std::make_shared<Arguments>();
-  command->add_option("NAME", a->names, "robots of the environment's world")->required();
-  auto* apart = command->add_flag("--apart", a->apart,
-                                  "each robot in a process of its own; many take half the time of as many programs");
+  command->add_option("NAME", a->names, "names of robots in the environment's world")->required();
+  auto* apart = command->add_flag(
+      "--apart", a->apart, "run each robot in a separate process; takes half the time of separately started programs");
   addConnectionOptions(*command, a->connection);
-  command->add_option("--controller", a->controller, "for all these robots, in place of what the world names")
+  command->add_option("--controller", a->controller, "controller of all these robots, instead of those in the world")
       ->check(CLI::IsMember(controllerNames()));
   addPatience(*command, a->patience_s);
   command
       ->add_option(
           "--remote-port", a->remote_port,
-          "let people drive these robots: where 'robosim remote' finds them. Until one does, their controllers "
+          "accept remote control of these robots by 'robosim remote' at this address. Until then, their controllers "
           "drive")
       ->type_name("[HOST:]PORT")
       ->excludes(apart);
   command
-      ->add_option("--dead-man", a->dead_man_s,
-                   "a robot that a person drives stops when it has heard nothing from them for so long")
+      ->add_option("--dead-man", a->dead_man_s, "a remotely driven robot stops when it receives nothing for this time")
       ->check(numberIn(0.05, 60))
       ->type_name("SECONDS")
       ->capture_default_str();

@@ -4,14 +4,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/interrupt.h"
+#include "base/progress.h"
+#include "base/text_table.h"
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"
-#include "robosim/interrupt.h"
-#include "robosim/local_run.h"
-#include "robosim/progress.h"
-#include "robosim/run_outputs.h"
+#include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
-#include "robosim/text.h"
+#include "run/local_run.h"
+#include "run/run_outputs.h"
 
 namespace robosim {
 namespace {
@@ -28,13 +29,13 @@ std::string progressText(const LocalRun& run, double wall_s) {
          " robots active (Ctrl-C ends the run)";
 }
 
-/// Sleeps until then, in short naps, for an interrupt wakes nobody. @return whether nobody asked for the end meanwhile
+/// Sleeps until a time, in short intervals, because an interrupt does not wake it. @return false when interrupted
 bool waitUntil(std::chrono::time_point<Clock, std::chrono::duration<double>> then, const Interrupt& interrupt) {
   constexpr std::chrono::duration<double> kNap(0.05);
-  while (Clock::now() < then && !interrupt.asked()) {
+  while (Clock::now() < then && !interrupt.isRequested()) {
     std::this_thread::sleep_for(std::min<std::chrono::duration<double>>(kNap, then - Clock::now()));
   }
-  return !interrupt.asked();
+  return !interrupt.isRequested();
 }
 
 EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& interrupt, RunOutputs& outputs) {
@@ -44,7 +45,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
   outputs.observe(run.environment());
   while (!run.gold().all_halted_s) {
     const SimTime now = run.environment().time();
-    if (interrupt.asked()) return EndedBy::interrupt;
+    if (interrupt.isRequested()) return EndedBy::interrupt;
     if (arguments.timeIsUp(now)) return EndedBy::time_limit;
     if (speed > 0 && !waitUntil(start + std::chrono::duration<double>(now.seconds() / speed), interrupt)) {
       return EndedBy::interrupt;
@@ -60,13 +61,14 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
 
 void runWorld(const RunArguments& arguments) {
   const Interrupt interrupt;
-  arguments.check();
-  std::optional<WorldSource> source;  // a recording keeps what it is of
-  if (!arguments.record.empty()) source = readWorldSource(arguments.world);
+  checkRunArguments(arguments);
+  std::optional<WorldSource> source;  // kept for the recording's note
+  if (!arguments.record.empty() || !arguments.changes.isNone()) source = sourceOf(arguments);
   LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
                       : loadWorldToRun(arguments.world, arguments.run.controller),
                arguments.run);
-  RunOutputs outputs(arguments, run.environment(), source ? noteOf(*source, run, arguments.run) : RunNote());
+  RunOutputs outputs(arguments, run.environment(),
+                     !arguments.record.empty() ? noteOf(*source, run, arguments.run) : RunNote());
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {
@@ -78,12 +80,13 @@ void runWorld(const RunArguments& arguments) {
     throw;
   }
   outputs.finish(run, std::chrono::duration<double>(Clock::now() - start).count(), ended_by);
+  if (ended_by == EndedBy::interrupt) throw Interrupted("interrupted; all outputs cover the steps before");
 }
 
 }  // namespace
 
 void addRun(CLI::App& program) {
-  auto* command = program.add_subcommand("run", "Run a world in this process, as fast as it can");
+  auto* command = addSubcommand(program, "run");
   auto arguments = std::make_shared<RunArguments>();
   addRunArguments(*command, *arguments);
   command->footer(controllersHelp());

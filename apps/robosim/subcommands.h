@@ -1,14 +1,60 @@
 #pragma once
+#include <array>
+#include <string_view>
+
 #include "robosim/cli11_names.h"
 
 namespace robosim {
 
-/// How a run of the program ends.
-enum ExitCode { kDone = 0, kBadInput = 1, kRunFailed = 2 };
+/// Exit codes of the program.
+enum ExitCode {
+  kDone = 0,
+  kBadInput = 1,
+  kRunFailed = 2,
+  kIncomplete = 3,  ///< steps were taken without some of the robots, or messages were lost
+  kUntrusted = 4,   ///< a geometry worker returned wrong results
+};
+
+/// Thrown by a subcommand to end with a given exit code, after it has printed the reason.
+struct Exit {
+  ExitCode code;
+};
+
+/// A subcommand of `robosim`.
+struct Subcommand {
+  const char* name;
+  const char* help;
+  const char* part;  ///< the executable that contains it
+};
+
+/// All subcommands, in the order of the help text. They are divided among executables by the libraries that they need,
+/// so that each starts fast: robosim-run needs neither gRPC nor a windowing system.
+inline constexpr std::array kSubcommands{
+    Subcommand{"run", "Run a world in this process", "robosim-run"},
+    Subcommand{"serve", "Serve a world to robots, viewers, geometry workers and control panels in other processes",
+               "robosim-net"},
+    Subcommand{"robot", "Run the controllers of robots of a served world", "robosim-net"},
+    Subcommand{"remote", "Drive one robot of a team, from a web page or with a joystick", "robosim-net"},
+    Subcommand{"geometry", "Compute moves and readings of robots for an environment in another process", "robosim-net"},
+    Subcommand{"control", "Control a served run", "robosim-net"},
+    Subcommand{"view", "View a running environment, a recording, a world, or a map", "robosim-view"},
+    Subcommand{"replay", "Summarise a recording, print it, extract a part, repeat its run, or feed it to a controller",
+               "robosim-run"},
+    Subcommand{"check", "Validate a file and summarise it, or list all errors", "robosim-run"},
+    Subcommand{"export", "Export a world as a map for other programs, or as a plan", "robosim-run"},
+    Subcommand{"bench", "Measure success rates; speed is measured by robosim_bench", "robosim-run"},
+};
+
+/// The entry of kSubcommands with this name; null when there is none.
+const Subcommand* subcommandNamed(std::string_view name);
+
+/// Adds a subcommand of kSubcommands, without options.
+/// @return the subcommand, owned by `program`
+CLI::App* addSubcommand(CLI::App& program, std::string_view name);
 
 /// @name The subcommands, one file each
-/// Each adds itself to the program. What it throws says how it ended: ConfigError and std::invalid_argument for bad
-/// input, anything else for a run that failed.
+/// Each function adds a subcommand with its options to the program. Exceptions determine the exit code: ConfigError and
+/// std::invalid_argument for bad input, anything else for a failed run.
 ///@{
 void addRun(CLI::App& program);
 void addServe(CLI::App& program);
@@ -22,18 +68,5 @@ void addCheck(CLI::App& program);
 void addExport(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
-
-/// `robosim bench camera`, `… gold`, `… maps`, `… network`, `… speed` and `… view`
-void addBenchCamera(CLI::App& bench);
-void addBenchGold(CLI::App& bench);
-void addBenchMaps(CLI::App& bench);
-void addBenchNetwork(CLI::App& bench);
-void addBenchSpeed(CLI::App& bench);
-void addBenchView(CLI::App& bench);
-
-/// The way for a subcommand to end with a code of its own, after it has said why.
-struct Exit {
-  ExitCode code;
-};
 
 }  // namespace robosim

@@ -7,9 +7,11 @@
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
 #include "robosim/arguments.h"
+#include "robosim/connection.h"
 #include "robosim/subcommands.h"
-#include "robosim/view_outputs.h"
-#include "robosim/view_source.h"
+#include "run/output_files.h"
+#include "viewing/view_outputs.h"
+#include "viewing/view_source.h"
 
 namespace robosim {
 namespace {
@@ -17,6 +19,7 @@ namespace {
 struct Arguments {
   std::string source;
   ConnectionArguments connection;
+  WorldChanges changes;
   bool is_2d = false, is_3d = false;
   std::vector<std::string> follow;
   std::vector<std::string> views;
@@ -60,8 +63,8 @@ std::vector<Pane> panesFor(const Arguments& a, const LoadedWorld& world, AbsentR
   if (a.is_2d || (!a.is_3d && a.views.empty())) add(false);
   if (a.is_3d) add(true);
   for (const auto& view : a.views) panes.push_back(paneFrom(view, world, absent));
-  constexpr std::size_t kMostPanes = 16;
-  if (panes.size() > kMostPanes) throw ConfigError("a picture has room for 16 views; ask for fewer");
+  constexpr std::size_t kMaxPanes = 16;
+  if (panes.size() > kMaxPanes) throw ConfigError("a picture has at most 16 views; use fewer");
   return panes;
 }
 
@@ -82,7 +85,7 @@ std::string brief(double number) {
   return text.str();
 }
 
-/// @throws ConfigError for what would do nothing, or show nothing.
+/// @throws ConfigError for options that would have no effect, or show nothing.
 void checkTimes(const Arguments& a, const ViewSource& source) {
   const ViewTimes& times = a.times;
   const auto duration_s = source.duration();
@@ -90,11 +93,10 @@ void checkTimes(const Arguments& a, const ViewSource& source) {
     if (is_given) throw ConfigError("--" + option + ": " + why);
   };
   for (const auto& [option, given] : {std::pair{"from", times.from_s}, {"to", times.to_s}, {"speed", times.speed}}) {
-    refuse(given && !duration_s, option, "is of a recording, and " + a.source + " is none");
+    refuse(given && !duration_s, option, "applies to recordings only, and " + a.source + " is not one");
   }
-  refuse(times.speed && !a.offscreen.empty() && !isVideo(a.offscreen), "speed", "a picture has none; leave it out");
-  refuse(times.for_s && (!isVideo(a.offscreen) || duration_s), "for",
-         "is of a video of a run that goes on; leave it out");
+  refuse(times.speed && !a.offscreen.empty() && !isVideo(a.offscreen), "speed", "applies to videos only; omit it");
+  refuse(times.for_s && (!isVideo(a.offscreen) || duration_s), "for", "applies to videos of live runs only; omit it");
   if (!times.from_s) return;
   const std::string from = "from " + brief(*times.from_s);
   refuse(times.to_s && *times.to_s < *times.from_s, from, "is later than --to " + brief(*times.to_s));
@@ -107,7 +109,12 @@ void view(const Arguments& a) {
     checkOffscreenFile(a.offscreen);
     refuseSameFile({{"SOURCE", a.source}, {"--offscreen", a.offscreen}});
   }
-  const auto source = openView(a.source, a.connection);
+  const auto connect_options = [connection = a.connection](const std::string& address) mutable {
+    connection.environment = address;
+    return connection.connectOptions();
+  };
+  const auto source = openView(a.source, connect_options, a.changes);
+  refuseOverwriting(source->inputs(), {a.offscreen});
   checkTimes(a, *source);
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
   if (a.offscreen.empty()) {
@@ -120,51 +127,50 @@ void view(const Arguments& a) {
 }  // namespace
 
 void addView(CLI::App& program) {
-  auto* command = program.add_subcommand("view", "Look at a running environment, a recording, a world, or a map");
+  auto* command = addSubcommand(program, "view");
   auto a = std::make_shared<Arguments>();
   command
       ->add_option("SOURCE", a->source,
-                   "the address of a running environment (HOST:PORT), a world file, a map, or a rawlog, anybody's")
+                   "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program")
       ->type_name("ADDRESS|FILE")
       ->required();
+  addRobotOptions(*command, a->changes);
   command->add_flag("--2d", a->is_2d, "from above, to scale (the default)");
-  command->add_flag("--3d", a->is_3d, "from the air; both may be given");
-  command->add_option("--follow", a->follow, "ride on this robot; may be given several times, for a view each")
-      ->type_name("ROBOT");
-  command->add_option("--view", a->views, "one more view: 2d, 3d, 2d@ROBOT or 3d@ROBOT; may be given several times")
-      ->type_name("VIEW");
+  command->add_flag("--3d", a->is_3d, "in perspective; may be combined with --2d");
+  command->add_option("--follow", a->follow, "follow this robot; repeatable, adds a view each")->type_name("ROBOT");
+  command->add_option("--view", a->views, "add a view: 2d, 3d, 2d@ROBOT or 3d@ROBOT; repeatable")->type_name("VIEW");
   command
       ->add_option("--offscreen", a->offscreen,
                    "no window: write a picture (.png) of the start of a world, the end of a recording, or the newest "
                    "step of a run; or a video (.mp4)")
       ->type_name("FILE")
       ->check(fileName());
-  command->add_option("--size", a->size, "of the window or the picture, pixels")
+  command->add_option("--size", a->size, "size of the window or the picture, pixels")
       ->type_name("WxH")
       ->capture_default_str();
-  command->add_option("--from", a->times.from_s, "of a recording: begin at this time")
+  command->add_option("--from", a->times.from_s, "recordings: start at this time")
       ->type_name("SECONDS")
       ->check(numberIn(0, 1e18));
-  command->add_option("--to", a->times.to_s, "of a recording: end at this time; a picture is of this time")
+  command->add_option("--to", a->times.to_s, "recordings: end at this time; also the time of a picture")
       ->type_name("SECONDS")
       ->check(numberIn(0, 1e18));
-  command->add_option("--for", a->times.for_s, "of a video of a run that goes on: end after this time of the clock")
+  command->add_option("--for", a->times.for_s, "videos of live runs: end after this wall time")
       ->type_name("SECONDS")
       ->check(numberIn(0.1, 1e6));
-  command->add_option("--speed", a->times.speed, "of a recording: recorded seconds per second")
+  command->add_option("--speed", a->times.speed, "recordings: recorded seconds per second")
       ->check(numberIn(0.001, 1e6))
       ->default_str("1");
-  command->add_option("--fps", a->times.fps, "pictures a second of a video")
+  command->add_option("--fps", a->times.fps, "frames per second of a video")
       ->check(numberIn(1, 120))
       ->capture_default_str();
   addSecurityOptions(*command, a->connection);
   command->footer(
       "In the window:\n"
       "  left drag      move (2D), turn (3D)        wheel      zoom\n"
-      "  right drag     move (3D)                   click      follow a robot, or nobody\n"
-      "  space          pause, go on                s          one step\n"
+      "  right drag     move (3D)                   click      follow a robot, or none\n"
+      "  space          pause, resume               s          one step\n"
       "  + -            faster, slower              ← →        5 s back or on, of a recording\n"
-      "  f              ride on the next robot      0          show everything\n"
+      "  f              follow the next robot       0          show everything\n"
       "  t v n          trails, sensors, names      q, Esc     quit\n"
       "Try:  robosim view worlds/opho2_1.xml --offscreen world.png");
   command->callback([a] { view(*a); });

@@ -2,8 +2,20 @@
 
 #include <algorithm>
 
+#include "base/printable_text.h"
+
 namespace robosim {
 namespace {
+
+/// Maximum length of a stored error [bytes].
+constexpr std::size_t kMaxErrorBytes = 2000;
+
+std::string errorLine(const std::string& error) { return printableText(shortened(error, kMaxErrorBytes)); }
+
+std::vector<std::string> errorLines(std::vector<std::string> errors) {
+  for (auto& error : errors) error = errorLine(error);
+  return errors;
+}
 
 std::string joined(const std::vector<std::string>& lines) {
   std::string all;
@@ -14,10 +26,11 @@ std::string joined(const std::vector<std::string>& lines) {
 }  // namespace
 
 ConfigError::ConfigError(std::vector<std::string> errors)
-    : std::runtime_error(joined(errors)), errors_(std::move(errors)) {}
+    : std::runtime_error(joined(errorLines(errors))), errors_(errorLines(std::move(errors))) {}
 
 void ErrorList::add(const std::string& file, int line, const std::string& what) {
-  add(file + ":" + std::to_string(line) + ": " + what);
+  // Line 0: the file has no lines.
+  add(file + (line > 0 ? ":" + std::to_string(line) : "") + ": " + what);
 }
 
 void ErrorList::add(const ConfigError& error) {
@@ -25,8 +38,8 @@ void ErrorList::add(const ConfigError& error) {
 }
 
 void ErrorList::add(const std::string& error) {
-  if (errors_.size() < kMostErrors) {
-    errors_.push_back(error);
+  if (errors_.size() < kMaxErrors) {
+    errors_.push_back(errorLine(error));
     return;
   }
   if (++more_ == 1) errors_.emplace_back();
@@ -38,10 +51,10 @@ void ErrorList::throwIfAny() const {
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t most = 10;
+  constexpr std::size_t max_listed = 10;
   std::string all;
-  for (std::size_t i = 0; i < std::min(most, words.size()); ++i) all += (i ? ", " : "") + words[i];
-  return words.size() <= most ? all : all + " and " + std::to_string(words.size() - most) + " more";
+  for (std::size_t i = 0; i < std::min(max_listed, words.size()); ++i) all += (i ? ", " : "") + words[i];
+  return words.size() <= max_listed ? all : all + " and " + std::to_string(words.size() - max_listed) + " more";
 }
 
 }  // namespace robosim

@@ -6,8 +6,8 @@
 
 namespace robosim {
 
-/// A fault in a file or an argument that a person gave: what is wrong, where, and how to mend it.
-/// `what()` has one error a line.
+/// Errors in input files or arguments: what is wrong, where, and how to fix it. `what()` has one error per line. Each
+/// error is stored as printableText() of at most about 2,000 bytes, whatever the input is.
 class ConfigError : public std::runtime_error {
  public:
   explicit ConfigError(std::vector<std::string> errors);
@@ -18,17 +18,17 @@ class ConfigError : public std::runtime_error {
   std::vector<std::string> errors_;
 };
 
-/// Gathers the errors of one load, so that a person sees all of them at once: each of the first kMostErrors, and how
-/// many more there were, so that a hopeless file cannot fill the memory.
+/// Collects the errors of one load, to report all of them at once: the first kMaxErrors, and the number of further
+/// ones, so that memory is bounded.
 class ErrorList {
  public:
   void add(const std::string& file, int line, const std::string& what);
   void add(const ConfigError& error);
-  static constexpr std::size_t kMostErrors = 1000;
+  static constexpr std::size_t kMaxErrors = 1000;
 
   bool empty() const { return errors_.empty(); }
-  /// How many there are, told one by one or not.
-  std::size_t count() const { return std::min(errors_.size(), kMostErrors) + more_; }
+  /// Number of all errors, including those beyond kMaxErrors.
+  std::size_t count() const { return std::min(errors_.size(), kMaxErrors) + more_; }
   const std::vector<std::string>& errors() const { return errors_; }
   /// @throws ConfigError with all errors, if there are any.
   void throwIfAny() const;
@@ -40,7 +40,7 @@ class ErrorList {
   std::size_t more_ = 0;
 };
 
-/// "a, b, c" for an error message; of a long list the first ten, and how many more there are.
+/// "a, b, c" for an error message; of a long list the first ten, and the number of further ones.
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace robosim

@@ -5,7 +5,7 @@
 namespace robosim {
 namespace {
 
-TEST(ErrorList, ThrowsAllErrorsAtOnceOneALine) {
+TEST(ErrorList, ThrowsAllErrorsAtOnceOnePerLine) {
   ErrorList errors;
   EXPECT_NO_THROW(errors.throwIfAny());
   errors.add("a.xml", 3, "first");
@@ -19,7 +19,7 @@ TEST(ErrorList, ThrowsAllErrorsAtOnceOneALine) {
   }
 }
 
-TEST(ErrorList, CountsWhatGoesBeyondAThousand) {
+TEST(ErrorList, CountsErrorsBeyondTheMaximum) {
   ErrorList errors;
   for (int i = 1; i <= 1001; ++i) errors.add("a.xml", i, "wrong");
   ASSERT_EQ(errors.errors().size(), 1001u);
@@ -32,7 +32,7 @@ TEST(ErrorList, CountsWhatGoesBeyondAThousand) {
   EXPECT_EQ(errors.errors().back(), "and 42 more errors");
 }
 
-TEST(Listed, NamesTenAtMost) {
+TEST(Listed, ListsAtMostTenWords) {
   EXPECT_EQ(listed({}), "");
   EXPECT_EQ(listed({"a"}), "a");
   EXPECT_EQ(listed({"a", "b", "c"}), "a, b, c");

@@ -4,11 +4,13 @@
 
 #include <Random123/philox.h>
 
+#include "base/portable_math.h"
+
 namespace robosim {
 
 Rng::Rng(std::uint64_t seed, RandomPurpose purpose, std::uint32_t robot, std::uint32_t item, std::uint64_t step)
     : seed_(seed),
-      // The counter's words: who, what for, when, and how many blocks were drawn.
+      // The counter's words: robot, purpose and item, step, and number of blocks drawn.
       counter_{robot, (static_cast<std::uint32_t>(purpose) << 24) ^ item, static_cast<std::uint32_t>(step), 0} {}
 
 Rng::result_type Rng::operator()() {
@@ -33,10 +35,10 @@ double Rng::uniform() {
 double Rng::uniform(double from, double to) { return from + (to - from) * uniform(); }
 
 double Rng::gaussian() {
-  // Box & Muller (1958). The cosine's twin is dropped: a pair kept over would make the stream depend on who drew
-  // before.
-  const double radius = std::sqrt(-2 * std::log(1 - uniform()));
-  return radius * std::cos(2 * M_PI * uniform());
+  // Box & Muller (1958). The second number of each pair is discarded: keeping it would make the results depend on
+  // earlier draws.
+  const double radius = std::sqrt(-2 * portable::log(1 - uniform()));
+  return radius * portable::cos(2 * M_PI * uniform());
 }
 
 std::uint32_t Rng::below(std::uint32_t n) {

@@ -4,18 +4,17 @@
 
 namespace robosim {
 
-/// What a stream of random numbers is for; streams of different purposes are independent.
+/// Purpose of a stream of random numbers; streams of different purposes are independent.
 enum class RandomPurpose : std::uint32_t { sensor_noise, message_loss, controller, start_pose, scenery, test };
 
-/// Random numbers that depend on nothing but who asks, when and for what: a counter-based generator (Philox 4×32-10;
-/// Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as easy as 1, 2, 3", SC11; the library Random123).
-/// So the same run comes out for any number of threads and any order of robots. Satisfies
-/// std::uniform_random_bit_generator.
+/// Counter-based random number generator (Philox 4×32-10; Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as
+/// easy as 1, 2, 3", SC11; the library Random123). Its numbers depend only on the constructor's arguments, so that a
+/// run does not depend on the number of threads or the order of robots. Satisfies std::uniform_random_bit_generator.
 class Rng {
  public:
   using result_type = std::uint32_t;
-  /// `robot` and `item` (a sensor's index, say) tell apart streams of one purpose; `step` is the time step, of which
-  /// the low 32 bits count (13 years of tenths of a second), and `item` is below 2^24.
+  /// `robot` and `item` (such as a sensor's index, below 2^24) identify a stream of one purpose; `step` is the time
+  /// step, of which the low 32 bits are used (13 years of tenths of a second).
   explicit Rng(std::uint64_t seed, RandomPurpose purpose = RandomPurpose::test, std::uint32_t robot = 0,
                std::uint32_t item = 0, std::uint64_t step = 0);
 

@@ -22,7 +22,7 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return sum / static_cast<double>(a.size());
 }
 
-TEST(Rng, GivesPhiloxNumbersAsPublished) {
+TEST(Rng, ReturnsThePublishedPhiloxNumbers) {
   // Random123's known answer for Philox 4x32-10, counter 0 and key 0: 6627e8d5 e169c58d bc57ac4c 9b00dbd8; drawn from
   // the block's end.
   Rng rng(0, RandomPurpose::sensor_noise);
@@ -32,7 +32,7 @@ TEST(Rng, GivesPhiloxNumbersAsPublished) {
   EXPECT_EQ(rng(), 0x6627e8d5u);
 }
 
-TEST(Rng, GivesTheSameNumbersToTheSameAsker) {
+TEST(Rng, ReturnsTheSameNumbersForTheSameArguments) {
   Rng first(42, RandomPurpose::controller, 7, 3, 1000), again(42, RandomPurpose::controller, 7, 3, 1000);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(first(), again());
 }
@@ -44,7 +44,7 @@ TEST(Rng, NeverRepeatsABlockWithinAStream) {
   EXPECT_EQ(pairs.size(), 50000u);
 }
 
-TEST(Rng, UniformIsEvenOverZeroToOne) {
+TEST(Rng, UniformIsUniformInZeroToOne) {
   Rng rng(3);
   constexpr int n = 100000, bins = 100;
   std::vector<int> count(bins, 0);
@@ -64,7 +64,7 @@ TEST(Rng, UniformIsEvenOverZeroToOne) {
   EXPECT_NEAR(chi_squared, bins - 1, 4 * std::sqrt(2. * (bins - 1)));
 }
 
-TEST(Rng, UniformBetweenTwoNumbersStaysBetweenThem) {
+TEST(Rng, UniformStaysWithinItsBounds) {
   Rng rng(4);
   double low = 10, high = -10;
   for (int i = 0; i < 10000; ++i) {
@@ -78,7 +78,7 @@ TEST(Rng, UniformBetweenTwoNumbersStaysBetweenThem) {
   EXPECT_NEAR(high, 3, 0.01);
 }
 
-TEST(Rng, GaussianHasMeanZeroSpreadOneAndTheBellsTails) {
+TEST(Rng, GaussianHasMeanZeroDeviationOneAndNormalTails) {
   constexpr int n = 200000;
   double sum = 0, squares = 0, fourths = 0;
   int beyond_two = 0;
@@ -95,7 +95,7 @@ TEST(Rng, GaussianHasMeanZeroSpreadOneAndTheBellsTails) {
   EXPECT_NEAR(beyond_two / static_cast<double>(n), share, 4 * std::sqrt(share / n));
 }
 
-TEST(Rng, StreamsOfDifferentAskersAreIndependent) {
+TEST(Rng, StreamsWithDifferentArgumentsAreIndependent) {
   const std::vector<double> one = drawn(Rng(1, RandomPurpose::sensor_noise, 2, 3, 4));
   const double bound = 4 / std::sqrt(static_cast<double>(one.size()));
   EXPECT_NEAR(correlation(one, drawn(Rng(2, RandomPurpose::sensor_noise, 2, 3, 4))), 0, bound);
@@ -106,8 +106,8 @@ TEST(Rng, StreamsOfDifferentAskersAreIndependent) {
   EXPECT_NEAR(correlation(one, drawn(Rng(1, RandomPurpose::sensor_noise, 2, 3, 5))), 0, bound);
 }
 
-TEST(Rng, FirstNumbersOfNeighbouringStepsAreAsGoodAsAnyOthers) {
-  // What sensor noise is made of: one number a step.
+TEST(Rng, FirstNumbersOfConsecutiveStepsAreIndependent) {
+  // As for sensor noise: one number per step.
   constexpr int n = 20000;
   double sum = 0, squares = 0, products = 0, before = 0;
   for (int step = 0; step < n; ++step) {
@@ -122,7 +122,7 @@ TEST(Rng, FirstNumbersOfNeighbouringStepsAreAsGoodAsAnyOthers) {
   EXPECT_NEAR(products / n, 0, 4 / std::sqrt(n));
 }
 
-TEST(Rng, BelowIsEvenOverItsNumbers) {
+TEST(Rng, BelowIsUniform) {
   Rng rng(6);
   constexpr int n = 60000;
   std::vector<int> count(6, 0);

@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
-#include "base/scratch_folder.h"
+#include "base/temporary_directory.h"
 
 namespace robosim {
 
-/// A test with a folder of its own, gone when it ends.
+/// Test fixture with a temporary folder.
 class TestFolder : public testing::Test {
  protected:
   std::filesystem::path in(const std::string& name) const { return folder_ / name; }
@@ -21,7 +21,7 @@ class TestFolder : public testing::Test {
   }
 
  private:
-  const ScratchFolder scratch_;
+  const TemporaryDirectory scratch_;
 
  protected:
   const std::filesystem::path folder_ = scratch_.path();

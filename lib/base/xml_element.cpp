@@ -1,12 +1,14 @@
 #include "base/xml_element.h"
 
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <string_view>
 
 #include <tinyxml2.h>
 
-#include "base/whole_file.h"
+#include "base/input_file.h"
 #include "base/xml_parser.h"
 
 namespace robosim {
@@ -20,13 +22,16 @@ std::optional<Number> parsed(const std::string& text) {
   Number value = 0;
   const auto [stop, error] = std::from_chars(begin, end, value);
   if (stop != end || begin == end || error == std::errc::invalid_argument) return std::nullopt;
-  if (error == std::errc::result_out_of_range) return std::numeric_limits<Number>::infinity();
+  // Overflow or underflow of Number; a number that underflows becomes 0.
+  if (error == std::errc::result_out_of_range) {
+    return std::abs(std::strtold(text.c_str(), nullptr)) > 1 ? std::numeric_limits<Number>::infinity() : Number{0};
+  }
   return value;
 }
 
 class Printer : public tinyxml2::XMLPrinter {
  public:
-  /// As PushAttribute(); but white space other than blanks, which to a reader would be blanks, is written by number.
+  /// As PushAttribute(), but writes white space other than blanks as character references: parsers turn it into blanks.
   void pushAttribute(const std::string& name, const std::string& value) {
     Write((" " + name + "=\"").c_str());
     for (const char c : value) Write(inAttribute(c).c_str());
@@ -91,8 +96,8 @@ std::string toXml(const XmlElement& root) {
 std::optional<double> parseNumber(const std::string& text) { return parsed<double>(text); }
 
 double toNumber(const std::string& text, double unit) {
-  // More digits than a double has are needed in between: the products of all doubles with a unit leave some doubles
-  // out.
+  // Intermediate results need more digits than a double: the products of all doubles with a unit do not cover all
+  // doubles.
   static_assert(std::numeric_limits<long double>::digits >= 64);
   if (unit == 1) return parsed<double>(text).value_or(0);
   return static_cast<double>(parsed<long double>(text).value_or(0) * unit);

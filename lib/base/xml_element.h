@@ -7,8 +7,8 @@
 
 namespace robosim {
 
-/// The line a value came from, for error messages. Equal to every other line: where a thing stood in its file is no
-/// part of what it says.
+/// Line number of a value in its file, for error messages. All lines compare equal, because the position is not part of
+/// the value.
 struct SourceLine {
   int number = 0;
   bool operator==(const SourceLine&) const { return true; }
@@ -17,7 +17,7 @@ struct SourceLine {
 /// An element of an XML file as a plain value.
 struct XmlElement {
   std::string name;
-  std::string text;  ///< the element's own text, without white space at either end
+  std::string text;  ///< the element's own text, without leading and trailing white space
   std::vector<std::pair<std::string, std::string>> attributes;
   std::vector<XmlElement> children;
   SourceLine line;
@@ -28,23 +28,23 @@ struct XmlElement {
   XmlElement& add(std::string child_name, std::string child_text = {});
 };
 
-/// Largest XML file read [bytes]: enough for a world of 100,000 robots, at about 1 KB each with the things around it.
+/// Maximum size of an XML file [bytes]: enough for a world of 100,000 robots with about 1 KB each.
 constexpr std::size_t kMaxXmlFileBytes = 128u << 20;
 
 /// Reads a whole file into its root element.
 /// @throws ConfigError "file:line: what" when the file is missing, a directory, or larger than kMaxXmlFileBytes, or as
 /// parseXml() does.
 XmlElement readXmlFile(const std::filesystem::path& file);
-/// The text alone. @throws ConfigError as far as that needs no look inside.
+/// Reads a file as text, without parsing it. @throws ConfigError as readXmlFile(), except for errors in the content
 std::string readXmlText(const std::filesystem::path& file);
 
 /// The element as an XML document, indented by two blanks, with a final newline.
 std::string toXml(const XmlElement& root);
 
-/// The number that the whole text is; nullopt when it is none. What is beyond a double's range counts as infinite.
+/// Parses a whole text as a number; nullopt when it is not a number. Numbers beyond a double's range become infinite.
 std::optional<double> parseNumber(const std::string& text);
-/// A number, as parseNumber() accepts it, times `unit`, rounded to a double only at the end: so for any unit each
-/// double has a text.
+/// Parses a number as parseNumber() and multiplies it by `unit`, rounding to a double only at the end, so that every
+/// double has a text for any unit.
 double toNumber(const std::string& text, double unit);
 
 /// The shortest text that reads back as exactly `value`: by parseNumber(), and by toNumber() with that unit.

@@ -37,12 +37,12 @@ class XmlFile : public TestFolder {
   }
 };
 
-TEST(XmlElement, IsEqualWhereverItStood) {
+TEST(XmlElement, IgnoresLinesInComparisons) {
   EXPECT_EQ(parseXml("<a><b>1</b></a>", ""), parseXml("\n\n<a>\n<!-- a remark -->\n<b>\n1</b></a>\n", ""));
   EXPECT_NE(parseXml("<a><b>1</b></a>", ""), parseXml("<a><b>2</b></a>", ""));
 }
 
-TEST(XmlElement, IsWrittenIndentedAndReadBackEqual) {
+TEST(XmlElement, RoundTripsThroughIndentedXml) {
   XmlElement root{.name = "a", .text = {}, .attributes = {{"x", "<\"\t\n&'>"}, {"y", "ä"}}, .children = {}, .line = {}};
   XmlElement& b = root.add("b");
   b.add("c", "1 < 2 & \"so\" on; äöü €");
@@ -59,13 +59,13 @@ TEST(XmlElement, IsWrittenIndentedAndReadBackEqual) {
   EXPECT_EQ(parseXml(text, "a.xml"), root);
 }
 
-TEST_F(XmlFile, IsReadLikeText) {
+TEST_F(XmlFile, IsParsedLikeText) {
   EXPECT_EQ(readXmlFile(holding("<a><b>1</b></a>")), parseXml("<a><b>1</b></a>", ""));
   EXPECT_EQ(readXmlFile(holding("\xEF\xBB\xBF<a/>")).name, "a") << "a byte order mark";
   EXPECT_EQ(readXmlFile(holding("<a>\r\n<b/>\r\n</a>\r\n")).children[0].line.number, 2);
 }
 
-TEST_F(XmlFile, ThatCannotBeReadIsRefusedWithItsName) {
+TEST_F(XmlFile, ReportsAnUnreadableFileByName) {
   const std::string missing = (folder_ / "none.xml").string();
   EXPECT_EQ(faultOfFile(missing), missing + ": no such file; check the path");
   EXPECT_EQ(faultOfFile(folder_), folder_.string() + ": is a directory; name a file in it");
@@ -73,13 +73,21 @@ TEST_F(XmlFile, ThatCannotBeReadIsRefusedWithItsName) {
   EXPECT_EQ(faultOfFile(empty), empty.string() + ":1: the file is empty; an XML document was expected");
 }
 
-TEST_F(XmlFile, OfTwoHundredMegabytesIsRefusedAfterReadingALittleOfIt) {
+TEST_F(XmlFile, RejectsALargeFileWithoutReadingAllOfIt) {
   const auto file = holding("<a>");
   std::filesystem::resize_file(file, 200'000'000);
   EXPECT_EQ(faultOfFile(file), file.string() + ": is larger than 128 MiB, the most that is read; is it a world file?");
 }
 
-TEST(ToText, ReadsBackAsExactlyTheSameNumber) {
+TEST(ParseNumber, ReturnsInfinityOrZeroForNumbersBeyondADouble) {
+  EXPECT_EQ(parseNumber("1e400"), INFINITY);
+  EXPECT_EQ(parseNumber("1e-400"), 0.0);
+  EXPECT_EQ(parseNumber("-0.0001e-9999"), 0.0);
+  EXPECT_EQ(parseNumber("1e"), std::nullopt);
+  EXPECT_EQ(toNumber("1e-9999", 0.1), 0.0);
+}
+
+TEST(ToText, RoundTripsNumbersExactly) {
   EXPECT_EQ(toText(0.1), "0.1");
   EXPECT_EQ(toText(-3), "-3");
   EXPECT_EQ(toText(0), "0");
@@ -94,7 +102,7 @@ TEST(ToText, ReadsBackAsExactlyTheSameNumber) {
   }
 }
 
-TEST(ToText, InAnyUnitReadsBackAsExactlyTheSameNumber) {
+TEST(ToText, RoundTripsNumbersExactlyInAnyUnit) {
   EXPECT_EQ(toText(38 * 0.1, 0.1), "38");
   EXPECT_EQ(toText(0, 0.1), "0");
   Rng rng(2);
@@ -106,7 +114,7 @@ TEST(ToText, InAnyUnitReadsBackAsExactlyTheSameNumber) {
   }
 }
 
-TEST(ToText, InAUnitGivesBackWhatAPersonWrote) {
+TEST(ToText, ReturnsTheShortestTextInAUnit) {
   Rng rng(3);
   for (int i = 0; i < 2000; ++i) {
     const std::string written = toText(rng.below(2000) / 8.0);

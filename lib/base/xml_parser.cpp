@@ -15,11 +15,12 @@
 #include <strings.h>
 
 #include "base/error_list.h"
+#include "base/printable_text.h"
 
 namespace robosim {
 namespace {
 
-constexpr std::size_t kMostDeep = 98;
+constexpr std::size_t kMaxDepth = 98;
 
 std::string_view trimmed(std::string_view text) {
   const char* white = " \t\r\n";
@@ -31,8 +32,16 @@ ConfigError at(const std::string& file, int line, const std::string& what) {
   return ConfigError(file + ":" + std::to_string(line) + ": " + what);
 }
 
-/// A small file may hold millions of elements, each a few hundred bytes in memory; and the parser compares the
-/// attributes of an element. So both are counted first: by '<', and by the quotation marks between two of them.
+/// A byte order mark, or the initial '<' of an XML document in two bytes.
+bool isUtf16(std::string_view text) {
+  const std::string_view begin = text.substr(0, 2);
+  return begin == "\xff\xfe" || begin == "\xfe\xff" || begin == std::string_view("<\0", 2) ||
+         begin == std::string_view("\0<", 2);
+}
+
+/// Limits the number of elements, each of which needs a few hundred bytes in memory, and of attributes of an element,
+/// which the parser compares in pairs. Both are counted before parsing: '<', and the quotation marks between two of
+/// them.
 void refuseBloated(const std::string& text, const std::string& file) {
   constexpr std::size_t max_tags = 8'000'000;
   constexpr std::size_t max_quotes = 2'000;
@@ -50,9 +59,9 @@ void refuseBloated(const std::string& text, const std::string& file) {
   }
 }
 
-/// Tells Expat the letter of each byte in an encoding that it does not know by itself, as it knows UTF-8. Only what
-/// people commonly had before UTF-8 is told: a stranger's file shall not choose among all that iconv has.
-int tellLetters(void*, const char* name, XML_Encoding* encoding) {
+/// Expat handler for encodings without built-in support: fills in the character of each byte. Accepts only common 8-bit
+/// encodings, so that untrusted input cannot select any of iconv's.
+int mapUnknownEncoding(void*, const char* name, XML_Encoding* encoding) {
   const auto is_one = [&](std::string_view family) { return strncasecmp(name, family.data(), family.size()) == 0; };
   constexpr std::string_view families[] = {"ISO-8859-", "windows-125", "CP125", "KOI8-"};
   if (std::none_of(std::begin(families), std::end(families), is_one)) return XML_STATUS_ERROR;
@@ -62,12 +71,12 @@ int tellLetters(void*, const char* name, XML_Encoding* encoding) {
     char in = static_cast<char>(byte);
     char* from = &in;
     std::size_t left = 1;
-    std::array<unsigned char, 4> letter{};
-    char* to = reinterpret_cast<char*>(letter.data());
-    std::size_t room = letter.size();
+    std::array<unsigned char, 4> code_point{};
+    char* to = reinterpret_cast<char*>(code_point.data());
+    std::size_t room = code_point.size();
     iconv(converter, nullptr, nullptr, nullptr, nullptr);
     const bool is_known = iconv(converter, &from, &left, &to, &room) != static_cast<std::size_t>(-1) && room == 0;
-    encoding->map[byte] = is_known ? letter[0] | letter[1] << 8 | letter[2] << 16 : -1;
+    encoding->map[byte] = is_known ? code_point[0] | code_point[1] << 8 | code_point[2] << 16 : -1;
   }
   iconv_close(converter);
   encoding->convert = nullptr;
@@ -75,14 +84,13 @@ int tellLetters(void*, const char* name, XML_Encoding* encoding) {
   return XML_STATUS_OK;
 }
 
-/// One document on its way from text to elements. Expat calls for each part that it has read, so that text and
-/// elements are all that there ever is in memory.
+/// Builds the elements of one document from Expat's events, without an intermediate tree.
 class Document {
  public:
   Document(const std::string& text, const std::string& file) : text_(text), file_(file) {
     if (!parser_) throw std::bad_alloc();
     XML_SetUserData(parser_.get(), this);
-    XML_SetUnknownEncodingHandler(parser_.get(), tellLetters, nullptr);
+    XML_SetUnknownEncodingHandler(parser_.get(), mapUnknownEncoding, nullptr);
     XML_SetElementHandler(
         parser_.get(),
         [](void* of, const char* name, const char** attributes) {
@@ -104,10 +112,10 @@ class Document {
  private:
   struct Open {
     XmlElement element;
-    std::size_t first_child;  ///< among those done
+    std::size_t first_child;  ///< index in done_
   };
 
-  /// Lets no exception into Expat, which is C.
+  /// Calls a function without letting its exceptions propagate through Expat, which is written in C.
   template <typename Work>
   static void doIn(void* of, const Work& work) {
     auto& document = *static_cast<Document*>(of);
@@ -120,8 +128,8 @@ class Document {
   }
 
   void open(const char* name, const char** attributes) {
-    if (open_.size() == kMostDeep) {
-      throw at(file_, line(), mendHere("elements lie more than 98 deep"));
+    if (open_.size() == kMaxDepth) {
+      throw at(file_, line(), withFix("elements lie more than 98 deep"));
     }
     XmlElement element{.name = name, .text = {}, .attributes = {}, .children = {}, .line = {line()}};
     for (; *attributes; attributes += 2) element.attributes.emplace_back(attributes[0], trimmed(attributes[1]));
@@ -138,7 +146,7 @@ class Document {
     open_.pop_back();
     if (const auto text = trimmed(element.text); text.size() != element.text.size()) element.text = std::string(text);
     const auto children = done_.begin() + static_cast<std::ptrdiff_t>(first_child);
-    // No more room than needed: a large world's file makes millions of elements.
+    // Avoids spare capacity: the file of a large world has millions of elements.
     element.children.assign(std::move_iterator(children), std::move_iterator(done_.end()));
     done_.erase(children, done_.end());
     done_.push_back(std::move(element));
@@ -146,34 +154,41 @@ class Document {
 
   int line() const { return static_cast<int>(XML_GetCurrentLineNumber(parser_.get())); }
 
-  /// What is wrong where the parser stands, and the mend.
+  /// Description of the error at the parser's position, and how to fix it.
   std::string fault() const {
     const auto position = static_cast<std::size_t>(std::max<XML_Index>(0, XML_GetCurrentByteIndex(parser_.get())));
     const auto before = std::string_view(text_).substr(0, position);
     const auto rest = std::string_view(text_).substr(before.size());
-    if (rest.starts_with("<!--")) return mendHere("a comment is not closed by -->");
+    if (rest.starts_with("<!--")) return withFix("a comment is not closed by -->");
     const bool is_declaration = before.ends_with("<!") || (rest.starts_with("<!") && !rest.starts_with("<![CDATA["));
     if (is_declaration) return "a <!…> declaration has no place here; take it out";
     switch (XML_GetErrorCode(parser_.get())) {
       case XML_ERROR_JUNK_AFTER_DOC_ELEMENT:
         if (!rest.starts_with('<')) break;
-        return "a second root element " + std::string(rest.substr(0, rest.find_first_of(" \t\r\n/>", 1))) +
+        return "a second root element " + quotable(rest.substr(0, rest.find_first_of(" \t\r\n/>", 1))) +
                ">; an XML file has one";
       case XML_ERROR_NO_ELEMENTS:
         if (open_.empty()) return "there is no element in the file";
         [[fallthrough]];
       case XML_ERROR_TAG_MISMATCH:
-        return mendHere("an element is closed by another's tag, or not at all (was the file cut off?)");
+        return withFix("an element is closed by another's tag, or not at all (was the file cut off?)");
       case XML_ERROR_MISPLACED_XML_PI:
         return "<?xml …?> must be the first there is in the file; take out what stands before it";
       case XML_ERROR_UNDEFINED_ENTITY:
-        return std::string(rest.substr(0, rest.find(';'))) + "; stands for nothing; write the letter itself";
+        return quotable(rest.substr(0, rest.find(';'))) + "; stands for nothing; write the letter itself";
       case XML_ERROR_UNKNOWN_ENCODING:
       case XML_ERROR_INCORRECT_ENCODING:
         return "the encoding that the file names is not known, or not that of the file; save it as UTF-8";
       case XML_ERROR_DUPLICATE_ATTRIBUTE:
-        return mendHere(kAttribute);
+        return withFix(kAttribute);
+      case XML_ERROR_BAD_CHAR_REF:
+        return quotable(rest.substr(0, rest.find(';'))) +
+               "; stands for a character that XML does not allow; take it out";
       case XML_ERROR_INVALID_TOKEN: {
+        if (!rest.empty() && static_cast<unsigned char>(rest[0]) < 0x20 &&
+            std::string_view("\t\r\n").find(rest[0]) == std::string_view::npos) {
+          return "the control character " + printableText(rest.substr(0, 1)) + " is not allowed in XML; take it out";
+        }
         if (!rest.empty() && static_cast<unsigned char>(rest[0]) >= 0x80) {
           return "a letter is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8";
         }
@@ -181,17 +196,17 @@ class Document {
         const auto tag = before.find_last_of("<>");
         if (tag != std::string_view::npos && before[tag] == '<' &&
             before.find_first_of(" \t\r\n", tag) != std::string_view::npos) {
-          return mendHere(kAttribute);
+          return withFix(kAttribute);
         }
         break;
       }
       default:
         break;
     }
-    return mendHere("this is not XML, or the file was cut off");
+    return withFix("this is not XML, or the file was cut off");
   }
 
-  static std::string mendHere(const char* what) { return what + std::string("; mend the file here or just before"); }
+  static std::string withFix(const char* what) { return what + std::string("; fix the file here or just before"); }
   static constexpr const char* kAttribute = "an attribute is given twice, or is not name=\"value\"";
 
   const std::string& text_;
@@ -206,15 +221,16 @@ class Document {
 
 XmlElement parseXml(std::string text, const std::string& file) {
   if (trimmed(text).empty()) throw at(file, 1, "the file is empty; an XML document was expected");
+  if (isUtf16(text)) throw at(file, 1, "the file is in the encoding UTF-16; save it as UTF-8");
   if (text.find('\0') != std::string::npos) throw at(file, 1, "this is not XML: it holds a zero byte");
   refuseBloated(text, file);
-  // A DOCTYPE is looked for before parsing, so that whoever wrote entities hears of them and not of a later '>'.
+  // A DOCTYPE is detected before parsing, so that the error names the entities and not a later '>'.
   if (const auto doctype = text.find("<!DOCTYPE"); doctype != std::string::npos) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(doctype), '\n');
     throw at(file, static_cast<int>(line), "a DOCTYPE (and with it entities) is not accepted; take it out");
   }
   XmlElement root = Document(text, file).read();
-  std::string().swap(text);  // which may be 100 MB, and who reads on wants memory
+  std::string().swap(text);  // frees up to 100 MB before the elements are used
   return root;
 }
 

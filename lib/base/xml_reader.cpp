@@ -4,13 +4,15 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/printable_text.h"
+
 namespace robosim {
 namespace {
 
 const XmlElement kNothing;
 constexpr double kRadPerDeg = M_PI / 180;
 
-/// The unit that a setting's name ends in, as a word behind its bounds.
+/// The unit in which a setting's name ends, as printed after its bounds.
 std::string unitOf(const std::string& setting) {
   const std::pair<const char*, const char*> units[] = {{"_mps2", " metres per second squared"},
                                                        {"_degps2", " degrees per second squared"},
@@ -52,18 +54,18 @@ bool XmlReader::has(const std::string& setting) const {
   return false;
 }
 
-bool XmlReader::ask(const std::string& setting) {
-  if (isAsked(setting)) return false;
-  asked_.push_back(setting);
+bool XmlReader::markRead(const std::string& setting) {
+  if (isRead(setting)) return false;
+  read_settings_.push_back(setting);
   return true;
 }
 
-bool XmlReader::isAsked(const std::string& setting) const {
-  return std::find(asked_.begin(), asked_.end(), setting) != asked_.end();
+bool XmlReader::isRead(const std::string& setting) const {
+  return std::find(read_settings_.begin(), read_settings_.end(), setting) != read_settings_.end();
 }
 
 std::optional<XmlReader::Found> XmlReader::find(const std::string& setting) {
-  const bool is_news = ask(setting);
+  const bool is_first_read = markRead(setting);
   std::optional<Found> found;
   for (const auto& [name, value] : element_->attributes) {
     if (name == setting) found.emplace(Found{value, element_->line.number, &name});
@@ -71,28 +73,29 @@ std::optional<XmlReader::Found> XmlReader::find(const std::string& setting) {
   for (const auto& child : element_->children) {
     if (child.name != setting) continue;
     if (found) {
-      if (is_news) XmlReader(child, *this).error("is given twice in <" + element_->name + ">; keep one");
+      if (is_first_read) XmlReader(child, *this).error("is given twice in <" + element_->name + ">; keep one");
       break;
     }
     found.emplace(Found{child.text, child.line.number, nullptr});
-    // A value holds text only; anything else inside it is an unknown tag like any other.
-    if (!is_news || (child.children.empty() && child.attributes.empty())) continue;
+    // A value has only text; attributes and children in it are reported as unknown.
+    if (!is_first_read || (child.children.empty() && child.attributes.empty())) continue;
     XmlReader inner(child, *this);
-    inner.ask("");
+    inner.markRead("");
     inner.finish();
   }
   return found;
 }
 
-void XmlReader::reportFault(const Found& found, const std::string& setting, const std::string& fault) {
-  errors_->add(*file_, found.line,
-               (found.attribute ? "<" + element_->name + " " + *found.attribute + "=\"" + found.text + "\">"
-                                : "<" + setting + ">" + found.text + "</" + setting + ">") +
-                   fault);
+void XmlReader::reportError(const Found& found, const std::string& setting, const std::string& fault) {
+  errors_->add(
+      *file_, found.line,
+      (found.attribute ? "<" + quotable(element_->name) + " " + *found.attribute + "=\"" + quotable(found.text) + "\">"
+                       : "<" + setting + ">" + quotable(found.text) + "</" + setting + ">") +
+          fault);
 }
 
 std::optional<double> XmlReader::checked(const Found& found, const std::string& setting, const Bounds& bounds,
-                                         const std::function<std::string()>& mend) {
+                                         const std::function<std::string()>& fix) {
   const auto value = parseNumber(found.text);
   std::string fault;
   if (!value) {
@@ -104,7 +107,7 @@ std::optional<double> XmlReader::checked(const Found& found, const std::string& 
   } else {
     return value;
   }
-  reportFault(found, setting, ": " + fault + mend());
+  reportError(found, setting, ": " + fault + fix());
   return std::nullopt;
 }
 
@@ -120,23 +123,23 @@ double XmlReader::length(const std::string& setting, Bounds bounds, double unit_
   return (bounds.contain(1) ? 1 : bounds.max) * unit_m;
 }
 
-double XmlReader::number(const std::string& setting, Bounds bounds, double otherwise) {
-  return length(setting, bounds, 1, otherwise);
+double XmlReader::number(const std::string& setting, Bounds bounds, double default_value) {
+  return length(setting, bounds, 1, default_value);
 }
 
-double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m, double otherwise_m) {
+double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m, double default_m) {
   const auto found = find(setting);
-  if (!found) return otherwise_m;
-  const auto mend = [&] { return "; drop it for the default, " + toText(otherwise_m, unit_m); };
-  return checked(*found, setting, bounds, mend) ? toNumber(found->text, unit_m) : otherwise_m;
+  if (!found) return default_m;
+  const auto fix = [&] { return "; drop it for the default, " + toText(default_m, unit_m); };
+  return checked(*found, setting, bounds, fix) ? toNumber(found->text, unit_m) : default_m;
 }
 
-double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double otherwise_rad) {
+double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double default_rad) {
   const auto found = find(setting);
-  if (!found) return otherwise_rad;
-  const auto mend = [&] { return "; drop it for the default, " + toText(otherwise_rad, kRadPerDeg); };
-  const auto value_deg = checked(*found, setting, bounds_deg, mend);
-  return value_deg ? *value_deg * kRadPerDeg : otherwise_rad;
+  if (!found) return default_rad;
+  const auto fix = [&] { return "; drop it for the default, " + toText(default_rad, kRadPerDeg); };
+  const auto value_deg = checked(*found, setting, bounds_deg, fix);
+  return value_deg ? *value_deg * kRadPerDeg : default_rad;
 }
 
 std::string XmlReader::word(const std::string& setting) {
@@ -144,40 +147,41 @@ std::string XmlReader::word(const std::string& setting) {
   if (!found) {
     error("<" + setting + "> is missing; add it");
   } else if (found->text.empty()) {
-    reportFault(*found, setting, ": is empty; write a word there");
+    reportError(*found, setting, ": is empty; write a word there");
   } else {
     return found->text;
   }
   return "";
 }
 
-std::string XmlReader::word(const std::string& setting, const std::string& otherwise) {
+std::string XmlReader::word(const std::string& setting, const std::string& default_value) {
   if (has(setting)) return word(setting);
-  ask(setting);
-  return otherwise;
+  markRead(setting);
+  return default_value;
 }
 
-bool XmlReader::flag(const std::string& setting, bool otherwise) {
-  return choice<bool>(setting, {{"0", false}, {"1", true}}, otherwise);
+bool XmlReader::flag(const std::string& setting, bool default_value) {
+  return choice<bool>(setting, {{"0", false}, {"1", true}}, default_value);
 }
 
 std::vector<double> XmlReader::numbers(const std::string& setting, std::size_t count, Bounds bounds,
-                                       const std::vector<double>& otherwise) {
+                                       const std::vector<double>& default_value) {
   const auto found = find(setting);
-  if (!found) return otherwise;
+  if (!found) return default_value;
   std::istringstream words(found->text);
   std::vector<double> values;
   for (std::string word; words >> word;) {
     const auto value = parseNumber(word);
     if (!value || !std::isfinite(*value) || !bounds.contain(*value)) {
-      reportFault(*found, setting, ": '" + word + "' is no number that fits; it " + describe(bounds, unitOf(setting)));
-      return otherwise;
+      reportError(*found, setting,
+                  ": '" + quotable(word) + "' is no number that fits; it " + describe(bounds, unitOf(setting)));
+      return default_value;
     }
     values.push_back(*value);
   }
   if (values.size() == count) return values;
-  reportFault(*found, setting, ": has " + std::to_string(values.size()) + " numbers; write " + std::to_string(count));
-  return otherwise;
+  reportError(*found, setting, ": has " + std::to_string(values.size()) + " numbers; write " + std::to_string(count));
+  return default_value;
 }
 
 std::optional<XmlReader> XmlReader::child(const std::string& tag) {
@@ -190,14 +194,14 @@ std::optional<XmlReader> XmlReader::child(const std::string& tag) {
 XmlReader XmlReader::requiredChild(const std::string& tag) {
   if (auto found = child(tag)) return *found;
   error("<" + tag + "> is missing; add it");
-  // The missing element's own missing settings are no news: its reader reports to nobody.
-  static thread_local ErrorList nobody;
-  nobody = {};
-  return {kNothing, *file_, nobody};
+  // The errors of the missing element's own settings are discarded.
+  static thread_local ErrorList discarded;
+  discarded = {};
+  return {kNothing, *file_, discarded};
 }
 
 std::vector<XmlReader> XmlReader::all(const std::string& tag) {
-  ask(tag);
+  markRead(tag);
   std::vector<XmlReader> found;
   for (const auto& child : element_->children) {
     if (child.name == tag) found.push_back(XmlReader(child, *this));
@@ -206,44 +210,45 @@ std::vector<XmlReader> XmlReader::all(const std::string& tag) {
 }
 
 std::vector<XmlReader> XmlReader::all() {
-  all_asked_ = true;
+  all_read_ = true;
   std::vector<XmlReader> found;
   for (const auto& child : element_->children) found.push_back(XmlReader(child, *this));
   return found;
 }
 
 void XmlReader::error(const std::string& what) {
-  errors_->add(*file_, element_->line.number, "<" + element_->name + ">: " + what);
+  errors_->add(*file_, element_->line.number, "<" + quotable(element_->name) + ">: " + what);
 }
 
 void XmlReader::errorAt(const std::string& setting, const std::string& what) {
   if (const auto found = find(setting)) {
-    reportFault(*found, setting, ": " + what);
+    reportError(*found, setting, ": " + what);
   } else {
     error(what);
   }
 }
 
 void XmlReader::finish() {
-  const auto mend = [&] {
-    std::sort(asked_.begin(), asked_.end());
+  const auto fix = [&] {
+    std::sort(read_settings_.begin(), read_settings_.end());
     std::string accepted;
-    for (const auto& name : asked_) {
+    for (const auto& name : read_settings_) {
       if (!name.empty()) accepted += (accepted.empty() ? "" : ", ") + name;
     }
     return accepted.empty() ? "; nothing but text is accepted here" : "; accepted here are: " + accepted;
   };
   for (const auto& [name, value] : element_->attributes) {
-    if (!isAsked(name)) error("unknown attribute " + name + "=\"" + value + "\"" + mend());
+    if (!isRead(name)) error("unknown attribute " + quotable(name) + "=\"" + quotable(value) + "\"" + fix());
   }
   for (const auto& child : element_->children) {
-    if (!all_asked_ && !isAsked(child.name)) {
-      errors_->add(*file_, child.line.number, "<" + child.name + ">: unknown tag in <" + element_->name + ">" + mend());
+    if (!all_read_ && !isRead(child.name)) {
+      errors_->add(*file_, child.line.number,
+                   "<" + quotable(child.name) + ">: unknown tag in <" + quotable(element_->name) + ">" + fix());
     }
   }
-  // "" is asked for where the text is the value.
-  if (!element_->text.empty() && !isAsked("")) {
-    error("the text '" + element_->text.substr(0, 40) + "' has no meaning here; take it out");
+  // "" is marked as read where the text is the value.
+  if (!element_->text.empty() && !isRead("")) {
+    error("the text '" + quotable(element_->text) + "' has no meaning here; take it out");
   }
 }
 

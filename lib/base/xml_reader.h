@@ -13,13 +13,13 @@
 
 namespace robosim {
 
-/// The numbers a setting may have.
+/// Range of valid values of a numeric setting.
 struct Bounds {
   double min = -kLargest;
   double max = kLargest;
-  bool min_is_open = false;  ///< `min` itself is refused
+  bool min_is_open = false;  ///< `min` itself is invalid
 
-  /// Beyond this a file's number is surely a slip, and squares of it would begin to lose metres.
+  /// Larger numbers are assumed to be mistakes; their squares would lose a precision of metres.
   static constexpr double kLargest = 1e9;
   static Bounds any() { return {}; }
   static Bounds positive(double max = kLargest) { return {0, max, true}; }
@@ -28,8 +28,9 @@ struct Bounds {
 };
 
 /// Reads the settings of one element. A setting `x` is either the attribute `x="…"` or the child `<x>…</x>`.
-/// Every fault goes into the ErrorList as "file:line: <element>: what is wrong; the mend", and reading goes on with a
-/// harmless value, so that one load shows all faults. Call finish() last: what nobody asked for is an unknown tag.
+/// Every error is added to the ErrorList as "file:line: <element>: what is wrong; how to fix it", and a valid default
+/// is returned, so that one load reports all errors. Call finish() last: it reports settings that were not read as
+/// unknown.
 class XmlReader {
  public:
   XmlReader(const XmlElement& element, std::string file, ErrorList& errors);
@@ -41,85 +42,86 @@ class XmlReader {
 
   bool has(const std::string& setting) const;
 
-  /// @name A setting that must be there
+  /// @name Required settings
   ///@{
   double number(const std::string& setting, Bounds bounds = Bounds::any());
-  /// Reads a length in units of `unit_m` metres, takes bounds in those units, and gives metres: see toNumber().
+  /// Reads a length in units of `unit_m` metres. Bounds are in those units; the result is in metres. See toNumber().
   double length(const std::string& setting, Bounds bounds, double unit_m);
   std::string word(const std::string& setting);
   ///@}
 
-  /// @name A setting with a default
+  /// @name Settings with a default
   ///@{
-  double number(const std::string& setting, Bounds bounds, double otherwise);
-  double length(const std::string& setting, Bounds bounds, double unit_m, double otherwise_m);
-  std::string word(const std::string& setting, const std::string& otherwise);
-  bool flag(const std::string& setting, bool otherwise);  ///< 0 or 1
-  /// Reads degrees (the setting's name ends in `_deg`), takes bounds in degrees, and gives and takes radians.
-  double angle(const std::string& setting, Bounds bounds_deg, double otherwise_rad);
+  double number(const std::string& setting, Bounds bounds, double default_value);
+  double length(const std::string& setting, Bounds bounds, double unit_m, double default_m);
+  std::string word(const std::string& setting, const std::string& default_value);
+  bool flag(const std::string& setting, bool default_value);  ///< 0 or 1
+  /// Reads an angle in degrees (the setting's name ends in `_deg`). Bounds are in degrees, default and result in
+  /// radians.
+  double angle(const std::string& setting, Bounds bounds_deg, double default_rad);
   template <typename Value>
   Value choice(const std::string& setting, std::initializer_list<std::pair<const char*, Value>> choices,
-               Value otherwise);
+               Value default_value);
   ///@}
 
-  /// The element's own text as numbers: "r g b". Reports an error unless there are `count`, all within bounds.
+  /// Reads the element's own text as numbers: "r g b". Reports an error unless there are `count`, all within bounds.
   std::vector<double> numbers(const std::string& setting, std::size_t count, Bounds bounds,
-                              const std::vector<double>& otherwise);
+                              const std::vector<double>& default_value);
 
-  /// @name Elements inside this one
+  /// @name Child elements
   ///@{
-  std::optional<XmlReader> child(const std::string& tag);  ///< nullopt when absent; an error when there are two
+  std::optional<XmlReader> child(const std::string& tag);  ///< nullopt when absent; an error when there are several
   XmlReader requiredChild(const std::string& tag);         ///< an error, and an empty element, when absent
   std::vector<XmlReader> all(const std::string& tag);
-  std::vector<XmlReader> all();  ///< every child that is an element, in the file's order
+  std::vector<XmlReader> all();  ///< every child element, in the file's order
   ///@}
 
-  /// Reports a fault at this element.
+  /// Reports an error at this element.
   void error(const std::string& what);
-  /// Reports a fault at a setting of this element, quoting it as it stands in the file.
+  /// Reports an error at a setting of this element, quoting it from the file.
   void errorAt(const std::string& setting, const std::string& what);
-  /// Reports every attribute, child and text that has not been asked for.
+  /// Reports every attribute, child and text that has not been read.
   void finish();
 
  private:
-  /// A setting as it stands in the file.
+  /// A setting as found in the file.
   struct Found {
     const std::string& text;
     int line = 0;
-    const std::string* attribute = nullptr;  ///< its name; null where it is a child
+    const std::string* attribute = nullptr;  ///< its name; null for a child element
   };
-  /// The reader of an element inside another.
+  /// Creates the reader of a child element.
   XmlReader(const XmlElement& element, const XmlReader& outer)
       : element_(&element), file_(outer.file_), errors_(outer.errors_) {}
 
-  /// @return whether nobody has asked for it before
-  bool ask(const std::string& setting);
-  bool isAsked(const std::string& setting) const;
+  /// Marks a setting as read. @return whether it had not been read before
+  bool markRead(const std::string& setting);
+  bool isRead(const std::string& setting) const;
   std::optional<Found> find(const std::string& setting);
-  /// @param mend what to say after a fault; called when there is one
+  /// @param fix returns the end of an error text; called if there is an error
   std::optional<double> checked(const Found& found, const std::string& setting, const Bounds& bounds,
-                                const std::function<std::string()>& mend);
-  void reportFault(const Found& found, const std::string& setting, const std::string& fault);
+                                const std::function<std::string()>& fix);
+  void reportError(const Found& found, const std::string& setting, const std::string& fault);
 
   const XmlElement* element_;
-  std::shared_ptr<const std::string> file_;  ///< one for all the readers of a file, of which there may be millions
+  std::shared_ptr<const std::string> file_;  ///< shared by all readers of a file, of which there may be millions
   ErrorList* errors_;
-  std::vector<std::string> asked_;
-  bool all_asked_ = false;
+  std::vector<std::string> read_settings_;
+  bool all_read_ = false;
 };
 
 template <typename Value>
 Value XmlReader::choice(const std::string& setting, std::initializer_list<std::pair<const char*, Value>> choices,
-                        Value otherwise) {
+                        Value default_value) {
   const auto found = find(setting);
-  if (!found) return otherwise;
+  if (!found) return default_value;
   for (const auto& [text, value] : choices) {
     if (found->text == text) return value;
   }
   std::string accepted;
   for (const auto& [text, value] : choices) accepted += (accepted.empty() ? "" : ", ") + std::string(text);
-  reportFault(*found, setting, ": is unknown; accepted are: " + accepted);
-  return otherwise;
+  reportError(*found, setting, ": is unknown; accepted are: " + accepted);
+  return default_value;
 }
 
 }  // namespace robosim

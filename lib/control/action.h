@@ -7,18 +7,18 @@ namespace robosim {
 
 class PioneerRobot;
 
-/// A wish for one quantity, and how much of it is settled: 0 nothing, 1 all.
+/// Desired value of one quantity with its strength: 0 leaves it open, 1 determines it.
 struct DesiredChannel {
   double value = 0;
   double strength = 0;
 
-  /// What is not settled yet is settled by `lower`, as far as its strength goes.
+  /// Fills the remaining strength from an action of lower priority.
   void fillFrom(const DesiredChannel& lower);
-  /// The wish of several equals: their mean, weighted by strength.
+  /// Combines actions of equal priority: the mean, weighted by strength.
   void average(const DesiredChannel& other);
 };
 
-/// What an action wants of the robot in one step, in ARIA's units. Strengths lie in [0, 1].
+/// Desired motion of an action in one step, in ARIA's units. Strengths lie in [0, 1].
 class ActionDesired {
  public:
   static constexpr double NO_STRENGTH = 0, MIN_STRENGTH = 1e-6, MAX_STRENGTH = 1;
@@ -27,9 +27,9 @@ class ActionDesired {
   /// A turn relative to the present heading [deg].
   void setDeltaHeading(double deg, double strength = MAX_STRENGTH);
   void setRotVel(double deg_ps, double strength = MAX_STRENGTH);
-  /// No faster ahead than this. Of several limits the lowest counts, whatever the priorities.
+  /// Maximum forward speed. The lowest of several limits applies, regardless of priority.
   void setMaxVel(double mm_ps);
-  /// No faster backwards than this, which is negative. Of several limits the one nearest to 0 counts.
+  /// Maximum backward speed, negative. The limit nearest to 0 applies, regardless of priority.
   void setMaxNegVel(double mm_ps);
   void reset() { *this = {}; }
 
@@ -42,9 +42,9 @@ class ActionDesired {
   double getMaxVel() const { return max_vel_; }
   double getMaxNegVel() const { return max_neg_vel_; }
 
-  /// Settles what this leaves open from actions of lower priority.
+  /// Fills the quantities left open from an action of lower priority.
   void fillFrom(const ActionDesired& lower);
-  /// Joins the wish of an action of equal priority. Of two kinds of turning the first one's is kept.
+  /// Adds an action of equal priority. Of a turn angle and a turn speed the first is kept.
   void average(const ActionDesired& other);
 
  private:
@@ -56,28 +56,28 @@ class ActionDesired {
   double max_vel_ = kUnlimited, max_neg_vel_ = -kUnlimited;
 };
 
-/// A behaviour, one of several that drive a PioneerRobot together, as ARIA's ArAction.
+/// A behaviour that drives a PioneerRobot together with others, like ARIA's ArAction.
 class Action {
  public:
   explicit Action(std::string name) : name_(std::move(name)) {}
   virtual ~Action() = default;
   const std::string& getName() const { return name_; }
 
-  /// Called once a step. @return what it wants; a default ActionDesired for nothing.
-  /// @param current what the actions of higher priority have settled so far.
+  /// Called once per step. @return the desired motion; a default ActionDesired for none.
+  /// @param current the result of the actions of higher priority.
   virtual ActionDesired fire(PioneerRobot& robot, const ActionDesired& current) = 0;
 
  private:
   std::string name_;
 };
 
-/// The actions of one robot, and how their wishes become one: the highest priority settles what it wants, as far as its
-/// strength goes; the next fills what is left open, and so on. Actions of one priority are averaged first.
+/// Resolver of the actions of one robot. The highest priority determines each quantity up to its strength, and each
+/// lower priority fills the remainder. Actions of equal priority are averaged first.
 class ActionList {
  public:
   /// @param action must outlive its place in the list.
   void add(Action& action, int priority);
-  /// @return false when it is not in the list.
+  /// @return false when the action is not in the list.
   bool remove(const Action& action);
   bool empty() const { return entries_.empty(); }
   /// By name; null when there is none.

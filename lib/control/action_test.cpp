@@ -9,9 +9,9 @@ namespace robosim {
 namespace {
 
 /// Wants the same in every step, and notes what was settled before it.
-class Wish : public Action {
+class FixedAction : public Action {
  public:
-  Wish(std::string name, ActionDesired desired) : Action(std::move(name)), desired_(desired) {}
+  FixedAction(std::string name, ActionDesired desired) : Action(std::move(name)), desired_(desired) {}
   ActionDesired fire(PioneerRobot&, const ActionDesired& current) override {
     seen = current;
     return desired_;
@@ -36,7 +36,7 @@ struct Actions : testing::Test {
 };
 
 TEST_F(Actions, OfHigherPriorityComeFirst) {
-  Wish low("low", vel(100)), high("high", vel(300));
+  FixedAction low("low", vel(100)), high("high", vel(300));
   list.add(low, 10);
   list.add(high, 90);
   EXPECT_EQ(list.resolve(pioneer).getVel(), 300);
@@ -46,7 +46,7 @@ TEST_F(Actions, OfHigherPriorityComeFirst) {
 
 TEST_F(Actions, OfLowerPriorityFillWhatIsLeftOpen) {
   // Half of 400 and half of 100; the third finds nothing open.
-  Wish first("first", vel(400, 0.5)), second("second", vel(100)), third("third", vel(-900));
+  FixedAction first("first", vel(400, 0.5)), second("second", vel(100)), third("third", vel(-900));
   list.add(first, 3);
   list.add(second, 2);
   list.add(third, 1);
@@ -56,15 +56,15 @@ TEST_F(Actions, OfLowerPriorityFillWhatIsLeftOpen) {
 }
 
 TEST_F(Actions, OfOnePriorityAreAveragedByStrength) {
-  Wish a("a", vel(100)), b("b", vel(200)), c("c", vel(600, 0.5));
+  FixedAction a("a", vel(100)), b("b", vel(200)), c("c", vel(600, 0.5));
   list.add(a, 5);
   list.add(b, 5);
   list.add(c, 5);
   EXPECT_DOUBLE_EQ(list.resolve(pioneer).getVel(), (100 + 200 + 300) / 2.5);
 }
 
-TEST_F(Actions, WithNothingToSayLeaveAllOpen) {
-  Wish nothing("nothing", {}), go("go", vel(100));
+TEST_F(Actions, WithoutDesiredMotionLeaveAllOpen) {
+  FixedAction nothing("nothing", {}), go("go", vel(100));
   list.add(nothing, 9);
   list.add(go, 1);
   EXPECT_EQ(list.resolve(pioneer).getVel(), 100);
@@ -75,7 +75,7 @@ TEST_F(Actions, CannotTurnByAngleAndBySpeedAtOnce) {
   ActionDesired by_angle, by_speed;
   by_angle.setDeltaHeading(20);
   by_speed.setRotVel(50);
-  Wish angle("angle", by_angle), speed("speed", by_speed);
+  FixedAction angle("angle", by_angle), speed("speed", by_speed);
   list.add(angle, 9);
   list.add(speed, 1);
   EXPECT_EQ(list.resolve(pioneer).getDeltaHeading(), 20);
@@ -90,7 +90,7 @@ TEST_F(Actions, LimitSpeedByTheLowestOfAllLimits) {
   limit200.setMaxVel(200);
   limit500.setMaxVel(500);
   limit500.setMaxNegVel(-50);
-  Wish low("low", limit200), high("high", limit500), go("go", vel(900));
+  FixedAction low("low", limit200), high("high", limit500), go("go", vel(900));
   list.add(high, 9);
   list.add(low, 1);
   list.add(go, 5);
@@ -98,8 +98,8 @@ TEST_F(Actions, LimitSpeedByTheLowestOfAllLimits) {
   EXPECT_EQ(list.resolve(pioneer).getMaxNegVel(), -50);
 }
 
-TEST_F(Actions, DriveTheRobotUntilItIsToldDirectly) {
-  Wish go("go", vel(300));
+TEST_F(Actions, DriveTheRobotUntilDirectMotion) {
+  FixedAction go("go", vel(300));
   pioneer.addAction(go, 10);
   const auto steps = [&](int n) {
     for (int i = 0; i < n; ++i) {
@@ -120,8 +120,8 @@ TEST_F(Actions, DriveTheRobotUntilItIsToldDirectly) {
   EXPECT_EQ(pioneer.findAction("come"), nullptr);
 }
 
-TEST_F(Actions, ThatWantNothingLetTheRobotStand) {
-  Wish go("go", vel(300)), nothing("nothing", {});
+TEST_F(Actions, WithoutDesiredMotionLetTheRobotStand) {
+  FixedAction go("go", vel(300)), nothing("nothing", {});
   pioneer.addAction(go, 10);
   pioneer.addAction(nothing, 20);
   const auto steps = [&](int n) {

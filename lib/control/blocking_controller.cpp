@@ -12,7 +12,7 @@ struct RunEnded {};  // no std::exception, so that a program's own catch clauses
 
 }  // namespace
 
-/// The program and its thread. `go_` wakes the program, `done_` wakes whoever called step(): the two take turns.
+/// The program and its thread. `go_` wakes the program, `done_` wakes the caller of step(): the two take turns.
 class BlockingController::Loop final : public StepClock {
  public:
   explicit Loop(Program program) : program_(std::move(program)) {}

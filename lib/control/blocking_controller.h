@@ -6,18 +6,18 @@
 
 namespace robosim {
 
-/// What a program that runs as a loop waits on.
+/// Synchronises a program that runs as a loop with the simulation's steps.
 class StepClock {
  public:
-  /// Lets the simulation take its next time step, and returns with the new readings in place. When the run ends, it
-  /// throws something that is no std::exception, so that the program ends: let it pass.
+  /// Blocks until the next time step, and returns when the new readings are available. When the run ends, it throws an
+  /// object that is not a std::exception, in order to unwind the program; do not catch it.
   virtual void waitForNextStep() = 0;
 
  protected:
   ~StepClock() = default;
 };
 
-/// Runs a program that is written as a loop, as ARIA's and the Nomad's users write theirs:
+/// Runs a program written as a loop, the style of ARIA and Nomad programs:
 ///
 ///     BlockingController controller([](Robot& robot, StepClock& clock) {
 ///       while (robot.heat() < 10) {
@@ -27,19 +27,18 @@ class StepClock {
 ///       robot.halt(Activity::found);
 ///     });
 ///
-/// The program has a thread of its own, which runs only inside step(), while its caller waits: exactly one of the two
-/// runs at any moment, so a run is as repeatable as with any other controller, and nothing needs a lock. A program that
-/// returns halts its robot. An exception that leaves the program stops the robot and comes out of step(); later steps
-/// do nothing.
+/// The program has its own thread, which runs only inside step() while the caller waits. Exactly one of the two threads
+/// runs at any time, so that runs are reproducible and no locks are needed. The robot halts when the program returns.
+/// An exception from the program stops the robot and is rethrown by step(); later steps do nothing.
 class BlockingController : public Controller {
  public:
   using Program = std::function<void(Robot&, StepClock&)>;
 
   explicit BlockingController(Program program);
-  /// Ends the program, if it still runs, by an exception out of its wait.
+  /// Ends a running program by an exception from its wait.
   ~BlockingController() override;
 
-  /// @param robot the same in every step: the program holds on to it.
+  /// @param robot must be the same in every step: the program keeps a reference.
   void step(Robot& robot) override;
 
  private:

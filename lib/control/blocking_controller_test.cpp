@@ -11,7 +11,7 @@
 namespace robosim {
 namespace {
 
-TEST(BlockingController, LetsALoopTakeOneTurnAStep) {
+TEST(BlockingController, RunsOneLoopIterationPerStep) {
   FakeHardware hardware;
   Robot robot(hardware);
   std::vector<std::uint64_t> seen;
@@ -84,7 +84,7 @@ TEST(BlockingController, UnwindsTheProgramWhenTheRunEnds) {
   EXPECT_EQ(robot.activity(), Activity::active);  // the run's end is not the robot's doing
 }
 
-TEST(BlockingController, EndsAProgramThatWaitsOnceMoreWhileUnwinding) {
+TEST(BlockingController, EndsAProgramThatWaitsAgainWhileUnwinding) {
   FakeHardware hardware;
   Robot robot(hardware);
   int waits = 0;
@@ -103,7 +103,7 @@ TEST(BlockingController, EndsAProgramThatWaitsOnceMoreWhileUnwinding) {
   EXPECT_EQ(waits, 1);
 }
 
-TEST(BlockingController, BringsTheProgramsExceptionOutOfTheStep) {
+TEST(BlockingController, RethrowsTheProgramsExceptionFromStep) {
   FakeHardware hardware;
   Robot robot(hardware);
   BlockingController controller([](Robot& r, StepClock& clock) {
@@ -131,7 +131,7 @@ TEST(BlockingController, HaltsTheRobotWhenTheProgramReturns) {
   EXPECT_EQ(robot.activity(), Activity::halted);
 }
 
-TEST(BlockingController, LeavesARobotThatFoundSomethingAtThat) {
+TEST(BlockingController, KeepsTheFoundActivityWhenTheProgramReturns) {
   FakeHardware hardware;
   Robot robot(hardware);
   BlockingController controller([](Robot& r, StepClock&) { r.halt(Activity::found); });

@@ -4,9 +4,9 @@
 
 namespace robosim {
 
-/// Whether a range sensor met something; otherwise the echo stands at the sensor's no_echo_m.
+/// Whether a range sensor detected something; otherwise the range equals the sensor's no_echo_m.
 inline bool heard(const SensorInfo& sensor, const Echo& echo) {
-  return echo.range_m < static_cast<float>(sensor.range_max_m);  // as a float: so is the reading
+  return echo.range_m < static_cast<float>(sensor.range_max_m);  // compared as float, the type of the reading
 }
 
 }  // namespace robosim

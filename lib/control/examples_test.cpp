@@ -17,7 +17,7 @@
 namespace robosim {
 namespace {
 
-/// Drives ahead, and turns left while something is near in front.
+/// Drives ahead, and turns left at obstacles.
 class Bouncer : public Controller {
  public:
   void step(Robot& robot) override {
@@ -47,7 +47,7 @@ class AriaWanderer : public Controller {
   std::optional<PioneerRobot> pioneer_;
 };
 
-/// Drives about, turning from what is near, and halts where it is hot.
+/// Wanders, turns away from obstacles, and halts at the gold.
 void lookForGold(Robot& robot, StepClock& clock) {
   PioneerRobot pioneer(robot, clock);
   for (;;) {
@@ -67,7 +67,7 @@ void lookForGold(Robot& robot, StepClock& clock) {
   }
 }
 
-/// Drives a square of ten inches, and backs out when it is blocked.
+/// Drives a square of ten inches, and backs up when blocked.
 void driveSquare(Robot& robot, StepClock& clock) {
   ScoutRobot scout(robot, clock);
   scout.sp(80, 450);
@@ -98,7 +98,7 @@ struct Trial {
   }
 };
 
-TEST(ControllerExamples, AreThoseOfThePage) {
+TEST(ControllerExamples, MatchTheDocumentation) {
   const std::string page = contentsOf("doc/controllers.md"), code = contentsOf("lib/control/examples_test.cpp");
   const std::string fence = "```cpp\n";
   int examples = 0;
@@ -116,7 +116,7 @@ TEST(ControllerExamples, BouncerTurnsBeforeAnObstacle) {
   Bouncer bouncer;
   trial.steps(bouncer, 20);
   EXPECT_NEAR(trial.hardware.odometry().speed_mps, 0.3, 1e-9);
-  trial.hardware.hearSonar(0, 0.4);
+  trial.hardware.setSonarRange(0, 0.4);
   trial.steps(bouncer, 10);
   EXPECT_EQ(trial.hardware.odometry().speed_mps, 0);
   EXPECT_NEAR(trial.hardware.odometry().turn_radps, 0.8, 1e-9);
@@ -127,7 +127,7 @@ TEST(ControllerExamples, AriaWandererDrivesUntilSomethingIsNear) {
   AriaWanderer wanderer;
   trial.steps(wanderer, 20);
   EXPECT_NEAR(trial.hardware.odometry().speed_mps, 0.4, 1e-9);
-  trial.hardware.hearSonar(1, 0.2);
+  trial.hardware.setSonarRange(1, 0.2);
   trial.steps(wanderer, 10);
   EXPECT_EQ(trial.hardware.odometry().speed_mps, 0);
   EXPECT_LT(trial.hardware.odometry().odom_from_robot.phi, -0.2);

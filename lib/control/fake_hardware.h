@@ -14,9 +14,9 @@
 
 namespace robosim {
 
-/// A robot without a world, for tests: it drives where it is told within its limits, and hears what the test puts into
-/// its readings. Sonar i of `sonars` looks along i · 360°/sonars, counter-clockwise from straight ahead.
-class FakeHardware : public Hardware {
+/// Test double of a robot without a world: it executes commands within its limits, and its readings are set by the
+/// test. Sonar i of `sonars` points along i · 360°/sonars, counter-clockwise from straight ahead.
+class FakeHardware : public Hardware, public RefereeLink {
  public:
   explicit FakeHardware(int sonars = 16, std::string neighbour = "") {
     SensorInfo odometry = sensor(SensorKind::odometry, 0, 0);
@@ -43,6 +43,7 @@ class FakeHardware : public Hardware {
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
   void send(const std::string& to, const std::string& text) override { sent.push_back({info_.name, to, text}); }
+  RefereeLink* referee() override { return this; }
   void checkWin() override { ++win_checks; }
 
   const Command& lastCommand() const { return command_; }
@@ -51,19 +52,19 @@ class FakeHardware : public Hardware {
   const Odometry& odometry() const { return std::get<Odometry>(readings_.measurements[0]); }
   Odometry& mutableOdometry() { return std::get<Odometry>(readings_.measurements[0]); }
 
-  /// The sensor in a slot hears this far along its beam; beyond its reach: nothing.
-  void hear(std::size_t slot, std::size_t beam, double range_m) {
+  /// Sets the range of the sensor in a slot along its beam; beyond its maximum range: no echo.
+  void setRange(std::size_t slot, std::size_t beam, double range_m) {
     const SensorInfo& info = (*info_.sensors)[slot];
     const double told_m = range_m < info.range_max_m ? range_m : info.no_echo_m;
     const auto end = info.beams[beam].robot_from_beam.composePoint({told_m, 0, 0});
     std::get<Echoes>(readings_.measurements[slot])[beam] = {
         static_cast<float>(told_m), {static_cast<float>(end.x), static_cast<float>(end.y), static_cast<float>(end.z)}};
   }
-  void hearSonar(std::size_t beam, double range_m) { hear(1, beam, range_m); }
-  void hearLaser(double range_m) { hear(2, 0, range_m); }
+  void setSonarRange(std::size_t beam, double range_m) { setRange(1, beam, range_m); }
+  void setLaserRange(double range_m) { setRange(2, 0, range_m); }
   void hearNothing() {
     for (std::size_t slot : {1u, 2u}) {
-      for (std::size_t beam = 0; beam < (*info_.sensors)[slot].beams.size(); ++beam) hear(slot, beam, 1e9);
+      for (std::size_t beam = 0; beam < (*info_.sensors)[slot].beams.size(); ++beam) setRange(slot, beam, 1e9);
     }
   }
   void feelHeat(double heat) { std::get<Scalar>(readings_.measurements[3]).value = heat; }
@@ -89,10 +90,10 @@ class FakeHardware : public Hardware {
     if (sense) sense(*this);
   }
 
-  bool blocked = false;                      ///< something holds the robot where it is
+  bool blocked = false;                      ///< the robot cannot move
   std::function<void(FakeHardware&)> sense;  ///< called at the end of each step
   std::vector<RobotMessage> sent;
-  int win_checks = 0;  ///< how often the robot asked whether it has won
+  int win_checks = 0;  ///< number of CheckWin requests
 
   static constexpr double kRadius_m = 0.25;
 

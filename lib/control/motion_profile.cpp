@@ -6,14 +6,16 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/portable_math.h"
+
 namespace robosim {
 namespace {
 
-double clipped(double wish, double hardware) { return wish > 0 ? std::min(wish, hardware) : hardware; }
+double clipped(double desired, double hardware) { return desired > 0 ? std::min(desired, hardware) : hardware; }
 
-AxisLimits clipped(const AxisLimits& wish, const AxisLimits& hardware) {
-  return {clipped(wish.speed_max, hardware.speed_max), clipped(wish.accel, hardware.accel),
-          clipped(wish.decel, hardware.decel)};
+AxisLimits clipped(const AxisLimits& desired, const AxisLimits& hardware) {
+  return {clipped(desired.speed_max, hardware.speed_max), clipped(desired.accel, hardware.accel),
+          clipped(desired.decel, hardware.decel)};
 }
 
 AxisLimits hardwareWay(const Robot& robot) {
@@ -28,16 +30,16 @@ AxisLimits hardwareTurn(const Robot& robot) {
 
 }  // namespace
 
-double speedTowards(double wish, double speed, const AxisLimits& limits, double period_s) {
-  wish = std::clamp(wish, -limits.speed_max, limits.speed_max);
-  if (speed * wish < 0) wish = 0;  // first to rest, then the other way
-  const double change = (std::abs(wish) > std::abs(speed) ? limits.accel : limits.decel) * period_s;
-  return std::clamp(wish, speed - change, speed + change);
+double speedTowards(double desired, double speed, const AxisLimits& limits, double period_s) {
+  desired = std::clamp(desired, -limits.speed_max, limits.speed_max);
+  if (speed * desired < 0) desired = 0;  // to rest before reversing
+  const double change = (std::abs(desired) > std::abs(speed) ? limits.accel : limits.decel) * period_s;
+  return std::clamp(desired, speed - change, speed + change);
 }
 
 double speedToStopAfter(double to_go, double decel, double period_s) {
-  // Losing decel·period a period from v on, it stops after n periods, having covered n·v·period -
-  // decel·period²·n(n-1)/2. The fewest periods in which that can be the distance, and the speed for which it is.
+  // Decelerating from v by decel·period per period, it stops after n periods and a distance of n·v·period -
+  // decel·period²·n(n-1)/2. Computes the smallest n for which this can equal the distance, then v.
   const double distance = std::abs(to_go), loss = decel * period_s;
   const double periods = std::max(1.0, std::ceil((std::sqrt(1 + 8 * distance / (loss * period_s)) - 1) / 2));
   return std::copysign(distance / (periods * period_s) + loss * (periods - 1) / 2, to_go);
@@ -54,8 +56,8 @@ void ProfiledDrive::Axis::go(double distance) {
 }
 
 double ProfiledDrive::Axis::next(double speed_now, double period_s) const {
-  const double wish = to_target ? speedToStopAfter(toGo(), limits.decel, period_s) : speed;
-  return speedTowards(wish, speed_now, limits, period_s);
+  const double desired = to_target ? speedToStopAfter(toGo(), limits.decel, period_s) : speed;
+  return speedTowards(desired, speed_now, limits, period_s);
 }
 
 ProfiledDrive::ProfiledDrive(Robot& robot) : robot_(robot) {
@@ -109,8 +111,8 @@ void ProfiledDrive::update() {
   const auto& now = robot_.odometry().odom_from_robot;
   const double turned = mrpt::math::wrapToPi(now.phi - last_odom_from_robot_.phi);
   const double middle = last_odom_from_robot_.phi + turned / 2;  // an arc's chord points midway between its headings
-  way_.covered +=
-      (now.x - last_odom_from_robot_.x) * std::cos(middle) + (now.y - last_odom_from_robot_.y) * std::sin(middle);
+  const auto [sin, cos] = portable::sincos(middle);
+  way_.covered += (now.x - last_odom_from_robot_.x) * cos + (now.y - last_odom_from_robot_.y) * sin;
   turn_.covered += turned;
   last_odom_from_robot_ = now;
   command();

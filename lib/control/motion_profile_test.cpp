@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-TEST(MotionProfile, ChangesSpeedNoFasterThanItsLimits) {
+TEST(MotionProfile, ChangesSpeedWithinItsLimits) {
   const AxisLimits limits{.speed_max = 1, .accel = 2, .decel = 4};
   EXPECT_DOUBLE_EQ(speedTowards(1, 0, limits, 0.1), 0.2);   // 2 m/s² for 0.1 s
   EXPECT_DOUBLE_EQ(speedTowards(0, 1, limits, 0.1), 0.6);   // 4 m/s² for 0.1 s
@@ -86,7 +86,7 @@ TEST(ProfiledDrive, MovesBackwards) {
   EXPECT_NEAR(d.pose().x, -0.7, 1e-6);
 }
 
-TEST(ProfiledDrive, TurnsTheShorterWayToAHeading) {
+TEST(ProfiledDrive, TurnsToAHeadingByTheSmallerAngle) {
   Driven d;
   d.hardware.mutableOdometry().odom_from_robot.phi = 3;
   d.drive.update();
@@ -108,7 +108,7 @@ TEST(ProfiledDrive, TurnsMoreThanOnceRound) {
   EXPECT_NEAR(turned, 3 * kPi, 1e-6);
 }
 
-TEST(ProfiledDrive, GoesAlongAnArcByItsLength) {
+TEST(ProfiledDrive, MeasuresAnArcByItsLength) {
   Driven d;
   d.drive.setTurn(0.5);
   d.drive.moveBy(2);
@@ -120,7 +120,7 @@ TEST(ProfiledDrive, GoesAlongAnArcByItsLength) {
   EXPECT_NEAR(driven, 2, 1e-3);
 }
 
-TEST(ProfiledDrive, KeepsTryingWhileSomethingHoldsIt) {
+TEST(ProfiledDrive, KeepsDrivingWhileBlocked) {
   Driven d;
   d.drive.moveBy(1);
   d.hardware.blocked = true;
@@ -131,7 +131,7 @@ TEST(ProfiledDrive, KeepsTryingWhileSomethingHoldsIt) {
   EXPECT_NEAR(d.pose().x, 1, 1e-6);
 }
 
-TEST(ProfiledDrive, NeverLimitsAboveTheHardware) {
+TEST(ProfiledDrive, ClampsLimitsToTheHardware) {
   Driven d;
   d.drive.limitWay({.speed_max = 50, .accel = 0.2, .decel = -1});
   EXPECT_DOUBLE_EQ(d.drive.wayLimits().speed_max, 1);
@@ -150,7 +150,7 @@ TEST(ProfiledDrive, StandsWhileItIsDisabled) {
   EXPECT_GT(d.pose().x, 0);
 }
 
-TEST(ProfiledDrive, SaysWhichRobotHasNoOdometry) {
+TEST(ProfiledDrive, NamesTheRobotWithoutOdometry) {
   FakeHardware hardware;
   hardware.mutableInfo().sensors = std::make_shared<std::vector<SensorInfo>>();
   hardware.mutableReadings().measurements.clear();

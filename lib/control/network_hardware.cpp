@@ -1,6 +1,8 @@
 #include "control/network_hardware.h"
 
 #include <algorithm>
+#include <iterator>
+#include <random>
 #include <unordered_set>
 #include <utility>
 
@@ -11,10 +13,10 @@
 namespace robosim {
 namespace {
 
-/// One robot of the process; what it is told waits here for the next answer.
-class FarRobot final : public Hardware {
+/// One robot of the process. Buffers its command and messages until the next answer.
+class ProcessRobot final : public Hardware, public RefereeLink {
  public:
-  FarRobot(RobotInfo info, const std::unordered_set<std::string>& everyone)
+  ProcessRobot(RobotInfo info, const std::unordered_set<std::string>& everyone)
       : info_(std::move(info)), everyone_(everyone), readings_(blankReadings(*info_.sensors)) {}
 
   const RobotInfo& info() const override { return info_; }
@@ -33,93 +35,126 @@ class FarRobot final : public Hardware {
                                   std::to_string(text.size()) + " bytes; the most is " +
                                   std::to_string(kMaxMessageBytes));
     }
-    letters_.push_back({to, text});
+    outbox_.push_back({info_.name, to, text});
   }
 
-  void checkWin() override { asks_for_win_ = true; }
+  RefereeLink* referee() override { return this; }
+  void checkWin() override { is_win_check_requested_ = true; }
 
   Readings& mutableReadings() { return readings_; }
 
-  /// The environment has let the robot stop meanwhile, and its controller may still count on its last command.
+  /// Repeats the last command, because the environment has stopped the robot and its controller may not repeat it.
   void commandAgain() { is_command_new_ = was_commanded_; }
 
-  /// Adds what it was told to an answer, and forgets it.
-  void flush(std::uint32_t index, wire::FromRobots& out) {
+  /// Inserts messages of a lost answer before those sent since.
+  void sendAgain(std::vector<RobotMessage> messages) {
+    std::move(outbox_.begin(), outbox_.end(), std::back_inserter(messages));
+    outbox_ = std::move(messages);
+  }
+
+  /// Moves the buffered command and messages into an answer.
+  void flush(std::uint32_t index, wire::DriveRequest& out) {
     if (is_command_new_) encode(command_, index, *out.add_commands());
     is_command_new_ = false;
-    for (auto& letter : letters_) {
+    for (auto& message : outbox_) {
       auto& sent = *out.add_letters();
       sent.set_robot(index);
-      sent.set_to(letter.to);
-      sent.set_text(std::move(letter.text));
+      sent.set_to(message.to);
+      sent.set_text(std::move(message.text));
     }
-    letters_.clear();
-    if (std::exchange(asks_for_win_, false)) out.add_check_win(index);
+    outbox_.clear();
+    if (std::exchange(is_win_check_requested_, false)) out.add_check_win(index);
   }
 
  private:
-  struct Letter {
-    std::string to, text;
-  };
   RobotInfo info_;
   const std::unordered_set<std::string>& everyone_;
   Readings readings_;
   Command command_;
   bool is_command_new_ = false;
   bool was_commanded_ = false;
-  bool asks_for_win_ = false;
-  std::vector<Letter> letters_;
+  bool is_win_check_requested_ = false;
+  std::vector<RobotMessage> outbox_;
 };
+
+std::string randomProcessId() {
+  std::random_device random;
+  std::string id(kProcessIdBytes, '\0');
+  for (char& byte : id) byte = static_cast<char>(random());
+  return id;
+}
 
 }  // namespace
 
 struct NetworkHardware::Impl {
-  using Stream = ClientStream<wire::FromRobots, wire::ToRobots>;
+  using Stream = ClientStream<wire::DriveRequest, wire::DriveResponse>;
 
-  DialOptions dialled;
+  ConnectOptions connect_options;
   std::vector<std::string> names;
+  const std::string process = randomProcessId();
   std::unique_ptr<wire::Robots::Stub> stub;
   std::unique_ptr<Stream> stream;  ///< null when there is no connection
-  wire::FromRobots out;
-  wire::ToRobots in;
+  wire::DriveRequest out;          ///< the answer to the last step
+  bool is_unconfirmed = false;     ///< `out` was sent, and the next readings have not been received
+  bool repeats = false;            ///< `out` answers the current step, and must be sent again
+  wire::DriveResponse in;
   RobotsWelcome welcome;
   std::unordered_set<std::string> everyone;
-  std::vector<std::unique_ptr<FarRobot>> robots;
+  std::vector<std::unique_ptr<ProcessRobot>> robots;
   std::uint64_t step = 0;
 
-  Impl(const DialOptions& options, const std::vector<std::string>& the_names)
-      : dialled(options), names(the_names), stub(wire::Robots::NewStub(dial(options))) {
-    welcome = join("");
-    everyone.insert(welcome.everyone.begin(), welcome.everyone.end());
-    for (const auto& seat : welcome.seats) robots.push_back(std::make_unique<FarRobot>(seat.info, everyone));
+  Impl(const ConnectOptions& options, const std::vector<std::string>& the_names)
+      : connect_options(options), names(the_names), stub(wire::Robots::NewStub(connect(options))) {
+    welcome = join();
+    everyone.insert(welcome.all_robots.begin(), welcome.all_robots.end());
+    for (const auto& seat : welcome.robots) robots.push_back(std::make_unique<ProcessRobot>(seat.info, everyone));
     readFirstStep();
   }
 
-  /// Says hello, and is welcomed.
-  RobotsWelcome join(const std::string& world_version) {
+  /// Sends the hello, and receives the welcome.
+  RobotsWelcome join() {
     stream.reset();
     stream = std::make_unique<Stream>(
-        dialled, [&](auto* context, auto* queue, void* tag) { return stub->AsyncDrive(context, queue, tag); });
-    wire::FromRobots first;
+        connect_options, [&](auto* context, auto* queue, void* tag) { return stub->AsyncDrive(context, queue, tag); });
+    wire::DriveRequest first;
     auto& hello = *first.mutable_hello();
     hello.set_protocol(kProtocolVersion);
-    hello.set_world_version(world_version);
+    hello.set_world_version(welcome.world_version);
+    hello.set_run(welcome.run);
+    hello.set_last_step(step);
+    hello.set_process(process);
     for (const auto& name : names) hello.add_names(name);
     stream->write(first);
     if (!stream->read(in)) fail();
     RobotsWelcome welcomed = decode(in.welcome());
-    if (welcomed.seats.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
+    if (welcomed.robots.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
     return welcomed;
   }
 
   void rejoin() {
-    const std::uint64_t last_step = step;
-    const RobotsWelcome again = join(welcome.world_version);
+    const RobotsWelcome again = join();
     readFirstStep();
-    if (step < last_step || again.seed != welcome.seed || again.period_s != welcome.period_s) {
+    if (again.run != welcome.run || step < out.step()) {
       fail({grpc::StatusCode::ABORTED, "another run has begun there; start the robots' program anew"});
     }
     for (auto& robot : robots) robot->commandAgain();
+    if (!is_unconfirmed) return;
+    repeats = step == out.step();
+    if (!repeats) sendMessagesAgain(again);
+  }
+
+  /// Restores the robots after the environment has continued; `again` specifies per robot whether its answer was lost.
+  void sendMessagesAgain(const RobotsWelcome& again) {
+    is_unconfirmed = false;
+    const auto is_taken = [&](std::uint32_t robot) { return out.step() < again.robots[robot].next_answer; };
+    std::vector<std::vector<RobotMessage>> messages(robots.size());
+    for (const auto& letter : out.letters()) {
+      if (!is_taken(letter.robot())) messages[letter.robot()].push_back({"", letter.to(), letter.text()});
+    }
+    for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->sendAgain(std::move(messages[i]));
+    for (const auto robot : out.check_win()) {
+      if (!is_taken(robot)) robots[robot]->checkWin();
+    }
   }
 
   /// @return false when the stream has ended
@@ -151,7 +186,7 @@ struct NetworkHardware::Impl {
 
   [[noreturn]] void fail(const grpc::Status& status) {
     stream.reset();
-    throw ConnectionError(status, dialled);
+    throw ConnectionError(status, connect_options);
   }
 
   [[noreturn]] void fail() {
@@ -160,30 +195,41 @@ struct NetworkHardware::Impl {
   }
 
   bool nextStep() {
-    out.set_step(step);
-    out.clear_commands();
-    out.clear_letters();
-    out.clear_check_win();
-    for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
+    if (!std::exchange(repeats, false)) {
+      out.set_step(step);
+      out.clear_commands();
+      out.clear_letters();
+      out.clear_check_win();
+      for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
+    }
+    is_unconfirmed = true;
     stream->write(out);
-    if (readStep()) return true;
+    if (readStep()) {
+      is_unconfirmed = false;
+      return true;
+    }
     const grpc::Status status = finish();
     if (!status.ok()) fail(status);
+    is_unconfirmed = false;
     return false;
   }
 };
 
-NetworkHardware::NetworkHardware(const DialOptions& dial_options, const std::vector<std::string>& names)
-    : impl_(std::make_unique<Impl>(dial_options, names)) {}
+NetworkHardware::NetworkHardware(const ConnectOptions& connect_options, const std::vector<std::string>& names)
+    : impl_(std::make_unique<Impl>(connect_options, names)) {}
 
 NetworkHardware::~NetworkHardware() = default;
 
 Hardware& NetworkHardware::robot(std::size_t i) { return *impl_->robots[i]; }
-std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.seats[i].place; }
-const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.seats[i].controller; }
+std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.robots[i].place; }
+const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.robots[i].controller; }
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
 const std::string& NetworkHardware::world() const { return impl_->welcome.world; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }
+std::size_t NetworkHardware::unconfirmedMessages() const {
+  return impl_->is_unconfirmed ? static_cast<std::size_t>(impl_->out.letters_size()) : 0;
+}
+bool NetworkHardware::hasAnswered() const { return impl_->repeats; }
 void NetworkHardware::rejoin() { impl_->rejoin(); }
 
 }  // namespace robosim

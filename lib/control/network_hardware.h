@@ -4,42 +4,48 @@
 #include <vector>
 
 #include "hardware/hardware.h"
-#include "net/dial.h"
+#include "net/connect.h"
 
 namespace robosim {
 
-/// The robots of one process at the far end of a connection to an environment (2005: the hardware simulators). Step by
-/// step:
+/// Client of the Robots service: the robots of one process, connected to an environment (2005: the hardware
+/// simulators). Usage:
 ///
-///     NetworkHardware robots(dial_options, {"Robo", "Scouty"});
+///     NetworkHardware robots(connect_options, {"Robo", "Scouty"});
 ///     do {
-///       … each controller looks at robots.robot(i) and commands it …
+///       … each controller reads robots.robot(i) and commands it …
 ///     } while (robots.nextStep());
 class NetworkHardware {
  public:
-  /// Connects, and waits for the readings of the step that stands.
-  /// @throws ConnectionError when nobody answers, or the environment will not have these robots.
-  NetworkHardware(const DialOptions& dial_options, const std::vector<std::string>& names);
+  /// Connects, and waits for the readings of the current step.
+  /// @throws ConnectionError when the server does not answer or refuses these robots.
+  NetworkHardware(const ConnectOptions& connect_options, const std::vector<std::string>& names);
   ~NetworkHardware();
   NetworkHardware(const NetworkHardware&) = delete;
   NetworkHardware& operator=(const NetworkHardware&) = delete;
 
   /// In the order of the names given.
   Hardware& robot(std::size_t i);
-  std::size_t place(std::size_t i) const;              ///< in the world's list
-  const std::string& controller(std::size_t i) const;  ///< what the world would have it run; empty when it does not say
+  std::size_t place(std::size_t i) const;              ///< index in the world
+  const std::string& controller(std::size_t i) const;  ///< named by the world file; empty when it names none
   std::uint64_t seed() const;                          ///< of the run
   const std::string& world() const;                    ///< its name
 
-  /// Sends what the robots were told since the last step, and waits for the next step's readings.
+  /// Sends the robots' commands and messages since the last step, and waits for the next step's readings.
   /// @return false when the run is over
-  /// @throws ConnectionError when the environment hangs up, or is gone. Then rejoin(), or give up.
+  /// @throws ConnectionError when the server closes the connection, or it breaks. rejoin() may restore it.
   bool nextStep();
 
-  /// Connects anew under the same names, and waits for the readings of the step that stands: the robots and whoever
-  /// holds them go on as if a few steps had been missed. What robots had said since the last step is said again.
-  /// @throws ConnectionError as the constructor, and when another world or another run is there now.
+  /// Reconnects under the same names, and waits for the readings of the current step. The robots stay valid and
+  /// continue as if some steps had been missed. nextStep() repeats the answer to the last step unless the environment
+  /// has received it: each message is delivered exactly once.
+  /// @throws ConnectionError as the constructor, and when the server has another world or run.
   void rejoin();
+  /// Whether, after rejoin(), the robots have already answered the current step. If so, call nextStep() before the
+  /// controllers: if the environment has waited, the run is then bit-identical to one without the interruption.
+  bool hasAnswered() const;
+  /// Number of messages to other robots that the environment has not confirmed; they are lost unless rejoin() succeeds.
+  std::size_t unconfirmedMessages() const;
 
  private:
   struct Impl;

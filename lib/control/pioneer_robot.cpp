@@ -7,6 +7,8 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/portable_math.h"
+#include "base/portable_pose.h"
 #include "control/echo.h"
 
 namespace robosim {
@@ -14,12 +16,12 @@ namespace {
 
 constexpr double kMmPerM = 1000;
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-/// Half the track [mm] that ARIA reckons with for a Pioneer 3-DX: 1 / its DiffConvFactor of 0.0056.
+/// Half the track [mm] that ARIA assumes for a Pioneer 3-DX: 1 / its DiffConvFactor of 0.0056.
 constexpr double kHalfTrack_mm = 178.6;
 constexpr double kMoveDone_mm = 40;
 constexpr double kHeadingDone_deg = 3;
 
-/// Whether `deg` lies on the way counter-clockwise from `from_deg` to `to_deg`.
+/// Whether `deg` lies in the counter-clockwise interval from `from_deg` to `to_deg`.
 bool isBetween(double deg, double from_deg, double to_deg) {
   const auto upwards = [from_deg](double angle) {
     const double rest = std::fmod(angle - from_deg, 360);
@@ -33,10 +35,10 @@ int toMm(double range_m) { return static_cast<int>(std::lround(range_m * kMmPerM
 
 }  // namespace
 
-double PioneerPose::findDistanceTo(const PioneerPose& other) const { return std::hypot(other.x - x, other.y - y); }
+double PioneerPose::findDistanceTo(const PioneerPose& other) const { return portable::hypot(other.x - x, other.y - y); }
 
 double PioneerPose::findAngleTo(const PioneerPose& other) const {
-  return std::atan2(other.y - y, other.x - x) * kDegPerRad;
+  return portable::atan2(other.y - y, other.x - x) * kDegPerRad;
 }
 
 PioneerRobot::PioneerRobot(Robot& robot) : robot_(robot), drive_(robot) {}
@@ -146,14 +148,13 @@ double PioneerRobot::getRotAccel() const { return drive_.turnLimits().accel * kD
 double PioneerRobot::getRotDecel() const { return drive_.turnLimits().decel * kDegPerRad; }
 
 PioneerPose PioneerRobot::getPose() const {
-  const mrpt::math::TPose2D pose = aria_from_odom_ + robot_.odometry().odom_from_robot;
+  const mrpt::math::TPose2D pose = portable::compose(aria_from_odom_, robot_.odometry().odom_from_robot);
   return {pose.x * kMmPerM, pose.y * kMmPerM, mrpt::math::wrapToPi(pose.phi) * kDegPerRad};
 }
 
 void PioneerRobot::moveTo(const PioneerPose& pose) {
   const mrpt::math::TPose2D aria_from_robot(pose.x / kMmPerM, pose.y / kMmPerM, pose.th / kDegPerRad);
-  const mrpt::math::TPose2D robot_from_odom = mrpt::math::TPose2D() - robot_.odometry().odom_from_robot;
-  aria_from_odom_ = aria_from_robot + robot_from_odom;
+  aria_from_odom_ = portable::compose(aria_from_robot, portable::inverse(robot_.odometry().odom_from_robot));
 }
 
 double PioneerRobot::getVel() const { return robot_.odometry().speed_mps * kMmPerM; }
@@ -193,9 +194,11 @@ std::optional<PioneerSonarReading> PioneerRobot::getSonarReading(int number) con
   const int range = getSonarRange(number);
   mrpt::math::TPoint2D local(robot_.sonar()[i].point_m.x, robot_.sonar()[i].point_m.y);
   if (!sonar_on_) {
-    local = {mount.x + range / kMmPerM * std::cos(mount.yaw), mount.y + range / kMmPerM * std::sin(mount.yaw)};
+    const auto [sin, cos] = portable::sincos(mount.yaw);
+    local = {mount.x + range / kMmPerM * cos, mount.y + range / kMmPerM * sin};
   }
-  const mrpt::math::TPoint2D point = (aria_from_odom_ + robot_.odometry().odom_from_robot).composePoint(local);
+  const mrpt::math::TPoint2D point =
+      portable::compose(portable::compose(aria_from_odom_, robot_.odometry().odom_from_robot), local);
   return PioneerSonarReading{.range = range,
                              .x = point.x * kMmPerM,
                              .y = point.y * kMmPerM,
@@ -234,7 +237,7 @@ double PioneerRobot::nearestEcho(const Accept& accept, double if_none) const {
     for (const Echo& echo : robot_.echoes(kind)) {
       if (!heard(*robot_.sensor(kind), echo)) continue;
       const double x = echo.point_m.x * kMmPerM, y = echo.point_m.y * kMmPerM;
-      const double distance = std::hypot(x, y);
+      const double distance = portable::hypot(x, y);
       if (distance < nearest && accept(x, y)) nearest = distance;
     }
   };
@@ -244,8 +247,8 @@ double PioneerRobot::nearestEcho(const Accept& accept, double if_none) const {
 }
 
 double PioneerRobot::checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double if_none) const {
-  return nearestEcho([&](double x, double y) { return isBetween(std::atan2(y, x) * kDegPerRad, from_deg, to_deg); },
-                     if_none);
+  return nearestEcho(
+      [&](double x, double y) { return isBetween(portable::atan2(y, x) * kDegPerRad, from_deg, to_deg); }, if_none);
 }
 
 double PioneerRobot::checkRangeDevicesCurrentBox(double x1, double y1, double x2, double y2, double if_none) const {
@@ -257,8 +260,8 @@ double PioneerRobot::checkRangeDevicesCurrentBox(double x1, double y1, double x2
 }
 
 void PioneerRobot::obey(const ActionDesired& desired) {
-  const double wish = desired.getVelStrength() > 0 ? desired.getVel() : 0;
-  drive_.setSpeed(std::clamp(wish, desired.getMaxNegVel(), desired.getMaxVel()) / kMmPerM);
+  const double velocity = desired.getVelStrength() > 0 ? desired.getVel() : 0;
+  drive_.setSpeed(std::clamp(velocity, desired.getMaxNegVel(), desired.getMaxVel()) / kMmPerM);
   if (desired.getDeltaHeadingStrength() > 0) {
     drive_.turnBy(desired.getDeltaHeading() / kDegPerRad);
   } else {

@@ -13,20 +13,20 @@
 
 namespace robosim {
 
-/// A pose as ARIA tells it: x, y [mm], th [deg], within (-180, 180].
+/// A pose in ARIA's units: x, y [mm], th [deg], within (-180, 180].
 struct PioneerPose {
   double x = 0, y = 0, th = 0;
   double getX() const { return x; }
   double getY() const { return y; }
   double getTh() const { return th; }
   double findDistanceTo(const PioneerPose& other) const;  ///< [mm]
-  double findAngleTo(const PioneerPose& other) const;     ///< direction of `other` as seen from here [deg]
+  double findAngleTo(const PioneerPose& other) const;     ///< direction towards `other` [deg]
 };
 
-/// One sonar's echo as ARIA tells it.
+/// One sonar's echo in ARIA's units.
 struct PioneerSonarReading {
   int range = 0;                                     ///< [mm]
-  double x = 0, y = 0;                               ///< of what was met, in the frame of getPose() [mm]
+  double x = 0, y = 0;                               ///< of the echo, in the frame of getPose() [mm]
   double local_x = 0, local_y = 0;                   ///< the same in the robot's frame [mm]
   double sensor_x = 0, sensor_y = 0, sensor_th = 0;  ///< the sonar in the robot's frame [mm, deg]
   int getRange() const { return range; }
@@ -39,17 +39,16 @@ struct PioneerSonarReading {
   double getSensorTh() const { return sensor_th; }
 };
 
-/// A robot as ARIA's users know it: ARIA's names and units (mm, mm/s, deg, deg/s; counter-clockwise positive), and the
-/// 2005 RoboSim's acquireSensorReadings(). Works over any robot with odometry.
+/// Adapter with the names and units of ARIA (mm, mm/s, deg, deg/s; counter-clockwise positive), and with
+/// acquireSensorReadings() of the 2005 RoboSim. Requires a robot with odometry.
 ///
-/// In a Controller: make one for the robot and call update() first thing in each step. In a BlockingController's loop:
-/// make it with the clock and use its own waitForNextStep(), which does that.
+/// In a Controller: construct one for the robot and call update() at the start of each step. In a BlockingController's
+/// loop: construct it with the clock and call its waitForNextStep(), which calls update().
 ///
-/// As in ARIA, setVel … move are direct motion: from the first of them on, actions stand back until
-/// clearDirectMotion().
+/// As in ARIA, setVel … move are direct motion: they disable the actions until clearDirectMotion().
 class PioneerRobot {
  public:
-  /// @name What acquireSensorReadings() asks for; may be joined by |
+  /// @name Sensors for acquireSensorReadings(); may be combined by |
   ///@{
   static constexpr unsigned SONAR = 1, LASER = 2, HEAT = 4;
   ///@}
@@ -60,22 +59,21 @@ class PioneerRobot {
   PioneerRobot(const PioneerRobot&) = delete;
   PioneerRobot& operator=(const PioneerRobot&) = delete;
 
-  /// Takes over the new step: the motion under way goes on, or else the actions fire. Call it once a step.
+  /// Processes a new step: continues the direct motion, or else resolves the actions. Call it once per step.
   void update();
 
   /// @name Running
-  /// Nothing runs at the same time as the controller, so there is nothing to lock; lock() and unlock() are for programs
-  /// that come from ARIA.
+  /// Nothing runs concurrently with the controller; lock() and unlock() do nothing and exist for ARIA programs.
   ///@{
   /// @throws std::logic_error for a PioneerRobot that was made without a clock.
   void waitForNextStep();
-  void run();  ///< steps on, letting the actions drive, until stopRunning() or the robot halts
+  void run();  ///< steps with the actions until stopRunning() or the robot halts
   void stopRunning() { running_ = false; }
   bool isRunning() const { return running_; }
   void lock() {}
   void unlock() {}
   bool isConnected() const { return robot_.activity() == Activity::active; }
-  void disconnect();  ///< stops the robot for good
+  void disconnect();  ///< stops the robot permanently
   ///@}
 
   /// @name Motors and sonars; both are on at the start
@@ -84,7 +82,7 @@ class PioneerRobot {
   void disableMotors() { drive_.enable(false); }
   bool areMotorsEnabled() const { return drive_.enabled(); }
   void enableSonar() { sonar_on_ = true; }
-  void disableSonar() { sonar_on_ = false; }  ///< no reading is new; all tell of no echo
+  void disableSonar() { sonar_on_ = false; }  ///< no reading is new; all are without echo
   bool areSonarsEnabled() const { return sonar_on_; }
   ///@}
 
@@ -93,21 +91,20 @@ class PioneerRobot {
   void setVel(double mm_ps);
   void setVel2(double left_mm_ps, double right_mm_ps);
   void setRotVel(double deg_ps);
-  void setHeading(double deg);       ///< in the frame of getPose(), the shorter way round
+  void setHeading(double deg);       ///< in the frame of getPose(), by the smaller angle
   void setDeltaHeading(double deg);  ///< relative to the present heading
   void move(double mm);              ///< negative: backwards
   void stop();
-  /// Whether move() has come this near to its end; always so without a move() under way. 0 stands for 40 mm.
+  /// Whether move() is within this distance of its end; true without an active move(). 0 means 40 mm.
   bool isMoveDone(double delta_mm = 0) const;
-  /// The same for setHeading() and setDeltaHeading(). 0 stands for 3 deg.
+  /// The same for setHeading() and setDeltaHeading(). 0 means 3 deg.
   bool isHeadingDone(double delta_deg = 0) const;
-  void clearDirectMotion();  ///< lets the actions drive again
+  void clearDirectMotion();  ///< enables the actions again
   bool isDirectMotion() const { return direct_motion_; }
   ///@}
 
   /// @name Limits
-  /// Never above what the hardware can do: a higher value is taken as that. @return false, and nothing is changed, for
-  /// a value that is not positive.
+  /// Values above the hardware's limits are clamped. @return false, without effect, for a value that is not positive.
   ///@{
   bool setTransVelMax(double mm_ps);
   bool setTransAccel(double mm_ps2);
@@ -126,11 +123,11 @@ class PioneerRobot {
   /// @name State
   ///@{
   const std::string& getName() const { return robot_.name(); }
-  PioneerPose getPose() const;  ///< by odometry, from where the robot started or as moveTo() told
+  PioneerPose getPose() const;  ///< by odometry, relative to the start pose or to moveTo()
   double getX() const { return getPose().x; }
   double getY() const { return getPose().y; }
   double getTh() const { return getPose().th; }
-  void moveTo(const PioneerPose& pose);  ///< says where the robot is: from now on getPose() counts from there
+  void moveTo(const PioneerPose& pose);  ///< sets the present pose; getPose() continues from it
   double getVel() const;
   double getRotVel() const;
   double getLeftVel() const;
@@ -139,15 +136,15 @@ class PioneerRobot {
   bool isRightMotorStalled() const { return robot_.stalled(); }
   int getStallValue() const { return robot_.stalled() ? 0x0101 : 0; }  ///< bit 0: left wheel, bit 8: right wheel
   double getRobotRadius() const;                                       ///< [mm]
-  /// Without a battery to measure 13.0 V, as if it were always charged.
+  /// 13.0 V, fully charged, for a robot without a battery sensor.
   double getBatteryVoltage() const { return robot_.battery().value_or(13.0); }
   ///@}
 
   /// @name Requests (2005)
-  /// A request is answered in the next step; then the readings count as new, until they are requested again. All
-  /// readings of a step come in one packet, so without any request each is new in every step.
+  /// A request is answered in the next step; then the readings count as new until they are requested again. All
+  /// readings of a step arrive in one packet; without requests they are new in every step.
   ///@{
-  /// @throws std::invalid_argument when the robot lacks a sensor that is asked for: the answer would never come.
+  /// @throws std::invalid_argument when the robot lacks a requested sensor: it would never be answered.
   void acquireSensorReadings(unsigned sensors);
   bool isHeatNew() const { return isNew(SensorKind::heat, HEAT); }
   bool isLaserNew() const { return isNew(SensorKind::laser, LASER); }
@@ -160,8 +157,8 @@ class PioneerRobot {
   int getNumSonar() const { return static_cast<int>(robot_.sonar().size()); }
   int getSonarRange(int number) const;                                   ///< [mm]; -1 for no such sonar
   std::optional<PioneerSonarReading> getSonarReading(int number) const;  ///< nullopt for no such sonar
-  /// The nearest range among the sonars that look between the two angles, counter-clockwise from `from_deg` to
-  /// `to_deg`; -1 when none looks there.
+  /// The shortest range among the sonars that point between two angles, counter-clockwise from `from_deg` to `to_deg`;
+  /// -1 when there are none.
   int getClosestSonarRange(double from_deg, double to_deg) const;
   int getClosestSonarNumber(double from_deg, double to_deg) const;  ///< -1 for none
   ///@}
@@ -170,11 +167,11 @@ class PioneerRobot {
   ///@{
   int getNumLaser() const { return static_cast<int>(robot_.laser().size()); }
   int getLaserRange(int number = 0) const;                      ///< [mm]; -1 for no such beam
-  void turnLaser(double deg);                                   ///< where a laser that turns looks, in [-90, 90]
+  void turnLaser(double deg);                                   ///< pan angle of a turnable laser, in [-90, 90]
   double getHeat() const { return robot_.heat().value_or(0); }  ///< 0 for a robot without a heat sensor
   ///@}
 
-  /// @name Sonar and laser together; what stands [mm] from the robot's centre
+  /// @name Sonar and laser combined; distances [mm] from the robot's centre
   ///@{
   /// The nearest echo that lies between the two directions, counter-clockwise; `if_none` when there is none.
   double checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double if_none = 30000) const;
@@ -184,7 +181,7 @@ class PioneerRobot {
 
   /// @name Actions
   ///@{
-  /// @param action must outlive its place in the list. The highest priority comes first.
+  /// @param action must outlive its entry. The highest priority comes first.
   void addAction(Action& action, int priority) { actions_.add(action, priority); }
   bool remAction(const Action& action) { return actions_.remove(action); }
   Action* findAction(const std::string& name) const { return actions_.find(name); }

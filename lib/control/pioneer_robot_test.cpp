@@ -23,7 +23,7 @@ struct Pioneer {
   }
 };
 
-TEST(PioneerRobot, SpeaksMillimetresAndDegrees) {
+TEST(PioneerRobot, UsesMillimetresAndDegrees) {
   Pioneer p;
   p.pioneer.setVel(300);
   p.pioneer.setRotVel(-45);
@@ -35,7 +35,7 @@ TEST(PioneerRobot, SpeaksMillimetresAndDegrees) {
   EXPECT_DOUBLE_EQ(p.pioneer.getRobotRadius(), 250);
 }
 
-TEST(PioneerRobot, TurnsAsAriaReckonsForTwoWheelSpeeds) {
+TEST(PioneerRobot, ConvertsTwoWheelSpeedsAsAria) {
   // ARIA: 300 mm/s left and 100 mm/s right give -32 deg/s.
   Pioneer p;
   p.pioneer.setVel2(300, 100);
@@ -46,7 +46,7 @@ TEST(PioneerRobot, TurnsAsAriaReckonsForTwoWheelSpeeds) {
   EXPECT_NEAR(p.pioneer.getRightVel(), 100, 1e-6);
 }
 
-TEST(PioneerRobot, MovesADistanceAndSaysWhenItIsDone) {
+TEST(PioneerRobot, MovesADistanceAndReportsCompletion) {
   Pioneer p;
   EXPECT_TRUE(p.pioneer.isMoveDone());
   p.pioneer.move(500);
@@ -57,14 +57,14 @@ TEST(PioneerRobot, MovesADistanceAndSaysWhenItIsDone) {
   EXPECT_NEAR(p.pioneer.getX(), 500, 0.1);
 }
 
-TEST(PioneerRobot, IsDoneWithAMoveWithin40MillimetresUnlessToldOtherwise) {
+TEST(PioneerRobot, CompletesAMoveWithin40MillimetresByDefault) {
   Pioneer p;
   p.pioneer.move(39);
   EXPECT_TRUE(p.pioneer.isMoveDone());
   EXPECT_FALSE(p.pioneer.isMoveDone(38));
 }
 
-TEST(PioneerRobot, TurnsToAHeadingAndSaysWhenItIsDone) {
+TEST(PioneerRobot, TurnsToAHeadingAndReportsCompletion) {
   Pioneer p;
   p.pioneer.setHeading(90);
   EXPECT_FALSE(p.pioneer.isHeadingDone());
@@ -76,7 +76,7 @@ TEST(PioneerRobot, TurnsToAHeadingAndSaysWhenItIsDone) {
   EXPECT_NEAR(p.pioneer.getTh(), 60, 1e-3);
 }
 
-TEST(PioneerRobot, ForgetsAMoveWhenItIsToldASpeed) {
+TEST(PioneerRobot, CancelsAMoveWhenASpeedIsSet) {
   Pioneer p;
   p.pioneer.move(5000);
   p.steps(5);
@@ -86,7 +86,7 @@ TEST(PioneerRobot, ForgetsAMoveWhenItIsToldASpeed) {
   EXPECT_EQ(p.pioneer.getVel(), 0);
 }
 
-TEST(PioneerRobot, StopsBothWays) {
+TEST(PioneerRobot, StopsTranslationAndRotation) {
   Pioneer p;
   p.pioneer.move(5000);
   p.pioneer.setRotVel(40);
@@ -97,7 +97,7 @@ TEST(PioneerRobot, StopsBothWays) {
   EXPECT_EQ(p.pioneer.getRotVel(), 0);
 }
 
-TEST(PioneerRobot, CountsItsPoseFromWhereMoveToSays) {
+TEST(PioneerRobot, MeasuresItsPoseFromMoveTo) {
   Pioneer p;
   p.hardware.mutableOdometry().odom_from_robot = {1, 2, M_PI / 2};
   p.pioneer.update();
@@ -114,7 +114,7 @@ TEST(PioneerRobot, CountsItsPoseFromWhereMoveToSays) {
   EXPECT_NEAR(p.pioneer.getTh(), -90, 1e-3);
 }
 
-TEST(PioneerRobot, NeverLimitsAboveTheHardware) {
+TEST(PioneerRobot, ClampsLimitsToTheHardware) {
   Pioneer p;
   EXPECT_TRUE(p.pioneer.setTransVelMax(99999));
   EXPECT_DOUBLE_EQ(p.pioneer.getTransVelMax(), 1000);
@@ -130,7 +130,7 @@ TEST(PioneerRobot, NeverLimitsAboveTheHardware) {
   EXPECT_NEAR(p.pioneer.getRotVel(), 10, 1e-9);
 }
 
-TEST(PioneerRobot, SpeedsUpAsItsAccelerationSays) {
+TEST(PioneerRobot, AcceleratesAtItsAcceleration) {
   Pioneer p;
   p.pioneer.setTransAccel(100);
   p.pioneer.setTransDecel(200);
@@ -151,7 +151,7 @@ TEST(PioneerRobot, StandsWhileItsMotorsAreOff) {
   EXPECT_EQ(p.pioneer.getX(), 0);
 }
 
-TEST(PioneerRobot, TellsOfAStall) {
+TEST(PioneerRobot, ReportsAStall) {
   Pioneer p;
   EXPECT_EQ(p.pioneer.getStallValue(), 0);
   p.pioneer.setVel(300);
@@ -177,7 +177,7 @@ TEST(PioneerRobot, AnswersARequestInTheNextStep) {
   EXPECT_TRUE(p.pioneer.isHeatNew());
 }
 
-TEST(PioneerRobot, RefusesARequestThatCouldNeverBeAnswered) {
+TEST(PioneerRobot, RefusesARequestForAMissingSensor) {
   FakeHardware hardware;
   auto sensors = std::make_shared<std::vector<SensorInfo>>(*hardware.info().sensors);
   sensors->pop_back();  // the heat sensor
@@ -194,9 +194,9 @@ TEST(PioneerRobot, RefusesARequestThatCouldNeverBeAnswered) {
   EXPECT_FALSE(pioneer.isHeatNew());
 }
 
-TEST(PioneerRobot, TellsSonarRangesInMillimetres) {
+TEST(PioneerRobot, ReturnsSonarRangesInMillimetres) {
   Pioneer p;
-  p.hardware.hearSonar(4, 0.75);  // looks to the left, from 250 mm beside the centre
+  p.hardware.setSonarRange(4, 0.75);  // looks to the left, from 250 mm beside the centre
   EXPECT_EQ(p.pioneer.getNumSonar(), 16);
   EXPECT_EQ(p.pioneer.getSonarRange(4), 750);
   EXPECT_EQ(p.pioneer.getSonarRange(0), 5000);
@@ -215,18 +215,18 @@ TEST(PioneerRobot, TellsSonarRangesInMillimetres) {
 
 TEST(PioneerRobot, FindsTheClosestSonarBetweenTwoAngles) {
   Pioneer p;
-  p.hardware.hearSonar(1, 1.0);   // 22.5°
-  p.hardware.hearSonar(15, 0.8);  // -22.5°
-  p.hardware.hearSonar(8, 0.5);   // 180°
+  p.hardware.setSonarRange(1, 1.0);   // 22.5°
+  p.hardware.setSonarRange(15, 0.8);  // -22.5°
+  p.hardware.setSonarRange(8, 0.5);   // 180°
   EXPECT_EQ(p.pioneer.getClosestSonarRange(0, 90), 1000);
   EXPECT_EQ(p.pioneer.getClosestSonarRange(-90, 90), 800);
   EXPECT_EQ(p.pioneer.getClosestSonarNumber(90, -90), 8);  // round the back
   EXPECT_EQ(p.pioneer.getClosestSonarRange(1, 5), -1);     // none looks there
 }
 
-TEST(PioneerRobot, HearsNothingNewWhileItsSonarIsOff) {
+TEST(PioneerRobot, HasNoNewReadingsWhileItsSonarIsOff) {
   Pioneer p;
-  p.hardware.hearSonar(0, 1.0);
+  p.hardware.setSonarRange(0, 1.0);
   p.pioneer.disableSonar();
   EXPECT_FALSE(p.pioneer.isSonarNew(0));
   EXPECT_EQ(p.pioneer.getSonarRange(0), 5000);
@@ -235,11 +235,11 @@ TEST(PioneerRobot, HearsNothingNewWhileItsSonarIsOff) {
   EXPECT_EQ(p.pioneer.getSonarRange(0), 1000);
 }
 
-TEST(PioneerRobot, LooksForEchoesInSlicesAndBoxes) {
+TEST(PioneerRobot, FindsEchoesInSectorsAndBoxes) {
   Pioneer p;
   EXPECT_EQ(p.pioneer.checkRangeDevicesCurrentPolar(-180, 180), 30000);
-  p.hardware.hearSonar(2, 0.75);  // 45°: a metre from the centre
-  p.hardware.hearLaser(0.4);      // straight ahead from 0.1 m ahead
+  p.hardware.setSonarRange(2, 0.75);  // 45°: a metre from the centre
+  p.hardware.setLaserRange(0.4);      // straight ahead from 0.1 m ahead
   EXPECT_NEAR(p.pioneer.checkRangeDevicesCurrentPolar(30, 60), 1000, 1e-3);
   EXPECT_NEAR(p.pioneer.checkRangeDevicesCurrentPolar(-60, 60), 500, 1e-3);
   EXPECT_EQ(p.pioneer.checkRangeDevicesCurrentPolar(90, -30, 7777), 7777);
@@ -249,7 +249,7 @@ TEST(PioneerRobot, LooksForEchoesInSlicesAndBoxes) {
 
 TEST(PioneerRobot, ReadsLaserAndHeat) {
   Pioneer p;
-  p.hardware.hearLaser(2.5);
+  p.hardware.setLaserRange(2.5);
   p.hardware.feelHeat(8.5);
   EXPECT_EQ(p.pioneer.getNumLaser(), 1);
   EXPECT_EQ(p.pioneer.getLaserRange(), 2500);
@@ -290,7 +290,7 @@ TEST(PioneerRobot, DrivesAPathWrittenAsALoop) {
   EXPECT_NEAR(hardware.odometry().odom_from_robot.y, 0, 0.02);
 }
 
-TEST(PioneerRobot, HaltsForGoodOnceDisconnected) {
+TEST(PioneerRobot, HaltsPermanentlyOnceDisconnected) {
   Pioneer p;
   p.pioneer.setVel(300);
   p.pioneer.disconnect();

@@ -7,8 +7,8 @@
 
 namespace robosim {
 
-/// A robot of a recording: it senses what it sensed then, and whatever its controller commands changes nothing.
-class ReplayedHardware : public Hardware {
+/// A robot of a recording: returns the recorded readings. Commands have no effect on them.
+class ReplayedHardware : public Hardware, public RefereeLink {
  public:
   explicit ReplayedHardware(RobotInfo info) : info_(std::move(info)) {}
 
@@ -16,14 +16,15 @@ class ReplayedHardware : public Hardware {
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
   void send(const std::string& to, const std::string& text) override { sent_.push_back({info_.name, to, text}); }
-  void checkWin() override {}  // the recording has the answer
+  RefereeLink* referee() override { return this; }
+  void checkWin() override {}  // the recording contains the result
 
-  /// Goes on to the next step.
+  /// Advances to the next step.
   void replay(Readings readings) {
     readings_ = std::move(readings);
     sent_.clear();
   }
-  /// What the robot would do in the next step.
+  /// The command for the next step.
   const Command& lastCommand() const { return command_; }
   /// Messages sent since the last step was replayed.
   const std::vector<RobotMessage>& sent() const { return sent_; }

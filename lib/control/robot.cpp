@@ -11,7 +11,7 @@ const Blobs kNoBlobs;
 
 }  // namespace
 
-Robot::Robot(Hardware& hardware) : hardware_(hardware) {
+Robot::Robot(Hardware& hardware, const Command& last_command) : hardware_(hardware), command_(last_command) {
   const auto& sensors = *hardware.info().sensors;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     const auto kind = static_cast<std::size_t>(sensors[i].kind);
@@ -29,6 +29,11 @@ std::optional<std::size_t> Robot::slot(SensorKind kind) const {
 const SensorInfo* Robot::sensor(SensorKind kind) const {
   const auto found = slot(kind);
   return found ? &(*info().sensors)[*found] : nullptr;
+}
+
+const Measurement* Robot::measurement(SensorKind kind) const {
+  const auto found = slot(kind);
+  return found ? &readings().measurements[*found] : nullptr;
 }
 
 const Echoes& Robot::echoes(SensorKind kind) const {

@@ -8,12 +8,13 @@
 
 namespace robosim {
 
-/// A robot for whoever programs one, in SI units: its readings by kind and its command, over any Hardware.
-/// PioneerRobot and ScoutRobot show the same with ARIA's and the Nomad's names and units.
+/// Programming interface of a robot in SI units: readings by sensor kind, and commands, over any Hardware.
+/// PioneerRobot and ScoutRobot provide the same with ARIA's and the Nomad's names and units.
 class Robot {
  public:
   /// @param hardware must outlive this.
-  explicit Robot(Hardware& hardware);
+  /// @param last_command of the robot that this continues, in a fork of its run
+  explicit Robot(Hardware& hardware, const Command& last_command = {});
 
   const RobotInfo& info() const { return hardware_.info(); }
   const std::string& name() const { return info().name; }
@@ -21,8 +22,8 @@ class Robot {
   std::uint64_t stepNumber() const { return readings().time.step; }
   double time() const { return readings().time.seconds(); }  ///< [s] since the start
 
-  /// @name What the first sensor of a kind measured in this step
-  /// A robot without such a sensor: no echoes, nullopt, identity odometry.
+  /// @name Readings of the first sensor of a kind in this step
+  /// For a robot without such a sensor: no echoes, nullopt, identity odometry.
   ///@{
   const Echoes& sonar() const { return echoes(SensorKind::sonar); }
   const Echoes& laser() const { return echoes(SensorKind::laser); }
@@ -32,30 +33,35 @@ class Robot {
   std::optional<double> battery() const { return scalar(SensorKind::battery); }  ///< [V]
   const std::vector<std::uint8_t>& bumper() const;
   const Odometry& odometry() const;
-  const Image& image() const;  ///< empty, too, in a step without a picture
-  const Blobs& blobs() const;  ///< none taken, too, in a step without a picture
+  const Image& image() const;  ///< also empty in a step without a picture
+  const Blobs& blobs() const;  ///< also empty in a step without a picture
   ///@}
-  /// What the first range sensor of a kind heard; the same as sonar(), laser() or infrared().
+  /// Echoes of the first range sensor of a kind; the same as sonar(), laser() or infrared().
   const Echoes& echoes(SensorKind kind) const;
-  /// What is known of the first sensor of a kind; null for a robot without one.
+  /// Measurement of the first sensor of a kind, such as Values; null for a robot without it.
+  const Measurement* measurement(SensorKind kind) const;
+  /// Description of the first sensor of a kind; null for a robot without it.
   const SensorInfo* sensor(SensorKind kind) const;
   bool stalled() const { return readings().stalled; }
 
   void drive(double speed_mps, double turn_radps);
   void panLaser(double pan_rad);  ///< [-π/2, π/2]
   void stop() { drive(0, 0); }
-  /// Stops for good; `found` says that it was for what it looked for.
+  /// Stops permanently; `found` reports that the robot has found its goal.
   void halt(Activity why = Activity::halted);
   Activity activity() const { return command_.activity; }
   const Command& command() const { return command_; }
 
   /// @throws std::invalid_argument for an unknown receiver or too long a text.
   void send(const std::string& to, const std::string& text) { hardware_.send(to, text); }
-  /// Asks whether this robot is near enough to the gold to have won; the next step's readings tell.
-  void checkWin() { hardware_.checkWin(); }
-  /// The robot that has won; empty for as long as none has.
+  /// Requests CheckWin, whether this robot is near enough to the gold; the next step's readings contain the result.
+  /// Without effect for hardware without a referee.
+  void checkWin() {
+    if (RefereeLink* referee = hardware_.referee()) referee->checkWin();
+  }
+  /// Name of the robot that has won; empty until then, and always without a referee.
   const std::string& winner() const { return readings().winner; }
-  /// What was sent to this robot in the last step.
+  /// Messages delivered to this robot in the last step.
   const std::vector<RobotMessage>& inbox() const { return readings().inbox; }
 
  private:

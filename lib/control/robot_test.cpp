@@ -10,8 +10,8 @@ namespace {
 
 TEST(Robot, ReadsTheFirstSensorOfEachKind) {
   FakeHardware hardware;
-  hardware.hearSonar(3, 1.5);
-  hardware.hearLaser(4);
+  hardware.setSonarRange(3, 1.5);
+  hardware.setLaserRange(4);
   hardware.feelHeat(7);
   hardware.mutableOdometry().odom_from_robot = {1, 2, 0.5};
   const Robot robot(hardware);
@@ -19,16 +19,18 @@ TEST(Robot, ReadsTheFirstSensorOfEachKind) {
   EXPECT_EQ(robot.sonar()[3].range_m, 1.5f);
   EXPECT_EQ(robot.laser()[0].range_m, 4.f);
   EXPECT_EQ(robot.heat(), 7.);
+  EXPECT_EQ(*robot.measurement(SensorKind::heat), Measurement(Scalar{7}));
   EXPECT_EQ(robot.odometry().odom_from_robot.y, 2);
   EXPECT_EQ(robot.sensor(SensorKind::heat)->range_max_m, 3);
 }
 
-TEST(Robot, OfWhichASensorIsMissingReadsNothingFromIt) {
+TEST(Robot, ReturnsNoReadingForAMissingSensor) {
   FakeHardware hardware;
   const Robot robot(hardware);
   EXPECT_TRUE(robot.infrared().empty());
   EXPECT_TRUE(robot.bumper().empty());
   EXPECT_EQ(robot.compass(), std::nullopt);
+  EXPECT_EQ(robot.measurement(SensorKind::values), nullptr);
   EXPECT_EQ(robot.sensor(SensorKind::compass), nullptr);
 }
 
@@ -42,7 +44,7 @@ TEST(Robot, WithoutAnySensorHasIdentityOdometry) {
   EXPECT_EQ(robot.heat(), std::nullopt);
 }
 
-TEST(Robot, TellsTheTimeOfItsReadings) {
+TEST(Robot, ReturnsTheTimeOfItsReadings) {
   FakeHardware hardware;
   const Robot robot(hardware);
   for (int i = 0; i < 7; ++i) hardware.advance();
@@ -60,7 +62,7 @@ TEST(Robot, PassesItsCommandsOn) {
   EXPECT_EQ(hardware.lastCommand(), (Command{.laser_pan_rad = 0.5f}));
 }
 
-TEST(Robot, OnceHaltedStandsForGood) {
+TEST(Robot, OnceHaltedIgnoresCommands) {
   FakeHardware hardware;
   Robot robot(hardware);
   robot.drive(0.3, 0.1);
@@ -82,7 +84,36 @@ TEST(Robot, SendsAndReceivesMessages) {
   EXPECT_EQ(robot.inbox()[0].text, "hi");
 }
 
-TEST(Echo, IsHeardOnlyNearerThanTheSensorsRange) {
+TEST(Robot, RequestsCheckWinFromItsReferee) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  robot.checkWin();
+  EXPECT_EQ(hardware.win_checks, 1);
+}
+
+/// The least that hardware has to implement: a robot without a referee.
+class BareHardware : public Hardware {
+ public:
+  BareHardware() { info_.sensors = std::make_shared<std::vector<SensorInfo>>(); }
+  const RobotInfo& info() const override { return info_; }
+  const Readings& readings() const override { return readings_; }
+  void command(const Command&) override {}
+  void send(const std::string&, const std::string&) override {}
+
+ private:
+  RobotInfo info_;
+  Readings readings_;
+};
+
+TEST(Robot, IgnoresCheckWinOnHardwareWithoutAReferee) {
+  BareHardware hardware;
+  Robot robot(hardware);
+  robot.checkWin();
+  EXPECT_EQ(robot.winner(), "");
+  EXPECT_FALSE(robot.readings().is_too_far);
+}
+
+TEST(Echo, RequiresARangeBelowTheSensorsMaximum) {
   // 8.1 has no exact float: the reading of a sensor that hears nothing must not count as an echo through rounding.
   SensorInfo sensor;
   sensor.range_max_m = sensor.no_echo_m = 8.1;

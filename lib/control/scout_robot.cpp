@@ -6,12 +6,14 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/portable_pose.h"
+
 namespace robosim {
 namespace {
 
 constexpr double kTenthInch_m = 0.00254;
 constexpr double kTenthDeg_rad = std::numbers::pi / 1800;
-/// A wheel's way for a turn of one radian [m]: half the Scout's track, from Nomadic's 0.118597 inches a degree.
+/// A wheel's travel for a turn of one radian [m]: half the Scout's track, from Nomadic's 0.118597 inches a degree.
 constexpr double kHalfTrack_m = 0.118597 * 0.0254 * 180 / std::numbers::pi;
 
 long toTenthInches(double metres) { return std::lround(metres / kTenthInch_m); }
@@ -21,7 +23,7 @@ long toTenthDegrees(double angle_rad) {
   return tenths < 0 ? tenths + 3600 : tenths;
 }
 
-/// Two wheels' ways or speeds [tenths of an inch], as what the robot's centre does.
+/// Converts two wheels' distances or speeds [tenths of an inch] to the motion of the robot's centre.
 struct Wheels {
   double right, left;
   double way() const { return (right + left) / 2 * kTenthInch_m; }
@@ -113,14 +115,14 @@ int ScoutRobot::ws(bool translation, bool rotation, bool, int timeout_s) {
 
 int ScoutRobot::dp(int x, int y) {
   const mrpt::math::TPose2D nomad_from_robot(x * kTenthInch_m, y * kTenthInch_m, nomadFromRobot().phi);
-  nomad_from_odom_ = nomad_from_robot + (mrpt::math::TPose2D() - robot_.odometry().odom_from_robot);
+  nomad_from_odom_ = portable::compose(nomad_from_robot, portable::inverse(robot_.odometry().odom_from_robot));
   return 1;
 }
 
 int ScoutRobot::da(int steer, int) {
   const mrpt::math::TPose2D now = nomadFromRobot();
   const mrpt::math::TPose2D nomad_from_robot(now.x, now.y, steer * kTenthDeg_rad);
-  nomad_from_odom_ = nomad_from_robot + (mrpt::math::TPose2D() - robot_.odometry().odom_from_robot);
+  nomad_from_odom_ = portable::compose(nomad_from_robot, portable::inverse(robot_.odometry().odom_from_robot));
   return 1;
 }
 
@@ -139,7 +141,7 @@ int ScoutRobot::gs() {
   State[STATE_COMPASS] = toTenthDegrees(robot_.compass().value_or(0));
   State[STATE_ERROR] = robot_.stalled();
   State[STATE_BUMPER] = 0;
-  const std::size_t bits = std::min<std::size_t>(62, robot_.bumper().size());  // what a long holds besides its sign
+  const std::size_t bits = std::min<std::size_t>(62, robot_.bumper().size());  // the value bits of a long
   for (std::size_t i = 0; i < bits; ++i) State[STATE_BUMPER] |= long{robot_.bumper()[i]} << i;
   for (std::size_t i = 0; i < std::min<std::size_t>(16, robot_.infrared().size()); ++i) {
     State[STATE_IR_0 + i] = toTenthInches(robot_.infrared()[i].range_m);
@@ -164,7 +166,9 @@ int ScoutRobot::conf_sn(int, std::span<const int> order) {
   return 1;
 }
 
-mrpt::math::TPose2D ScoutRobot::nomadFromRobot() const { return nomad_from_odom_ + robot_.odometry().odom_from_robot; }
+mrpt::math::TPose2D ScoutRobot::nomadFromRobot() const {
+  return portable::compose(nomad_from_odom_, robot_.odometry().odom_from_robot);
+}
 
 void ScoutRobot::wait(const char* who) {
   if (!clock_) {

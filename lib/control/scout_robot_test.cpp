@@ -22,7 +22,7 @@ struct Scout {
   }
 };
 
-TEST(ScoutRobot, SpeaksTenthsOfInchesAndOfDegrees) {
+TEST(ScoutRobot, UsesTenthsOfInchesAndOfDegrees) {
   Scout s;
   s.scout.vm(100, 450);  // 10 inches/s, 45 deg/s
   s.steps(20);
@@ -30,7 +30,7 @@ TEST(ScoutRobot, SpeaksTenthsOfInchesAndOfDegrees) {
   EXPECT_NEAR(s.hardware.odometry().turn_radps, M_PI / 4, 1e-9);
 }
 
-TEST(ScoutRobot, TurnsAsTheNomadsWheelsDo) {
+TEST(ScoutRobot, TurnsWithTheNomadsTrackWidth) {
   // Nomadic: a wheel covers 0.118597 inches a degree, so 45 deg/s is 5.337 inches/s more on the right than the
   // centre's.
   Scout s;
@@ -75,21 +75,21 @@ TEST(ScoutRobot, KeepsToItsSpeedsAndAccelerations) {
 
 TEST(ScoutRobot, ReadsTheSonarsThatAreOn) {
   Scout s;
-  s.hardware.hearSonar(0, 1.016);  // 40 inches
-  s.hardware.hearSonar(5, 0.508);
+  s.hardware.setSonarRange(0, 1.016);  // 40 inches
+  s.hardware.setSonarRange(5, 0.508);
   s.scout.gs();
   EXPECT_EQ(s.scout.State[STATE_SONAR_0], 400);
   EXPECT_EQ(s.scout.State[STATE_SONAR_0 + 5], 200);
   const int order[] = {5, 255, 0};
   s.scout.conf_sn(15, order);
-  s.hardware.hearSonar(0, 2.54);
-  s.hardware.hearSonar(5, 2.54);
+  s.hardware.setSonarRange(0, 2.54);
+  s.hardware.setSonarRange(5, 2.54);
   s.scout.get_sn();
   EXPECT_EQ(s.scout.State[STATE_SONAR_0], 400);
   EXPECT_EQ(s.scout.State[STATE_SONAR_0 + 5], 1000);
 }
 
-TEST(ScoutRobot, IsWhereItIsToldToBe) {
+TEST(ScoutRobot, MeasuresItsPoseFromDpAndDa) {
   Scout s;
   s.hardware.mutableOdometry().odom_from_robot = {1, 1, M_PI / 2};
   s.scout.dp(100, -50);
@@ -103,7 +103,7 @@ TEST(ScoutRobot, IsWhereItIsToldToBe) {
   EXPECT_EQ(s.scout.State[STATE_CONF_X], 200);
 }
 
-TEST(ScoutRobot, TellsOfAStall) {
+TEST(ScoutRobot, ReportsAStall) {
   Scout s;
   s.scout.vm(100, 0);
   s.hardware.blocked = true;

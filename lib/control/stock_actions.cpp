@@ -11,24 +11,24 @@ namespace {
 
 double wrapDeg(double deg) { return std::remainder(deg, 360); }
 
-/// Room [mm] between the robot's edge and the nearest echo between two directions.
+/// Clearance [mm] between the robot's edge and the nearest echo between two directions.
 double roomBetween(const PioneerRobot& robot, double from_deg, double to_deg) {
   return robot.checkRangeDevicesCurrentPolar(from_deg, to_deg) - robot.getRobotRadius();
 }
 
-/// The side with more room, whatever stands straight ahead: 1 left, -1 right.
+/// The side with more clearance, ignoring echoes straight ahead: 1 left, -1 right.
 int roomierSide(const PioneerRobot& robot) {
   return roomBetween(robot, 10, 100) >= roomBetween(robot, -100, -10) ? 1 : -1;
 }
 
-/// Room [mm] between the robot's edge and the nearest echo in its lane; `direction` is 1 ahead, -1 backwards.
+/// Clearance [mm] between the robot's edge and the nearest echo in its lane; `direction` is 1 ahead, -1 backwards.
 double roomInLane(const PioneerRobot& robot, double direction, double width_ratio) {
   const double radius = robot.getRobotRadius();
   const double reach = 30000;
   return robot.checkRangeDevicesCurrentBox(0, -radius * width_ratio, direction * reach, radius * width_ratio) - radius;
 }
 
-/// The speed allowed with so much room: 0 up to `stop`, then growing evenly to `slow_speed` at `slow`; 1e9 beyond.
+/// Speed limit by clearance: 0 up to `stop`, then linear to `slow_speed` at `slow`; 1e9 beyond.
 double speedForRoom(double room, double stop, double slow, double slow_speed) {
   if (room > slow) return 1e9;
   return slow_speed * std::clamp((room - stop) / (slow - stop), 0.0, 1.0);
@@ -90,7 +90,7 @@ ActionDesired ActionStallRecover::fire(PioneerRobot& robot, const ActionDesired&
   if (cycles_left_ == 0) {
     if (!robot.isLeftMotorStalled() && !robot.isRightMotorStalled()) return desired;
     cycles_left_ = cycles_to_move_;
-    // It stood still when it stalled, so its speed does not tell where it was heading; the nearer side does.
+    // A stalled robot has no speed, so that the nearer side determines the former direction.
     direction_ = roomInLane(robot, 1, 1) <= roomInLane(robot, -1, 1) ? -1 : 1;
     heading_ = robot.getTh() + roomierSide(robot) * degrees_to_turn_;
   }
@@ -124,7 +124,7 @@ ActionDesired ActionGoto::fire(PioneerRobot& robot, const ActionDesired&) {
     return desired;
   }
   const double off = wrapDeg(pose.findAngleTo(goal_) - pose.th);
-  // Half its braking ability brings it to rest at the goal's edge without hurry.
+  // Uses half of the maximum deceleration to stop at the goal's edge.
   double speed = std::min(speed_, std::sqrt(robot.getTransDecel() * (distance - close_distance_)) + 20);
   if (std::abs(off) > 60) {
     speed = 0;
@@ -132,7 +132,7 @@ ActionDesired ActionGoto::fire(PioneerRobot& robot, const ActionDesired&) {
     speed = std::min(speed, speed_to_turn_at_);
   }
   desired.setVel(speed);
-  // Far off it turns as fast as it can; nearly on course, in small bites.
+  // Beyond 60° it turns by the whole heading error, otherwise by at most turn_amount_ per step.
   desired.setDeltaHeading(std::abs(off) > 60 ? off : std::clamp(off, -turn_amount_, turn_amount_));
   return desired;
 }

@@ -4,12 +4,11 @@
 
 namespace robosim {
 
-// ARIA's stock actions, with its names, defaults and units (mm, mm/s, deg). What each does is written anew from what
-// ARIA's reference says it does. Angles are counter-clockwise; distances without another word are from the robot's
-// edge.
+// ARIA's stock actions, with its names, defaults and units (mm, mm/s, deg), implemented from ARIA's reference
+// documentation. Angles are counter-clockwise; distances are from the robot's edge unless stated otherwise.
 
-/// Turns away from what stands within 70° of straight ahead, and slows down for it. It goes on turning to the side it
-/// began with until the way is free, so that it does not dither in a corner.
+/// Turns away from obstacles within 70° of straight ahead, and slows down. It keeps its side until the path is free,
+/// which prevents oscillation in corners.
 class ActionAvoidFront : public Action {
  public:
   explicit ActionAvoidFront(std::string name = "avoid front obstacles", double obstacle_distance = 450,
@@ -18,10 +17,10 @@ class ActionAvoidFront : public Action {
 
  private:
   double obstacle_distance_, avoid_velocity_, turn_amount_;
-  int side_ = 0;  ///< it turns to: 1 left, -1 right, 0 not turning
+  int side_ = 0;  ///< side it turns to: 1 left, -1 right, 0 not turning
 };
 
-/// Edges away from what stands beside the robot (between 60° and 120° to either side).
+/// Steers away from obstacles beside the robot (between 60° and 120° to either side).
 class ActionAvoidSide : public Action {
  public:
   explicit ActionAvoidSide(std::string name = "avoid side", double obstacle_distance = 300, double turn_amount = 5);
@@ -31,7 +30,7 @@ class ActionAvoidSide : public Action {
   double obstacle_distance_, turn_amount_;
 };
 
-/// Drives at one speed.
+/// Drives at a constant speed.
 class ActionConstantVelocity : public Action {
  public:
   explicit ActionConstantVelocity(std::string name = "constant velocity", double velocity = 400);
@@ -41,11 +40,11 @@ class ActionConstantVelocity : public Action {
   double velocity_;
 };
 
-/// After a stall: draws back for a number of steps, away from where it was heading, and turns to the side with more
-/// room.
+/// Recovers from a stall: reverses for a number of steps, opposite to its former direction, and turns to the side with
+/// more free space.
 class ActionStallRecover : public Action {
  public:
-  /// @param obstacle_distance does not draw back against something as near as this.
+  /// @param obstacle_distance no reversing towards an obstacle nearer than this.
   explicit ActionStallRecover(std::string name = "stall recover", double obstacle_distance = 225,
                               int cycles_to_move = 50, double speed = 150, double degrees_to_turn = 45);
   ActionDesired fire(PioneerRobot&, const ActionDesired&) override;
@@ -55,11 +54,11 @@ class ActionStallRecover : public Action {
   int cycles_to_move_;
   double speed_, degrees_to_turn_;
   int cycles_left_ = 0;
-  double direction_ = -1;  ///< it draws back in: 1 ahead, -1 backwards
-  double heading_ = 0;     ///< it turns to, in the frame of getPose() [deg]
+  double direction_ = -1;  ///< of the recovery: 1 ahead, -1 backwards
+  double heading_ = 0;     ///< target, in the frame of getPose() [deg]
 };
 
-/// Drives to a goal in the frame of getPose(), and has nothing to say once it is there.
+/// Drives to a goal in the frame of getPose(), and is inactive once the goal is reached.
 class ActionGoto : public Action {
  public:
   explicit ActionGoto(std::string name = "goto", PioneerPose goal = {}, double close_distance = 100, double speed = 400,
@@ -78,8 +77,8 @@ class ActionGoto : public Action {
   State state_ = State::under_way;
 };
 
-/// Limits the speed ahead by what stands in the robot's lane: `slow_speed` at `slow_distance`, less the nearer it is, 0
-/// from `stop_distance` on.
+/// Limits the forward speed by the nearest obstacle in the robot's lane: `slow_speed` at `slow_distance`, decreasing
+/// linearly to 0 at `stop_distance`.
 class ActionLimiterForwards : public Action {
  public:
   /// @param width_ratio the lane's width in robot diameters.
@@ -91,7 +90,7 @@ class ActionLimiterForwards : public Action {
   double stop_distance_, slow_distance_, slow_speed_, width_ratio_;
 };
 
-/// The same backwards; its distances and speed are negative.
+/// The same for backward motion; its distances and speed are negative.
 class ActionLimiterBackwards : public Action {
  public:
   explicit ActionLimiterBackwards(std::string name = "backwards speed limiter", double stop_distance = -250,
@@ -103,8 +102,8 @@ class ActionLimiterBackwards : public Action {
   double stop_distance_, slow_distance_, max_backwards_speed_, width_ratio_;
 };
 
-/// Turns when actions of higher priority have limited the speed: from `speed_start_turn_at` down a little, from
-/// `speed_full_turn_at` down by `turn_amount`, always to one side until the limit is gone.
+/// Turns when actions of higher priority have limited the speed: the turn grows from 0 at `speed_start_turn_at` to
+/// `turn_amount` at `speed_full_turn_at` and below, to the same side until the limit ends.
 class ActionTurn : public Action {
  public:
   explicit ActionTurn(std::string name = "turn", double speed_start_turn_at = 200, double speed_full_turn_at = 100,

@@ -21,30 +21,30 @@ struct StockActions : testing::Test {
   }
 };
 
-TEST_F(StockActions, AvoidFrontTurnsAwayFromTheNearerSideUntilTheWayIsFree) {
+TEST_F(StockActions, AvoidFrontTurnsFromTheNearerSideUntilThePathIsFree) {
   ActionAvoidFront avoid;
   EXPECT_EQ(avoid.fire(pioneer, {}).getVelStrength(), ActionDesired::NO_STRENGTH);
-  hardware.hearSonar(2, 0.36);  // 45° to the left, at 80 % of 450 mm
+  hardware.setSonarRange(2, 0.36);  // 45° to the left, at 80 % of 450 mm
   ActionDesired desired = avoid.fire(pioneer, {});
   EXPECT_DOUBLE_EQ(desired.getDeltaHeading(), -15);
   EXPECT_NEAR(desired.getVel(), 160, 1e-3);
-  hardware.hearSonar(14, 0.2);  // now the right is nearer: it keeps turning right, and stops for what is that near
+  hardware.setSonarRange(14, 0.2);  // now the right is nearer: it keeps turning right, and stops for what is that near
   desired = avoid.fire(pioneer, {});
   EXPECT_DOUBLE_EQ(desired.getDeltaHeading(), -15);
   EXPECT_EQ(desired.getVel(), 0);
   hardware.hearNothing();
   EXPECT_EQ(avoid.fire(pioneer, {}).getDeltaHeadingStrength(), ActionDesired::NO_STRENGTH);
-  hardware.hearSonar(14, 0.3);
+  hardware.setSonarRange(14, 0.3);
   EXPECT_DOUBLE_EQ(avoid.fire(pioneer, {}).getDeltaHeading(), 15);
 }
 
-TEST_F(StockActions, AvoidSideEdgesAwayFromAWallBesideIt) {
+TEST_F(StockActions, AvoidSideSteersAwayFromAWall) {
   ActionAvoidSide avoid;
-  hardware.hearSonar(4, 0.2);
+  hardware.setSonarRange(4, 0.2);
   EXPECT_DOUBLE_EQ(avoid.fire(pioneer, {}).getDeltaHeading(), -5);
-  hardware.hearSonar(12, 0.2);  // walls on both sides: no use
+  hardware.setSonarRange(12, 0.2);  // walls on both sides: no use
   EXPECT_EQ(avoid.fire(pioneer, {}).getDeltaHeadingStrength(), ActionDesired::NO_STRENGTH);
-  hardware.hearSonar(4, 0.4);
+  hardware.setSonarRange(4, 0.4);
   EXPECT_DOUBLE_EQ(avoid.fire(pioneer, {}).getDeltaHeading(), 5);
 }
 
@@ -56,21 +56,21 @@ TEST_F(StockActions, ConstantVelocityDrives) {
 TEST_F(StockActions, LimiterForwardsSlowsDownInFrontOfAWall) {
   ActionLimiterForwards limiter;
   EXPECT_GT(limiter.fire(pioneer, {}).getMaxVel(), 1e6);
-  hardware.hearSonar(0, 0.625);  // half way between 250 and 1000
+  hardware.setSonarRange(0, 0.625);  // half way between 250 and 1000
   EXPECT_NEAR(limiter.fire(pioneer, {}).getMaxVel(), 100, 1e-3);
-  hardware.hearSonar(0, 0.2);
+  hardware.setSonarRange(0, 0.2);
   EXPECT_EQ(limiter.fire(pioneer, {}).getMaxVel(), 0);
   hardware.hearNothing();
-  hardware.hearSonar(3, 0.2);  // 67.5°, 416 mm to the left: outside the lane
+  hardware.setSonarRange(3, 0.2);  // 67.5°, 416 mm to the left: outside the lane
   EXPECT_GT(limiter.fire(pioneer, {}).getMaxVel(), 1e6);
 }
 
-TEST_F(StockActions, LimiterBackwardsSlowsDownInFrontOfWhatIsBehind) {
+TEST_F(StockActions, LimiterBackwardsSlowsDownForObstaclesBehind) {
   ActionLimiterBackwards limiter;
   EXPECT_EQ(limiter.fire(pioneer, {}).getMaxNegVel(), -250);
-  hardware.hearSonar(8, 0.425);  // half way between 250 and 600
+  hardware.setSonarRange(8, 0.425);  // half way between 250 and 600
   EXPECT_NEAR(limiter.fire(pioneer, {}).getMaxNegVel(), -125, 1e-2);
-  hardware.hearSonar(8, 0.1);
+  hardware.setSonarRange(8, 0.1);
   EXPECT_EQ(limiter.fire(pioneer, {}).getMaxNegVel(), 0);
 }
 
@@ -78,11 +78,11 @@ TEST_F(StockActions, TurnTurnsMoreTheMoreTheSpeedIsLimited) {
   ActionTurn turn;
   ActionDesired current;
   EXPECT_EQ(turn.fire(pioneer, current).getDeltaHeadingStrength(), ActionDesired::NO_STRENGTH);
-  hardware.hearSonar(2, 0.5);  // room on the right
+  hardware.setSonarRange(2, 0.5);  // room on the right
   current.setMaxVel(150);
   EXPECT_DOUBLE_EQ(turn.fire(pioneer, current).getDeltaHeading(), -7.5);
   hardware.hearNothing();
-  hardware.hearSonar(14, 0.5);  // it keeps the side it began with
+  hardware.setSonarRange(14, 0.5);  // it keeps the side it began with
   current.setMaxVel(0);
   EXPECT_DOUBLE_EQ(turn.fire(pioneer, current).getDeltaHeading(), -15);
 }
@@ -119,13 +119,13 @@ TEST_F(StockActions, GotoForgetsACancelledGoal) {
   EXPECT_FALSE(go.haveAchievedGoal());
 }
 
-TEST_F(StockActions, StallRecoverDrawsBackAndTurnsToTheRoomierSide) {
+TEST_F(StockActions, StallRecoverReversesAndTurnsToTheFreerSide) {
   ActionStallRecover recover("stall recover", 225, 20);
   ActionConstantVelocity drive;
   pioneer.addAction(recover, 100);
   pioneer.addAction(drive, 10);
-  hardware.hearSonar(0, 0.01);
-  hardware.hearSonar(1, 0.01);  // the right has more room
+  hardware.setSonarRange(0, 0.01);
+  hardware.setSonarRange(1, 0.01);  // the right has more room
   hardware.blocked = true;
   steps(2);
   hardware.blocked = false;
@@ -140,13 +140,13 @@ TEST_F(StockActions, StallRecoverDrawsBackAndTurnsToTheRoomierSide) {
   EXPECT_NEAR(pioneer.getVel(), 400, 1e-6);  // and on it goes
 }
 
-TEST_F(StockActions, StallRecoverDoesNotDrawBackAgainstAWall) {
+TEST_F(StockActions, StallRecoverDoesNotReverseAgainstAWall) {
   ActionStallRecover recover;
-  hardware.hearSonar(0, 0.01);
-  hardware.hearSonar(8, 0.2);
+  hardware.setSonarRange(0, 0.01);
+  hardware.setSonarRange(8, 0.2);
   hardware.mutableReadings().stalled = true;
   EXPECT_EQ(recover.fire(pioneer, {}).getVel(), 0);
-  hardware.hearSonar(8, 0.5);
+  hardware.setSonarRange(8, 0.5);
   EXPECT_EQ(recover.fire(pioneer, {}).getVel(), -150);
 }
 

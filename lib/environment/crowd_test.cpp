@@ -39,7 +39,7 @@ void makeCrowd(World& world, Fleet& fleet, std::uint64_t seed) {
   }
 }
 
-/// Looks at every pair of bodies for an overlap.
+/// Tests every pair of bodies for an overlap.
 class BruteForce {
  public:
   explicit BruteForce(const Environment& environment) : environment_(environment) {
@@ -73,29 +73,29 @@ class BruteForce {
   std::vector<Outline> outlines_;
 };
 
-TEST(Crowd, OfAThousandRobotsNeverOverlapsInTwoThousandSteps) {
+TEST(Crowd, AThousandRobotsNeverOverlapInTwoThousandSteps) {
   World world;
   Fleet fleet;
   makeCrowd(world, fleet, 7);
   Environment environment(world, fleet, {.seed = 1, .period_s = 0.1, .threads = 2});
-  const BruteForce look(environment);
-  ASSERT_EQ(look.overlap(), "");
+  const BruteForce checker(environment);
+  ASSERT_EQ(checker.overlap(), "");
   for (int step = 0; step < 2000; ++step) {
     for (std::uint32_t i = 0; i < kRobots; ++i) {
-      // Each keeps a course for a while, mostly ahead, then takes another.
+      // Each keeps a course for a while, mostly forwards, then takes another.
       Rng rng(3, RandomPurpose::test, i, 0, static_cast<std::uint64_t>(step / 15));
       environment.setCommand(i, {.speed_mps = rng.uniform(-0.5, 2), .turn_radps = rng.uniform(-4, 4)});
     }
     environment.step();
-    ASSERT_EQ(look.overlap(), "") << "after step " << step + 1;
+    ASSERT_EQ(checker.overlap(), "") << "after step " << step + 1;
   }
   double driven_m = 0;
   for (const double way_m : environment.state().driven_m) driven_m += way_m;
-  EXPECT_GT(driven_m / kRobots, 10) << "a crowd that is stuck proves little";
-  EXPECT_GT(environment.state().stalls, 100000u) << "a crowd that never touches proves little";
+  EXPECT_GT(driven_m / kRobots, 10) << "otherwise the robots are stuck";
+  EXPECT_GT(environment.state().stalls, 100000u) << "otherwise the robots rarely touch";
 }
 
-TEST(Crowd, RunsTheSameForAnyNumberOfThreads) {
+TEST(Crowd, IsIndependentOfTheNumberOfThreads) {
   const auto digest = [](int threads) {
     World world;
     Fleet fleet;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <stdexcept>
 
-#include "environment/authorise.h"
-#include "environment/mail.h"
+#include "base/portable_math.h"
+#include "environment/message_router.h"
+#include "environment/move_authorisation.h"
 #include "environment/referee.h"
 #include "environment/run_digest.h"
 #include "robots/differential_drive.h"
@@ -29,16 +31,15 @@ std::vector<std::string> namesOf(const Fleet& fleet) {
   return names;
 }
 
-/// Which sensors are to sense: see Sensor::staysHome().
-struct SensorChoice {
-  bool at_home = false;
-  bool elsewhere = false;
-};
+/// Selects sensors by Sensor::sensesInHostProcess().
+enum class SensorGroup { anywhere, in_host_process };
 
-/// Robots that carry the same sensors.
+double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
+
+/// Robots with the same model.
 struct Group {
   const RobotModel* model;
-  double reach_m;  ///< how far they look, or drive in a step, from their centres
+  double reach_m;  ///< maximum range of their sensors and of a step, from their centres
   std::vector<std::uint32_t> robots;
 };
 
@@ -47,7 +48,7 @@ double reachOf(const RobotModel& model, double period_s) {
   for (const auto& sensor : model.sensors) {
     const SensorInfo& info = sensor->info();
     for (const auto& beam : info.beams) {
-      reach_m = std::max(reach_m, info.range_max_m + std::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
+      reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
     }
   }
   return reach_m + kContactGap_m;
@@ -65,69 +66,57 @@ std::vector<Group> groupsOf(const Fleet& fleet, double period_s) {
   return groups;
 }
 
+/// @throws std::invalid_argument for a state of another model than `own`
+void requireSameShape(const State& saved, const State& own) {
+  if (haveSameShape(saved, own)) return;
+  const auto described = [](const State& state) {
+    return std::to_string(state.readings.size()) + " robots and steps of " + std::to_string(state.time.period_s) + " s";
+  };
+  throw std::invalid_argument("a state of " + described(saved) + " does not fit a world of " + described(own) +
+                              ", or the sensors differ; use a state of the same world");
+}
+
 }  // namespace
 
 struct Environment::Impl {
-  World world;
-  Fleet fleet;
-  EnvironmentOptions options;
+  const std::shared_ptr<const Model> model;
+  const Fleet& fleet;  ///< of the model
   ImageSource* images;
-  Workers workers;
-  Scene scene;
-  Authority authority;
-  Mail mail;
-  Referee referee;
-  RunDigest digest;
-  std::vector<Group> groups;
-  std::vector<Command> commands;
-  std::vector<Path> paths;
-  std::vector<double> base_z_m;          ///< of each robot's underside
-  std::vector<LevelFrame> frames;        ///< where the robots are now
-  std::vector<NeighbourList> near;       ///< what stands around the robots
-  std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
+  ParallelExecutor workers;
   State state;
+  Scene scene;
+  MoveAuthorisation move_authorisation;
+  MessageRouter message_router;
+  Referee referee;
+  std::vector<Group> groups;
+  std::vector<Path> paths;
+  std::vector<double> base_z_m;          ///< height of each robot's underside
+  std::vector<PlanarTransform> frames;   ///< current frames of the robots
+  std::vector<NeighbourList> near;       ///< stationary solids near each robot
+  std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
 
-  Impl(World the_world, Fleet the_fleet, const EnvironmentOptions& the_options, ImageSource* the_images)
-      : world(std::move(the_world)),
-        fleet(std::move(the_fleet)),
-        options(the_options),
+  Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
+      : model(std::move(the_model)),
+        fleet(model->fleet),
         images(the_images),
-        workers(options.threads),
-        scene(stationarySolids(world), fleet.robots.size(), world.bounds),
-        authority(moversOf(fleet), world.bounds),
-        mail(namesOf(fleet), world.communication, options.seed),
-        referee(world, fleet.robots.size()),
-        digest(fleet.robots.size()),
-        groups(groupsOf(fleet, options.period_s)),
-        commands(fleet.robots.size()),
+        workers(threads),
+        state(std::move(the_state)),
+        scene(stationarySolids(model->world), fleet.robots.size(), model->world.bounds),
+        move_authorisation(moversOf(fleet), model->world.bounds),
+        message_router(namesOf(fleet), model->world.communication, model->seed),
+        referee(model->world),
+        groups(groupsOf(fleet, model->period_s)),
         paths(fleet.robots.size()),
         frames(fleet.robots.size()),
         near(fleet.robots.size()) {
-    const std::size_t n = fleet.robots.size();
-    state.time = {0, options.period_s};
-    state.world_from_robot.resize(n);
-    state.speed_mps.resize(n);
-    state.turn_radps.resize(n);
-    state.last_motion.resize(n);
-    state.driven_m.resize(n);
-    state.stalled.resize(n);
-    state.activity.resize(n, Activity::active);
-    state.laser_pan_rad.resize(n);
-    state.readings.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
-      const FleetRobot& robot = fleet.robots[i];
-      state.world_from_robot[i] = robot.world_from_start;
-      base_z_m.push_back(robot.body.heights().z_min_m);
-      for (const auto& sensor : robot.model->sensors) state.readings[i].measurements.push_back(sensor->blank());
+    for (const auto& robot : fleet.robots) base_z_m.push_back(robot.body.heights().z_min_m);
+    const auto& objects = model->world.objects;
+    for (std::size_t i = 0; i < objects.size(); ++i) {
+      const auto& pose = objects[i].body.world_from_body;
+      addHeatSource(objects[i].body, {pose.x, pose.y}, BodyId(static_cast<std::uint32_t>(i)));
     }
-    for (std::size_t i = 0; i < world.objects.size(); ++i) {
-      const auto& pose = world.objects[i].body.world_from_body;
-      addHeatSource(world.objects[i].body, {pose.x, pose.y}, BodyId(static_cast<std::uint32_t>(i)));
-    }
-    for (std::size_t i = 0; i < n; ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
+    for (std::size_t i = 0; i < fleet.robots.size(); ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
     placeBodies();
-    sense(everyRobot(), {.elsewhere = true});
-    finish();
   }
 
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
@@ -138,7 +127,7 @@ struct Environment::Impl {
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       Body body = fleet.robots[i].body;
       body.world_from_body = state.world_from_robot[i];
-      frames[i] = LevelFrame(state.world_from_robot[i], base_z_m[i]);
+      frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
       scene.place(i, body.solid());
     });
     scene.freeze();
@@ -151,29 +140,28 @@ struct Environment::Impl {
 
   void takeCommands() {
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
-      Command& command = commands[i];
+      Command& command = state.commands[i];
       if (state.activity[i] == Activity::active) state.activity[i] = command.activity;
       command.activity = state.activity[i];
+      state.readings[i].inbox.clear();
       state.laser_pan_rad[i] =
-          std::isfinite(command.laser_pan_rad)
-              ? std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2))
-              : 0;
+          std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2));
       const DriveSpeeds speeds = reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command,
-                                                 fleet.robots[i].info.limits, options.period_s);
+                                                 fleet.robots[i].info.limits, model->period_s);
       state.speed_mps[i] = speeds.speed_mps;
       state.turn_radps[i] = speeds.turn_radps;
-      paths[i] = pathOf(state.world_from_robot[i], speeds, options.period_s);
+      paths[i] = pathOf(state.world_from_robot[i], speeds, model->period_s);
     });
   }
 
   void move() {
-    authority.conclude(workers, paths, state.stalled);
+    move_authorisation.conclude(workers, paths, state.stalled);
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
       state.last_motion[i] = {path.clippedLength(), path.turn_rad};
       state.driven_m[i] += std::abs(path.clippedLength());
-      if (state.stalled[i]) state.speed_mps[i] = 0;  // it stands against something and starts from rest
+      if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
     });
     state.stalls += static_cast<std::uint64_t>(std::count(state.stalled.begin(), state.stalled.end(), 1));
     placeBodies();
@@ -181,14 +169,13 @@ struct Environment::Impl {
 
   RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
 
-  /// Those of a group's robots that lie in a range.
+  /// The robots of a group within a range.
   static std::span<const std::uint32_t> within(const Group& group, RobotRange range) {
     const auto begin = std::lower_bound(group.robots.begin(), group.robots.end(), range.begin);
     return {begin, std::lower_bound(begin, group.robots.end(), range.end)};
   }
 
-  /// @param which sensors: those that SensorChoice names
-  void sense(RobotRange range, SensorChoice which) {
+  void sense(RobotRange range, SensorGroup which) {
     const Snapshot now{.scene = scene,
                        .heat_sources = heat_sources,
                        .world_from_robot = state.world_from_robot,
@@ -197,8 +184,9 @@ struct Environment::Impl {
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,
-                       .seed = options.seed,
-                       .images = images};
+                       .seed = model->seed,
+                       .images = images,
+                       .surface = model->world.bounds};
     for (const auto& group : groups) {
       const auto of_group = within(group, range);
       workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -208,9 +196,8 @@ struct Environment::Impl {
         }
         for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
           const Sensor& sensor = *group.model->sensors[slot];
-          if (sensor.staysHome() ? which.at_home : which.elsewhere) {
-            sensor.sense(now, robots, slot, state.readings);
-          }
+          if (sensor.sensesInHostProcess() != (which == SensorGroup::in_host_process)) continue;
+          sensor.sense(now, robots, slot, state.readings);
         }
       });
     }
@@ -219,31 +206,39 @@ struct Environment::Impl {
   void begin() {
     ++state.time.step;
     takeCommands();
-    authority.begin(paths);
+    move_authorisation.begin(paths);
   }
 
-  /// What is left when all have sensed.
+  /// The phase after all sensing.
   void finish() {
-    state.messages_delivered += mail.deliver(state.time, state.world_from_robot, state.readings);
-    sense(everyRobot(), {.at_home = true});
+    const auto delivery = message_router.deliver(state.time, state.world_from_robot, state.outboxes, state.readings);
+    state.messages_delivered += delivery.delivered;
+    state.messages_dropped += delivery.dropped;
+    sense(everyRobot(), SensorGroup::in_host_process);
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
-      state.readings[i].time = state.time;
-      state.readings[i].stalled = state.stalled[i] != 0;
-      state.readings[i].laser_pan_rad = state.laser_pan_rad[i];
+      Readings& readings = state.readings[i];
+      readings.time = state.time;
+      readings.stalled = state.stalled[i] != 0;
+      readings.laser_pan_rad = state.laser_pan_rad[i];
+      readings.is_too_far = false;
     });
-    if (!state.winner) decideWinner();
-    digest.add(state, workers);
+    if (std::find(state.win_requests.begin(), state.win_requests.end(), 1) != state.win_requests.end()) {
+      if (!state.winner) decideWinner();
+      std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
+    }
+    state.digest.add(state, workers);
   }
 
   void decideWinner() {
-    for (const auto robot : referee.refused()) state.readings[robot].is_too_far = false;
-    state.winner = referee.decide([this](std::size_t robot) {
+    state.winner = referee.decide(state.win_requests, [this](std::size_t robot) {
       const auto& pose = state.world_from_robot[robot];
       return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};
     });
-    for (const auto robot : referee.refused()) state.readings[robot].is_too_far = true;
-    if (!state.winner) return;
     for (std::size_t i = 0; i < state.readings.size(); ++i) {
+      if (!state.winner) {
+        state.readings[i].is_too_far = state.win_requests[i] != 0;
+        continue;
+      }
       state.readings[i].winner = fleet.robots[*state.winner].info.name;
       if (state.activity[i] == Activity::active) {
         state.activity[i] = i == *state.winner ? Activity::found : Activity::halted;
@@ -251,43 +246,47 @@ struct Environment::Impl {
     }
   }
 
-  void setCommand(std::size_t robot, const Command& command) { commands[robot] = nextCommand(robot, command); }
-
-  /// A robot that has halted has done so for good, whatever it says.
-  Command nextCommand(std::size_t robot, Command command) const {
-    if (state.activity[robot] != Activity::active) command.activity = state.activity[robot];
-    return command;
+  void setCommand(std::size_t robot, const Command& command) {
+    Command& kept = state.commands[robot];
+    kept = command;
+    kept.speed_mps = finiteOrZero(command.speed_mps);
+    kept.turn_radps = finiteOrZero(command.turn_radps);
+    if (!std::isfinite(command.laser_pan_rad)) kept.laser_pan_rad = 0;
   }
 
-  void resume(const Moment& moment) {
-    state.time.step = moment.step;
-    state.world_from_robot = moment.world_from_robot;
-    state.speed_mps = moment.speed_mps;
-    state.turn_radps = moment.turn_radps;
-    state.activity = moment.activity;
-    commands = moment.commands;
+  void restore(const State& saved) {
+    requireSameShape(saved, state);
+    state = saved;
     placeBodies();
   }
 };
 
-Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images)
-    : impl_(std::make_unique<Impl>(std::move(world), std::move(fleet), options, images)) {}
+Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images) {
+  auto model = std::make_shared<const Model>(Model{std::move(world), std::move(fleet), options.seed, options.period_s});
+  State start = initialState(*model);
+  impl_ = std::make_unique<Impl>(std::move(model), std::move(start), options.threads, images);
+  impl_->sense(impl_->everyRobot(), SensorGroup::anywhere);
+  impl_->finish();
+}
+
+Environment::Environment(std::shared_ptr<const Model> model, State state, int threads, ImageSource* images) {
+  requireSameShape(state, initialState(*model));
+  impl_ = std::make_unique<Impl>(std::move(model), std::move(state), threads, images);
+}
 
 Environment::~Environment() = default;
 
-const World& Environment::world() const { return impl_->world; }
-const Fleet& Environment::fleet() const { return impl_->fleet; }
-std::size_t Environment::robotCount() const { return impl_->fleet.robots.size(); }
+const std::shared_ptr<const Model>& Environment::model() const { return impl_->model; }
 const State& Environment::state() const { return impl_->state; }
-SimTime Environment::time() const { return impl_->state.time; }
+void Environment::restore(const State& state) { impl_->restore(state); }
 
 void Environment::setCommand(std::size_t robot, const Command& command) { impl_->setCommand(robot, command); }
 
 void Environment::send(std::size_t from, const std::string& to, const std::string& text) {
-  impl_->mail.send(from, to, text);
+  impl_->message_router.send(from, to, text, impl_->state.outboxes[from]);
 }
 
-void Environment::checkWin(std::size_t robot) { impl_->referee.ask(robot); }
+void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot] = 1; }
 
 void Environment::step() {
   const RobotRange every = impl_->everyRobot();
@@ -301,30 +300,16 @@ void Environment::step() {
 
 void Environment::begin() { impl_->begin(); }
 void Environment::clip(RobotRange range) {
-  impl_->authority.clip(impl_->scene, impl_->near, impl_->workers, range, impl_->paths);
+  impl_->move_authorisation.clip(impl_->scene, impl_->near, impl_->workers, range, impl_->paths);
 }
-void Environment::judge(RobotRange range) { impl_->authority.judge(impl_->scene, impl_->workers, range, impl_->paths); }
+void Environment::judge(RobotRange range) {
+  impl_->move_authorisation.judge(impl_->scene, impl_->workers, range, impl_->paths);
+}
 void Environment::move() { impl_->move(); }
-void Environment::sense(RobotRange range) { impl_->sense(range, {.elsewhere = true}); }
+void Environment::sense(RobotRange range) { impl_->sense(range, SensorGroup::anywhere); }
 void Environment::finish() { impl_->finish(); }
 
-double Environment::clipped(std::size_t robot) const { return impl_->paths[robot].end_fraction; }
-void Environment::putClipped(std::size_t robot, double fraction) {
-  impl_->authority.putClipped(robot, fraction, impl_->paths);
-}
-bool Environment::stays(std::size_t robot) const { return impl_->authority.stays()[robot] != 0; }
-void Environment::putStays(std::size_t robot, bool stays) { impl_->authority.stays()[robot] = stays ? 1 : 0; }
-Measurement& Environment::measurement(std::size_t robot, std::size_t slot) {
-  return impl_->state.readings[robot].measurements[slot];
-}
-
-Moment Environment::moment() const {
-  const State& now = impl_->state;
-  return {now.time.step, now.world_from_robot, now.speed_mps, now.turn_radps, now.activity, impl_->commands};
-}
-void Environment::resume(const Moment& moment) { impl_->resume(moment); }
-Command Environment::nextCommand(std::size_t robot) const { return impl_->nextCommand(robot, impl_->commands[robot]); }
-std::span<const Command> Environment::commands() const { return impl_->commands; }
+PhaseResults Environment::results() { return {impl_->paths, impl_->move_authorisation.stays(), impl_->state.readings}; }
 
 bool Environment::allHalted() const {
   const auto& activity = impl_->state.activity;
@@ -332,6 +317,6 @@ bool Environment::allHalted() const {
          std::none_of(activity.begin(), activity.end(), [](Activity a) { return a == Activity::active; });
 }
 
-std::string Environment::digest() const { return impl_->digest.text(); }
+std::string Environment::digest() const { return impl_->state.digest.text(); }
 
 }  // namespace robosim

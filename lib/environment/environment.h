@@ -6,11 +6,13 @@
 #include <vector>
 
 #include "base/digest.h"
-#include "base/parallel.h"
+#include "base/parallel_executor.h"
 #include "base/sim_time.h"
+#include "environment/model.h"
 #include "environment/robot_range.h"
 #include "environment/state.h"
 #include "geometry/scene.h"
+#include "geometry/shapes/path.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "robots/fleet.h"
@@ -18,91 +20,86 @@
 
 namespace robosim {
 
-/// All that the moves and readings of coming steps depend on, but for what sensors remember: what a replica of an
-/// environment begins from. Arrays are indexed by robot.
-struct Moment {
-  std::uint64_t step = 0;
-  std::vector<mrpt::math::TPose2D> world_from_robot;
-  std::vector<double> speed_mps;
-  std::vector<double> turn_radps;
-  std::vector<Activity> activity;
-  std::vector<Command> commands;
-};
-
 struct EnvironmentOptions {
   std::uint64_t seed = 1;
   double period_s = 0.1;  ///< length of a time step, (0, 1]
-  int threads = 1;        ///< the run is the same for any number
+  int threads = 1;        ///< does not affect the results
 };
 
-/// Owns the state of a world and keeps its time step. No socket, no wall clock and no global inside: the same world,
-/// seed and commands give the same run, bit for bit, for any number of threads.
+/// Results of the phases of a step (Environment::results()), by robot. They may be exchanged between processes.
+struct PhaseResults {
+  std::span<Path> paths;          ///< clip(): `end_fraction`, the fraction of its path that the robot can drive
+  std::span<std::uint8_t> stays;  ///< judge(): 1 for a robot that stays where it started
+  std::span<Readings> readings;   ///< sense(): the measurements of sensors without Sensor::sensesInHostProcess()
+};
+
+/// Advances the State of a Model by time steps. It uses no socket, wall clock or global: the same model and commands
+/// give the same run, bit for bit, for any number of threads. A copy of the state saves the run; restore() continues
+/// from it, and so does another environment of the same model.
 ///
 /// A time step:
-///  1. take each robot's last command;
-///  2. authorise and move. The rule does not depend on any order: (a) each robot's path is clipped at the first contact
-///     with anything stationary, with the surface's edge, and with where every other robot *started* the step; (b) two
-///     robots whose clipped paths would still touch both stay where they started (they may turn). Then no two bodies
-///     overlap. Who was clipped or stayed is `stalled`;
-///  3. deliver the robot messages sent since the last step: by sender (in the world's order), then as sent;
-///  4. sense, everything from one frozen scene, every robot writing to its own slots only;
-///  5. decide whether a robot that has asked (CheckWin) is near enough to the gold: then it has won, every robot is
-///  told
-///     so, and all halt (referee.h);
-///  6. the result stands, read-only, for whoever looks (recorder, viewer, server) until the next step.
+///  1. takes each robot's last command;
+///  2. authorises and executes the moves. The rule is order-independent: (a) each robot's path is clipped at the first
+///     contact with anything stationary, with the surface's edge, and with the position at which every other robot
+///     *started* the step; (b) two robots whose clipped paths would still collide both stay where they started (they
+///     may turn). Then no two bodies overlap. A robot that was clipped or stays is `stalled`;
+///  3. delivers the robot messages sent since the last step: by sender (in the world's order), then in the order sent;
+///  4. updates all sensors from one frozen scene; every robot writes only to its own slots;
+///  5. decides whether a robot that has called checkWin() is near enough to the gold: then it has won, all robots'
+///     readings name it as the winner, and all robots halt (referee.h);
+///  6. the state remains constant for readers (recorder, viewer, server) until the next step.
 class Environment {
  public:
-  /// Puts every robot at its start and senses once, as step 0.
-  /// @param images for the robots' cameras; must outlive this. Null: they take no pictures
+  /// Places every robot at its start and updates the sensors once, as step 0.
+  /// @param images renders the robots' camera pictures; must outlive this object. Null: cameras take no pictures
   Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images = nullptr);
+  /// Continues from a state of the model. Environments of one model share it.
+  /// @param threads, images as above
+  /// @throws std::invalid_argument for a state of another world or time step
+  Environment(std::shared_ptr<const Model> model, State state, int threads = 1, ImageSource* images = nullptr);
   ~Environment();
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
 
-  const World& world() const;
-  const Fleet& fleet() const;
-  std::size_t robotCount() const;
+  const std::shared_ptr<const Model>& model() const;
+  const World& world() const { return model()->world; }
+  const Fleet& fleet() const { return model()->fleet; }
+  std::size_t robotCount() const { return fleet().robots.size(); }
   const State& state() const;
-  SimTime time() const;
+  SimTime time() const { return state().time; }
 
-  /// May be called for different robots from different threads, between steps.
+  /// Replaces the state between two steps.
+  /// @pre a state of this model, from any environment or another process
+  /// @throws std::invalid_argument for a state of another world or time step
+  void restore(const State& state);
+
+  /// Sets a robot's command; 0 replaces values that are not finite. May be called for different robots from different
+  /// threads, between steps.
   void setCommand(std::size_t robot, const Command&);
-  /// Queues a message for the next step. The same about threads.
-  /// @throws std::invalid_argument for an unknown receiver or too long a text.
+  /// Queues a message for the next step. Thread-safe like setCommand().
+  /// @throws std::invalid_argument for an unknown receiver or a text that is too long
   void send(std::size_t from, const std::string& to, const std::string& text);
-  /// Asks, with the next step, whether a robot has won. The same about threads.
+  /// Makes the next step decide whether a robot has won. Thread-safe like setCommand().
   void checkWin(std::size_t robot);
 
   void step();
 
-  /// @name A step in parts
-  /// For whoever shares a step out among processes that each hold a replica of this environment: step() is begin(),
-  /// clip(), judge(), move(), sense(), finish(). The work of clip(), judge() and sense() is done range by range, here
-  /// or elsewhere, in any order: what a replica has worked out is read there and put here, and is the same, bit for
-  /// bit. Each must be done, or put, for all robots before the next part. A replica needs no finish().
+  /// @name The phases of a step
+  /// For distributing a step over processes that each hold a replica of this environment: step() is begin(), clip(),
+  /// judge(), move(), sense(), finish(). clip(), judge() and sense() work on ranges of robots, locally or in replicas,
+  /// in any order; their results() are copied from a replica to here, and are bit-identical. Each phase must be
+  /// complete for all robots before the next begins. A replica needs no finish().
   ///@{
-  void begin();                             ///< takes the commands
-  void clip(RobotRange range);              ///< move rule (a)
-  double clipped(std::size_t robot) const;  ///< the part of its way that it can go, [0, 1]
-  void putClipped(std::size_t robot, double fraction);
+  void begin();                  ///< takes the commands and empties the inboxes
+  void clip(RobotRange range);   ///< move rule (a)
   void judge(RobotRange range);  ///< move rule (b)
-  bool stays(std::size_t robot) const;
-  void putStays(std::size_t robot, bool stays);
   void move();
-  void sense(RobotRange range);  ///< with all sensors that need not stay home (Sensor::staysHome())
-  /// For a sensor that need not stay home: what it measured, to be read or put.
-  Measurement& measurement(std::size_t robot, std::size_t slot);
-  void finish();  ///< delivers messages; the remaining sensors sense; decides who has won
-
-  /// What the robot will be told in the next step: its last command, but for one that has been halted since.
-  Command nextCommand(std::size_t robot) const;
-  std::span<const Command> commands() const;  ///< of all robots; after a step, those that it was taken with
-  Moment moment() const;                      ///< between steps
-  /// Goes on from there. @pre `moment` is of an environment with the same world, fleet and options.
-  void resume(const Moment& moment);
+  void sense(RobotRange range);  ///< updates the sensors without Sensor::sensesInHostProcess()
+  void finish();                 ///< delivers messages, updates the remaining sensors, and decides the winner
+  PhaseResults results();        ///< of the phases so far in this step
   ///@}
 
-  /// Whether every robot has halted or found what it looked for.
+  /// Whether every robot has halted or found the gold.
   bool allHalted() const;
   /// Hash over all states and readings of all steps so far.
   std::string digest() const;

@@ -45,7 +45,7 @@ TEST(Environment, KeepsTheLastCommandUntilThereIsAnother) {
   EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.1, 1e-12);
 }
 
-TEST(Environment, TakesAWishThatIsNotANumberForStandingStill) {
+TEST(Environment, TreatsANonFiniteCommandAsZero) {
   Scenario s;
   s.robot("a", {0, 0, 0});
   auto environment = s.start();
@@ -58,7 +58,7 @@ TEST(Environment, TakesAWishThatIsNotANumberForStandingStill) {
   EXPECT_EQ(environment->state().laser_pan_rad[0], 0);
 }
 
-TEST(Environment, StopsARobotAtTheFirstContactAndCallsItStalled) {
+TEST(Environment, StopsARobotAtTheFirstContactAndMarksItStalled) {
   Scenario s;
   addWall(s.world, 1.5, 0, 1, 10);  // its face is at x = 1
   s.robot("a", {0.7, 0, 0});
@@ -72,11 +72,11 @@ TEST(Environment, StopsARobotAtTheFirstContactAndCallsItStalled) {
   EXPECT_EQ(environment->state().stalls, 1u);
   environment->setCommand(0, {.speed_mps = -1});
   environment->step();
-  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.65, 2e-6) << "away from the wall it is free";
+  EXPECT_NEAR(environment->state().world_from_robot[0].x, 0.65, 2e-6) << "it can leave the wall";
   EXPECT_FALSE(environment->state().stalled[0]);
 }
 
-TEST(Environment, LetsARobotThatStandsAgainstAWallTurnAndSlideAlongIt) {
+TEST(Environment, LetsARobotAtAWallTurnAndSlideAlongIt) {
   Scenario s;
   addWall(s.world, 1.5, 0, 1, 10);
   s.robot("a", {0.75 - 5e-7, 0, M_PI_2});  // nearer than the contact gap
@@ -94,7 +94,7 @@ TEST(Environment, StopsARobotWhereAnotherStarted) {
   s.robot("a", {0, 0, 0});
   s.robot("b", {0.55, 0, 0});
   auto environment = s.start();
-  // b drives off at the same speed, yet a is stopped where b stood: the rule asks nobody who moves first.
+  // b drives away at the same speed, yet a stops where b started: the rule is order-independent.
   environment->setCommand(0, {.speed_mps = 1});
   environment->setCommand(1, {.speed_mps = 1});
   environment->step();
@@ -104,12 +104,12 @@ TEST(Environment, StopsARobotWhereAnotherStarted) {
   EXPECT_FALSE(environment->state().stalled[1]);
 }
 
-TEST(Environment, LetsNeitherOfTwoRobotsMoveWhoseWaysWouldMeet) {
+TEST(Environment, StopsBothRobotsWhosePathsCollide) {
   Scenario s;
   s.robot("a", {0, 0, 0});
   s.robot("b", {0.65, 0, M_PI});
   auto environment = s.start();
-  // 0.15 m lie between the hulls; each may go 0.1 m by rule (a), and both together would touch.
+  // The gap is 0.15 m; rule (a) allows each robot 0.1 m, but both together would touch.
   environment->setCommand(0, {.speed_mps = 1});
   environment->setCommand(1, {.speed_mps = 1});
   environment->step();
@@ -118,7 +118,7 @@ TEST(Environment, LetsNeitherOfTwoRobotsMoveWhoseWaysWouldMeet) {
   EXPECT_EQ(environment->state().stalls, 2u);
 }
 
-TEST(Environment, LetsTwoRobotsPassThatCrossTheSamePointAtDifferentTimes) {
+TEST(Environment, LetsRobotsCrossTheSamePointAtDifferentTimes) {
   Scenario s;
   s.robot("a", {-0.05, 0, 0}, 0.01);
   s.robot("b", {0.02, -0.1, M_PI_2}, 0.01);
@@ -142,10 +142,10 @@ TEST(Environment, KeepsARobotOnTheSurface) {
   for (int i = 0; i < 8; ++i) environment->step();  // 2 rad/s at most: 1.6 rad to the left
   environment->setCommand(0, {.speed_mps = 1});
   environment->step();
-  EXPECT_NEAR(environment->state().world_from_robot[0].y, 0.1, 1e-3) << "along the edge it is free";
+  EXPECT_NEAR(environment->state().world_from_robot[0].y, 0.1, 1e-3) << "it can drive along the edge";
 }
 
-TEST(Environment, PassesOverWhatIsLowerOrHigherThanTheRobot) {
+TEST(Environment, IgnoresObstaclesAtOtherHeights) {
   Scenario s;
   addWall(s.world, 1.5, 0, 1, 10);
   s.world.objects[0].body.center_z_m = 0.85;  // a beam from 0.35 to 1.35 m over a robot of 0.3 m
@@ -193,11 +193,11 @@ TEST(Environment, AcceleratesAndBrakesAsTheModelCan) {
   EXPECT_DOUBLE_EQ(speed_after_step(0.45), 0.45);
   EXPECT_DOUBLE_EQ(speed_after_step(-9), 0.25);
   EXPECT_DOUBLE_EQ(speed_after_step(-9), 0.05);
-  EXPECT_DOUBLE_EQ(speed_after_step(-9), 0) << "it comes to a stand before it reverses";
+  EXPECT_DOUBLE_EQ(speed_after_step(-9), 0) << "it stops before it reverses";
   EXPECT_DOUBLE_EQ(speed_after_step(-9), -0.3);
 }
 
-TEST(Environment, BrakesARobotThatHasHaltedAndHoldsItThere) {
+TEST(Environment, BrakesARobotThatHasHalted) {
   Scenario s;
   s.robot("a", {0, 0, 0});
   s.robot("b", {3, 0, 0});
@@ -214,7 +214,7 @@ TEST(Environment, BrakesARobotThatHasHaltedAndHoldsItThere) {
   EXPECT_TRUE(environment->allHalted());
 }
 
-TEST(Environment, HandsControllersOneRobotAsHardware) {
+TEST(Environment, ProvidesARobotAsHardware) {
   Scenario s;
   s.robot("a", {0, 0, 0});
   s.robot("b", {3, 0, 0});

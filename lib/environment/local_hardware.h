@@ -5,7 +5,7 @@
 namespace robosim {
 
 /// The hardware of a robot that is simulated in this process. The environment must outlive it.
-class LocalHardware : public Hardware {
+class LocalHardware : public Hardware, public RefereeLink {
  public:
   LocalHardware(Environment& environment, std::size_t robot) : environment_(environment), robot_(robot) {}
 
@@ -13,6 +13,7 @@ class LocalHardware : public Hardware {
   const Readings& readings() const override { return environment_.state().readings[robot_]; }
   void command(const Command& command) override { environment_.setCommand(robot_, command); }
   void send(const std::string& to, const std::string& text) override { environment_.send(robot_, to, text); }
+  RefereeLink* referee() override { return this; }
   void checkWin() override { environment_.checkWin(robot_); }
 
  private:

@@ -5,7 +5,7 @@
 
 namespace robosim {
 
-Referee::Referee(const World& world, std::size_t robots) : win_distance_m_(world.win_distance_m), asks_(robots) {
+Referee::Referee(const World& world) : win_distance_m_(world.win_distance_m) {
   for (const auto& object : world.objects) {
     if (object.body.heat_celsius != 0) gold_.push_back(object.body.solid().outline);
   }
@@ -17,20 +17,17 @@ double Referee::distanceToGold(const Circle& disc) const {
   return nearest_m;
 }
 
-std::optional<std::size_t> Referee::decide(const std::function<Circle(std::size_t robot)>& disc_of) {
-  refused_.clear();
+std::optional<std::size_t> Referee::decide(std::span<const std::uint8_t> requests,
+                                           const std::function<Circle(std::size_t robot)>& disc_of) const {
   std::optional<std::size_t> winner;
   double winner_m = win_distance_m_;
-  for (std::size_t i = 0; i < asks_.size(); ++i) {
-    if (!asks_[i]) continue;
-    asks_[i] = 0;
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    if (!requests[i]) continue;
     const double away_m = distanceToGold(disc_of(i));
-    refused_.push_back(i);
     if (away_m > winner_m || (away_m == winner_m && winner)) continue;
     winner = i;
     winner_m = away_m;
   }
-  if (winner) refused_.clear();
   return winner;
 }
 

@@ -3,7 +3,7 @@
 
 namespace robosim {
 
-/// Some robots: [begin, end) of the world's list.
+/// Range of robots: [begin, end) of the world's list.
 struct RobotRange {
   std::size_t begin = 0, end = 0;
 };

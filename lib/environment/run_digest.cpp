@@ -1,11 +1,14 @@
 #include "environment/run_digest.h"
 
+#include "environment/state.h"
+#include "hardware/measurement_fields.h"
+
 namespace robosim {
 namespace {
 
 constexpr std::size_t kChunk = 256;
 
-/// Bytes of many robots in one run: a hash takes long ones in several times as fast as many short ones.
+/// Buffer of the bytes of many robots: hashing one long buffer is several times as fast as hashing many short ones.
 class Bytes {
  public:
   void clear() { bytes_.clear(); }
@@ -19,24 +22,19 @@ class Bytes {
     add(text.data(), text.size());
   }
   void add(const Measurement& measurement) {
-    std::visit([this](const auto& of_kind) { addKind(of_kind); }, measurement);
+    std::visit([this](const auto& kind) { addNumbers(kind); }, measurement);
   }
   void addTo(Digest& digest) const { digest.addBytes(bytes_.data(), bytes_.size()); }
 
  private:
-  void addKind(const Echoes& echoes) {
-    static_assert(sizeof(Echo) == 4 * sizeof(float), "padding would be hashed");
-    add(echoes.data(), echoes.size() * sizeof(Echo));
+  template <typename M>
+  void addNumbers(const M& measurement) {
+    if constexpr (kIsReproducible<M>) {
+      static_assert(kIsDense<M>, "padding would be hashed");
+      const auto records = Description<M>::records(measurement);
+      add(records.data(), records.size_bytes());
+    }
   }
-  void addKind(const Scalar& scalar) { add(&scalar.value, sizeof scalar.value); }
-  void addKind(const Contacts& contacts) { add(contacts.pressed.data(), contacts.pressed.size()); }
-  void addKind(const Odometry& odometry) {
-    static_assert(sizeof(Odometry) == 5 * sizeof(double), "padding would be hashed");
-    add(&odometry, sizeof odometry);
-  }
-  // Another machine may draw another picture of the same run (doc/decisions/pictures.md).
-  void addKind(const Image&) {}
-  void addKind(const Blobs&) {}
 
   std::vector<unsigned char> bytes_;
 };
@@ -57,7 +55,7 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
     bytes.add(message.from);
     bytes.add(message.text);
   }
-  // Nothing is added for a run in which nobody asks.
+  // Nothing is added for a run without checkWin().
   if (state.readings[i].is_too_far) bytes.add("too far");
   if (!state.readings[i].winner.empty()) bytes.add(state.readings[i].winner);
 }
@@ -66,7 +64,7 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
 
 RunDigest::RunDigest(std::size_t robots) : of_chunk_((robots + kChunk - 1) / kChunk) {}
 
-void RunDigest::add(const State& state, const Workers& workers) {
+void RunDigest::add(const State& state, const ParallelExecutor& workers) {
   workers.forChunks(state.world_from_robot.size(), kChunk, [&](std::size_t begin, std::size_t end) {
     static thread_local Bytes bytes;
     bytes.clear();
@@ -74,6 +72,18 @@ void RunDigest::add(const State& state, const Workers& workers) {
     for (std::size_t i = begin; i < end; ++i) addRobot(bytes, state, i);
     bytes.addTo(of_chunk_[begin / kChunk]);
   });
+}
+
+void RunDigest::save(std::string& out) const {
+  for (const auto& chunk : of_chunk_) chunk.save(out);
+}
+
+bool RunDigest::load(std::string_view saved) {
+  if (saved.size() != of_chunk_.size() * Digest::kSavedBytes) return false;
+  for (std::size_t i = 0; i < of_chunk_.size(); ++i) {
+    if (!of_chunk_[i].load(saved.substr(i * Digest::kSavedBytes, Digest::kSavedBytes))) return false;
+  }
+  return true;
 }
 
 std::string RunDigest::text() const {

@@ -6,9 +6,9 @@
 
 namespace robosim {
 
-/// Moves every robot of the fleet to a random start, the same for the same seed: somewhere that a robot could have
-/// driven to from one of the world's own starts (so that a task stays possible), touching nothing, looking anywhere.
-/// The widest robot decides what is reachable, on a raster of half its radius.
+/// Moves every robot of the fleet to a random start pose that depends only on the seed. Positions are reachable from
+/// the world's own starts (so that a task stays solvable) and touch nothing; headings are uniform. Reachability is
+/// computed for the widest robot, on a raster of half its radius.
 void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed);
 
 }  // namespace robosim

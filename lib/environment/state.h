@@ -6,27 +6,46 @@
 #include <mrpt/math/TPose2D.h>
 
 #include "base/sim_time.h"
+#include "environment/message_router.h"
+#include "environment/model.h"
+#include "environment/run_digest.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
 
-/// What changes from step to step. Arrays are indexed by robot, in the world's order.
+/// All that changes during a run, between two steps. It is complete: a Model and a copy of a State, with the same
+/// commands afterwards, continue the run bit for bit. Random numbers need no state, because they depend on the step
+/// only (base/random.h); sensors with memory (odometry, battery) keep it in their readings. Arrays are indexed by
+/// robot, in the world's order.
 struct State {
   SimTime time;
   std::vector<mrpt::math::TPose2D> world_from_robot;
   std::vector<double> speed_mps;  ///< of the last step, after acceleration limits
   std::vector<double> turn_radps;
   std::vector<Motion> last_motion;
-  std::vector<double> driven_m;       ///< length of way since the start
+  std::vector<double> driven_m;       ///< distance driven since the start
   std::vector<std::uint8_t> stalled;  ///< the last move was clipped or refused
   std::vector<Activity> activity;
   std::vector<float> laser_pan_rad;
+  std::vector<Command> commands;           ///< the last ones; after a step, those used in it; finite
+  std::vector<Outbox> outboxes;            ///< messages for the next step
+  std::vector<std::uint8_t> win_requests;  ///< 1 for a robot that requests CheckWin with the next step
   std::vector<Readings> readings;
   std::optional<std::size_t> winner;  ///< the robot that has won
-  std::uint64_t stalls = 0;           ///< robot-steps that were clipped or refused, so far
+  std::uint64_t stalls = 0;           ///< number of robot-steps so far that were clipped or refused
   std::uint64_t messages_delivered = 0;
+  std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far
+  RunDigest digest;                    ///< of all steps so far
+  bool operator==(const State&) const = default;
 };
+
+/// State before the first measurement: robots at rest at their starts, blank readings.
+State initialState(const Model&);
+
+/// Whether two states have the same time step, number of robots, and kinds and sizes of measurements, as all states of
+/// a model do.
+bool haveSameShape(const State&, const State&);
 
 }  // namespace robosim

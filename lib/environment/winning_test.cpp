@@ -1,4 +1,5 @@
-// CheckWin: a robot asks whether it is near enough to the gold; the environment decides, tells everyone, and all halt.
+// CheckWin: a robot asks whether it is near enough to the gold; the environment decides, reports the winner to all
+// robots, and halts them.
 #include <gtest/gtest.h>
 
 #include "environment/local_hardware.h"
@@ -7,7 +8,7 @@
 namespace robosim {
 namespace {
 
-/// Robots of 0.25 m radius beside gold of 0.2 m radius at the origin: one whose centre is at 1.25 m is 0.8 m away.
+/// Robots of 0.25 m radius near gold of 0.2 m radius at the origin: with its centre at 1.25 m, a robot is 0.8 m away.
 struct Contest {
   World world = emptyWorld(10);
   Fleet fleet;
@@ -24,7 +25,7 @@ struct Contest {
 
 using Activities = std::vector<Activity>;
 
-TEST(Winning, ARobotThatAsksWithinTheWinDistanceWinsAndAllHalt) {
+TEST(Winning, CheckWinWithinTheWinDistanceWinsAndHaltsAll) {
   Contest contest(0.81);
   contest.robot("a", 5);
   contest.robot("b", 1.25);
@@ -33,19 +34,20 @@ TEST(Winning, ARobotThatAsksWithinTheWinDistanceWinsAndAllHalt) {
   environment->checkWin(1);
   environment->step();
   EXPECT_EQ(environment->state().winner, 1u);
-  for (const auto& readings : environment->state().readings) EXPECT_EQ(readings.winner, "b") << "everyone is told";
+  for (const auto& readings : environment->state().readings)
+    EXPECT_EQ(readings.winner, "b") << "all robots are informed";
   EXPECT_EQ(environment->state().activity, (Activities{Activity::halted, Activity::found}));
   EXPECT_TRUE(environment->allHalted());
 
   const double x = environment->state().world_from_robot[0].x;
   environment->setCommand(0, {.speed_mps = 1});
   environment->step();
-  EXPECT_EQ(environment->state().world_from_robot[0].x, x) << "it has halted for good";
+  EXPECT_EQ(environment->state().world_from_robot[0].x, x) << "a halted robot stays halted";
   EXPECT_EQ(environment->state().winner, 1u);
 }
 
 TEST(Winning, DoesNotChangeTheCommandsOfTheStepInWhichItIsDecided) {
-  // Whoever runs a recording again must be told what the robots were driven with: here they turned on.
+  // A replay needs the commands that the robots were driven with: here they kept turning.
   Contest contest(0.81);
   contest.robot("a", 5);
   contest.robot("b", 1.25);
@@ -54,18 +56,16 @@ TEST(Winning, DoesNotChangeTheCommandsOfTheStepInWhichItIsDecided) {
   environment->checkWin(1);
   environment->step();
   ASSERT_EQ(environment->state().winner, 1u);
-  for (const auto& command : environment->commands()) EXPECT_EQ(command.activity, Activity::active);
+  for (const auto& command : environment->state().commands) EXPECT_EQ(command.activity, Activity::active);
   EXPECT_NE(environment->state().turn_radps[0], 0);
-  EXPECT_EQ(environment->nextCommand(0).activity, Activity::halted);
-  EXPECT_EQ(environment->nextCommand(1).activity, Activity::found);
 
   for (const std::size_t robot : {0, 1}) environment->setCommand(robot, {.turn_radps = 0.5});
   environment->step();
-  EXPECT_EQ(environment->commands()[0].activity, Activity::halted);
-  EXPECT_EQ(environment->commands()[1].activity, Activity::found);
+  EXPECT_EQ(environment->state().commands[0].activity, Activity::halted);
+  EXPECT_EQ(environment->state().commands[1].activity, Activity::found);
 }
 
-TEST(Winning, ARobotThatIsTooFarIsToldSoOnceAndTheRunGoesOn) {
+TEST(Winning, ReportsTooFarOnceAndContinues) {
   Contest contest(0.79);
   contest.robot("a", 1.25);
   const auto environment = contest.start();
@@ -79,7 +79,7 @@ TEST(Winning, ARobotThatIsTooFarIsToldSoOnceAndTheRunGoesOn) {
   EXPECT_FALSE(hardware.readings().is_too_far);
 }
 
-TEST(Winning, NobodyWinsWithoutAsking) {
+TEST(Winning, RequiresCheckWin) {
   Contest contest;
   contest.robot("a", 0.5);
   const auto environment = contest.start();
@@ -87,7 +87,7 @@ TEST(Winning, NobodyWinsWithoutAsking) {
   EXPECT_EQ(environment->state().winner, std::nullopt);
 }
 
-TEST(Winning, IsDecidedWhereTheRobotStandsAfterTheStep) {
+TEST(Winning, UsesThePoseAfterTheStep) {
   Contest contest(0.75);
   contest.robot("a", -1.25);  // 0.8 m away, and after a step at 1 m/s 0.7 m
   const auto environment = contest.start();
@@ -97,7 +97,7 @@ TEST(Winning, IsDecidedWhereTheRobotStandsAfterTheStep) {
   EXPECT_EQ(environment->state().winner, 0u);
 }
 
-TEST(Winning, TheNearestOfThoseThatAskInOneStepWins) {
+TEST(Winning, NearestOfSeveralWins) {
   Contest contest(1);
   contest.robot("a", -1.25);
   contest.robot("b", 1.2);
@@ -108,7 +108,7 @@ TEST(Winning, TheNearestOfThoseThatAskInOneStepWins) {
   EXPECT_EQ(environment->state().readings[0].winner, "b");
 }
 
-TEST(Winning, OfTwoEquallyNearTheFirstOfTheWorldsListWins) {
+TEST(Winning, FirstOfEquallyNearWins) {
   Contest contest(1);
   contest.robot("b", 1.25);
   contest.robot("a", -1.25);
@@ -118,7 +118,7 @@ TEST(Winning, OfTwoEquallyNearTheFirstOfTheWorldsListWins) {
   EXPECT_EQ(environment->state().readings[0].winner, "b");
 }
 
-TEST(Winning, EveryHotObjectIsGoldAndItsOutlineCounts) {
+TEST(Winning, MeasuresToTheOutlineOfEveryHotObject) {
   Contest contest;
   addWall(contest.world, 5, 0, 4, 1);  // from x = 3 to x = 7
   contest.world.objects.back().body.heat_celsius = 30;
@@ -129,7 +129,7 @@ TEST(Winning, EveryHotObjectIsGoldAndItsOutlineCounts) {
   EXPECT_EQ(environment->state().winner, 0u);
 }
 
-TEST(Winning, NobodyWinsInAWorldWithoutGold) {
+TEST(Winning, IsImpossibleWithoutGold) {
   Contest contest(1000);
   contest.world.objects.clear();
   contest.robot("a", 0);
@@ -140,7 +140,7 @@ TEST(Winning, NobodyWinsInAWorldWithoutGold) {
   EXPECT_TRUE(environment->state().readings[0].is_too_far);
 }
 
-TEST(Winning, ARobotThatHasFoundTheGoldOrHaltedBeforeStaysSo) {
+TEST(Winning, KeepsTheActivityOfHaltedRobots) {
   Contest contest;
   for (const char* name : {"a", "b", "c"})
     contest.robot(name, 0.5 + 2 * static_cast<double>(contest.fleet.robots.size()));
@@ -152,7 +152,7 @@ TEST(Winning, ARobotThatHasFoundTheGoldOrHaltedBeforeStaysSo) {
   EXPECT_EQ(environment->state().activity, (Activities{Activity::found, Activity::found, Activity::halted}));
 }
 
-TEST(Winning, ChangesTheDigestAndAskingInVainDoesToo) {
+TEST(Winning, ChangesTheDigestAlsoWhenRefused) {
   const auto digest_of = [](double win_distance_m, bool asks) {
     Contest contest(win_distance_m);
     contest.robot("a", 1.25);

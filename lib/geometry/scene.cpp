@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
-#include "geometry/nearest_so_far.h"
-#include "geometry/vector_loops.h"
+#include "base/portable_math.h"
+#include "geometry/casting/closest_hit.h"
 
 namespace robosim {
 
@@ -14,22 +14,20 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// How far [m] an owner of a neighbour list goes before it is made anew: some steps of a quick robot; not so far that
-/// the list grows much.
+/// Skin of a neighbour list [m]: several steps of a fast robot, yet small enough that the list stays short.
 constexpr double kSkin_m = 0.7;
-/// Of a neighbour list. Where more lie within reach, the nearest ones hide most of the rest.
-constexpr std::size_t kMostNeighbours = 64;
-/// A little less than 1: no number times this grows when it becomes a float.
+/// Maximum length of a neighbour list. Where more solids lie within reach, the nearest ones occlude most of the others.
+constexpr std::size_t kMaxNeighbours = 64;
+/// Slightly less than 1: the product never increases when rounded to float.
 constexpr double kRoundDown = 1 - 1e-7;
 
-/// Stationary solids in a cell on average, those aside that reach over its borders: many fill most of a pack, few need
-/// a second.
+/// Average number of stationary solids per cell, not counting those that extend over its borders: many cells fill most
+/// of a pack, few need a second one.
 constexpr double kStationaryPerCell = 3.5;
-constexpr double kMovingPerCell = 1;
 
-double cellFor(const Bounds2D& area, std::size_t solids, double per_cell) {
+double cellFor(const Bounds2D& area, std::size_t stationary) {
   const double square_m2 = std::max(1e-6, (area.x_max - area.x_min) * (area.y_max - area.y_min));
-  return std::max(0.25, std::sqrt(square_m2 * per_cell / static_cast<double>(solids + 4)));
+  return std::max(0.25, std::sqrt(square_m2 * kStationaryPerCell / static_cast<double>(stationary + 4)));
 }
 
 Bounds2D boundsOf(const Sector& sector, double range_m) {
@@ -41,26 +39,26 @@ Bounds2D boundsOf(const Sector& sector, double range_m) {
   };
   include(sector.left);
   include(sector.right);
-  for (const TPoint2D& most : {TPoint2D(1, 0), TPoint2D(0, 1), TPoint2D(-1, 0), TPoint2D(0, -1)}) {
-    if (sector.holds(most)) include(most);
+  for (const TPoint2D& extreme : {TPoint2D(1, 0), TPoint2D(0, 1), TPoint2D(-1, 0), TPoint2D(0, -1)}) {
+    if (sector.contains(extreme)) include(extreme);
   }
   return b;
 }
 
-/// An area, and cells around it as far as solids reach that lie not far beyond: most often there is nothing then that a
-/// ray might meet outside. Those that go further are left to the cells of the rim, for a solid may be as far or as long
-/// as it likes.
+/// Extends an area by whole cells so that it contains the solids that end not far beyond it; then most rays cannot hit
+/// anything outside the grid. Solids that extend further are left to the border cells, because a solid may be
+/// arbitrarily far away or long.
 Bounds2D grownFor(const std::vector<Solid>& solids, const Bounds2D& area, double cell_m) {
-  const double room_m = 2 * GridIndex::roomAtRim(cell_m);
-  const double most_x = std::max(cell_m, (area.x_max - area.x_min) / 2);
-  const double most_y = std::max(cell_m, (area.y_max - area.y_min) / 2);
+  const double margin_m = 2 * GridIndex::borderMargin(cell_m);
+  const double max_x = std::max(cell_m, (area.x_max - area.x_min) / 2);
+  const double max_y = std::max(cell_m, (area.y_max - area.y_min) / 2);
   Bounds2D all = area;
   for (const auto& solid : solids) {
     const Bounds2D bounds = boundsOf(solid.outline);
-    const Bounds2D with{std::min(all.x_min, bounds.x_min - room_m), std::max(all.x_max, bounds.x_max + room_m),
-                        std::min(all.y_min, bounds.y_min - room_m), std::max(all.y_max, bounds.y_max + room_m)};
-    if (area.x_min - with.x_min <= most_x && with.x_max - area.x_max <= most_x && area.y_min - with.y_min <= most_y &&
-        with.y_max - area.y_max <= most_y) {
+    const Bounds2D with{std::min(all.x_min, bounds.x_min - margin_m), std::max(all.x_max, bounds.x_max + margin_m),
+                        std::min(all.y_min, bounds.y_min - margin_m), std::max(all.y_max, bounds.y_max + margin_m)};
+    if (area.x_min - with.x_min <= max_x && with.x_max - area.x_max <= max_x && area.y_min - with.y_min <= max_y &&
+        with.y_max - area.y_max <= max_y) {
       all = with;
     }
   }
@@ -68,40 +66,40 @@ Bounds2D grownFor(const std::vector<Solid>& solids, const Bounds2D& area, double
   const Bounds2D grown{area.x_min - in_cells(area.x_min - all.x_min), all.x_max,
                        area.y_min - in_cells(area.y_min - all.y_min), all.y_max};
   const double longer_m = std::max(grown.x_max - grown.x_min, grown.y_max - grown.y_min);
-  return longer_m <= kMostCells * cell_m ? grown : area;
+  return longer_m <= kMaxCells * cell_m ? grown : area;
 }
 
 GridIndex gridFor(const std::vector<Solid>& stationary, const Bounds2D& area) {
-  const double cell_m = cellFor(area, stationary.size(), kStationaryPerCell);
+  const double cell_m = cellFor(area, stationary.size());
   return {grownFor(stationary, area, cell_m), cell_m};
 }
 
-/// Distance [m] from a point to a cell; cells on the rim go on outwards.
+/// Distance [m] from a point to a cell; border cells extend outwards without limit.
 double distanceToCell(const GridIndex& grid, int column, int row, const TPoint2D& p) {
   const auto gap = [&](double at, double low, int cell, int count) {
     const double begin = cell == 0 ? -kInfinity : low + cell * grid.cellSize();
     const double end = cell == count - 1 ? kInfinity : low + (cell + 1) * grid.cellSize();
     return std::max({0.0, begin - at, at - end});
   };
-  return std::hypot(gap(p.x, grid.xMin(), column, grid.columns()), gap(p.y, grid.yMin(), row, grid.rows()));
+  return portable::hypot(gap(p.x, grid.xMin(), column, grid.columns()), gap(p.y, grid.yMin(), row, grid.rows()));
 }
 
-bool meet(const Bounds2D& a, const Bounds2D& b) {
+bool intersect(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-/// Marks which bodies a question has looked at already: a body is listed in every cell it reaches into. One for each
-/// thread, for all scenes: a question's mark is a number never used before.
-class Seen {
+/// Marks the bodies that a query has already visited, because a body is listed in every cell it overlaps. One instance
+/// per thread, shared by all scenes: each query uses a new mark value.
+class VisitedBodies {
  public:
-  static Seen& begin(std::size_t bodies) {
-    static thread_local Seen seen;
-    if (seen.marks_.size() < bodies) seen.marks_.resize(bodies, 0);
-    if (++seen.mark_ == 0) {
-      std::fill(seen.marks_.begin(), seen.marks_.end(), 0);
-      seen.mark_ = 1;
+  static VisitedBodies& begin(std::size_t bodies) {
+    static thread_local VisitedBodies visited;
+    if (visited.marks_.size() < bodies) visited.marks_.resize(bodies, 0);
+    if (++visited.mark_ == 0) {
+      std::fill(visited.marks_.begin(), visited.marks_.end(), 0);
+      visited.mark_ = 1;
     }
-    return seen;
+    return visited;
   }
   bool isFirst(std::uint32_t body) {
     const bool first = marks_[body] != mark_;
@@ -114,9 +112,9 @@ class Seen {
   std::uint32_t mark_ = 0;
 };
 
-/// Visits the cells around a point, ring by ring outwards, until all that are left lie further than reach() from it.
+/// Visits the cells around a point, ring by ring outwards, until all remaining cells are farther than reach().
 template <typename Reach, typename Visit>
-void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach, const Visit& visit) {
+void visitOutwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach, const Visit& visit) {
   const int column = grid.column(center.x);
   const int row = grid.row(center.y);
   const int last_column = grid.columns() - 1;
@@ -127,15 +125,16 @@ void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach,
     const int right = column + ring;
     const int bottom = row - ring;
     const int top = row + ring;
-    // What this ring and those beyond it cover begins at the border of the square inside it; at the rim nothing is
-    // left.
+    // The area covered by this ring and those beyond it begins at the border of the square inside it; outside the grid
+    // nothing is left.
     const double to_left = left < 0 ? kInfinity : center.x - (grid.xMin() + (left + 1) * grid.cellSize());
     const double to_right = right > last_column ? kInfinity : grid.xMin() + right * grid.cellSize() - center.x;
     const double to_bottom = bottom < 0 ? kInfinity : center.y - (grid.yMin() + (bottom + 1) * grid.cellSize());
     const double to_top = top > last_row ? kInfinity : grid.yMin() + top * grid.cellSize() - center.y;
-    const double far = std::min(reach(), std::numeric_limits<double>::max());  // so that the rim lies beyond any reach
+    // Finite, so that a side outside the grid is beyond any reach.
+    const double far = std::min(reach(), std::numeric_limits<double>::max());
     if (std::min({to_left, to_right, to_bottom, to_top}) > far) return;
-    // A side that lies too far is left out; so are a far side's ends of the other two.
+    // Skips sides beyond the reach, and the cells of the other two sides in their rows or columns.
     const int from_x = std::max(0, to_left > far ? left + 1 : left);
     const int to_x = std::min(last_column, to_right > far ? right - 1 : right);
     const int from_y = std::max(bottom + 1, 0);
@@ -155,48 +154,10 @@ void outwards(const GridIndex& grid, const TPoint2D& center, const Reach& reach,
   }
 }
 
-/// Hands a batch what it may meet, a pack at a time.
-template <typename Batch, typename Index>
-class Gathering {
- public:
-  /// @param except an index, which is left out; one beyond all leaves out nothing
-  Gathering(Batch& batch, const Index& index, std::size_t first_body, std::uint32_t except)
-      : batch_(batch),
-        front_(batch.front(), index.middle()),
-        except_(except),
-        candidates_{emptyPack(), index.items().data(), index.middle(), static_cast<std::uint32_t>(first_body)} {}
-
-  /// Whether a solid matters is anybody's guess, so nothing here branches on it.
-  void addIf(bool wanted, const RoughSolid& solid, std::uint32_t index) {
-    pack_.addIf(wanted & front_.mayHold(solid) & (index != except_), solid, index);
-    if (pack_.isFull()) finish();
-  }
-  void add(const RoughSolid& solid, std::uint32_t index) { addIf(true, solid, index); }
-  void finish() {
-    if (pack_.count == 0) return;
-    batch_.meet(candidates_);
-    pack_.count = 0;
-  }
-
- private:
-  static Candidates::Pack& emptyPack() {
-    static thread_local Candidates::Pack pack;
-    pack.count = 0;
-    return pack;
-  }
-
-  Batch& batch_;
-  RoughFront front_;
-  std::uint32_t except_;
-  Candidates::Pack& pack_ = emptyPack();
-  Candidates candidates_;
-};
-
 }  // namespace
 
 Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area)
-    : stationary_index_(gridFor(stationary, area)),
-      moving_index_(area, cellFor(area, moving_count, kMovingPerCell), moving_count) {
+    : stationary_index_(gridFor(stationary, area)), moving_index_(moving_count, stationary_index_.middle()) {
   stationary_index_.build(stationary);
   freeze();
 }
@@ -208,46 +169,46 @@ Solid Scene::solid(BodyId body) const {
       .solid();
 }
 
-template <typename Batch>
-void Scene::meetAll(Batch& batch, BodyId except, const NeighbourList& near) const {
+void Scene::cast(BeamBatch& batch, BodyId except, const NeighbourList& near) const {
   if (batch.size() == 0) return;
-  const auto number = static_cast<std::size_t>(except);
-  constexpr auto kNone = static_cast<std::uint32_t>(kNoBody);
-  Gathering stationary(batch, stationary_index_, 0,
-                       number < stationaryCount() ? stationary_index_.indexOf(number) : kNone);
+  Candidates candidates;
+  const auto intersect = [&] {
+    if (candidates.count > 0) batch.intersect(candidates);
+    candidates.count = 0;
+  };
+  const auto add_if = [&](bool is_candidate, const GridItem& item, std::uint32_t body) {
+    candidates.addIf(is_candidate & batch.mayHit(item), item, body);
+    if (candidates.isFull()) intersect();
+  };
+  const auto add = [&](std::uint32_t i) {
+    const GridItem& item = stationary_index_.items()[i];
+    add_if(BodyId{item.number} != except, item, item.number);
+  };
   const auto reach = [&] { return batch.reach(); };
-  if (!near.visitNear(batch.center(), reach,
-                      [&](std::uint32_t i) { stationary.add(stationary_index_.rough()[i], i); })) {
-    Seen& seen = Seen::begin(stationaryCount());
-    const CellsAhead ahead(batch.front(), {stationary_index_.xMin(), stationary_index_.yMin()},
-                           stationary_index_.cellSize());
-    outwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
-      if (!ahead.mayHold(column, row) && !stationary_index_.isOnRim(column, row)) return;
+  if (!near.visitNear(batch.center(), reach, add)) {
+    VisitedBodies& visited = VisitedBodies::begin(stationaryCount());
+    const CellHalfPlaneCull ahead(batch.halfPlane(), {stationary_index_.xMin(), stationary_index_.yMin()},
+                                  stationary_index_.cellSize());
+    visitOutwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
+      if (!ahead.mayContain(column, row) && !stationary_index_.isBorderCell(column, row)) return;
       stationary_index_.visitCell(column, row, [&](std::uint32_t i) {
-        if (seen.isFirst(i)) stationary.add(stationary_index_.rough()[i], i);
+        if (visited.isFirst(i)) add(i);
       });
     });
   }
-  stationary.finish();
-
-  Gathering moving(batch, moving_index_, stationaryCount(),
-                   number < stationaryCount() ? kNone : static_cast<std::uint32_t>(movingIndex(except)));
-  const Near surroundings(batch.center(), batch.reach(), moving_index_.middle());
+  const RangeCull surroundings(batch.center(), batch.reach(), moving_index_.middle());
+  const auto first = static_cast<std::uint32_t>(stationaryCount());
   moving_index_.visitNear(surroundings.bounds(), [&](const CenterIndex::Entry& entry) {
-    moving.addIf(surroundings.mayHold(entry.solid), entry.solid, entry.index);
+    add_if(surroundings.mayContain(entry.solid) & (BodyId{first + entry.index} != except),
+           moving_index_.items()[entry.index], first + entry.index);
   });
-  moving.finish();
-  batch.finish();
-}
-
-void Scene::castRays(RayBatch& batch, BodyId except, const NeighbourList& near) const { meetAll(batch, except, near); }
-void Scene::senseSectors(SectorBatch& batch, BodyId except, const NeighbourList& near) const {
-  meetAll(batch, except, near);
+  intersect();
 }
 
 void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) const {
   if (near.driftTo(at) <= kSkin_m) return;
-  // Distance and index in one number, which sorts by the first as it is: the bits of floats that are not negative do.
+  // Packs distance and index into one integer that sorts by distance: the bits of non-negative floats are ordered like
+  // the floats.
   static thread_local std::vector<std::uint64_t> found;
   double covered_m = reach_m + kSkin_m;
   std::size_t count = 0;
@@ -256,7 +217,7 @@ void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) cons
     const auto rounded_m = static_cast<float>(nearest_m * kRoundDown);
     if (count == found.size()) found.resize(2 * count + 64);
     found[count] = std::uint64_t{std::bit_cast<std::uint32_t>(rounded_m)} << 32 | i;
-    count += nearest_m <= covered_m ? 1 : 0;  // anybody's guess, so without a branch
+    count += nearest_m <= covered_m ? 1 : 0;  // branch-free, because the condition is unpredictable
   });
   const auto begin = found.begin();
   std::sort(begin, begin + static_cast<std::ptrdiff_t>(count));
@@ -265,7 +226,7 @@ void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) cons
   static thread_local std::vector<NeighbourList::Neighbour> nearest_first;
   nearest_first.clear();
   for (auto key = begin; key != end; ++key) {
-    if (nearest_first.size() == kMostNeighbours) {
+    if (nearest_first.size() == kMaxNeighbours) {
       covered_m = distance(*key);
       break;
     }
@@ -275,16 +236,16 @@ void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) cons
 }
 
 Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
-  NearestSoFar best{range_m};
+  ClosestHit best{range_m};
   TPoint2D point;
   const TPoint2D apex(sector.apex.x, sector.apex.y);
   const Bounds2D reach = boundsOf(sector, range_m);
   const auto sense = [&](BodyId body) {
     if (body == except) return;
-    const auto met = nearestInSector(sector, solid(body));
-    if (!met || !best.isWorseThan(met->distance_m, body)) return;
-    best = {met->distance_m, body};
-    point = met->point;
+    const auto hit = nearestInSector(sector, solid(body));
+    if (!hit || !best.isWorseThan(hit->distance_m, body)) return;
+    best = {hit->distance_m, body};
+    point = hit->point;
   };
   const GridIndex& grid = stationary_index_;
   const int right = grid.column(reach.x_max);
@@ -316,7 +277,7 @@ void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) con
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
   forCells(area, [&](std::uint32_t i) {
     const GridItem& item = stationary_index_.items()[i];
-    if (meet(item.bounds(), area)) found.push_back(BodyId{item.number});
+    if (intersect(item.bounds(), area)) found.push_back(BodyId{item.number});
   });
   std::sort(found.begin() + begin, found.end());
   found.erase(std::unique(found.begin() + begin, found.end()), found.end());
@@ -325,7 +286,7 @@ void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) con
 void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
   moving_index_.visitNear(area, [&](const CenterIndex::Entry& entry) {
-    if (meet(moving_index_.items()[entry.index].bounds(), area)) found.push_back(movingBody(entry.index));
+    if (intersect(moving_index_.items()[entry.index].bounds(), area)) found.push_back(movingBody(entry.index));
   });
   std::sort(found.begin() + begin, found.end());
 }

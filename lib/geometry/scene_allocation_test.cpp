@@ -1,4 +1,4 @@
-// Whether a scene whose arrays have their size asks for memory again: this program's operator new counts.
+// Tests that a scene does not allocate once its arrays have their size, by counting in this program's operator new.
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -6,14 +6,14 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/random_scene.h"
 #include "geometry/scene.h"
+#include "geometry/testing/random_scene.h"
 
 namespace {
 std::atomic<long> allocations{0};
 }  // namespace
 
-// Not inline: g++ 12 would see the free() and take it for the wrong way to give back what operator new gave.
+// Not inline: g++ 12 would see the free() and warn about a mismatched deallocation.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;
@@ -25,7 +25,7 @@ std::atomic<long> allocations{0};
 namespace robosim {
 namespace {
 
-TEST(Scene, NeitherFreezesNorAnswersWithNewMemoryOnceItsArraysHaveTheirSize) {
+TEST(Scene, DoesNotAllocateInSteadyState) {
   constexpr std::size_t kMoving = 200;
   Rng rng(1);
   const SolidSpread spread{.size_max_m = 1};
@@ -41,7 +41,7 @@ TEST(Scene, NeitherFreezesNorAnswersWithNewMemoryOnceItsArraysHaveTheirSize) {
       near.clear();
       scene.movingNear(spread.area, near);
       for (int i = 0; i < 50; ++i) {
-        const Ray ray = randomLevelRay(rng, spread.area, 0, 2);
+        const Ray ray = randomPlanarRay(rng, spread.area, 0, 2);
         scene.castRay(ray, 5);
         scene.senseSector(Sector::towards(ray.origin, 1, 0.2), 5);
       }

@@ -1,13 +1,13 @@
-// A scene's answers over thousands of random scenes, beside those of a loop over all its solids.
+// Scene queries on thousands of random scenes, compared with loops over all solids.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include <gtest/gtest.h>
 
-#include "base/parallel.h"
-#include "geometry/random_scene.h"
+#include "base/parallel_executor.h"
 #include "geometry/scene.h"
+#include "geometry/testing/random_scene.h"
 #include "geometry/testing/slow_scene.h"
 
 namespace robosim {
@@ -32,8 +32,8 @@ testing::AssertionResult isExact(const Scene& scene, const Ray& ray, double rang
   return isSame(scene.castRay(ray, range_m, except), castRaySlowly(scene, ray, range_m, except));
 }
 
-/// Whether `found` names bodies from `first` to before `last` in order, each once: all that reach into the area, and
-/// none whose bounds do not meet it.
+/// Whether `found` lists bodies in [first, last) in order, each once: all that overlap the area, and none whose bounds
+/// do not intersect it.
 testing::AssertionResult areNear(const std::vector<BodyId>& found, const Scene& scene, std::size_t first,
                                  std::size_t last, const Bounds2D& area) {
   std::size_t next = 0;
@@ -48,7 +48,7 @@ testing::AssertionResult areNear(const std::vector<BodyId>& found, const Scene& 
     if (!may && is_found) return testing::AssertionFailure() << "body " << i << " is not near";
   }
   if (next == found.size()) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "one is named twice, out of order, or of the other kind";
+  return testing::AssertionFailure() << "a body is listed twice, out of order, or of the other kind";
 }
 
 struct Family {
@@ -62,13 +62,13 @@ const Family kFamilies[] = {
     {"crowded", {.area = {-3, 3, -3, 3}, .size_max_m = 0.8}, 80, {-3, 3, -3, 3}},
     {"sparse", {.area = {-50, 50, -50, 50}}, 30, {-50, 50, -50, 50}},
     {"small world", {.area = {-1, 1, -1, 1}, .size_min_m = 0.01, .size_max_m = 0.3}, 20, {-1, 1, -1, 1}},
-    {"of one thing", {}, 1, {-10, 10, -10, 10}},
+    {"of one solid", {}, 1, {-10, 10, -10, 10}},
     {"empty", {}, 0, {-10, 10, -10, 10}},
-    {"huge things", {.size_min_m = 5, .size_max_m = 100}, 10, {-10, 10, -10, 10}},
+    {"huge solids", {.size_min_m = 5, .size_max_m = 100}, 10, {-10, 10, -10, 10}},
     {"boxes of all sizes", {.size_min_m = 0.001, .size_max_m = 30, .circle_share = 0}, 30, {-10, 10, -10, 10}},
     {"mostly beyond the area", {.area = {-20, 20, -20, 20}}, 60, {-4, 5, -3, 2}},
     {"far beyond the area", {.area = {100, 120, -20, 20}}, 20, {-5, 5, -5, 5}},
-    // With so many solids, of which two thirds stand still, the cells are 4 m, 2 m and 1 m wide: faces, corners and
+    // With so many solids, of which two thirds are stationary, the cells are 4 m, 2 m and 1 m wide: faces, corners and
     // rays lie on their borders.
     {"on a lattice of large cells", {.area = {-8, 8, -8, 8}, .size_max_m = 3, .lattice_m = 0.5}, 78, {-8, 8, -8, 8}},
     {"on a lattice", {.area = {-8, 8, -8, 8}, .size_max_m = 1, .lattice_m = 1}, 330, {-8, 8, -8, 8}},
@@ -84,7 +84,7 @@ const Family kFamilies[] = {
     {"in a corridor", {.area = {-100, 100, -1, 1}, .size_max_m = 1}, 200, {-100, 100, -1, 1}},
 };
 
-/// A multiple of half a metre that is near: where cells have their borders and a lattice's solids their corners.
+/// A nearby multiple of half a metre, where cells have their borders and lattice solids their corners.
 double onLattice(double x) { return std::round(2 * x) / 2; }
 
 Bounds2D wider(const Bounds2D& b, double part) {
@@ -92,10 +92,11 @@ Bounds2D wider(const Bounds2D& b, double part) {
   return {b.x_min - dx, b.x_max + dx, b.y_min - dy, b.y_max + dy};
 }
 
-/// From within the area, or around it; anywhere, along the axes, on borders, through corners, up and down, in space.
-Ray someRay(Rng& rng, const Bounds2D& area) {
+/// Random rays from inside or outside the area: arbitrary, along axes and borders, through corners, vertical, and in
+/// space.
+Ray randomTestRay(Rng& rng, const Bounds2D& area) {
   const Bounds2D from = wider(area, rng.below(3) ? 0 : 1);
-  Ray ray = randomLevelRay(rng, from, 0, 2);
+  Ray ray = randomPlanarRay(rng, from, 0, 2);
   const double s = std::sqrt(0.5);
   switch (rng.below(6)) {
     case 0:
@@ -122,12 +123,12 @@ Ray someRay(Rng& rng, const Bounds2D& area) {
   return ray;
 }
 
-double someRange(Rng& rng) {
+double randomRange(Rng& rng) {
   const double ranges[] = {0, 0.3, 2, 8, 20, 300, 1e9, kInfinity};
   return ranges[rng.below(8)];
 }
 
-BodyId someBody(Rng& rng, const Scene& scene) {
+BodyId randomBody(Rng& rng, const Scene& scene) {
   return bodyCount(scene) == 0 || rng.below(2) ? kNoBody : body(rng.below(std::uint32_t(bodyCount(scene))));
 }
 
@@ -139,7 +140,7 @@ Scene randomScene(Rng& rng, const Family& family) {
   return scene;
 }
 
-/// Calls ask(rng, scene, case) for many scenes of each family, and again after their moving solids have moved.
+/// Calls ask(rng, scene, case) for many scenes of each family, before and after their moving solids have moved.
 template <typename Ask>
 void forManyScenes(std::uint64_t seed, const Ask& ask) {
   for (const Family& family : kFamilies) {
@@ -156,13 +157,13 @@ void forManyScenes(std::uint64_t seed, const Ask& ask) {
   }
 }
 
-TEST(Scene, CastsEveryRayAsALoopOverAllSolidsDoes) {
+TEST(Scene, CastsRaysLikeALoopOverAllSolids) {
   int hits = 0;
   forManyScenes(1, [&](Rng& rng, const Scene& scene, const Bounds2D& area, const std::string& name) {
     for (int i = 0; i < 30; ++i) {
-      const Ray ray = someRay(rng, area);
-      const double range = someRange(rng);
-      const BodyId except = someBody(rng, scene);
+      const Ray ray = randomTestRay(rng, area);
+      const double range = randomRange(rng);
+      const BodyId except = randomBody(rng, scene);
       ASSERT_TRUE(isExact(scene, ray, range, except)) << name << ", ray " << i << ", range " << range;
       const Hit hit = castRaySlowly(scene, ray, range, except);
       if (!hit) continue;
@@ -173,21 +174,21 @@ TEST(Scene, CastsEveryRayAsALoopOverAllSolidsDoes) {
   EXPECT_GT(hits, 30000);
 }
 
-TEST(Scene, SensesEverySectorAsALoopOverAllSolidsDoes) {
+TEST(Scene, SensesSectorsLikeALoopOverAllSolids) {
   forManyScenes(2, [](Rng& rng, const Scene& scene, const Bounds2D& area, const std::string& name) {
     for (int i = 0; i < 15; ++i) {
-      const Ray ray = someRay(rng, area);
+      const Ray ray = randomTestRay(rng, area);
       const double half_width = rng.below(2) ? M_PI / 18 : rng.uniform(0.001, 1.57);
       const Sector sector = Sector::towards(ray.origin, std::atan2(ray.direction.y, ray.direction.x), half_width);
-      const double range = someRange(rng);
-      const BodyId except = someBody(rng, scene);
+      const double range = randomRange(rng);
+      const BodyId except = randomBody(rng, scene);
       ASSERT_TRUE(isSame(scene.senseSector(sector, range, except), senseSectorSlowly(scene, sector, range, except)))
           << name << ", sector " << i << ", range " << range;
     }
   });
 }
 
-TEST(Scene, NamesTheBodiesNearAnAreaOnceAndInOrder) {
+TEST(Scene, ListsTheBodiesNearAnAreaOnceInOrder) {
   forManyScenes(3, [](Rng& rng, const Scene& scene, const Bounds2D& area, const std::string& name) {
     for (int i = 0; i < 10; ++i) {
       TPoint2D a = randomPoint(rng, wider(area, 0.5)), b = randomPoint(rng, wider(area, 0.5));
@@ -198,7 +199,7 @@ TEST(Scene, NamesTheBodiesNearAnAreaOnceAndInOrder) {
       std::vector<BodyId> found;
       scene.movingNear(asked, found);
       ASSERT_TRUE(areNear(found, scene, scene.stationaryCount(), bodyCount(scene), asked)) << name;
-      // Appended to what is there, which stays as it is.
+      // Appended to existing entries, which must not change.
       const std::vector<BodyId> moving = found;
       scene.stationaryNear(asked, found);
       const auto appended = found.begin() + std::ptrdiff_t(moving.size());
@@ -209,14 +210,14 @@ TEST(Scene, NamesTheBodiesNearAnAreaOnceAndInOrder) {
   });
 }
 
-TEST(Scene, AnswersManyThreadsAtOnceAsItDoesOne) {
+TEST(Scene, SupportsConcurrentQueries) {
   Rng rng(4);
   const Scene scene = randomScene(rng, kFamilies[0]);
   std::vector<Ray> rays;
-  for (int i = 0; i < 4000; ++i) rays.push_back(someRay(rng, kFamilies[0].area));
+  for (int i = 0; i < 4000; ++i) rays.push_back(randomTestRay(rng, kFamilies[0].area));
   std::vector<Hit> alone(rays.size()), together(rays.size());
-  Workers(1).forEach(rays.size(), 16, [&](std::size_t i) { alone[i] = scene.castRay(rays[i], 20); });
-  Workers(4).forEach(rays.size(), 16, [&](std::size_t i) { together[i] = scene.castRay(rays[i], 20); });
+  ParallelExecutor(1).forEach(rays.size(), 16, [&](std::size_t i) { alone[i] = scene.castRay(rays[i], 20); });
+  ParallelExecutor(4).forEach(rays.size(), 16, [&](std::size_t i) { together[i] = scene.castRay(rays[i], 20); });
   for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_TRUE(isSame(together[i], alone[i])) << "ray " << i;
 }
 

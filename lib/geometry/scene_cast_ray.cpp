@@ -4,68 +4,74 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/enter_item.h"
-#include "geometry/grid_walk.h"
-#include "geometry/nearest_so_far.h"
-#include "geometry/rough_ray.h"
-#include "geometry/vector_clones.h"
+#include "geometry/casting/closest_hit.h"
+#include "geometry/casting/cull_ray.h"
+#include "geometry/casting/ray_intersection.h"
+#include "geometry/index/grid_traversal.h"
+#include "geometry/vector_width.h"
 
 namespace robosim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// What a ray met, if anything, from how far it went.
-inline Hit complete(const Ray& ray, const NearestSoFar& met) {
-  return {met.body != kNoBody ? met.distance_m : kInfinity, met.body, ray.at(met.distance_m)};
+/// The Hit of a ray, including its point.
+inline Hit complete(const Ray& ray, const ClosestHit& hit) {
+  return {hit.body != kNoBody ? hit.distance_m : kInfinity, hit.body, ray.at(hit.distance_m)};
 }
 
 }  // namespace
 
-ROBOSIM_VECTOR_CLONES
-Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
-  const Two origin{ray.origin.x, ray.origin.y};
-  const Two direction{ray.direction.x, ray.direction.y};
-  const GridIndex& grid = stationary_index_;
-  const Two in_cells = grid.inCells(origin);
-  if (ray.direction.z != 0 || !grid.holds(in_cells)) [[unlikely]]
-    return castAnyRay(ray, range_m, except);
+struct Scene::RayCaster {
+  [[gnu::always_inline]] static inline Hit cast(const Scene* scene, const Ray* any_ray, double range_m, BodyId except) {
+    const Ray& ray = *any_ray;
+    const DoublePair origin{ray.origin.x, ray.origin.y};
+    const DoublePair direction{ray.direction.x, ray.direction.y};
+    const GridIndex& grid = scene->stationary_index_;
+    const DoublePair in_cells = grid.inCells(origin);
+    if (ray.direction.z != 0 || !grid.contains(in_cells)) [[unlikely]]
+      return scene->castAnyRay(ray, range_m, except);
 
-  GridWalk walk(grid, in_cells, direction);
-  const Two from = origin - Two{grid.middle().x, grid.middle().y};
-  const RoughRay rough{static_cast<float>(from[0]), static_cast<float>(from[1]), static_cast<float>(direction[0]),
-                       static_cast<float>(direction[1])};
-  walk.setReach(std::max(range_m, 0.0));
-  NearestSoFar best{range_m};
-  auto reach_m = static_cast<float>(range_m);
-  for (const CellPack* pack = walk.pack();;) {
-    std::uint32_t passed = rough.passed(*pack, grid.rectanglesOf(pack), reach_m);
-    if (passed != 0) {
-      for (; passed != 0; passed &= passed - 1) {
-        const std::uint32_t index = pack->index[std::countr_zero(passed)];
-        assert(index < grid.items().size());
-        const GridItem& item = grid.items()[index];
-        const double met_m = enterItem(item, origin, direction);
-        if (item.heights.contains(ray.origin.z)) best.keepBetter(met_m, BodyId{item.number}, except);
+    GridTraversal traversal(grid, in_cells, direction);
+    const DoublePair from = origin - DoublePair{grid.middle().x, grid.middle().y};
+    const CullRay cull_ray{static_cast<float>(from[0]), static_cast<float>(from[1]), static_cast<float>(direction[0]),
+                           static_cast<float>(direction[1])};
+    traversal.setReach(std::max(range_m, 0.0));
+    ClosestHit best{range_m};
+    auto reach_m = static_cast<float>(range_m);
+    for (const CellPack* pack = traversal.pack();;) {
+      std::uint32_t may_hit = cull_ray.mayHit(*pack, grid.rectanglesOf(pack), reach_m);
+      if (may_hit != 0) {
+        for (; may_hit != 0; may_hit &= may_hit - 1) {
+          const std::uint32_t index = pack->index[std::countr_zero(may_hit)];
+          assert(index < grid.items().size());
+          const GridItem& item = grid.items()[index];
+          const double distance_m = intersectItem(item, origin, direction);
+          if (item.heights.contains(ray.origin.z)) best.keepBetter(distance_m, BodyId{item.number}, except);
+        }
+        traversal.setReach(best.distance_m);
+        reach_m = static_cast<float>(best.distance_m);
       }
-      walk.setReach(best.distance_m);
-      reach_m = static_cast<float>(best.distance_m);
+      if (pack->hasNext()) [[unlikely]] {
+        pack = &grid.packs()[pack->next()];
+        continue;
+      }
+      if (!traversal.advance()) break;
+      pack = traversal.pack();
     }
-    if (pack->goesOn()) [[unlikely]] {
-      pack = &grid.packs()[pack->next()];
-      continue;
-    }
-    if (!walk.goOn()) break;
-    pack = walk.pack();
+    if (!grid.containsAll() && traversal.leavesWithin(best.distance_m)) [[unlikely]]
+      return scene->castAnyRay(ray, range_m, except);
+    if (scene->movingCount() > 0) return scene->castAmongMoving(ray, except, best);
+    return complete(ray, best);
   }
-  if (!grid.holdsAll() && walk.leavesWithin(best.distance_m)) [[unlikely]]
-    return castAnyRay(ray, range_m, except);
-  if (movingCount() > 0) return castAmongMoving(ray, except, best);
-  return complete(ray, best);
+};
+
+Hit Scene::castRay(const Ray& ray, double range_m, BodyId except) const {
+  return withVectors<RayCaster::cast>(this, &ray, range_m, except);
 }
 
 Hit Scene::castAnyRay(const Ray& ray, double range_m, BodyId except) const {
-  NearestSoFar best{range_m};
+  ClosestHit best{range_m};
   const auto reach = [&] { return best.distance_m; };
   const auto cast = [&](BodyId body) {
     best.keepBetter(intersect(ray, solid(body)).value_or(kInfinity), body, except);
@@ -75,19 +81,19 @@ Hit Scene::castAnyRay(const Ray& ray, double range_m, BodyId except) const {
   return complete(ray, best);
 }
 
-Hit Scene::castAmongMoving(const Ray& ray, BodyId except, NearestSoFar best) const {
-  const Two origin{ray.origin.x, ray.origin.y};
-  const Two direction{ray.direction.x, ray.direction.y};
+Hit Scene::castAmongMoving(const Ray& ray, BodyId except, ClosestHit best) const {
+  const DoublePair origin{ray.origin.x, ray.origin.y};
+  const DoublePair direction{ray.direction.x, ray.direction.y};
   const auto reach = [&] { return best.distance_m; };
-  const auto from = RoughPlace::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
+  const auto from = CullPoint::from({ray.origin.x, ray.origin.y}, 0, moving_index_.middle());
   const auto dx = static_cast<float>(ray.direction.x);
   const auto dy = static_cast<float>(ray.direction.y);
   moving_index_.visitAlong(ray, reach, [&](const CenterIndex::Entry& entry) {
     const float across = dx * (entry.solid.y - from.y) - dy * (entry.solid.x - from.x);
-    if (std::abs(across) > entry.solid.reach() + from.lost_m) return;
+    if (std::abs(across) > entry.solid.reach() + from.rounding_m) return;
     const GridItem& item = moving_index_.items()[entry.index];
     if (!item.heights.contains(ray.origin.z)) return;
-    best.keepBetter(enterItem(item, origin, direction), movingBody(entry.index), except);
+    best.keepBetter(intersectItem(item, origin, direction), movingBody(entry.index), except);
   });
   return complete(ray, best);
 }

@@ -22,7 +22,7 @@ TEST(Scene, NumbersTheStationaryBodiesBeforeTheMovingOnes) {
   EXPECT_EQ(std::get<Circle>(scene.solid(BodyId{2}).outline).center.x, 3);
 }
 
-TEST(Scene, FindsTheNearestBodyAlongARayExceptTheOneWhoAsks) {
+TEST(Scene, FindsTheNearestBodyExceptTheExcludedOne) {
   Scene scene({{Circle{{5, 0}, 1}, {0, 1}}, {OrientedBox{{9, 0}, {1, 0}, 1, 1}, {0, 1}}}, 1, {-10, 10, -10, 10});
   scene.place(0, {Circle{{0, 0}, 0.5}, {0, 1}});
   scene.freeze();
@@ -34,13 +34,13 @@ TEST(Scene, FindsTheNearestBodyAlongARayExceptTheOneWhoAsks) {
   EXPECT_EQ(other.body, BodyId{0});
   EXPECT_EQ(other.distance_m, 4);
   EXPECT_EQ(other.point, TPoint3D(4, 0, 0.5));
-  EXPECT_FALSE(scene.castRay({{0, 0, 1.5}, {1, 0, 0}}, 20)) << "over them all";
+  EXPECT_FALSE(scene.castRay({{0, 0, 1.5}, {1, 0, 0}}, 20)) << "above all solids";
   const Sector sector = Sector::towards({0, 0, 0.5}, 0, 0.2);
   EXPECT_EQ(scene.senseSector(sector, 20, scene.movingBody(0)).distance_m, 4);
   EXPECT_EQ(scene.senseSector(sector, 20).body, scene.movingBody(0));
 }
 
-TEST(Scene, FindsWhatIsStrictlyNearerThanTheRange) {
+TEST(Scene, FindsSolidsStrictlyNearerThanTheRange) {
   const Scene scene({{Circle{{5, 0}, 1}, {0, 1}}, {OrientedBox{{0, 0}, {1, 0}, 0.1, 0.1}, {0, 1}}}, 0, {-9, 9, -9, 9});
   const Ray ray{{1, 0, 0.5}, {1, 0, 0}};
   const Sector sector = Sector::towards(ray.origin, 0, 0.2);
@@ -53,7 +53,7 @@ TEST(Scene, FindsWhatIsStrictlyNearerThanTheRange) {
   EXPECT_TRUE(scene.castRay({{0, 0, 0.5}, {1, 0, 0}}, 1e-300));
 }
 
-TEST(Scene, GivesATieToTheLowestBody) {
+TEST(Scene, PrefersTheLowestOfEquallyNearBodies) {
   const Solid pillar{Circle{{5, 0}, 1}, {0, 1}};
   Scene scene({{Circle{{0, 9}, 1}, {0, 1}}, pillar, pillar}, 2, {-10, 10, -10, 10});
   scene.place(0, pillar);
@@ -63,13 +63,13 @@ TEST(Scene, GivesATieToTheLowestBody) {
   EXPECT_EQ(scene.castRay(ray, 20).body, BodyId{1});
   EXPECT_EQ(scene.castRay(ray, 20, BodyId{1}).body, BodyId{2});
   EXPECT_EQ(scene.senseSector(Sector::towards(ray.origin, 0, 0.2), 20).body, BodyId{1});
-  EXPECT_EQ(scene.senseSector(Sector::towards({5, 0, 0.5}, 0, 0.2), 20).body, BodyId{1}) << "all around the asker";
+  EXPECT_EQ(scene.senseSector(Sector::towards({5, 0, 0.5}, 0, 0.2), 20).body, BodyId{1}) << "around the apex";
 }
 
-TEST(Scene, SeesWhatARayOnlyTouchesOnTheBordersOfCells) {
+TEST(Scene, HitsSolidsTouchedOnCellBorders) {
   const double s = std::sqrt(0.5);
   for (double at = -7; at <= 7; ++at) {
-    // So many solids on 16 m × 16 m make cells of 1 m, with borders at all whole metres; all but two lie far overhead.
+    // This many solids on 16 m × 16 m make cells of 1 m, with borders at all whole metres; all but two lie far above.
     std::vector<Solid> solids(892, {Circle{{at, at}, 0.1}, {50, 51}});
     solids[0] = {OrientedBox{{at - 0.25, 7}, {1, 0}, 0.25, 0.5}, {0, 2}};           // left of x = at
     solids[1] = {OrientedBox{{at + 0.25, at - 0.25}, {1, 0}, 0.25, 0.25}, {4, 6}};  // its corner at (at, at)
@@ -82,8 +82,8 @@ TEST(Scene, SeesWhatARayOnlyTouchesOnTheBordersOfCells) {
   }
 }
 
-TEST(Scene, KnowsWhatARayMeetsThatHardlyLeavesAnAxis) {
-  // 1 m cells; the ray starts on the border of two rows, and goes from it by less than any number tells.
+TEST(Scene, HandlesRaysAlmostParallelToAnAxis) {
+  // 1 m cells; the ray starts on the border of two rows and deviates from it by less than the resolution of a double.
   std::vector<Solid> solids(892, {Circle{{0, 0}, 0.1}, {50, 51}});
   solids[0] = {OrientedBox{{5, 1}, {1, 0}, 0.5, 0.5}, {0, 2}};
   const Scene scene(solids, 0, {-8, 8, -8, 8});
@@ -92,7 +92,7 @@ TEST(Scene, KnowsWhatARayMeetsThatHardlyLeavesAnAxis) {
   }
 }
 
-TEST(Scene, MeetsWhatLiesBeyondItsAreaFromInsideAndFromOutside) {
+TEST(Scene, HitsSolidsBeyondItsArea) {
   const std::vector<Solid> solids{{Circle{{1, 0}, 0.5}, {0, 1}}, {Circle{{100, 0}, 1}, {0, 1}}};
   for (const bool with_another_beyond : {false, true}) {
     std::vector<Solid> all = solids;
@@ -105,7 +105,7 @@ TEST(Scene, MeetsWhatLiesBeyondItsAreaFromInsideAndFromOutside) {
     EXPECT_FALSE(scene.castRay({{1.75, 0, 0.5}, {1, 0, 0}}, 90)) << "within the range";
     EXPECT_FALSE(scene.castRay({{1.75, 0, 0.5}, {0, 1, 0}}, 200));
   }
-  // A solid whose centre lies inside is met where it reaches out of the area, near or far.
+  // A solid whose centre lies inside is hit where it extends beyond the area, near or far.
   const Scene scene({{OrientedBox{{0, 0}, {1, 0}, 5, 0.5}, {0, 1}}}, 0, {-2, 2, -2, 2});
   EXPECT_EQ(scene.castRay({{4.5, -1.5, 0.5}, {0, 1, 0}}, 9).distance_m, 1);
   EXPECT_EQ(scene.castRay({{9, 0, 0.5}, {-1, 0, 0}}, 9).distance_m, 4);
@@ -116,7 +116,7 @@ TEST(Scene, MeetsWhatLiesBeyondItsAreaFromInsideAndFromOutside) {
   EXPECT_NEAR(far.castRay({{6003, 7999, 0.5}, {-0.8, 0.6, 0}}, 9).distance_m, 2.5, 1e-9);
 }
 
-TEST(Scene, MeetsNothingWithRaysThatAreNowhereOrGoNowhere) {
+TEST(Scene, MissesWithNonFiniteRays) {
   const double nan = std::nan("");
   const double infinity = std::numeric_limits<double>::infinity();
   const Solid wall{OrientedBox{{5, 0}, {0, 1}, 4, 0.1}, {0, 1}};
@@ -128,11 +128,11 @@ TEST(Scene, MeetsNothingWithRaysThatAreNowhereOrGoNowhere) {
       EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {x, 0.8, 0}}, 20)) << x;
       EXPECT_FALSE(scene.castRay({{-20, 3, 0.5}, {0.1, x, 0}}, 20)) << x;
     }
-    EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {1, 0, 0}}, nan)) << "within a range that is no number";
+    EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {1, 0, 0}}, nan)) << "within a range that is NaN";
   }
 }
 
-TEST(Scene, TakesAMoveIntoAccountWithFreeze) {
+TEST(Scene, AppliesMovesWithFreeze) {
   Scene scene({}, 1, {-10, 10, -10, 10});
   for (double x : {5.0, -5.0, 500.0, 3.0}) {
     scene.place(0, {Circle{{x, 0}, 1}, {0, 1}});

@@ -3,21 +3,21 @@
 
 namespace robosim {
 
-/// What a robot tells of itself besides moving. `found` and `halted` are final: a run ends when all robots are either.
+/// State of a robot's task. `found` and `halted` are final: a run ends when every robot is in one of them.
 enum class Activity : std::uint8_t {
-  active,  ///< at work
-  halted,  ///< done
-  found,   ///< done, because it found what it was looking for (gold, a victim)
+  active,  ///< working
+  halted,  ///< finished
+  found,   ///< finished because it found its target (gold, a victim)
 };
 
-/// What a controller asks of its robot for the next time step. Speeds are what it wishes for: the robot's limits on
-/// speed and acceleration apply. Values that are not finite count as 0.
+/// Command of a controller to its robot for the next time step. Speeds are set points: the robot's limits on speed and
+/// acceleration apply. Values that are not finite are treated as 0.
 struct Command {
   double speed_mps = 0;     ///< ahead
   double turn_radps = 0;    ///< counter-clockwise
-  float laser_pan_rad = 0;  ///< for a sensor that turns, [-π/2, π/2]
+  float laser_pan_rad = 0;  ///< of sensors that pan, [-π/2, π/2]
   Activity activity = Activity::active;
-  bool by_driver = false;  ///< a person drives the robot (doc/remote.md), not its controller
+  bool by_driver = false;  ///< commanded by a person (doc/remote_control.md), not by the controller
   bool operator==(const Command&) const = default;
 };
 

@@ -7,7 +7,7 @@
 namespace robosim {
 namespace {
 
-TEST(Command, IsToStandStillUntilSomebodyAsksForMore) {
+TEST(Command, DefaultsToStandingStill) {
   const Command command;
   EXPECT_EQ(command.speed_mps, 0);
   EXPECT_EQ(command.turn_radps, 0);
@@ -15,7 +15,7 @@ TEST(Command, IsToStandStillUntilSomebodyAsksForMore) {
   EXPECT_EQ(command.activity, Activity::active);
 }
 
-TEST(Command, EqualsAnotherOnlyInEveryPart) {
+TEST(Command, ComparesAllMembers) {
   const Command command{.speed_mps = 1, .turn_radps = 2, .laser_pan_rad = 0.5f};
   EXPECT_EQ(command, command);
   Command other = command;

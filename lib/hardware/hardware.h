@@ -3,30 +3,31 @@
 
 #include "hardware/command.h"
 #include "hardware/readings.h"
+#include "hardware/referee_link.h"
 #include "hardware/robot_info.h"
 
 namespace robosim {
 
-/// A robot as its controller sees it, wherever it is: simulated in this process, at the far end of a connection,
-/// replayed from a recording, or made of metal. This is where the simulator side and the controller side meet.
+/// Interface between a controller and its robot, which may be simulated in this process, connected over the network,
+/// replayed from a recording, or real. Separates the controller side from the simulator side.
 ///
-/// Between two time steps the readings stand still; whoever runs the controllers lets each of them look, and take its
-/// decision, once a step.
+/// The readings are constant between two time steps. Each controller is called once per step.
 class Hardware {
  public:
   virtual ~Hardware() = default;
 
   virtual const RobotInfo& info() const = 0;
-  /// What was sensed at the end of the last time step.
+  /// Measurements at the end of the last time step.
   virtual const Readings& readings() const = 0;
-  /// Takes effect in the next time step; the last command before it counts, and stands until there is another.
+  /// Sets the command for the next time step. The last command before a step is used, and kept until the next one.
   virtual void command(const Command&) = 0;
-  /// @throws std::invalid_argument when there is no robot of the name `to`, or the text is longer than
+  /// Sends a message to another robot.
+  /// @throws std::invalid_argument when there is no robot named `to`, or the text is longer than
   /// kMaxMessageBytes.
   virtual void send(const std::string& to, const std::string& text) = 0;
-  /// Asks, with the next time step, whether this robot has won (2005: CheckWin): Readings::winner and `is_too_far` are
-  /// the answer.
-  virtual void checkWin() = 0;
+  /// The referee of this robot's contest; null, the default, for hardware without one, whose readings then name no
+  /// winner. Robot::checkWin() has no effect without a referee, so that a controller's source does not depend on it.
+  virtual RefereeLink* referee() { return nullptr; }
 };
 
 }  // namespace robosim

@@ -7,7 +7,7 @@
 
 namespace robosim {
 
-/// What a robot's body can do.
+/// Limits on a robot's speed and acceleration.
 struct MotionLimits {
   double speed_max_mps = 0;
   double turn_max_radps = 0;
@@ -17,12 +17,12 @@ struct MotionLimits {
   bool operator==(const MotionLimits&) const = default;
 };
 
-/// What a controller may know of its robot: constant over a run.
+/// Description of a robot for its controller; constant during a run.
 struct RobotInfo {
   std::string name;
-  std::string model;      ///< "pioneer3dx", "scout"; "2005" for a robot that the world file describes itself
-  std::string neighbour;  ///< the robot it passes GOLD on to; empty for none
-  double radius_m = 0;    ///< of the disc that it covers in plan
+  std::string model;      ///< "pioneer3dx", "scout"; "2005" for a robot defined in the world file
+  std::string neighbour;  ///< the robot to which it forwards GOLD; empty for none
+  double radius_m = 0;    ///< radius of its circular footprint
   double height_m = 0;
   MotionLimits limits;
   std::shared_ptr<const std::vector<SensorInfo>> sensors;  ///< shared by all robots of a model

@@ -6,7 +6,7 @@ namespace robosim {
 /// A message between two robots of a world. Delivered in the step after it was sent.
 struct RobotMessage {
   std::string from, to;  ///< robots' names; `from` is filled in by the hardware
-  std::string text;      ///< what the two have agreed on, at most kMaxMessageBytes
+  std::string text;      ///< any content, at most kMaxMessageBytes
   bool operator==(const RobotMessage&) const = default;
 };
 

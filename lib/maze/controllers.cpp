@@ -21,7 +21,7 @@ const ControllerType kTypes[] = {
     {"wall_follower",
      "Follows the wall on its right.",
      {SensorKind::sonar},
-     [](const ControllerSetup&) -> std::unique_ptr<Controller> { return std::make_unique<WallFollower>(); }},
+     [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<WallFollower>(setup); }},
     {"still",
      "Does nothing.",
      {},

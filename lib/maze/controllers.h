@@ -9,27 +9,27 @@
 
 namespace robosim {
 
-/// What a controller is made from besides its robot.
+/// Arguments of a controller's factory.
 struct ControllerSetup {
   std::uint64_t seed = 1;   ///< of the run
-  std::uint32_t robot = 0;  ///< its place in the world's list, so that robots draw different random numbers
+  std::uint32_t robot = 0;  ///< index in the world, so that robots draw different random numbers
 };
 
 struct ControllerType {
   const char* name;               ///< in world files and on the command line
   const char* help;               ///< one sentence
-  std::vector<SensorKind> needs;  ///< sensors without which it cannot work
+  std::vector<SensorKind> needs;  ///< required sensors
   std::unique_ptr<Controller> (*make)(const ControllerSetup&);
 };
 
-/// Every controller there is: gold_finder, wander, wall_follower, still.
+/// All controllers: gold_finder, wander, wall_follower, still.
 std::span<const ControllerType> controllerTypes();
 std::vector<std::string> controllerNames();
 
-/// The type of that name. @throws ConfigError naming the known ones when there is none.
+/// Finds a controller type by name. @throws ConfigError with the known names when there is none.
 const ControllerType& controllerType(const std::string& name);
 
-/// @throws ConfigError naming the known ones when there is no controller of that name.
+/// @throws ConfigError with the known names when there is no controller of that name.
 std::unique_ptr<Controller> makeController(const std::string& name, const ControllerSetup&);
 
 }  // namespace robosim

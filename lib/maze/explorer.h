@@ -11,31 +11,44 @@
 #include "maze/obstacles.h"
 #include "maze/path_driver.h"
 #include "maze/pose_tracker.h"
+#include "maze/stuck_recovery.h"
 #include "maze/wavefront.h"
 
 namespace robosim {
 
-/// Drives a robot through a place that it has not seen until it has felt for heat everywhere it can reach, and towards
-/// heat wherever it feels some. It draws its map in the frame `start` of its PoseTracker:
-///  - explore: to the nearest place not yet searched for heat, through whatever is not known to be blocked;
-///  - follow: where it is warm, to the nearest place about the likely source where it has not stood;
-///  - when it does not get on: draws back, and turns by chance, so that two who block each other part;
-///  - when nothing is left to search: drops obstacles that were not sure, waits a little for whoever stands in the way,
-///    and then begins a new map.
+/// A map with the searches that work on it; copies work on their own map.
+struct SearchMap {
+  SearchMap(double cell_m, double heat_range_m, double robot_radius_m)
+      : map(cell_m), obstacles(map, robot_radius_m), heat(map, heat_range_m, robot_radius_m) {}
+  SearchMap(const SearchMap& other)
+      : map(other.map), obstacles(other.obstacles.copyOn(map)), heat(other.heat.copyOn(map)) {}
+  SearchMap& operator=(const SearchMap&) = delete;
+
+  MazeMap map;
+  Obstacles obstacles;
+  HeatTrace heat;
+};
+
+/// Explores an unknown environment until all reachable cells have been searched for heat, and approaches heat sources.
+/// The map is in the frame `start` of its PoseTracker. States:
+///  - explore: drive to the nearest cell not searched for heat, through cells not known to be blocked;
+///  - follow: above the heat threshold, drive to the nearest unvisited cell around the estimated source;
+///  - blocked: reverse, and turn by a random angle, which resolves deadlocks between robots;
+///  - all searched: remove uncertain obstacles, wait briefly for robots in the way, then start a new map.
 class Explorer {
  public:
-  /// @param warm heat from which on it is worth following, above the sensor's noise.
+  /// @param warm heat above which a source is followed; must exceed the sensor's noise.
   /// @throws std::invalid_argument for a robot without odometry or without heat sensor.
   Explorer(const Robot& robot, const ControllerSetup& setup, double warm);
-  Explorer(const Explorer&) = delete;
-  Explorer& operator=(const Explorer&) = delete;
 
-  /// Looks, decides and commands; once a time step.
+  /// Updates the map, plans and commands the robot; called once per time step.
   void step(Robot& robot);
 
-  const MazeMap& map() const { return map_; }
-  /// How often everything was searched and the map begun anew.
+  const MazeMap& map() const { return search_.map; }
+  /// Number of times that the map was completed and restarted.
   int rounds() const { return rounds_; }
+  /// Whether it has reversed by a random amount so far.
+  bool hasDrawnRandomNumbers() const { return has_drawn_ || recovery_.hasDrawnRandomNumbers(); }
 
  private:
   void look(const Robot& robot);
@@ -44,7 +57,7 @@ class Explorer {
   void plan(const Robot& robot);
   bool planToHeat(const Cell& start);
   bool planToSearch(const Cell& start);
-  /// Takes the way to the goal that `judge` likes best (Wavefront::findGoal); false when there is none.
+  /// Plans the path to the goal of least cost (Wavefront::findGoal); false when there is none.
   template <typename Judge>
   bool planTo(const Cell& start, int cost_max, const Judge& judge);
   bool isSliver(const Cell& cell) const;
@@ -56,31 +69,31 @@ class Explorer {
 
   double warm_;
   Rng rng_;
+  StuckRecovery recovery_;  ///< used when reversing does not help
   PoseTracker tracker_;
-  MazeMap map_;
-  Obstacles obstacles_;
-  HeatTrace heat_;
+  SearchMap search_;
   Wavefront wavefront_;
   PathDriver driver_;
   std::vector<Cell> way_;
   int rounds_ = 0;
 
-  // Moments are numbers of time steps.
+  // Times are step numbers.
   mrpt::math::TPose2D looked_from_;
-  std::uint64_t look_at_ = 0;  ///< it looks again, at the latest
+  std::uint64_t look_at_ = 0;  ///< latest next map update
 
   std::uint64_t plan_from_ = 0;     ///< earliest next plan
-  std::uint64_t seen_changes_ = 0;  ///< Obstacles::changes() at the last look at the way
+  std::uint64_t seen_changes_ = 0;  ///< Obstacles::changes() at the last check of the path
   std::optional<std::uint64_t> nothing_left_since_;
 
-  bool following_ = false;  ///< heat, rather than exploring
+  bool following_ = false;  ///< heat; otherwise exploring
   bool source_moved_ = false;
   std::uint64_t follow_until_ = 0, explore_until_ = 0;
 
-  mrpt::math::TPose2D moved_from_;  ///< where it last got on
+  mrpt::math::TPose2D moved_from_;  ///< pose of the last progress
   std::uint64_t moved_at_ = 0;
-  std::uint64_t back_until_ = 0;  ///< it draws back
+  std::uint64_t back_until_ = 0;  ///< end of reversing
   double back_speed_ = 0, back_turn_ = 0;
+  bool has_drawn_ = false;
 };
 
 }  // namespace robosim

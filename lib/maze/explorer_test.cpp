@@ -47,7 +47,7 @@ TEST(Explorer, FindsGoldBehindAWall) {
   EXPECT_LT(search.stalls, 10);
 }
 
-TEST(Explorer, SearchesAllThereIsBeforeItBeginsAnew) {
+TEST(Explorer, SearchesTheWholeMapBeforeItRestarts) {
   Search search(twoRooms(), {99, 99}, 0);
   // Wherever gold could stand, 0.3 m from walls at least, it must have come near enough to feel it (3 m − 2.5 radii).
   std::vector<mrpt::math::TPoint2D> unsearched;
@@ -64,7 +64,7 @@ TEST(Explorer, SearchesAllThereIsBeforeItBeginsAnew) {
   EXPECT_TRUE(unsearched.empty());
 }
 
-TEST(Explorer, GoesOnSearchingAfterItHasSearchedAll) {
+TEST(Explorer, ContinuesAfterTheWholeMapWasSearched) {
   Search search(twoRooms(), {99, 99}, 0);
   for (int i = 0; i < 8000 && search.explorer.rounds() < 3; ++i) search.step();
   EXPECT_EQ(search.explorer.rounds(), 3);
@@ -84,7 +84,7 @@ TEST(Explorer, LooksIntoSomethingWarmAndGoesOn) {
   EXPECT_EQ(search.explorer.rounds(), 1);
 }
 
-TEST(Explorer, IsTheSameEveryTime) {
+TEST(Explorer, IsReproducible) {
   Search a(twoRooms(), {4.4, -0.4}, 20), b(twoRooms(), {4.4, -0.4}, 20);
   for (int i = 0; i < 300; ++i) {
     a.step();
@@ -93,7 +93,7 @@ TEST(Explorer, IsTheSameEveryTime) {
   }
 }
 
-TEST(Explorer, DrawsBackWhenSomethingUnseenHoldsIt) {
+TEST(Explorer, ReversesAtAnUndetectedObstacle) {
   FakeHardware hardware;
   Robot robot(hardware);
   Explorer explorer(robot, {.seed = 1}, kWarm);
@@ -118,7 +118,7 @@ TEST(Explorer, PartsFromARobotThatStandsInItsWay) {
   EXPECT_LT(freed.stepsTo(12, 600), 600);
 }
 
-TEST(Explorer, SaysWhatItsRobotLacks) {
+TEST(Explorer, NamesMissingSensors) {
   FakeHardware hardware;
   auto sensors = std::make_shared<std::vector<SensorInfo>>(*hardware.info().sensors);
   sensors->pop_back();

@@ -4,13 +4,13 @@
 #include <vector>
 
 #include "control/fake_hardware.h"
-#include "geometry/ray.h"
-#include "geometry/solid.h"
+#include "geometry/shapes/ray.h"
+#include "geometry/shapes/solid.h"
 
 namespace robosim {
 
-/// A FakeHardware among walls, for tests that close the loop: its sonars are single rays, walls stop it, and gold at
-/// one place gives off heat by the linear law. The frame is the robot's start.
+/// A FakeHardware among walls for closed-loop tests: its sonars are single rays, walls block it, and gold at one point
+/// emits heat by the linear law. The frame is the robot's start.
 class FakeMaze {
  public:
   FakeMaze(std::vector<OrientedBox> walls, mrpt::math::TPoint2D gold, double gold_heat, int sonars = 32)
@@ -45,7 +45,7 @@ class FakeMaze {
       for (const auto& wall : walls_) {
         if (const auto hit = intersect(ray, Solid{wall, {0, 1}})) nearest = std::min(nearest, *hit);
       }
-      hardware.hearSonar(i, nearest);
+      hardware.setSonarRange(i, nearest);
     }
     const double away = std::hypot(pose().x - gold_.x, pose().y - gold_.y);
     hardware.feelHeat(gold_heat_ * std::max(0.0, 1 - away / (*hardware.info().sensors)[3].range_max_m));

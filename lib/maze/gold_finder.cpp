@@ -34,8 +34,8 @@ void GoldFinder::listen(Robot& robot) {
 }
 
 void GoldFinder::tell(const std::string& source) {
-  if (std::find(told_of_.begin(), told_of_.end(), source) != told_of_.end()) return;
-  told_of_.push_back(source);
+  if (std::find(forwarded_sources_.begin(), forwarded_sources_.end(), source) != forwarded_sources_.end()) return;
+  forwarded_sources_.push_back(source);
   to_send_.push_back({source});
 }
 

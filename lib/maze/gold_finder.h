@@ -15,18 +15,19 @@ struct GoldFinderOptions {
   double heat_threshold = 10;  ///< heat above this means gold
 };
 
-/// The 2005 application: searches a maze for gold, a hot thing at an unknown place (see Explorer for how), and follows
-/// its protocol. In each step:
-///  - heat above the threshold is gold: the robot halts as `found` and tells its neighbour GOLD with itself as source;
-///  - told GOLD, it halts and passes it on to its own neighbour, source and all, unless it is the source itself: there
-///  the
-///    ring ends. What it has already passed on from the same source it does not pass on again, in case the neighbours
-///    form no ring;
-///  - it sends one message a step; a robot without a neighbour sends none.
+/// The 2005 application: searches a maze for gold, a heat source at an unknown position (see Explorer), and follows its
+/// protocol. In each step:
+///  - if the heat exceeds the threshold, the robot halts as `found` and sends GOLD, with itself as source, to its
+///    neighbour;
+///  - on receiving GOLD, it halts and forwards the message unchanged to its neighbour, unless it is the source, where
+///    the ring ends. Each source is forwarded once, in case the neighbours form no ring;
+///  - it sends at most one message; a robot without a neighbour sends none.
 class GoldFinder : public Controller {
  public:
   explicit GoldFinder(const ControllerSetup& setup, const GoldFinderOptions& options = {});
   void step(Robot& robot) override;
+  std::unique_ptr<Controller> clone() const override { return std::make_unique<GoldFinder>(*this); }
+  bool hasDrawnRandomNumbers() const override { return explorer_ && explorer_->hasDrawnRandomNumbers(); }
 
  private:
   void listen(Robot& robot);
@@ -35,9 +36,9 @@ class GoldFinder : public Controller {
 
   ControllerSetup setup_;
   GoldFinderOptions options_;
-  std::vector<std::string> told_of_;  ///< sources that have been told of, or wait in to_send_
+  std::vector<std::string> forwarded_sources_;  ///< sources already forwarded, or queued in to_send_
   std::deque<GoldMessage> to_send_;
-  std::optional<Explorer> explorer_;  ///< from the first step on: it needs to know the robot
+  std::optional<Explorer> explorer_;  ///< constructed in the first step, since it requires the robot
 };
 
 }  // namespace robosim

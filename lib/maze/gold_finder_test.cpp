@@ -35,7 +35,7 @@ TEST_F(GoldFinderTest, TakesHeatAboveItsThresholdForGold) {
   EXPECT_EQ(robot.activity(), Activity::found);
 }
 
-TEST_F(GoldFinderTest, TellsItsNeighbourOfGoldWithItselfAsSource) {
+TEST_F(GoldFinderTest, SendsGoldWithItselfAsSource) {
   hardware.feelHeat(12);
   step();
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD fake"});
@@ -44,7 +44,7 @@ TEST_F(GoldFinderTest, TellsItsNeighbourOfGoldWithItselfAsSource) {
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD fake"});
 }
 
-TEST_F(GoldFinderTest, HaltsAndPassesOnWhatItIsTold) {
+TEST_F(GoldFinderTest, HaltsAndForwardsAReceivedGold) {
   hear({{"before", "fake", "GOLD Finder7"}});
   step();
   EXPECT_EQ(robot.activity(), Activity::halted);
@@ -98,14 +98,14 @@ TEST_F(GoldFinderTest, DoesNotFindGoldOnceItHasHalted) {
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD A"});
 }
 
-TEST_F(GoldFinderTest, TurnsADeafEarToOtherMessages) {
+TEST_F(GoldFinderTest, IgnoresOtherMessages) {
   hear({{"before", "fake", "hello"}, {"before", "fake", "GOLD"}});
   step();
   EXPECT_EQ(robot.activity(), Activity::active);
   EXPECT_TRUE(hardware.sent.empty());
 }
 
-TEST(GoldFinder, WithoutANeighbourHaltsAndTellsNobody) {
+TEST(GoldFinder, WithoutANeighbourHaltsAndSendsNothing) {
   FakeHardware hardware;
   Robot robot(hardware);
   GoldFinder finder({});

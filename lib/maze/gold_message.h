@@ -4,8 +4,7 @@
 
 namespace robosim {
 
-/// What gold finders tell each other (2005): that the gold is found, and which robot found it. As text: "GOLD
-/// <source>".
+/// Message between gold finders (2005): the gold has been found, and by which robot. As text: "GOLD <source>".
 struct GoldMessage {
   std::string source;  ///< the finder's name
 

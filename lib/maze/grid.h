@@ -9,7 +9,7 @@
 
 namespace robosim {
 
-/// A square of the plane, by its place in rows and columns; (0, 0) has its lower left corner at the frame's origin.
+/// Index of a grid cell by column and row; the lower left corner of (0, 0) is the frame's origin.
 struct Cell {
   int x = 0, y = 0;
   bool operator==(const Cell&) const = default;
@@ -18,7 +18,7 @@ struct Cell {
 /// The larger of the distances along x and y, in cells.
 inline int ringDistance(const Cell& a, const Cell& b) { return std::max(std::abs(a.x - b.x), std::abs(a.y - b.y)); }
 
-/// A value for each cell of a rectangle that grows when asked to, up to kMaxSide cells a side.
+/// Dense grid of values over a rectangle that grows on request, up to kMaxSide cells per side.
 template <typename Value>
 class Grid {
  public:
@@ -52,8 +52,8 @@ class Grid {
   Value& at(std::size_t index) { return values_[index]; }
   const Value& at(std::size_t index) const { return values_[index]; }
 
-  /// Makes sure that all cells from `from` to `to` are there, as far as kMaxSide allows. New ones get a default Value.
-  /// Grows by a good piece at a time, so that it is seldom; every index changes then.
+  /// Extends the grid to contain the cells from `from` to `to`, as far as kMaxSide allows. New cells get a default
+  /// Value. Grows geometrically; each growth invalidates all indices.
   void cover(const Cell& from, const Cell& to) {
     if (contains(from) && contains(to)) return;
     const Cell old_low = low_;
@@ -79,7 +79,7 @@ class Grid {
     values_.swap(grown);
   }
 
-  /// Default Values everywhere. A grid that could not grow any more drops its cells: the next cover() begins anew.
+  /// Resets all cells to default Values. A grid of maximum size drops its cells; the next cover() starts a new one.
   void reset() {
     if (std::max(columns_, rows_) == kMaxSide) {
       values_.clear();
@@ -89,7 +89,7 @@ class Grid {
   }
 
  private:
-  /// Widens [low, end) to hold [from, to], by a piece of its own size where it has to.
+  /// Extends [low, end) to contain [from, to], by at least its own size on each extended side.
   static void grow(int from, int to, int& low, int& end) {
     const int piece = std::max(32, (end - low) / 2);
     if (from < low) low = std::max(std::min(from, low - piece), std::min(low, end - kMaxSide));

@@ -39,7 +39,7 @@ TEST(Grid, KeepsItsValuesAsItGrows) {
   EXPECT_EQ((grid[{-1, 3}]), 0);
 }
 
-TEST(Grid, GrowsByAGoodPieceAtATime) {
+TEST(Grid, GrowsGeometrically) {
   Grid<int> grid(1);
   grid.cover({0, 0}, {9, 9});
   grid.cover({0, 0}, {10, 9});

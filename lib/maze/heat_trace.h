@@ -8,13 +8,12 @@
 
 namespace robosim {
 
-/// Where heat was looked for, and where it comes from.
+/// Searched area, and estimate of the position of a heat source by a matched filter.
 ///
-/// Walls do not stop heat, and a heat sensor knows no direction. So each place where heat h was measured votes for
-/// every cell within the sensor's range with the weight φ that a source there would have had (1 - distance / range):
-/// with Σφ² and Σhφ in each cell, (Σhφ)² / Σφ² is the part of all measurements that one source in that cell explains,
-/// and Σhφ / Σφ² its temperature (a matched filter). The law `linear` is exactly this; for `inverse` the peak is
-/// blunter and in the same place.
+/// Walls do not block heat, and a heat sensor has no direction. Each measurement h contributes to every cell within the
+/// sensor's range with the weight φ = 1 - distance / range that a source there would have. With Σφ² and Σhφ per cell,
+/// (Σhφ)² / Σφ² is the part of all measurements explained by one source in that cell, and Σhφ / Σφ² its temperature.
+/// This is exact for the law `linear`; for `inverse` the maximum is flatter and at the same position.
 class HeatTrace {
  public:
   struct Source {
@@ -25,18 +24,25 @@ class HeatTrace {
   /// @param map must outlive this.
   HeatTrace(MazeMap& map, double range_m, double robot_radius_m);
 
-  /// Takes in a measurement, unless the last one was taken less than a cell away. @return whether it did.
+  /// A copy that works on `map`, a copy of its map.
+  HeatTrace copyOn(MazeMap& map) const {
+    HeatTrace copy = *this;
+    copy.map_ = &map;
+    return copy;
+  }
+
+  /// Adds a measurement, unless the last one was less than a cell away. @return whether it was added.
   bool measure(const mrpt::math::TPoint2D& robot, double heat);
   /// The cell that best explains the heat, among those within range of the hottest place since the last
   /// searchFromHere(); nullopt when there was no heat.
   std::optional<Source> source() const;
   double range() const { return range_m_; }
-  /// Looks for the source about the last measurement from now on, whatever was hotter before.
+  /// Restarts the search at the last measurement, ignoring hotter earlier ones.
   void searchFromHere() { hottest_ = last_; }
-  /// Forgets where it measured; the map's cells are the caller's to clear.
+  /// Clears the measurements; the caller must clear the map's cells.
   void reset();
 
-  /// Within so many cells of the robot a measurement counts.
+  /// Radius of a measurement's influence [cells].
   int reach() const { return reach_cells_; }
 
  private:
@@ -50,7 +56,7 @@ class HeatTrace {
     double heat;
   };
 
-  MazeMap& map_;
+  MazeMap* map_;
   double range_m_;
   int reach_cells_;
   std::vector<Vote> votes_;

@@ -5,13 +5,13 @@
 
 namespace robosim {
 
-/// What a robot has learnt of one place. Frame: `start`, that of its PoseTracker.
+/// Map cell of one robot. Frame: `start` of its PoseTracker.
 struct MapCell {
-  std::uint8_t evidence = 0;     ///< that something stands here (Obstacles)
-  std::uint8_t walls_near = 0;   ///< cells with something in them so near that the robot would touch it
-  std::uint8_t walls_close = 0;  ///< the same for a berth that it had better keep
-  bool searched : 1 = false;     ///< gold here, or a little beyond, would have been felt (HeatTrace)
-  bool stood : 1 = false;        ///< the robot was here, and it was not hot enough
+  std::uint8_t evidence = 0;     ///< for an obstacle (Obstacles)
+  std::uint8_t walls_near = 0;   ///< occupied cells within the robot's radius
+  std::uint8_t walls_close = 0;  ///< occupied cells within the preferred clearance
+  bool searched : 1 = false;     ///< gold here, or slightly beyond, would have been detected (HeatTrace)
+  bool stood : 1 = false;        ///< the robot was here, and the heat was below the threshold
   float heat_weight = 0;         ///< sums over the places where heat was measured (HeatTrace)
   float heat_match = 0;
 

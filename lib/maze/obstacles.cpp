@@ -1,25 +1,24 @@
 #include "maze/obstacles.h"
 
-#include <cmath>
-
+#include "base/portable_math.h"
 #include "control/echo.h"
 
 namespace robosim {
 namespace {
 
-constexpr int kReach_cells = 24;  // farther echoes are not taken in: a map needs them seldom, and they cost time
+constexpr int kReach_cells = 24;  // farther echoes are ignored, to save time
 constexpr int kHit = 4;
-constexpr int kOccupied = 3;          // one echo is enough to keep off
-constexpr int kSure = 8;              // and more than one makes it sure
-constexpr int kMost = 12;             // as many empty looks as are needed to take back what was sure
-constexpr double kBerth_radii = 0.5;  // beyond the body
+constexpr int kOccupied = 3;          // reached by one echo
+constexpr int kSure = 8;              // requires several echoes
+constexpr int kEvidenceMax = 12;      // maximum: bounds the empty observations that free a cell
+constexpr double kBerth_radii = 0.5;  // clearance beyond the body
 
 std::vector<Cell> offsetsWithin(double distance_cells) {
   std::vector<Cell> offsets;
   const int reach = static_cast<int>(distance_cells);
   for (int y = -reach; y <= reach; ++y) {
     for (int x = -reach; x <= reach; ++x) {
-      if (std::hypot(x, y) < distance_cells) offsets.push_back({x, y});
+      if (portable::hypot(x, y) < distance_cells) offsets.push_back({x, y});
     }
   }
   return offsets;
@@ -28,17 +27,17 @@ std::vector<Cell> offsetsWithin(double distance_cells) {
 }  // namespace
 
 Obstacles::Obstacles(MazeMap& map, double robot_radius_m)
-    : map_(map),
+    : map_(&map),
       radius_m_(robot_radius_m),
       near_(offsetsWithin(robot_radius_m / map.cellSize())),
       close_(offsetsWithin(robot_radius_m * (1 + kBerth_radii) / map.cellSize() + 1)) {}
 
 void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorInfo& sensor, const Echoes& echoes,
                      std::size_t stride) {
-  const double cell_m = map_.cellSize();
+  const double cell_m = map_->cellSize();
   const double reach_m = kReach_cells * cell_m;
-  const double cos_phi = std::cos(start_from_robot.phi), sin_phi = std::sin(start_from_robot.phi);
-  const auto to_start = [&](double x, double y) {
+  const auto [sin_phi, cos_phi] = portable::sincos(start_from_robot.phi);
+  const auto to_start = [&, cos_phi = cos_phi, sin_phi = sin_phi](double x, double y) {
     return mrpt::math::TPoint2D(start_from_robot.x + cos_phi * x - sin_phi * y,
                                 start_from_robot.y + sin_phi * x + cos_phi * y);
   };
@@ -52,42 +51,42 @@ void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorIn
     const bool hit = heard(sensor, echoes[i]) && length < reach_m;
     const int free_cells = static_cast<int>(std::min(length, reach_m) / cell_m - (hit ? 0.5 : 0));
     mrpt::math::TPoint2D at = from + step * 0.5;
-    for (int k = 0; k < free_cells; ++k, at += step) seeFree(map_.cellAt(at));
-    // A little beyond the surface: one that lies on the border of two cells falls to the same one each time.
-    if (hit) add(map_.cellAt(from + way + step * 0.2), kHit);
+    for (int k = 0; k < free_cells; ++k, at += step) seeFree(map_->cellAt(at));
+    // Slightly beyond the surface, so that a surface on the border of two cells always maps to the same cell.
+    if (hit) add(map_->cellAt(from + way + step * 0.2), kHit);
   }
 }
 
 void Obstacles::clearUnder(const mrpt::math::TPoint2D& robot) {
-  const Cell at = map_.cellAt(robot);
+  const Cell at = map_->cellAt(robot);
   for (const Cell& offset : near_) {
     const Cell cell{at.x + offset.x, at.y + offset.y};
-    if ((map_.center(cell) - robot).norm() < 0.6 * radius_m_) add(cell, -kMost);
+    if ((map_->center(cell) - robot).norm() < 0.6 * radius_m_) add(cell, -kEvidenceMax);
   }
 }
 
-void Obstacles::bump(const mrpt::math::TPoint2D& place) { add(map_.cellAt(place), kSure - 1); }
+void Obstacles::bump(const mrpt::math::TPoint2D& place) { add(map_->cellAt(place), kSure - 1); }
 
 int Obstacles::reach() const {
-  // Whoever is near an obstacle must be there when it is counted, or would be counted wrong when it goes.
+  // All neighbours must exist when an obstacle is counted, to keep the counts correct when it is removed.
   return kReach_cells + 1 + close_.back().y;
 }
 
 void Obstacles::forgetDoubtful() {
-  for (std::size_t i = 0; i < map_.size(); ++i) {
-    if (map_.at(i).evidence > 0 && map_.at(i).evidence < kSure) add(map_.cell(i), -kMost);
+  for (std::size_t i = 0; i < map_->size(); ++i) {
+    if (map_->at(i).evidence > 0 && map_->at(i).evidence < kSure) add(map_->cell(i), -kEvidenceMax);
   }
 }
 
 void Obstacles::seeFree(const Cell& cell) {
-  if (map_.contains(cell) && map_[cell].evidence > 0) add(cell, -1);
+  if (map_->contains(cell) && (*map_)[cell].evidence > 0) add(cell, -1);
 }
 
 void Obstacles::add(const Cell& cell, int evidence) {
-  if (!map_.contains(cell)) return;
-  MapCell& here = map_[cell];
+  if (!map_->contains(cell)) return;
+  MapCell& here = (*map_)[cell];
   const bool was_occupied = here.evidence >= kOccupied;
-  here.evidence = static_cast<std::uint8_t>(std::clamp(here.evidence + evidence, 0, kMost));
+  here.evidence = static_cast<std::uint8_t>(std::clamp(here.evidence + evidence, 0, kEvidenceMax));
   const bool is_occupied = here.evidence >= kOccupied;
   if (is_occupied != was_occupied) occupy(cell, is_occupied ? 1 : -1);
 }
@@ -97,8 +96,8 @@ void Obstacles::occupy(const Cell& cell, int by) {
   const auto count = [&](const std::vector<Cell>& offsets, std::uint8_t MapCell::*counter) {
     for (const Cell& offset : offsets) {
       const Cell neighbour{cell.x + offset.x, cell.y + offset.y};
-      if (!map_.contains(neighbour)) continue;
-      auto& value = map_[neighbour].*counter;
+      if (!map_->contains(neighbour)) continue;
+      auto& value = (*map_)[neighbour].*counter;
       value = static_cast<std::uint8_t>(value + by);
     }
   };

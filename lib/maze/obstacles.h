@@ -10,28 +10,34 @@
 
 namespace robosim {
 
-/// Where something stands, learnt from echoes: evidence for it in the cell of each echo, evidence against it along the
-/// way there. So a wall stays, and a robot that passed by fades as soon as the place is seen empty. Places never seen
-/// count as free.
+/// Occupancy grid from range echoes: the cell of each echo gains evidence, and the cells along its ray lose evidence.
+/// Walls persist, and moving robots fade once their cells are observed empty. Unobserved cells count as free.
 class Obstacles {
  public:
-  /// @param map must outlive this, and be changed by nothing else.
+  /// @param map must outlive this, and must not be changed elsewhere.
   Obstacles(MazeMap& map, double robot_radius_m);
 
-  /// Takes in what a range sensor heard from `start_from_robot`; only every `stride`-th beam.
+  /// A copy that works on `map`, a copy of its map.
+  Obstacles copyOn(MazeMap& map) const {
+    Obstacles copy = *this;
+    copy.map_ = &map;
+    return copy;
+  }
+
+  /// Adds the echoes of a range sensor at `start_from_robot`; only every `stride`-th beam.
   void look(const mrpt::math::TPose2D& start_from_robot, const SensorInfo& sensor, const Echoes& echoes,
             std::size_t stride = 1);
-  /// Nothing stands where the robot itself is.
+  /// Marks the cells of the robot's own body as free.
   void clearUnder(const mrpt::math::TPoint2D& robot);
-  /// The robot ran into something here that no sensor told of.
+  /// Marks an obstacle that was detected by collision only.
   void bump(const mrpt::math::TPoint2D& place);
 
-  /// Drops what was not seen again and again.
+  /// Removes obstacles without repeated evidence.
   void forgetDoubtful();
-  /// Goes up whenever a cell becomes occupied or free.
+  /// Counter of cells that became occupied or free.
   std::uint64_t changes() const { return changes_; }
 
-  /// How many cells about the robot the map must have before look().
+  /// Radius around the robot that the map must cover before look() [cells].
   int reach() const;
 
  private:
@@ -39,9 +45,9 @@ class Obstacles {
   void seeFree(const Cell& cell);
   void occupy(const Cell& cell, int by);
 
-  MazeMap& map_;
+  MazeMap* map_;
   double radius_m_;
-  std::vector<Cell> near_, close_;  ///< offsets within reach of the body, and of its berth
+  std::vector<Cell> near_, close_;  ///< offsets within the body's radius, and within its clearance
   std::uint64_t changes_ = 0;
 };
 

@@ -26,7 +26,7 @@ struct ObstaclesTest : testing::Test {
 };
 
 TEST_F(ObstaclesTest, StandWhereAnEchoCameFrom) {
-  hardware.hearSonar(0, 1.0);  // from the edge: 1.25 m ahead
+  hardware.setSonarRange(0, 1.0);  // from the edge: 1.25 m ahead
   look();
   EXPECT_TRUE(occupied(1.27, 0.05));
   EXPECT_FALSE(occupied(1.05, 0.05));
@@ -36,7 +36,7 @@ TEST_F(ObstaclesTest, StandWhereAnEchoCameFrom) {
 }
 
 TEST_F(ObstaclesTest, BlockWhereTheRobotWouldTouchThem) {
-  hardware.hearSonar(0, 1.0);
+  hardware.setSonarRange(0, 1.0);
   look();
   EXPECT_TRUE(blocked(1.27, 0.05));
   EXPECT_TRUE(blocked(1.12, 0.05));
@@ -45,13 +45,13 @@ TEST_F(ObstaclesTest, BlockWhereTheRobotWouldTouchThem) {
   EXPECT_EQ(map[map.cellAt({0.5, 0.05})].walls_close, 0);
 }
 
-TEST_F(ObstaclesTest, AreNotMadeOfSilence) {
+TEST_F(ObstaclesTest, AreNotCreatedWithoutEchoes) {
   look();
   EXPECT_EQ(obstacles.changes(), 0u);
 }
 
 TEST_F(ObstaclesTest, FadeOnceTheirPlaceIsSeenEmpty) {
-  hardware.hearSonar(0, 1.0);
+  hardware.setSonarRange(0, 1.0);
   for (int i = 0; i < 5; ++i) look();
   hardware.hearNothing();
   look();
@@ -63,27 +63,27 @@ TEST_F(ObstaclesTest, FadeOnceTheirPlaceIsSeenEmpty) {
 
 TEST_F(ObstaclesTest, StayWhileTheyAreSeenNowAndThen) {
   for (int i = 0; i < 30; ++i) {
-    hardware.hearSonar(0, i % 3 == 0 ? 1.0 : 3.0);
+    hardware.setSonarRange(0, i % 3 == 0 ? 1.0 : 3.0);
     look();
   }
   EXPECT_TRUE(occupied(1.27, 0.05));
 }
 
 TEST_F(ObstaclesTest, ThatAreFarAwayAreLeftOut) {
-  hardware.hearSonar(0, 4.5);  // 30 cells
+  hardware.setSonarRange(0, 4.5);  // 30 cells
   look();
   EXPECT_EQ(obstacles.changes(), 0u);
 }
 
 TEST_F(ObstaclesTest, TakeInOnlySomeBeamsIfTold) {
-  hardware.hearSonar(1, 1.0);
-  hardware.hearSonar(2, 1.0);
+  hardware.setSonarRange(1, 1.0);
+  hardware.setSonarRange(2, 1.0);
   obstacles.look({}, (*hardware.info().sensors)[1], std::get<Echoes>(hardware.readings().measurements[1]), 2);
   EXPECT_EQ(obstacles.changes(), 1u);
 }
 
 TEST_F(ObstaclesTest, CannotBeWhereTheRobotIs) {
-  hardware.hearSonar(0, 1.0);
+  hardware.setSonarRange(0, 1.0);
   look();
   obstacles.clearUnder({1.27, 0.05});
   EXPECT_FALSE(occupied(1.27, 0.05));
@@ -95,10 +95,10 @@ TEST_F(ObstaclesTest, FeltButNotSeenBlockToo) {
 }
 
 TEST_F(ObstaclesTest, SeenOnceAreForgottenAndSeenOftenAreNot) {
-  hardware.hearSonar(0, 1.0);
+  hardware.setSonarRange(0, 1.0);
   look();
   look();
-  hardware.hearSonar(8, 1.0);  // straight behind
+  hardware.setSonarRange(8, 1.0);  // straight behind
   look();
   obstacles.bump({0.5, 0.5});
   obstacles.forgetDoubtful();
@@ -110,7 +110,7 @@ TEST_F(ObstaclesTest, SeenOnceAreForgottenAndSeenOftenAreNot) {
 TEST_F(ObstaclesTest, CountAroundEachCellWhatIsThere) {
   Rng rng(7);
   for (int i = 0; i < 500; ++i) {
-    for (std::size_t beam = 0; beam < 16; ++beam) hardware.hearSonar(beam, rng.uniform(0.1, 6));
+    for (std::size_t beam = 0; beam < 16; ++beam) hardware.setSonarRange(beam, rng.uniform(0.1, 6));
     const mrpt::math::TPose2D pose(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-3, 3));
     look(pose);
     obstacles.clearUnder({pose.x, pose.y});

@@ -6,6 +6,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/portable_math.h"
 #include "control/echo.h"
 
 namespace robosim {
@@ -15,17 +16,17 @@ constexpr std::size_t kLookAhead = 8;            // cells
 constexpr std::size_t kLookAheadWhereTight = 2;  // cells
 constexpr std::size_t kWatchAhead = 24;          // cells
 constexpr double kTurnGain_per_s = 2.5;
-constexpr double kTurnOnSpot_rad = 1.0;  // farther off course than this it turns before it drives
-constexpr double kBendSpeed = 0.5;       // of its highest speed, at the end of a straight piece
-constexpr double kGap_m = 0.05;          // it keeps from what is in front
+constexpr double kTurnOnSpot_rad = 1.0;  // above this heading error it turns on the spot
+constexpr double kBendSpeed = 0.5;       // of its maximum speed, at the end of a straight segment
+constexpr double kGap_m = 0.05;          // distance kept from obstacles in front
 
-/// The highest speed from which a robot can brake to `end_mps` within `room_m`, if it begins a step late.
+/// The highest speed from which a robot can brake to `end_mps` within `room_m`, if it starts one step late.
 double brakingSpeed(double room_m, double end_mps, double decel_mps2, double period_s) {
   const double loss = decel_mps2 * period_s;
   return std::sqrt(loss * loss + 2 * decel_mps2 * room_m + end_mps * end_mps) - loss;
 }
 
-/// Whether a robot can go straight from one cell to another and keep a berth: walls are close to no cell on the line.
+/// Whether a robot can drive straight from one cell to another with clearance: no cell on the line is close to a wall.
 bool isRoomy(const MazeMap& map, const Cell& from, const Cell& to) {
   const int steps = ringDistance(from, to);
   for (int i = 1; i <= steps; ++i) {
@@ -61,7 +62,7 @@ void PathDriver::follow(const std::vector<Cell>& way) {
 
 bool PathDriver::blocked(const MazeMap& map) const {
   const std::size_t end = std::min(way_.size(), next_ + kWatchAhead);
-  // The first few may well be: the robot is about to leave them.
+  // The first cells may be blocked: the robot is about to leave them.
   for (std::size_t i = next_ + 2; i < end; ++i) {
     if (map.contains(way_[i]) && map[way_[i]].blocked()) return true;
   }
@@ -84,7 +85,8 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
   const mrpt::math::TPoint2D at(start_from_robot.x, start_from_robot.y);
   advance(map, at);
   const mrpt::math::TPoint2D aim_point = map.center(aim(map, map.cellAt(at)));
-  const double off = mrpt::math::wrapToPi(std::atan2(aim_point.y - at.y, aim_point.x - at.x) - start_from_robot.phi);
+  const double off =
+      mrpt::math::wrapToPi(portable::atan2(aim_point.y - at.y, aim_point.x - at.x) - start_from_robot.phi);
 
   const double to_aim = (aim_point - at).norm();
   const bool at_end = next_ + 1 == way_.size();
@@ -95,10 +97,10 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
   const MotionLimits& limits = robot.info().limits;
   double speed = 0;
   if (std::abs(off) < kTurnOnSpot_rad) {
-    // So slow that it could brake within the room, and come to the aim with a speed fit for a bend.
+    // Slow enough to brake within the clearance, and to reach the target point with kBendSpeed.
     const double room = std::max(0.0, roomInLane(robot, 1) - kGap_m);
     const double bend_mps = at_end ? 0 : kBendSpeed * limits.speed_max_mps;
-    const double on_course = std::cos(off * M_PI_2 / kTurnOnSpot_rad);
+    const double on_course = portable::cos(off * M_PI_2 / kTurnOnSpot_rad);
     const double period_s = robot.readings().time.period_s;
     speed = std::min({limits.speed_max_mps * on_course, brakingSpeed(room, 0, limits.decel_mps2, period_s),
                       brakingSpeed(to_aim, bend_mps, limits.decel_mps2, period_s)});

@@ -8,23 +8,23 @@
 
 namespace robosim {
 
-/// Room [m] that a robot has before it touches what its range sensors hear, straight ahead (`direction` 1) or straight
-/// back (-1); infinity when nothing is there.
+/// Clearance [m] between a robot and the nearest echo of its range sensors in its lane, straight ahead (`direction` 1)
+/// or straight back (-1); infinity without an echo.
 double roomInLane(const Robot& robot, int direction);
 
-/// Drives a robot along a way over a MazeMap: towards a point some way ahead on it that can be reached in a straight
-/// line (pure pursuit), the slower the more it has to turn and the nearer something is in front.
+/// Path follower over a MazeMap (pure pursuit): steers towards the farthest point ahead on the path that is reachable
+/// in a straight line. The speed decreases with the heading error and with the distance to obstacles ahead.
 class PathDriver {
  public:
-  /// Takes a new way, from near the robot to its goal.
+  /// Sets a new path, from near the robot to its goal.
   void follow(const std::vector<Cell>& way);
   void clear() { way_.clear(); }
   bool empty() const { return way_.empty(); }
   const Cell& goal() const { return way_.back(); }
 
-  /// Whether something blocks the way, as the map knows by now.
+  /// Whether the path is blocked in the current map.
   bool blocked(const MazeMap& map) const;
-  /// Commands the robot for the next step. The way must not be empty.
+  /// Commands the robot for the next step. @pre the path is not empty.
   void drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot, const MazeMap& map);
 
  private:
@@ -32,7 +32,7 @@ class PathDriver {
   Cell aim(const MazeMap& map, const Cell& robot) const;
 
   std::vector<Cell> way_;
-  std::size_t next_ = 0;  ///< the cell of the way that the robot has come to
+  std::size_t next_ = 0;  ///< index of the path's cell that the robot has reached
 };
 
 }  // namespace robosim

@@ -75,7 +75,7 @@ TEST_F(PathDriverTest, TakesTheStraightLineWhereThereIsRoom) {
 
 TEST_F(PathDriverTest, StopsBeforeWhatIsInFront) {
   // A wall a metre ahead, of which the map knows nothing.
-  hardware.sense = [](FakeHardware& h) { h.hearSonar(0, 1.0 - h.odometry().odom_from_robot.x); };
+  hardware.sense = [](FakeHardware& h) { h.setSonarRange(0, 1.0 - h.odometry().odom_from_robot.x); };
   driver.follow(straight(0, 30));
   steps(100);
   EXPECT_GT(pose().x, 0.7);
@@ -84,15 +84,15 @@ TEST_F(PathDriverTest, StopsBeforeWhatIsInFront) {
 }
 
 TEST_F(PathDriverTest, MindsOnlyWhatIsInItsLane) {
-  hardware.hearSonar(4, 0.02);  // a wall beside it
-  hardware.hearSonar(12, 0.02);
+  hardware.setSonarRange(4, 0.02);  // a wall beside it
+  hardware.setSonarRange(12, 0.02);
   EXPECT_EQ(roomInLane(robot, 1), std::numeric_limits<double>::infinity());
-  hardware.hearSonar(0, 0.6);
-  hardware.hearSonar(8, 0.4);
+  hardware.setSonarRange(0, 0.6);
+  hardware.setSonarRange(8, 0.4);
   EXPECT_NEAR(roomInLane(robot, 1), 0.6, 1e-6);
   EXPECT_NEAR(roomInLane(robot, -1), 0.4, 1e-6);
   // At 22.5° and 0.45 m from the centre: 0.416 ahead, 0.172 aside, where the disc reaches 0.181 less far ahead.
-  hardware.hearSonar(1, 0.2);
+  hardware.setSonarRange(1, 0.2);
   EXPECT_NEAR(roomInLane(robot, 1), 0.4157 - 0.1813, 1e-3);
 }
 

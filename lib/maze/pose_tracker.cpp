@@ -1,13 +1,13 @@
 #include "maze/pose_tracker.h"
 
-#include <cmath>
-
 #include <mrpt/math/wrap2pi.h>
+
+#include "base/portable_pose.h"
 
 namespace robosim {
 namespace {
 
-/// Share of the difference between compass and heading that is made good in a step: a compass jitters, but does not
+/// Fraction of the difference between compass and heading that is corrected per step: a compass is noisy, but does not
 /// drift.
 constexpr double kCompassTrust = 0.02;
 
@@ -20,7 +20,7 @@ const mrpt::math::TPose2D& PoseTracker::update(const Robot& robot) {
     last_odom_from_robot_ = odom_from_robot;
     compass_at_start_rad_ = compass_rad.value_or(0);
   }
-  start_from_robot_ = start_from_robot_ + (odom_from_robot - *last_odom_from_robot_);
+  start_from_robot_ = portable::compose(start_from_robot_, portable::relative(*last_odom_from_robot_, odom_from_robot));
   last_odom_from_robot_ = odom_from_robot;
   if (compass_rad) {
     const double heading = *compass_rad - compass_at_start_rad_;

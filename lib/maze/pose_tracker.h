@@ -7,11 +7,11 @@
 
 namespace robosim {
 
-/// Where a robot is, from where it started: by wheel odometry, and by compass if it has one, which keeps the heading
-/// from drifting. Frame `start`: the robot's pose at the first update is (0, 0, 0).
+/// Pose of a robot relative to its start, by wheel odometry, with heading drift corrected by a compass if it has one
+/// (complementary filter). Frame `start`: the robot's pose at the first update is (0, 0, 0).
 class PoseTracker {
  public:
-  /// Takes in the odometry's motion since the last update; once a time step.
+  /// Adds the odometry's motion since the last update; called once per time step.
   const mrpt::math::TPose2D& update(const Robot& robot);
   const mrpt::math::TPose2D& startFromRobot() const { return start_from_robot_; }
 

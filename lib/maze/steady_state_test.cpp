@@ -1,5 +1,4 @@
-// Whether controllers ask for memory in each step, once what they keep has its size: this program's operator new
-// counts.
+// Checks that controllers do not allocate in steady state, by counting calls of this program's operator new.
 #include <atomic>
 #include <cstdlib>
 #include <new>
@@ -13,7 +12,7 @@ namespace {
 std::atomic<long> allocations{0};
 }  // namespace
 
-// Not inline: g++ 12 would see the free() and take it for the wrong way to give back what operator new gave.
+// Not inline: g++ 12 would warn about free() of memory from operator new.
 [[gnu::noinline]] void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size)) return memory;

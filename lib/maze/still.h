@@ -3,10 +3,11 @@
 
 namespace robosim {
 
-/// Does nothing: a robot that stands in the way, or one that something else drives.
+/// Controller without commands, for robots that are obstacles or are driven otherwise.
 class Still : public Controller {
  public:
   void step(Robot&) override {}
+  std::unique_ptr<Controller> clone() const override { return std::make_unique<Still>(*this); }
 };
 
 }  // namespace robosim

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/portable_math.h"
 #include "control/echo.h"
 
 namespace robosim {
@@ -21,39 +22,57 @@ Nearest nearestBetween(const Robot& robot, double from_rad, double to_rad) {
   if (!sonar) return nearest;
   for (const Echo& echo : robot.sonar()) {
     if (!heard(*sonar, echo)) continue;
-    const double bearing = std::atan2(echo.point_m.y, echo.point_m.x);
-    const double room = std::hypot(echo.point_m.x, echo.point_m.y) - robot.info().radius_m;
+    const double bearing = portable::atan2(echo.point_m.y, echo.point_m.x);
+    const double room = portable::hypot(echo.point_m.x, echo.point_m.y) - robot.info().radius_m;
     if (from_rad <= bearing && bearing <= to_rad && room < nearest.room_m) nearest = {room, bearing};
   }
   return nearest;
 }
 
 constexpr double kDeg = std::numbers::pi / 180;
+constexpr double kTurn = 0.6;                 // fraction of the maximum turn rate, before an obstacle
+constexpr double kTouchTurn_rad = 60 * kDeg;  // away from a contact
+constexpr double kTouchAhead_s = 1;
+
+std::uint64_t stepsIn(double seconds, const Robot& robot) {
+  return static_cast<std::uint64_t>(std::ceil(seconds / robot.readings().time.period_s));
+}
 
 }  // namespace
 
 void WallFollower::step(Robot& robot) {
+  if (recovery_.takesOver(robot)) return;
   const MotionLimits& limits = robot.info().limits;
   const double radius = robot.info().radius_m;
   const double distance = options_.distance_radii * radius;
   const Nearest ahead = nearestBetween(robot, -35 * kDeg, 35 * kDeg);
   const Nearest right = nearestBetween(robot, -150 * kDeg, -20 * kDeg);
-  // Before what is ahead it stops at the wall's distance, and turns left on the spot.
+  // In front of an obstacle it stops at the wall's distance, and turns left on the spot.
   const double braking = std::sqrt(2 * limits.decel_mps2 * std::max(0.0, ahead.room_m - 0.8 * distance));
   const double cruise = std::min(0.6 * limits.speed_max_mps, braking);
-  if (ahead.room_m < distance || robot.stalled()) {
+  const std::uint64_t now = robot.stepNumber();
+  if (robot.stalled()) {
+    turn_until_ = now + stepsIn(kTouchTurn_rad / (kTurn * limits.turn_max_radps), robot);
+    ahead_until_ = turn_until_ + stepsIn(kTouchAhead_s, robot);
+  }
+  if (ahead.room_m < distance || now < turn_until_) {
     found_wall_ = true;
-    robot.drive(0, 0.6 * limits.turn_max_radps);
+    arc_rad_ = 0;
+    robot.drive(0, kTurn * limits.turn_max_radps);
     return;
   }
   if (right.room_m > 3 * distance) {
-    // No wall: straight on to find one, or round the corner where it ended.
-    const double turn = found_wall_ ? -cruise / (distance + radius) : 0;
-    robot.drive(cruise, std::max(turn, -limits.turn_max_radps));
+    // No wall: drive straight to find one, or around the corner where it ended.
+    const bool rounds_corner = found_wall_ && now >= ahead_until_;
+    const double turn = rounds_corner ? std::max(-cruise / (distance + radius), -limits.turn_max_radps) : 0;
+    arc_rad_ -= turn * robot.readings().time.period_s;
+    if (arc_rad_ > 2 * std::numbers::pi) found_wall_ = false;
+    robot.drive(cruise, turn);
     return;
   }
   found_wall_ = true;
-  // Steers so that the wall's nearest point comes to lie straight to the right, and as far away as it should be.
+  arc_rad_ = 0;
+  // Steers so that the wall's nearest point is to the right, at the set distance.
   const double along = right.bearing_rad + std::numbers::pi / 2;
   const double off = std::clamp((distance - right.room_m) / distance, -1.0, 1.0);
   const double turn = std::clamp(1.5 * along + 0.8 * off, -0.8, 0.8);

@@ -79,7 +79,7 @@ TEST(WallFollower, GoesRoundAnOuterCorner) {
 TEST(WallFollower, KeepsAnotherDistanceIfTold) {
   FakeMaze maze({FakeMaze::box(0, -0.8, 100, 0.1)}, {99, 99}, 0);
   Robot robot(maze.hardware);
-  WallFollower follower({.distance_radii = 1});
+  WallFollower follower({}, {.distance_radii = 1});
   for (int i = 0; i < 300; ++i) {
     follower.step(robot);
     maze.hardware.advance();

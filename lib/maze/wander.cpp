@@ -9,10 +9,11 @@
 namespace robosim {
 namespace {
 
-constexpr double kNear = 2;        // robot radii from its edge: it turns
-constexpr double kVeryNear = 0.7;  // and here it stops for it
+constexpr double kNear = 2;         // distance from the edge in robot radii at which it turns
+constexpr double kVeryNear = 0.7;   // distance at which it stops
+constexpr double kAvoidTurn = 0.4;  // minimum fraction of the maximum turn rate when it turns from an obstacle
 
-/// Room [m] between the robot's edge and the nearest echo in the front half, left and right of its heading.
+/// Clearance [m] between the robot's edge and the nearest echo in the front half, left and right of its heading.
 struct Room {
   double left = 1e9, right = 1e9;
   double ahead() const { return std::min(left, right); }
@@ -20,13 +21,14 @@ struct Room {
 
 Room roomInFront(const Robot& robot) {
   Room room;
-  const SensorInfo* sonar = robot.sensor(SensorKind::sonar);
-  if (!sonar) return room;
+  const SensorKind kind = robot.sensor(SensorKind::sonar) ? SensorKind::sonar : SensorKind::infrared;
+  const SensorInfo* sensor = robot.sensor(kind);
+  if (!sensor) return room;
   const double radius = robot.info().radius_m;
-  for (const Echo& echo : robot.sonar()) {
+  for (const Echo& echo : robot.echoes(kind)) {
     const double x = echo.point_m.x, y = echo.point_m.y;
-    // Beside the robot things do not matter; only what is nearer to its course than it is wide.
-    if (x <= 0 || std::abs(y) > 1.5 * radius || !heard(*sonar, echo)) continue;
+    // Ignores echoes beside the robot's lane.
+    if (x <= 0 || std::abs(y) > 1.5 * radius || !heard(*sensor, echo)) continue;
     double& side = y >= 0 ? room.left : room.right;
     side = std::min(side, std::sqrt(x * x + y * y) - radius);
   }
@@ -36,29 +38,29 @@ Room roomInFront(const Robot& robot) {
 }  // namespace
 
 void Wander::step(Robot& robot) {
+  if (recovery_.takesOver(robot)) return;
   const MotionLimits& limits = robot.info().limits;
   const double radius = robot.info().radius_m;
   const std::uint64_t now = robot.stepNumber();
   const Room room = roomInFront(robot);
   const bool near = room.ahead() < kNear * radius || robot.stalled();
-  if (now >= turn_until_) {
+  // An obstacle met during a slight turn requires a new decision at once: a stall is reported for one step only.
+  if (now >= turn_until_ || (near && std::abs(turn_) < kAvoidTurn)) {
     Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, 0, now);
     if (near) {
-      turn_ = std::copysign(rng.uniform(0.4, 0.9), room.left - room.right);
-      turn_until_ = now + 3 + rng.below(12);  // a while, so that it does not dither in a corner
+      turn_ = std::copysign(rng.uniform(kAvoidTurn, 0.9), room.left - room.right);
+      turn_until_ = now + 3 + rng.below(12);  // prevents oscillation in corners
     } else {
       turn_ = rng.below(4) == 0 ? rng.uniform(-0.3, 0.3) : 0;
       turn_until_ = now + 10 + rng.below(30);
     }
-  } else if (near && std::abs(turn_) < 0.4) {
-    turn_until_ = now;  // think again in the next step, and slow down now
   }
   double speed = limits.speed_max_mps;
   if (near) {
     speed *=
         robot.stalled() ? 0 : std::clamp((room.ahead() / radius - kVeryNear) / (kNear - kVeryNear), 0.0, 1.0) * 0.5;
   } else {
-    // So slow that it could brake before what is ahead.
+    // Slow enough to brake before the obstacle ahead.
     speed = std::min(speed, std::sqrt(2 * limits.decel_mps2 * std::max(0.0, room.ahead() - kVeryNear * radius)));
   }
   robot.drive(speed, turn_ * limits.turn_max_radps);

@@ -3,20 +3,25 @@
 
 #include "control/controller.h"
 #include "maze/controllers.h"
+#include "maze/stuck_recovery.h"
 
 namespace robosim {
 
-/// Drives about at random: ahead, away from what is near, and now and then a turn for no reason. Keeps no map and
-/// allocates nothing, so that a hundred thousand of them can run at once.
+/// Random walk with obstacle avoidance: drives ahead, turns away from near obstacles, and occasionally turns at random.
+/// StuckRecovery handles lack of progress. Detects obstacles by sonar, or by infrared on a robot without sonar. Keeps
+/// no map and does not allocate, so that 100,000 instances can run at once.
 class Wander : public Controller {
  public:
-  explicit Wander(const ControllerSetup& setup) : setup_(setup) {}
+  explicit Wander(const ControllerSetup& setup) : setup_(setup), recovery_(setup) {}
   void step(Robot& robot) override;
+  std::unique_ptr<Controller> clone() const override { return std::make_unique<Wander>(*this); }
+  bool hasDrawnRandomNumbers() const override { return true; }
 
  private:
   ControllerSetup setup_;
+  StuckRecovery recovery_;
   std::uint64_t turn_until_ = 0;  ///< step until which it keeps turning
-  double turn_ = 0;               ///< part of the robot's fastest turn, signed
+  double turn_ = 0;               ///< fraction of the robot's maximum turn rate, signed
 };
 
 }  // namespace robosim

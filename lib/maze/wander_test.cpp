@@ -25,7 +25,7 @@ TEST(Wander, TurnsAwayFromTheNearerSide) {
   for (const std::size_t near : {1u, 15u}) {  // 22.5° left, right
     FakeHardware hardware;
     Robot robot(hardware);
-    hardware.hearSonar(near, 0.2);
+    hardware.setSonarRange(near, 0.2);
     Wander wander({.seed = 1});
     wander.step(robot);
     EXPECT_EQ(robot.command().turn_radps < 0, near == 1) << "something near by sonar " << near;

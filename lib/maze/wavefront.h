@@ -8,26 +8,26 @@
 
 namespace robosim {
 
-/// Shortest ways over a MazeMap from one cell: Dijkstra's algorithm with a ring of buckets, since a step's cost is a
-/// small whole number (Dial, "Algorithm 360", CACM 12, 1969). Blocked cells are closed, except for the few about the
-/// start, by which a robot that stands close to a wall gets away from it. Keeping a berth from walls is worth a detour.
+/// Shortest paths over a MazeMap from one cell: Dijkstra's algorithm with a ring of buckets, since step costs are small
+/// integers (Dial, "Algorithm 360", CACM 12, 1969). Blocked cells are impassable except near the start, so that a robot
+/// close to a wall can leave it. Cells close to walls cost more, so that paths keep a clearance.
 class Wavefront {
  public:
   static constexpr int kStraight = 2, kDiagonal = 3;  ///< cost of a step to a neighbour
-  static constexpr int kCrowded = 3;                  ///< and on top of it where walls are close
-  static constexpr int kTight = 8;                    ///< or where the cell is blocked, near the start
+  static constexpr int kCrowded = 3;                  ///< additional cost close to walls
+  static constexpr int kTight = 8;                    ///< additional cost of blocked cells near the start
 
-  /// Spreads from `start` until it knows the goal for which way + judge(cell) is least, or all ways up to `cost_max`.
-  /// @param judge the extra cost (>= 0) of ending at a cell; negative: it is no goal.
+  /// Expands from `start` until the goal with the least path cost + judge(cell) is known, or up to `cost_max`.
+  /// @param judge additional cost (>= 0) of a goal cell; negative for other cells.
   template <typename Judge>
   std::optional<Cell> findGoal(const MazeMap& map, const Cell& start, int cost_max, const Judge& judge);
 
-  /// The way to a cell that the last search reached: from the cell after the start to `goal`, both included.
+  /// Path to a cell reached by the last search: from the cell after the start to `goal`, both included.
   void wayTo(const MazeMap& map, const Cell& goal, std::vector<Cell>& way) const;
 
  private:
   struct Node {
-    std::uint32_t search = 0;  ///< the search that `cost` is of
+    std::uint32_t search = 0;  ///< number of the search that set `cost`
     std::int32_t cost = 0;
     std::uint8_t from = 0;  ///< index in kNeighbours of the step that led here
     bool done = false;
@@ -44,7 +44,7 @@ class Wavefront {
                                                          {{1, -1}, kDiagonal},
                                                          {{-1, 1}, kDiagonal},
                                                          {{-1, -1}, kDiagonal}}};
-  static constexpr int kStartReach = 2;  ///< cells about the start that may be blocked
+  static constexpr int kStartReach = 2;  ///< radius around the start in which cells may be blocked
   static constexpr std::size_t kBuckets = 16;
   static_assert(kDiagonal + kCrowded + kTight < static_cast<int>(kBuckets));
 

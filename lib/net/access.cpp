@@ -1,110 +1,148 @@
 #include "net/access.h"
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
-
-#include <openssl/crypto.h>
-#include <openssl/sha.h>
+#include <mutex>
+#include <utility>
 
 #include "base/error_list.h"
+#include "net/file_signature.h"
+#include "net/guess_limiter.h"
 #include "net/private_file.h"
 #include "net/wire_error.h"
 
 namespace robosim {
 namespace {
 
-constexpr std::size_t kShortestToken = 16;
+using namespace std::chrono_literals;
+using Time = Access::Clock::time_point;
 
-using Hash = std::array<unsigned char, 32>;
-static_assert(std::tuple_size_v<Hash> == SHA256_DIGEST_LENGTH);
-
-Hash hashOf(std::string_view token) {
-  Hash hash;
-  SHA256(reinterpret_cast<const unsigned char*>(token.data()), token.size(), hash.data());
-  return hash;
-}
-
-bool isEqual(const Hash& a, const Hash& b) { return CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0; }
-
-bool isPrintable(const std::string& token) {
-  return std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c <= '~'; });
-}
+/// Interval at which the file is checked for changes.
+constexpr auto kPollPeriod = 1s;
 
 grpc::Status refuse(grpc::StatusCode code, const std::string& what) { return {code, what}; }
 
-}  // namespace
+grpc::Status unauthenticated(const std::string& what) { return refuse(grpc::StatusCode::UNAUTHENTICATED, what); }
 
-Access Access::read(const std::filesystem::path& file) {
-  return parse(readPrivateFile(file, "the file of tokens"), file.string());
+/// Description of a token's role for the text of a refusal.
+std::string purposeOf(const TokenHolder& holder) {
+  switch (holder.role) {
+    case Role::viewer:
+      return "has the role viewer, which permits only to watch; use another";
+    case Role::robot:
+      return "has the role robot, which permits only to drive " + listed(holder.robots) + "; use another";
+    case Role::geometry:
+      return "has the role geometry, which permits only 'robosim geometry'; use another";
+    case Role::operate:
+      break;
+  }
+  return "has the role operator, which does not permit geometry workers; use one of the role geometry";
 }
 
-Access Access::parse(const std::string& text, const std::string& file) {
-  Access access;
-  ErrorList errors;
-  std::istringstream lines(text);
-  int number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    std::istringstream words(line);
-    std::string token, role, name;
-    if (!(words >> token) || token.front() == '#') continue;
-    words >> role;
-    Holder holder{hashOf(token), Role::viewer, {}};
-    while (words >> std::quoted(name)) holder.robots.push_back(name);
-    if (token.size() < kShortestToken || !isPrintable(token)) {
-      errors.add(file, number, "the token must have 16 or more characters of ASCII; 'openssl rand -hex 16' makes one");
-    }
-    if (access.holderOf(token)) errors.add(file, number, "the token stands in an earlier line already; make another");
-    if (role == "robot") {
-      holder.role = Role::robot;
-      if (holder.robots.empty()) errors.add(file, number, "the role robot needs names: robot NAME…");
-    } else if (role == "viewer" || role == "operator") {
-      holder.role = role == "viewer" ? Role::viewer : Role::all;
-      if (!holder.robots.empty()) errors.add(file, number, "only the role robot takes names");
-    } else {
-      errors.add(file, number, "after the token must stand its role: viewer, robot NAME…, or operator");
-    }
-    access.holders_.push_back(std::move(holder));
+bool isExpired(const TokenHolder& holder, Time now) { return holder.expires && now >= *holder.expires; }
+
+}  // namespace
+
+struct Access::State {
+  State(TokenTable the_table, std::filesystem::path the_file, const Options& the_options)
+      : options(the_options), file(std::move(the_file)), table(std::move(the_table)) {
+    const Time now = options.now();
+    polled = now;
+    logExpired({}, now);
+    expiries_until = now;
   }
-  if (access.holders_.empty()) errors.add(file, number, "has no token, so nobody could come in; add a line TOKEN ROLE");
-  errors.throwIfAny();
+
+  /// @name With the mutex held
+  ///@{
+  void poll(Time now);
+  void reload();
+  void logExpired(Time after, Time until) const;
+  ///@}
+
+  std::mutex mutex;
+  const Options options;
+  const std::filesystem::path file;  ///< empty: not from a file
+  TokenTable table;
+  GuessLimiter guesses;
+  FileSignature read, changed;  ///< of the file when last read or refused; at the last check
+  Time polled;
+  Time expiries_until;  ///< expiries up to this time have been reported
+  std::uint64_t version = 0;
+};
+
+Access Access::read(const std::filesystem::path& file, const Options& options) {
+  const FileSignature signature = FileSignature::of(file);
+  Access access;
+  access.state_ = std::make_shared<State>(TokenTable::parse(readPrivateFile(file, "the file of tokens"), file.string()),
+                                          file, options);
+  access.state_->read = access.state_->changed = signature;
   return access;
 }
 
-/// Compares with every token in the same time, found or not, so that the time tells nothing.
-const Access::Holder* Access::holderOf(std::string_view token) const {
-  const Hash hash = hashOf(token);
-  const Holder* found = nullptr;
-  for (const auto& holder : holders_) {
-    if (isEqual(holder.token_hash, hash)) found = &holder;
-  }
-  return found;
+Access Access::parse(const std::string& text, const std::string& file, const Options& options) {
+  Access access;
+  access.state_ = std::make_shared<State>(TokenTable::parse(text, file), "", options);
+  return access;
 }
 
-grpc::Status Access::check(std::optional<std::string_view> token, Right right,
-                           std::span<const std::string> robots) const {
-  if (isOpen()) return grpc::Status::OK;
+Access::Authenticated Access::authenticate(std::optional<std::string_view> token, std::string_view peer) const {
+  if (isOpen()) return {};
   if (!token) {
-    return refuse(grpc::StatusCode::UNAUTHENTICATED,
-                  "asks for a token, and none was shown; name a file with yours in --token-file, or put it into the "
-                  "environment variable ROBOSIM_TOKEN");
+    return {unauthenticated("requires a token; specify its file with --token-file, or set "
+                            "the environment variable ROBOSIM_TOKEN"),
+            {}};
   }
-  const Holder* holder = holderOf(*token);
+  const TokenHash hash = hashOf(*token);
+  const std::string address = addressOf(peer);
+  const std::lock_guard lock(state_->mutex);
+  const Time now = state_->options.now();
+  if (const auto wait = state_->guesses.wait(address, hash, now); wait > 0ms) {
+    return {refuse(grpc::StatusCode::RESOURCE_EXHAUSTED,
+                   "too many wrong tokens came from this address; try again in " +
+                       std::to_string(std::chrono::ceil<std::chrono::seconds>(wait).count()) + " s"),
+            {}};
+  }
+  const TokenHolder* holder = state_->table.find(hash);
   if (!holder) {
-    return refuse(
-        grpc::StatusCode::UNAUTHENTICATED,
-        "the token is none of those known here; ask whoever started the environment (serve --tokens) for one");
+    state_->guesses.noteWrong(address, hash, now);
+    return {unauthenticated(
+                "the token is unknown; request a valid one from the operator of the environment (serve --tokens)"),
+            {}};
   }
-  if (holder->role == Role::all) return grpc::Status::OK;
-  if (holder->role == Role::viewer && right != Right::look) {
-    return refuse(grpc::StatusCode::PERMISSION_DENIED,
-                  "the token is a viewer's, with which one may look and no more; use another");
+  if (isExpired(*holder, now)) {
+    return {unauthenticated("the token " + holder->name +
+                            " has expired; request another from the operator of the environment"),
+            {}};
   }
-  if (holder->role == Role::robot && right != Right::drive) {
-    return refuse(grpc::StatusCode::PERMISSION_DENIED, "the token is a robot's, with which one may drive " +
-                                                           listed(holder->robots) + " and no more; use another");
+  state_->guesses.noteRight(address, hash, now);
+  Authenticated done;
+  done.identity.name_ = holder->name;
+  done.identity.token_hash_ = hash;
+  return done;
+}
+
+Access::Authenticated Access::authenticate(const grpc::ServerContextBase& call) const {
+  if (isOpen()) return {};
+  const auto& metadata = call.client_metadata();
+  const auto entry = metadata.find(kTokenKey);
+  if (entry == metadata.end()) return authenticate(std::nullopt, "");
+  std::string_view token(entry->second.data(), entry->second.size());
+  if (token.substr(0, kTokenPrefix.size()) == kTokenPrefix) token.remove_prefix(kTokenPrefix.size());
+  return authenticate(token, call.peer());
+}
+
+grpc::Status Access::check(const Identity& client, Right right, std::span<const std::string> robots) const {
+  if (isOpen()) return grpc::Status::OK;
+  const std::lock_guard lock(state_->mutex);
+  const TokenHolder* holder = client.token_hash_ ? state_->table.find(*client.token_hash_) : nullptr;
+  if (!holder) return unauthenticated("the token was withdrawn; request another from the operator of the environment");
+  if (isExpired(*holder, state_->options.now())) {
+    return unauthenticated("the token " + holder->name +
+                           " has expired; request another from the operator of the environment");
   }
+  if (!permits(holder->role, right)) {
+    return refuse(grpc::StatusCode::PERMISSION_DENIED, "the token " + purposeOf(*holder));
+  }
+  if (holder->role != Role::robot) return grpc::Status::OK;
   for (const auto& robot : robots) {
     if (std::find(holder->robots.begin(), holder->robots.end(), robot) != holder->robots.end()) continue;
     return refuse(grpc::StatusCode::PERMISSION_DENIED, "the token is not for robot " + inQuotes(robot) + " but for " +
@@ -113,14 +151,51 @@ grpc::Status Access::check(std::optional<std::string_view> token, Right right,
   return grpc::Status::OK;
 }
 
-grpc::Status Access::check(const grpc::ServerContextBase& caller, Right right,
-                           std::span<const std::string> robots) const {
-  const auto& metadata = caller.client_metadata();
-  const auto shown = metadata.find(kTokenKey);
-  if (shown == metadata.end()) return check(std::nullopt, right, robots);
-  std::string_view token(shown->second.data(), shown->second.size());
-  if (token.substr(0, kTokenPrefix.size()) == kTokenPrefix) token.remove_prefix(kTokenPrefix.size());
-  return check(token, right, robots);
+std::uint64_t Access::refresh() const {
+  if (isOpen()) return 0;
+  const std::lock_guard lock(state_->mutex);
+  const Time now = state_->options.now();
+  // The clock may also be set back.
+  if (now >= state_->polled + kPollPeriod || now < state_->polled) state_->poll(now);
+  if (!state_->file.empty() && state_->options.is_reload_requested()) state_->reload();
+  return state_->version;
+}
+
+void Access::State::poll(Time now) {
+  polled = now;
+  const auto has_expired = [&](const TokenHolder& holder) {
+    return isExpired(holder, now) && !isExpired(holder, expiries_until);
+  };
+  if (std::any_of(table.holders().begin(), table.holders().end(), has_expired)) ++version;
+  logExpired(expiries_until, now);
+  expiries_until = now;
+  if (file.empty()) return;
+  const FileSignature found = FileSignature::of(file);
+  // A file that changed since the last check may be incomplete: it is read after a period without changes.
+  if (found == std::exchange(changed, found) && found != read) reload();
+}
+
+void Access::State::reload() {
+  read = changed = FileSignature::of(file);
+  try {
+    table = TokenTable::parse(readPrivateFile(file, "the file of tokens"), file.string());
+    ++version;
+    options.log("tokens: read " + std::to_string(table.holders().size()) + " from " + file.string() + " again");
+    logExpired({}, options.now());
+  } catch (const ConfigError& error) {
+    constexpr std::size_t most = 10;
+    for (const auto& line : std::span(error.errors()).first(std::min(error.errors().size(), most))) {
+      options.log("tokens: " + line);
+    }
+    options.log("tokens: " + file.string() + " is not valid; the tokens that were read before stay in force");
+  }
+}
+
+/// Logs the tokens that expired within a time interval.
+void Access::State::logExpired(Time after, Time until) const {
+  for (const auto& holder : table.holders()) {
+    if (isExpired(holder, until) && !isExpired(holder, after)) options.log("tokens: " + holder.name + " has expired");
+  }
 }
 
 }  // namespace robosim

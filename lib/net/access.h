@@ -1,64 +1,87 @@
 #pragma once
-#include <array>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include <grpcpp/grpcpp.h>
 
+#include "net/token_table.h"
+
 namespace robosim {
 
-/// What a client may want of an environment.
-enum class Right {
-  look,     ///< watch the run, and ask how it stands
-  drive,    ///< carry robots
-  work,     ///< help with the geometry: its results become part of the run
-  operate,  ///< start, pause, speed, load, stop
-};
-
-/// Who may do what. Each conversation asks first of all. A client shows a token; its role settles its rights: a viewer
-/// may look, a robot's process may drive the robots named, an operator may do everything.
-class Access {
+/// A client of a session, identified by its token. Created by Access::authenticate().
+class Identity {
  public:
-  /// Everyone may do everything.
-  Access() = default;
-
-  /// Reads a file of tokens: a line `TOKEN ROLE`, the role being `viewer`, `operator`, or `robot` with one or more
-  /// names (in double quotes if they have blanks); empty lines and those that begin with # count for nothing. A token
-  /// has 16 or more printable ASCII characters without blanks.
-  /// @throws ConfigError; no error quotes a token.
-  static Access read(const std::filesystem::path& file);
-  /// The same from text; `file` names it in errors.
-  static Access parse(const std::string& text, const std::string& file);
-
-  /// Whether everyone may do everything.
-  bool isOpen() const { return holders_.empty(); }
-
-  /// @param token what the client shows; nullopt for none
-  /// @param robots those that it wants to drive; empty when they are not known as yet
-  /// @return OK, or UNAUTHENTICATED or PERMISSION_DENIED with what the client is to be told
-  grpc::Status check(std::optional<std::string_view> token, Right right,
-                     std::span<const std::string> robots = {}) const;
-  /// The same for who calls: the token is in the call's metadata, `authorization: Bearer TOKEN`.
-  grpc::Status check(const grpc::ServerContextBase& caller, Right right,
-                     std::span<const std::string> robots = {}) const;
+  /// Name of the token, for logs; "anyone" when no token is required.
+  const std::string& name() const { return name_; }
 
  private:
-  enum class Role { viewer, robot, all };
-  struct Holder {
-    std::array<unsigned char, 32> token_hash;  ///< SHA-256, so that all are of one length and none is in the memory
-    Role role;
-    std::vector<std::string> robots;
-  };
-  const Holder* holderOf(std::string_view token) const;
-
-  std::vector<Holder> holders_;
+  friend class Access;
+  std::string name_ = "anyone";
+  std::optional<TokenHash> token_hash_;
 };
 
-/// The metadata of a call in which a client shows its token, and what stands before the token there.
+/// Permissions of clients, by token. A session authenticates once; each later request is checked against the current
+/// tokens, because the file may have changed. Thread-safe; copies share their state.
+class Access {
+ public:
+  using Clock = std::chrono::system_clock;
+
+  struct Options {
+    std::function<void(const std::string&)> log = [](const std::string&) {};  ///< receives one line
+    /// Whether a reload of the file was requested (SIGHUP); returns true once per request.
+    std::function<bool()> is_reload_requested = [] { return false; };
+    std::function<Clock::time_point()> now = Clock::now;
+  };
+
+  /// Grants every right to every client.
+  Access() = default;
+
+  /// Reads a token file (TokenTable) that only its owner may read; refresh() reads it again when it has changed.
+  /// @throws ConfigError; no error quotes a token.
+  static Access read(const std::filesystem::path& file, const Options& options);
+  static Access read(const std::filesystem::path& file) { return read(file, Options()); }
+  /// The same from text; `file` names it in errors.
+  static Access parse(const std::string& text, const std::string& file, const Options& options);
+  static Access parse(const std::string& text, const std::string& file) { return parse(text, file, Options()); }
+
+  /// Whether every client has every right.
+  bool isOpen() const { return !state_; }
+
+  struct Authenticated {
+    /// OK; UNAUTHENTICATED for a missing, unknown or expired token; RESOURCE_EXHAUSTED after too many wrong tokens from
+    /// that address (GuessLimiter). With an error text for the client.
+    grpc::Status status;
+    Identity identity;  ///< if the status is OK
+  };
+  /// @param token sent by the client; nullopt for none
+  /// @param peer address of the client, as reported by gRPC or the web server
+  Authenticated authenticate(std::optional<std::string_view> token, std::string_view peer) const;
+  /// The same for a call, with the token in its metadata: `authorization: Bearer TOKEN`.
+  Authenticated authenticate(const grpc::ServerContextBase& call) const;
+
+  /// Checks whether a client currently has a right.
+  /// @param robots that the client requests to drive; empty when not yet known
+  /// @return OK; UNAUTHENTICATED when its token has expired or was removed; PERMISSION_DENIED
+  grpc::Status check(const Identity& client, Right right, std::span<const std::string> robots = {}) const;
+
+  /// Reads the file again if it has changed (checked once a second), or if a reload was requested. The errors of an
+  /// invalid file are logged, and the previous tokens stay valid. Call often, from any thread.
+  /// @return a version number that increases whenever the result of a check may have changed: recheck open sessions
+  std::uint64_t refresh() const;
+
+ private:
+  struct State;
+  std::shared_ptr<State> state_;  ///< null: open
+};
+
+/// Metadata key of a call's token, and the prefix of its value.
 constexpr const char* kTokenKey = "authorization";
 constexpr std::string_view kTokenPrefix = "Bearer ";
 

@@ -3,27 +3,27 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include "net/dial.h"
-#include "net/lookout.h"
+#include "net/adaptive_polling.h"
+#include "net/connect.h"
 
 namespace robosim {
 
-/// A client's end of a two-way stream, for one that says something, waits for what it is told, and says the next. It
-/// does what gRPC's own blocking stream does, but looks out for messages that come soon.
+/// The client side of a bidirectional stream that alternates writes and reads. As grpc::ClientReaderWriter, but waits
+/// with AdaptivePolling.
 template <typename Out, typename In>
 class ClientStream {
  public:
   using Wire = grpc::ClientAsyncReaderWriter<Out, In>;
 
-  /// Calls, showing the token.
+  /// Starts the call, with the token in its metadata.
   /// @param call is called with a ClientContext*, a CompletionQueue* and a tag, for a stub's AsyncX()
   template <typename Call>
-  ClientStream(const DialOptions& options, const Call& call) {
-    showToken(context_, options);
+  ClientStream(const ConnectOptions& options, const Call& call) {
+    attachToken(context_, options);
     wire_ = call(&context_, &queue_, &called_);
     wait(called_);
   }
-  /// Hangs up, if that has not been done.
+  /// Cancels the call unless finish() was called.
   ~ClientStream() {
     if (!is_over_) {
       context_.TryCancel();
@@ -37,50 +37,50 @@ class ClientStream {
   ClientStream(const ClientStream&) = delete;
   ClientStream& operator=(const ClientStream&) = delete;
 
-  /// Says it once what was said before is on its way. A stream that has broken says why when it is read.
+  /// Writes a message after the previous write has completed. Errors are reported by read() and finish().
   void write(const Out& message) {
     wait(written_);
-    written_.is_due = true;
+    written_.is_pending = true;
     wire_->Write(message, &written_);
   }
   /// @return false when the stream has ended
   bool read(In& message) {
-    read_.is_due = true;
+    read_.is_pending = true;
     wire_->Read(&message, &read_);
     return wait(read_);
   }
-  /// Waits for the end, and why it is. To be called once, last of all.
+  /// Waits for the end of the stream, and returns its status. Call once, after all other calls.
   grpc::Status finish() {
     grpc::Status status;
     wait(written_);
-    finished_.is_due = is_over_ = true;
+    finished_.is_pending = is_over_ = true;
     wire_->Finish(&status, &finished_);
     wait(finished_);
     return status;
   }
 
  private:
-  /// Something that gRPC was asked to do.
-  struct Deed {
-    bool is_due = false;  ///< not done yet
-    bool was_possible = false;
+  /// State of an asynchronous gRPC operation.
+  struct Operation {
+    bool is_pending = false;  ///< started and not completed
+    bool succeeded = false;
   };
 
-  bool wait(const Deed& deed) {
-    while (deed.is_due) {
+  bool wait(const Operation& operation) {
+    while (operation.is_pending) {
       void* tag = nullptr;
       bool ok = false;
-      awaitEvent(queue_, lookout_, gpr_inf_future(GPR_CLOCK_MONOTONIC), tag, ok);
-      *static_cast<Deed*>(tag) = {.is_due = false, .was_possible = ok};
+      awaitEvent(queue_, polling_, gpr_inf_future(GPR_CLOCK_MONOTONIC), tag, ok);
+      *static_cast<Operation*>(tag) = {.is_pending = false, .succeeded = ok};
     }
-    return deed.was_possible;
+    return operation.succeeded;
   }
 
   grpc::ClientContext context_;
   grpc::CompletionQueue queue_;
-  Lookout lookout_;
+  AdaptivePolling polling_;
   std::unique_ptr<Wire> wire_;
-  Deed called_{.is_due = true}, written_, read_, finished_;
+  Operation called_{.is_pending = true}, written_, read_, finished_;
   bool is_over_ = false;
 };
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
-
 namespace robosim {
 namespace {
 
@@ -18,7 +17,7 @@ std::string errorOf(const std::function<void()>& act) {
   return "";
 }
 
-TEST(Listen, TakesOneAddressForAll) {
+TEST(Listen, AcceptsOneAddressForAll) {
   const auto listen = ListenAddresses::parse("192.0.2.7:4000");
   for (const auto& address : listen.all()) EXPECT_EQ(address, "192.0.2.7:4000");
 }
@@ -31,28 +30,18 @@ TEST(Listen, TakesThePortsOf2005) {
   EXPECT_EQ(listen.control, kDefaultListen);
 }
 
-TEST(Listen, SaysWhatAnAddressIs) {
-  for (const char* wrong : {"", "nonsense", "host:", "host:70000", "host:-1", "host:80x"}) {
-    EXPECT_NE(errorOf([&] { hostAndPort(wrong); }).find("must be host:port"), std::string::npos) << wrong;
-  }
+TEST(Listen, RejectsInvalidAddressesAndKinds) {
+  EXPECT_NE(errorOf([] { ListenAddresses::parse("viewers=host:80x"); }).find("must be host:port"), std::string::npos);
   EXPECT_NE(errorOf([] { ListenAddresses::parse("viewers=1,bogus=2"); }).find("'bogus=2' must be one of"),
             std::string::npos);
 }
 
-TEST(Listen, KnowsItsOwnMachine) {
-  for (const char* own : {"127.0.0.1:1", "127.9.8.7:1", "localhost:1", "[::1]:1"}) EXPECT_TRUE(isLoopback(own)) << own;
-  for (const char* open :
-       {"0.0.0.0:1", "[::]:1", "192.0.2.7:1", "127.0.0.1.example.org:1", "example.org:1", "128.0.0.1:1"}) {
-    EXPECT_FALSE(isLoopback(open)) << open;
-  }
-}
-
-TEST(Listen, IsOpenToOtherMachinesOnlyWithTlsAndTokens) {
+TEST(Listen, RequiresTlsAndTokensForOtherMachines) {
   const auto open = ListenAddresses::parse("geometry=0.0.0.0:1");
-  EXPECT_EQ(errorOf([&] { refuseExposure(open, true, true); }), "");
-  EXPECT_EQ(errorOf([] { refuseExposure(ListenAddresses::parse(":1"), false, false); }), "");
-  EXPECT_NE(errorOf([&] { refuseExposure(open, false, true); }).find("add --tls-cert"), std::string::npos);
-  EXPECT_NE(errorOf([&] { refuseExposure(open, true, false); }).find("add --tokens"), std::string::npos);
+  EXPECT_EQ(errorOf([&] { checkExposure(open, true, true); }), "");
+  EXPECT_EQ(errorOf([] { checkExposure(ListenAddresses::parse(":1"), false, false); }), "");
+  EXPECT_NE(errorOf([&] { checkExposure(open, false, true); }).find("add --tls-cert"), std::string::npos);
+  EXPECT_NE(errorOf([&] { checkExposure(open, true, false); }).find("add --tokens"), std::string::npos);
 }
 
 }  // namespace

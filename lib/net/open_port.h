@@ -7,27 +7,31 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include "net/dial.h"
+#include "net/connect.h"
+#include "net/connection_listener.h"
 #include "net/tls.h"
 
 namespace robosim {
 
-/// A server at one address, and the port that it has there.
+/// A server that listens at one address.
 struct OpenPort {
   std::unique_ptr<grpc::Server> server;
-  int number = 0;
+  std::unique_ptr<ConnectionListener> listener;  ///< accepts the connections; destroyed first
+  int number = 0;                                ///< TCP port
 };
 
 struct PortOptions {
-  std::optional<TlsIdentity> tls;                    ///< absent: without TLS
-  std::string option;                                ///< that names the address on the command line, for the error
-  std::chrono::milliseconds keepalive = kKeepalive;  ///< as in DialOptions
+  std::optional<TlsIdentity> tls;                    ///< nullopt: without TLS
+  std::string option;                                ///< command-line option of the address, for the error text
+  std::chrono::milliseconds keepalive = kKeepalive;  ///< as in ConnectOptions
+  /// Timeout for a connection's handshake (TLS, and the first frames of HTTP/2), and for a connection without calls.
+  std::chrono::milliseconds idle_limit{10'000};
 };
 
-/// Lets clients come in at an address, "host:port"; port 0 lets the system choose.
-/// @param services what is to be found there; they must outlive the server
-/// @param builder has the server's queue, if it is to have one
-/// @throws std::runtime_error when the port is taken; what, where and the mend.
+/// Starts a gRPC server at an address, "host:port"; port 0 lets the system choose.
+/// @param services served at the address; must outlive the server
+/// @param builder with the server's completion queue, if it uses one
+/// @throws std::runtime_error with the address and how to fix it when the port is in use.
 OpenPort openPort(const std::string& address, const PortOptions& options, const std::vector<grpc::Service*>& services,
                   grpc::ServerBuilder&& builder = {});
 

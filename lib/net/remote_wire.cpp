@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/utf8.h"
+
 namespace robosim {
 namespace {
 
@@ -18,17 +20,17 @@ void checkFinite(double value, const char* name) {
 
 }  // namespace
 
-void checkText(const std::string& text, std::size_t most_bytes, const char* what) {
-  if (text.size() > most_bytes) {
+void checkText(const std::string& text, std::size_t max_bytes, const char* what) {
+  if (text.size() > max_bytes) {
     throw WireError(std::string(what) + " of " + std::to_string(text.size()) + " bytes; the most is " +
-                    std::to_string(most_bytes));
+                    std::to_string(max_bytes));
   }
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; })) {
     throw WireError(std::string(what) + " with control characters");
   }
 }
 
-void encode(const RemoteOrder& order, wire::ToRobot& out) {
+void encode(const RemoteOrder& order, wire::ControlRequest& out) {
   out.Clear();
   out.set_type(static_cast<wire::RemoteType>(order.type));
   if (order.type == RemoteType::init) out.set_protocol(kProtocolVersion);
@@ -36,13 +38,13 @@ void encode(const RemoteOrder& order, wire::ToRobot& out) {
   out.set_driver(order.driver);
   out.set_autonomous(order.autonomous);
   out.set_only_watch(order.only_watch);
-  out.set_why(order.why);
+  out.set_why(std::string(utf8Prefix(order.why, kMaxWhyBytes)));
   if (order.speed_mps) out.set_speed_mps(*order.speed_mps);
   if (order.turn_radps) out.set_turn_radps(*order.turn_radps);
   if (order.laser_pan_rad) out.set_laser_pan_rad(*order.laser_pan_rad);
 }
 
-RemoteOrder decode(const wire::ToRobot& in) {
+RemoteOrder decode(const wire::ControlRequest& in) {
   if (!wire::RemoteType_IsValid(in.type())) {
     throw WireError("a message of the type " + std::to_string(in.type()) + "; there are 0 (INIT) to " +
                     std::to_string(wire::RemoteType_MAX) + " (REQ_ALL)");
@@ -51,12 +53,14 @@ RemoteOrder decode(const wire::ToRobot& in) {
   order.type = static_cast<RemoteType>(in.type());
   if (order.type == RemoteType::init) checkProtocol(in.protocol());
   checkText(in.driver(), kMaxDriverBytes, "a driver's name");
-  checkText(in.why(), kMaxWhyBytes, "a reason to stop");
+  // A stop takes effect whatever the length of its reason.
+  const std::string why(utf8Prefix(in.why(), kMaxWhyBytes));
+  checkText(why, kMaxWhyBytes, "a reason to stop");
   order.robot = in.robot();
   order.driver = in.driver();
   order.autonomous = in.autonomous();
   order.only_watch = in.only_watch();
-  order.why = in.why();
+  order.why = why;
   checkFinite(in.speed_mps(), "speed_mps");
   checkFinite(in.turn_radps(), "turn_radps");
   checkFinite(in.laser_pan_rad(), "laser_pan_rad");

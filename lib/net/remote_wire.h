@@ -10,9 +10,9 @@
 namespace robosim {
 
 /// @file
-/// The conversation of a remote control with a robot (remote.proto) between our values and protobuf's.
+/// Conversion of the messages between a remote control and a robot (remote.proto) between value types and protobuf.
 
-/// What a message is about; the words are 2005's as far as there were any then. See remote.proto for each.
+/// Message type of the remote control protocol (remote.proto); req_sonar and those before it are named as in 2005.
 enum class RemoteType : std::uint8_t {
   init,
   init_ack,
@@ -30,43 +30,45 @@ enum class RemoteType : std::uint8_t {
   req_all,
 };
 
-/// What a remote control says. Which members count, the type says.
+/// Message from a remote control. `type` determines which other members are used.
 struct RemoteOrder {
   RemoteType type = RemoteType::alive;
   std::string robot{}, driver{};         ///< init
   bool autonomous = false;               ///< init, init_ack
   bool only_watch = false;               ///< init
-  std::optional<double> speed_mps{};     ///< drive: nullopt for what it is
+  std::optional<double> speed_mps{};     ///< drive: nullopt keeps the current value
   std::optional<double> turn_radps{};    ///< drive; counter-clockwise
   std::optional<float> laser_pan_rad{};  ///< drive
-  std::string why{};                     ///< stop: when it is not the driver who wants it
+  std::string why{};                     ///< stop: the reason, if the driver did not request it
 };
 
-/// How a robot stands with its remote controls.
+/// State of a robot as reported to its remote controls.
 struct RemoteState {
   bool autonomous = true;  ///< its own controller drives
-  std::string driver{};    ///< whose robot it is; empty for nobody's
-  bool is_yours = false;   ///< whether that is whoever is told this
-  double speed_mps = 0;    ///< what it is commanded
+  std::string driver{};    ///< name of its driver; empty for none
+  bool is_yours = false;   ///< whether the receiver of this message is its driver
+  double speed_mps = 0;    ///< commanded speeds
   double turn_radps = 0;
   Activity activity = Activity::active;
-  std::string why_stopped{};       ///< why it does not do what its driver said last; empty when it does
-  std::string winner{};            ///< the robot that has won: all halt; empty for as long as none has
-  std::uint32_t win_refusals = 0;  ///< how often it has asked whether it has won, and was too far from the gold
+  std::string why_stopped{};       ///< why its driver's last command is not executed; empty when it is
+  std::string winner{};            ///< the robot that has won, upon which all halt; empty while there is none
+  std::uint32_t win_refusals = 0;  ///< number of its CheckWin requests made too far from the gold
   bool operator==(const RemoteState&) const = default;
 };
 
-/// The most of a driver's name, and of a reason to stop.
+/// Maximum length of a driver's name (longer names are refused) and of a reason to stop (longer reasons are truncated
+/// at a UTF-8 boundary by sender and receiver).
 constexpr std::size_t kMaxDriverBytes = 60;
 constexpr std::size_t kMaxWhyBytes = 120;
 
-/// @param what it is, for errors
-/// @throws WireError for a text of a person that is longer, or has control characters, which would garble a log.
-void checkText(const std::string& text, std::size_t most_bytes, const char* what);
+/// Checks a text that a person entered.
+/// @param what description of the text, for errors
+/// @throws WireError for a text that is longer than `max_bytes` or has control characters.
+void checkText(const std::string& text, std::size_t max_bytes, const char* what);
 
-void encode(const RemoteOrder& order, wire::ToRobot& out);
-/// @throws WireError for an unknown type, another protocol, a number that is not finite, or too long a name.
-RemoteOrder decode(const wire::ToRobot& in);
+void encode(const RemoteOrder& order, wire::ControlRequest& out);
+/// @throws WireError for an unknown type, another protocol version, a number that is not finite, or too long a name.
+RemoteOrder decode(const wire::ControlRequest& in);
 
 void encode(const RemoteState& state, wire::RemoteState& out);
 /// @throws WireError for numbers that are not finite, or an unknown activity.

@@ -9,16 +9,16 @@
 namespace robosim {
 namespace {
 
-RemoteOrder carried(const RemoteOrder& order) {
-  wire::ToRobot message;
+RemoteOrder roundTripped(const RemoteOrder& order) {
+  wire::ControlRequest message;
   encode(order, message);
   return decode(message);
 }
 
-std::string complaintAfter(const std::function<void(wire::ToRobot&)>& spoil) {
-  wire::ToRobot message;
+std::string errorAfter(const std::function<void(wire::ControlRequest&)>& modify) {
+  wire::ControlRequest message;
   message.set_protocol(kProtocolVersion);
-  spoil(message);
+  modify(message);
   try {
     decode(message);
   } catch (const WireError& error) {
@@ -27,47 +27,56 @@ std::string complaintAfter(const std::function<void(wire::ToRobot&)>& spoil) {
   return "";
 }
 
-TEST(RemoteWire, CarriesAnInit) {
-  const RemoteOrder heard = carried(
+TEST(RemoteWire, RoundTripsAnInit) {
+  const RemoteOrder decoded = roundTripped(
       {.type = RemoteType::init, .robot = "Pioneer1", .driver = "Jürgen", .autonomous = true, .only_watch = true});
-  EXPECT_EQ(heard.type, RemoteType::init);
-  EXPECT_EQ(heard.robot, "Pioneer1");
-  EXPECT_EQ(heard.driver, "Jürgen");
-  EXPECT_TRUE(heard.autonomous);
-  EXPECT_TRUE(heard.only_watch);
+  EXPECT_EQ(decoded.type, RemoteType::init);
+  EXPECT_EQ(decoded.robot, "Pioneer1");
+  EXPECT_EQ(decoded.driver, "Jürgen");
+  EXPECT_TRUE(decoded.autonomous);
+  EXPECT_TRUE(decoded.only_watch);
 }
 
-TEST(RemoteWire, CarriesADriveCommandAndWhatItLeavesOut) {
+TEST(RemoteWire, RoundTripsADriveCommandWithAbsentValues) {
   RemoteOrder order{.type = RemoteType::drive};
   order.speed_mps = 0;
-  const RemoteOrder heard = carried(order);
-  EXPECT_EQ(heard.speed_mps, 0);
-  EXPECT_EQ(heard.turn_radps, std::nullopt);
-  EXPECT_EQ(heard.laser_pan_rad, std::nullopt);
+  const RemoteOrder decoded = roundTripped(order);
+  EXPECT_EQ(decoded.speed_mps, 0);
+  EXPECT_EQ(decoded.turn_radps, std::nullopt);
+  EXPECT_EQ(decoded.laser_pan_rad, std::nullopt);
 }
 
-TEST(RemoteWire, CarriesEveryTypeThereIs) {
+TEST(RemoteWire, RoundTripsEveryType) {
   for (int type = 0; type <= wire::RemoteType_MAX; ++type) {
-    EXPECT_EQ(static_cast<int>(carried({.type = static_cast<RemoteType>(type)}).type), type);
+    EXPECT_EQ(static_cast<int>(roundTripped({.type = static_cast<RemoteType>(type)}).type), type);
   }
 }
 
-TEST(RemoteWire, RefusesAnOrderThatMakesNoSense) {
-  EXPECT_EQ(complaintAfter([](auto&) {}), "");
-  EXPECT_EQ(complaintAfter([](auto& m) { m.set_type(static_cast<wire::RemoteType>(14)); }),
+TEST(RemoteWire, RejectsInvalidOrders) {
+  EXPECT_EQ(errorAfter([](auto&) {}), "");
+  EXPECT_EQ(errorAfter([](auto& m) { m.set_type(static_cast<wire::RemoteType>(14)); }),
             "a message of the type 14; there are 0 (INIT) to 13 (REQ_ALL)");
-  EXPECT_EQ(complaintAfter([](auto& m) { m.set_speed_mps(std::nan("")); }),
+  EXPECT_EQ(errorAfter([](auto& m) { m.set_speed_mps(std::nan("")); }),
             "a drive command with a speed_mps of nan; it must be a finite number");
-  EXPECT_EQ(complaintAfter([](auto& m) { m.set_turn_radps(std::numeric_limits<double>::infinity()); }),
+  EXPECT_EQ(errorAfter([](auto& m) { m.set_turn_radps(std::numeric_limits<double>::infinity()); }),
             "a drive command with a turn_radps of inf; it must be a finite number");
-  EXPECT_NE(complaintAfter([](auto& m) { m.set_laser_pan_rad(std::nanf("")); }), "");
-  EXPECT_EQ(complaintAfter([](auto& m) { m.set_driver(std::string(61, 'x')); }),
+  EXPECT_NE(errorAfter([](auto& m) { m.set_laser_pan_rad(std::nanf("")); }), "");
+  EXPECT_EQ(errorAfter([](auto& m) { m.set_driver(std::string(61, 'x')); }),
             "a driver's name of 61 bytes; the most is 60");
-  EXPECT_EQ(complaintAfter([](auto& m) { m.set_driver("a\nb"); }), "a driver's name with control characters");
-  EXPECT_NE(complaintAfter([](auto& m) { m.set_protocol(2); }), "");
+  EXPECT_EQ(errorAfter([](auto& m) { m.set_driver("a\nb"); }), "a driver's name with control characters");
+  EXPECT_NE(errorAfter([](auto& m) { m.set_protocol(2); }), "");
 }
 
-TEST(RemoteWire, CarriesARobotsState) {
+TEST(RemoteWire, TruncatesAReasonToStopAtAUtf8Boundary) {
+  const std::string text_of_119_bytes(119, 'x');
+  EXPECT_EQ(roundTripped({.type = RemoteType::stop, .why = text_of_119_bytes + "ü and more"}).why, text_of_119_bytes);
+  wire::ControlRequest message;
+  message.set_type(wire::STOP);
+  message.set_why(std::string(5000, 'y'));
+  EXPECT_EQ(decode(message).why, std::string(120, 'y')) << "the robot stops, however long the reason is";
+}
+
+TEST(RemoteWire, RoundTripsARobotState) {
   const RemoteState state{.autonomous = false,
                           .driver = "Anna",
                           .is_yours = true,
@@ -82,7 +91,7 @@ TEST(RemoteWire, CarriesARobotsState) {
   EXPECT_EQ(decode(message), state);
 }
 
-TEST(RemoteWire, RefusesAStateThatMakesNoSense) {
+TEST(RemoteWire, RejectsInvalidStates) {
   wire::RemoteState message;
   message.set_activity(static_cast<wire::Activity>(9));
   EXPECT_THROW(decode(message), WireError);

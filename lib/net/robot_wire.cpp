@@ -1,9 +1,9 @@
 #include "net/robot_wire.h"
 
-#include <algorithm>
 #include <cmath>
+#include <span>
 
-#include "hardware/blank_measurement.h"
+#include "hardware/measurement_fields.h"
 
 namespace robosim {
 namespace {
@@ -14,7 +14,7 @@ static_assert(static_cast<int>(Activity::active) == wire::ACTIVE &&
 void checkRobot(std::uint32_t robot, std::size_t robots, const char* what) {
   if (robot < robots) return;
   throw WireError(std::string(what) + " for robot " + std::to_string(robot) + " of " + std::to_string(robots) +
-                  "; a connection speaks only for the robots of its hello, counted from 0");
+                  "; a connection may only command the robots of its hello, counted from 0");
 }
 
 void checkFinite(double value, const char* name, std::uint32_t robot) {
@@ -23,28 +23,40 @@ void checkFinite(double value, const char* name, std::uint32_t robot) {
                   "; it must be a finite number");
 }
 
-/// Fills `out`, of its size, from 4 floats an echo.
-void decodeEchoes(const wire::Measurement& in, Echoes& out) {
-  static_assert(sizeof(Echo) == 4 * sizeof(float));
-  if (static_cast<std::size_t>(in.echoes_size()) != 4 * out.size()) {
-    throw WireError("a reading of " + std::to_string(in.echoes_size()) + " floats for " + std::to_string(out.size()) +
-                    " beams; each has four");
-  }
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const float* of = in.echoes().data() + 4 * i;
-    if (std::any_of(of, of + 4, [](float f) { return std::isnan(f); })) throw WireError("an echo is not a number");
-    out[i] = {of[0], {of[1], of[2], of[3]}};
+void checkCount(std::size_t count, std::size_t expected) {
+  if (count == expected) return;
+  throw WireError("a reading of " + std::to_string(count) + " numbers where " + std::to_string(expected) + " belong");
+}
+
+/// The field of wire::Measurement for the numbers of a kind of measurement, as an array of `count` elements.
+template <typename M>
+auto* numbersOf(wire::Measurement& out, std::size_t count) {
+  if constexpr (kConsistsOf<M, std::uint8_t>) {
+    out.mutable_flags()->resize(count);
+    return out.mutable_flags()->data();
+  } else if constexpr (kConsistsOf<M, float>) {
+    out.mutable_floats()->Resize(static_cast<int>(count), 0);
+    return out.mutable_floats()->mutable_data();
+  } else {
+    out.mutable_numbers()->Resize(static_cast<int>(count), 0);
+    return out.mutable_numbers()->mutable_data();
   }
 }
 
-void checkNumbers(const wire::Measurement& in, int count) {
-  if (in.numbers_size() != count) {
-    throw WireError("a reading of " + std::to_string(in.numbers_size()) + " numbers where " + std::to_string(count) +
-                    " belong");
+template <typename M>
+auto numbersOf(const wire::Measurement& in) {
+  if constexpr (kConsistsOf<M, std::uint8_t>) {
+    return std::span(reinterpret_cast<const std::uint8_t*>(in.flags().data()), in.flags().size());
+  } else if constexpr (kConsistsOf<M, float>) {
+    return std::span(in.floats().data(), static_cast<std::size_t>(in.floats_size()));
+  } else {
+    return std::span(in.numbers().data(), static_cast<std::size_t>(in.numbers_size()));
   }
-  for (const double number : in.numbers()) {
-    if (!std::isfinite(number)) throw WireError("a reading that is not a finite number");
-  }
+}
+
+template <typename M>
+std::size_t numberCount(const M& measurement) {
+  return Description<M>::records(measurement).size() * kFieldCount<M>;
 }
 
 void checkJpeg(const std::string& jpeg) {
@@ -56,104 +68,25 @@ void checkJpeg(const std::string& jpeg) {
   if (!jpeg.starts_with("\xFF\xD8") || !jpeg.ends_with("\xFF\xD9")) throw WireError("a picture that is no JPEG file");
 }
 
-void checkBlob(const wire::Blob& blob) {
-  const auto side = [](std::uint32_t from, std::uint32_t size, float middle) {
-    return from <= kPictureSideMax_px && size <= kPictureSideMax_px - from && std::isfinite(middle) &&
-           middle >= static_cast<float>(from) && middle <= static_cast<float>(from + size);
-  };
-  const std::uint64_t most = std::uint64_t{blob.width_px()} * blob.height_px();
-  if (side(blob.left_px(), blob.width_px(), blob.x_px()) && side(blob.top_px(), blob.height_px(), blob.y_px()) &&
-      blob.pixels() <= most) {
-    return;
+/// Decodes the numbers of a kind of measurement; none are a step in which an intermittent sensor measured nothing.
+template <typename M>
+void decodeNumbers(const wire::Measurement& in, M& out) {
+  const auto numbers = numbersOf<M>(in);
+  if constexpr (requires { Description<M>::isPresent(out) = false; }) {
+    if (numbers.empty()) {
+      forNumbers(out, [](const auto&, auto& number, std::size_t) { number = 0; });
+      Description<M>::isPresent(out) = false;
+      return;
+    }
   }
-  throw WireError("a blob that is in no picture");
+  checkCount(numbers.size(), numberCount(out));
+  const std::string fault = setNumbers(out, numbers);
+  if (!fault.empty()) throw WireError(fault);
 }
 
-struct Decoder {
-  const wire::Measurement& in;
-  void operator()(Echoes& echoes) const { decodeEchoes(in, echoes); }
-  void operator()(Scalar& scalar) const {
-    checkNumbers(in, 1);
-    scalar.value = in.numbers(0);
-  }
-  void operator()(Contacts& contacts) const {
-    if (in.pressed().size() != contacts.pressed.size()) {
-      throw WireError("a reading of " + std::to_string(in.pressed().size()) + " segments for a bumper of " +
-                      std::to_string(contacts.pressed.size()));
-    }
-    if (in.pressed().find_first_not_of(std::string("\0\1", 2)) != std::string::npos) {
-      throw WireError("a bumper's segment that is neither 0 nor 1");
-    }
-    std::copy(in.pressed().begin(), in.pressed().end(), contacts.pressed.begin());
-  }
-  void operator()(Odometry& odometry) const {
-    checkNumbers(in, 5);
-    odometry = {{in.numbers(0), in.numbers(1), in.numbers(2)}, in.numbers(3), in.numbers(4)};
-  }
-  void operator()(Image& image) const {
-    checkJpeg(in.jpeg());
-    image.jpeg = in.jpeg();
-  }
-  void operator()(Blobs& blobs) const {
-    blobs.taken = in.blobs_size() != 0;
-    if (blobs.taken && static_cast<std::size_t>(in.blobs_size()) != blobs.of_color.size()) {
-      throw WireError("a reading of " + std::to_string(in.blobs_size()) + " blobs for a blob finder of " +
-                      std::to_string(blobs.of_color.size()) + " colours");
-    }
-    for (std::size_t i = 0; i < blobs.of_color.size(); ++i) {
-      const wire::Blob& blob = blobs.taken ? in.blobs(static_cast<int>(i)) : wire::Blob::default_instance();
-      checkBlob(blob);
-      blobs.of_color[i] = {std::move(blobs.of_color[i].color),
-                           blob.pixels(),
-                           blob.x_px(),
-                           blob.y_px(),
-                           blob.left_px(),
-                           blob.top_px(),
-                           blob.width_px(),
-                           blob.height_px()};
-    }
-  }
-};
-
-struct Encoder {
-  wire::Measurement& out;
-  void operator()(const Echoes& echoes) const {
-    out.mutable_echoes()->Resize(static_cast<int>(4 * echoes.size()), 0);
-    float* to = out.mutable_echoes()->mutable_data();
-    for (const Echo& echo : echoes) {
-      *to++ = echo.range_m;
-      *to++ = echo.point_m.x;
-      *to++ = echo.point_m.y;
-      *to++ = echo.point_m.z;
-    }
-  }
-  void operator()(const Scalar& scalar) const { out.add_numbers(scalar.value); }
-  void operator()(const Contacts& contacts) const {
-    out.mutable_pressed()->assign(contacts.pressed.begin(), contacts.pressed.end());
-  }
-  void operator()(const Odometry& odometry) const {
-    const auto& pose = odometry.odom_from_robot;
-    for (const double n : {pose.x, pose.y, pose.phi, odometry.speed_mps, odometry.turn_radps}) out.add_numbers(n);
-  }
-  void operator()(const Image& image) const { out.set_jpeg(image.jpeg); }
-  void operator()(const Blobs& blobs) const {
-    if (!blobs.taken) return;
-    for (const Blob& blob : blobs.of_color) {
-      auto& to = *out.add_blobs();
-      to.set_pixels(blob.pixels);
-      to.set_x_px(blob.x_px);
-      to.set_y_px(blob.y_px);
-      to.set_left_px(blob.left_px);
-      to.set_top_px(blob.top_px);
-      to.set_width_px(blob.width_px);
-      to.set_height_px(blob.height_px);
-    }
-  }
-};
-
-void encode(const RobotMessage& letter, wire::InboxLetter& out) {
-  out.set_from(letter.from);
-  out.set_text(letter.text);
+void encode(const RobotMessage& message, wire::InboxLetter& out) {
+  out.set_from(message.from);
+  out.set_text(message.text);
 }
 
 }  // namespace
@@ -179,29 +112,51 @@ Command decode(const wire::RobotCommand& in, std::size_t robots) {
   return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), static_cast<Activity>(in.activity()), in.by_driver()};
 }
 
-void decode(const wire::FromRobots& in, std::size_t robots, RobotsAnswer& out) {
+void decode(const wire::DriveRequest& in, std::size_t robots, RobotsAnswer& out) {
   out.step = in.step();
   out.orders.clear();
   for (const auto& command : in.commands()) out.orders.push_back({command.robot(), decode(command, robots)});
-  out.letters.clear();
-  for (const auto& letter : in.letters()) {
-    checkRobot(letter.robot(), robots, "a letter");
-    if (letter.text().size() > kMaxMessageBytes) {
-      throw WireError("a letter of " + std::to_string(letter.text().size()) + " bytes; the most is " +
+  out.messages.clear();
+  for (const auto& message : in.letters()) {
+    checkRobot(message.robot(), robots, "a message");
+    if (message.text().size() > kMaxMessageBytes) {
+      throw WireError("a message of " + std::to_string(message.text().size()) + " bytes; the most is " +
                       std::to_string(kMaxMessageBytes));
     }
-    out.letters.push_back({letter.robot(), letter.to(), letter.text()});
+    out.messages.push_back({message.robot(), message.to(), message.text()});
   }
   out.win_checks.assign(in.check_win().begin(), in.check_win().end());
-  for (const auto robot : out.win_checks) checkRobot(robot, robots, "a question whether it has won");
+  for (const auto robot : out.win_checks) checkRobot(robot, robots, "a CheckWin request");
 }
 
 void encode(const Measurement& measurement, wire::Measurement& out) {
   out.Clear();
-  std::visit(Encoder{out}, measurement);
+  std::visit(
+      [&]<typename M>(const M& kind) {
+        if constexpr (kIsFile<M>) {
+          out.set_jpeg(Description<M>::file(kind));
+        } else if (isPresent(kind)) {
+          auto* next = numbersOf<M>(out, numberCount(kind));
+          forNumbers(kind, [&](const auto&, auto number, std::size_t) {
+            *next++ = static_cast<std::remove_reference_t<decltype(*next)>>(number);
+          });
+        }
+      },
+      measurement);
 }
 
-void decode(const wire::Measurement& in, Measurement& out) { std::visit(Decoder{in}, out); }
+void decode(const wire::Measurement& in, Measurement& out) {
+  std::visit(
+      [&]<typename M>(M& kind) {
+        if constexpr (kIsFile<M>) {
+          checkJpeg(in.jpeg());
+          Description<M>::file(kind) = in.jpeg();
+        } else {
+          decodeNumbers(in, kind);
+        }
+      },
+      out);
+}
 
 void encode(const Readings& readings, wire::RobotReadings& out) {
   out.Clear();
@@ -209,14 +164,12 @@ void encode(const Readings& readings, wire::RobotReadings& out) {
   out.set_stalled(readings.stalled);
   out.set_laser_pan_rad(readings.laser_pan_rad);
   out.set_is_too_far(readings.is_too_far);
-  for (const auto& letter : readings.inbox) encode(letter, *out.add_inbox());
+  for (const auto& message : readings.inbox) encode(message, *out.add_inbox());
 }
 
-void encodeInbox(const std::vector<RobotMessage>& letters, wire::RobotReadings& out) {
-  const google::protobuf::RepeatedPtrField<wire::InboxLetter> later = out.inbox();
+void encodeInbox(const std::vector<RobotMessage>& messages, wire::RobotReadings& out) {
   out.clear_inbox();
-  for (const auto& letter : letters) encode(letter, *out.add_inbox());
-  for (const auto& letter : later) *out.add_inbox() = letter;
+  for (const auto& message : messages) encode(message, *out.add_inbox());
 }
 
 void decode(const wire::RobotReadings& in, const std::string& to, Readings& out) {
@@ -231,7 +184,7 @@ void decode(const wire::RobotReadings& in, const std::string& to, Readings& out)
   out.laser_pan_rad = in.laser_pan_rad();
   out.is_too_far = in.is_too_far();
   out.inbox.clear();
-  for (const auto& letter : in.inbox()) out.inbox.push_back({letter.from(), to, letter.text()});
+  for (const auto& message : in.inbox()) out.inbox.push_back({message.from(), to, message.text()});
 }
 
 Readings blankReadings(const std::vector<SensorInfo>& sensors) {

@@ -10,27 +10,27 @@
 
 namespace robosim {
 
-/// What gRPC calls a two-way stream whose messages it leaves to us to read and write. It would only say that the
-/// stream has ended where a message cannot be read, and the peer would never hear why.
+/// Bidirectional stream of raw bytes; ServerStream parses the messages. For an unparsable message gRPC would only
+/// report the end of the stream, and the peer would not receive a reason.
 using RawStream = grpc::ServerBidiReactor<grpc::ByteBuffer, grpc::ByteBuffer>;
 
-/// The environment's end of a two-way stream. gRPC calls it from threads of its own; this keeps what gRPC demands, or
-/// else ends the process: one write at a time, none after the end, and an object that lives until gRPC has done with
-/// it. Whoever else holds a stream may go on calling it after its end; nothing happens then.
+/// The server side of a bidirectional stream with gRPC's callback API, called from gRPC's threads. Meets gRPC's
+/// requirements, whose violation would end the process: at most one write at a time, none after Finish(), and an object
+/// that lives until OnDone(). Calls after the end of the stream have no effect.
 template <typename In, typename Out>
 class ServerStream : public RawStream, public std::enable_shared_from_this<ServerStream<In, Out>> {
  public:
   explicit ServerStream(grpc::CallbackServerContext* context) : context_(context) {}
 
-  /// Call once it is fully made, by make_shared.
+  /// Starts reading. Call once, on an object created by make_shared.
   void begin() {
     self_ = this->shared_from_this();
     StartRead(&bytes_read_);
   }
 
   /// @name Sending: one thread at a time
-  /// Fill the draft, which stands as it was last left, then post it. It goes out once the write before it is done. A
-  /// draft posted before that has not gone out yet is taken back.
+  /// Fill draft(), which keeps its previous content, then call post(). The message is written once the previous write
+  /// has completed. draft() withdraws a posted message that has not been written yet.
   ///@{
   Out& draft() {
     const std::lock_guard lock(mutex_);
@@ -44,19 +44,20 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
   }
   ///@}
 
-  /// Whether nothing is posted or being written.
+  /// Whether no message is posted or being written.
   bool isIdle() {
     const std::lock_guard lock(mutex_);
     return !posted_ && !writing_;
   }
 
-  /// Ends the stream: what is posted still goes out if all is well. A peer that is too late may never take what is
-  /// being written, and is cut off; any other is told the status after that.
+  /// Ends the stream with a status. With status OK, a posted message is written first. With DEADLINE_EXCEEDED, a
+  /// pending write is cancelled, because the peer may never read it; with any other error the status follows the
+  /// pending write.
   void end(const grpc::Status& status) {
     const std::lock_guard lock(mutex_);
     if (ending_) return;
     ending_ = true;
-    status_ = {status.error_code(), fitForStatus(status.error_message())};
+    status_ = {status.error_code(), truncatedForStatus(status.error_message())};
     if (!status.ok()) posted_ = false;
     if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED && writing_) context_->TryCancel();
     writeNext();
@@ -65,14 +66,14 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
  protected:
   ~ServerStream() override = default;
 
-  /// A message came. Called from one of gRPC's threads, one message at a time.
-  /// @throws WireError for one that makes no sense, and nothing else.
+  /// Handles a message. Called from one of gRPC's threads, one message at a time.
+  /// @throws WireError for an invalid message; must not throw anything else.
   virtual void received(const In&) = 0;
-  /// Hangs up on a peer that sent what makes no sense.
+  /// Disconnects a peer that sent an invalid message.
   virtual void refuse(const WireError&) = 0;
-  /// What was posted has gone out, and nothing more is posted.
+  /// Called when all posted messages have been written.
   virtual void drained() {}
-  /// The peer has hung up, or is lost. Followed by no other call.
+  /// Called last, after the end of the stream or the loss of the connection.
   virtual void ended() = 0;
 
   grpc::CallbackServerContext* context() const { return context_; }
@@ -101,7 +102,7 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
     }
     try {
       if (!grpc::SerializationTraits<In>::Deserialize(&bytes_read_, &in_).ok()) {
-        throw WireError("a message that is no " + in_.GetTypeName() + "; doc/protocol.md tells what is");
+        throw WireError("a message that is not a valid " + in_.GetTypeName() + "; see doc/protocol.md");
       }
       received(in_);
     } catch (const WireError& error) {
@@ -115,7 +116,7 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
     {
       const std::lock_guard lock(mutex_);
       writing_ = false;
-      if (!ok) {  // the peer is gone: there is nobody to write to
+      if (!ok) {  // the peer has disconnected
         posted_ = false;
         ending_ = true;
       }
@@ -127,7 +128,7 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
 
   void OnDone() final {
     ended();
-    const auto last = std::move(self_);  // may be the last to hold this, and ends with this function
+    const auto last = std::move(self_);  // may hold the last reference, until this function returns
   }
 
   std::shared_ptr<ServerStream> self_;
@@ -137,7 +138,7 @@ class ServerStream : public RawStream, public std::enable_shared_from_this<Serve
   std::mutex mutex_;
   Out draft_;
   grpc::ByteBuffer bytes_written_;
-  bool posted_ = false;   ///< the draft is to be written next
+  bool posted_ = false;   ///< the draft is written next
   bool writing_ = false;  ///< between StartWrite and OnWriteDone
   bool ending_ = false;
   bool finished_ = false;

@@ -9,38 +9,38 @@
 #include <grpcpp/impl/codegen/proto_utils.h>
 #include <grpcpp/support/async_stream.h>
 
-#include "net/switchboard.h"
+#include "net/completion_queue_server.h"
 #include "net/wire_error.h"
 
 namespace robosim {
 
-/// Whose turn it is to speak on a stream.
-enum class Turn {
-  theirs,  ///< the peer is listened to at once
-  /// The peer is listened to at once, but no more than a few times a millisecond. gRPC looks at no other connection as
-  /// long as something has come already, so a peer that speaks without end would keep us from hearing anybody else.
-  in_measure,
-  /// The peer is listened to when our next message goes out. Then HTTP/2's acknowledgement of what it said travels with
-  /// that, and not alone, which would cost a packet, and wake the peer for nothing. Nor can a peer flood us.
-  ours,
+/// When StreamCall reads the next message of a stream.
+enum class ReadPolicy {
+  immediate,  ///< at once
+  /// At once, but at most kMaxMessagesPerPeriod times per kRatePeriod. gRPC does not poll other connections while a
+  /// completed read is available, so a peer that sends continuously would starve the other clients.
+  rate_limited,
+  /// When the next message is written. HTTP/2's acknowledgement of the received message then shares a packet with the
+  /// written one instead of waking the peer separately, and a peer cannot flood the server.
+  after_write,
 };
 
-/// The environment's end of a two-way stream. It keeps what gRPC demands, or else ends the process: one read and one
-/// write at a time, none after the end, and an object that lives until gRPC has done with it. Whoever else holds a
-/// stream may go on calling it after its end; nothing happens then.
+/// The server side of a bidirectional stream. Meets gRPC's requirements, whose violation would end the process: at most
+/// one read and one write at a time, none after Finish(), and an object that lives until gRPC has completed all
+/// operations. Calls after the end of the stream have no effect.
 ///
-/// gRPC's messages are bytes to us: it would only say that the stream has ended where a message cannot be read, and the
-/// peer would never hear why.
+/// Messages are received as raw bytes and parsed here: for an unparsable message gRPC would only report the end of the
+/// stream, and the peer would not receive a reason.
 template <typename In, typename Out>
 class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
  public:
   using Wire = grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer>;
 
-  explicit StreamCall(Switchboard& switchboard) : presence_(switchboard) {}
+  explicit StreamCall(CompletionQueueServer& queue_server) : registration_(queue_server) {}
   StreamCall(const StreamCall&) = delete;
   StreamCall& operator=(const StreamCall&) = delete;
 
-  /// Waits for a client's call. Call once it is fully made, by make_shared.
+  /// Requests a client's call. Call once, on an object created by make_shared.
   /// @param request is called with a ServerContext*, a Wire* and a tag, for a service's RequestX()
   template <typename Request>
   void await(const Request& request) {
@@ -50,8 +50,8 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   }
 
   /// @name Sending
-  /// Fill the draft, which stands as it was last left, then post it. It goes out once the write before it is done. A
-  /// draft posted before that has not gone out yet is taken back.
+  /// Fill draft(), which keeps its previous content, then call post(). The message is written once the previous write
+  /// has completed. draft() withdraws a posted message that has not been written yet.
   ///@{
   Out& draft() {
     posted_ = false;
@@ -63,64 +63,65 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   }
   ///@}
 
-  /// Whether nothing is posted or being written.
+  /// Whether no message is posted or being written.
   bool isIdle() const { return !posted_ && !writing_; }
 
-  /// Ends the stream: what is posted still goes out if all is well. A peer that is too late may never take what is
-  /// being written, and is cut off; any other is told the status after that, unless it takes nothing for a second.
+  /// Ends the stream with a status. With status OK, a posted message is written first. With DEADLINE_EXCEEDED, a
+  /// pending write is cancelled, because the peer may never read it; with any other error the status follows the
+  /// pending write, and the call is cancelled after kStatusTimeout.
   void end(const grpc::Status& status) {
     if (ending_) return;
     ending_ = true;
-    status_ = {status.error_code(), fitForStatus(status.error_message())};
+    status_ = {status.error_code(), truncatedForStatus(status.error_message())};
     if (!status.ok()) {
       posted_ = false;
-      is_patient_ = true;
+      has_cancel_timer_ = true;
       ++pending_;
-      patience_.Set(presence_.switchboard().queue(), std::chrono::system_clock::now() + kPatience,
-                    patience_over_.tag());
+      cancel_timer_.Set(registration_.queueServer().queue(), std::chrono::system_clock::now() + kStatusTimeout,
+                        cancel_timer_over_.tag());
     }
     if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED && writing_) context_.TryCancel();
     writeNext();
   }
 
   const grpc::ServerContext& context() const { return context_; }
-  const std::string& peer() const { return peer_; }  ///< who has called; also after the end
-  /// The peer has given up, or is gone.
+  const std::string& peer() const { return peer_; }  ///< address of the client; also valid after the end
+  /// Whether the peer has cancelled the call or disconnected.
   bool isCancelled() const { return is_cancelled_; }
 
  protected:
   virtual ~StreamCall() = default;
 
-  /// A client has called. It is listened to from now on.
+  /// Called when a client has made the call; reading starts afterwards.
   virtual void called() = 0;
-  /// A message came.
-  /// @throws WireError for one that makes no sense, and nothing else.
-  virtual Turn received(const In&) = 0;
-  /// The peer will say nothing more.
-  virtual void heardAll() { end(grpc::Status::OK); }
-  /// Hangs up on a peer that sent what makes no sense.
+  /// Handles a message.
+  /// @throws WireError for an invalid message; must not throw anything else.
+  virtual ReadPolicy received(const In&) = 0;
+  /// Called when the peer has sent its last message (half-close).
+  virtual void readsDone() { end(grpc::Status::OK); }
+  /// Disconnects a peer that sent an invalid message.
   virtual void refuse(const WireError&) = 0;
-  /// The peer has hung up, or is lost. Followed by no other call.
+  /// Called last, after the end of the stream or the loss of the connection.
   virtual void ended() = 0;
 
  private:
-  using Event = EventOf<StreamCall>;
+  using Tag = MemberCompletionTag<StreamCall>;
 
   void writeNext() {
     if (writing_ || finished_) return;
     if (posted_) {
       posted_ = false;
-      writing_ = has_spoken_ = true;
+      writing_ = has_written_since_read_ = true;
       bool owns_bytes = false;
       bytes_written_.Clear();
       grpc::SerializationTraits<Out>::Serialize(draft_, &bytes_written_, &owns_bytes);
       ++pending_;
       wire_.Write(bytes_written_, written_.tag());
-      if (std::exchange(is_read_held_, false)) read();
+      if (std::exchange(is_read_deferred_, false)) read();
     } else if (ending_) {
       finished_ = true;
       ++pending_;
-      wire_.Finish(status_, over_.tag());
+      wire_.Finish(status_, finished_tag_.tag());
     }
   }
 
@@ -131,7 +132,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   }
 
   void onCalled(bool ok) {
-    if (!ok) {  // nobody calls any more
+    if (!ok) {  // the server is shutting down
       const auto last = std::move(self_);
       return;
     }
@@ -143,29 +144,30 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
 
   void onRead(bool ok) {
     if (ok) {
-      hear();
+      handleMessage();
     } else {
-      heardAll();
+      readsDone();
     }
-    settle();
+    completeOperation();
   }
 
-  void hear() {
-    has_spoken_ = false;
-    auto turn = Turn::theirs;
+  void handleMessage() {
+    has_written_since_read_ = false;
+    auto policy = ReadPolicy::immediate;
     try {
       if (!grpc::SerializationTraits<In>::Deserialize(&bytes_read_, &in_).ok()) {
-        throw WireError("a message that is no " + in_.GetTypeName() + "; doc/protocol.md tells what is");
+        throw WireError("a message that is not a valid " + in_.GetTypeName() + "; see doc/protocol.md");
       }
-      turn = received(in_);
+      policy = received(in_);
     } catch (const WireError& error) {
       refuse(error);
     }
-    if (turn == Turn::in_measure && isHasty()) {
+    if (policy == ReadPolicy::rate_limited && isOverRateLimit()) {
       ++pending_;
-      breath_.Set(presence_.switchboard().queue(), std::chrono::system_clock::now() + kBreath, breathed_.tag());
-    } else if (turn == Turn::ours && !has_spoken_) {
-      is_read_held_ = true;
+      read_delay_.Set(registration_.queueServer().queue(), std::chrono::system_clock::now() + kRatePeriod,
+                      read_delay_over_.tag());
+    } else if (policy == ReadPolicy::after_write && !has_written_since_read_) {
+      is_read_deferred_ = true;
     } else {
       read();
     }
@@ -173,82 +175,82 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
 
   void onWritten(bool ok) {
     writing_ = false;
-    if (!ok) {  // the peer is gone: there is nobody to write to
+    if (!ok) {  // the peer has disconnected
       posted_ = false;
       ending_ = true;
     }
     writeNext();
-    settle();
+    completeOperation();
   }
 
-  /// Whether the peer has spoken too often of late.
-  bool isHasty() {
-    const auto now = Switchboard::Clock::now();
-    if (now - spoken_since_ >= kBreath) {
-      spoken_since_ = now;
-      spoken_ = 0;
+  /// Counts a message, and returns whether the rate limit is reached.
+  bool isOverRateLimit() {
+    const auto now = CompletionQueueServer::Clock::now();
+    if (now - period_start_ >= kRatePeriod) {
+      period_start_ = now;
+      messages_in_period_ = 0;
     }
-    return ++spoken_ >= kMostABreath;
+    return ++messages_in_period_ >= kMaxMessagesPerPeriod;
   }
 
-  void onBreathed(bool /*ok*/) {
+  void onReadDelayOver(bool /*ok*/) {
     read();
-    settle();
+    completeOperation();
   }
 
-  void onPatienceOver(bool ok) {
+  void onCancelTimerOver(bool ok) {
     if (ok) context_.TryCancel();
-    settle();
+    completeOperation();
   }
 
-  /// The stream is at its end, or the connection has broken, or the peer has given up the call.
+  /// The stream has ended, the connection was lost, or the peer has cancelled the call.
   void onDone(bool /*ok*/) {
     is_cancelled_ = context_.IsCancelled();
     if (is_cancelled_) end(grpc::Status::CANCELLED);
-    settle();
+    completeOperation();
   }
 
-  void onOver(bool /*ok*/) {
+  void onFinished(bool /*ok*/) {
     is_over_ = true;
-    if (std::exchange(is_patient_, false)) patience_.Cancel();
-    settle();
+    if (std::exchange(has_cancel_timer_, false)) cancel_timer_.Cancel();
+    completeOperation();
   }
 
-  /// One thing less is pending.
-  void settle() {
+  /// Releases this object when no operation is pending and the stream is finished.
+  void completeOperation() {
     if (--pending_ > 0 || !is_over_) return;
     ended();
-    const auto last = std::move(self_);  // may be the last to hold this, and ends with this function
+    const auto last = std::move(self_);  // may hold the last reference, until this function returns
   }
 
-  static constexpr std::chrono::seconds kPatience{1};
-  static constexpr std::chrono::milliseconds kBreath{1};
-  static constexpr int kMostABreath = 4;
+  static constexpr std::chrono::seconds kStatusTimeout{1};
+  static constexpr std::chrono::milliseconds kRatePeriod{1};
+  static constexpr int kMaxMessagesPerPeriod = 4;
 
-  Switchboard::Presence presence_;
+  CompletionQueueServer::CallRegistration registration_;
   std::shared_ptr<StreamCall> self_;
   grpc::ServerContext context_;
   std::string peer_;
   Wire wire_{&context_};
-  grpc::Alarm patience_, breath_;
-  Event called_{*this, &StreamCall::onCalled}, read_{*this, &StreamCall::onRead},
-      written_{*this, &StreamCall::onWritten}, patience_over_{*this, &StreamCall::onPatienceOver},
-      done_{*this, &StreamCall::onDone}, over_{*this, &StreamCall::onOver}, breathed_{*this, &StreamCall::onBreathed};
+  grpc::Alarm cancel_timer_, read_delay_;
+  Tag called_{*this, &StreamCall::onCalled}, read_{*this, &StreamCall::onRead}, written_{*this, &StreamCall::onWritten},
+      cancel_timer_over_{*this, &StreamCall::onCancelTimerOver}, done_{*this, &StreamCall::onDone},
+      finished_tag_{*this, &StreamCall::onFinished}, read_delay_over_{*this, &StreamCall::onReadDelayOver};
   grpc::ByteBuffer bytes_read_;
   In in_;
   Out draft_;
   grpc::ByteBuffer bytes_written_;
-  Switchboard::Clock::time_point spoken_since_;
-  int spoken_ = 0;       ///< messages that have come since then
-  int pending_ = 0;      ///< what gRPC was asked to do and has not done
-  bool posted_ = false;  ///< the draft is to be written next
+  CompletionQueueServer::Clock::time_point period_start_;
+  int messages_in_period_ = 0;  ///< messages received since period_start_
+  int pending_ = 0;             ///< operations that gRPC has not completed
+  bool posted_ = false;         ///< the draft is to be written next
   bool writing_ = false;
-  bool has_spoken_ = false;    ///< a write has begun since the last message came
-  bool is_read_held_ = false;  ///< the next message is to be read when the next write begins
+  bool has_written_since_read_ = false;  ///< a write has started since the last message was received
+  bool is_read_deferred_ = false;        ///< the next read starts with the next write
   bool ending_ = false;
-  bool finished_ = false;  ///< gRPC was told the end …
-  bool is_over_ = false;   ///< … and has told it
-  bool is_patient_ = false;
+  bool finished_ = false;  ///< Finish() was called
+  bool is_over_ = false;   ///< Finish() has completed
+  bool has_cancel_timer_ = false;
   bool is_cancelled_ = false;
   grpc::Status status_;
 };

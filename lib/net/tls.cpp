@@ -5,10 +5,10 @@
 #include <openssl/pem.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
-#include <sys/socket.h>
-#include <sys/time.h>
+#include <poll.h>
 
 #include "base/error_list.h"
+#include "net/host_port.h"
 #include "net/private_file.h"
 
 namespace robosim {
@@ -28,7 +28,7 @@ Owned<BIO> bioOf(const std::string& text) {
   return Owned<BIO>(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
 }
 
-/// A key that asks for a passphrase is refused instead of asking on the terminal.
+/// Passphrase callback that refuses encrypted keys, instead of prompting on the terminal.
 int noPassphrase(char*, int, int, void*) { return 0; }
 
 Owned<X509> nextCertificate(BIO* pem) {
@@ -49,7 +49,7 @@ void checkDates(X509* certificate, const std::string& file) {
   const ASN1_TIME* from = X509_get0_notBefore(certificate);
   const ASN1_TIME* until = X509_get0_notAfter(certificate);
   if (X509_cmp_current_time(until) < 0) {
-    throw ConfigError(file + ": the certificate expired on " + textOf(until) + "; make or ask for a new one");
+    throw ConfigError(file + ": the certificate expired on " + textOf(until) + "; create or request a new one");
   }
   if (X509_cmp_current_time(from) > 0) {
     throw ConfigError(file + ": the certificate is not valid before " + textOf(from) +
@@ -57,11 +57,48 @@ void checkDates(X509* certificate, const std::string& file) {
   }
 }
 
-/// The host of "host:port", without the brackets of an IPv6 address.
-std::string hostOf(const std::string& address) {
-  std::string host = address.substr(0, address.rfind(':'));
-  if (host.size() > 1 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  return host;
+/// Minimum security bits of keys and signatures (NIST SP 800-57: until 2030 and beyond): RSA of 2,048 bits, curves of
+/// 224 bits, SHA-2. Peers require the same by OpenSSL's default security level.
+constexpr int kMinSecurityBits = 112;
+
+void checkKeyStrength(X509* certificate, const std::string& file) {
+  const EVP_PKEY* key = X509_get0_pubkey(certificate);
+  if (key && EVP_PKEY_security_bits(key) >= kMinSecurityBits) return;
+  throw ConfigError(file + ": the certificate's key is too weak: " + std::to_string(key ? EVP_PKEY_bits(key) : 0) +
+                    " bits, which others refuse; create one with RSA of 2048 bits or more, or the curve P-256");
+}
+
+/// OpenSSL rates SHA-1 and MD5 at fewer security bits than half of their length, because collisions are known.
+void checkSignature(X509* certificate, const std::string& file) {
+  int digest = NID_undef;
+  int key_type = NID_undef;
+  int bits = 0;
+  std::uint32_t flags = 0;
+  const bool is_known = X509_get_signature_info(certificate, &digest, &key_type, &bits, &flags) == 1;
+  if (is_known && bits >= kMinSecurityBits) return;
+  const char* name = OBJ_nid2ln(X509_get_signature_nid(certificate));
+  throw ConfigError(file + ": the certificate is signed with " + (name ? name : "an unknown algorithm") +
+                    ", which is too weak and which others refuse; have it signed with SHA-256 or better");
+}
+
+/// OpenSSL's reason for refusing the certificate and the key; empty for none.
+std::string refusalOfOpenSsl(X509* certificate, EVP_PKEY* key) {
+  const Owned<SSL_CTX> context(SSL_CTX_new(TLS_server_method()));
+  if (SSL_CTX_use_certificate(context.get(), certificate) == 1 && SSL_CTX_use_PrivateKey(context.get(), key) == 1) {
+    return "";
+  }
+  const char* reason = ERR_reason_error_string(ERR_peek_last_error());
+  ERR_clear_error();
+  return reason ? reason : "no reason given";
+}
+
+using Clock = std::chrono::steady_clock;
+
+/// Waits until a connection can be read or written, or has failed. @return false when the time is over
+bool waitFor(BIO* tcp, short what, Clock::time_point until) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
+  pollfd ready{static_cast<int>(BIO_get_fd(tcp, nullptr)), what, 0};
+  return left.count() > 0 && poll(&ready, 1, static_cast<int>(left.count())) > 0;
 }
 
 void trust(SSL_CTX* context, const std::string& trusted_pem) {
@@ -80,7 +117,8 @@ void trust(SSL_CTX* context, const std::string& trusted_pem) {
 TlsIdentity TlsIdentity::read(const std::filesystem::path& certificate_file, const std::filesystem::path& key_file) {
   TlsIdentity identity{readSmallFile(certificate_file, "the certificate"),
                        readPrivateFile(key_file, "the private key")};
-  const Owned<X509> certificate = nextCertificate(bioOf(identity.certificate_pem).get());
+  const Owned<BIO> chain = bioOf(identity.certificate_pem);
+  const Owned<X509> certificate = nextCertificate(chain.get());
   if (!certificate) {
     throw ConfigError(certificate_file.string() + ": has no certificate; it begins with -----BEGIN CERTIFICATE-----");
   }
@@ -88,14 +126,26 @@ TlsIdentity TlsIdentity::read(const std::filesystem::path& certificate_file, con
   ERR_clear_error();
   if (!key) {
     throw ConfigError(key_file.string() +
-                      ": has no private key that can be read without a passphrase; 'openssl pkey' takes one off");
+                      ": has no private key that can be read without a passphrase; 'openssl pkey' removes it");
   }
   if (X509_check_private_key(certificate.get(), key.get()) != 1) {
     ERR_clear_error();
     throw ConfigError(key_file.string() + ": is not the key of the certificate in " + certificate_file.string() +
                       "; name two files that belong together");
   }
-  checkDates(certificate.get(), certificate_file.string());
+  const std::string file = certificate_file.string();
+  checkDates(certificate.get(), file);
+  checkKeyStrength(certificate.get(), file);
+  checkSignature(certificate.get(), file);
+  while (const Owned<X509> signer = nextCertificate(chain.get())) {
+    checkDates(signer.get(), file);
+    checkKeyStrength(signer.get(), file);
+    const bool is_root =
+        X509_check_issued(signer.get(), signer.get()) == X509_V_OK;  // the signature of a root is not checked
+    if (!is_root) checkSignature(signer.get(), file);
+  }
+  const std::string refusal = refusalOfOpenSsl(certificate.get(), key.get());
+  if (!refusal.empty()) throw ConfigError(file + ": OpenSSL cannot use the certificate: " + refusal);
   return identity;
 }
 
@@ -113,30 +163,39 @@ std::string readTrustedCertificates(const std::filesystem::path& file) {
   return pem;
 }
 
-std::string whyTlsFails(const std::string& address, const std::string& trusted_pem) {
+std::string diagnoseTls(const std::string& address, const std::string& trusted_pem, std::chrono::milliseconds limit) {
+  const auto until = Clock::now() + limit;
   const Owned<BIO> tcp(BIO_new_connect(address.c_str()));
-  if (BIO_do_connect(tcp.get()) != 1) {
+  BIO_set_nbio(tcp.get(), 1);
+  while (BIO_do_connect(tcp.get()) != 1) {
+    const bool goes_on = BIO_should_retry(tcp.get()) != 0 && waitFor(tcp.get(), POLLOUT, until);
     ERR_clear_error();
-    return "";
+    if (!goes_on) return "";
   }
-  const timeval patience{.tv_sec = 5, .tv_usec = 0};
-  setsockopt(static_cast<int>(BIO_get_fd(tcp.get(), nullptr)), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof(patience));
-
   const Owned<SSL_CTX> context(SSL_CTX_new(TLS_client_method()));
   trust(context.get(), trusted_pem);
   const Owned<SSL> ssl(SSL_new(context.get()));
-  const std::string host = hostOf(address);
+  const std::string host = HostPort::of(address).host;
   if (X509_VERIFY_PARAM_set1_ip_asc(SSL_get0_param(ssl.get()), host.c_str()) != 1) {
     SSL_set1_host(ssl.get(), host.c_str());
     SSL_set_tlsext_host_name(ssl.get(), host.c_str());
   }
-  SSL_set_verify(ssl.get(), SSL_VERIFY_NONE, nullptr);  // it goes on whatever it finds, and is then asked for that
+  SSL_set_verify(ssl.get(), SSL_VERIFY_NONE, nullptr);  // completes the handshake; the result is queried afterwards
   BIO_up_ref(tcp.get());
   SSL_set_bio(ssl.get(), tcp.get(), tcp.get());
-  const bool is_tls = SSL_connect(ssl.get()) == 1;
+  int done = 0;
+  while ((done = SSL_connect(ssl.get())) != 1) {
+    const int needed = SSL_get_error(ssl.get(), done);
+    if (needed != SSL_ERROR_WANT_READ && needed != SSL_ERROR_WANT_WRITE) break;
+    if (!waitFor(tcp.get(), needed == SSL_ERROR_WANT_READ ? POLLIN : POLLOUT, until)) {
+      ERR_clear_error();
+      return "the server has not responded within " + std::to_string(limit.count()) + " ms";
+    }
+  }
+  const bool is_tls = done == 1;
   const long found = SSL_get_verify_result(ssl.get());
   ERR_clear_error();
-  if (!is_tls) return "whoever listens there does not speak TLS";
+  if (!is_tls) return "the server does not use TLS";
   return found == X509_V_OK ? "" : X509_verify_cert_error_string(found);
 }
 

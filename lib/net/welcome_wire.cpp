@@ -7,16 +7,13 @@
 namespace robosim {
 namespace {
 
-static_assert(static_cast<int>(SensorKind::sonar) == wire::SONAR &&
-              static_cast<int>(SensorKind::battery) == wire::BATTERY && wire::SensorKind_ARRAYSIZE == 10);
-
 void checkFinite(std::initializer_list<double> values) {
   if (std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); })) return;
   throw WireError("the environment's welcome has a number that is not finite");
 }
 
 void encode(const SensorInfo& sensor, wire::SensorDescription& out) {
-  out.set_kind(static_cast<wire::SensorKind>(sensor.kind));
+  out.set_kind(nameOf(sensor.kind));
   out.set_label(sensor.label);
   for (const auto& beam : sensor.beams) {
     const auto& b = beam.robot_from_beam;
@@ -36,26 +33,32 @@ void encode(const SensorInfo& sensor, wire::SensorDescription& out) {
     camera.set_rate_hz(sensor.camera.rate_hz);
   }
   for (const auto& color : sensor.colors) out.add_colors(color);
+  for (const auto& quantity : sensor.quantities) {
+    auto& added = *out.add_quantities();
+    added.set_name(quantity.name);
+    added.set_unit(quantity.unit);
+  }
 }
 
 CameraInfo decode(const wire::CameraDescription& in) {
   const auto is_side = [](std::uint32_t px) { return px >= 1 && px <= kPictureSideMax_px; };
   if (!is_side(in.width_px()) || !is_side(in.height_px()) ||
       !(in.field_of_view_rad() > 0 && in.field_of_view_rad() < M_PI) || !(in.rate_hz() > 0)) {
-    throw WireError("a camera that takes no pictures");
+    throw WireError("a camera with invalid parameters");
   }
   checkFinite({in.rate_hz()});
   return {in.width_px(), in.height_px(), in.field_of_view_rad(), in.rate_hz()};
 }
 
 SensorInfo decode(const wire::SensorDescription& in) {
-  if (!wire::SensorKind_IsValid(in.kind())) {
-    throw WireError("the environment has a sensor of the unknown kind " + std::to_string(in.kind()) +
-                    "; bring this program up to date");
+  const auto kind = sensorKindNamed(in.kind());
+  if (!kind) {
+    throw WireError("the environment has a sensor of the unknown kind \"" + in.kind() +
+                    "\"; bring this program up to date");
   }
   if (in.beams_size() % 6 != 0) throw WireError("a sensor's beams have six numbers each");
   SensorInfo sensor;
-  sensor.kind = static_cast<SensorKind>(in.kind());
+  sensor.kind = *kind;
   sensor.label = in.label();
   for (int i = 0; i < in.beams_size(); i += 6) {
     const double* b = in.beams().data() + i;
@@ -73,11 +76,12 @@ SensorInfo decode(const wire::SensorDescription& in) {
   if (sees && sensor.beams.size() != 1) throw WireError("a camera has one place on the robot");
   if (sees) sensor.camera = decode(in.camera());
   sensor.colors.assign(in.colors().begin(), in.colors().end());
+  for (const auto& quantity : in.quantities()) sensor.quantities.push_back({quantity.name(), quantity.unit()});
   return sensor;
 }
 
-void encode(const RobotsWelcome::Seat& seat, std::uint32_t sensor_set, wire::RobotDescription& out) {
-  const RobotInfo& info = seat.info;
+void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, wire::RobotDescription& out) {
+  const RobotInfo& info = robot.info;
   out.set_name(info.name);
   out.set_model(info.model);
   out.set_neighbour(info.neighbour);
@@ -89,14 +93,15 @@ void encode(const RobotsWelcome::Seat& seat, std::uint32_t sensor_set, wire::Rob
   out.set_decel_mps2(info.limits.decel_mps2);
   out.set_turn_accel_radps2(info.limits.turn_accel_radps2);
   out.set_sensor_set(sensor_set);
-  out.set_place(seat.place);
-  out.set_controller(seat.controller);
+  out.set_place(robot.place);
+  out.set_controller(robot.controller);
+  out.set_next_answer(robot.next_answer);
 }
 
 using SensorSets = std::vector<std::shared_ptr<const std::vector<SensorInfo>>>;
 
-RobotsWelcome::Seat decode(const wire::RobotDescription& in, const SensorSets& sets) {
-  if (in.sensor_set() >= sets.size()) throw WireError("a robot has a set of sensors that is not there");
+RobotsWelcome::Robot decode(const wire::RobotDescription& in, const SensorSets& sets) {
+  if (in.sensor_set() >= sets.size()) throw WireError("a robot refers to a set of sensors that does not exist");
   const MotionLimits limits{.speed_max_mps = in.speed_max_mps(),
                             .turn_max_radps = in.turn_max_radps(),
                             .accel_mps2 = in.accel_mps2(),
@@ -106,7 +111,8 @@ RobotsWelcome::Seat decode(const wire::RobotDescription& in, const SensorSets& s
                limits.decel_mps2, limits.turn_accel_radps2});
   return {{in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()]},
           in.place(),
-          in.controller()};
+          in.controller(),
+          in.next_answer()};
 }
 
 }  // namespace
@@ -115,19 +121,20 @@ void encode(const RobotsWelcome& welcome, wire::RobotsWelcome& out) {
   out.Clear();
   out.set_world(welcome.world);
   out.set_world_version(welcome.world_version);
+  out.set_run(welcome.run);
   out.set_seed(welcome.seed);
   out.set_period_s(welcome.period_s);
   std::map<const std::vector<SensorInfo>*, std::uint32_t> set_of;
-  for (const auto& seat : welcome.seats) {
-    const auto* sensors = seat.info.sensors.get();
+  for (const auto& robot : welcome.robots) {
+    const auto* sensors = robot.info.sensors.get();
     const auto [found, is_new] = set_of.emplace(sensors, static_cast<std::uint32_t>(set_of.size()));
     if (is_new) {
       auto& set = *out.add_sensor_sets();
       for (const auto& sensor : *sensors) encode(sensor, *set.add_sensors());
     }
-    encode(seat, found->second, *out.add_robots());
+    encode(robot, found->second, *out.add_robots());
   }
-  for (const auto& name : welcome.everyone) out.add_everyone(name);
+  for (const auto& name : welcome.all_robots) out.add_everyone(name);
 }
 
 RobotsWelcome decode(const wire::RobotsWelcome& in) {
@@ -135,6 +142,7 @@ RobotsWelcome decode(const wire::RobotsWelcome& in) {
   RobotsWelcome welcome;
   welcome.world = in.world();
   welcome.world_version = in.world_version();
+  welcome.run = in.run();
   welcome.seed = in.seed();
   welcome.period_s = in.period_s();
   SensorSets sets;
@@ -143,8 +151,8 @@ RobotsWelcome decode(const wire::RobotsWelcome& in) {
     for (const auto& sensor : set.sensors()) sensors->push_back(decode(sensor));
     sets.push_back(std::move(sensors));
   }
-  for (const auto& robot : in.robots()) welcome.seats.push_back(decode(robot, sets));
-  welcome.everyone.assign(in.everyone().begin(), in.everyone().end());
+  for (const auto& robot : in.robots()) welcome.robots.push_back(decode(robot, sets));
+  welcome.all_robots.assign(in.everyone().begin(), in.everyone().end());
   return welcome;
 }
 

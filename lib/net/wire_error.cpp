@@ -2,11 +2,11 @@
 
 namespace robosim {
 
-std::string fitForStatus(const std::string& text) {
-  constexpr std::size_t kLongest = 2000;
-  if (text.size() <= kLongest) return text;
-  std::size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a letter of UTF-8
+std::string truncatedForStatus(const std::string& text) {
+  constexpr std::size_t kMaxBytes = 2000;
+  if (text.size() <= kMaxBytes) return text;
+  std::size_t end = kMaxBytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;  // not within a UTF-8 character
   return text.substr(0, end) + " …";
 }
 
@@ -19,10 +19,10 @@ void checkProtocol(std::uint32_t version) {
 }
 
 std::string inQuotes(std::string_view text) {
-  constexpr std::size_t kLongest = 60;
+  constexpr std::size_t kMaxBytes = 60;
   std::string result = "'";
-  for (const char c : text.substr(0, kLongest)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > kLongest ? "…'" : "'");
+  for (const char c : text.substr(0, kMaxBytes)) result += c >= ' ' && c <= '~' ? c : '?';
+  return result + (text.size() > kMaxBytes ? "…'" : "'");
 }
 
 }  // namespace robosim

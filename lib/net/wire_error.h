@@ -8,11 +8,11 @@
 
 namespace robosim {
 
-/// The version of the protocol that both ends must speak.
+/// Version of the protocol; both sides must use the same.
 constexpr std::uint32_t kProtocolVersion = 1;
 
-/// A peer's message makes no sense. What the peer is told, and the log: it costs that peer its connection, and nobody
-/// else anything.
+/// An invalid message from a peer. The text is sent to the peer and logged; the peer's connection is closed, and other
+/// clients are not affected.
 class WireError : public std::runtime_error {
  public:
   explicit WireError(const std::string& what, grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT)
@@ -23,15 +23,14 @@ class WireError : public std::runtime_error {
   grpc::StatusCode code_;
 };
 
-/// A text of any length, fit for the status with which a call ends: cut short after 2000 bytes, for gRPC drops a longer
-/// status and tells of that instead.
-std::string fitForStatus(const std::string& text);
+/// A text shortened to 2000 bytes, for the message of a grpc::Status: gRPC replaces longer messages.
+std::string truncatedForStatus(const std::string& text);
 
-/// @throws WireError unless the peer speaks our version.
+/// @throws WireError unless the peer uses kProtocolVersion.
 void checkProtocol(std::uint32_t version);
 
-/// A text that came from a peer, fit for one line of a log: in quotes, what is not printable ASCII as '?', and cut
-/// short after 60 bytes.
+/// A text from a peer for a log line: in quotes, truncated after 60 bytes, with '?' for every byte that is not
+/// printable ASCII.
 std::string inQuotes(std::string_view text);
 
 }  // namespace robosim

@@ -5,7 +5,7 @@
 namespace robosim {
 namespace {
 
-TEST(WireError, TellsWhichOfTwoProgramsIsTheOlder) {
+TEST(WireError, NamesTheOlderProgramOfAVersionMismatch) {
   EXPECT_NO_THROW(checkProtocol(kProtocolVersion));
   for (const std::uint32_t version : {0u, 2u}) {
     try {
@@ -19,18 +19,18 @@ TEST(WireError, TellsWhichOfTwoProgramsIsTheOlder) {
   }
 }
 
-TEST(WireError, QuotesAStrangersTextInOneShortLine) {
+TEST(WireError, EscapesAndTruncatesQuotedTexts) {
   EXPECT_EQ(inQuotes("Robo"), "'Robo'");
   EXPECT_EQ(inQuotes("a\nb\x1b[2J\xff"), "'a?b?[2J?'");
   EXPECT_LT(inQuotes(std::string(1 << 20, 'x')).size(), 70u);
 }
 
-TEST(WireError, CutsALongTextBetweenItsLetters) {
-  EXPECT_EQ(fitForStatus("short"), "short");
+TEST(WireError, TruncatesAtAUtf8Boundary) {
+  EXPECT_EQ(truncatedForStatus("short"), "short");
   std::string text;
   while (text.size() < 3000) text += "é";
-  const std::string cut = fitForStatus("x" + text);
-  EXPECT_EQ(cut, "x" + text.substr(0, 1998) + " …") << "the letter across byte 2000 is left out";
+  const std::string cut = truncatedForStatus("x" + text);
+  EXPECT_EQ(cut, "x" + text.substr(0, 1998) + " …") << "the character across byte 2000 is dropped";
 }
 
 }  // namespace

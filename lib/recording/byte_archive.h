@@ -8,7 +8,7 @@
 
 namespace robosim {
 
-/// An MRPT archive that writes to the end of `bytes`.
+/// An MRPT archive that appends to `bytes`.
 class ByteArchive : public mrpt::serialization::CArchive {
  public:
   std::vector<std::uint8_t> bytes;

@@ -2,28 +2,37 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
+
+#include "base/atomic_file.h"
 
 namespace robosim {
 
-/// A gzip file that stands under its name only when it is whole. Until commit() it grows as "<name>.part"; whatever had
-/// the name before stays as it was. Destroyed without commit(), it removes the .part; a program that is killed leaves
-/// it behind, and it can be read up to where it ends.
+/// A gzip file over an AtomicFile: it appears under its name only when it is complete. A killed program leaves the
+/// .part behind, readable up to its end.
 ///
-/// Compressed by Intel's ISA-L at its level 0, which takes the least time. Every write to the
-/// disk is checked, which MRPT's CFileGZOutputStream leaves out for the last one.
+/// Compressed by Intel's ISA-L at level 0, the fastest. Every write to the disk is checked; MRPT's CFileGZOutputStream
+/// does not check the last one.
 class GzipFile {
  public:
-  /// @throws ConfigError when there can be no such file, or another program is at work on its .part.
+  /// Maximum number of bytes passed to the compressor at once; longer writes are split.
+  static constexpr std::size_t kMaxPiece = std::size_t{1} << 26;
+
+  /// @throws ConfigError when the file cannot be created, or another program writes its .part.
   explicit GzipFile(const std::filesystem::path& file);
   ~GzipFile();
   GzipFile(const GzipFile&) = delete;
   GzipFile& operator=(const GzipFile&) = delete;
 
   /// Appends bytes; best in pieces of many kilobytes.
-  /// @throws RecordingError when they could not be written: the recording is given up.
+  /// @throws RecordingError when they could not be written; the recording is discarded.
   void write(std::span<const std::uint8_t> bytes);
-  /// Waits until all is on the disk, and gives the file its name. Only once.
+  /// Writes the buffered data, and waits until all is on the disk; the file is still "<name>.part".
+  /// @throws RecordingError as write() does.
+  void finish();
+  /// Finishes the file if necessary, and renames it to its name. Call at most once. Of several files that belong
+  /// together, finish each, then commit each.
   /// @throws RecordingError as write() does.
   void commit();
 
@@ -32,13 +41,16 @@ class GzipFile {
  private:
   struct Compressor;
   void compress(std::span<const std::uint8_t> bytes, bool last);
-  [[noreturn]] void giveUp(int error);
-  void discard();
+  void checkOpen() const;
+  /// Calls act(), and fail() if the file cannot be written.
+  template <typename Act>
+  void check(const Act& act);
+  [[noreturn]] void fail();
 
+  std::optional<AtomicFile> file_;  ///< nullopt when committed or discarded
   std::filesystem::path path_;
-  std::filesystem::path part_;
   std::unique_ptr<Compressor> compressor_;
-  int descriptor_ = -1;  ///< -1 when committed or given up
+  bool is_finished_ = false;
 };
 
 }  // namespace robosim

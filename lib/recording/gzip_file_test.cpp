@@ -11,10 +11,11 @@
 #include <unistd.h>
 
 #include "base/error_list.h"
+#include "base/file_size_limit.h"
 #include "base/random.h"
 #include "base/test_folder.h"
-#include "recording/full_disk.h"
 #include "recording/recording_error.h"
+#include "recording/unpacked_file.h"
 
 namespace robosim {
 namespace {
@@ -31,10 +32,10 @@ std::vector<std::uint8_t> noise(std::size_t size) {
   return bytes;
 }
 
-std::vector<std::uint8_t> unpacked(const fs::path& file) {
+std::vector<std::uint8_t> unpacked(const fs::path& file, std::size_t size_max = 10'000'000) {
   mrpt::io::CFileGZInputStream in;
   EXPECT_TRUE(in.open(file.string()));
-  std::vector<std::uint8_t> bytes(10'000'000);
+  std::vector<std::uint8_t> bytes(size_max);
   bytes.resize(in.Read(bytes.data(), bytes.size()));
   return bytes;
 }
@@ -56,7 +57,7 @@ std::string configErrorFor(const fs::path& file) {
   return "none";
 }
 
-/// Takes root's power over everybody's files from a test that was started by root.
+/// Drops root privileges of a test that was started by root.
 class WithoutPower {
  public:
   WithoutPower() : before_(geteuid()) { EXPECT_EQ(seteuid(before_ == 0 ? 65534 : before_), 0); }
@@ -66,7 +67,7 @@ class WithoutPower {
   uid_t before_;
 };
 
-TEST_F(GzipFileTest, MrptUnpacksWhatWasWrittenInPieces) {
+TEST_F(GzipFileTest, IsReadableByMrptWhenWrittenInPieces) {
   const auto all = noise(300'000);
   GzipFile file(in("a.rawlog"));
   for (std::size_t at = 0; at < all.size(); at += 100'000) file.write(std::span(all).subspan(at, 100'000));
@@ -74,13 +75,33 @@ TEST_F(GzipFileTest, MrptUnpacksWhatWasWrittenInPieces) {
   EXPECT_EQ(unpacked(in("a.rawlog")), all);
 }
 
-TEST_F(GzipFileTest, IsAWholeGzipFileEvenWithNothingInIt) {
+TEST_F(GzipFileTest, DoesNotAppearUnderItsNameBeforeCommit) {
+  GzipFile file(in("a.rawlog"));
+  file.write(noise(1'000));
+  file.finish();
+  file.finish();
+  EXPECT_FALSE(fs::exists(in("a.rawlog")));
+  EXPECT_EQ(unpacked(in("a.rawlog.part")), noise(1'000));
+  file.commit();
+  EXPECT_EQ(unpacked(in("a.rawlog")), noise(1'000));
+}
+
+TEST_F(GzipFileTest, KeepsWritesOfSeveralPiecesIntact) {
+  std::vector<std::uint8_t> bytes(2 * GzipFile::kMaxPiece + 12345);
+  for (std::size_t i = 0; i < bytes.size(); i += 4096) bytes[i] = static_cast<std::uint8_t>(i >> 12);
+  GzipFile file(in("a.rawlog"));
+  file.write(bytes);
+  file.commit();
+  EXPECT_TRUE(unpacked(in("a.rawlog"), bytes.size() + 1) == bytes);
+}
+
+TEST_F(GzipFileTest, IsAValidGzipFileWithoutData) {
   GzipFile(in("empty.rawlog")).commit();
   EXPECT_EQ(unpacked(in("empty.rawlog")), std::vector<std::uint8_t>());
   EXPECT_GT(fs::file_size(in("empty.rawlog")), 0u);
 }
 
-TEST_F(GzipFileTest, HasItsNameOnlyWhenItIsWhole) {
+TEST_F(GzipFileTest, AppearsUnderItsNameWhenComplete) {
   writeText(in("a.rawlog"), "the recording before");
   GzipFile file(in("a.rawlog"));
   file.write(noise(200'000));
@@ -91,23 +112,24 @@ TEST_F(GzipFileTest, HasItsNameOnlyWhenItIsWhole) {
   EXPECT_FALSE(fs::exists(in("a.rawlog.part")));
 }
 
-TEST_F(GzipFileTest, LeavesNothingBehindWhenItIsNotCommitted) {
+TEST_F(GzipFileTest, RemovesItsPartWithoutCommit) {
   writeText(in("a.rawlog"), "the recording before");
   GzipFile(in("a.rawlog")).write(noise(200'000));
   EXPECT_EQ(textOf(in("a.rawlog")), "the recording before");
   EXPECT_FALSE(fs::exists(in("a.rawlog.part")));
 }
 
-TEST_F(GzipFileTest, GivesUpOnAFullDiskWhileWriting) {
+TEST_F(GzipFileTest, FailsOnAFullDiskWhileWriting) {
   writeText(in("a.rawlog"), "the recording before");
   GzipFile file(in("a.rawlog"));
-  const FullDisk full(100'000);
+  const FileSizeLimit full(100'000);
   try {
     file.write(noise(1'000'000));
     FAIL() << "a file of 1 MB on a disk of 100 kB";
   } catch (const RecordingError& error) {
-    EXPECT_EQ(error.what(), in("a.rawlog").string() +
-                                ": the recording could not be written: File too large; make room, or record elsewhere");
+    EXPECT_EQ(error.what(),
+              in("a.rawlog").string() +
+                  ": the recording could not be written: File too large; free disk space, or record elsewhere");
   }
   EXPECT_EQ(textOf(in("a.rawlog")), "the recording before");
   EXPECT_FALSE(fs::exists(in("a.rawlog.part")));
@@ -116,50 +138,47 @@ TEST_F(GzipFileTest, GivesUpOnAFullDiskWhileWriting) {
   EXPECT_EQ(textOf(in("a.rawlog")), "the recording before");
 }
 
-TEST_F(GzipFileTest, GivesUpOnADiskThatIsFullOnlyForTheLastBytes) {
+TEST_F(GzipFileTest, FailsWhenTheDiskIsFullForTheLastBytes) {
   writeText(in("a.rawlog"), "the recording before");
   GzipFile file(in("a.rawlog"));
   file.write(noise(1'000));
-  const FullDisk full(fs::file_size(in("a.rawlog.part")));
+  const FileSizeLimit full(fs::file_size(in("a.rawlog.part")));
   EXPECT_THROW(file.commit(), RecordingError);
   EXPECT_EQ(textOf(in("a.rawlog")), "the recording before");
   EXPECT_FALSE(fs::exists(in("a.rawlog.part")));
 }
 
-TEST_F(GzipFileTest, RefusesAFolder) {
-  EXPECT_EQ(configErrorFor(folder_), folder_.string() + ": is a folder; give the name of a file in it, such as " +
-                                         (folder_ / "run.rawlog").string());
+TEST_F(GzipFileTest, RejectsAFolder) {
+  EXPECT_EQ(configErrorFor(folder_), folder_.string() + ": is a folder; name a file in it");
 }
 
-TEST_F(GzipFileTest, RefusesNoNameAtAll) {
-  EXPECT_EQ(configErrorFor(""), ": is no name for a recording; give a file's, such as run.rawlog");
-}
+TEST_F(GzipFileTest, RejectsAnEmptyName) { EXPECT_EQ(configErrorFor(""), ": is no name for a file; give one"); }
 
-TEST_F(GzipFileTest, RefusesAFolderThatIsNotThere) {
-  EXPECT_EQ(configErrorFor(in("no/such/a.rawlog")), in("no/such/a.rawlog.part").string() +
-                                                        ": cannot be made: the folder " + in("no/such").string() +
-                                                        " does not exist; make it, or record to another");
+TEST_F(GzipFileTest, RejectsAMissingFolder) {
+  EXPECT_EQ(configErrorFor(in("no/such/a.rawlog")), in("no/such/a.rawlog").string() +
+                                                        ": cannot be created: the folder " + in("no/such").string() +
+                                                        " does not exist; create it, or choose another");
   EXPECT_FALSE(fs::exists(in("no")));
 }
 
-TEST_F(GzipFileTest, RefusesAFileInPlaceOfAFolder) {
+TEST_F(GzipFileTest, RejectsAFileInPlaceOfAFolder) {
   writeText(in("file"), "");
   EXPECT_NE(configErrorFor(in("file/a.rawlog")).find("is no folder"), std::string::npos);
 }
 
-TEST_F(GzipFileTest, RefusesAFolderThatItMayNotWriteTo) {
+TEST_F(GzipFileTest, RejectsAFolderWithoutWritePermission) {
   fs::permissions(folder_, fs::perms(0555));
   const WithoutPower without;
-  EXPECT_EQ(configErrorFor(in("a.rawlog")), in("a.rawlog.part").string() + ": cannot be made: the folder " +
+  EXPECT_EQ(configErrorFor(in("a.rawlog")), in("a.rawlog").string() + ": cannot be created: the folder " +
                                                 folder_.string() +
-                                                " is not writable (Permission denied); record to another");
+                                                " is not writable (Permission denied); choose another");
 }
 
-TEST_F(GzipFileTest, RefusesAFolderOfTheSystemThatTakesNoFiles) {
+TEST_F(GzipFileTest, RejectsASystemFolder) {
   EXPECT_NE(configErrorFor("/proc/a.rawlog").find("the folder /proc is not writable"), std::string::npos);
 }
 
-TEST_F(GzipFileTest, RefusesAFileThatItMayNotOverwrite) {
+TEST_F(GzipFileTest, RejectsAWriteProtectedFile) {
   fs::permissions(folder_, fs::perms(0777));
   writeText(in("a.rawlog"), "keep me");
   fs::permissions(in("a.rawlog"), fs::perms(0444));
@@ -168,20 +187,20 @@ TEST_F(GzipFileTest, RefusesAFileThatItMayNotOverwrite) {
             in("a.rawlog").string() + ": must not be overwritten; choose another name, or make the file writable");
 }
 
-TEST_F(GzipFileTest, RefusesToTakeThePlaceOfADevice) {
+TEST_F(GzipFileTest, RejectsADevice) {
   EXPECT_EQ(configErrorFor("/dev/null"),
-            "/dev/null: is no ordinary file, and a recording would take its place; choose another name");
+            "/dev/null: is not a regular file, and would be replaced; choose another name");
 }
 
-TEST_F(GzipFileTest, RefusesToShareAFileWithAnotherRecording) {
+TEST_F(GzipFileTest, RejectsAFileThatIsBeingRecorded) {
   GzipFile first(in("a.rawlog"));
   EXPECT_EQ(configErrorFor(in("a.rawlog")),
-            in("a.rawlog.part").string() + ": another program is recording there; record to another file");
+            in("a.rawlog.part").string() + ": another program is writing there; choose another file");
   first.commit();
   EXPECT_EQ(configErrorFor(in("a.rawlog")), "none");
 }
 
-TEST_F(GzipFileTest, TakesOverWhatAKilledProgramLeft) {
+TEST_F(GzipFileTest, ReplacesThePartOfAKilledProgram) {
   writeText(in("a.rawlog.part"), std::string(100'000, 'x'));
   GzipFile file(in("a.rawlog"));
   file.write(noise(10));
@@ -189,7 +208,7 @@ TEST_F(GzipFileTest, TakesOverWhatAKilledProgramLeft) {
   EXPECT_EQ(unpacked(in("a.rawlog")), noise(10));
 }
 
-TEST_F(GzipFileTest, LeavesALinkALink) {
+TEST_F(GzipFileTest, KeepsLinks) {
   fs::create_directories(in("elsewhere"));
   writeText(in("elsewhere/b.rawlog"), "the recording before");
   fs::create_symlink(in("elsewhere/b.rawlog"), in("a.rawlog"));

@@ -14,13 +14,15 @@
 namespace robosim {
 namespace {
 
-/// A picture of no meaning, in whose place ours is put.
+namespace fs = std::filesystem;
+
+/// Placeholder image, which is replaced by the JPEG file.
 struct Placeholder {
   mrpt::img::CImage picture{8, 8, mrpt::img::CH_RGB};
   std::vector<std::uint8_t> jpeg;
 
   Placeholder() {
-    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);  // MRPT keeps pictures as they are unless it is told
+    mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);  // by default, MRPT does not compress images
     picture.filledRectangle(0, 0, 7, 7, mrpt::img::TColor(10, 120, 240));
     mrpt::io::CMemoryStream stream;
     picture.saveToStreamAsJPEG(stream, mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY());
@@ -30,14 +32,14 @@ struct Placeholder {
 };
 
 const Placeholder& placeholder() {
-  static const Placeholder only;
-  return only;
+  static const Placeholder instance;
+  return instance;
 }
 
-/// The observation's bytes as MRPT writes them.
-class Unchanged : public mrpt::obs::CObservationImage {
+/// The observation as serialised by MRPT.
+class SerializableImage : public mrpt::obs::CObservationImage {
  public:
-  explicit Unchanged(const mrpt::obs::CObservationImage& observation) : CObservationImage(observation) {}
+  explicit SerializableImage(const mrpt::obs::CObservationImage& observation) : CObservationImage(observation) {}
   std::vector<std::uint8_t> bytes() const {
     ByteArchive archive;
     serializeTo(archive);
@@ -45,23 +47,34 @@ class Unchanged : public mrpt::obs::CObservationImage {
   }
 };
 
-/// The file beside the recording that a picture lies in, which may be named by a stranger.
-std::string fileOf(const mrpt::img::CImage& image) {
-  namespace fs = std::filesystem;
-  constexpr std::uintmax_t kMostBytes = std::uintmax_t{64} << 20;
+constexpr std::uintmax_t kMaxImageBytes = std::uintmax_t{64} << 20;
+
+[[noreturn]] void refuseOutside(const fs::path& name) {
+  throw RecordingError(name.string() + ": is outside the recording's folder of images; it is not opened");
+}
+
+/// Reads an external image file. Its name comes from the recording, which is untrusted input.
+std::string fileOf(const mrpt::img::CImage& image, const fs::path& pictures) {
   const fs::path name = image.getExternalStorageFile();
-  if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) {
-    throw RecordingError(name.string() + ": is no picture of the recording's own folder; it is not opened");
-  }
-  const fs::path path = fs::path(mrpt::img::CImage::getImagesPathBase()) / name;
+  if (name.is_absolute() || std::find(name.begin(), name.end(), "..") != name.end()) refuseOutside(name);
+  const fs::path path = pictures / name;
+  const auto cannotBeRead = [&]() -> std::string {
+    return path.string() + ": cannot be read; is the folder of pictures beside the recording?";
+  };
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_regular_file(path, error)) {
-    throw RecordingError(path.string() + ": is no file, let alone a picture");
+  const fs::path folder = fs::canonical(pictures, error);
+  if (error) throw RecordingError(cannotBeRead());
+  const fs::path target = fs::canonical(path, error);
+  if (error) throw RecordingError(cannotBeRead());
+  if (std::mismatch(folder.begin(), folder.end(), target.begin(), target.end()).first != folder.end()) {
+    refuseOutside(name);
   }
-  const auto size = fs::file_size(path, error);
-  if (!error && size > kMostBytes) throw RecordingError(path.string() + ": is larger than 64 MiB, so it is no picture");
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw RecordingError(path.string() + ": cannot be read; is the folder of pictures beside the recording?");
+  if (!fs::is_regular_file(target, error)) throw RecordingError(path.string() + ": is not a regular file");
+  if (fs::file_size(target, error) > kMaxImageBytes && !error) {
+    throw RecordingError(path.string() + ": is larger than 64 MiB, so it is no picture");
+  }
+  std::ifstream file(target, std::ios::binary);
+  if (!file) throw RecordingError(cannotBeRead());
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
@@ -71,7 +84,7 @@ JpegObservation::JpegObservation() { image = placeholder().picture; }
 
 void JpegObservation::serializeTo(mrpt::serialization::CArchive& out) const {
   if (image.isExternallyStored()) return CObservationImage::serializeTo(out);
-  const auto bytes = Unchanged(*this).bytes();
+  const auto bytes = SerializableImage(*this).bytes();
   const auto& replaced = placeholder().jpeg;
   const auto at = std::search(bytes.begin(), bytes.end(), replaced.begin(), replaced.end());
   std::uint32_t size = 0;
@@ -87,8 +100,8 @@ void JpegObservation::serializeTo(mrpt::serialization::CArchive& out) const {
   out.WriteBuffer(bytes.data() + after, bytes.size() - after);
 }
 
-std::string jpegOf(const mrpt::obs::CObservationImage& observation) {
-  if (observation.image.isExternallyStored()) return fileOf(observation.image);
+std::string jpegOf(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
+  if (observation.image.isExternallyStored()) return fileOf(observation.image, pictures);
   mrpt::io::CMemoryStream stream;
   observation.image.saveToStreamAsJPEG(stream);
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};

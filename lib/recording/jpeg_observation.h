@@ -1,12 +1,13 @@
 #pragma once
+#include <filesystem>
 #include <string>
 
 #include <mrpt/obs/CObservationImage.h>
 
 namespace robosim {
 
-/// A picture that MRPT takes for its own CObservationImage, and serialises with the very bytes of a JPEG file. MRPT
-/// itself would keep it uncompressed, or compress it anew: other bytes, a worse picture, and a millisecond each.
+/// A CObservationImage that is serialised with the bytes of an existing JPEG file. MRPT itself would store the image
+/// uncompressed or compress it again, with different bytes, a loss of quality, and about 1 ms per image.
 class JpegObservation : public mrpt::obs::CObservationImage {
  public:
   JpegObservation();
@@ -17,11 +18,11 @@ class JpegObservation : public mrpt::obs::CObservationImage {
   void serializeTo(mrpt::serialization::CArchive& out) const override;
 };
 
-/// The picture of an observation as a JPEG file. That of a file of its own comes as it is in there; one that lies in
-/// the recording has been unpacked by MRPT, and is compressed anew.
-/// @throws RecordingError when that file is not there, is not in the recording's folder of pictures (or below it), is
-/// no
-///         regular file, or is larger than 64 MiB; std::exception when there is no picture.
-std::string jpegOf(const mrpt::obs::CObservationImage&);
+/// The image of an observation as a JPEG file. An external image file is returned unchanged; an embedded image has been
+/// decompressed by MRPT, and is compressed again.
+/// @param pictures the recording's folder of images
+/// @throws RecordingError when the file does not exist, is not in this folder or below it (links are followed only
+///         within it), is not a regular file, or is larger than 64 MiB; std::exception when there is no image.
+std::string jpegOf(const mrpt::obs::CObservationImage&, const std::filesystem::path& pictures);
 
 }  // namespace robosim

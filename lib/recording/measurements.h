@@ -1,4 +1,6 @@
 #pragma once
+#include <filesystem>
+
 #include <mrpt/obs/CObservation.h>
 
 #include "hardware/readings.h"
@@ -6,13 +8,14 @@
 
 namespace robosim {
 
-/// The reading that an observation of this sensor records, bit for bit, but for
-///  * an echo's point, which is put on the beam's axis, at the recorded range; where it came from elsewhere,
-///    takePoints() (unsensed.h) tells;
-///  * a picture embedded in the recording, which comes back compressed anew (jpegOf()); its pixels are the recorded
-///    ones, but for the loss of one more compression.
-/// @param laser_pan_rad where the turnable sensors looked
-/// @throws RecordingError when the observation's class or size is not what this sensor would have recorded.
-Measurement measurementFrom(const mrpt::obs::CObservation&, const SensorInfo&, float laser_pan_rad);
+/// Converts an observation of this sensor back to the recorded reading. The result is exact, except for
+///  * an echo's point, which is placed on the beam's axis at the recorded range; restorePoints()
+///    (robot_status_record.h) restores points off the axis;
+///  * an embedded image, which is compressed again (jpegOf()), with the loss of one more compression.
+/// @param laser_pan_rad pan angle of the panning sensors
+/// @param pictures RawlogReader::pictureFolder(), for external images
+/// @throws RecordingError when the observation's class or size does not match the sensor.
+Measurement measurementFrom(const mrpt::obs::CObservation&, const SensorInfo&, float laser_pan_rad,
+                            const std::filesystem::path& pictures = {});
 
 }  // namespace robosim

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationImage.h>
@@ -21,7 +22,7 @@ namespace {
 
 using mrpt::obs::CObservation;
 
-/// Reads back what a ByteArchive wrote.
+/// Deserialises the bytes of a ByteArchive.
 class ByteReader : public mrpt::serialization::CArchive {
  public:
   explicit ByteReader(std::vector<std::uint8_t> bytes) : bytes_(std::move(bytes)) {}
@@ -48,7 +49,7 @@ CObservation::Ptr writtenAndRead(const CObservation& observation) {
 
 const SensorInfo& sensorOf(const RobotInfo& robot, const CObservation& observation) {
   for (const auto& sensor : *robot.sensors) {
-    if (sensorLabel(robot.name, sensor.label) == observation.sensorLabel) return sensor;
+    if (Label{robot.name, sensor.label, ""}.text() == observation.sensorLabel) return sensor;
   }
   throw std::out_of_range(observation.sensorLabel);
 }
@@ -57,7 +58,7 @@ std::size_t slotOf(const RobotInfo& robot, const SensorInfo& sensor) {
   return static_cast<std::size_t>(&sensor - robot.sensors->data());
 }
 
-TEST(Measurements, ARecordedReadingIsTheReadingForEveryKindOfSensor) {
+TEST(Measurements, RoundTripReadingsOfEverySensorKindExactly) {
   for (const RobotInfo& robot : {sampleRobot("rover"), seeingRobot("rover")}) {
     RobotObservations observations(robot);
     for (std::uint64_t step = 0; step < 100; ++step) {
@@ -81,35 +82,35 @@ Measurement thereAndBack(const SensorInfo& sensor, const Measurement& measuremen
   return measurementFrom(*writtenAndRead(*observations.of(readings, std::nullopt)[0]), sensor, 0);
 }
 
-TEST(Measurements, ARobotThatDoesNotTurnDoesNotTurnWhenReadBack) {
+TEST(Measurements, RoundTripATurnRateOfZero) {
   const Odometry straight{{1, 0, 0}, 0.5, 0};
   EXPECT_EQ(std::get<Odometry>(thereAndBack(plainSensor(SensorKind::odometry, "odometry"), straight)), straight);
 }
 
-TEST(Measurements, ABatterysVoltageIsTheSameAgain) {
+TEST(Measurements, RoundTripBatteryVoltages) {
   const Scalar voltage{12.123456789012345};
   EXPECT_EQ(std::get<Scalar>(thereAndBack(plainSensor(SensorKind::battery, "battery"), voltage)), voltage);
 }
 
-TEST(Measurements, AnOdometryHeadingBeyondATurnStaysAsItWas) {
+TEST(Measurements, RoundTripUnwrappedOdometryHeadings) {
   const Odometry turned{{0, 0, 7.123456789012345}, 0, 1};
   EXPECT_EQ(std::get<Odometry>(thereAndBack(plainSensor(SensorKind::odometry, "odometry"), turned)), turned);
 }
 
-TEST(Measurements, SilenceIsTheSensorsOwnReadingAgain) {
+TEST(Measurements, RoundTripRangesWithoutEcho) {
   const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.2, 0, 0, 0)}, 1.5, 1.6);
   const auto echo = std::get<Echoes>(thereAndBack(sonar, Echoes{{1.6f, {1.8f, 0, 0}}}))[0];
   EXPECT_EQ(echo.range_m, 1.6f);
   EXPECT_NEAR(echo.point_m.x, 1.8, 1e-6);
 }
 
-TEST(Measurements, AnEchoFromTheSensorsVeryMaximumIsSilence) {
-  // As readings.h has it: what is not nearer than the maximum is not told.
+TEST(Measurements, ReadAnEchoAtTheMaximumRangeAsNoEcho) {
+  // As specified in readings.h: only objects nearer than the maximum are reported.
   const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 1.5, 1.5);
   EXPECT_EQ(std::get<Echoes>(thereAndBack(sonar, Echoes{{1.5f, {1.5f, 0, 0}}}))[0].range_m, 1.5f);
 }
 
-TEST(Measurements, AWideSonarsPointComesBackOnItsAxis) {
+TEST(Measurements, PlaceAWideSonarsPointOnItsAxis) {
   auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.5, 0, 0.2, M_PI / 2)}, 5, 5);
   sonar.beam_width_rad = 20 * M_PI / 180;
   const Echo off_axis{2, {0.5f + 2 * 0.1f, 2 * 0.995f, 0.2f}};
@@ -120,11 +121,17 @@ TEST(Measurements, AWideSonarsPointComesBackOnItsAxis) {
   EXPECT_NEAR(echo.point_m.z, 0.2, 1e-6);
 }
 
-TEST(Measurements, ABeamThatLooksDownHitsBelow) {
+TEST(Measurements, ComputePointsOfInclinedBeams) {
   const auto infrared = rangeSensor(SensorKind::infrared, "infrared", {Beam{{0, 0, 1, 0, M_PI / 6, 0}}}, 5, 5);
   const auto echo = std::get<Echoes>(thereAndBack(infrared, Echoes{{1, {}}}))[0];
   EXPECT_NEAR(echo.point_m.x, std::cos(M_PI / 6), 1e-6);
   EXPECT_NEAR(echo.point_m.z, 0.5, 1e-6);
+}
+
+TEST(Measurements, RoundTripBeaconsOfWhichOneIsNotReceived) {
+  const auto sensor = rangeSensor(SensorKind::beacons, "beacons", std::vector<Beam>(3), 50, 50);
+  const BeaconRanges ranges{{2.5f, 50, 7}};
+  EXPECT_EQ(std::get<BeaconRanges>(thereAndBack(sensor, ranges)), ranges);
 }
 
 TEST(Measurements, HeatKeepsSinglePrecision) {
@@ -141,7 +148,7 @@ std::string refusal(const CObservation& observation, const SensorInfo& sensor) {
   return "none";
 }
 
-TEST(Measurements, AnObservationOfAnotherSensorIsRefused) {
+TEST(Measurements, RejectObservationsOfOtherSensors) {
   mrpt::obs::CObservationComment comment;
   comment.sensorLabel = "rover/heat";
   EXPECT_EQ(
@@ -150,7 +157,16 @@ TEST(Measurements, AnObservationOfAnotherSensorIsRefused) {
       "should be mrpt::obs::CObservationGasSensors; give the robots that the recording was made with");
 }
 
-TEST(Measurements, TheJpegFileItselfStandsInTheRecording) {
+TEST(Measurements, RejectBeaconsOfOtherNumbers) {
+  const auto sensor = rangeSensor(SensorKind::beacons, "beacons", std::vector<Beam>(3), 50, 50);
+  for (const int number : {-1, 3}) {
+    mrpt::obs::CObservationBeaconRanges observation;
+    observation.sensedData.emplace_back().beaconID = number;
+    EXPECT_NE(refusal(observation, sensor).find("it has a beacon of another number"), std::string::npos) << number;
+  }
+}
+
+TEST(Measurements, EmbedTheJpegFileUnchanged) {
   JpegObservation observation;
   observation.jpeg = sampleJpeg(sampleCamera(), 77);
   ByteArchive archive;
@@ -159,44 +175,65 @@ TEST(Measurements, TheJpegFileItselfStandsInTheRecording) {
   EXPECT_NE(bytes.find(observation.jpeg), std::string::npos);
 }
 
-TEST(Measurements, AnObservationWithoutAPictureOrWithBlobsOfOtherColoursIsRefused) {
+TEST(Measurements, RejectMissingImagesAndBlobsOfOtherColours) {
   EXPECT_NE(refusal(mrpt::obs::CObservationImage(), sampleCamera()).find("it has no picture"), std::string::npos);
   const SensorInfo finder = (*seeingRobot("rover").sensors)[2];
   mrpt::obs::CObservationRawDAQ blobs;
   EXPECT_NE(refusal(blobs, finder).find("holds 0 values in place of 14"), std::string::npos);
   blobs.AIN_double.assign(14, -1);
-  EXPECT_NE(refusal(blobs, finder).find("it has a blob that is in no picture"), std::string::npos);
+  EXPECT_NE(refusal(blobs, finder).find("it has blob 0: a pixels of -1 px; it must lie in [0, 4194304 px]"),
+            std::string::npos);
 }
 
 class PictureFileTest : public TestFolder {
  protected:
   PictureFileTest() {
     std::filesystem::create_directories(in("run_Images/folder"));
-    mrpt::img::CImage::setImagesPathBase(in("run_Images").string());
     std::ofstream(in("beside.jpg")) << "not for us";
   }
-  ~PictureFileTest() override { mrpt::img::CImage::setImagesPathBase("."); }
 
-  static std::string refusalOf(const std::string& name) {
+  std::string pictureNamed(const std::string& name, const std::string& folder = "run_Images") {
     mrpt::obs::CObservationImage observation;
     observation.image.setExternalStorage(name);
-    return refusal(observation, sampleCamera());
+    return jpegOf(observation, in(folder));
+  }
+  std::string refusalOf(const std::string& name) {
+    try {
+      pictureNamed(name);
+    } catch (const RecordingError& error) {
+      return error.what();
+    }
+    return "none";
   }
 };
 
-TEST_F(PictureFileTest, APictureLiesInTheRecordingsFolderAndNowhereElse) {
+TEST_F(PictureFileTest, IsReadFromTheRecordingsFolderOnly) {
   for (const std::string& name : {in("beside.jpg").string(), std::string("../beside.jpg"),
                                   std::string("folder/../../beside.jpg"), std::string("/dev////zero")}) {
-    EXPECT_EQ(refusalOf(name), name + ": is no picture of the recording's own folder; it is not opened");
+    EXPECT_EQ(refusalOf(name), name + ": is outside the recording's folder of images; it is not opened");
   }
   std::ofstream(in("run_Images/folder/in.jpg")) << "a picture";
-  mrpt::obs::CObservationImage observation;
-  observation.image.setExternalStorage("folder/in.jpg");
-  EXPECT_EQ(jpegOf(observation), "a picture");
+  EXPECT_EQ(pictureNamed("folder/in.jpg"), "a picture");
 }
 
-TEST_F(PictureFileTest, APictureIsAFileOfBearableSize) {
-  EXPECT_EQ(refusalOf("folder"), in("run_Images/folder").string() + ": is no file, let alone a picture");
+TEST_F(PictureFileTest, FollowsLinksWithinTheRecordingsFolderOnly) {
+  namespace fs = std::filesystem;
+  std::ofstream(in("run_Images/real.jpg")) << "a picture";
+  fs::create_symlink("real.jpg", in("run_Images/link.jpg"));
+  EXPECT_EQ(pictureNamed("link.jpg"), "a picture");
+  fs::create_directories(in("run_Images_of_others"));
+  std::ofstream(in("run_Images_of_others/a.jpg")) << "not for us";
+  fs::create_symlink("../beside.jpg", in("run_Images/out.jpg"));
+  fs::create_directory_symlink("../run_Images_of_others", in("run_Images/others"));
+  for (const std::string name : {"out.jpg", "others/a.jpg"}) {
+    EXPECT_EQ(refusalOf(name), name + ": is outside the recording's folder of images; it is not opened");
+  }
+  fs::create_directory_symlink("run_Images", in("moved_Images"));
+  EXPECT_EQ(pictureNamed("real.jpg", "moved_Images"), "a picture") << "the folder itself may be a link";
+}
+
+TEST_F(PictureFileTest, RejectsTooLargeFiles) {
+  EXPECT_EQ(refusalOf("folder"), in("run_Images/folder").string() + ": is not a regular file");
   std::ofstream(in("run_Images/large.jpg")) << "a";
   std::filesystem::resize_file(in("run_Images/large.jpg"), (64 << 20) + 1);
   EXPECT_EQ(refusalOf("large.jpg"),
@@ -205,7 +242,7 @@ TEST_F(PictureFileTest, APictureIsAFileOfBearableSize) {
             in("run_Images/none.jpg").string() + ": cannot be read; is the folder of pictures beside the recording?");
 }
 
-TEST(Measurements, AnObservationOfAnotherSizeIsRefused) {
+TEST(Measurements, RejectObservationsOfOtherSizes) {
   const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 5, 5);
   EXPECT_NE(refusal(mrpt::obs::CObservationRange(), sonar).find("holds 0 values in place of 1"), std::string::npos);
   EXPECT_NE(refusal(mrpt::obs::CObservationGasSensors(), plainSensor(SensorKind::heat, "heat")).find("0 values"),

@@ -5,13 +5,14 @@
 
 namespace robosim {
 
-/// Bounds how much memory this process may take while a Hold lives: beyond it, allocations fail with std::bad_alloc.
+/// Limits the memory of this process during the lifetime of a Hold: beyond the limit, allocations fail with
+/// std::bad_alloc.
 ///
-/// For the reading of a stranger's file by a library that allocates whatever a number in the file tells it to. The
-/// kernel's bound (RLIMIT_DATA) is for the whole process. So other threads could meet it too, but only when they
-/// take as much within the reading of one entry. A program with this class has mrpt::aligned_malloc() throw, too.
+/// Used when a library reads untrusted input and allocates as much memory as a number in the file specifies. The limit
+/// (RLIMIT_DATA) applies to the whole process, so other threads can also exceed it if they allocate as much while one
+/// entry is read. In a program with this class, mrpt::aligned_malloc() throws as well.
 ///
-/// With the address sanitizer there is no such bound, for it ends the program where an allocation fails.
+/// There is no limit with the address sanitizer, which ends the program when an allocation fails.
 class MemoryBound {
  public:
 #if defined(__SANITIZE_ADDRESS__)
@@ -26,13 +27,13 @@ class MemoryBound {
   static constexpr bool kBounds = true;
 #endif
 
-  /// @param headroom_bytes that may be taken on top of what the process has
+  /// @param headroom_bytes memory that may be allocated in addition to the process's current memory
   explicit MemoryBound(std::size_t headroom_bytes);
   ~MemoryBound();
   MemoryBound(const MemoryBound&) = delete;
   MemoryBound& operator=(const MemoryBound&) = delete;
 
-  /// Looks again how much the process has. It takes a microsecond or two.
+  /// Updates the process's current memory. Takes 1–2 µs.
   void measure();
 
   class Hold {
@@ -49,8 +50,8 @@ class MemoryBound {
 
  private:
   std::size_t headroom_bytes_;
-  int statm_ = -1;         ///< /proc/self/statm; below 0 where there is none, and then there is no bound
-  rlim_t most_bytes_ = 0;  ///< 0 for unknown
+  int statm_ = -1;        ///< /proc/self/statm; below 0 where there is none, and then there is no limit
+  rlim_t max_bytes_ = 0;  ///< 0 for unknown
 };
 
 }  // namespace robosim

@@ -21,7 +21,7 @@ bool canTake(std::size_t bytes) {
   }
 }
 
-TEST(MemoryBound, LetsThatMuchBeTakenAndNoMoreUntilItIsLetGo) {
+TEST(MemoryBound, LimitsAllocationsDuringAHold) {
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_DATA, &before), 0);
   MemoryBound bound(64 * kMiB);
@@ -38,13 +38,13 @@ TEST(MemoryBound, LetsThatMuchBeTakenAndNoMoreUntilItIsLetGo) {
   EXPECT_EQ(after.rlim_max, before.rlim_max);
 }
 
-TEST(MemoryBound, BoundsNothingBeforeItHasMeasured) {
+TEST(MemoryBound, HasNoLimitBeforeTheFirstMeasurement) {
   const MemoryBound bound(kMiB);
   const MemoryBound::Hold hold(bound);
   EXPECT_TRUE(canTake(64 * kMiB));
 }
 
-TEST(MemoryBound, ComesWithAnAllocatorOfMrptThatThrowsWhereThereIsNoMemory) {
+TEST(MemoryBound, MakesMrptsAllocatorThrowWithoutMemory) {
   if (!MemoryBound::kBounds) GTEST_SKIP() << "the sanitizer would end the program";
   EXPECT_THROW(mrpt::aligned_malloc(std::size_t{1} << 60, 64), std::bad_alloc);
   EXPECT_THROW(mrpt::aligned_malloc(~std::size_t{0}, 64), std::bad_alloc);

@@ -9,7 +9,7 @@ double secondsBetween(mrpt::Clock::time_point from, mrpt::Clock::time_point to) 
   constexpr double kTicksPerSecond = static_cast<double>(Ticks::period::den) / Ticks::period::num;
   const Ticks::rep a = from.time_since_epoch().count(), b = to.time_since_epoch().count();
   Ticks::rep difference = 0;
-  // A damaged file may hold any numbers.
+  // A damaged file may contain any numbers.
   if (__builtin_sub_overflow(b, a, &difference))
     return (static_cast<double>(b) - static_cast<double>(a)) / kTicksPerSecond;
   return static_cast<double>(difference) / kTicksPerSecond;

@@ -17,14 +17,14 @@ mrpt::obs::CObservationOdometry madeAt(mrpt::Clock::time_point time) {
 
 mrpt::Clock::time_point unixTime(double time_s) { return mrpt::Clock::fromDouble(time_s); }
 
-TEST(ObservationTimes, CountFromTheFirstObservationBackwardsTo) {
+TEST(ObservationTimes, AreRelativeToTheFirstObservationAndMayBeNegative) {
   ObservationTimes times;
   EXPECT_EQ(times.of(madeAt(unixTime(1.2e9)), 1), 0);
   EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9 + 2.5)), 2), 2.5);
   EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9 - 1)), 3), -1);
 }
 
-TEST(ObservationTimes, OneWithoutATimestampIsOfTheTimeBeforeIt) {
+TEST(ObservationTimes, UseThePreviousTimeWithoutATimestamp) {
   ObservationTimes times;
   times.of(madeAt(unixTime(1.2e9)), 1);
   times.of(madeAt(unixTime(1.2e9 + 3)), 2);
@@ -32,21 +32,21 @@ TEST(ObservationTimes, OneWithoutATimestampIsOfTheTimeBeforeIt) {
   EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9 + 4)), 4), 4);
 }
 
-TEST(ObservationTimes, WithoutAnyTimestampEveryEntryIsAStep) {
+TEST(ObservationTimes, CountEntriesAsStepsWithoutTimestamps) {
   ObservationTimes times;
   for (const std::uint64_t entry : {3, 4, 4, 7}) {
     EXPECT_DOUBLE_EQ(times.of(madeAt(INVALID_TIMESTAMP), entry), 0.1 * static_cast<double>(entry - 3));
   }
-  EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9)), 8), 0.5) << "a timestamp goes on from there";
+  EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9)), 8), 0.5) << "later timestamps continue from there";
   EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9 + 1)), 9), 1.5);
 }
 
-TEST(ObservationTimes, NoTwoTimestampsAreTooFarApart) {
+TEST(ObservationTimes, SupportAnyTwoTimestamps) {
   using Ticks = mrpt::Clock::duration;
-  const mrpt::Clock::time_point least{Ticks(std::numeric_limits<Ticks::rep>::min())};
-  const mrpt::Clock::time_point most{Ticks(std::numeric_limits<Ticks::rep>::max())};
-  EXPECT_DOUBLE_EQ(secondsBetween(least, most), 1.8446744073709552e12);
-  EXPECT_DOUBLE_EQ(secondsBetween(most, least), -1.8446744073709552e12);
+  const mrpt::Clock::time_point earliest{Ticks(std::numeric_limits<Ticks::rep>::min())};
+  const mrpt::Clock::time_point latest{Ticks(std::numeric_limits<Ticks::rep>::max())};
+  EXPECT_DOUBLE_EQ(secondsBetween(earliest, latest), 1.8446744073709552e12);
+  EXPECT_DOUBLE_EQ(secondsBetween(latest, earliest), -1.8446744073709552e12);
 }
 
 }  // namespace

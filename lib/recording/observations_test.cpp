@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationBatteryState.h>
+#include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -11,6 +12,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPoint3D.h>
 
+#include "recording/cone_aperture.h"
 #include "recording/jpeg_observation.h"
 #include "recording/sample_robot.h"
 
@@ -27,7 +29,7 @@ RobotInfo robotWith(const SensorInfo& sensor) {
   return robot;
 }
 
-/// What one sensor's measurement is recorded as.
+/// The observation recorded for a sensor.s measurement.
 template <typename Class>
 Class recorded(const SensorInfo& sensor, const Measurement& measurement, float pan_rad = 0) {
   Readings readings;
@@ -37,7 +39,7 @@ Class recorded(const SensorInfo& sensor, const Measurement& measurement, float p
   return dynamic_cast<const Class&>(*observations.of(readings, std::nullopt)[0]);
 }
 
-TEST(Observations, ComeInTheOrderGroundTruthOdometryThenTheOthersAsMounted) {
+TEST(Observations, AreOrderedGroundTruthOdometryThenAsMounted) {
   const RobotInfo robot = sampleRobot("rover");
   RobotObservations observations(robot);
   std::vector<std::string> labels;
@@ -46,10 +48,10 @@ TEST(Observations, ComeInTheOrderGroundTruthOdometryThenTheOthersAsMounted) {
   }
   EXPECT_EQ(labels, (std::vector<std::string>{"rover/GROUND_TRUTH", "rover/odometry", "rover/sonar", "rover/laser",
                                               "rover/beam", "rover/infrared", "rover/heat", "rover/bumper",
-                                              "rover/compass", "rover/battery"}));
+                                              "rover/compass", "rover/battery", "rover/beacons", "rover/air"}));
 }
 
-TEST(Observations, HaveACamerasPictureAndItsBlobsOnlyInAStepThatHasOne) {
+TEST(Observations, HaveImagesAndBlobsOnlyInStepsWithAnImage) {
   const RobotInfo robot = seeingRobot("rover");
   RobotObservations observations(robot);
   const auto labels = [&](std::uint64_t step) {
@@ -63,15 +65,15 @@ TEST(Observations, HaveACamerasPictureAndItsBlobsOnlyInAStepThatHasOne) {
   EXPECT_EQ(labels(3), std::vector<std::string>{"rover/odometry"});
 }
 
-TEST(Observations, LeaveOutAGroundTruthThatNobodyKnows) {
+TEST(Observations, OmitAnUnknownGroundTruth) {
   const RobotInfo robot = sampleRobot("rover");
   RobotObservations observations(robot);
   const auto list = observations.of(sampleReadings(robot, 1), std::nullopt);
-  ASSERT_EQ(list.size(), 9u);
+  ASSERT_EQ(list.size(), 11u);
   EXPECT_EQ(list[0]->sensorLabel, "rover/odometry");
 }
 
-TEST(Observations, CarrySimulatedTimeFrom2005On) {
+TEST(Observations, HaveTimestampsFrom2005On) {
   const RobotInfo robot = sampleRobot("rover");
   RobotObservations observations(robot);
   for (const auto& observation : observations.of(sampleReadings(robot, 3), mrpt::math::TPose2D())) {
@@ -79,21 +81,21 @@ TEST(Observations, CarrySimulatedTimeFrom2005On) {
   }
 }
 
-TEST(Observations, TimestampsAreExactToTheirUnitOf100NanosecondsAfterAYear) {
+TEST(Observations, HaveExactTimestampsAfterAYear) {
   const SimTime year{3153600001, 0.01};
   const auto since_epoch = timestampOf(year) - timestampOf({});
   EXPECT_EQ(since_epoch.count(), 315360000100000);
   EXPECT_EQ(secondsSinceStart(timestampOf(year)), 31536000.01);
 }
 
-TEST(Observations, ASonarRingIsOneObservationOfAllItsRangesAndPlaces) {
+TEST(Observations, RecordASonarRingAsOneObservation) {
   auto sensor = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0.1, 0.2, 0.3, 0.4), beamAt(0, 0, 0, 2)}, 5, 5);
   sensor.range_min_m = 0.15;
   sensor.beam_width_rad = 0.35;
   const auto range = recorded<CObservationRange>(sensor, Echoes{{1.25f, {}}, {4.5f, {}}});
   EXPECT_EQ(range.minSensorDistance, 0.15f);
   EXPECT_EQ(range.maxSensorDistance, 5.0f);
-  EXPECT_EQ(range.sensorConeApperture, 0.35f);
+  EXPECT_EQ(coneAperture_rad(range), 0.35f);
   ASSERT_EQ(range.sensedData.size(), 2u);
   EXPECT_EQ(range.sensedData[0].sensorID, 0);
   EXPECT_EQ(range.sensedData[0].sensorPose, mrpt::math::TPose3D(0.1, 0.2, 0.3, 0.4, 0, 0));
@@ -102,7 +104,7 @@ TEST(Observations, ASonarRingIsOneObservationOfAllItsRangesAndPlaces) {
   EXPECT_EQ(range.sensedData[1].sensedDistance, 4.5f);
 }
 
-TEST(Observations, ABatteryIsTheVoltageOfTheMainOne) {
+TEST(Observations, RecordABatteryAsTheMainVoltage) {
   const auto battery =
       recorded<mrpt::obs::CObservationBatteryState>(plainSensor(SensorKind::battery, "battery"), Scalar{12.75});
   EXPECT_TRUE(battery.voltageMainRobotBatteryIsValid);
@@ -110,7 +112,7 @@ TEST(Observations, ABatteryIsTheVoltageOfTheMainOne) {
   EXPECT_FALSE(battery.voltageMainRobotComputerIsValid);
 }
 
-TEST(Observations, ARangeWithoutEchoIsALittleMoreThanTheSensorsMaximumWhateverTheSensorReads) {
+TEST(Observations, RecordNoEchoAsSlightlyMoreThanTheMaximumRange) {
   for (const double no_echo_m : {5.0, 6.0}) {
     const auto sensor = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 5, no_echo_m);
     const auto range = recorded<CObservationRange>(sensor, Echoes{{static_cast<float>(no_echo_m), {}}});
@@ -118,12 +120,13 @@ TEST(Observations, ARangeWithoutEchoIsALittleMoreThanTheSensorsMaximumWhateverTh
   }
 }
 
-TEST(Observations, AThinBeamHasASmallConeForGridsThatCannotTakeNone) {
+TEST(Observations, RecordAThinBeamWithASmallCone) {
   const auto sensor = rangeSensor(SensorKind::infrared, "infrared", {beamAt(0, 0, 0, 0)}, 1, 1);
-  EXPECT_EQ(recorded<CObservationRange>(sensor, Echoes(1)).sensorConeApperture, 0.001f);
+  const auto range = recorded<CObservationRange>(sensor, Echoes(1));
+  EXPECT_EQ(coneAperture_rad(range), 0.001f);
 }
 
-TEST(Observations, AScanningLaserIsA2dScanFromRightToLeft) {
+TEST(Observations, RecordAScanningLaserAsA2dScan) {
   auto sensor = rangeSensor(SensorKind::laser, "laser",
                             {beamAt(0.2, 0, 0.3, -0.5), beamAt(0.2, 0, 0.3, 0.5), beamAt(0.2, 0, 0.3, 1.5)}, 8, 8);
   sensor.noise_std_m = 0.03;
@@ -143,11 +146,11 @@ TEST(Observations, AScanningLaserIsA2dScanFromRightToLeft) {
   EXPECT_TRUE(scan.getScanRangeValidity(2));
 }
 
-TEST(Observations, AScannerThatLooksStraightAheadDoesSoToTheLastBit) {
+TEST(Observations, KeepTheExactDirectionOfAForwardScanner) {
   EXPECT_EQ(recorded<CObservation2DRangeScan>(sampleScanner(), Echoes(181)).sensorPose.yaw(), 0);
 }
 
-TEST(Observations, AScanIsWholeWhereItCrossesTheRobotsBack) {
+TEST(Observations, SupportScansAcrossTheRobotsBack) {
   std::vector<Beam> beams;
   for (int i = 0; i < 5; ++i) beams.push_back(beamAt(0, 0, 0, std::remainder(M_PI - 0.2 + 0.1 * i, 2 * M_PI)));
   const auto scan = recorded<CObservation2DRangeScan>(rangeSensor(SensorKind::laser, "laser", beams, 8, 8), Echoes(5));
@@ -155,7 +158,7 @@ TEST(Observations, AScanIsWholeWhereItCrossesTheRobotsBack) {
   EXPECT_NEAR(std::abs(scan.sensorPose.yaw()), M_PI, 1e-9);
 }
 
-TEST(Observations, AClockwiseScannerIsRecordedFromLeftToRight) {
+TEST(Observations, RecordAClockwiseScannerFromLeftToRight) {
   const auto sensor = rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 1), beamAt(0, 0, 0, -1)}, 8, 8);
   const auto scan = recorded<CObservation2DRangeScan>(sensor, Echoes(2));
   EXPECT_FALSE(scan.rightToLeft);
@@ -163,7 +166,7 @@ TEST(Observations, AClockwiseScannerIsRecordedFromLeftToRight) {
   EXPECT_NEAR(scan.getScanAngle(0), 1, 1e-6);
 }
 
-TEST(Observations, ALaserWithoutAFanOfBeamsIsASetOfRanges) {
+TEST(Observations, RecordALaserWithIrregularBeamsAsRanges) {
   const auto one = rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 0)}, 8, 8);
   const auto uneven =
       rangeSensor(SensorKind::laser, "laser", {beamAt(0, 0, 0, 0), beamAt(0, 0, 0, 1), beamAt(0, 0, 0, 1.5)}, 8, 8);
@@ -173,7 +176,7 @@ TEST(Observations, ALaserWithoutAFanOfBeamsIsASetOfRanges) {
   EXPECT_EQ(recorded<CObservationRange>(apart, Echoes(2)).sensedData.size(), 2u);
 }
 
-TEST(Observations, ASensorThatTurnsIsRecordedWhereItLooked) {
+TEST(Observations, RecordAPanningSensorWithItsPose) {
   auto sensor = rangeSensor(SensorKind::laser, "laser", {beamAt(0.3, 0, 0, 0.25)}, 8, 8);
   sensor.pans = true;
   const auto range = recorded<CObservationRange>(sensor, Echoes(1), 0.5f);
@@ -184,7 +187,7 @@ TEST(Observations, ASensorThatTurnsIsRecordedWhereItLooked) {
   EXPECT_NEAR(recorded<CObservation2DRangeScan>(scanner, Echoes(181), 0.5f).sensorPose.yaw(), 0.5, 1e-9);
 }
 
-TEST(Observations, HeatIsATemperatureWhereTheSensorSits) {
+TEST(Observations, RecordHeatAsATemperatureWithTheSensorsPose) {
   const auto sensor = plainSensor(SensorKind::heat, "heat", {beamAt(0, 0, 0.4, 0)});
   const auto heat = recorded<mrpt::obs::CObservationGasSensors>(sensor, Scalar{12.5});
   ASSERT_EQ(heat.m_readings.size(), 1u);
@@ -193,13 +196,13 @@ TEST(Observations, HeatIsATemperatureWhereTheSensorSits) {
   EXPECT_EQ(heat.m_readings[0].eNosePoseOnTheRobot.z, 0.4);
 }
 
-TEST(Observations, EachBumperSegmentIsADigitalInput) {
+TEST(Observations, RecordBumperSegmentsAsDigitalInputs) {
   const auto sensor = plainSensor(SensorKind::bumper, "bumper", std::vector<Beam>(10));
   const auto bumper = recorded<mrpt::obs::CObservationRawDAQ>(sensor, Contacts{{1, 0, 1, 0, 0, 0, 0, 0, 0, 1}});
   EXPECT_EQ(bumper.DIN, (std::vector<std::uint8_t>{0b00000101, 0b00000010}));
 }
 
-TEST(Observations, ABumperLetsGo) {
+TEST(Observations, ClearReleasedBumperSegments) {
   RobotObservations observations(robotWith(plainSensor(SensorKind::bumper, "bumper", std::vector<Beam>(1))));
   Readings readings;
   readings.measurements = {Contacts{{1}}};
@@ -209,13 +212,13 @@ TEST(Observations, ABumperLetsGo) {
   EXPECT_EQ(bumper.DIN, std::vector<std::uint8_t>{0});
 }
 
-TEST(Observations, ACompassIsAYawAndNothingElse) {
+TEST(Observations, RecordACompassAsAYawOnly) {
   const auto compass = recorded<mrpt::obs::CObservationIMU>(plainSensor(SensorKind::compass, "compass"), Scalar{-2.5});
   EXPECT_EQ(compass.get(mrpt::obs::IMU_YAW), -2.5);
   EXPECT_EQ(std::count(compass.dataIsPresent.begin(), compass.dataIsPresent.end(), true), 1);
 }
 
-TEST(Observations, APictureHasItsCamerasPlaceWithTheDepthAlongZ) {
+TEST(Observations, RecordAnImageWithTheCamerasPoseAndDepthAlongZ) {
   const auto picture = recorded<JpegObservation>(sampleCamera(), Image{sampleJpeg(sampleCamera(), 200)});
   EXPECT_EQ(picture.cameraParams.ncols, 48u);
   EXPECT_EQ(picture.cameraParams.nrows, 32u);
@@ -231,14 +234,35 @@ TEST(Observations, APictureHasItsCamerasPlaceWithTheDepthAlongZ) {
   EXPECT_NEAR(right.y(), -std::cos(0.1), 1e-9);
 }
 
-TEST(Observations, AColoursBlobIsSevenAnalogueInputs) {
+TEST(Observations, RecordABlobAsSevenAnalogueInputs) {
   const SensorInfo finder = (*seeingRobot("rover").sensors)[2];
   const auto observation =
       recorded<mrpt::obs::CObservationRawDAQ>(finder, Blobs{true, {{"gold", 12, 10.5f, 20.25f, 8, 19, 6, 3}, {"red"}}});
   EXPECT_EQ(observation.AIN_double, (std::vector<double>{12, 10.5, 20.25, 8, 19, 6, 3, 0, 0, 0, 0, 0, 0, 0}));
 }
 
-TEST(Observations, OdometryHasPoseAndSpeeds) {
+TEST(Observations, RecordTheReceivedBeaconsWithTheirNumbers) {
+  auto sensor = rangeSensor(SensorKind::beacons, "beacons", std::vector<Beam>(3, beamAt(0.1, 0.2, 0.3, 0)), 50, 50);
+  sensor.noise_std_m = 0.25;
+  const auto ranges = recorded<mrpt::obs::CObservationBeaconRanges>(sensor, BeaconRanges{{2.5f, 50, 7}});
+  EXPECT_EQ(ranges.maxSensorDistance, 50);
+  EXPECT_EQ(ranges.stdError, 0.25f);
+  ASSERT_EQ(ranges.sensedData.size(), 2u) << "the one at the maximum range is not received";
+  EXPECT_EQ(ranges.sensedData[0].beaconID, 0);
+  EXPECT_EQ(ranges.sensedData[0].sensedDistance, 2.5f);
+  EXPECT_EQ(ranges.sensedData[1].beaconID, 2);
+  EXPECT_EQ(ranges.sensedData[1].sensedDistance, 7);
+  EXPECT_EQ(ranges.sensedData[1].sensorLocationOnRobot.y(), 0.2);
+}
+
+TEST(Observations, RecordValuesAsAnalogueInputs) {
+  auto air = plainSensor(SensorKind::values, "air");
+  air.quantities = {{"co2", "ppm"}, {"humidity", "%"}};
+  EXPECT_EQ(recorded<mrpt::obs::CObservationRawDAQ>(air, Values{{412.5, 0.1}}).AIN_double,
+            (std::vector<double>{412.5, 0.1}));
+}
+
+TEST(Observations, RecordOdometryWithPoseAndSpeeds) {
   const auto odometry = recorded<mrpt::obs::CObservationOdometry>(plainSensor(SensorKind::odometry, "odometry"),
                                                                   Odometry{{1, 2, 3}, 0.5, -0.25});
   EXPECT_EQ(odometry.odometry.x(), 1);
@@ -248,13 +272,13 @@ TEST(Observations, OdometryHasPoseAndSpeeds) {
   EXPECT_EQ(odometry.velocityLocal, mrpt::math::TTwist2D(0.5, 0, -0.25));
 }
 
-TEST(Observations, AngularSpeedIsNeverExactlyZeroWhichIcpSlamCannotDivideBy) {
+TEST(Observations, NeverHaveAnAngularSpeedOfZeroBecauseOfIcpSlam) {
   const auto odometry = recorded<mrpt::obs::CObservationOdometry>(plainSensor(SensorKind::odometry, "odometry"),
                                                                   Odometry{{0, 0, 0}, 0.5, 0});
   EXPECT_EQ(odometry.velocityLocal.omega, 1e-6);
 }
 
-TEST(Observations, GroundTruthIsTheRobotsPoseWithoutDoubt) {
+TEST(Observations, RecordGroundTruthWithoutUncertainty) {
   const RobotInfo robot = sampleRobot("rover");
   RobotObservations observations(robot);
   const auto list = observations.of(sampleReadings(robot, 0), mrpt::math::TPose2D(1, -2, 3));
@@ -265,12 +289,12 @@ TEST(Observations, GroundTruthIsTheRobotsPoseWithoutDoubt) {
   EXPECT_EQ(truth.pose.cov.sum(), 0);
 }
 
-TEST(Observations, AreWrittenByteForByteAsMrptWritesThem) {
+TEST(Observations, AreSerialisedExactlyAsByMrpt) {
   const RobotInfo robot = sampleRobot("rover");
   RobotObservations observations(robot);
   for (std::uint64_t step = 0; step < 200; ++step) {
     Readings readings = sampleReadings(robot, step);
-    if (step % 2) readings.laser_pan_rad = 0;  // as a sensor that turns is imprinted
+    if (step % 2) readings.laser_pan_rad = 0;  // the pan angle of templates
     std::optional<mrpt::math::TPose2D> truth;
     if (step % 3)
       truth = {0.1 * static_cast<double>(step), -2, std::remainder(0.1 * static_cast<double>(step), 2 * M_PI)};

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <fstream>
 #include <system_error>
+#include <utility>
 
 #include "recording/recording_error.h"
 
@@ -15,13 +16,13 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& why) {
   throw RecordingError(path.string() + ": the recording's pictures could not be written: " + why +
-                       "; make room on the disk, or record elsewhere");
+                       "; free disk space, or record elsewhere");
 }
 
 }  // namespace
 
 PictureFolder::PictureFolder(const fs::path& rawlog)
-    : path_(rawlog.parent_path() / (rawlog.stem().string() + "_Images")), part_(path_.string() + ".part") {}
+    : path_(pictureFolderOf(rawlog)), part_(path_.string() + ".part") {}
 
 PictureFolder::~PictureFolder() {
   std::error_code ignored;
@@ -38,7 +39,7 @@ std::string PictureFolder::stemFor(const std::string& label) {
 void PictureFolder::write(const std::string& name, const std::string& bytes) {
   std::error_code error;
   if (!is_made_) {
-    fs::remove_all(part_, error);  // what a killed program left
+    fs::remove_all(part_, error);  // left by a killed program
     fs::create_directory(part_, error);
     if (error) fail(part_, error.message());
     is_made_ = true;
@@ -51,20 +52,30 @@ void PictureFolder::write(const std::string& name, const std::string& bytes) {
 }
 
 void PictureFolder::commit() {
-  if (!is_made_) return;
+  if (!std::exchange(is_made_, false)) return;  // from here on the images are kept, even after an error
   std::error_code error;
-  if (!fs::exists(path_)) {
+  const auto check = [&] {
+    if (!error) return;
+    throw RecordingError(path_.string() + ": the recording's pictures could not be moved there: " + error.message() +
+                         "; the recording is complete; move its pictures there from " + part_.string());
+  };
+  const bool is_new = !fs::exists(path_, error);
+  check();
+  if (is_new) {
     fs::rename(part_, path_, error);
-    if (error) fail(path_, error.message());
-  } else {
-    for (const auto& entry : fs::directory_iterator(part_)) {
-      fs::rename(entry.path(), path_ / entry.path().filename(), error);
-      if (error) fail(path_, error.message());
-    }
-    fs::remove(part_, error);
+    return check();
   }
-  is_made_ = false;
+  fs::directory_iterator entry(part_, error);
+  check();
+  for (; entry != fs::directory_iterator(); entry.increment(error)) {
+    fs::rename(entry->path(), path_ / entry->path().filename(), error);
+    check();
+  }
+  check();
+  fs::remove(part_, error);
 }
+
+fs::path pictureFolderOf(const fs::path& rawlog) { return rawlog.parent_path() / (rawlog.stem().string() + "_Images"); }
 
 std::string fileNamePart(const std::string& text) {
   std::string part = text;

@@ -5,9 +5,9 @@
 
 namespace robosim {
 
-/// The folder beside a rawlog where MRPT looks for pictures that lie in files of their own: "<stem>_Images". Until
-/// commit() they are in "<stem>_Images.part"; there is neither before the first picture. Destroyed without commit(), it
-/// removes what it has written.
+/// Writes the folder of a rawlog's external images, "<stem>_Images" beside it, where MRPT looks for them. Until
+/// commit() it is "<stem>_Images.part"; it is created with the first image. The destructor removes the images that were
+/// not committed.
 class PictureFolder {
  public:
   explicit PictureFolder(const std::filesystem::path& rawlog);
@@ -15,13 +15,14 @@ class PictureFolder {
   PictureFolder(const PictureFolder&) = delete;
   PictureFolder& operator=(const PictureFolder&) = delete;
 
-  /// What the names of one camera's files begin with: its label as far as it is fit for one, and unlike any before.
+  /// Unique prefix of a camera's file names: its label, without characters that are invalid in file names.
   std::string stemFor(const std::string& label);
-  /// Writes a file into the folder, in place of one of that name.
+  /// Writes a file into the folder, and replaces an existing one of that name.
   /// @throws RecordingError when it cannot be written.
   void write(const std::string& name, const std::string& bytes);
-  /// Gives the folder its name. Files of an earlier recording stay in it, but for those of the same names.
-  /// @throws RecordingError when that fails.
+  /// Renames the folder to its name. Call after the rawlog was committed. Files of an earlier recording are kept,
+  /// except those of the same names.
+  /// @throws RecordingError when that fails; the images are then left in the .part folder.
   void commit();
 
   const std::filesystem::path& path() const { return path_; }
@@ -32,7 +33,10 @@ class PictureFolder {
   bool is_made_ = false;
 };
 
-/// A text as part of a file name: what is fit for none becomes _.
+/// The folder of a rawlog's external images: "<stem>_Images" beside it.
+std::filesystem::path pictureFolderOf(const std::filesystem::path& rawlog);
+
+/// A text as part of a file name: invalid characters become _.
 std::string fileNamePart(const std::string& text);
 
 }  // namespace robosim

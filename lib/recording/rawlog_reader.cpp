@@ -2,9 +2,7 @@
 
 #include <cstring>
 #include <deque>
-#include <system_error>
 
-#include <mrpt/img/CImage.h>
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -12,7 +10,9 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include "base/error_list.h"
+#include "base/interrupt.h"
 #include "recording/memory_bound.h"
+#include "recording/picture_folder.h"
 
 namespace robosim {
 namespace {
@@ -20,44 +20,46 @@ namespace {
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 
-/// What no honest entry asks for in one piece: the largest pictures and clouds of points are a tenth of it.
-constexpr std::size_t kMostPieceBytes = std::size_t{256} << 20;
-/// Of one entry in memory: a piece, and as much again for what else it has.
-constexpr std::size_t kMostEntryBytes = 2 * kMostPieceBytes;
-/// Entries from one look at the process's memory to the next.
-constexpr std::uint64_t kEntriesPerLook = 16;
+/// Maximum size of a single allocation while an entry is read: ten times the largest images and point clouds.
+constexpr std::size_t kMaxPieceBytes = std::size_t{256} << 20;
+/// Maximum memory of one entry: one such allocation, and as much again for its other data.
+constexpr std::size_t kMaxEntryBytes = 2 * kMaxPieceBytes;
+/// Number of entries between two measurements of the process's memory.
+constexpr std::uint64_t kEntriesPerMeasurement = 16;
 
-/// An entry that is not what it says it is.
-class AsksForTooMuch : public std::exception {
+/// A damaged entry that requests more than kMaxPieceBytes.
+class EntryTooLarge : public std::exception {
  public:
-  const char* what() const noexcept override { return "the next entry asks for more than 256 MiB; it is damaged"; }
+  const char* what() const noexcept override { return "the next entry requests more than 256 MiB; it is damaged"; }
 };
 
-/// An MRPT archive of the bytes of a file.
+/// An MRPT archive that reads from an UnpackedFile.
 class UnpackedArchive : public mrpt::serialization::CArchive {
  public:
   explicit UnpackedArchive(UnpackedFile& file) : file_(file) {}
 
   std::string getArchiveDescription() const override { return "rawlog"; }
-  /// Whether a piece was asked for that is larger than any.
-  bool askedTooMuch() const { return asked_too_much_; }
+  /// Whether a read of more than kMaxPieceBytes was requested.
+  bool hasExceededLimit() const { return has_exceeded_limit_; }
+  /// Resets hasExceededLimit(), to read another entry.
+  void resetLimit() { has_exceeded_limit_ = false; }
 
  protected:
   std::size_t write(const void*, std::size_t) override { throw std::logic_error("UnpackedArchive only reads"); }
   std::size_t read(void* to, std::size_t size) override {
-    asked_too_much_ = asked_too_much_ || size > kMostPieceBytes;
-    if (asked_too_much_) throw AsksForTooMuch();
+    has_exceeded_limit_ = has_exceeded_limit_ || size > kMaxPieceBytes;
+    if (has_exceeded_limit_) throw EntryTooLarge();
     return file_.read(to, size);
   }
 
  private:
   UnpackedFile& file_;
-  bool asked_too_much_ = false;
+  bool has_exceeded_limit_ = false;
 };
 
-/// Every object begins with the length of its class's name, its highest bit set, and the name: C… with a namespace
-/// before it or not.
-bool looksLikeRawlog(UnpackedFile& file) {
+/// Every object begins with the length of its class name, with the highest bit set, and the name: C…, with or without a
+/// namespace.
+bool hasRawlogHeader(UnpackedFile& file) {
   unsigned char head[3];
   if (file.peek(head, sizeof head) != sizeof head) return false;
   const auto* const name = reinterpret_cast<const char*>(head + 1);
@@ -67,29 +69,31 @@ bool looksLikeRawlog(UnpackedFile& file) {
 }  // namespace
 
 struct RawlogReader::Impl {
-  Impl(const fs::path& path, Places places) : file(path, places), name(path.string()) {}
+  Impl(const fs::path& path, Access access)
+      : file(path, access), name(path.string()), pictures(pictureFolderOf(path)) {}
 
   void readEntry();
-  void take(const mrpt::serialization::CSerializable::Ptr& object);
-  void take(const mrpt::obs::CActionCollection& actions);
+  void add(const mrpt::serialization::CSerializable::Ptr& object);
+  void add(const mrpt::obs::CActionCollection& actions);
   void stop(const std::string& why);
 
   UnpackedFile file;
   UnpackedArchive archive{file};
-  MemoryBound bound{kMostEntryBytes};
+  MemoryBound bound{kMaxEntryBytes};
   std::string name;
+  fs::path pictures;
   std::deque<CObservation::Ptr> ready;
-  std::uint64_t entry_position = 0;      ///< of those
-  mrpt::poses::CPose2D odom_from_robot;  ///< added up from actions
-  std::uint64_t entries = 0, left_out = 0, looks = 0;
+  std::uint64_t entry_position = 0;      ///< of the entry that contained them
+  mrpt::poses::CPose2D odom_from_robot;  ///< accumulated from actions
+  std::uint64_t entries = 0, skipped_entries = 0, measured_entries = 0;
   bool at_end = false;
-  std::optional<std::string> trouble;
+  std::optional<std::string> read_error;
 };
 
 void RawlogReader::Impl::stop(const std::string& why) {
   at_end = true;
-  trouble = name + ": ends early, after " + std::to_string(entries) + (entries == 1 ? " entry" : " entries") +
-            " (byte " + std::to_string(file.position()) + " when unpacked): " + why;
+  read_error = name + ": ends early, after " + std::to_string(entries) + (entries == 1 ? " entry" : " entries") +
+               " (byte " + std::to_string(file.position()) + " when unpacked): " + why;
 }
 
 void RawlogReader::Impl::readEntry() {
@@ -97,24 +101,25 @@ void RawlogReader::Impl::readEntry() {
     at_end = true;
     return;
   }
-  if (looks++ % kEntriesPerLook == 0) bound.measure();
+  if (measured_entries++ % kEntriesPerMeasurement == 0) bound.measure();
   entry_position = file.position();
   try {
-    // MRPT makes room for as much as a number in the file says before it reads on.
+    // MRPT allocates as much memory as a number in the file specifies before it reads the data.
     mrpt::serialization::CSerializable::Ptr object;
     {
       const MemoryBound::Hold hold(bound);
       object = archive.ReadObject<mrpt::serialization::CSerializable>();
     }
     ++entries;
-    take(object);
+    add(object);
   } catch (const std::bad_alloc&) {
-    stop(AsksForTooMuch().what());
+    stop(EntryTooLarge().what());
   } catch (const std::exception& error) {
-    if (archive.askedTooMuch()) return stop(AsksForTooMuch().what());
+    throwIfInterrupted(name + " was not read to its end");  // MRPT replaces the exception by one of its own
+    if (archive.hasExceededLimit()) return stop(EntryTooLarge().what());
     if (const std::string& fault = file.fault(); !fault.empty()) return stop(fault);
     if (file.atEnd()) return stop("it is cut off");
-    // MRPT puts the place in its source before the message, and a call stack after it.
+    // MRPT's text has the position in its source code before the message, and a call stack after it.
     std::string what = error.what();
     if (const auto at = what.find("Message:"); at != std::string::npos) what.erase(0, at + 8);
     what.erase(0, what.find_first_not_of(" \n"));
@@ -122,19 +127,19 @@ void RawlogReader::Impl::readEntry() {
   }
 }
 
-void RawlogReader::Impl::take(const mrpt::serialization::CSerializable::Ptr& object) {
-  if (auto one = std::dynamic_pointer_cast<CObservation>(object)) {
-    ready.push_back(one);
+void RawlogReader::Impl::add(const mrpt::serialization::CSerializable::Ptr& object) {
+  if (auto single = std::dynamic_pointer_cast<CObservation>(object)) {
+    ready.push_back(single);
   } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
     for (const auto& observation : *frame) ready.push_back(observation);
   } else if (const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
-    take(*actions);
+    add(*actions);
   } else {
-    ++left_out;
+    ++skipped_entries;
   }
 }
 
-void RawlogReader::Impl::take(const mrpt::obs::CActionCollection& actions) {
+void RawlogReader::Impl::add(const mrpt::obs::CActionCollection& actions) {
   const auto movement = actions.getActionByClass<mrpt::obs::CActionRobotMovement2D>();
   if (!movement) return;
   odom_from_robot += movement->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry
@@ -147,17 +152,9 @@ void RawlogReader::Impl::take(const mrpt::obs::CActionCollection& actions) {
   ready.push_back(odometry);
 }
 
-RawlogReader::RawlogReader(const fs::path& file, Places places) {
-  std::error_code ignored;
-  if (fs::is_directory(file, ignored)) throw ConfigError(file.string() + ": is a folder; give a rawlog in it");
-  try {
-    impl_ = std::make_unique<Impl>(file, places);
-  } catch (const std::system_error& error) {
-    throw ConfigError(file.string() + ": cannot be read: " + error.code().message() + "; give an MRPT rawlog");
-  }
-  // Where MRPT looks for pictures in files of their own; it knows one such folder for a program.
-  mrpt::img::CImage::setImagesPathBase((file.parent_path() / (file.stem().string() + "_Images")).string());
-  if (!looksLikeRawlog(impl_->file)) {
+RawlogReader::RawlogReader(const fs::path& file, Access access) {
+  impl_ = std::make_unique<Impl>(file, access);
+  if (!hasRawlogHeader(impl_->file)) {
     throw ConfigError(file.string() +
                       ": is no MRPT rawlog, which begins with the name of a class; make one with robosim run --record");
   }
@@ -178,17 +175,14 @@ std::uint64_t RawlogReader::position() const { return impl_->entry_position; }
 void RawlogReader::seek(std::uint64_t position) {
   impl_->ready.clear();
   impl_->at_end = false;
+  impl_->read_error.reset();
+  impl_->archive.resetLimit();
   impl_->file.seek(position);
 }
 
-const std::optional<std::string>& RawlogReader::trouble() const { return impl_->trouble; }
+const fs::path& RawlogReader::pictureFolder() const { return impl_->pictures; }
+const std::optional<std::string>& RawlogReader::readError() const { return impl_->read_error; }
 std::uint64_t RawlogReader::entries() const { return impl_->entries; }
-std::uint64_t RawlogReader::leftOut() const { return impl_->left_out; }
-
-LabelParts partsOf(const std::string& label) {
-  const auto slash = label.find('/');
-  if (slash == std::string::npos) return {"", label};
-  return {label.substr(0, slash), label.substr(slash + 1)};
-}
+std::uint64_t RawlogReader::skippedEntries() const { return impl_->skipped_entries; }
 
 }  // namespace robosim

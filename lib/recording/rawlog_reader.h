@@ -8,55 +8,52 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include "base/label.h"
 #include "recording/unpacked_file.h"
 
 namespace robosim {
 
-/// Reads an MRPT rawlog, ours or anybody's, one observation after another. Sensory frames are taken apart; of actions,
-/// the increments of the odometry are added up and come as CObservationOdometry with the label kFromActions. What else
-/// a rawlog may hold is counted and left out.
+/// Reads the observations of an MRPT rawlog, recorded by RoboSim or other programs, in order. Sensory frames are split
+/// into observations; odometry increments of actions are accumulated and returned as CObservationOdometry with the
+/// label kFromActions. Other objects are skipped and counted.
 ///
-/// Where a file is cut off or damaged, what stands before that place is read, and trouble() tells the rest.
+/// A truncated or damaged file is read up to the damage, which readError() describes.
 class RawlogReader {
  public:
-  using Places = UnpackedFile::Places;
+  using Access = UnpackedFile::Access;
 
-  /// @param places keep: for a reader that is to seek()
-  /// @throws ConfigError when there is no such file, it cannot be read, or it does not begin as a rawlog does.
-  explicit RawlogReader(const std::filesystem::path& file, Places places = Places::forget);
+  /// @param access random: required for seek()
+  /// @throws ConfigError when the file does not exist, cannot be read, or does not begin with a rawlog's header.
+  explicit RawlogReader(const std::filesystem::path& file, Access access = Access::sequential);
   ~RawlogReader();
   RawlogReader(const RawlogReader&) = delete;
   RawlogReader& operator=(const RawlogReader&) = delete;
 
-  /// The next one, in the file's order; null at the end.
+  /// The folder of external images beside the file: "<stem>_Images".
+  const std::filesystem::path& pictureFolder() const;
+
+  /// The next observation, in the file's order; null at the end.
   mrpt::obs::CObservation::Ptr next();
 
-  /// Where the object begins that the last observation came from or with; for seek().
+  /// Position of the object that contained the last observation; for seek().
   std::uint64_t position() const;
-  /// Goes back, or on, to an object that was read before: next() gives its first observation. Odometry from actions is
-  /// then of no use, for it goes on being added up; and entries() and leftOut() count on.
+  /// Continues at an object that was read before: next() returns its first observation. Odometry from actions is
+  /// invalid afterwards, because its accumulation is not reset; entries() and skippedEntries() keep counting.
   void seek(std::uint64_t position);
 
-  /// Why the end came early; nullopt for a file that was read to its end.
-  const std::optional<std::string>& trouble() const;
-  /// Objects of the file so far.
+  /// Description of the damage at which reading ended; nullopt for an undamaged file. seek() resets it.
+  const std::optional<std::string>& readError() const;
+  /// Number of objects read so far.
   std::uint64_t entries() const;
-  /// Of these, those that are neither observation nor action nor frame.
-  std::uint64_t leftOut() const;
+  /// Number of objects that are neither observation nor action nor frame.
+  std::uint64_t skippedEntries() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// The label of an odometry that was added up from actions.
+/// Label of the odometry that is accumulated from actions.
 inline constexpr const char* kFromActions = "odometry";
-
-/// "robot1/sonar" → robot1, sonar; a label without a robot has an empty one. "robot1/sonar/POINTS" → robot1,
-/// sonar/POINTS.
-struct LabelParts {
-  std::string robot, sensor;
-};
-LabelParts partsOf(const std::string& label);
 
 }  // namespace robosim

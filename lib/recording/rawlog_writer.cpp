@@ -13,37 +13,38 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CSensoryFrame.h>
 
-#include "base/background.h"
 #include "base/error_list.h"
+#include "base/worker_thread.h"
 #include "recording/byte_archive.h"
 #include "recording/gzip_file.h"
 #include "recording/observations.h"
 #include "recording/picture_folder.h"
-#include "recording/unsensed.h"
+#include "recording/robot_status_record.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPose2D;
 
-/// Compressed at a time: little enough to stay in the processor's cache.
+/// Number of bytes compressed at a time; fits in the processor's cache.
 constexpr std::size_t kChunkBytes = 64 * 1024;
-/// Readings of one robot and one step that are handed to the background at a time: enough that waking its thread for
-/// them costs nothing to speak of, and little to lose with a killed program.
-constexpr std::size_t kReadingsABatch = 512;
+/// Number of readings (of one robot and one step) in a batch for the worker thread: large enough that the cost of
+/// waking the thread is negligible, and small enough that a killed program loses little.
+constexpr std::size_t kReadingsPerBatch = 512;
 
-/// Observations of one robot on their way to bytes.
-struct Track {
-  Track(const RobotInfo& robot, PictureFolder* pictures) : observations(robot, pictures), unsensed(robot) {
+/// Serialises the observations of one robot.
+struct RobotSerializer {
+  RobotSerializer(const RobotInfo& robot, PictureFolder* pictures)
+      : observations(robot, pictures), status_record(robot) {
     for (std::size_t i = 0; i < robot.sensors->size(); ++i) {
       if ((*robot.sensors)[i].kind == SensorKind::odometry && !odometry_slot) odometry_slot = i;
     }
   }
 
   RobotObservations observations;
-  Unsensed unsensed;
+  RobotStatusRecord status_record;
   std::optional<std::size_t> odometry_slot;
-  std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the pair before
+  std::optional<mrpt::poses::CPose2D> odom_from_robot;  ///< of the previous pair
 };
 
 struct Output {
@@ -73,30 +74,30 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   return files;
 }
 
-void appendPair(Track& track, const Readings& readings, const std::optional<TPose2D>& truth,
+void appendPair(RobotSerializer& serializer, const Readings& readings, const std::optional<TPose2D>& truth,
                 const std::optional<Command>& command, ByteArchive& archive) {
-  const auto& odometry = std::get<Odometry>(readings.measurements[*track.odometry_slot]);
+  const auto& odometry = std::get<Odometry>(readings.measurements[*serializer.odometry_slot]);
   const mrpt::poses::CPose2D odom_from_robot(odometry.odom_from_robot);
 
   mrpt::obs::CActionRobotMovement2D movement;
   movement.timestamp = timestampOf(readings.time);
-  movement.computeFromOdometry(odom_from_robot - track.odom_from_robot.value_or(odom_from_robot), {});
-  track.odom_from_robot = odom_from_robot;
+  movement.computeFromOdometry(odom_from_robot - serializer.odom_from_robot.value_or(odom_from_robot), {});
+  serializer.odom_from_robot = odom_from_robot;
   mrpt::obs::CActionCollection actions;
   actions.insert(movement);
 
   mrpt::obs::CSensoryFrame frame;
-  for (const auto& observation : track.observations.of(readings, truth)) frame.push_back(observation);
+  for (const auto& observation : serializer.observations.of(readings, truth)) frame.push_back(observation);
   if (command) {
-    for (const auto& observation : track.unsensed.of(readings, *command)) frame.push_back(observation);
+    for (const auto& observation : serializer.status_record.of(readings, *command)) frame.push_back(observation);
   }
   archive << actions << frame;
 }
 
 }  // namespace
 
-/// The run goes on while what it measured is turned into bytes, compressed and written: write() only copies it to
-/// `filling`, and a full batch changes places with the one that the background has done.
+/// Double buffering: write() copies readings to `filling` while the worker thread serialises, compresses and writes
+/// `recording`. A full batch is swapped with the finished one.
 struct RawlogWriter::Impl {
   struct Step {
     std::vector<Readings> readings;
@@ -104,57 +105,71 @@ struct RawlogWriter::Impl {
     std::vector<Command> commands;
   };
 
-  void handOver();
+  void submitBatch();
   void record(const Step&);
   void comment(const std::string& text);
 
   RawlogFormat format;
-  std::deque<Track> tracks;
+  std::deque<RobotSerializer> serializers;
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
-  SimTime last;           ///< of what was written
-  Background background;  ///< at work on `recording`; the first to be destroyed, which waits for it
+  SimTime last;         ///< time of the last step
+  WorkerThread worker;  ///< processes `recording`; destroyed first, which waits for it
 };
 
-void RawlogWriter::Impl::handOver() {
+void RawlogWriter::Impl::submitBatch() {
   const std::size_t steps = std::exchange(filled, 0);
-  background.wait();
+  worker.wait();
   std::swap(filling, recording);
-  background.start([this, steps] {
+  worker.start([this, steps] {
     for (std::size_t i = 0; i < steps; ++i) record(recording[i]);
   });
 }
 
 void RawlogWriter::Impl::record(const Step& step) {
   for (std::size_t i = 0; i < step.readings.size(); ++i) {
-    Track& track = tracks[i];
+    RobotSerializer& serializer = serializers[i];
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
     const auto command = step.commands.empty() ? std::nullopt : std::make_optional(step.commands[i]);
     if (format == RawlogFormat::observations) {
-      track.observations.write(step.readings[i], truth, outputs[0]->archive);
-      if (command) track.unsensed.write(step.readings[i], *command, outputs[0]->archive);
+      serializer.observations.write(step.readings[i], truth, outputs[0]->archive);
+      if (command) serializer.status_record.write(step.readings[i], *command, outputs[0]->archive);
     } else {
-      appendPair(track, step.readings[i], truth, command, outputs[i]->archive);
+      appendPair(serializer, step.readings[i], truth, command, outputs[i]->archive);
     }
   }
   for (auto& output : outputs) output->flush(kChunkBytes);
 }
 
-/// Only while the background is not at work.
+/// @pre the worker thread is idle
 void RawlogWriter::Impl::comment(const std::string& text) {
   if (text.empty()) return;
-  mrpt::obs::CObservationComment comment;
-  comment.timestamp = timestampOf(last);
-  comment.text = text;
-  for (auto& output : outputs) output->archive << comment;
+  const auto comment = mrpt::obs::CObservationComment::Create();
+  comment->timestamp = timestampOf(last);
+  comment->text = text;
+  for (auto& output : outputs) {
+    if (format == RawlogFormat::observations) {
+      output->archive << *comment;
+      continue;
+    }
+    // Stock programs that read pairs, such as rbpf-slam, crash on objects outside a pair.
+    mrpt::obs::CActionRobotMovement2D stay;
+    stay.timestamp = comment->timestamp;
+    stay.computeFromOdometry({}, {});
+    mrpt::obs::CActionCollection actions;
+    actions.insert(stay);
+    mrpt::obs::CSensoryFrame frame;
+    frame.push_back(comment);
+    output->archive << actions << frame;
+  }
 }
 
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
                            RawlogImages images, const std::string& note)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
-  impl_->filling.resize(std::max<std::size_t>(1, kReadingsABatch / std::max<std::size_t>(1, robots.size())));
+  impl_->filling.resize(std::max<std::size_t>(1, kReadingsPerBatch / std::max<std::size_t>(1, robots.size())));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {
     const auto& sensors = *robot.sensors;
@@ -169,7 +184,7 @@ RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const Ro
   for (const auto& path : filesFor(file, robots, format)) impl_->outputs.push_back(std::make_unique<Output>(path));
   for (std::size_t i = 0; i < robots.size(); ++i) {
     Output& output = *impl_->outputs[format == RawlogFormat::observations ? 0 : i];
-    impl_->tracks.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
+    impl_->serializers.emplace_back(robots[i], images == RawlogImages::external ? &output.pictures : nullptr);
   }
   impl_->comment(note);
 }
@@ -178,7 +193,7 @@ RawlogWriter::~RawlogWriter() = default;
 
 void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPose2D> world_from_robot,
                          std::span<const Command> commands) {
-  assert(readings.size() == impl_->tracks.size());
+  assert(readings.size() == impl_->serializers.size());
   assert(world_from_robot.empty() || world_from_robot.size() == readings.size());
   assert(commands.empty() || commands.size() == readings.size());
   Impl::Step& step = impl_->filling[impl_->filled++];
@@ -186,18 +201,18 @@ void RawlogWriter::write(std::span<const Readings> readings, std::span<const TPo
   step.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   step.commands.assign(commands.begin(), commands.end());
   if (!readings.empty()) impl_->last = readings[0].time;
-  if (impl_->filled == impl_->filling.size()) impl_->handOver();
+  if (impl_->filled == impl_->filling.size()) impl_->submitBatch();
 }
 
 void RawlogWriter::close(const std::string& note) {
-  impl_->handOver();
-  impl_->background.wait();
+  impl_->submitBatch();
+  impl_->worker.wait();
   impl_->comment(note);
   for (auto& output : impl_->outputs) output->flush(0);
-  for (auto& output : impl_->outputs) {
-    output->pictures.commit();
-    output->file.commit();
-  }
+  // No older file is replaced before all files are on the disk.
+  for (auto& output : impl_->outputs) output->file.finish();
+  for (auto& output : impl_->outputs) output->file.commit();
+  for (auto& output : impl_->outputs) output->pictures.commit();
 }
 
 std::vector<std::filesystem::path> RawlogWriter::files() const {

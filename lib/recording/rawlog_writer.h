@@ -14,48 +14,48 @@ namespace robosim {
 
 enum class RawlogFormat {
   observations,    ///< a row of observations, MRPT's own form today; one file for all robots
-  sensory_frames,  ///< pairs of action and sensory frame, which rbpf-slam and others want. One robot a file: of several
-                   ///< robots, each is recorded in "<stem>_<robot><extension>"
+  sensory_frames,  ///< pairs of action and sensory frame, required by rbpf-slam and others. One robot per file: of
+                   ///< several robots, each is recorded in "<stem>_<robot><extension>"
 };
 
-/// Where the pictures of cameras go.
+/// Storage of cameras' images.
 enum class RawlogImages {
-  embedded,  ///< into the rawlog
-  external,  ///< into files of their own, in the folder "<stem>_Images" beside it
+  embedded,  ///< in the rawlog
+  external,  ///< in separate files, in the folder "<stem>_Images" beside it
 };
 
-/// Records a run as an MRPT rawlog (doc/rawlog.md), of stock observations in MRPT's own format, compressed as MRPT
-/// does.
+/// Records a run as an MRPT rawlog (doc/rawlog.md) of stock observations, in MRPT's format and gzip compression.
 ///
-/// A step's observations are written robot by robot, as the robots were given; of each robot ground truth, odometry,
-/// its other sensors in their order, then what no sensor measures (Unsensed). Of a pair, the action is the odometry's
-/// increment since the pair before (0 for the first) under MRPT's default motion model, and the frame holds all the
-/// robot's observations, odometry and ground truth too.
+/// A step's observations are written robot by robot, in the constructor's order; for each robot ground truth, odometry,
+/// the other sensors in their order, then RobotStatusRecord. Of a pair, the action is the odometry's increment since
+/// the previous pair (0 for the first) with MRPT's default motion model, and the frame has all the robot's
+/// observations, including odometry and ground truth.
 ///
-/// All but copying the readings happens in a thread in the background, so that a run that has a processor to spare is
-/// hardly slower for being recorded.
+/// Everything except copying the readings is done in a worker thread, so that recording hardly slows a run that leaves
+/// a processor idle.
 ///
-/// The file has its name only from close() on, and is then whole (GzipFile). The destructor without close() drops the
-/// recording. A caller that is interrupted, or whose run fails, calls close() to keep what there is.
+/// The file appears under its name in close(), when it is complete (GzipFile). The destructor discards a recording that
+/// was not closed. A caller whose run is interrupted or fails calls close() to keep the recording.
 class RawlogWriter {
  public:
-  /// @param note stands first in each file, as a CObservationComment; empty for none
-  /// @throws ConfigError when a file cannot be made, or a robot has no odometry for its actions.
+  /// @param note first entry of each file, a CObservationComment (with sensory_frames, in a separate pair); empty for
+  ///        none
+  /// @throws ConfigError when a file cannot be created, or a robot has no odometry for its actions.
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded,
                const std::string& note = "");
   ~RawlogWriter();
 
-  /// Records one time step. What goes wrong in the background is thrown by a later call, and by close() in any
-  /// case: a recording with a hole gets no name.
-  /// @param readings one per robot, in the order of the constructor's.
-  /// @param world_from_robot where each robot really is; empty when nobody knows.
-  /// @param commands that the robots obeyed in this step; empty when nobody knows.
-  /// @throws RecordingError when the disk is full, or fails. Whatever had the file's name before is still there.
+  /// Records one time step. Errors of the worker thread are thrown by a later call, at the latest by close(): an
+  /// incomplete recording does not appear under its name.
+  /// @param readings one per robot, in the constructor's order.
+  /// @param world_from_robot true pose of each robot; empty if unknown.
+  /// @param commands executed by the robots in this step; empty if unknown.
+  /// @throws RecordingError when the disk is full or fails. An earlier file of that name is unchanged.
   void write(std::span<const Readings> readings, std::span<const mrpt::math::TPose2D> world_from_robot,
              std::span<const Command> commands = {});
-  /// Finishes the recording, and gives it its name.
-  /// @param note stands last in each file; empty for none
+  /// Finishes the recording, and renames it to its name.
+  /// @param note last entry of each file; empty for none
   /// @throws RecordingError as write() does.
   void close(const std::string& note = "");
 

@@ -11,8 +11,8 @@
 #include <mrpt/obs/CRawlog.h>
 
 #include "base/error_list.h"
+#include "base/file_size_limit.h"
 #include "base/test_folder.h"
-#include "recording/full_disk.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
@@ -61,7 +61,7 @@ CRawlog loaded(const fs::path& file) {
   return rawlog;
 }
 
-TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
+TEST_F(RawlogWriterTest, IsReadableByMrptWithEveryReadingInOrder) {
   const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   run.record(writer, 50);
@@ -80,7 +80,7 @@ TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
         EXPECT_EQ(read->timestamp, observation->timestamp);
         for (std::size_t slot = 0; slot < sensors; ++slot) {
           const SensorInfo& sensor = (*run.robots[r].sensors)[slot];
-          if (read->sensorLabel != sensorLabel(run.robots[r].name, sensor.label)) continue;
+          if (read->sensorLabel != Label{run.robots[r].name, sensor.label, ""}.text()) continue;
           expectSameReading(measurementFrom(*read, sensor, readings[r].laser_pan_rad), readings[r].measurements[slot],
                             read->sensorLabel);
         }
@@ -89,7 +89,7 @@ TEST_F(RawlogWriterTest, MrptReadsBackEveryReadingOfEveryRobotInOrder) {
   }
 }
 
-TEST_F(RawlogWriterTest, LosesNoStepAndRepeatsNoneOfManyBatches) {
+TEST_F(RawlogWriterTest, WritesEveryStepOnceInManyBatches) {
   const std::vector<std::string> names{"robot1", "robot2", "robot3", "robot4"};
   for (const std::size_t robots : {1, 2, 4}) {
     const SampleRun run({names.begin(), names.begin() + static_cast<std::ptrdiff_t>(robots)});
@@ -117,7 +117,7 @@ TEST_F(RawlogWriterTest, KeepsTheGroundTruthOfEachRobot) {
   EXPECT_NEAR(pose.yaw(), 0.5, 1e-12);
 }
 
-TEST_F(RawlogWriterTest, RecordsRobotsThatNobodyKnowsTheTruthOf) {
+TEST_F(RawlogWriterTest, RecordsRobotsWithoutGroundTruth) {
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   writer.write(run.readings(0), {});
@@ -127,7 +127,7 @@ TEST_F(RawlogWriterTest, RecordsRobotsThatNobodyKnowsTheTruthOf) {
   EXPECT_EQ(rawlog.getAsObservation(1)->sensorLabel, "robot1/sonar");
 }
 
-TEST_F(RawlogWriterTest, TheSameRunIsTheSameFile) {
+TEST_F(RawlogWriterTest, WritesEqualFilesForEqualRuns) {
   const SampleRun run({"robot1"});
   for (const char* name : {"a.rawlog", "b.rawlog"}) {
     RawlogWriter writer(in(name), run.robots);
@@ -140,23 +140,23 @@ TEST_F(RawlogWriterTest, TheSameRunIsTheSameFile) {
   EXPECT_EQ(bytes("a.rawlog"), bytes("b.rawlog"));
 }
 
-TEST_F(RawlogWriterTest, ATruncatedRecordingReadsUpToTheCut) {
+TEST_F(RawlogWriterTest, WritesFilesThatAreReadableWhenTruncated) {
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   run.record(writer, 1300);
-  const CRawlog whole = loaded(in("run.rawlog"));
+  const CRawlog complete = loaded(in("run.rawlog"));
   fs::resize_file(in("run.rawlog"), fs::file_size(in("run.rawlog")) / 2);
 
   CRawlog half;
   half.loadFromRawLogFile(in("run.rawlog").string());
-  EXPECT_GT(half.size(), whole.size() / 3);
-  EXPECT_LT(half.size(), whole.size() * 2 / 3);
+  EXPECT_GT(half.size(), complete.size() / 3);
+  EXPECT_LT(half.size(), complete.size() * 2 / 3);
   for (std::size_t i = 0; i < half.size(); ++i) {
-    ASSERT_EQ(half.getAsObservation(i)->asString(), whole.getAsObservation(i)->asString());
+    ASSERT_EQ(half.getAsObservation(i)->asString(), complete.getAsObservation(i)->asString());
   }
 }
 
-TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
+TEST_F(RawlogWriterTest, LeavesAReadablePartWhenKilled) {
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
   for (std::uint64_t step = 0; step < 5000; ++step) writer.write(run.readings(step), run.truth(step));
@@ -167,13 +167,13 @@ TEST_F(RawlogWriterTest, WhatAKilledProgramLeavesReadsUpToItsEnd) {
   EXPECT_GT(left.size(), 3850 * (1 + run.robots[0].sensors->size()));
 }
 
-TEST_F(RawlogWriterTest, DropsWhatIsNotClosed) {
+TEST_F(RawlogWriterTest, DiscardsARecordingThatIsNotClosed) {
   const SampleRun run({"robot1"});
   { RawlogWriter(in("run.rawlog"), run.robots).write(run.readings(0), run.truth(0)); }
   EXPECT_EQ(filesInFolder(), std::set<std::string>());
 }
 
-/// Records until an error ends it; close() is the last chance for one.
+/// Records until an error is thrown, at the latest by close().
 std::string errorOf(RawlogWriter& writer, const SampleRun& run, std::uint64_t steps) {
   try {
     run.record(writer, steps);
@@ -183,24 +183,24 @@ std::string errorOf(RawlogWriter& writer, const SampleRun& run, std::uint64_t st
   return "none";
 }
 
-TEST_F(RawlogWriterTest, AFullDiskEndsALongRecordingWhileItIsWritten) {
+TEST_F(RawlogWriterTest, FailsOnAFullDiskDuringALongRecording) {
   std::ofstream(in("run.rawlog")) << "the recording before";
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
-  const FullDisk full(100'000);
+  const FileSizeLimit full(100'000);
   EXPECT_THROW(for (std::uint64_t step = 0; step < 5000; ++step) writer.write(run.readings(step), run.truth(step)),
                RecordingError);
-  EXPECT_NO_THROW(writer.write(run.readings(0), run.truth(0)));  // only kept in memory as yet
+  EXPECT_NO_THROW(writer.write(run.readings(0), run.truth(0)));  // still buffered in memory
   EXPECT_THROW(writer.close(), RecordingError);
   EXPECT_EQ(filesInFolder(), std::set<std::string>{"run.rawlog"});
   EXPECT_EQ(fs::file_size(in("run.rawlog")), std::string("the recording before").size());
 }
 
-TEST_F(RawlogWriterTest, AFullDiskIsToldOfAShortRecordingWhenItIsClosed) {
+TEST_F(RawlogWriterTest, FailsOnAFullDiskInCloseOfAShortRecording) {
   std::ofstream(in("run.rawlog")) << "the recording before";
   const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots);
-  const FullDisk full(1000);
+  const FileSizeLimit full(1000);
   EXPECT_NE(errorOf(writer, run, 10).find("run.rawlog: the recording could not be written: File too large"),
             std::string::npos);
   EXPECT_EQ(filesInFolder(), std::set<std::string>{"run.rawlog"});
@@ -209,7 +209,7 @@ TEST_F(RawlogWriterTest, AFullDiskIsToldOfAShortRecordingWhenItIsClosed) {
 
 // Actions and sensory frames
 
-TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
+TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfTheFollowingMeasurements) {
   const SampleRun run({"robot1"});
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
   run.record(writer, 10);
@@ -229,13 +229,13 @@ TEST_F(RawlogWriterTest, PairsAnActionWithTheFrameOfAllThatWasMeasuredAfterIt) {
   }
 }
 
-TEST_F(RawlogWriterTest, AnActionIsTheOdometrysIncrementInTheRobotsFrame) {
+TEST_F(RawlogWriterTest, WritesActionsAsOdometryIncrementsInTheRobotsFrame) {
   RobotInfo robot;
   robot.name = "robot1";
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>(
       std::vector<SensorInfo>{plainSensor(SensorKind::odometry, "odometry")});
   RawlogWriter writer(in("run.rawlog"), std::span(&robot, 1), RawlogFormat::sensory_frames);
-  // It stands at (1, 1) looking along y, drives 0.2 m ahead, then turns left by 0.1.
+  // The robot starts at (1, 1) facing y, drives 0.2 m ahead, then turns left by 0.1.
   std::vector<Readings> step(1);
   for (const TPose2D& odom_from_robot :
        {TPose2D(1, 1, M_PI / 2), TPose2D(1, 1.2, M_PI / 2), TPose2D(1, 1.2, M_PI / 2 + 0.1)}) {
@@ -263,7 +263,7 @@ TEST_F(RawlogWriterTest, AnActionIsTheOdometrysIncrementInTheRobotsFrame) {
   expect_near(increment(2), {0, 0, 0.1});
 }
 
-TEST_F(RawlogWriterTest, GivesEachOfSeveralRobotsAFileOfItsOwnFrames) {
+TEST_F(RawlogWriterTest, WritesAFileOfFramesPerRobot) {
   const SampleRun run({"robot1", "robot2"});
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
   run.record(writer, 3);
@@ -273,7 +273,7 @@ TEST_F(RawlogWriterTest, GivesEachOfSeveralRobotsAFileOfItsOwnFrames) {
             "robot2/GROUND_TRUTH");
 }
 
-TEST_F(RawlogWriterTest, FilesOfRobotsWithNamesUnfitForFilesStayApartAndInTheFolder) {
+TEST_F(RawlogWriterTest, WritesUniqueFilesForRobotsWithInvalidFileNames) {
   const SampleRun run({"../a b", "../a_b", "a/b", ".._a_b_2"});
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames);
   run.record(writer, 1);
@@ -281,7 +281,7 @@ TEST_F(RawlogWriterTest, FilesOfRobotsWithNamesUnfitForFilesStayApartAndInTheFol
                                                     "run_.._a_b_2_4.rawlog"}));
 }
 
-TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
+TEST_F(RawlogWriterTest, RejectsActionsOfARobotWithoutOdometry) {
   RobotInfo robot;
   robot.name = "robot1";
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>();
@@ -299,7 +299,7 @@ TEST_F(RawlogWriterTest, RefusesActionsOfARobotWithoutOdometry) {
 
 // Pictures
 
-/// Two robots with cameras that take a picture in every second of ten steps.
+/// Two robots with cameras that take an image in every second of ten steps.
 struct SeeingRun {
   std::vector<RobotInfo> robots{seeingRobot("robot 1"), seeingRobot("robot/1")};
 
@@ -333,7 +333,7 @@ std::set<std::string> namesIn(const fs::path& folder) {
   return names;
 }
 
-TEST_F(RawlogWriterTest, KeepsPicturesInTheRecordingUnlessToldOtherwise) {
+TEST_F(RawlogWriterTest, EmbedsImagesByDefault) {
   const SeeingRun run;
   RawlogWriter writer(in("run.rawlog"), run.robots);
   run.record(writer);
@@ -350,7 +350,7 @@ TEST_F(RawlogWriterTest, KeepsPicturesInTheRecordingUnlessToldOtherwise) {
   EXPECT_EQ(pictures, 10);
 }
 
-TEST_F(RawlogWriterTest, PutsExternalPicturesAsTheyAreWhereMrptFindsThem) {
+TEST_F(RawlogWriterTest, WritesExternalImagesWhereMrptFindsThem) {
   const SeeingRun run;
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
   run.record(writer);
@@ -360,21 +360,21 @@ TEST_F(RawlogWriterTest, PutsExternalPicturesAsTheyAreWhereMrptFindsThem) {
   EXPECT_EQ(bytesOf(in("run_Images") / "robot_1_camera_2_00000004.jpg"), run.jpeg(1, 4));
 
   CRawlog rawlog = loaded(in("run.rawlog"));
-  mrpt::img::CImage::setImagesPathBase(in("run_Images").string());
+  mrpt::img::CImage::setImagesPathBase(in("run_Images").string());  // as stock programs do
   std::size_t next[] = {0, 0};
   for (std::size_t i = 0; i < rawlog.size(); ++i) {
     const auto seen = std::dynamic_pointer_cast<mrpt::obs::CObservationImage>(rawlog.getAsObservation(i));
     if (!seen) continue;
     const std::size_t robot = seen->sensorLabel == "robot 1/camera" ? 0 : 1;
     const std::uint64_t step = 2 * next[robot]++;
-    EXPECT_EQ(std::get<Image>(measurementFrom(*seen, sampleCamera(), 0)).jpeg, run.jpeg(robot, step));
+    EXPECT_EQ(std::get<Image>(measurementFrom(*seen, sampleCamera(), 0, in("run_Images"))).jpeg, run.jpeg(robot, step));
     EXPECT_EQ(seen->image.getWidth(), 48u);
   }
   EXPECT_EQ(next[0], 5u);
   EXPECT_EQ(next[1], 5u);
 }
 
-TEST_F(RawlogWriterTest, GivesEachRobotsFramesAFolderOfPictures) {
+TEST_F(RawlogWriterTest, WritesAFolderOfImagesPerRobotWithFrames) {
   const SeeingRun run;
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::sensory_frames, RawlogImages::external);
   run.record(writer);
@@ -383,7 +383,7 @@ TEST_F(RawlogWriterTest, GivesEachRobotsFramesAFolderOfPictures) {
   EXPECT_EQ(namesIn(in("run_robot_1_2_Images")).size(), 5u);
 }
 
-TEST_F(RawlogWriterTest, LeavesNoPicturesOfWhatIsNotClosedNorAFolderWithoutPictures) {
+TEST_F(RawlogWriterTest, RemovesImagesOfUnclosedRecordingsAndEmptyFolders) {
   const SeeingRun run;
   {
     RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
@@ -397,7 +397,7 @@ TEST_F(RawlogWriterTest, LeavesNoPicturesOfWhatIsNotClosedNorAFolderWithoutPictu
   EXPECT_EQ(filesInFolder(), std::set<std::string>{"blind.rawlog"});
 }
 
-TEST_F(RawlogWriterTest, ReplacesThePicturesOfAnEarlierRecordingThatHaveTheSameNames) {
+TEST_F(RawlogWriterTest, ReplacesEarlierImagesOfTheSameNames) {
   const SeeingRun run;
   for (const std::uint64_t from : {0, 4}) {
     RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
@@ -407,33 +407,44 @@ TEST_F(RawlogWriterTest, ReplacesThePicturesOfAnEarlierRecordingThatHaveTheSameN
   EXPECT_EQ(namesIn(in("run_Images")).size(), 14u);
 }
 
-TEST_F(RawlogWriterTest, GivesNoNameToARecordingWithAHole) {
+TEST_F(RawlogWriterTest, DoesNotCommitAnIncompleteRecording) {
   const SeeingRun run;
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
   {
-    const FullDisk full(100);
+    const FileSizeLimit full(100);
     const auto write_on = [&] {
       for (std::uint64_t step = 0; step < 2000; ++step) writer.write(run.readings(step), {});
     };
     EXPECT_THROW(write_on(), RecordingError);
   }
-  for (std::uint64_t step = 0; step < 10; ++step) writer.write(run.readings(step), {});  // there is room again
+  for (std::uint64_t step = 0; step < 10; ++step) writer.write(run.readings(step), {});  // the disk has space again
   EXPECT_THROW(writer.close(), RecordingError);
   EXPECT_FALSE(fs::exists(in("run.rawlog")));
 }
 
-TEST_F(RawlogWriterTest, SaysWhenPicturesCannotBeWritten) {
+TEST_F(RawlogWriterTest, ReplacesEarlierImagesOnlyAfterTheRawlogIsCommitted) {
+  const SeeingRun run;
+  fs::create_directories(in("run_Images"));
+  std::ofstream(in("run_Images/robot_1_camera_00000004.jpg")) << "an earlier picture";
+  RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
+  for (std::uint64_t step = 0; step < 10; ++step) writer.write(run.readings(step), {});
+  fs::create_directories(in("run.rawlog"));  // a folder, which cannot be replaced
+  EXPECT_THROW(writer.close(), RecordingError);
+  EXPECT_EQ(bytesOf(in("run_Images/robot_1_camera_00000004.jpg")), "an earlier picture");
+  EXPECT_EQ(namesIn(in("run_Images")).size(), 1u);
+}
+
+TEST_F(RawlogWriterTest, ReportsImagesThatCannotBeWritten) {
   const SeeingRun run;
   RawlogWriter writer(in("run.rawlog"), run.robots, RawlogFormat::observations, RawlogImages::external);
-  const FullDisk full(100);
+  const FileSizeLimit full(100);
   try {
     run.record(writer);
     FAIL() << "pictures on a full disk";
   } catch (const RecordingError& error) {
-    EXPECT_EQ(error.what(),
-              in("run_Images.part/robot_1_camera_00000000.jpg").string() +
-                  ": the recording's pictures could not be written: File too large; make room on the disk, "
-                  "or record elsewhere");
+    EXPECT_EQ(error.what(), in("run_Images.part/robot_1_camera_00000000.jpg").string() +
+                                ": the recording's pictures could not be written: File too large; free disk space, "
+                                "or record elsewhere");
   }
 }
 

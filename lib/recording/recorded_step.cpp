@@ -6,11 +6,11 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
-#include "hardware/blank_measurement.h"
+#include "hardware/measurement_fields.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
-#include "recording/unsensed.h"
+#include "recording/robot_status_record.h"
 
 namespace robosim {
 namespace {
@@ -32,57 +32,54 @@ RecordedRobot absent(const RobotInfo& robot, SimTime time) {
   return recorded;
 }
 
-/// Whether a recording has nothing of a sensor in steps in which it told nothing.
-bool tellsNowAndThen(SensorKind kind) { return kind == SensorKind::camera || kind == SensorKind::blob_finder; }
-
 }  // namespace
 
 RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s, Pictures pictures)
     : reader_(reader), robots_(std::move(robots)), period_s_(period_s), pictures_(pictures) {
-  ahead_ = nextOfRobots();
+  lookahead_ = nextRobotObservation();
 }
 
-CObservation::Ptr RecordedSteps::nextOfRobots() {
+CObservation::Ptr RecordedSteps::nextRobotObservation() {
   while (auto observation = reader_.next()) {
     if (const auto comment = std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(observation)) {
       note_ = comment->text;
-    } else if (!partsOf(observation->sensorLabel).robot.empty()) {
-      ahead_position_ = reader_.position();
+    } else if (!Label::parse(observation->sensorLabel).robot.empty()) {
+      lookahead_position_ = reader_.position();
       return observation;
     }
   }
-  ahead_position_ = kNowhere;
+  lookahead_position_ = kEnd;
   return {};
 }
 
 void RecordedSteps::seek(std::uint64_t position) {
   reader_.seek(position);
-  ahead_ = nextOfRobots();
+  lookahead_ = nextRobotObservation();
 }
 
 std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
-  if (!ahead_) return std::nullopt;
-  const auto time = ahead_->timestamp;
+  if (!lookahead_) return std::nullopt;
+  const auto time = lookahead_->timestamp;
   const double steps = secondsSinceStart(time) / period_s_;
   if (!(steps > -0.5 && steps < 1e18))
-    throw RecordingError(ahead_->sensorLabel + ": is of no time of a run of RoboSim's");
+    throw RecordingError(lookahead_->sensorLabel + ": has a timestamp that is not of a run of RoboSim");
   const auto step = static_cast<std::uint64_t>(std::llround(steps));
 
   std::vector<Observations> by_robot(robots_.size());
   std::size_t robot = 0;
-  for (; ahead_ && ahead_->timestamp == time; ahead_ = nextOfRobots()) {
-    // They come robot by robot, so it is the one of the observation before, or the next.
-    const std::string& label = ahead_->sensorLabel;
+  for (; lookahead_ && lookahead_->timestamp == time; lookahead_ = nextRobotObservation()) {
+    // Observations are ordered by robot, so it is the previous observation's robot or the next one.
+    const Label label = Label::parse(lookahead_->sensorLabel);
     std::size_t tries = 0;
-    while (tries < robots_.size() && label.rfind(robots_[robot].name + "/", 0) != 0) {
+    while (tries < robots_.size() && label.robot != robots_[robot].name) {
       robot = (robot + 1) % robots_.size();
       ++tries;
     }
     if (tries == robots_.size()) continue;
-    by_robot[robot].emplace_back(label.substr(robots_[robot].name.size() + 1), ahead_);
+    by_robot[robot].emplace_back(label.withinRobot(), lookahead_);
   }
-  // Of a file that was cut off nobody knows what the last step would have had.
-  if (!ahead_ && reader_.trouble()) return std::nullopt;
+  // The last step of a truncated file may be incomplete.
+  if (!lookahead_ && reader_.readError()) return std::nullopt;
   if (is_absent_.empty()) {
     for (const auto& observations : by_robot) is_absent_.push_back(observations.empty() ? 1 : 0);
     if (std::find(is_absent_.begin(), is_absent_.end(), 0) == is_absent_.end()) {
@@ -95,14 +92,14 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
       robots.push_back(absent(robots_[i], {step, period_s_}));
       continue;
     }
-    auto whole = put(robots_[i], by_robot[i], step);
-    if (!whole) {
-      throw RecordingError("robot \"" + robots_[i].name + "\" is not whole in step " + std::to_string(step) +
+    auto complete = assemble(robots_[i], by_robot[i], step);
+    if (!complete) {
+      throw RecordingError("robot \"" + robots_[i].name + "\" is incomplete in step " + std::to_string(step) +
                            " of the recording; give the world that it was made with");
     }
-    robots.push_back(std::move(*whole));
+    robots.push_back(std::move(*complete));
   }
-  // Everyone is told who has won.
+  // All robots receive the winner.
   const auto winner =
       std::find_if(robots.begin(), robots.end(), [](const auto& r) { return !r.readings.winner.empty(); });
   if (winner != robots.end()) {
@@ -111,23 +108,23 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
   return robots;
 }
 
-std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Observations& observations,
-                                                std::uint64_t step) const {
+std::optional<RecordedRobot> RecordedSteps::assemble(const RobotInfo& robot, const Observations& observations,
+                                                     std::uint64_t step) const {
   RecordedRobot recorded;
   Readings& readings = recorded.readings;
   readings.time = {step, period_s_};
   if (const auto status = find(observations, kStatus)) {
-    const RobotStatus told = statusFrom(*status);
-    recorded.command = told.command;
-    readings.laser_pan_rad = told.laser_pan_rad;
-    readings.stalled = told.stalled;
-    readings.is_too_far = told.is_too_far;
-    if (told.has_won) readings.winner = robot.name;
+    const RobotStatus recorded_status = statusFrom(*status);
+    recorded.command = recorded_status.command;
+    readings.laser_pan_rad = recorded_status.laser_pan_rad;
+    readings.stalled = recorded_status.stalled;
+    readings.is_too_far = recorded_status.is_too_far;
+    if (recorded_status.has_won) readings.winner = robot.name;
   }
   for (const auto& sensor : *robot.sensors) {
     const auto observation = find(observations, sensor.label);
     if (!observation) {
-      if (!tellsNowAndThen(sensor.kind)) return std::nullopt;
+      if (!isIntermittent(sensor)) return std::nullopt;
       readings.measurements.push_back(blankMeasurement(sensor));
       continue;
     }
@@ -135,10 +132,11 @@ std::optional<RecordedRobot> RecordedSteps::put(const RobotInfo& robot, const Ob
       readings.measurements.emplace_back(Image{});
       continue;
     }
-    readings.measurements.push_back(measurementFrom(*observation, sensor, readings.laser_pan_rad));
+    readings.measurements.push_back(
+        measurementFrom(*observation, sensor, readings.laser_pan_rad, reader_.pictureFolder()));
     auto* const echoes = std::get_if<Echoes>(&readings.measurements.back());
-    const auto points = find(observations, sensor.label + "/" + kPoints);
-    if (echoes && points) takePoints(*points, *echoes);
+    const auto points = find(observations, Label{"", sensor.label, kPoints}.withinRobot());
+    if (echoes && points) restorePoints(*points, *echoes);
   }
   if (const auto inbox = find(observations, kInbox)) readings.inbox = inboxFrom(*inbox, robot.name);
   if (const auto truth =

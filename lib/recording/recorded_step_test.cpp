@@ -1,11 +1,13 @@
 #include "recording/recorded_step.h"
 
+#include <algorithm>
 #include <cstring>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <zlib.h>
 
 #include "base/error_list.h"
 #include "base/test_folder.h"
@@ -23,7 +25,7 @@ using mrpt::math::TPose2D;
 
 class RecordedStepsTest : public TestFolder {
  protected:
-  /// Records steps of two robots, with mail and commands.
+  /// Records steps of two robots, with messages and commands.
   void record(std::size_t steps, RawlogFormat format = RawlogFormat::observations) {
     RawlogWriter writer(file_, robots_, format, RawlogImages::embedded, "first note");
     for (std::size_t step = 0; step < steps; ++step) {
@@ -45,7 +47,7 @@ class RecordedStepsTest : public TestFolder {
     if (step % 4 == 1) readings[1].inbox = {{"a", "b", "GOLD"}, {"a", "b", std::string("\0\xff", 2)}};
     return readings;
   }
-  /// A picture is compressed anew when it is read.
+  /// Images are compressed again when they are read.
   Readings withoutPictures(Readings readings) const {
     for (auto& measurement : readings.measurements) {
       if (auto* image = std::get_if<Image>(&measurement)) *image = {};
@@ -60,7 +62,7 @@ class RecordedStepsTest : public TestFolder {
   std::vector<std::vector<Command>> commands_;
 };
 
-TEST_F(RecordedStepsTest, EveryReadingCommandAndMessageComesBackBitForBit) {
+TEST_F(RecordedStepsTest, RoundTripReadingsCommandsAndMessagesExactly) {
   record(50);
   RawlogReader reader(file_);
   RecordedSteps steps(reader, robots_, 0.1);
@@ -85,46 +87,78 @@ TEST_F(RecordedStepsTest, EveryReadingCommandAndMessageComesBackBitForBit) {
     }
   }
   EXPECT_FALSE(steps.next());
-  EXPECT_FALSE(reader.trouble());
+  EXPECT_FALSE(reader.readError());
   EXPECT_EQ(steps.note(), "last note");
 }
 
-TEST_F(RecordedStepsTest, OfAFileThatIsCutOffAllWholeStepsComeBackAndTheRestIsTold) {
+/// Size of the decompressed data of a truncated gzip file.
+std::size_t unpackedSize(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<char> in((std::istreambuf_iterator<char>(stream)), {}), out(1 << 16);
+  z_stream inflating{};
+  EXPECT_EQ(inflateInit2(&inflating, 15 + 16), Z_OK);
+  inflating.next_in = reinterpret_cast<Bytef*>(in.data());
+  inflating.avail_in = static_cast<unsigned>(in.size());
+  int result = Z_OK;
+  do {
+    inflating.next_out = reinterpret_cast<Bytef*>(out.data());
+    inflating.avail_out = static_cast<unsigned>(out.size());
+    result = inflate(&inflating, Z_NO_FLUSH);
+  } while (result == Z_OK);
+  inflateEnd(&inflating);
+  return inflating.total_out;
+}
+
+TEST_F(RecordedStepsTest, ReadAllCompleteStepsOfATruncatedFile) {
   record(50);
   const auto size = std::filesystem::file_size(file_);
+  std::vector<std::uint64_t> begins;  // positions of the steps in the decompressed file
+  {
+    RawlogReader reader(file_, RawlogReader::Access::random);
+    RecordedSteps steps(reader, robots_, 0.1);
+    do {
+      begins.push_back(steps.position());
+    } while (steps.next());
+    begins.pop_back();
+  }
+  ASSERT_EQ(begins.size(), 50U);
   for (const double share : {0.2, 0.5, 0.9, 0.999}) {
     std::filesystem::copy_file(file_, in("cut.rawlog"), std::filesystem::copy_options::overwrite_existing);
     std::filesystem::resize_file(in("cut.rawlog"), static_cast<std::uintmax_t>(share * static_cast<double>(size)));
     RawlogReader reader(in("cut.rawlog"));
     RecordedSteps steps(reader, robots_, 0.1);
-    std::size_t whole = 0;
+    std::size_t complete_steps = 0;
     while (const auto step = steps.next()) {
-      EXPECT_EQ((*step)[1].readings.measurements, written_[whole][1].measurements);
-      ++whole;
+      EXPECT_EQ((*step)[1].readings.measurements, written_[complete_steps][1].measurements);
+      ++complete_steps;
     }
-    EXPECT_LT(whole, 50U + (share > 0.99 ? 1U : 0U)) << share;
-    EXPECT_GT(whole, 50 * share - 30) << share;  // ISA-L's blocks
-    ASSERT_TRUE(reader.trouble());
-    EXPECT_NE(reader.trouble()->find("ends early"), std::string::npos) << *reader.trouble();
-    EXPECT_NE(reader.trouble()->find("cut off"), std::string::npos) << *reader.trouble();
+    // A step is known to be complete once the first observation of the next one was read.
+    const auto left = unpackedSize(in("cut.rawlog"));
+    const auto begun = static_cast<std::size_t>(std::lower_bound(begins.begin(), begins.end(), left) - begins.begin());
+    EXPECT_GT(begun, 50 * share - 5) << share;
+    EXPECT_GE(complete_steps + 2, begun) << share;
+    EXPECT_LE(complete_steps + 1, begun) << share;
+    ASSERT_TRUE(reader.readError());
+    EXPECT_NE(reader.readError()->find("ends early"), std::string::npos) << *reader.readError();
+    EXPECT_NE(reader.readError()->find("cut off"), std::string::npos) << *reader.readError();
   }
 }
 
-TEST_F(RecordedStepsTest, AnyStepThatWasReadCanBeReadAgain) {
+TEST_F(RecordedStepsTest, SeekToAnyStepReadBefore) {
   for (const RawlogFormat format : {RawlogFormat::observations, RawlogFormat::sensory_frames}) {
     const bool has_both = format == RawlogFormat::observations;
     written_.clear();
     record(50, format);
-    RawlogReader reader(has_both ? file_ : in("run_b.rawlog"), RawlogReader::Places::keep);
+    RawlogReader reader(has_both ? file_ : in("run_b.rawlog"), RawlogReader::Access::random);
     RecordedSteps steps(reader, robots_, 0.1);
-    std::vector<std::uint64_t> places;
+    std::vector<std::uint64_t> positions;
     do {
-      places.push_back(steps.position());
+      positions.push_back(steps.position());
     } while (steps.next());
-    EXPECT_EQ(places.back(), RecordedSteps::kNowhere);
-    ASSERT_EQ(places.size(), 51U);
+    EXPECT_EQ(positions.back(), RecordedSteps::kEnd);
+    ASSERT_EQ(positions.size(), 51U);
     for (const std::size_t k : {49, 0, 20, 21, 3}) {
-      steps.seek(places[k]);
+      steps.seek(positions[k]);
       const auto step = steps.next();
       ASSERT_TRUE(step) << k;
       EXPECT_EQ(step->front().is_absent, !has_both);
@@ -133,7 +167,7 @@ TEST_F(RecordedStepsTest, AnyStepThatWasReadCanBeReadAgain) {
       }
       EXPECT_EQ(step->back().readings.measurements, written_[k].back().measurements) << k;
       EXPECT_EQ(step->back().readings.inbox, written_[k].back().inbox) << k;
-      EXPECT_EQ(steps.position(), places[k + 1]);
+      EXPECT_EQ(steps.position(), positions[k + 1]);
     }
   }
 }
@@ -147,7 +181,7 @@ std::string refusal(RecordedSteps& steps) {
   return "none";
 }
 
-TEST_F(RecordedStepsTest, ARobotThatTheRecordingKnowsNothingOfIsAbsentWithBlankMeasurements) {
+TEST_F(RecordedStepsTest, MarkRobotsWithoutObservationsAsAbsent) {
   record(2);
   RawlogReader reader(file_);
   robots_.push_back(sampleRobot("c"));
@@ -166,7 +200,7 @@ TEST_F(RecordedStepsTest, ARobotThatTheRecordingKnowsNothingOfIsAbsentWithBlankM
   }
 }
 
-TEST_F(RecordedStepsTest, OfEachFileOfPairsTheOtherRobotsAreAbsent) {
+TEST_F(RecordedStepsTest, MarkTheOtherRobotsOfAFileOfPairsAsAbsent) {
   record(3, RawlogFormat::sensory_frames);
   RawlogReader reader(in("run_b.rawlog"));
   RecordedSteps steps(reader, robots_, 0.1);
@@ -180,7 +214,7 @@ TEST_F(RecordedStepsTest, OfEachFileOfPairsTheOtherRobotsAreAbsent) {
   EXPECT_FALSE(steps.next());
 }
 
-TEST_F(RecordedStepsTest, ARobotWithAnotherSensorAndAWorldOfOtherRobotsAreTold) {
+TEST_F(RecordedStepsTest, ReportOtherSensorsAndOtherRobots) {
   record(2);
   std::vector<SensorInfo> sensors = *robots_[1].sensors;
   sensors.push_back(plainSensor(SensorKind::heat, "another"));
@@ -188,13 +222,13 @@ TEST_F(RecordedStepsTest, ARobotWithAnotherSensorAndAWorldOfOtherRobotsAreTold) 
   RawlogReader reader(file_);
   RecordedSteps steps(reader, robots_, 0.1);
   EXPECT_EQ(refusal(steps),
-            "robot \"b\" is not whole in step 0 of the recording; give the world that it was made with");
+            "robot \"b\" is incomplete in step 0 of the recording; give the world that it was made with");
   RawlogReader again(file_);
   RecordedSteps others(again, {sampleRobot("c"), sampleRobot("d")}, 0.1);
   EXPECT_EQ(refusal(others), "none of these robots is in the recording; give the world that it was made with");
 }
 
-TEST_F(RecordedStepsTest, WithoutItsFolderOfPicturesARecordingComesBackWithoutPictures) {
+TEST_F(RecordedStepsTest, ReadWithoutImagesWhenTheirFolderIsMissing) {
   const std::vector<RobotInfo> seeing{seeingRobot("a")};
   RawlogWriter writer(file_, seeing, RawlogFormat::observations, RawlogImages::external);
   const std::vector<Readings> readings{sampleReadings(seeing[0], 0)};
@@ -213,7 +247,7 @@ TEST_F(RecordedStepsTest, WithoutItsFolderOfPicturesARecordingComesBackWithoutPi
   EXPECT_NE(refusal(with_pictures).find("is the folder of pictures beside the recording?"), std::string::npos);
 }
 
-TEST_F(RecordedStepsTest, AFileOfPairsReadsBackToo) {
+TEST_F(RecordedStepsTest, ReadAFileOfPairs) {
   robots_ = {sampleRobot("a")};
   RawlogWriter writer(file_, robots_, RawlogFormat::sensory_frames, RawlogImages::embedded, "note");
   const std::vector<Readings> readings{withoutPictures(sampleReadings(robots_[0], 0))};
@@ -238,16 +272,16 @@ std::string refusal(const std::filesystem::path& file) {
   return "none";
 }
 
-TEST_F(RecordedStepsTest, WhatIsNoRawlogIsRefused) {
+TEST_F(RecordedStepsTest, RejectOtherFiles) {
   std::ofstream(file_) << "<world/>";
   EXPECT_NE(refusal(file_).find("is no MRPT rawlog"), std::string::npos);
   std::ofstream(file_, std::ios::trunc).close();
   EXPECT_NE(refusal(file_).find("is no MRPT rawlog"), std::string::npos);
-  EXPECT_NE(refusal(folder_).find("is a folder"), std::string::npos);
-  EXPECT_NE(refusal(in("none")).find("No such file"), std::string::npos);
+  EXPECT_NE(refusal(folder_).find("is a directory"), std::string::npos);
+  EXPECT_NE(refusal(in("none")).find("no such file"), std::string::npos);
 }
 
-TEST_F(RecordedStepsTest, ADamagedEntryEndsTheReadingWithAWordOnWhereAndWhy) {
+TEST_F(RecordedStepsTest, ReportPositionAndCauseOfADamagedEntry) {
   ByteArchive archive;
   mrpt::obs::CObservationOdometry odometry;
   archive << odometry;
@@ -259,15 +293,15 @@ TEST_F(RecordedStepsTest, ADamagedEntryEndsTheReadingWithAWordOnWhereAndWhy) {
   RawlogReader reader(file_);
   EXPECT_TRUE(reader.next());
   EXPECT_FALSE(reader.next());
-  ASSERT_TRUE(reader.trouble());
-  EXPECT_NE(reader.trouble()->find("after 1 entry"), std::string::npos) << *reader.trouble();
-  EXPECT_NE(reader.trouble()->find("the next entry cannot be read"), std::string::npos) << *reader.trouble();
+  ASSERT_TRUE(reader.readError());
+  EXPECT_NE(reader.readError()->find("after 1 entry"), std::string::npos) << *reader.readError();
+  EXPECT_NE(reader.readError()->find("the next entry cannot be read"), std::string::npos) << *reader.readError();
 }
 
-/// Has a file of an odometry and a scan, in which a number that says how much follows is too great.
+/// Fixture with a file of an odometry and a scan in which a size field is too large.
 class DamagedCountTest : public RecordedStepsTest {
  protected:
-  /// @param count the bytes of the number, and of what follows it
+  /// @param count bytes of the size field and of the data after it
   void write(const std::vector<std::uint8_t>& count, std::uint32_t damaged) {
     ByteArchive archive;
     mrpt::obs::CObservationOdometry odometry;
@@ -295,25 +329,61 @@ void DamagedCountTest::expectRefusal() {
   EXPECT_TRUE(reader.next());
   EXPECT_FALSE(reader.next());
   getrusage(RUSAGE_SELF, &after);
-  ASSERT_TRUE(reader.trouble());
-  EXPECT_NE(reader.trouble()->find("after 1 entry"), std::string::npos) << *reader.trouble();
-  EXPECT_NE(reader.trouble()->find("the next entry asks for more than 256 MiB; it is damaged"), std::string::npos)
-      << *reader.trouble();
+  ASSERT_TRUE(reader.readError());
+  EXPECT_NE(reader.readError()->find("after 1 entry"), std::string::npos) << *reader.readError();
+  EXPECT_NE(reader.readError()->find("the next entry requests more than 256 MiB; it is damaged"), std::string::npos)
+      << *reader.readError();
   constexpr long kMiB_kib = 1024;
   EXPECT_LT(after.ru_maxrss - before.ru_maxrss, (MemoryBound::kBounds ? 100 : 2000) * kMiB_kib);
 }
 
-TEST_F(DamagedCountTest, ALabelThatIsLongerThanAnyEndsTheReadingAndTakesNoMemory) {
+TEST_F(DamagedCountTest, RejectsTooLongLabelsWithoutAllocating) {
   write({7, 0, 0, 0, 'S', 'C'}, 768U << 20);
   expectRefusal();
 }
 
-TEST_F(DamagedCountTest, AScanOfMoreRangesThanAnyEndsTheReadingAndTakesNoMemory) {
+TEST_F(DamagedCountTest, RejectsTooLargeScansWithoutAllocating) {
   write({3, 0, 0, 0, 0, 0, 0x80, 0x40}, 192U << 20);  // 3 ranges; 4 m
   expectRefusal();
 }
 
-TEST_F(RecordedStepsTest, AnUncompressedRawlogOfOthersIsReadAsWell) {
+TEST_F(DamagedCountTest, RereadsEntriesBeforeTheDamage) {
+  write({7, 0, 0, 0, 'S', 'C'}, 768U << 20);
+  RawlogReader reader(file_, RawlogReader::Access::random);
+  ASSERT_TRUE(reader.next());
+  const auto first = reader.position();
+  EXPECT_FALSE(reader.next());
+  EXPECT_TRUE(reader.readError());
+  for (int i = 0; i < 2; ++i) {
+    reader.seek(first);
+    EXPECT_FALSE(reader.readError());
+    const auto again = reader.next();
+    ASSERT_TRUE(again);
+    EXPECT_EQ(again->sensorLabel, "WHEELS");
+    EXPECT_FALSE(reader.next());
+    EXPECT_TRUE(reader.readError());
+  }
+}
+
+TEST_F(RecordedStepsTest, ReadImagesOfTwoRecordingsConcurrently) {
+  const std::vector<RobotInfo> seeing{seeingRobot("a")};
+  std::vector<std::vector<Readings>> written;
+  for (const std::uint64_t seed : {0, 100}) {
+    RawlogWriter writer(in("run" + std::to_string(seed) + ".rawlog"), seeing, RawlogFormat::observations,
+                        RawlogImages::external);
+    written.push_back({sampleReadings(seeing[0], seed)});
+    written.back()[0].time.step = 0;
+    writer.write(written.back(), {});
+    writer.close();
+  }
+  ASSERT_NE(written[0][0].measurements[1], written[1][0].measurements[1]);
+  RawlogReader first(in("run0.rawlog")), second(in("run100.rawlog"));
+  RecordedSteps first_steps(first, seeing, 0.1), second_steps(second, seeing, 0.1);
+  EXPECT_EQ((*first_steps.next())[0].readings.measurements, written[0][0].measurements);
+  EXPECT_EQ((*second_steps.next())[0].readings.measurements, written[1][0].measurements);
+}
+
+TEST_F(RecordedStepsTest, ReadUncompressedRawlogsOfOtherPrograms) {
   ByteArchive archive;
   mrpt::obs::CObservation2DRangeScan scan;
   scan.sensorLabel = "SICK";
@@ -324,11 +394,8 @@ TEST_F(RecordedStepsTest, AnUncompressedRawlogOfOthersIsReadAsWell) {
   const auto read = reader.next();
   ASSERT_TRUE(read);
   EXPECT_EQ(read->sensorLabel, "SICK");
-  EXPECT_EQ(partsOf("SICK").robot, "");
-  EXPECT_EQ(partsOf("r1/sonar/POINTS").robot, "r1");
-  EXPECT_EQ(partsOf("r1/sonar/POINTS").sensor, "sonar/POINTS");
   EXPECT_FALSE(reader.next());
-  EXPECT_FALSE(reader.trouble());
+  EXPECT_FALSE(reader.readError());
 }
 
 }  // namespace

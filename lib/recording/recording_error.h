@@ -4,7 +4,7 @@
 
 namespace robosim {
 
-/// A recording cannot be written on, or holds something other than what was asked of it: what, where, and the mend.
+/// A recording cannot be written, or does not match the request; the text has the cause, the place, and how to fix it.
 class RecordingError : public std::runtime_error {
  public:
   explicit RecordingError(const std::string& what) : std::runtime_error(what) {}

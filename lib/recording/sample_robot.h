@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -9,10 +10,11 @@
 #include <mrpt/io/CMemoryStream.h>
 
 #include "base/random.h"
+#include "hardware/measurement_fields.h"
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
 
-/// For the tests of this room: a robot that has every kind of sensor, and readings for it.
+/// Test data of this module: a robot with every kind of sensor, and its readings.
 namespace robosim {
 
 inline Beam beamAt(double x_m, double y_m, double z_m, double yaw_rad) { return {{x_m, y_m, z_m, yaw_rad, 0, 0}}; }
@@ -40,7 +42,7 @@ inline SensorInfo sampleScanner(double range_max_m = 8) {
 }
 
 /// Mounted, in this order: sonar (16), laser (181 beams), beam (a laser that pans), infrared (2), heat, bumper
-/// (10 segments), odometry, compass, battery.
+/// (10 segments), odometry, compass, battery, beacons (2), air (2 values).
 inline RobotInfo sampleRobot(const std::string& name) {
   std::vector<Beam> ring, bumper;
   for (int i = 0; i < 16; ++i) ring.push_back(beamAt(0.2 * std::cos(i), 0.2 * std::sin(i), 0.15, (i - 8) * M_PI / 8));
@@ -52,16 +54,19 @@ inline RobotInfo sampleRobot(const std::string& name) {
   beam.pans = true;
   const auto infrared = rangeSensor(SensorKind::infrared, "infrared",
                                     {beamAt(0.2, 0.1, 0.1, 0.2), beamAt(0.2, -0.1, 0.1, -0.2)}, 0.8, 0.8);
+  const auto beacons = rangeSensor(SensorKind::beacons, "beacons", {beamAt(0, 0, 0.3, 0), beamAt(0, 0, 0.3, 0)}, 9, 9);
+  auto air = plainSensor(SensorKind::values, "air");
+  air.quantities = {{"co2", "ppm"}, {"humidity", "%"}};
   RobotInfo robot;
   robot.name = name;
   robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{
       sonar, sampleScanner(), beam, infrared, plainSensor(SensorKind::heat, "heat", {beamAt(0, 0, 0.4, 0)}),
       plainSensor(SensorKind::bumper, "bumper", bumper), plainSensor(SensorKind::odometry, "odometry"),
-      plainSensor(SensorKind::compass, "compass"), plainSensor(SensorKind::battery, "battery")});
+      plainSensor(SensorKind::compass, "compass"), plainSensor(SensorKind::battery, "battery"), beacons, air});
   return robot;
 }
 
-/// 48 × 32 pixels, a picture every second step, a little ahead of the robot's centre and turned a little to the left.
+/// 48 × 32 pixels, an image every second step, mounted slightly ahead of the robot's centre and turned to the left.
 inline SensorInfo sampleCamera() {
   auto camera = plainSensor(SensorKind::camera, "camera", {beamAt(0.15, 0, 0.3, 0.1)});
   camera.camera = {48, 32, 1.2, 5};
@@ -81,7 +86,7 @@ inline RobotInfo seeingRobot(const std::string& name) {
   return robot;
 }
 
-/// A picture of one colour, as a JPEG file.
+/// An image of one colour, as a JPEG file.
 inline std::string sampleJpeg(const SensorInfo& camera, std::uint8_t shade) {
   mrpt::img::CImage picture(camera.camera.width_px, camera.camera.height_px, mrpt::img::CH_RGB);
   picture.filledRectangle(0, 0, static_cast<int>(camera.camera.width_px) - 1,
@@ -91,61 +96,58 @@ inline std::string sampleJpeg(const SensorInfo& camera, std::uint8_t shade) {
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
 }
 
-/// Readings that differ from step to step in every value; about one echo in five is silence. Pictures are there in even
-/// steps only.
+/// A measurement of random numbers, of the kind and size of a blank one. About one beam in five has no echo. Images
+/// exist in even steps only.
+struct SampleMeasurement {
+  const SensorInfo& sensor;
+  float laser_pan_rad;
+  std::uint64_t step;
+  Rng& rng;
+
+  void operator()(Echoes& echoes) const {
+    for (std::size_t i = 0; i < echoes.size(); ++i) {
+      const bool has_no_echo = rng.uniform() < 0.2;
+      const double range_m = has_no_echo ? sensor.no_echo_m : rng.uniform(0, sensor.range_max_m);
+      const auto& at = sensor.beams[i].robot_from_beam;
+      const double yaw = at.yaw + (sensor.pans ? laser_pan_rad : 0);
+      const mrpt::math::TPoint3D point{at.x + range_m * std::cos(yaw), at.y + range_m * std::sin(yaw), at.z};
+      echoes[i] = {static_cast<float>(range_m), mrpt::math::TPoint3Df(point)};
+    }
+  }
+  void operator()(Image& image) const {
+    if (step % 2 == 0) image.jpeg = sampleJpeg(sensor, static_cast<std::uint8_t>(rng.below(256)));
+  }
+  void operator()(Blobs& blobs) const {
+    blobs.taken = step % 2 == 0;
+    if (blobs.taken) blobs.of_color[1] = {"red", 1 + rng.below(6), 10.25f, 11.5f, 10, 11, 2, 3};
+  }
+  void operator()(BeaconRanges& beacons) const {
+    for (float& range_m : beacons.range_m) {
+      range_m = static_cast<float>(rng.uniform() < 0.2 ? sensor.no_echo_m : rng.uniform(0, sensor.range_max_m));
+    }
+  }
+  void operator()(auto& measurement) const {
+    forNumbers(measurement, [&](const auto& field, auto& number, std::size_t) {
+      using Number = std::remove_reference_t<decltype(number)>;
+      const double most = std::min(9.0, field.max);
+      const double random = rng.uniform(std::max(-9.0, field.min), most);
+      // MRPT's temperatures have single precision.
+      number = std::is_integral_v<Number>
+                   ? static_cast<Number>(std::round(random))
+                   : static_cast<Number>(sensor.kind == SensorKind::heat ? static_cast<float>(random) : random);
+    });
+  }
+};
+
+/// Readings that differ in every value from step to step.
 inline Readings sampleReadings(const RobotInfo& robot, std::uint64_t step) {
   Rng rng(step);
   Readings readings;
   readings.time = {step, 0.1};
   readings.laser_pan_rad = static_cast<float>(rng.uniform(-1.5, 1.5));
   for (const auto& sensor : *robot.sensors) {
-    switch (sensor.kind) {
-      case SensorKind::sonar:
-      case SensorKind::laser:
-      case SensorKind::infrared: {
-        Echoes echoes;
-        for (const auto& beam : sensor.beams) {
-          const bool silent = rng.uniform() < 0.2;
-          const double range_m = silent ? sensor.no_echo_m : rng.uniform(0, sensor.range_max_m);
-          const auto& at = beam.robot_from_beam;
-          const double yaw = at.yaw + (sensor.pans ? readings.laser_pan_rad : 0);
-          const mrpt::math::TPoint3D point{at.x + range_m * std::cos(yaw), at.y + range_m * std::sin(yaw), at.z};
-          echoes.push_back({static_cast<float>(range_m), mrpt::math::TPoint3Df(point)});
-        }
-        readings.measurements.emplace_back(echoes);
-        break;
-      }
-      case SensorKind::heat:
-        readings.measurements.emplace_back(Scalar{static_cast<float>(rng.uniform(0, 30))});
-        break;
-      case SensorKind::compass:
-        readings.measurements.emplace_back(Scalar{rng.uniform(-M_PI, M_PI)});
-        break;
-      case SensorKind::battery:
-        readings.measurements.emplace_back(Scalar{rng.uniform(11, 13)});
-        break;
-      case SensorKind::bumper: {
-        Contacts contacts;
-        for (std::size_t i = 0; i < sensor.beams.size(); ++i) contacts.pressed.push_back(rng.below(2));
-        readings.measurements.emplace_back(contacts);
-        break;
-      }
-      case SensorKind::odometry:
-        readings.measurements.emplace_back(
-            Odometry{{rng.uniform(-9, 9), rng.uniform(-9, 9), rng.uniform(-M_PI, M_PI)}, rng.uniform(), rng.uniform()});
-        break;
-      case SensorKind::camera:
-        readings.measurements.emplace_back(
-            step % 2 == 0 ? Image{sampleJpeg(sensor, static_cast<std::uint8_t>(rng.below(256)))} : Image{});
-        break;
-      case SensorKind::blob_finder: {
-        Blobs blobs = blankBlobs(sensor);
-        blobs.taken = step % 2 == 0;
-        if (blobs.taken) blobs.of_color[1] = {"red", 1 + rng.below(6), 10.25f, 11.5f, 10, 11, 2, 3};
-        readings.measurements.emplace_back(blobs);
-        break;
-      }
-    }
+    std::visit(SampleMeasurement{sensor, readings.laser_pan_rad, step, rng},
+               readings.measurements.emplace_back(blankMeasurement(sensor)));
   }
   return readings;
 }
@@ -157,8 +159,8 @@ inline mrpt::img::CImage unpacked(const std::string& jpeg) {
   return picture;
 }
 
-/// Ranges and all other numbers bit for bit, points but for the rounding of a recomputed one, pictures but for one more
-/// compression.
+/// Expects ranges and all other numbers to be equal, points within the rounding error of their recomputation, and
+/// images within the loss of one more compression.
 inline void expectSameReading(const Measurement& read, const Measurement& written, const std::string& label) {
   if (const auto* image = std::get_if<Image>(&written)) {
     mrpt::img::CImage before = unpacked(image->jpeg), after = unpacked(std::get<Image>(read).jpeg);

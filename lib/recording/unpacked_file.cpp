@@ -3,64 +3,65 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <system_error>
 #include <vector>
 
 #include <zlib.h>
 
+#include "base/input_file.h"
+
 namespace robosim {
 namespace {
 
-constexpr std::size_t kWindowBytes = 32768;  // as far as deflate looks back
+constexpr std::size_t kWindowBytes = 32768;  // deflate's window
 constexpr std::size_t kInputBytes = 128 * 1024, kOutputBytes = 256 * 1024;
-constexpr std::uint64_t kBytesPerPlace = 4 << 20;
+constexpr std::uint64_t kBytesPerCheckpoint = 4 << 20;
 /// For inflateInit2(): with a gzip header and trailer, or with neither.
 constexpr int kGzip = 15 + 16, kRaw = -15;
 
-/// Where unpacking can begin anew.
-struct Place {
-  std::uint64_t unpacked = 0;         ///< the first byte that comes from there
-  std::uint64_t packed = 0;           ///< the first byte of the file of which all bits are needed
-  int bits = 0;                       ///< that are needed of the byte before it
-  bool is_beginning = false;          ///< of a gzip file in the file
-  std::vector<unsigned char> window;  ///< what was unpacked before
+/// State from which decompression can continue.
+struct Checkpoint {
+  std::uint64_t unpacked = 0;         ///< position in the decompressed data
+  std::uint64_t packed = 0;           ///< position in the file, of the first byte all of whose bits are needed
+  int bits = 0;                       ///< number of bits needed of the byte before it
+  bool is_beginning = false;          ///< at the beginning of a gzip member
+  std::vector<unsigned char> window;  ///< the preceding decompressed data
 };
 
 }  // namespace
 
 struct UnpackedFile::Impl {
-  std::FILE* file = nullptr;
-  Places places_kept = Places::forget;
+  explicit Impl(const std::filesystem::path& path) : file(path) {}
+
+  InputFile file;
+  Access access = Access::sequential;
   bool is_packed = false, has_stream = false;
   z_stream stream{};
-  bool is_raw = false;              ///< the stream knows nothing of header and trailer
-  bool is_between_members = false;  ///< of several gzip files in one
+  bool is_raw = false;              ///< the stream has no header and trailer
+  bool is_between_members = false;  ///< of a file with several gzip members
   bool is_over = false;
   std::string fault;
   std::array<unsigned char, kInputBytes> input;
-  std::uint64_t input_end = 0;  ///< of `input`, in the file
+  std::uint64_t input_end = 0;  ///< position in the file of the end of `input`
   std::vector<unsigned char> output = std::vector<unsigned char>(kOutputBytes);
-  std::size_t begin = 0, end = 0;  ///< in `output`: not yet read
-  std::uint64_t unpacked = 0;      ///< of `end`
-  std::vector<Place> places;
+  std::size_t begin = 0, end = 0;  ///< unread range of `output`
+  std::uint64_t unpacked = 0;      ///< position of `end` in the decompressed data
+  std::vector<Checkpoint> checkpoints;
 
   ~Impl() {
     if (has_stream) inflateEnd(&stream);
-    if (file) std::fclose(file);
   }
 
-  void open(const std::filesystem::path& path);
+  void open();
   bool fillInput();
   void fill(std::size_t at_least);
-  void copyOn();
-  void unpackOn();
+  void copyMore();
+  void unpackMore();
   void endMember();
   void beginMember();
-  void keepPlace(int bits, bool is_beginning);
-  void goTo(const Place& place);
+  void addCheckpoint(int bits, bool is_beginning);
+  void restore(const Checkpoint& checkpoint);
   std::uint64_t packedPosition() const { return input_end - stream.avail_in; }
   void stop(std::string why) {
     is_over = true;
@@ -68,25 +69,27 @@ struct UnpackedFile::Impl {
   }
 };
 
-void UnpackedFile::Impl::open(const std::filesystem::path& path) {
-  file = std::fopen(path.c_str(), "rbe");
-  if (!file) throw std::system_error(errno, std::generic_category(), path.string());
-  std::setvbuf(file, nullptr, _IONBF, 0);
+void UnpackedFile::Impl::open() {
   stream.next_in = input.data();
-  fillInput();
+  while (stream.avail_in < 2 && fillInput()) {
+  }
   is_packed = stream.avail_in >= 2 && input[0] == 0x1f && input[1] == 0x8b;
   if (!is_packed) return;
   has_stream = inflateInit2(&stream, kGzip) == Z_OK;
   if (!has_stream) throw std::bad_alloc();
-  keepPlace(0, true);
+  addCheckpoint(0, true);
 }
 
-/// More of the file, behind what is left of it. @returns whether there was more
+/// Appends more of the file to the remaining input. @returns whether there was more
 bool UnpackedFile::Impl::fillInput() {
   std::memmove(input.data(), stream.next_in, stream.avail_in);
   stream.next_in = input.data();
-  const std::size_t got = std::fread(input.data() + stream.avail_in, 1, input.size() - stream.avail_in, file);
-  if (got == 0 && std::ferror(file)) stop(std::strerror(errno));
+  std::size_t got = 0;
+  try {
+    got = file.read(input.data() + stream.avail_in, input.size() - stream.avail_in);
+  } catch (const std::system_error& error) {
+    stop(error.code().message());
+  }
   stream.avail_in += static_cast<unsigned>(got);
   input_end += got;
   return got > 0;
@@ -100,10 +103,10 @@ void UnpackedFile::Impl::fill(std::size_t at_least) {
     end -= begin;
     begin = 0;
   }
-  while (end - begin < at_least && !is_over) is_packed ? unpackOn() : copyOn();
+  while (end - begin < at_least && !is_over) is_packed ? unpackMore() : copyMore();
 }
 
-void UnpackedFile::Impl::copyOn() {
+void UnpackedFile::Impl::copyMore() {
   if (stream.avail_in == 0 && !fillInput()) {
     is_over = true;
     return;
@@ -116,7 +119,7 @@ void UnpackedFile::Impl::copyOn() {
   unpacked += size;
 }
 
-void UnpackedFile::Impl::unpackOn() {
+void UnpackedFile::Impl::unpackMore() {
   if (is_between_members) return beginMember();
   if (stream.avail_in == 0 && !fillInput()) {
     if (fault.empty()) stop("it is cut off");
@@ -125,21 +128,21 @@ void UnpackedFile::Impl::unpackOn() {
   stream.next_out = &output[end];
   stream.avail_out = static_cast<unsigned>(output.size() - end);
   const unsigned room = stream.avail_out;
-  // It stops where a block ends, which is where one can begin.
-  const int result = inflate(&stream, places_kept == Places::keep ? Z_BLOCK : Z_NO_FLUSH);
+  // Z_BLOCK stops at the end of a block, where a checkpoint is possible.
+  const int result = inflate(&stream, access == Access::random ? Z_BLOCK : Z_NO_FLUSH);
   const std::size_t size = room - stream.avail_out;
   end += size;
   unpacked += size;
   if (result == Z_STREAM_END) return endMember();
-  // Z_BUF_ERROR: it wants more input, or room, than there is now.
+  // Z_BUF_ERROR: more input or output space is needed.
   if (result != Z_OK && result != Z_BUF_ERROR) return stop(stream.msg ? stream.msg : "it cannot be unpacked");
   const bool at_block = (stream.data_type & 128) != 0 && (stream.data_type & 64) == 0;
-  if (at_block && places_kept == Places::keep && unpacked >= places.back().unpacked + kBytesPerPlace) {
-    keepPlace(stream.data_type & 7, false);
+  if (at_block && access == Access::random && unpacked >= checkpoints.back().unpacked + kBytesPerCheckpoint) {
+    addCheckpoint(stream.data_type & 7, false);
   }
 }
 
-/// A raw stream leaves the trailer, 8 bytes, to us.
+/// A raw stream does not consume the trailer of 8 bytes.
 void UnpackedFile::Impl::endMember() {
   for (std::size_t left = is_raw ? 8 : 0; left > 0;) {
     if (stream.avail_in == 0 && !fillInput()) return stop("it is cut off");
@@ -151,7 +154,7 @@ void UnpackedFile::Impl::endMember() {
   is_between_members = true;
 }
 
-/// What follows a gzip file is another one, or is nothing to us.
+/// A gzip member is followed by another one; other data is ignored.
 void UnpackedFile::Impl::beginMember() {
   while (stream.avail_in < 2 && fillInput()) {
   }
@@ -162,50 +165,53 @@ void UnpackedFile::Impl::beginMember() {
   }
   inflateReset2(&stream, kGzip);
   is_raw = false;
-  if (places_kept == Places::keep && unpacked >= places.back().unpacked + kBytesPerPlace) keepPlace(0, true);
+  if (access == Access::random && unpacked >= checkpoints.back().unpacked + kBytesPerCheckpoint) addCheckpoint(0, true);
 }
 
-void UnpackedFile::Impl::keepPlace(int bits, bool is_beginning) {
-  if (!places.empty() && unpacked <= places.back().unpacked) return;  // passed before
-  Place place{unpacked, packedPosition(), bits, is_beginning, {}};
+void UnpackedFile::Impl::addCheckpoint(int bits, bool is_beginning) {
+  if (!checkpoints.empty() && unpacked <= checkpoints.back().unpacked) return;  // already stored
+  Checkpoint checkpoint{unpacked, packedPosition(), bits, is_beginning, {}};
   if (!is_beginning) {
-    place.window.resize(kWindowBytes);
+    checkpoint.window.resize(kWindowBytes);
     unsigned size = 0;
-    inflateGetDictionary(&stream, place.window.data(), &size);
-    place.window.resize(size);
-    place.window.shrink_to_fit();
+    inflateGetDictionary(&stream, checkpoint.window.data(), &size);
+    checkpoint.window.resize(size);
+    checkpoint.window.shrink_to_fit();
   }
-  places.push_back(std::move(place));
+  checkpoints.push_back(std::move(checkpoint));
 }
 
-void UnpackedFile::Impl::goTo(const Place& place) {
-  const std::uint64_t from = place.packed - (place.bits > 0 ? 1 : 0);
+void UnpackedFile::Impl::restore(const Checkpoint& checkpoint) {
+  const std::uint64_t from = checkpoint.packed - (checkpoint.bits > 0 ? 1 : 0);
   is_over = is_between_members = false;
   fault.clear();
   begin = end = 0;
-  unpacked = place.unpacked;
+  unpacked = checkpoint.unpacked;
   stream.avail_in = 0;
   stream.next_in = input.data();
   input_end = from;
-  std::clearerr(file);
-  if (fseeko(file, static_cast<off_t>(from), SEEK_SET) != 0) return stop(std::strerror(errno));
+  try {
+    file.seek(from);
+  } catch (const std::system_error& error) {
+    return stop(error.code().message());
+  }
   if (!is_packed) return;
-  is_raw = !place.is_beginning;
+  is_raw = !checkpoint.is_beginning;
   inflateReset2(&stream, is_raw ? kRaw : kGzip);
-  if (place.bits > 0) {
+  if (checkpoint.bits > 0) {
     if (!fillInput()) return stop("it is cut off");
     const int byte = *stream.next_in++;
     --stream.avail_in;
-    inflatePrime(&stream, place.bits, byte >> (8 - place.bits));
+    inflatePrime(&stream, checkpoint.bits, byte >> (8 - checkpoint.bits));
   }
-  if (!place.window.empty()) {
-    inflateSetDictionary(&stream, place.window.data(), static_cast<unsigned>(place.window.size()));
+  if (!checkpoint.window.empty()) {
+    inflateSetDictionary(&stream, checkpoint.window.data(), static_cast<unsigned>(checkpoint.window.size()));
   }
 }
 
-UnpackedFile::UnpackedFile(const std::filesystem::path& file, Places places) : impl_(std::make_unique<Impl>()) {
-  impl_->places_kept = places;
-  impl_->open(file);
+UnpackedFile::UnpackedFile(const std::filesystem::path& file, Access access) : impl_(std::make_unique<Impl>(file)) {
+  impl_->access = access;
+  impl_->open();
 }
 
 UnpackedFile::~UnpackedFile() = default;
@@ -234,17 +240,18 @@ std::size_t UnpackedFile::peek(void* to, std::size_t size) {
 std::uint64_t UnpackedFile::position() const { return impl_->unpacked - (impl_->end - impl_->begin); }
 
 void UnpackedFile::seek(std::uint64_t position) {
-  assert(impl_->places_kept == Places::keep);
+  assert(impl_->access == Access::random);
   const std::uint64_t here = this->position();
   if (!impl_->is_packed) {
-    Place place;
-    place.unpacked = place.packed = position;
-    if (position < here || position > impl_->unpacked) return impl_->goTo(place);
+    Checkpoint checkpoint;
+    checkpoint.unpacked = checkpoint.packed = position;
+    if (position < here || position > impl_->unpacked) return impl_->restore(checkpoint);
   } else {
-    const auto after = std::upper_bound(impl_->places.begin(), impl_->places.end(), position,
-                                        [](std::uint64_t p, const Place& place) { return p < place.unpacked; });
-    const Place& place = *(after - 1);
-    if (position < here || place.unpacked > impl_->unpacked) impl_->goTo(place);
+    const auto after =
+        std::upper_bound(impl_->checkpoints.begin(), impl_->checkpoints.end(), position,
+                         [](std::uint64_t p, const Checkpoint& checkpoint) { return p < checkpoint.unpacked; });
+    const Checkpoint& checkpoint = *(after - 1);
+    if (position < here || checkpoint.unpacked > impl_->unpacked) impl_->restore(checkpoint);
   }
   while (this->position() < position) {
     if (impl_->begin == impl_->end) impl_->fill(1);

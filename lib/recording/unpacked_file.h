@@ -7,32 +7,32 @@
 
 namespace robosim {
 
-/// The bytes of a file; of a gzip file, what they are when unpacked. A file that keeps places can be wound to any
-/// byte that it has passed: about each 4 MiB it keeps what is needed to unpack from there on (as zlib's
-/// examples/zran.c does), 32 KiB of memory.
+/// Reads the bytes of a file, decompressed if it is a gzip file. With random access, it can seek to any byte that was
+/// read before: about every 4 MiB it stores a checkpoint of 32 KiB from which decompression can continue (as zlib's
+/// examples/zran.c).
 class UnpackedFile {
  public:
-  enum class Places { forget, keep };
+  enum class Access { sequential, random };
 
-  /// @param places keep: only of a file that can be wound, as a pipe cannot.
-  /// @throws std::system_error when it cannot be opened.
-  explicit UnpackedFile(const std::filesystem::path& file, Places places = Places::forget);
+  /// @param access random: regular files only.
+  /// @throws ConfigError as InputFile does.
+  explicit UnpackedFile(const std::filesystem::path& file, Access access = Access::sequential);
   ~UnpackedFile();
   UnpackedFile(const UnpackedFile&) = delete;
   UnpackedFile& operator=(const UnpackedFile&) = delete;
 
-  /// @returns how many bytes were read: fewer than asked for only at the end, or before a fault.
+  /// @returns the number of bytes read: less than `size` only at the end or before an error. @throws Interrupted
   std::size_t read(void* to, std::size_t size);
-  /// The same, and they will be read again. @param size at most 1 KiB
+  /// As read(), without advancing the position. @param size at most 1 KiB
   std::size_t peek(void* to, std::size_t size);
-  /// Of the next byte.
+  /// Position of the next byte in the decompressed data.
   std::uint64_t position() const;
-  /// Goes to a byte that was passed, or is the next; of a file that keeps places.
+  /// Continues at a byte that was read before, or at the next one; requires random access.
   void seek(std::uint64_t position);
 
-  /// Whether everything has been read, and nothing was missing.
+  /// Whether the file was read completely and without error.
   bool atEnd();
-  /// Why the end came early; empty for a whole file, and as long as it is not reached.
+  /// Description of the error at which reading ended; empty for none so far.
   const std::string& fault() const;
 
  private:

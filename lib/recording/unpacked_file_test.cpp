@@ -8,16 +8,17 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include "base/error_list.h"
 #include "base/test_folder.h"
 
 namespace robosim {
 namespace {
 
-using Places = UnpackedFile::Places;
+using Access = UnpackedFile::Access;
 
 class UnpackedFileTest : public TestFolder {
  protected:
-  /// 13 MB that compress to a third: words in which each 4 bytes tell where they are, among noise.
+  /// 13 MB that compress to a third: words that encode their position, mixed with noise.
   static std::string content(std::size_t size = 13'000'000) {
     std::string bytes(size, 'x');
     std::mt19937 random(1);
@@ -28,7 +29,7 @@ class UnpackedFileTest : public TestFolder {
     }
     return bytes;
   }
-  /// Appends to a file, as a gzip file of its own.
+  /// Appends to a file as a separate gzip member.
   void pack(const std::string& bytes, int level = 1) {
     const gzFile out = gzopen(file_.c_str(), ("ab" + std::to_string(level)).c_str());
     gzwrite(out, bytes.data(), static_cast<unsigned>(bytes.size()));
@@ -47,7 +48,7 @@ class UnpackedFileTest : public TestFolder {
     return bytes;
   }
   void expectThatItCanBeWound(const std::string& bytes) {
-    UnpackedFile unpacked(file_, Places::keep);
+    UnpackedFile unpacked(file_, Access::random);
     EXPECT_EQ(readAll(unpacked), bytes);
     EXPECT_TRUE(unpacked.atEnd());
     std::mt19937 random(2);
@@ -66,20 +67,20 @@ class UnpackedFileTest : public TestFolder {
   std::filesystem::path file_ = in("bytes.gz");
 };
 
-TEST_F(UnpackedFileTest, OneGzipFileCanBeWoundToAnyByte) {
+TEST_F(UnpackedFileTest, SeeksInAGzipFile) {
   const std::string bytes = content();
   pack(bytes);
   expectThatItCanBeWound(bytes);
 }
 
-TEST_F(UnpackedFileTest, SeveralInOneAndThoseThatAreNotCompressedCanBeWound) {
+TEST_F(UnpackedFileTest, SeeksInSeveralMembersAndStoredBlocks) {
   const std::string bytes = content();
   const std::size_t third = bytes.size() / 3;
   for (int i = 0; i < 3; ++i) pack(bytes.substr(third * static_cast<std::size_t>(i), third), i == 1 ? 0 : 6);
   expectThatItCanBeWound(bytes.substr(0, 3 * third));
 }
 
-TEST_F(UnpackedFileTest, AFileThatIsNotPackedCanBeWound) {
+TEST_F(UnpackedFileTest, SeeksInAnUncompressedFile) {
   const std::string bytes = content();
   std::ofstream(file_, std::ios::binary) << bytes;
   expectThatItCanBeWound(bytes);
@@ -98,11 +99,11 @@ TEST_F(UnpackedFileTest, PeekedBytesAreReadAgain) {
   EXPECT_TRUE(unpacked.atEnd());
 }
 
-TEST_F(UnpackedFileTest, WhereOneIsCutOffWhatStandsBeforeIsReadAndTheRestIsTold) {
+TEST_F(UnpackedFileTest, ReadsATruncatedFileUpToItsEnd) {
   const std::string bytes = content();
   pack(bytes);
   std::filesystem::resize_file(file_, std::filesystem::file_size(file_) / 2);
-  UnpackedFile unpacked(file_, Places::keep);
+  UnpackedFile unpacked(file_, Access::random);
   const std::string half = readAll(unpacked);
   EXPECT_GT(half.size(), bytes.size() / 3);
   EXPECT_EQ(half, bytes.substr(0, half.size()));
@@ -114,22 +115,22 @@ TEST_F(UnpackedFileTest, WhereOneIsCutOffWhatStandsBeforeIsReadAndTheRestIsTold)
   EXPECT_EQ(unpacked.fault(), "");
 }
 
-TEST_F(UnpackedFileTest, ADamagedOneEndsWithAFault) {
+TEST_F(UnpackedFileTest, ReportsDamage) {
   const std::string bytes = content(1'000'000);
   pack(bytes);
   std::fstream damaged(file_, std::ios::binary | std::ios::in | std::ios::out);
   damaged.seekp(200'000);
   damaged << std::string(64, '\xff');
   damaged.close();
-  for (const Places places : {Places::forget, Places::keep}) {
-    UnpackedFile unpacked(file_, places);
+  for (const Access access : {Access::sequential, Access::random}) {
+    UnpackedFile unpacked(file_, access);
     readAll(unpacked);
     EXPECT_FALSE(unpacked.atEnd());
     EXPECT_NE(unpacked.fault(), "");
   }
 }
 
-TEST_F(UnpackedFileTest, WhatStandsBehindAGzipFileAndIsNoneIsNothing) {
+TEST_F(UnpackedFileTest, IgnoresDataAfterAGzipFile) {
   pack("rawlog");
   std::ofstream(file_, std::ios::binary | std::ios::app) << "rubbish";
   UnpackedFile unpacked(file_);
@@ -137,7 +138,7 @@ TEST_F(UnpackedFileTest, WhatStandsBehindAGzipFileAndIsNoneIsNothing) {
   EXPECT_TRUE(unpacked.atEnd());
 }
 
-TEST_F(UnpackedFileTest, OneThatIsNotThereIsAnError) { EXPECT_THROW(UnpackedFile(in("none")), std::system_error); }
+TEST_F(UnpackedFileTest, ThrowsForAMissingFile) { EXPECT_THROW(UnpackedFile(in("none")), ConfigError); }
 
 }  // namespace
 }  // namespace robosim

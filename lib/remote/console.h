@@ -12,17 +12,17 @@
 
 namespace robosim {
 
-/// A team's remote control as a web page: whoever opens the page first and wants to has the wheel, and everyone else
-/// looks on. What the wheel's holder does goes to the primary robot; what robots tell goes to every page, the newest
-/// first, as fast as each of them can show it.
+/// Remote control of a team as a web page. One page at a time holds the control lock, and the others observe. Orders of
+/// the holder go to the primary robot. Robots' updates go to every page, newest first, at the rate that the page
+/// acknowledges.
 class Console {
  public:
   struct Options {
-    std::string listen = "127.0.0.1:8080";  ///< "host:port"
-    std::optional<TlsIdentity> tls;         ///< absent: without TLS
-    Access access;                          ///< who may look, and who may drive which robots
-    RemoteControl::Options control;         ///< all but `ring`
-    MapSource* map = nullptr;               ///< must outlive this; null for no map
+    std::string listen = "127.0.0.1:8080";                                    ///< "host:port"
+    std::optional<TlsIdentity> tls;                                           ///< absent: without TLS
+    Access access;                                                            ///< rights by token
+    RemoteControl::Options control;                                           ///< all but `on_news`
+    MapSource* map = nullptr;                                                 ///< must outlive this; null for no map
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
   };
 
@@ -34,7 +34,7 @@ class Console {
   Console& operator=(const Console&) = delete;
 
   int port() const;
-  /// Serves until `interrupted` says so (asked 20 times a second at least).
+  /// Serves until `interrupted` returns true (polled at least 20 times per second).
   void serve(const std::function<bool()>& interrupted);
 
  private:

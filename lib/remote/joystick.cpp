@@ -1,10 +1,34 @@
 #include "remote/joystick.h"
 
-// First: the next header's class has another size without it.
+// Included first: without it the class of the next header has another size.
 #include <mrpt/config.h>
 #include <mrpt/hwdrivers/CJoystick.h>
 
 namespace robosim {
+namespace {
+
+/// MRPT 2.14 (Debian 13) returns the axes in a struct; 2.5 (Debian 12) has a parameter for each.
+template <typename Driver>
+std::optional<StickState> readStick(Driver& driver, int number) {
+  StickState stick;
+  if constexpr (requires { typename Driver::State; }) {
+    typename Driver::State state;
+    if (!driver.getJoystickPosition(number, state)) return std::nullopt;
+    if (state.axes.size() > 0) stick.x = state.axes[0];
+    if (state.axes.size() > 1) stick.y = state.axes[1];
+    stick.buttons = state.buttons;
+  } else {
+    float x = 0;
+    float y = 0;
+    float z = 0;
+    if (!driver.getJoystickPosition(number, x, y, z, stick.buttons)) return std::nullopt;
+    stick.x = x;
+    stick.y = y;
+  }
+  return stick;
+}
+
+}  // namespace
 
 struct Joystick::Impl {
   int number;
@@ -14,15 +38,6 @@ struct Joystick::Impl {
 Joystick::Joystick(int number) : impl_(std::make_unique<Impl>(Impl{number})) {}
 Joystick::~Joystick() = default;
 
-std::optional<StickState> Joystick::read() {
-  StickState state;
-  float x = 0;
-  float y = 0;
-  float z = 0;
-  if (!impl_->driver.getJoystickPosition(impl_->number, x, y, z, state.buttons)) return std::nullopt;
-  state.x = x;
-  state.y = y;
-  return state;
-}
+std::optional<StickState> Joystick::read() { return readStick(impl_->driver, impl_->number); }
 
 }  // namespace robosim

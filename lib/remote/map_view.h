@@ -11,7 +11,7 @@
 
 namespace robosim {
 
-/// The world from above, as whoever may know the truth tells it: what the console's map shows.
+/// Ground truth from above for the console's map.
 struct MapWorld {
   struct Thing {
     mrpt::math::TPose2D world_from_thing;
@@ -32,18 +32,18 @@ struct MapWorld {
 };
 
 struct MapView {
-  std::shared_ptr<const MapWorld> world;  ///< null while there is none
-  std::string problem;                    ///< why there is none
+  std::shared_ptr<const MapWorld> world;  ///< null while not available
+  std::string problem;                    ///< reason why it is not available
   std::uint64_t step = 0;
   std::vector<mrpt::math::TPose2D> world_from_robot;  ///< in the order of MapWorld::robots
   std::vector<Activity> activity;
 };
 
-/// Who tells it. Called from one thread.
+/// Source of the map. Called from one thread.
 class MapSource {
  public:
   virtual ~MapSource() = default;
-  /// Whether anybody wants to see a map: nobody does at first.
+  /// Sets whether any page shows the map; initially none does.
   virtual void want(bool wanted) = 0;
   /// The newest; never null.
   virtual std::shared_ptr<const MapView> newest() = 0;

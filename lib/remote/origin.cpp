@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "net/listen.h"
+#include "net/host_port.h"
 
 namespace robosim {
 namespace {
@@ -13,7 +13,7 @@ std::string inLowerCase(std::string text) {
   return text;
 }
 
-/// "host:port" also where the port is left out; isLoopback() cuts one off.
+/// A host with a port: appends ":" to one without, because isLoopback() removes the port.
 std::string withPort(const std::string& host) {
   const auto colon = host.rfind(':');
   const bool has_port = colon != std::string::npos && host.find(']', colon) == std::string::npos;

@@ -3,11 +3,10 @@
 
 namespace robosim {
 
-/// Whether a page may talk to the server that listens at `listen`. A browser says where the page comes from, `Origin`,
-/// and whom it believes to talk to, `Host`: they must be the same, so that a page from elsewhere, open in the same
-/// browser, cannot drive robots. A server that only this machine reaches must be called by a name that means this
-/// machine, or a page could have its own name resolve to it ("DNS rebinding").
-/// @param origin "https://host:port"; empty for none, which no browser sends and is refused
+/// Whether a page may access the server that listens at `listen`. The browser's `Origin` and `Host` headers must match,
+/// so that a page of another site in the same browser cannot drive robots. For a server on a loopback address, `Host`
+/// must name this machine, which prevents DNS rebinding.
+/// @param origin "https://host:port"; empty when absent, which is refused
 /// @param host "host:port"
 /// @param listen "host:port"
 bool isSameOrigin(const std::string& origin, const std::string& host, const std::string& listen);

@@ -7,7 +7,7 @@ namespace {
 
 const char* const kHere = "127.0.0.1:8080";
 
-TEST(Origin, APageMayTalkToWhereItComesFrom) {
+TEST(Origin, PermitsPagesOfTheSameOrigin) {
   EXPECT_TRUE(isSameOrigin("http://127.0.0.1:8080", "127.0.0.1:8080", kHere));
   EXPECT_TRUE(isSameOrigin("http://localhost:8080", "localhost:8080", kHere));
   EXPECT_TRUE(isSameOrigin("http://LocalHost:8080", "localhost:8080", kHere));
@@ -16,7 +16,7 @@ TEST(Origin, APageMayTalkToWhereItComesFrom) {
   EXPECT_TRUE(isSameOrigin("https://sim.example.org", "sim.example.org", "0.0.0.0:443"));
 }
 
-TEST(Origin, APageFromElsewhereMayNot) {
+TEST(Origin, RejectsPagesOfOtherOrigins) {
   EXPECT_FALSE(isSameOrigin("http://example.org", "127.0.0.1:8080", kHere));
   EXPECT_FALSE(isSameOrigin("http://127.0.0.1:8081", "127.0.0.1:8080", kHere));
   EXPECT_FALSE(isSameOrigin("http://localhost:8080", "127.0.0.1:8080", kHere));
@@ -26,7 +26,7 @@ TEST(Origin, APageFromElsewhereMayNot) {
   EXPECT_FALSE(isSameOrigin("http://", "", kHere));
 }
 
-TEST(Origin, APageWhoseNameWasMadeToMeanThisMachineMayNot) {
+TEST(Origin, RejectsHostNamesThatWereReboundToThisMachine) {
   EXPECT_FALSE(isSameOrigin("http://evil.example:8080", "evil.example:8080", kHere));
   EXPECT_TRUE(isSameOrigin("http://sim.example.org:8080", "sim.example.org:8080", "0.0.0.0:8080"));
 }

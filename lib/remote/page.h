@@ -5,10 +5,10 @@
 
 namespace robosim {
 
-/// The console's page, which is in the program: everything in this folder's `page/`.
+/// The files of the console's page, embedded in the program from this folder's `page/`.
 std::vector<WebFile> pageFiles();
 
-/// What the page and the console speak, as WebSocket calls it: page_message.h one way, page_json.h the other.
+/// WebSocket subprotocol of page and console: page_message.h to the console, page_json.h to the page.
 constexpr const char* kPageProtocol = "robosim.remote.1";
 
 }  // namespace robosim

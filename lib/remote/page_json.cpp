@@ -4,13 +4,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "hardware/measurement_fields.h"
+
 namespace robosim {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
 double rounded(double value, double unit) { return std::round(value / unit) * unit; }
-/// To a tenth of a millimetre, of a milliradian: finer than any screen.
+/// Rounded to a tenth of a millimetre or of a milliradian, which is below the resolution of screens.
 double fine(double value) { return std::round(value * 1e4) / 1e4; }
 
 std::string textOf(const Json& message) {
@@ -41,27 +43,36 @@ std::string hexOf(const std::array<float, 3>& color) {
   return text;
 }
 
+template <typename Number>
+Json jsonOf(Number number) {
+  if constexpr (std::is_integral_v<Number>) return number;
+  return fine(static_cast<double>(number));
+}
+
+/// A measurement as JSON; null for kinds that depend on pictures. A record of one number is that number, a record of
+/// several an object with the fields' names and units, and a list of records an array. Of an echo only the range is
+/// sent, in whole millimetres: the point follows from the beam.
 struct MeasurementJson {
   Json operator()(const Echoes& echoes) const {
     Json ranges_mm = Json::array();
     for (const Echo& echo : echoes) ranges_mm.push_back(std::lround(echo.range_m * 1000.0F));
     return ranges_mm;
   }
-  Json operator()(const Scalar& scalar) const { return fine(scalar.value); }
-  Json operator()(const Contacts& contacts) const { return contacts.pressed; }
-  Json operator()(const Odometry& odometry) const {
-    const auto& pose = odometry.odom_from_robot;
-    return {{"x_m", fine(pose.x)},
-            {"y_m", fine(pose.y)},
-            {"phi_rad", fine(pose.phi)},
-            {"speed_mps", fine(odometry.speed_mps)},
-            {"turn_radps", fine(odometry.turn_radps)}};
+  template <typename M>
+  Json operator()(const M& measurement) const {
+    if constexpr (!kIsReproducible<M>) return nullptr;
+    const auto records = Description<M>::records(measurement);
+    Json list = Json::array();
+    for (std::size_t i = 0; i < records.size(); ++i) list.push_back(kFieldCount<M> == 1 ? Json() : Json::object());
+    forNumbers(measurement, [&](const auto& field, auto number, std::size_t index) {
+      const std::string name = std::string(field.name) + (*field.unit.suffix ? "_" : "") + field.unit.suffix;
+      (kFieldCount<M> == 1 ? list[index] : list[index][name]) = jsonOf(number);
+    });
+    return kIsSingle<M> ? list[0] : list;
   }
-  Json operator()(const Image&) const { return nullptr; }
-  Json operator()(const Blobs&) const { return nullptr; }
 };
 
-/// Which readings come with every update only if a page wants them so; 2005's REQ_… ask for them.
+/// Whether an update contains readings of this kind only for subscribers; others request them by REQ_….
 bool isOnRequest(SensorKind kind) {
   return kind == SensorKind::sonar || kind == SensorKind::laser || kind == SensorKind::heat ||
          kind == SensorKind::infrared;
@@ -96,6 +107,10 @@ Json jsonOf(const RemoteState& state) {
 
 }  // namespace
 
+std::string welcomeJson(std::uint64_t page) { return textOf({{"type", "welcome"}, {"you", page}}); }
+
+std::string refusedJson(const std::string& text) { return textOf({{"type", "refused"}, {"text", text}}); }
+
 std::string robotJson(const RobotInfo& robot, double period_s) {
   Json sensors = Json::array();
   for (const auto& sensor : *robot.sensors) sensors.push_back(jsonOf(sensor));
@@ -109,7 +124,7 @@ std::string robotJson(const RobotInfo& robot, double period_s) {
                  {"sensors", sensors}});
 }
 
-std::string teamJson(const std::vector<RemoteControl::Robot>& robots, const Wheel& wheel) {
+std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lock) {
   Json team = Json::array();
   std::string winner, world;
   for (const auto& robot : robots) {
@@ -131,8 +146,8 @@ std::string teamJson(const std::vector<RemoteControl::Robot>& robots, const Whee
   return textOf({{"type", "team"},
                  {"world", world},
                  {"robots", team},
-                 {"wheel", {{"holder", wheel.holder}, {"name", wheel.name}}},
-                 {"guests", wheel.guests},
+                 {"control_lock", {{"holder", lock.holder}, {"name", lock.name}}},
+                 {"pages", lock.pages},
                  {"winner", winner}});
 }
 

@@ -1,37 +1,44 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "remote/map_view.h"
-#include "remote/remote_control.h"
+#include "remote/robot_news.h"
 
 namespace robosim {
 
 /// @file
-/// What the console tells a page, as JSON (doc/remote_control.md tells the conversation). Lengths are in
-/// metres and angles in radians, but ranges in whole millimetres: there are many, and they are short so.
+/// Messages of the console to a page, as JSON (protocol: doc/remote_control.md). Lengths are in metres and angles in
+/// radians; ranges are in whole millimetres, to keep the messages short.
 
-/// What is constant of the robot that is driven.
+/// The page's hello was accepted; the page's id.
+std::string welcomeJson(std::uint64_t page);
+/// The page's token is not valid. @param text for the user
+std::string refusedJson(const std::string& text);
+
+/// Constant properties of the primary robot.
 std::string robotJson(const RobotInfo& robot, double period_s);
 
-/// How the team stands, and who has the wheel.
-struct Wheel {
-  std::uint64_t holder = 0;  ///< whose the wheel is; 0 for nobody's
+/// State of the team, and the holder of the control lock.
+struct ControlLock {
+  std::uint64_t holder = 0;  ///< page that holds the control lock; 0 for none
   std::string name;
-  std::size_t guests = 0;  ///< how many pages there are
+  std::size_t pages = 0;  ///< number of admitted pages
 };
-std::string teamJson(const std::vector<RemoteControl::Robot>& robots, const Wheel& wheel);
+std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lock);
 
-/// A step of the robot that is driven; `with_sensors` says whether sonar, laser, infrared and heat are in it.
+/// A step of the primary robot; `with_sensors` includes sonar, laser, infrared and heat.
 std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const RobotPicture* picture,
                        bool with_sensors);
-/// One sensor's reading that was asked for.
+/// The requested reading of one sensor.
 std::string answerJson(const char* sensor, const RobotAnswer& answer);
 
 std::string mapJson(const MapView& map);
 std::string posesJson(const MapView& map);
 
-/// A line for people. @param is_warning whether it deserves to be seen
+/// A line of text for the user. @param is_warning whether it is highlighted
 std::string noteJson(const std::string& text, bool is_warning);
 
 }  // namespace robosim

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
+#include <initializer_list>
 
 #include <nlohmann/json.hpp>
+
+#include "base/utf8.h"
 
 namespace robosim {
 namespace {
@@ -13,39 +14,49 @@ namespace {
 using nlohmann::json;
 using Type = PageMessage::Type;
 
-struct Kind {
+struct Syntax {
   Type type;
-  RemoteType order;
-  std::set<std::string> members;  ///< it may have
+  const char* name;
+  std::array<const char*, 3> members{};  ///< that it may have
 };
 
-const std::map<std::string, Kind>& kinds() {
-  static const std::map<std::string, Kind> all{
-      {"hello", {Type::hello, {}, {"protocol", "name", "token"}}},
-      {"ack", {Type::ack, {}, {"number"}}},
-      {"take", {Type::take, {}, {}}},
-      {"release", {Type::release, {}, {}}},
-      {"accelerate", {Type::steer, RemoteType::accelerate, {}}},
-      {"decelerate", {Type::steer, RemoteType::decelerate, {}}},
-      {"turn_left", {Type::steer, RemoteType::turn_left, {}}},
-      {"turn_right", {Type::steer, RemoteType::turn_right, {}}},
-      {"stop", {Type::steer, RemoteType::stop, {"why"}}},
-      {"alive", {Type::steer, RemoteType::alive, {}}},
-      {"check_win", {Type::steer, RemoteType::check_win, {}}},
-      {"req_heat", {Type::steer, RemoteType::req_heat, {}}},
-      {"req_laser", {Type::steer, RemoteType::req_laser, {}}},
-      {"req_sonar", {Type::steer, RemoteType::req_sonar, {}}},
-      {"drive", {Type::drive, RemoteType::drive, {"speed", "turn", "pan"}}},
-      {"autonomous", {Type::autonomous, {}, {"on"}}},
-      {"switch", {Type::switching, {}, {"robot"}}},
-      {"live", {Type::live, {}, {"on"}}},
-      {"map", {Type::map, {}, {"on"}}},
-  };
-  return all;
+constexpr std::array<Syntax, PageMessage::kTypes> kSyntax{{
+    {Type::hello, "hello", {"protocol", "name", "token"}},
+    {Type::ack, "ack", {"number"}},
+    {Type::live, "live", {"on"}},
+    {Type::map, "map", {"on"}},
+    {Type::req_heat, "req_heat"},
+    {Type::req_laser, "req_laser"},
+    {Type::req_sonar, "req_sonar"},
+    {Type::take, "take"},
+    {Type::release, "release"},
+    {Type::drive, "drive", {"speed", "turn", "pan"}},
+    {Type::accelerate, "accelerate"},
+    {Type::decelerate, "decelerate"},
+    {Type::turn_left, "turn_left"},
+    {Type::turn_right, "turn_right"},
+    {Type::stop, "stop", {"why"}},
+    {Type::alive, "alive"},
+    {Type::check_win, "check_win"},
+    {Type::autonomous, "autonomous", {"on"}},
+    {Type::switch_primary, "switch", {"robot"}},
+}};
+
+constexpr bool isInOrder() {
+  for (std::size_t i = 0; i < kSyntax.size(); ++i) {
+    if (static_cast<std::size_t>(kSyntax[i].type) != i) return false;
+  }
+  return true;
+}
+static_assert(isInOrder(), "a type's entry is at its index");
+
+bool hasMember(const Syntax& syntax, const std::string& member) {
+  return std::any_of(syntax.members.begin(), syntax.members.end(),
+                     [&](const char* name) { return name && member == name; });
 }
 
-/// A part of the most: beyond it the nearest end counts.
-double part(const json& value, const std::string& member) {
+/// A fraction of the robot's maximum, clamped to [-1, 1].
+double fraction(const json& value, const std::string& member) {
   if (!value.is_number() || !std::isfinite(value.get<double>())) {
     throw WireError("'" + member + "' must be a finite number");
   }
@@ -57,26 +68,30 @@ std::uint64_t count(const json& value, const std::string& member) {
   return value.get<std::uint64_t>();
 }
 
-std::string words(const json& value, const std::string& member, std::size_t most_bytes) {
+enum class Excess { refuse, truncate };
+
+std::string textOf(const json& value, const std::string& member, std::size_t max_bytes,
+                   Excess excess = Excess::refuse) {
   if (!value.is_string()) throw WireError("'" + member + "' must be a text");
-  const auto text = value.get<std::string>();
-  checkText(text, most_bytes, ("'" + member + "'").c_str());
+  auto text = value.get<std::string>();
+  if (excess == Excess::truncate) text = utf8Prefix(text, max_bytes);
+  checkText(text, max_bytes, ("'" + member + "'").c_str());
   return text;
 }
 
 void read(const std::string& member, const json& value, PageMessage& message) {
-  constexpr std::size_t longest_token = 1024;
-  constexpr std::size_t longest_robot = 256;
+  constexpr std::size_t max_token_bytes = 1024;
+  constexpr std::size_t max_robot_bytes = 256;
   if (member == "protocol")
     message.protocol = static_cast<std::uint32_t>(std::min<std::uint64_t>(count(value, member), UINT32_MAX));
   if (member == "number") message.number = count(value, member);
-  if (member == "name") message.name = words(value, member, kMaxDriverBytes);
-  if (member == "token") message.token = words(value, member, longest_token);
-  if (member == "robot") message.robot = words(value, member, longest_robot);
-  if (member == "why") message.why = words(value, member, kMaxWhyBytes);
-  if (member == "speed") message.speed = part(value, member);
-  if (member == "turn") message.turn = part(value, member);
-  if (member == "pan") message.pan_rad = part(value, member) * M_PI_2;
+  if (member == "name") message.name = textOf(value, member, kMaxDriverBytes);
+  if (member == "token") message.token = textOf(value, member, max_token_bytes);
+  if (member == "robot") message.robot = textOf(value, member, max_robot_bytes);
+  if (member == "why") message.why = textOf(value, member, kMaxWhyBytes, Excess::truncate);
+  if (member == "speed") message.speed = fraction(value, member);
+  if (member == "turn") message.turn = fraction(value, member);
+  if (member == "pan") message.pan_rad = fraction(value, member) * M_PI_2;
   if (member == "on") {
     if (!value.is_boolean()) throw WireError("'on' must be true or false");
     message.on = value.get<bool>();
@@ -85,20 +100,22 @@ void read(const std::string& member, const json& value, PageMessage& message) {
 
 }  // namespace
 
+const char* nameOf(PageMessage::Type type) { return kSyntax[static_cast<std::size_t>(type)].name; }
+
 PageMessage PageMessage::parse(std::string_view text) {
   const json object = json::parse(text, nullptr, false);
-  if (object.is_discarded() || !object.is_object()) throw WireError("a message that is no JSON object");
+  if (object.is_discarded() || !object.is_object()) throw WireError("a message that is not a JSON object");
   const auto type = object.find("type");
-  const auto kind = type != object.end() && type->is_string() ? kinds().find(type->get<std::string>()) : kinds().end();
-  if (kind == kinds().end()) throw WireError("a message without a type that is known here");
+  const std::string name = type != object.end() && type->is_string() ? type->get<std::string>() : "";
+  const auto* const syntax =
+      std::find_if(kSyntax.begin(), kSyntax.end(), [&](const Syntax& known) { return name == known.name; });
+  if (syntax == kSyntax.end()) throw WireError("a message without a known type");
   PageMessage message;
-  message.type = kind->second.type;
-  message.order = kind->second.order;
+  message.type = syntax->type;
   for (const auto& [member, value] : object.items()) {
     if (member == "type") continue;
-    if (!kind->second.members.contains(member)) {
-      throw WireError("a message of the type '" + kind->first + "' with " + inQuotes(member) +
-                      ", which it does not have");
+    if (!hasMember(*syntax, member)) {
+      throw WireError("a message of the type '" + name + "' with " + inQuotes(member) + ", which it does not have");
     }
     read(member, value, message);
   }

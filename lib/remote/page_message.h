@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,33 +10,53 @@
 
 namespace robosim {
 
-/// What a page of the console says: a JSON object, {"type": "drive", "speed": 0.5, "turn": -0.2}. Members that a type
-/// does not have are an error, so that a misspelt one is never lost silently.
+/// Message of a page to the console: a JSON object, {"type": "drive", "speed": 0.5, "turn": -0.2}. Unknown members are
+/// an error. Which page may send which message: page_authorization.h.
 struct PageMessage {
-  enum class Type {
-    hello,       ///< protocol, name, token: first of all
-    ack,         ///< number: an update has been shown
-    take,        ///< the wheel, if nobody has it
-    release,     ///< the wheel
-    steer,       ///< `order`: accelerate, decelerate, turn_left, turn_right, stop (why), alive, check_win, req_…
-    drive,       ///< speed, turn, pan
-    autonomous,  ///< on: the primary's own controller is to drive
-    switching,   ///< "switch": to `robot`, or to the next
-    live,        ///< on: sensors' readings with every update, not only on request
-    map,         ///< on: the world from above
+  enum class Type : std::uint8_t {
+    hello,           ///< protocol, name, token: the first message
+    ack,             ///< number: an update has been drawn
+    live,            ///< on: sensors' readings with every update, not only on request
+    map,             ///< on: true poses, seen from above
+    req_heat,        ///< requests one reading
+    req_laser,       ///< the same
+    req_sonar,       ///< the same
+    take,            ///< acquires the control lock, if it is free
+    release,         ///< releases the control lock
+    drive,           ///< speed, turn, pan
+    accelerate,      ///< by a tenth of the robot's maximum speed
+    decelerate,      ///< the same
+    turn_left,       ///< for a moment
+    turn_right,      ///< the same
+    stop,            ///< why: the reason, if the driver did not request it
+    alive,           ///< the driver is present
+    check_win,       ///< requests CheckWin
+    autonomous,      ///< on: the primary's own controller drives
+    switch_primary,  ///< "switch": to `robot`, or to the next
   };
+  static constexpr std::size_t kTypes = 19;
+
   Type type = Type::hello;
-  RemoteType order = RemoteType::alive;
   std::uint32_t protocol = 0;
   std::string name, token, robot, why;
   std::uint64_t number = 0;
-  std::optional<double> speed;    ///< as a part of the robot's most, [-1, 1]
+  std::optional<double> speed;    ///< fraction of the robot's maximum, [-1, 1]
   std::optional<double> turn;     ///< the same, counter-clockwise
-  std::optional<double> pan_rad;  ///< "pan", as a part of 90°, [-1, 1]
+  std::optional<double> pan_rad;  ///< "pan", as a fraction of 90°, [-1, 1]
   bool on = false;
 
-  /// @throws WireError for what makes no sense.
+  /// @throws WireError for an invalid message.
   static PageMessage parse(std::string_view text);
 };
+
+/// The name of a type in JSON, "drive" for example.
+const char* nameOf(PageMessage::Type type);
+
+/// All types, in the order of the enumeration.
+constexpr std::array<PageMessage::Type, PageMessage::kTypes> pageMessageTypes() {
+  std::array<PageMessage::Type, PageMessage::kTypes> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<PageMessage::Type>(i);
+  return all;
+}
 
 }  // namespace robosim

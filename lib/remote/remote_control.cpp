@@ -8,11 +8,11 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// How long after a call has failed the next is made; and after one that was refused, which seldom changes.
+/// Pause between a failed connection and the next attempt; after a refusal, which seldom changes, a longer one.
 constexpr auto kPause = 1s;
 constexpr auto kPauseAfterRefusal = 5s;
-/// How long the primary waits for secondaries that neither answer nor fail.
-constexpr auto kPatience = 3s;
+/// Maximum time for which the primary waits for secondaries that neither connect nor fail.
+constexpr auto kSecondariesWithin = 3s;
 
 std::size_t primaryOf(const std::vector<RobotAddress>& list) {
   const auto found = std::find_if(list.begin(), list.end(), [](const RobotAddress& robot) { return robot.primary; });
@@ -21,94 +21,95 @@ std::size_t primaryOf(const std::vector<RobotAddress>& list) {
 
 }  // namespace
 
-struct RemoteControl::Seat {
-  Seat(const std::string& robot, const DialOptions& dialled, const std::function<void()>& ring)
-      : name(robot), address(dialled.address), link(robot, dialled, ring) {}
+struct RemoteControl::TeamMember {
+  TeamMember(const std::string& robot, const ConnectOptions& connect_options, const std::function<void()>& on_news)
+      : name(robot), address(connect_options.address), link(robot, connect_options, on_news) {}
 
   std::string name, address;
   RobotLink link;
-  std::optional<Clock::time_point> called;  ///< when the last call began
-  std::optional<Clock::time_point> failed;  ///< since when there is no call
+  std::optional<Clock::time_point> connected;  ///< time of the last attempt
+  std::optional<Clock::time_point> failed;     ///< time of its failure
 };
 
 RemoteControl::RemoteControl(const std::vector<RobotAddress>& list, const Options& options)
-    : options_(options), rota_(list.size(), primaryOf(list)), begun_(options.now()) {
+    : options_(options), primaries_(list.size(), primaryOf(list)), started_(options.now()) {
   for (const auto& robot : list) {
-    DialOptions dialled = options.dial;
-    dialled.address = robot.hostname + ":" + std::to_string(robot.port);
-    seats_.push_back(std::make_unique<Seat>(robot.name, dialled, options.ring));
+    ConnectOptions connect_options = options.dial;
+    connect_options.address = robot.hostname + ":" + std::to_string(robot.port);
+    members_.push_back(std::make_unique<TeamMember>(robot.name, connect_options, options.on_news));
   }
-  seats_[rota_.primary()]->link.setLive(true);
+  members_[primaries_.primary()]->link.setLive(true);
 }
 
 RemoteControl::~RemoteControl() = default;
 
 void RemoteControl::tick() {
   const auto now = options_.now();
-  for (auto& seat : seats_) {
-    const bool fails = seat->called && !seat->failed && !seat->link.isCalling();
-    if (fails) seat->failed = now;
+  for (auto& member : members_) {
+    const bool fails = member->connected && !member->failed && !member->link.isCalling();
+    if (fails) member->failed = now;
   }
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    Seat& seat = *seats_[i];
-    const bool is_primary = i == rota_.primary();
-    if (is_primary && !has_called_primary_ && !areSecondariesSettled() && now - begun_ < kPatience) continue;
-    const auto pause = seat.link.news().was_refused ? kPauseAfterRefusal : kPause;
-    if (!seat.called || (seat.failed && now - *seat.failed >= pause)) call(seat, !is_primary);
-    if (is_primary) has_called_primary_ = true;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    TeamMember& member = *members_[i];
+    const bool is_primary = i == primaries_.primary();
+    const bool must_wait = !has_connected_primary_ && !areSecondariesSettled() && now - started_ < kSecondariesWithin;
+    if (is_primary && must_wait) continue;
+    const auto pause = member.link.news().was_refused ? kPauseAfterRefusal : kPause;
+    if (!member.connected || (member.failed && now - *member.failed >= pause)) connect(member, !is_primary);
+    if (is_primary) has_connected_primary_ = true;
   }
 }
 
-void RemoteControl::call(Seat& seat, bool autonomous) {
-  if (!seat.called) seat.link.claim(options_.driver, autonomous);
-  seat.called = options_.now();
-  seat.failed.reset();
-  seat.link.connect();
+void RemoteControl::connect(TeamMember& member, bool autonomous) {
+  if (!member.connected) member.link.claim(options_.driver, autonomous);
+  member.connected = options_.now();
+  member.failed.reset();
+  member.link.connect();
 }
 
 bool RemoteControl::areSecondariesSettled() const {
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    if (i == rota_.primary()) continue;
-    const Seat& seat = *seats_[i];
-    if (!seat.failed && !(seat.called && seat.link.news().is_up)) return false;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (i == primaries_.primary()) continue;
+    const TeamMember& member = *members_[i];
+    if (!member.failed && !(member.connected && member.link.news().is_up)) return false;
   }
   return true;
 }
 
-RemoteControl::Robot RemoteControl::robotAt(std::size_t seat) const {
-  return {seats_[seat]->name, seats_[seat]->address, seats_[seat]->link.news()};
+RemoteControl::Robot RemoteControl::robotAt(std::size_t index) const {
+  return {members_[index]->name, members_[index]->address, members_[index]->link.news()};
 }
 
 std::vector<RemoteControl::Robot> RemoteControl::robots() const {
   std::vector<Robot> robots;
-  for (const auto seat : rota_.row()) robots.push_back(robotAt(seat));
+  for (const auto index : primaries_.order()) robots.push_back(robotAt(index));
   return robots;
 }
 
-RemoteControl::Robot RemoteControl::primary() const { return robotAt(rota_.primary()); }
+RemoteControl::Robot RemoteControl::primary() const { return robotAt(primaries_.primary()); }
 
 bool RemoteControl::switchPrimary() {
-  const auto next = rota_.next([this](std::size_t seat) { return robotAt(seat).isFit(); });
+  const auto next = primaries_.next([&](std::size_t index) { return robotAt(index).isFit(); });
   if (next) makePrimary(*next);
   return next.has_value();
 }
 
 bool RemoteControl::switchTo(const std::string& name) {
-  for (std::size_t i = 0; i < seats_.size(); ++i) {
-    if (seats_[i]->name != name || !robotAt(i).isFit()) continue;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (members_[i]->name != name || !robotAt(i).isFit()) continue;
     makePrimary(i);
     return true;
   }
   return false;
 }
 
-void RemoteControl::makePrimary(std::size_t seat) {
-  if (seat == rota_.primary()) return;
-  seats_[rota_.primary()]->link.setLive(false);
+void RemoteControl::makePrimary(std::size_t index) {
+  if (index == primaries_.primary()) return;
+  members_[primaries_.primary()]->link.setLive(false);
   setAutonomous(true);
-  rota_.switchTo(seat);
+  primaries_.switchTo(index);
   claimPrimary();
-  seats_[seat]->link.setLive(true);
+  members_[index]->link.setLive(true);
 }
 
 void RemoteControl::setDriver(const std::string& driver) {
@@ -116,12 +117,12 @@ void RemoteControl::setDriver(const std::string& driver) {
   claimPrimary();
 }
 
-void RemoteControl::claimPrimary() { seats_[rota_.primary()]->link.claim(options_.driver, false); }
+void RemoteControl::claimPrimary() { members_[primaries_.primary()]->link.claim(options_.driver, false); }
 
-void RemoteControl::send(const RemoteOrder& order) { seats_[rota_.primary()]->link.send(order); }
+void RemoteControl::send(const RemoteOrder& order) { members_[primaries_.primary()]->link.send(order); }
 
 void RemoteControl::setAutonomous(bool autonomous) {
-  seats_[rota_.primary()]->link.send({.type = RemoteType::init_ack, .autonomous = autonomous});
+  members_[primaries_.primary()]->link.send({.type = RemoteType::init_ack, .autonomous = autonomous});
 }
 
 }  // namespace robosim

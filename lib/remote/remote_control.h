@@ -5,71 +5,63 @@
 #include <string>
 #include <vector>
 
+#include "remote/primary_queue.h"
 #include "remote/robot_link.h"
 #include "remote/robot_list.h"
-#include "remote/rota.h"
 
 namespace robosim {
 
-/// The remote control of a team of robots (2005: RemoteControl), whatever a person drives it with: connects to every
-/// secondary robot first and sets it autonomous, then to the primary, which waits for its driver. The primary's updates
-/// keep coming. Calls those that are down again, once a second. Used by one thread.
+/// Remote control of a team of robots (2005: RemoteControl), independent of the input device. Connects to the secondary
+/// robots first and sets them autonomous, then to the primary, which waits for its driver. Subscribes to the primary's
+/// updates, and reconnects robots once per second. Not thread-safe.
 class RemoteControl {
  public:
   using Clock = std::chrono::steady_clock;
+  using Robot = TeamRobot;
 
   struct Options {
-    std::string driver = "the remote control";  ///< its name for others
-    DialOptions dial;                           ///< all but the address
-    std::function<void()> ring = [] {};         ///< called from other threads when there is news
+    std::string driver = "the remote control";  ///< name shown to others
+    ConnectOptions dial;                        ///< all but the address
+    std::function<void()> on_news = [] {};      ///< called from other threads when there is news
     std::function<Clock::time_point()> now = Clock::now;
-  };
-
-  /// One robot as it stands.
-  struct Robot {
-    std::string name;
-    std::string address;  ///< "host:port"
-    RobotNews news;
-
-    /// Whether it can be made the primary: up, and nobody else's.
-    bool isFit() const { return news.is_up && (news.state.is_yours || news.state.driver.empty()); }
   };
 
   /// @throws ConfigError for a token that would cross the network in clear text.
   RemoteControl(const std::vector<RobotAddress>& list, const Options& options);
   ~RemoteControl();
+  RemoteControl(const RemoteControl&) = delete;
+  RemoteControl& operator=(const RemoteControl&) = delete;
 
-  /// Calls whom it is time to call: some ten times a second.
+  /// Connects robots that are due; to be called about ten times per second.
   void tick();
 
-  /// In the row's order: the primary first.
+  /// In the order of the queue: the primary first.
   std::vector<Robot> robots() const;
   Robot primary() const;
 
-  /// The next that is fit becomes the primary. @return false when there is none
+  /// Makes the next robot that is fit the primary. @return false when there is none
   bool switchPrimary();
-  /// That robot becomes the primary. @return false when there is none of that name, or it is not fit
+  /// Makes a robot the primary. @return false when there is none of that name, or it is not fit
   bool switchTo(const std::string& name);
-  /// Another driver has the remote control: the primary stands until they steer it.
+  /// Sets the driver's name; the primary stands until the new driver steers it.
   void setDriver(const std::string& driver);
-  /// Asks for the primary again, after somebody else has had it.
-  void claimPrimary();
-  /// To the primary.
+  /// Sends an order to the primary.
   void send(const RemoteOrder& order);
   void setAutonomous(bool autonomous);
 
  private:
-  struct Seat;
-  Robot robotAt(std::size_t seat) const;
-  void call(Seat& seat, bool autonomous);
+  struct TeamMember;
+  Robot robotAt(std::size_t index) const;
+  void connect(TeamMember& member, bool autonomous);
   bool areSecondariesSettled() const;
-  void makePrimary(std::size_t seat);
+  void makePrimary(std::size_t index);
+  void claimPrimary();
 
   Options options_;
-  std::vector<std::unique_ptr<Seat>> seats_;  ///< in the list's order
-  Rota rota_;
-  Clock::time_point begun_;
-  bool has_called_primary_ = false;
+  std::vector<std::unique_ptr<TeamMember>> members_;  ///< in the list's order
+  PrimaryQueue primaries_;
+  Clock::time_point started_;
+  bool has_connected_primary_ = false;
 };
 
 }  // namespace robosim

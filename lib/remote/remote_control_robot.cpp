@@ -4,7 +4,7 @@
 
 namespace robosim {
 
-/// The robot as its controller sees it: nothing happens to it while a person drives.
+/// The controller's view of the robot: it is frozen during remote control.
 class RemoteControlRobot::ControllersView final : public Hardware {
  public:
   explicit ControllersView(Hardware& hardware) : hardware_(hardware) {}
@@ -16,30 +16,30 @@ class RemoteControlRobot::ControllersView final : public Hardware {
     hardware_.command(command);
   }
   void send(const std::string& to, const std::string& text) override { hardware_.send(to, text); }
-  void checkWin() override { hardware_.checkWin(); }
+  RefereeLink* referee() override { return hardware_.referee(); }
 
   const Command& lastCommand() const { return command_; }
 
-  /// A step that the controller does not see.
-  void rest() {
+  /// Stores the messages of a step in which the controller is suspended.
+  void skipStep() {
     const auto& inbox = hardware_.readings().inbox;
     held_.insert(held_.end(), inbox.begin(), inbox.end());
   }
-  /// It has the robot again.
-  void wake() {
+  /// The controller continues: its last command, and the messages received meanwhile.
+  void resume() {
     hardware_.command(command_);
     if (held_.empty()) return;
     readings_ = hardware_.readings();
     readings_.inbox.insert(readings_.inbox.begin(), held_.begin(), held_.end());
   }
-  /// It has seen the step.
-  void done() { held_.clear(); }
+  /// The controller has received the stored messages.
+  void finishStep() { held_.clear(); }
 
  private:
   Hardware& hardware_;
   Command command_;
-  std::vector<RobotMessage> held_;  ///< what came while it rested
-  Readings readings_;               ///< this step's, with what was held; while there is any
+  std::vector<RobotMessage> held_;  ///< messages received while the controller was suspended
+  Readings readings_;               ///< this step's, with the messages held; unused without such messages
 };
 
 RemoteControlRobot::RemoteControlRobot(Hardware& hardware, std::unique_ptr<Controller> controller,
@@ -49,36 +49,36 @@ RemoteControlRobot::RemoteControlRobot(Hardware& hardware, std::unique_ptr<Contr
       options_(options),
       view_(std::make_unique<ControllersView>(hardware)),
       robot_(*view_),
-      helm_(hardware.info().limits, options.dead_man) {}
+      filter_(hardware.info().limits, options.dead_man) {}
 
 RemoteControlRobot::~RemoteControlRobot() = default;
 
 void RemoteControlRobot::step() {
   bool autonomous = true;
-  bool asks_for_win = false;
+  bool wants_check_win = false;
   Command driven;
   {
     const std::lock_guard lock(mutex_);
     autonomous = state_.autonomous;
-    asks_for_win = std::exchange(asks_for_win_, false);
+    wants_check_win = std::exchange(wants_check_win_, false);
     const auto now = options_.now();
     if (!autonomous) {
-      const std::string before = helm_.whyStopped();
-      if (order_) helm_.obey(*order_, order_came_);
-      driven = helm_.command(now, state_.driver);
-      tellStop(before);
+      const std::string before = filter_.whyStopped();
+      if (order_) filter_.obey(*order_, order_received_);
+      driven = filter_.command(now, state_.driver);
+      logStop(before);
     }
     order_.reset();
   }
-  if (asks_for_win) hardware_.checkWin();
+  if (RefereeLink* referee = hardware_.referee(); wants_check_win && referee) referee->checkWin();
   if (autonomous) {
-    if (!std::exchange(was_autonomous_, true)) view_->wake();
+    if (!std::exchange(was_autonomous_, true)) view_->resume();
     controller_->step(robot_);
-    view_->done();
+    view_->finishStep();
   } else {
     was_autonomous_ = false;
-    view_->rest();
-    driven.activity = view_->lastCommand().activity;  // final, if it has halted
+    view_->skipStep();
+    driven.activity = view_->lastCommand().activity;  // final once the controller has halted
     hardware_.command(driven);
   }
   const Command& commanded = autonomous ? view_->lastCommand() : driven;
@@ -97,61 +97,75 @@ void RemoteControlRobot::take(const std::string& driver, bool autonomous) {
   state_.driver = driver;
   state_.autonomous = autonomous;
   order_.reset();
-  helm_.begin(options_.now());
+  filter_.begin(options_.now());
 }
 
 void RemoteControlRobot::setAutonomous(bool autonomous) {
   const std::lock_guard lock(mutex_);
-  helm_.hear(options_.now());
+  filter_.noteMessage(options_.now());
   if (state_.autonomous == autonomous) return;
   state_.autonomous = autonomous;
   order_.reset();
-  helm_.begin(options_.now());
+  filter_.begin(options_.now());
 }
 
 void RemoteControlRobot::obey(const RemoteOrder& order) {
   const std::lock_guard lock(mutex_);
   const auto now = options_.now();
-  helm_.hear(now);
+  filter_.noteMessage(now);
   switch (order.type) {
     case RemoteType::accelerate:
     case RemoteType::decelerate:
     case RemoteType::turn_left:
     case RemoteType::turn_right:
     case RemoteType::drive:
-    case RemoteType::stop:
+      // A DRIVE only sets values, so that it may take effect before the order that follows it in the same step.
+      if (order_ && order_->type == RemoteType::drive && !state_.autonomous) filter_.obey(*order_, order_received_);
       order_ = order;
-      order_came_ = now;
+      order_received_ = now;
+      break;
+    case RemoteType::stop:
+      stop(order, now);
       break;
     case RemoteType::check_win:
-      asks_for_win_ = true;
+      wants_check_win_ = true;
       break;
     default:
       break;
   }
 }
 
+/// Takes effect at once: an order that follows within the same step must not supersede it.
+/// @pre holds the mutex
+void RemoteControlRobot::stop(const RemoteOrder& order, Clock::time_point now) {
+  order_.reset();
+  if (state_.autonomous) return;
+  const std::string before = filter_.whyStopped();
+  filter_.obey(order, now);
+  logStop(before);
+}
+
 void RemoteControlRobot::release(const std::string& why) {
   const std::lock_guard lock(mutex_);
   order_.reset();
-  const std::string before = helm_.whyStopped();
-  if (!state_.autonomous) helm_.release(why);
-  tellStop(before);
+  const std::string before = filter_.whyStopped();
+  if (!state_.autonomous) filter_.release(why);
+  logStop(before);
   state_.driver.clear();
 }
 
-/// Says why the robot has just been stopped, if it has.
+/// Logs the reason of a new stop.
 /// @pre holds the mutex
-void RemoteControlRobot::tellStop(const std::string& before) {
-  if (helm_.whyStopped() != before && !helm_.whyStopped().empty()) {
-    options_.log(name() + " stops: " + helm_.whyStopped());
+void RemoteControlRobot::logStop(const std::string& before) {
+  if (filter_.whyStopped() != before && !filter_.whyStopped().empty()) {
+    options_.log(name() + " stops: " + filter_.whyStopped());
   }
 }
 
 RemoteState RemoteControlRobot::state() const {
   const std::lock_guard lock(mutex_);
   RemoteState state = state_;
-  state.why_stopped = helm_.whyStopped();
+  state.why_stopped = filter_.whyStopped();
   return state;
 }
 

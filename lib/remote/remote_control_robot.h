@@ -7,24 +7,24 @@
 
 #include "control/controller.h"
 #include "hardware/hardware.h"
-#include "remote/helm.h"
+#include "remote/drive_command_filter.h"
 
 namespace robosim {
 
-/// A robot that obeys either its own controller or a person at a remote control (2005: RemoteControlRobot), whichever
-/// type it is. It may be switched while it drives: the new master commands from the next step on, and the robot's
-/// limits on acceleration see to it that it does not jump.
+/// Multiplexes a robot between its own controller and a remote control (2005: RemoteControlRobot), for any robot type.
+/// The source of commands may change while the robot drives: the new source applies from the next step, and the robot's
+/// limits on acceleration prevent jumps.
 ///
-/// While a person drives, the controller rests. What robots have written meanwhile it finds in its inbox when it has
-/// the robot again, as if the letters had just come, and its last command is given once more.
+/// The controller is suspended during remote control. Afterwards its inbox contains the messages received meanwhile,
+/// and its last command is repeated.
 ///
-/// A robot begins autonomous. step() is for the thread that steps the robot; all else may be called from any thread.
+/// Initially autonomous. step() must be called by the thread that steps the robot; all other functions are thread-safe.
 class RemoteControlRobot {
  public:
-  using Clock = Helm::Clock;
+  using Clock = DriveCommandFilter::Clock;
 
   struct Options {
-    Clock::duration dead_man = Helm::kDeadMan;  ///< how long the driver may be silent
+    Clock::duration dead_man = DriveCommandFilter::kDeadMan;  ///< maximum time without a message of the driver
     std::function<Clock::time_point()> now = Clock::now;
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
   };
@@ -36,17 +36,19 @@ class RemoteControlRobot {
   const Hardware& hardware() const { return hardware_; }
   const std::string& name() const { return hardware_.info().name; }
 
-  /// Once a time step, after sensing: the master of the moment decides. Never waits for anybody.
+  /// Applies the active source's command; called once per time step, after sensing. Does not block.
   void step();
 
-  /// @name What a remote control does; it is for its port to see to it that there is one at a time
+  /// @name Operations of a remote control; the caller ensures that there is only one
   ///@{
-  /// A driver takes the robot, and lets its controller drive, or not.
+  /// Assigns a driver, and selects autonomous or remote control.
   void take(const std::string& driver, bool autonomous);
   void setAutonomous(bool autonomous);
-  /// Steers, or asks whether the robot has won. Of several orders to steer within one step the newest counts.
+  /// Applies an order: steering or CheckWin. Of several steering orders within one step the newest applies; a value
+  /// that a DRIVE omits is taken from an earlier DRIVE. STOP takes effect at once, so that no later order supersedes
+  /// it.
   void obey(const RemoteOrder& order);
-  /// The driver has gone: a robot that they drove stands. Its controller, if it has the robot, goes on.
+  /// Removes the driver: a remotely driven robot stops, an autonomous one continues.
   void release(const std::string& why);
   ///@}
 
@@ -54,21 +56,22 @@ class RemoteControlRobot {
 
  private:
   class ControllersView;
-  void tellStop(const std::string& before);
+  void stop(const RemoteOrder& order, Clock::time_point now);
+  void logStop(const std::string& before);
 
   Hardware& hardware_;
   std::unique_ptr<Controller> controller_;
   Options options_;
   std::unique_ptr<ControllersView> view_;
-  Robot robot_;  ///< as its controller knows it
+  Robot robot_;  ///< as its controller sees it
   mutable std::mutex mutex_;
-  /// @name Touched with the mutex held
+  /// @name Guarded by the mutex
   ///@{
-  Helm helm_;
+  DriveCommandFilter filter_;
   RemoteState state_;
   std::optional<RemoteOrder> order_;  ///< the newest that steers
-  Clock::time_point order_came_;
-  bool asks_for_win_ = false;
+  Clock::time_point order_received_;
+  bool wants_check_win_ = false;
   ///@}
   bool was_autonomous_ = true;  ///< in the last step
 };

@@ -9,12 +9,12 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Drives ahead at half a metre a second, and notes what it hears.
+/// Drives ahead at 0.5 m/s, and records its messages.
 class Cruiser : public Controller {
  public:
-  explicit Cruiser(std::vector<std::string>& heard) : heard_(heard) {}
+  explicit Cruiser(std::vector<std::string>& received) : received_(received) {}
   void step(Robot& robot) override {
-    for (const auto& message : robot.inbox()) heard_.push_back(message.text);
+    for (const auto& message : robot.inbox()) received_.push_back(message.text);
     if (robot.heat() > 10) {
       robot.halt(Activity::found);
     } else {
@@ -23,7 +23,7 @@ class Cruiser : public Controller {
   }
 
  private:
-  std::vector<std::string>& heard_;
+  std::vector<std::string>& received_;
 };
 
 /// Commands its robot once and then never again.
@@ -49,13 +49,13 @@ RemoteOrder driveAt(double speed_mps, double turn_radps) {
 
 struct RemoteControlRobotTest : testing::Test {
   FakeHardware hardware;
-  std::vector<std::string> heard, log;
+  std::vector<std::string> received, log;
   RemoteControlRobot::Clock::time_point now{1h};
   RemoteControlRobot::Options options{
       .now = [this] { return now; },
       .log = [this](const std::string& line) { log.push_back(line); },
   };
-  RemoteControlRobot robot{hardware, std::make_unique<Cruiser>(heard), options};
+  RemoteControlRobot robot{hardware, std::make_unique<Cruiser>(received), options};
 
   /// A time step of a tenth of a second.
   void step() {
@@ -68,14 +68,14 @@ struct RemoteControlRobotTest : testing::Test {
   }
 };
 
-TEST_F(RemoteControlRobotTest, BeginsAutonomous) {
+TEST_F(RemoteControlRobotTest, IsAutonomousInitially) {
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
   EXPECT_TRUE(robot.state().autonomous);
   EXPECT_EQ(robot.state().speed_mps, 0.5);
 }
 
-TEST_F(RemoteControlRobotTest, ObeysItsDriverAndNoLongerItsController) {
+TEST_F(RemoteControlRobotTest, ExecutesTheDriversOrdersInsteadOfTheControllers) {
   step();
   robot.take("Anna", false);
   step();
@@ -87,7 +87,7 @@ TEST_F(RemoteControlRobotTest, ObeysItsDriverAndNoLongerItsController) {
   EXPECT_EQ(robot.state().turn_radps, 1);
 }
 
-TEST_F(RemoteControlRobotTest, ObeysItsControllerAgainWhenItIsSetAutonomousWhileItDrives) {
+TEST_F(RemoteControlRobotTest, ExecutesTheControllersCommandsAgainWhenSetAutonomous) {
   robot.take("Anna", false);
   robot.obey(driveAt(-0.25, 1));
   step();
@@ -99,7 +99,7 @@ TEST_F(RemoteControlRobotTest, ObeysItsControllerAgainWhenItIsSetAutonomousWhile
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5})) << "an autonomous robot is not steered";
 }
 
-TEST_F(RemoteControlRobotTest, IsSwitchedWithoutAJumpInItsMotion) {
+TEST_F(RemoteControlRobotTest, ChangesTheSourceOfCommandsWithoutAJumpInSpeed) {
   steps(20);
   double before = hardware.odometry().speed_mps;
   EXPECT_EQ(before, 0.5);
@@ -117,7 +117,7 @@ TEST_F(RemoteControlRobotTest, IsSwitchedWithoutAJumpInItsMotion) {
   }
 }
 
-TEST_F(RemoteControlRobotTest, AControllerThatCommandedLongAgoFindsItsCommandStandingAgain) {
+TEST_F(RemoteControlRobotTest, RepeatsTheControllersLastCommandAfterRemoteControl) {
   RemoteControlRobot once(hardware, std::make_unique<OnlyOnce>(), options);
   once.step();
   once.take("Anna", false);
@@ -128,29 +128,29 @@ TEST_F(RemoteControlRobotTest, AControllerThatCommandedLongAgoFindsItsCommandSta
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.25}));
 }
 
-TEST_F(RemoteControlRobotTest, AControllerFindsTheLettersThatCameWhileItRested) {
-  const auto letter = [&](const std::string& text) {
+TEST_F(RemoteControlRobotTest, DeliversMessagesReceivedDuringRemoteControlToTheController) {
+  const auto deliver = [&](const std::string& text) {
     hardware.mutableReadings().inbox = {{"other", hardware.info().name, text}};
   };
   robot.take("Anna", false);
-  letter("first");
+  deliver("first");
   step();
-  letter("second");
+  deliver("second");
   step();
-  EXPECT_TRUE(heard.empty());
+  EXPECT_TRUE(received.empty());
   robot.setAutonomous(true);
-  letter("third");
+  deliver("third");
   step();
-  EXPECT_EQ(heard, (std::vector<std::string>{"first", "second", "third"}));
+  EXPECT_EQ(received, (std::vector<std::string>{"first", "second", "third"}));
   step();
-  EXPECT_EQ(heard.size(), 3u) << "each of them once";
+  EXPECT_EQ(received.size(), 3u) << "each of them once";
 }
 
-TEST_F(RemoteControlRobotTest, OfSeveralOrdersWithinAStepTheNewestCounts) {
+TEST_F(RemoteControlRobotTest, ExecutesTheNewestOfSeveralOrdersOfAStep) {
   robot.take("Anna", false);
   for (int i = 0; i < 1000; ++i) robot.obey(orderOf(RemoteType::accelerate));
   step();
-  EXPECT_DOUBLE_EQ(hardware.lastCommand().speed_mps, 0.1) << "a tenth of its most, once";
+  EXPECT_DOUBLE_EQ(hardware.lastCommand().speed_mps, 0.1) << "a tenth of the maximum, once";
   robot.obey(driveAt(1, 0));
   robot.obey(driveAt(0.25, 0));
   robot.obey(orderOf(RemoteType::alive));
@@ -158,18 +158,18 @@ TEST_F(RemoteControlRobotTest, OfSeveralOrdersWithinAStepTheNewestCounts) {
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0.25);
 }
 
-TEST_F(RemoteControlRobotTest, StopsWhenItsDriverIsSilentAndSaysWhyOnce) {
+TEST_F(RemoteControlRobotTest, StopsAfterTheDeadManTimeoutAndLogsTheReasonOnce) {
   robot.take("Anna", false);
   robot.obey(driveAt(0.5, 0));
   steps(6);
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0.5);
   steps(3);
   EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
-  EXPECT_EQ(robot.state().why_stopped, "nothing heard from Anna for 0.5 s");
-  EXPECT_EQ(log, std::vector<std::string>{"fake stops: nothing heard from Anna for 0.5 s"});
+  EXPECT_EQ(robot.state().why_stopped, "no message from Anna for 0.5 s");
+  EXPECT_EQ(log, std::vector<std::string>{"fake stops: no message from Anna for 0.5 s"});
 }
 
-TEST_F(RemoteControlRobotTest, SaysWhyARemoteControlHasStoppedIt) {
+TEST_F(RemoteControlRobotTest, LogsTheReasonOfARemoteControlsStop) {
   robot.take("Anna", false);
   robot.obey(driveAt(0.5, 0));
   step();
@@ -179,28 +179,58 @@ TEST_F(RemoteControlRobotTest, SaysWhyARemoteControlHasStoppedIt) {
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: Anna's page is hidden"});
 }
 
-TEST_F(RemoteControlRobotTest, StopsAndIsNobodysWhenItsDriverHasGone) {
+TEST_F(RemoteControlRobotTest, ALaterOrderOfTheSameStepDoesNotSupersedeAStop) {
   robot.take("Anna", false);
   robot.obey(driveAt(0.5, 0));
   step();
-  robot.release("its remote control has hung up");
+  robot.obey(orderOf(RemoteType::stop));
+  RemoteOrder turn = orderOf(RemoteType::drive);
+  turn.turn_radps = 1;
+  robot.obey(turn);
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.turn_radps = 1, .by_driver = true}));
+}
+
+TEST_F(RemoteControlRobotTest, MergesDriveOrdersOfAStep) {
+  robot.take("Anna", false);
+  robot.obey(driveAt(0.5, 0));
+  step();
+  RemoteOrder halt = orderOf(RemoteType::drive);
+  halt.speed_mps = 0;
+  RemoteOrder turn = orderOf(RemoteType::drive);
+  turn.turn_radps = 1;
+  robot.obey(halt);
+  robot.obey(turn);
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.turn_radps = 1, .by_driver = true}));
+  robot.obey(driveAt(0, 0));
+  robot.obey(orderOf(RemoteType::accelerate));
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.1, .by_driver = true})) << "a tenth of its maximum";
+}
+
+TEST_F(RemoteControlRobotTest, StopsAndHasNoDriverWhenTheDriverDisconnects) {
+  robot.take("Anna", false);
+  robot.obey(driveAt(0.5, 0));
+  step();
+  robot.release("its remote control has disconnected");
   step();
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0);
   EXPECT_EQ(robot.state().driver, "");
   EXPECT_FALSE(robot.state().autonomous) << "it waits for the next driver";
-  EXPECT_EQ(log, std::vector<std::string>{"fake stops: its remote control has hung up"});
+  EXPECT_EQ(log, std::vector<std::string>{"fake stops: its remote control has disconnected"});
 }
 
-TEST_F(RemoteControlRobotTest, AnAutonomousRobotGoesOnWhenItsDriverHasGone) {
+TEST_F(RemoteControlRobotTest, AnAutonomousRobotContinuesWhenTheDriverDisconnects) {
   robot.take("Anna", true);
   step();
-  robot.release("its remote control has hung up");
+  robot.release("its remote control has disconnected");
   step();
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0.5);
   EXPECT_TRUE(log.empty());
 }
 
-TEST_F(RemoteControlRobotTest, AsksOnceWhetherItHasWonAndCountsRefusals) {
+TEST_F(RemoteControlRobotTest, RequestsCheckWinOnceAndCountsRefusals) {
   robot.take("Anna", false);
   robot.obey(orderOf(RemoteType::check_win));
   step();
@@ -213,14 +243,14 @@ TEST_F(RemoteControlRobotTest, AsksOnceWhetherItHasWonAndCountsRefusals) {
   EXPECT_EQ(robot.state().win_refusals, 1u);
 }
 
-TEST_F(RemoteControlRobotTest, KnowsWhoHasWonAndThatAllHalt) {
+TEST_F(RemoteControlRobotTest, ReportsTheWinnerAndHalts) {
   hardware.mutableReadings().winner = "other";
   step();
   EXPECT_EQ(robot.state().winner, "other");
   EXPECT_EQ(robot.state().activity, Activity::halted);
 }
 
-TEST_F(RemoteControlRobotTest, ARobotThatItsControllerHasHaltedStaysSo) {
+TEST_F(RemoteControlRobotTest, ARobotHaltedByItsControllerStaysHalted) {
   hardware.feelHeat(20);
   step();
   robot.take("Anna", false);

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "remote/test_robot.h"
+#include "remote/testing/test_robot.h"
 
 namespace robosim {
 namespace {
@@ -48,7 +48,7 @@ struct RemoteControlTest : testing::Test {
   }
 };
 
-TEST_F(RemoteControlTest, SetsSecondaryRobotsAutonomousAndTakesThePrimary) {
+TEST_F(RemoteControlTest, SetsSecondaryRobotsAutonomousAndClaimsThePrimary) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   EXPECT_EQ(row(*control), "ABC");
@@ -57,17 +57,17 @@ TEST_F(RemoteControlTest, SetsSecondaryRobotsAutonomousAndTakesThePrimary) {
   EXPECT_TRUE(control->robots()[2].news.state.autonomous);
 }
 
-TEST_F(RemoteControlTest, CallsThePrimaryLast) {
+TEST_F(RemoteControlTest, ConnectsThePrimaryLast) {
   team[1]->close();  // refused at once, and so settled
   const auto control = start();
   control->tick();
-  EXPECT_EQ(team[0]->log(), "") << "the secondary ones have not answered yet";
+  EXPECT_EQ(team[0]->log(), "") << "the secondary robots are not connected yet";
   wait(*control, [&] { return control->primary().news.is_up; });
   EXPECT_TRUE(control->robots()[2].news.is_up);
   EXPECT_FALSE(control->robots()[1].news.is_up);
 }
 
-TEST_F(RemoteControlTest, SteersThePrimaryAndNobodyElse) {
+TEST_F(RemoteControlTest, SteersOnlyThePrimary) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   control->send({.type = RemoteType::accelerate});
@@ -75,7 +75,7 @@ TEST_F(RemoteControlTest, SteersThePrimaryAndNobodyElse) {
   EXPECT_EQ(team[1]->hardware->lastCommand(), (Command{.turn_radps = 1})) << "its controller's";
 }
 
-TEST_F(RemoteControlTest, OnASwitchTheOldPrimaryIsAutonomousAtTheTailAndTheHeadIsDriven) {
+TEST_F(RemoteControlTest, ASwitchSetsTheOldPrimaryAutonomousAndClaimsTheNext) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   EXPECT_TRUE(control->switchPrimary());
@@ -89,7 +89,7 @@ TEST_F(RemoteControlTest, OnASwitchTheOldPrimaryIsAutonomousAtTheTailAndTheHeadI
   EXPECT_EQ(control->primary().news.info->name, "B");
 }
 
-TEST_F(RemoteControlTest, ShowsARobotThatIsDownPassesItOverAndCallsItAgain) {
+TEST_F(RemoteControlTest, SkipsAnUnreachableRobotAndReconnectsIt) {
   team[1]->close();
   const auto control = start();
   wait(*control, [&] { return control->robots()[0].news.is_up && control->robots()[2].news.is_up; });
@@ -105,7 +105,7 @@ TEST_F(RemoteControlTest, ShowsARobotThatIsDownPassesItOverAndCallsItAgain) {
   EXPECT_EQ(row(*control), "BAC");
 }
 
-TEST_F(RemoteControlTest, APrimaryThatGoesDownIsDrivenAgainWhenItComesBackUnlessAnotherIsPrimaryByThen) {
+TEST_F(RemoteControlTest, AReconnectedRobotIsDrivenOnlyIfItIsStillThePrimary) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   team[0]->close();
@@ -122,17 +122,17 @@ TEST_F(RemoteControlTest, APrimaryThatGoesDownIsDrivenAgainWhenItComesBackUnless
   EXPECT_TRUE(control->robots()[2].news.state.autonomous) << "A, at the tail";
 }
 
-TEST_F(RemoteControlTest, StaysWhereItIsWhenThereIsNoOtherToSwitchTo) {
+TEST_F(RemoteControlTest, KeepsThePrimaryWithoutAnotherFitRobot) {
   team[1]->close();
   team[2]->close();
   const auto control = start();
   wait(*control, [&] { return control->primary().news.is_up; });
   EXPECT_FALSE(control->switchPrimary());
-  EXPECT_FALSE(control->switchTo("nobody"));
+  EXPECT_FALSE(control->switchTo("unknown"));
   EXPECT_EQ(row(*control), "ABC");
 }
 
-TEST_F(RemoteControlTest, ASecondOneWatchesAndPassesOverWhatIsTheFirstOnes) {
+TEST_F(RemoteControlTest, ASecondRemoteControlWatchesAndSkipsRobotsOfTheFirst) {
   const auto anna = start();
   wait(*anna, [&] { return allUp(*anna); });
   const auto ben = start("Ben");
@@ -145,7 +145,7 @@ TEST_F(RemoteControlTest, ASecondOneWatchesAndPassesOverWhatIsTheFirstOnes) {
   EXPECT_EQ(team[0]->hardware->lastCommand().speed_mps, 0);
 }
 
-TEST_F(RemoteControlTest, TellsTheRobotWhoDrivesNow) {
+TEST_F(RemoteControlTest, SendsTheNameOfANewDriver) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   control->setDriver("Ben");

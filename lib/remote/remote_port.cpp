@@ -1,106 +1,94 @@
 #include "remote/remote_port.h"
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <mutex>
 #include <optional>
 #include <tuple>
 #include <utility>
 
+#include <grpcpp/alarm.h>
+
 #include "base/error_list.h"
+#include "base/log_limiter.h"
+#include "net/audit.h"
 #include "net/open_port.h"
 #include "net/remote.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "net/server_stream.h"
+#include "remote/response_outbox.h"
 
 namespace robosim {
 namespace {
 
-/// What a robot tells, in the order in which it goes out when several are due. One of each waits at most.
-enum Topic : std::size_t { kState, kHeat, kLaser, kSonar, kAll, kTopics };
-
-struct OnRequest {
-  Topic topic;
-  RemoteType type;
-  SensorKind sensor;
-};
-constexpr std::array kOnRequest{OnRequest{kHeat, RemoteType::req_heat, SensorKind::heat},
-                                OnRequest{kLaser, RemoteType::req_laser, SensorKind::laser},
-                                OnRequest{kSonar, RemoteType::req_sonar, SensorKind::sonar}};
-
-/// What of a state is told at once; the rest may wait until it is asked for.
-auto newsIn(const RemoteState& state) {
+/// The part of a state whose changes are sent at once; the rest is sent on request.
+auto reportedPartOf(const RemoteState& state) {
   return std::tie(state.autonomous, state.driver, state.activity, state.why_stopped, state.winner, state.win_refusals);
 }
 
-/// A camera's newest picture, which a control that misses steps must not miss too.
-struct Picture {
-  std::optional<std::uint64_t> step;  ///< none before its first picture
-  std::string jpeg;
-};
-
 }  // namespace
 
-/// Everything is called with the mutex held, but what says otherwise.
+/// All functions require the mutex, unless stated otherwise.
 struct RemotePort::Impl final
     : public wire::RemoteControl::WithRawCallbackMethod_Control<wire::RemoteControl::Service> {
   class Stream;
 
-  /// A robot, and who has it.
-  struct Seat {
-    RemoteControlRobot* robot;
-    Stream* driver = nullptr;
-    RemoteState told;               ///< what everyone was told last
-    std::vector<Picture> pictures;  ///< by sensor; empty for all but cameras
+  /// A robot and its driver.
+  struct DrivenRobot : PortRobot {
+    using PortRobot::PortRobot;
+    const std::string& name() const { return robot().name(); }
 
-    const RobotInfo& info() const { return robot->hardware().info(); }
-    const Readings& readings() const { return robot->hardware().readings(); }
-    void keepPictures();
+    Stream* driver = nullptr;
+    RemoteState published;  ///< state last sent
   };
 
-  Impl(const Options& the_options, const Run& the_run, const std::vector<RemoteControlRobot*>& robots);
+  Impl(const Options& the_options, const Run& the_run, const std::vector<RemoteControlRobot*>& the_robots);
   ~Impl() override;
 
   /// gRPC calls this when a remote control connects, without the mutex.
   RawStream* Control(grpc::CallbackServerContext* context) override;
 
   void init(Stream& stream, const RemoteOrder& order);
-  void obey(Stream& stream, const RemoteOrder& order);
-  void letGo(Stream& stream);
-  void tellStateOf(const Seat& seat);
-  void tell();        ///< without the mutex
-  void sayGoodbye();  ///< without the mutex
+  void handle(Stream& stream, const RemoteOrder& order);
+  void releaseRobot(Stream& stream);
+  void checkAccess();
+  void sendState(const DrivenRobot& robot);
+  RobotsWelcome welcomeOf(const DrivenRobot& robot) const;
+  void publish();  ///< without the mutex
+  void endRun();   ///< without the mutex
 
   Options options;
+  LogLimiter refusals{[this](const std::string& line) { options.log(line); }};
   Run run;
   std::mutex mutex;
-  std::vector<Seat> seats;
+  std::vector<DrivenRobot> robots;
   std::vector<std::shared_ptr<Stream>> streams;
   bool is_over = false;
+  std::uint64_t access_version = 0;  ///< as of the last checkAccess()
   OpenPort open;
 };
 
-/// One remote control with one robot.
-class RemotePort::Impl::Stream final : public ServerStream<wire::ToRobot, wire::FromRobot> {
+/// Call of one remote control for one robot.
+class RemotePort::Impl::Stream final : public ServerStream<wire::ControlRequest, wire::ControlResponse> {
  public:
   Stream(Impl& port, grpc::CallbackServerContext* context)
       : ServerStream(context), peer(context->peer()), port_(port) {}
 
-  void received(const wire::ToRobot& message) override {
+  void received(const wire::ControlRequest& message) override {
     const RemoteOrder order = decode(message);
     const std::lock_guard lock(port_.mutex);
-    if (is_gone_) return;
+    if (has_ended_) return;
     if (order.type == RemoteType::init) {
       port_.init(*this, order);
-    } else if (seat) {
-      port_.obey(*this, order);
+    } else if (robot) {
+      port_.handle(*this, order);
     } else {
       throw WireError("the first message of a remote control must be its INIT");
     }
   }
   void refuse(const WireError& error) override {
     const std::lock_guard lock(port_.mutex);
-    hangUp({error.code(), error.what()});
+    disconnect({error.code(), error.what()});
   }
   void drained() override {
     const std::lock_guard lock(port_.mutex);
@@ -108,249 +96,236 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ToRobot, wire::
   }
   void ended() override {
     const std::lock_guard lock(port_.mutex);
-    if (hasRobot()) port_.options.log(who() + " has gone");
-    port_.letGo(*this);
+    if (isDriver()) audit("leave " + robot->name());
+    if (is_overdue_) logDisconnect("no INIT in time");
+    port_.releaseRobot(*this);
     std::erase_if(port_.streams, [&](const auto& stream) { return stream.get() == this; });
   }
 
-  void hangUp(const grpc::Status& status) {
-    if (std::exchange(is_gone_, true)) return;
-    port_.options.log(who() + ": hung up on: " + status.error_message());
-    port_.letGo(*this);
+  void disconnect(const grpc::Status& status) {
+    if (std::exchange(has_ended_, true)) return;
+    logDisconnect(status.error_message());
+    port_.releaseRobot(*this);
     end(status);
   }
 
-  bool hasRobot() const { return seat && seat->driver == this; }
-  grpc::Status may(Right right, const std::string& robot) const {
-    return port_.options.access.check(*context(), right, std::span(&robot, right == Right::drive ? 1 : 0));
+  bool isDriver() const { return robot && robot->driver == this; }
+  grpc::Status may(Right right, const std::string& robot_name) const {
+    return port_.options.access.check(client, right, std::span(&robot_name, right == Right::drive ? 1 : 0));
   }
-  std::string who() const {
-    return (name.empty() ? "a remote control" : inQuotes(name)) + " (" + peer + ")" +
-           (seat ? " at robot " + seat->robot->name() : "");
+  /// Whether it may receive a robot's readings. @return if not, why it may not drive the robot
+  grpc::Status mayWatch(const std::string& robot_name) const {
+    return may(Right::look, robot_name).ok() ? grpc::Status::OK : may(Right::drive, robot_name);
+  }
+  void audit(const std::string& action) const { port_.options.log(auditLine(client, peer, action)); }
+
+  /// Ends the call unless the first INIT arrives in time. The alarm may expire after the port was destroyed: it
+  /// accesses only the stream, which logs when it ends.
+  void awaitInit() {
+    const auto limit = port_.options.init_deadline;
+    init_alarm_.Set(std::chrono::system_clock::now() + limit, [this, limit, weak = weak_from_this()](bool is_due) {
+      const auto alive = weak.lock();
+      if (!alive || !is_due || has_init_) return;
+      is_overdue_ = true;
+      end({grpc::StatusCode::DEADLINE_EXCEEDED,
+           "no INIT within " + std::to_string(limit.count()) + " ms of the call; send it at once, and call again"});
+    });
   }
 
-  /// At its first INIT, and never another.
-  void sitDown(Seat& at) {
-    seat = &at;
-    wants_welcome_ = true;
-    told_pictures_.assign(at.pictures.size(), std::nullopt);
-    encoded_pictures_ = told_pictures_;
+  /// Selects the robot at the first INIT; it cannot change afterwards.
+  void selectRobot(DrivenRobot& selected) {
+    robot = &selected;
+    has_init_ = true;
+    outbox_.emplace(selected, port_.welcomeOf(selected));
   }
-  void ask(Topic topic) { asked_[topic] = true; }
+  bool request(RemoteType type) { return outbox_->request(type); }
 
-  void tellState() {
-    wire::FromRobot& message = compose(kState, RemoteType::init_ack);
-    if (wants_welcome_) {
-      RobotsWelcome welcome{port_.run.world, "", port_.run.seed, port_.run.period_s, {{seat->info(), 0, ""}}, {}};
-      encode(welcome, *message.mutable_welcome());
-    }
+  void sendState() {
+    outbox_->addState(isDriver());
     sendNext();
   }
-  /// Tells of this step what was asked for: by the thread that steps the robot.
-  void tellReadings() {
-    for (const auto& of : kOnRequest) {
-      if (asked_[of.topic]) tellSensor(of);
-    }
-    if (asked_[kAll]) tellAll();
+  /// Sends the requested readings of this step. Called by the thread that steps the robot.
+  void sendReadings() {
+    outbox_->addReadings(isDriver());
     sendNext();
   }
 
-  /// The run is over: with a last word on how it ended.
-  void sayGoodbye() {
-    if (seat && !is_gone_) {
-      compose(kState, RemoteType::init_ack);
-      draft().Swap(&due_[kState]);
+  /// Ends the call because the run is over. The last message is the final state.
+  void endRun() {
+    if (robot && !has_ended_) {
+      outbox_->addState(isDriver());
+      outbox_->takeNext(draft());
       post();
     }
-    is_gone_ = true;
+    has_ended_ = true;
     end(grpc::Status::OK);
   }
 
   std::string peer, name;
-  Seat* seat = nullptr;  ///< null before its INIT
+  Identity client;
+  DrivenRobot* robot = nullptr;  ///< null before its INIT
 
  private:
-  wire::FromRobot& compose(Topic topic, RemoteType type) {
-    wire::FromRobot& message = due_[topic];
-    message.Clear();
-    is_due_[topic] = true;
-    message.set_type(static_cast<wire::RemoteType>(type));
-    RemoteState state = seat->robot->state();
-    state.is_yours = hasRobot();
-    encode(state, *message.mutable_state());
-    return message;
-  }
-
-  void tellSensor(const OnRequest& of) {
-    wire::FromRobot& message = compose(of.topic, of.type);
-    message.set_step(seat->readings().time.step);
-    const auto& sensors = *seat->info().sensors;
-    const auto found =
-        std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == of.sensor; });
-    if (found == sensors.end()) return;
-    const auto slot = static_cast<std::size_t>(found - sensors.begin());
-    message.set_sensor(static_cast<std::uint32_t>(slot));
-    encode(seat->readings().measurements[slot], *message.mutable_measurement());
-  }
-
-  void tellAll() {
-    wire::FromRobot& message = compose(kAll, RemoteType::req_all);
-    message.set_step(seat->readings().time.step);
-    encode(seat->readings(), *message.mutable_readings());
-    for (std::size_t i = 0; i < seat->pictures.size(); ++i) {
-      const Picture& picture = seat->pictures[i];
-      encoded_pictures_[i] = picture.step;
-      if (picture.step <= told_pictures_[i]) continue;
-      message.mutable_readings()->mutable_measurements(static_cast<int>(i))->set_jpeg(picture.jpeg);
-      message.set_picture_step(std::max(message.picture_step(), *picture.step));
-    }
-  }
-
-  /// Sends the next message that is due, if the last is out.
+  /// Sends the next message, unless another is being sent.
   void sendNext() {
-    if (is_gone_ || !isIdle()) return;
-    const auto next = std::find(is_due_.begin(), is_due_.end(), true);
-    if (next == is_due_.end()) return;
-    const auto topic = static_cast<std::size_t>(next - is_due_.begin());
-    draft().Swap(&due_[topic]);
-    is_due_[topic] = asked_[topic] = false;
-    if (topic == kState) wants_welcome_ = false;
-    if (topic == kAll) told_pictures_ = encoded_pictures_;
+    if (has_ended_ || !isIdle() || !outbox_ || outbox_->isEmpty()) return;
+    outbox_->takeNext(draft());
     post();
+  }
+  void logDisconnect(const std::string& why) const {
+    port_.refusals.write("remote controls disconnected", (name.empty() ? "a remote control" : inQuotes(name)) + " (" +
+                                                             peer + ")" + (robot ? " at robot " + robot->name() : "") +
+                                                             ": disconnected: " + why);
   }
 
   Impl& port_;
-  bool is_gone_ = false;
-  bool wants_welcome_ = false;
-  std::array<bool, kTopics> asked_{}, is_due_{};
-  std::array<wire::FromRobot, kTopics> due_;
-  std::vector<std::optional<std::uint64_t>> told_pictures_, encoded_pictures_;  ///< by sensor: the last one's step
+  grpc::Alarm init_alarm_;
+  std::atomic<bool> has_init_{false}, is_overdue_{false};
+  bool has_ended_ = false;
+  std::optional<ResponseOutbox> outbox_;  ///< from its INIT on
 };
 
-RemotePort::Impl::Impl(const Options& the_options, const Run& the_run, const std::vector<RemoteControlRobot*>& robots)
+RemotePort::Impl::Impl(const Options& the_options, const Run& the_run,
+                       const std::vector<RemoteControlRobot*>& the_robots)
     : options(the_options), run(the_run) {
-  for (auto* robot : robots) {
-    seats.push_back({robot, nullptr, {}, {}});
-    seats.back().pictures.resize(robot->hardware().info().sensors->size());
-  }
+  for (auto* robot : the_robots) robots.emplace_back(*robot);
   open = openPort(options.listen, {options.tls, "--remote-port"}, {this});
 }
 
 RemotePort::Impl::~Impl() {
-  sayGoodbye();  // a call that is never answered would be waited for
+  endRun();  // gRPC waits for calls that have not ended
+  open.listener.reset();
   open.server->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));
-}
-
-void RemotePort::Impl::Seat::keepPictures() {
-  for (std::size_t i = 0; i < pictures.size(); ++i) {
-    const auto* image = std::get_if<Image>(&readings().measurements[i]);
-    if (image && !image->jpeg.empty()) pictures[i] = {readings().time.step, image->jpeg};
-  }
 }
 
 RawStream* RemotePort::Impl::Control(grpc::CallbackServerContext* context) {
   auto stream = std::make_shared<Stream>(*this, context);
   stream->begin();
   const std::lock_guard lock(mutex);
+  checkAccess();
+  auto [status, client] = options.access.authenticate(*context);
+  stream->client = std::move(client);
+  if (status.ok()) {
+    status = options.access.check(stream->client, Right::look);
+    if (options.access.check(stream->client, Right::drive).ok()) status = grpc::Status::OK;
+  }
   if (is_over) {
     stream->end({grpc::StatusCode::UNAVAILABLE, "the run is over"});
-  } else if (const auto status = options.access.check(*context, Right::look);
-             !status.ok() && !options.access.check(*context, Right::drive).ok()) {
-    stream->hangUp(status);
+  } else if (!status.ok()) {
+    stream->disconnect(status);
   } else {
     streams.push_back(stream);
+    stream->awaitInit();
   }
   return stream.get();
 }
 
 void RemotePort::Impl::init(Stream& stream, const RemoteOrder& order) {
-  const auto seat =
-      std::find_if(seats.begin(), seats.end(), [&](const Seat& s) { return s.robot->name() == order.robot; });
-  if (seat == seats.end()) {
+  const auto robot =
+      std::find_if(robots.begin(), robots.end(), [&](const DrivenRobot& other) { return other.name() == order.robot; });
+  if (robot == robots.end()) {
     std::vector<std::string> names;
-    for (const auto& other : seats) names.push_back(other.robot->name());
-    throw WireError("here is no robot " + inQuotes(order.robot) + " but " + listed(names) +
-                        "; is its port right in the robot list?",
+    for (const auto& other : robots) names.push_back(other.name());
+    throw WireError("this port serves no robot " + inQuotes(order.robot) + ", only " + listed(names) +
+                        "; correct its port in the robot list",
                     grpc::StatusCode::NOT_FOUND);
   }
-  if (stream.seat && stream.seat != &*seat) throw WireError("a second INIT for another robot; connect anew for it");
+  if (stream.robot && stream.robot != &*robot) throw WireError("a second INIT for another robot; connect again for it");
   stream.name = order.driver;
-  if (!stream.seat) stream.sitDown(*seat);
-  const bool is_others = seat->driver && seat->driver != &stream;
+  const bool has_other_driver = robot->driver && robot->driver != &stream;
   const grpc::Status may_drive = stream.may(Right::drive, order.robot);
-  if (!may_drive.ok() && !stream.may(Right::look, order.robot).ok()) {
-    throw WireError(may_drive.error_message(), may_drive.error_code());
+  if (const auto status = stream.mayWatch(order.robot); !status.ok()) {
+    throw WireError(status.error_message(), status.error_code());
   }
-  // A token that may only look may look on, as may whoever finds the robot taken.
-  if (order.only_watch || is_others || !may_drive.ok()) {
-    letGo(stream);
-    stream.tellState();
+  if (!stream.robot) stream.selectRobot(*robot);
+  // A token without the right to drive may observe, as may a client whose robot has another driver.
+  if (order.only_watch || has_other_driver || !may_drive.ok()) {
+    releaseRobot(stream);
+    stream.sendState();
     return;
   }
-  if (!seat->driver) options.log(stream.who() + " has the robot");
-  seat->driver = &stream;
-  seat->robot->take(stream.name.empty() ? stream.peer : stream.name, order.autonomous);
-  tellStateOf(*seat);
+  if (!robot->driver) stream.audit("take " + order.robot + (order.driver.empty() ? "" : " (" + order.driver + ")"));
+  robot->driver = &stream;
+  robot->robot().take(stream.name.empty() ? stream.peer : stream.name, order.autonomous);
+  sendState(*robot);
 }
 
-void RemotePort::Impl::obey(Stream& stream, const RemoteOrder& order) {
-  // Requests are no sign of life: a control may go on asking by itself when its driver has long gone.
-  if (order.type == RemoteType::req_all) {
-    stream.ask(kAll);
-    return;
+void RemotePort::Impl::handle(Stream& stream, const RemoteOrder& order) {
+  // Requests do not reset the dead-man timeout: a remote control may send them automatically without a driver.
+  if (stream.request(order.type)) return;
+  if (!stream.isDriver()) return;  // its state contains the driver's name
+  if (const auto status = stream.may(Right::drive, stream.robot->name()); !status.ok()) {
+    throw WireError(status.error_message(), status.error_code());
   }
-  for (const auto& of : kOnRequest) {
-    if (order.type != of.type) continue;
-    stream.ask(of.topic);
-    return;
-  }
-  if (!stream.hasRobot()) return;  // it was told whose it is
   if (order.type == RemoteType::init_ack) {
-    stream.seat->robot->setAutonomous(order.autonomous);
-    tellStateOf(*stream.seat);
+    stream.audit((order.autonomous ? "autonomous on " : "autonomous off ") + stream.robot->name());
+    stream.robot->robot().setAutonomous(order.autonomous);
+    sendState(*stream.robot);
   } else {
-    stream.seat->robot->obey(order);
+    stream.robot->robot().obey(order);
   }
 }
 
-/// It lets go of its robot, if it has one.
-void RemotePort::Impl::letGo(Stream& stream) {
-  if (!stream.hasRobot()) return;
-  stream.seat->driver = nullptr;
-  stream.seat->robot->release("its remote control has hung up");
-  tellStateOf(*stream.seat);
+/// Releases the robot of a driver. No effect for others.
+void RemotePort::Impl::releaseRobot(Stream& stream) {
+  if (!stream.isDriver()) return;
+  stream.robot->driver = nullptr;
+  stream.robot->robot().release("its remote control has disconnected");
+  sendState(*stream.robot);
 }
 
-void RemotePort::Impl::tellStateOf(const Seat& seat) {
+/// Tokens may have been withdrawn or expired: disconnects the remote controls whose token no longer permits their
+/// robot.
+void RemotePort::Impl::checkAccess() {
+  if (std::exchange(access_version, options.access.refresh()) == access_version) return;
   for (const auto& stream : streams) {
-    if (stream->seat == &seat) stream->tellState();
+    if (!stream->robot) continue;  // checked at its INIT
+    const std::string& name = stream->robot->name();
+    const auto status = stream->isDriver() ? stream->may(Right::drive, name) : stream->mayWatch(name);
+    if (!status.ok()) stream->disconnect(status);
   }
 }
 
-void RemotePort::Impl::tell() {
+void RemotePort::Impl::sendState(const DrivenRobot& robot) {
+  for (const auto& stream : streams) {
+    if (stream->robot == &robot) stream->sendState();
+  }
+}
+
+RobotsWelcome RemotePort::Impl::welcomeOf(const DrivenRobot& robot) const {
+  RobotsWelcome welcome;
+  welcome.world = run.world;
+  welcome.seed = run.seed;
+  welcome.period_s = run.period_s;
+  welcome.robots.push_back({robot.info(), 0, ""});
+  return welcome;
+}
+
+void RemotePort::Impl::publish() {
   const std::lock_guard lock(mutex);
-  for (auto& seat : seats) {
-    seat.keepPictures();
-    const RemoteState state = seat.robot->state();
-    if (newsIn(state) != newsIn(seat.told)) tellStateOf(seat);
-    seat.told = state;
+  checkAccess();
+  for (auto& robot : robots) {
+    robot.keepPictures();
+    const RemoteState state = robot.robot().state();
+    if (reportedPartOf(state) != reportedPartOf(robot.published)) sendState(robot);
+    robot.published = state;
   }
   for (const auto& stream : streams) {
-    if (stream->seat) stream->tellReadings();
+    if (stream->robot) stream->sendReadings();
   }
 }
 
-void RemotePort::Impl::sayGoodbye() {
+void RemotePort::Impl::endRun() {
   const std::lock_guard lock(mutex);
   is_over = true;
-  for (const auto& stream : streams) stream->sayGoodbye();
+  for (const auto& stream : streams) stream->endRun();
 }
 
 RemotePort::RemotePort(const Options& options, const Run& run, const std::vector<RemoteControlRobot*>& robots)
     : impl_(std::make_unique<Impl>(options, run, robots)) {}
 RemotePort::~RemotePort() = default;
 int RemotePort::port() const { return impl_->open.number; }
-void RemotePort::tell() { impl_->tell(); }
-void RemotePort::sayGoodbye() { impl_->sayGoodbye(); }
+void RemotePort::publish() { impl_->publish(); }
+void RemotePort::endRun() { impl_->endRun(); }
 
 }  // namespace robosim

@@ -1,4 +1,5 @@
 #pragma once
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -11,18 +12,19 @@
 
 namespace robosim {
 
-/// Where the robots of a process listen for their remote controls (remote.proto; doc/protocol.md tells the
-/// conversation). Any number may look on; whoever came first, and wants to, has the robot, until they hang up.
+/// Server of the RemoteControl service for the robots of a process (remote.proto; protocol: doc/protocol.md). Each
+/// robot accepts any number of observers and one driver: the first to request it, until that driver disconnects.
 class RemotePort {
  public:
   struct Options {
     std::string listen = "127.0.0.1:0";                                       ///< "host:port"
-    Access access;                                                            ///< who may do what
+    Access access;                                                            ///< rights by token
     std::optional<TlsIdentity> tls;                                           ///< absent: without TLS
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line, from any thread
+    std::chrono::milliseconds init_deadline{10'000};                          ///< maximum time from a call to its INIT
   };
 
-  /// What all the robots of the process have in common.
+  /// State common to all robots of the process.
   struct Run {
     std::string world;
     std::uint64_t seed = 0;
@@ -39,11 +41,11 @@ class RemotePort {
 
   int port() const;
 
-  /// Sends everyone what they have asked for: after each step, by the thread that steps the robots. Never waits for a
-  /// remote control.
-  void tell();
-  /// The run is over: says so to everyone.
-  void sayGoodbye();
+  /// Sends the requested readings to all remote controls; called after each step by the thread that steps the robots.
+  /// Does not block.
+  void publish();
+  /// Ends all calls, because the run is over.
+  void endRun();
 
  private:
   struct Impl;

@@ -5,17 +5,17 @@
 
 #include "net/remote.grpc.pb.h"
 #include "remote/robot_link.h"
-#include "remote/test_robot.h"
+#include "remote/testing/test_robot.h"
 
 namespace robosim {
 namespace {
 
 std::unique_ptr<RobotLink> linkTo(const TestRobot& robot, const std::string& token = "",
                                   const std::string& name = "Pioneer1") {
-  DialOptions dialled;
-  dialled.address = robot.address();
-  dialled.token = token;
-  return std::make_unique<RobotLink>(name, dialled, [] {});
+  ConnectOptions connect_options;
+  connect_options.address = robot.address();
+  connect_options.token = token;
+  return std::make_unique<RobotLink>(name, connect_options, [] {});
 }
 
 struct RemotePortTest : testing::Test {
@@ -41,7 +41,7 @@ struct RemotePortTest : testing::Test {
   double commandedSpeed() const { return robot.hardware->lastCommand().speed_mps; }
 };
 
-TEST_F(RemotePortTest, TellsWhoConnectsWhatTheRobotIs) {
+TEST_F(RemotePortTest, DescribesTheRobotToARemoteControl) {
   connect(*anna, "Anna");
   const RobotNews news = anna->news();
   EXPECT_EQ(news.world, "maze");
@@ -53,7 +53,23 @@ TEST_F(RemotePortTest, TellsWhoConnectsWhatTheRobotIs) {
   EXPECT_FALSE(news.state.autonomous);
 }
 
-TEST_F(RemotePortTest, LetsADriverSteerAndHandTheRobotToItsController) {
+TEST_F(RemotePortTest, AStopAndASpeedOfZeroAreNotSuperseded) {
+  connect(*anna, "Anna");
+  RemoteOrder halt{.type = RemoteType::drive};
+  halt.speed_mps = 0;
+  RemoteOrder turn{.type = RemoteType::drive};
+  for (const RemoteOrder& first : {RemoteOrder{.type = RemoteType::stop}, halt}) {
+    drive(*anna, 0.5);
+    wait([&] { return commandedSpeed() == 0.5; });
+    anna->send(first);
+    turn.turn_radps = turn.turn_radps.value_or(0) + 0.5;
+    for (int i = 0; i < 100; ++i) anna->send(turn);
+    wait([&] { return robot.hardware->lastCommand().turn_radps == *turn.turn_radps; });
+    EXPECT_EQ(commandedSpeed(), 0);
+  }
+}
+
+TEST_F(RemotePortTest, ADriverSteersAndEnablesTheController) {
   connect(*anna, "Anna");
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
@@ -62,7 +78,7 @@ TEST_F(RemotePortTest, LetsADriverSteerAndHandTheRobotToItsController) {
   wait([&] { return anna->news().state.autonomous; });
 }
 
-TEST_F(RemotePortTest, StopsTheRobotWhoseDriverHangsUpAndSaysWhy) {
+TEST_F(RemotePortTest, StopsTheRobotWhenTheDriverDisconnectsAndLogsTheReason) {
   connect(*anna, "Anna");
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
@@ -70,24 +86,24 @@ TEST_F(RemotePortTest, StopsTheRobotWhoseDriverHangsUpAndSaysWhy) {
   waitUntil([&] { return robot.log().find("Pioneer1 stops") != std::string::npos; }, [] {});
   robot.step();
   EXPECT_EQ(commandedSpeed(), 0);
-  EXPECT_NE(robot.log().find("Pioneer1 stops: its remote control has hung up"), std::string::npos) << robot.log();
+  EXPECT_NE(robot.log().find("Pioneer1 stops: its remote control has disconnected"), std::string::npos) << robot.log();
 }
 
-TEST_F(RemotePortTest, StopsTheRobotWhoseDriverIsSilentAndTellsThem) {
+TEST_F(RemotePortTest, StopsTheRobotAfterTheDeadManTimeoutAndReportsTheReason) {
   connect(*anna, "Anna");
   anna->setLive(true);
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
-  // Its link goes on asking for readings meanwhile: that says nothing of Anna.
+  // Requests of the link do not reset the dead-man timeout.
   wait([&] {
     const auto last = anna->news().update;
     wait([&] { return anna->news().update != last; });
     return commandedSpeed() == 0;
   });
-  wait([&] { return anna->news().state.why_stopped == "nothing heard from Anna for 0.5 s"; });
+  wait([&] { return anna->news().state.why_stopped == "no message from Anna for 0.5 s"; });
 }
 
-TEST_F(RemotePortTest, TellsTheSecondDriverWhoDrivesAndLetsThemWatch) {
+TEST_F(RemotePortTest, ASecondDriverWatchesAndSeesTheDriversName) {
   connect(*anna, "Anna");
   const auto ben = linkTo(robot);
   connect(*ben, "Ben");
@@ -107,7 +123,7 @@ TEST_F(RemotePortTest, TellsTheSecondDriverWhoDrivesAndLetsThemWatch) {
   wait([&] { return commandedSpeed() == 1; });
 }
 
-TEST_F(RemotePortTest, KeepsSendingNewReadingsWhileTheyAreWanted) {
+TEST_F(RemotePortTest, SendsReadingsToSubscribers) {
   connect(*anna, "Anna");
   EXPECT_EQ(anna->news().update, nullptr);
   anna->setLive(true);
@@ -119,7 +135,7 @@ TEST_F(RemotePortTest, KeepsSendingNewReadingsWhileTheyAreWanted) {
   EXPECT_EQ(std::get<Scalar>(anna->news().update->readings.measurements[3]).value, 7);
   anna->setLive(false);
   robot.hardware->feelHeat(9);
-  anna->send({.type = RemoteType::req_heat});  // what was asked for before has come when this has
+  anna->send({.type = RemoteType::req_heat});  // answered after the requests before it
   wait([&] { return anna->news().answers[0] != nullptr; });
   const auto step = anna->news().update->readings.time.step;
   for (int i = 0; i < 10; ++i) robot.step();
@@ -131,7 +147,7 @@ TEST_F(RemotePortTest, KeepsSendingNewReadingsWhileTheyAreWanted) {
 TEST_F(RemotePortTest, AnswersARequestWithTheNextReading) {
   connect(*anna, "Anna");
   robot.hardware->feelHeat(3);
-  robot.hardware->hearLaser(2);
+  robot.hardware->setLaserRange(2);
   for (const auto type : {RemoteType::req_heat, RemoteType::req_laser, RemoteType::req_sonar})
     anna->send({.type = type});
   wait([&] { return anna->news().answers[0] && anna->news().answers[1] && anna->news().answers[2]; });
@@ -141,7 +157,7 @@ TEST_F(RemotePortTest, AnswersARequestWithTheNextReading) {
   EXPECT_EQ(anna->news().answers[2]->sensor, 1u);
 }
 
-TEST_F(RemotePortTest, SaysThatARobotHasNoSuchSensor) {
+TEST_F(RemotePortTest, ReportsAMissingSensor) {
   auto& info = robot.hardware->mutableInfo();
   info.sensors = std::make_shared<std::vector<SensorInfo>>(1, (*info.sensors)[0]);
   robot.hardware->mutableReadings().measurements.resize(1);
@@ -151,7 +167,7 @@ TEST_F(RemotePortTest, SaysThatARobotHasNoSuchSensor) {
   EXPECT_FALSE(anna->news().answers[0]->has_sensor);
 }
 
-TEST_F(RemotePortTest, DoesNotSkipAPictureForAControlThatMissesItsStep) {
+TEST_F(RemotePortTest, SendsAPictureToARemoteControlThatMissedItsStep) {
   auto sensors = *robot.hardware->info().sensors;
   sensors.emplace_back();
   sensors.back().kind = SensorKind::camera;
@@ -169,13 +185,13 @@ TEST_F(RemotePortTest, DoesNotSkipAPictureForAControlThatMissesItsStep) {
   ben->connect();
   waitUntil([&] { return ben->news().is_up; }, [] {});
 
-  ASSERT_EQ(readings.time.step, 0u) << "the first picture of a run counts, too";
+  ASSERT_EQ(readings.time.step, 0u) << "the first picture of the run";
   const std::string jpeg = "\xFF\xD8 a picture \xFF\xD9";
   std::get<Image>(readings.measurements[4]).jpeg = jpeg;
   const auto step = readings.time.step;
   seeing.step();
   std::get<Image>(readings.measurements[4]).jpeg.clear();
-  for (int i = 0; i < 5; ++i) seeing.step();  // steps without a picture, and nobody has asked yet
+  for (int i = 0; i < 5; ++i) seeing.step();  // steps without a picture, and none is requested yet
   ben->setLive(true);
   waitUntil([&] { return ben->news().picture != nullptr; }, [&] { seeing.step(); });
   EXPECT_EQ(ben->news().picture->jpeg, jpeg);
@@ -186,13 +202,13 @@ TEST_F(RemotePortTest, DoesNotSkipAPictureForAControlThatMissesItsStep) {
   EXPECT_EQ(ben->news().picture, first) << "it comes once";
 }
 
-TEST_F(RemotePortTest, TellsEveryoneWhoHasWonAndThatTheRunIsOver) {
+TEST_F(RemotePortTest, ReportsTheWinnerAndTheEndOfTheRunToAll) {
   connect(*anna, "Anna");
   const auto ben = linkTo(robot);
   connect(*ben, "Ben");
   robot.hardware->mutableReadings().winner = "Pioneer1";
   robot.step();
-  robot.sayGoodbye();
+  robot.endRun();
   for (RobotLink* link : {anna.get(), ben.get()}) {
     waitUntil([&] { return !link->isCalling(); }, [] {});
     EXPECT_EQ(link->news().state.winner, "Pioneer1");
@@ -200,12 +216,13 @@ TEST_F(RemotePortTest, TellsEveryoneWhoHasWonAndThatTheRunIsOver) {
   }
 }
 
-TEST_F(RemotePortTest, TellsOneWhoCallsTheWrongRobotOrNobody) {
+TEST_F(RemotePortTest, ReportsAWrongOrUnreachableRobot) {
   const auto wrong = linkTo(robot, "", "Scout1");
   wrong->claim("Anna", false);
   wrong->connect();
   waitUntil([&] { return !wrong->isCalling(); }, [] {});
-  EXPECT_EQ(wrong->news().problem, "here is no robot 'Scout1' but Pioneer1; is its port right in the robot list?");
+  EXPECT_EQ(wrong->news().problem,
+            "this port serves no robot 'Scout1', only Pioneer1; correct its port in the robot list");
   EXPECT_TRUE(wrong->news().was_refused);
 
   robot.close();
@@ -217,23 +234,23 @@ TEST_F(RemotePortTest, TellsOneWhoCallsTheWrongRobotOrNobody) {
   EXPECT_FALSE(anna->news().was_refused);
 }
 
-/// Sends one message, as a program that is none of ours might. @return how the call ended
-grpc::Status statusAfter(const TestRobot& robot, const wire::ToRobot& message) {
-  DialOptions dialled;
-  dialled.address = robot.address();
-  const auto stub = wire::RemoteControl::NewStub(dial(dialled));
+/// Sends one message, which RobotLink might never send. @return the status of the call
+grpc::Status statusAfter(const TestRobot& robot, const wire::ControlRequest& message) {
+  ConnectOptions connect_options;
+  connect_options.address = robot.address();
+  const auto stub = wire::RemoteControl::NewStub(connect(connect_options));
   grpc::ClientContext context;
   const auto stream = stub->Control(&context);
   stream->Write(message);
-  wire::FromRobot in;
+  wire::ControlResponse in;
   while (stream->Read(&in)) {
   }
   return stream->Finish();
 }
 
-TEST_F(RemotePortTest, HangsUpOnNonsenseAndNobodyElseNotices) {
+TEST_F(RemotePortTest, DisconnectsARemoteControlForAnInvalidMessageAndNoOther) {
   connect(*anna, "Anna");
-  wire::ToRobot message;
+  wire::ControlRequest message;
   message.set_type(wire::DRIVE);
   EXPECT_EQ(statusAfter(robot, message).error_message(), "the first message of a remote control must be its INIT");
   message.set_type(static_cast<wire::RemoteType>(99));
@@ -245,7 +262,7 @@ TEST_F(RemotePortTest, HangsUpOnNonsenseAndNobodyElseNotices) {
   wait([&] { return commandedSpeed() == 0.5; });
 }
 
-TEST(RemotePortAccess, LetsEachTokenDoWhatItsRoleMay) {
+TEST(RemotePortAccess, PermitsEachTokenWhatItsRolePermits) {
   const std::string viewer = "viewer-0123456789abcdef", driver = "driver-0123456789abcdef",
                     other = "others-0123456789abcdef";
   TestRobot robot("Pioneer1",
@@ -260,11 +277,33 @@ TEST(RemotePortAccess, LetsEachTokenDoWhatItsRoleMay) {
   EXPECT_TRUE(news_of(driver).state.is_yours);
   waitUntil([&] { return robot.robot.state().driver.empty(); }, [] {});
   EXPECT_EQ(news_of(viewer).problem, "");
-  EXPECT_FALSE(news_of(viewer).state.is_yours) << "may look on";
+  EXPECT_FALSE(news_of(viewer).state.is_yours) << "may watch only";
   EXPECT_EQ(news_of(other).problem, "the token is not for robot 'Pioneer1' but for X; use another");
-  EXPECT_NE(news_of("").problem.find("asks for a token"), std::string::npos);
-  EXPECT_NE(news_of("wrong-0123456789abcdef").problem.find("none of those known"), std::string::npos);
-  EXPECT_EQ(robot.log().find("0123456789abcdef"), std::string::npos) << "no token is ever told";
+  EXPECT_NE(news_of("").problem.find("requires a token"), std::string::npos);
+  EXPECT_NE(news_of("wrong-0123456789abcdef").problem.find("the token is unknown"), std::string::npos);
+  EXPECT_EQ(robot.log().find("0123456789abcdef"), std::string::npos) << "no log contains a token";
+}
+
+TEST(RemotePortDeadline, EndsACallWithoutAnInit) {
+  FakeHardware hardware;
+  RemoteControlRobot robot(hardware, std::make_unique<Spinner>(), {});
+  std::mutex mutex;
+  std::string log;
+  RemotePort::Options options;
+  options.init_deadline = std::chrono::milliseconds(50);
+  options.log = [&](const std::string& line) {
+    const std::lock_guard lock(mutex);
+    log += line + "\n";
+  };
+  {
+    const RemotePort port(options, {"maze", 7, 0.1}, {&robot});
+    grpc::ClientContext context;
+    const auto stub = wire::RemoteControl::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port.port())}));
+    const grpc::Status status = stub->Control(&context)->Finish();
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+    EXPECT_EQ(status.error_message(), "no INIT within 50 ms of the call; send it at once, and call again");
+  }
+  EXPECT_NE(log.find("disconnected: no INIT in time"), std::string::npos) << log;
 }
 
 }  // namespace

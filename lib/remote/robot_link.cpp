@@ -9,51 +9,59 @@
 #include "net/remote.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "net/tls.h"
+#include "remote/drive_order.h"
 
 namespace robosim {
 namespace {
 
-std::string told(const grpc::Status& status, const DialOptions& dialled, const std::string& robot) {
+/// Why a call has ended, and how to fix it.
+std::string problemOf(const grpc::Status& status, const ConnectOptions& connect_options, const std::string& robot) {
   if (status.ok()) return "the run is over";
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
-    return "at " + dialled.address + " is no robot's remote port; is it right in the robot list?";
+    return connect_options.address + " is not the remote port of a robot; correct it in the robot list";
   }
   if (status.error_code() != grpc::StatusCode::UNAVAILABLE) return status.error_message();
-  const std::string why = dialled.tls ? whyTlsFails(dialled.address, dialled.trusted_pem) : "";
-  if (!why.empty()) return "no TLS with " + dialled.address + ": " + why;
-  return "no robot answers at " + dialled.address + "; is 'robosim robot " + robot + " --remote-port …' running?";
+  const std::string why = connect_options.tls ? diagnoseTls(connect_options.address, connect_options.trusted_pem,
+                                                            connect_options.connect_limit)
+                                              : "";
+  if (!why.empty()) return "no TLS with " + connect_options.address + ": " + why;
+  return "no robot answers at " + connect_options.address + "; is 'robosim robot " + robot +
+         " --remote-port …' running?";
 }
 
 }  // namespace
 
-/// What calls and the link's owner share. Touched with the mutex held.
+/// State shared by calls and the link's owner. Guarded by the mutex.
 struct RobotLink::Shared {
   std::string robot;
-  DialOptions dialled;
-  std::function<void()> ring;
+  ConnectOptions connect_options;
+  std::function<void()> on_news;
   std::unique_ptr<wire::RemoteControl::Stub> stub;
 
   std::mutex mutex;
   std::condition_variable call_has_ended;
   Call* call = nullptr;  ///< null when there is none
-  int calls = 0;         ///< that have begun and are not deleted yet
+  int calls = 0;         ///< number of calls that were started and are not deleted yet
   RobotNews news;
   bool is_live = false;
-  /// @name What is to be sent, in this order
+  /// @name Messages to send, in this order
   ///@{
   std::optional<RemoteOrder> init;
   bool init_is_due = false;
   std::optional<RemoteOrder> switching;  ///< INIT_ACK
-  std::optional<RemoteOrder> steering;   ///< the newest
-  bool asks_for_win = false;
-  std::array<bool, 3> asks_for{};  ///< heat, laser, sonar
-  bool asks_for_all = false;
-  bool is_alive = false;
+  std::optional<RemoteOrder> stop;       ///< never superseded by a later order
+  std::optional<RemoteOrder> driving;    ///< DRIVE: the newest speed, turn and pan
+  std::optional<RemoteOrder> steering;   ///< the newest other order that steers
+  bool check_win_is_due = false;
+  std::array<bool, 3> request_is_due{};  ///< heat, laser, sonar
+  bool request_all_is_due = false;
+  bool alive_is_due = false;
   ///@}
 
-  /// The next message to send; nullopt when there is nothing to say.
+  /// The next message to send; nullopt for none.
   std::optional<RemoteOrder> next();
-  void forgetOrders();
+  void discardSteering();
+  void discardOrders();
 };
 
 std::optional<RemoteOrder> RobotLink::Shared::next() {
@@ -61,33 +69,41 @@ std::optional<RemoteOrder> RobotLink::Shared::next() {
     init_is_due = false;
     return init;
   }
-  if (!news.is_up) return std::nullopt;  // not before it has answered
+  if (!news.is_up) return std::nullopt;  // not before the welcome
   if (switching) return std::exchange(switching, std::nullopt);
+  if (stop) return std::exchange(stop, std::nullopt);
+  if (driving) return std::exchange(driving, std::nullopt);
   if (steering) return std::exchange(steering, std::nullopt);
-  if (std::exchange(asks_for_win, false)) return RemoteOrder{.type = RemoteType::check_win};
-  for (std::size_t i = 0; i < asks_for.size(); ++i) {
+  if (std::exchange(check_win_is_due, false)) return RemoteOrder{.type = RemoteType::check_win};
+  for (std::size_t i = 0; i < request_is_due.size(); ++i) {
     const auto type = static_cast<RemoteType>(static_cast<std::size_t>(RemoteType::req_heat) + i);
-    if (std::exchange(asks_for[i], false)) return RemoteOrder{.type = type};
+    if (std::exchange(request_is_due[i], false)) return RemoteOrder{.type = type};
   }
-  if (std::exchange(asks_for_all, false)) return RemoteOrder{.type = RemoteType::req_all};
-  if (std::exchange(is_alive, false)) return RemoteOrder{.type = RemoteType::alive};
+  if (std::exchange(request_all_is_due, false)) return RemoteOrder{.type = RemoteType::req_all};
+  if (std::exchange(alive_is_due, false)) return RemoteOrder{.type = RemoteType::alive};
   return std::nullopt;
 }
 
-void RobotLink::Shared::forgetOrders() {
-  switching.reset();
+void RobotLink::Shared::discardSteering() {
+  stop.reset();
+  driving.reset();
   steering.reset();
-  asks_for_win = asks_for_all = is_alive = false;
-  asks_for.fill(false);
 }
 
-/// One call; gRPC runs it and calls the On…() from threads of its own. It deletes itself when it is over.
-class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire::FromRobot> {
+void RobotLink::Shared::discardOrders() {
+  switching.reset();
+  discardSteering();
+  check_win_is_due = request_all_is_due = alive_is_due = false;
+  request_is_due.fill(false);
+}
+
+/// One call. gRPC calls the On…() from its own threads. Deletes itself in OnDone().
+class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ControlRequest, wire::ControlResponse> {
  public:
   explicit Call(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {
-    showToken(context_, shared_->dialled);
+    attachToken(context_, shared_->connect_options);
     shared_->stub->async()->Control(&context_, this);
-    // Writes begin outside of the On…() too, and the call must not end under them.
+    // Writes are also started outside of the On…(), during which the call must not end.
     AddHold();
     StartRead(&in_);
     StartCall();
@@ -114,7 +130,7 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
   void OnReadDone(bool ok) override {
     {
       const std::lock_guard lock(shared_->mutex);
-      if (ok && !take()) ok = false;
+      if (ok && !receive()) ok = false;
       if (ok) {
         StartRead(&in_);
         sendNext();
@@ -122,7 +138,7 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
         has_ended_ = true;
       }
     }
-    shared_->ring();
+    shared_->on_news();
     if (ok) return;
     cancel();
     RemoveHold();
@@ -130,7 +146,7 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
 
   void OnDone(const grpc::Status& status) override {
     const auto shared = shared_;
-    const std::string problem = complaint_.empty() ? told(status, shared->dialled, shared->robot) : complaint_;
+    const std::string problem = error_.empty() ? problemOf(status, shared->connect_options, shared->robot) : error_;
     {
       const std::lock_guard lock(shared->mutex);
       shared->call = nullptr;
@@ -140,33 +156,33 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
                                  status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
                                  status.error_code() == grpc::StatusCode::PERMISSION_DENIED ||
                                  status.error_code() == grpc::StatusCode::FAILED_PRECONDITION;
-      shared->forgetOrders();
+      shared->discardOrders();
     }
-    delete this;  // not before nobody finds it any more
-    shared->ring();
+    delete this;  // no other thread refers to it any more
+    shared->on_news();
     const std::lock_guard lock(shared->mutex);
     --shared->calls;
     shared->call_has_ended.notify_all();
   }
 
-  /// Takes over what came. @return false for nonsense, which ends the call
+  /// Processes a message. @return false for an invalid one, which ends the call
   /// @pre holds the mutex
-  bool take() {
+  bool receive() {
     try {
-      takeMessage();
+      processMessage();
       return true;
     } catch (const WireError& error) {
-      complaint_ = "what " + shared_->dialled.address + " sends makes no sense: " + error.what();
+      error_ = shared_->connect_options.address + " sent an invalid message: " + error.what();
       return false;
     }
   }
 
-  void takeMessage() {
+  void processMessage() {
     RobotNews& news = shared_->news;
     if (in_.has_welcome()) {
       const RobotsWelcome welcome = decode(in_.welcome());
-      if (welcome.seats.size() != 1) throw WireError("a welcome for another number of robots than one");
-      news.info = std::make_shared<const RobotInfo>(welcome.seats[0].info);
+      if (welcome.robots.size() != 1) throw WireError("a welcome for a number of robots other than one");
+      news.info = std::make_shared<const RobotInfo>(welcome.robots[0].info);
       news.world = welcome.world;
       news.period_s = welcome.period_s;
       news.update.reset();
@@ -174,15 +190,15 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
       news.answers = {};
       news.is_up = true;
       news.problem.clear();
-      shared_->asks_for_all = shared_->is_live;
+      shared_->request_all_is_due = shared_->is_live;
     }
-    if (!news.is_up) throw WireError("the first message is no welcome");
+    if (!news.is_up) throw WireError("the first message is not a welcome");
     news.state = decode(in_.state());
-    if (in_.type() == wire::REQ_ALL) takeUpdate();
-    if (in_.type() >= wire::REQ_HEAT && in_.type() <= wire::REQ_SONAR) takeAnswer();
+    if (in_.type() == wire::REQ_ALL) processUpdate();
+    if (in_.type() >= wire::REQ_HEAT && in_.type() <= wire::REQ_SONAR) processAnswer();
   }
 
-  void takeUpdate() {
+  void processUpdate() {
     RobotNews& news = shared_->news;
     auto update = std::make_shared<RobotUpdate>();
     update->readings = blankReadings(*news.info->sensors);
@@ -200,10 +216,10 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
       image->jpeg.clear();
     }
     news.update = std::move(update);
-    shared_->asks_for_all = shared_->is_live;
+    shared_->request_all_is_due = shared_->is_live;
   }
 
-  void takeAnswer() {
+  void processAnswer() {
     RobotNews& news = shared_->news;
     auto answer = std::make_shared<RobotAnswer>();
     answer->step = in_.step();
@@ -220,28 +236,28 @@ class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ToRobot, wire
 
   std::shared_ptr<Shared> shared_;
   grpc::ClientContext context_;
-  wire::ToRobot out_;
-  wire::FromRobot in_;
-  std::string complaint_;
+  wire::ControlRequest out_;
+  wire::ControlResponse in_;
+  std::string error_;
   bool is_writing_ = false;
   bool has_ended_ = false;
 };
 
-RobotLink::RobotLink(std::string robot, DialOptions dialled, std::function<void()> ring)
-    : dialled_(std::move(dialled)), shared_(std::make_shared<Shared>()) {
+RobotLink::RobotLink(std::string robot, ConnectOptions connect_options, std::function<void()> on_news)
+    : connect_options_(std::move(connect_options)), shared_(std::make_shared<Shared>()) {
   shared_->robot = std::move(robot);
-  shared_->dialled = dialled_;
-  shared_->ring = std::move(ring);
-  shared_->news.problem = "not called yet";
-  shared_->stub = wire::RemoteControl::NewStub(dial(dialled_));
+  shared_->connect_options = connect_options_;
+  shared_->on_news = std::move(on_news);
+  shared_->news.problem = "not connected yet";
+  shared_->stub = wire::RemoteControl::NewStub(robosim::connect(connect_options_));
 }
 
 RobotLink::~RobotLink() {
   std::unique_lock lock(shared_->mutex);
   if (shared_->call) shared_->call->cancel();
   shared_->call_has_ended.wait(lock, [&] { return shared_->calls == 0; });
-  // Here, for a call that has just ended may hold what is shared a little longer, and a connection must not be closed
-  // by gRPC's own thread, which would wait for itself.
+  // Released here: an ended call may hold the shared state slightly longer, and gRPC's own thread must not close a
+  // connection, since it would wait for itself.
   const auto stub = std::move(shared_->stub);
   lock.unlock();
 }
@@ -271,29 +287,38 @@ void RobotLink::claim(const std::string& driver, bool autonomous) {
 
 void RobotLink::send(const RemoteOrder& order) {
   const std::lock_guard lock(shared_->mutex);
-  // A robot that is down learns with its next INIT who is to drive it.
+  // A disconnected robot receives the switch with its next INIT.
   if (order.type == RemoteType::init_ack && shared_->init) shared_->init->autonomous = order.autonomous;
   if (!shared_->news.is_up || !shared_->call) return;
   switch (order.type) {
     case RemoteType::init:
-      return;  // claim() says it
+      return;  // sent by claim()
     case RemoteType::init_ack:
       shared_->switching = order;
-      shared_->steering.reset();
+      shared_->discardSteering();
       break;
     case RemoteType::check_win:
-      shared_->asks_for_win = true;
+      shared_->check_win_is_due = true;
       break;
     case RemoteType::req_heat:
     case RemoteType::req_laser:
     case RemoteType::req_sonar:
-      shared_->asks_for[static_cast<std::size_t>(order.type) - static_cast<std::size_t>(RemoteType::req_heat)] = true;
+      shared_->request_is_due[static_cast<std::size_t>(order.type) - static_cast<std::size_t>(RemoteType::req_heat)] =
+          true;
       break;
     case RemoteType::req_all:
-      shared_->asks_for_all = true;
+      shared_->request_all_is_due = true;
       break;
     case RemoteType::alive:
-      shared_->is_alive = true;
+      shared_->alive_is_due = true;
+      break;
+    case RemoteType::stop:
+      shared_->discardSteering();
+      shared_->stop = order;
+      break;
+    case RemoteType::drive:
+      shared_->driving = shared_->driving ? mergeDrive(*shared_->driving, order) : order;
+      shared_->steering.reset();
       break;
     default:
       shared_->steering = order;
@@ -305,7 +330,7 @@ void RobotLink::send(const RemoteOrder& order) {
 void RobotLink::setLive(bool live) {
   const std::lock_guard lock(shared_->mutex);
   if (std::exchange(shared_->is_live, live) == live || !live || !shared_->news.is_up || !shared_->call) return;
-  shared_->asks_for_all = true;
+  shared_->request_all_is_due = true;
   shared_->call->sendNext();
 }
 

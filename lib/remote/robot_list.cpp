@@ -45,12 +45,15 @@ std::vector<RobotAddress> readFrom(XmlReader root) {
 
 std::vector<RobotAddress> readRobotList(const std::filesystem::path& file, ErrorList& errors) {
   try {
-    const XmlElement root = readXmlFile(file);
-    return readFrom(XmlReader(root, file.string(), errors));
+    return robotListFrom(readXmlFile(file), file.string(), errors);
   } catch (const ConfigError& error) {
     errors.add(error);
     return {};
   }
+}
+
+std::vector<RobotAddress> robotListFrom(const XmlElement& root, const std::string& file, ErrorList& errors) {
+  return readFrom(XmlReader(root, file, errors));
 }
 
 }  // namespace robosim

@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "base/error_list.h"
+#include "base/xml_element.h"
 
 namespace robosim {
 
-/// Where one robot's program listens for its remote control.
+/// Address of one robot's remote port.
 struct RobotAddress {
   std::string name;  ///< of the robot in the world file
   std::string hostname;
@@ -17,8 +18,10 @@ struct RobotAddress {
   bool operator==(const RobotAddress&) const = default;
 };
 
-/// Reads a robot list: <RobotInfo> of 2005, in the file's order. Adds every fault to `errors` as "file:line: what; the
-/// mend": what a world file is refused for, a name given twice, no primary robot, or two.
+/// Reads a robot list: <RobotInfo> of 2005, in the file's order. Adds every error to `errors` as "file:line: error;
+/// fix": XML errors as in world files, duplicate names, no primary robot, or several.
 std::vector<RobotAddress> readRobotList(const std::filesystem::path& file, ErrorList& errors);
+/// The same from a file's root element; `file` names it in errors.
+std::vector<RobotAddress> robotListFrom(const XmlElement& root, const std::string& file, ErrorList& errors);
 
 }  // namespace robosim

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/scratch_folder.h"
+#include "base/temporary_directory.h"
 
 namespace robosim {
 namespace {
@@ -13,7 +13,7 @@ using Lines = std::vector<std::string>;
 
 /// What is said against a list of this text, without the file's name.
 Lines faults(const std::string& text) {
-  const ScratchFolder folder;
+  const TemporaryDirectory folder;
   const auto file = folder / "robots.xml";
   std::ofstream(file) << text;
   ErrorList errors;
@@ -28,7 +28,7 @@ std::string robot(const std::string& name, const std::string& port, const std::s
          "</primary></robot>\n";
 }
 
-TEST(RobotList, Of2005IsReadUnchanged) {
+TEST(RobotList, ReadsAListOf2005) {
   ErrorList errors;
   const auto list = readRobotList(ROBOSIM_SOURCE_DIR "/tests/data/legacy_robots.xml", errors);
   EXPECT_EQ(errors.errors(), Lines{});
@@ -36,7 +36,7 @@ TEST(RobotList, Of2005IsReadUnchanged) {
             (std::vector<RobotAddress>{{"Finder1", "127.0.0.1", 9001, true}, {"Finder2", "127.0.0.1", 9002, false}}));
 }
 
-TEST(RobotList, HasExactlyOnePrimaryRobot) {
+TEST(RobotList, RequiresExactlyOnePrimaryRobot) {
   EXPECT_EQ(faults("<RobotInfo>\n" + robot("A", "1", "1") + robot("B", "2", "1") + "</RobotInfo>"),
             Lines{":3: <primary>1</primary>: 'A' is primary already; write 0 for all robots but one"});
   const Lines none{":1: <RobotInfo>: no robot is primary; write <primary>1</primary> for the one to be driven first"};
@@ -44,7 +44,7 @@ TEST(RobotList, HasExactlyOnePrimaryRobot) {
   EXPECT_EQ(faults("<RobotInfo/>"), none);
 }
 
-TEST(RobotList, RefusesEveryFaultAtOnce) {
+TEST(RobotList, ReportsAllErrorsAtOnce) {
   EXPECT_EQ(faults("<RobotInfo>\n" + robot("A", "1", "1") + robot("A", "0", "0") + robot("C", "1.5", "no") +
                    "<robot><color/></robot>\n</RobotInfo>"),
             (Lines{":3: <port>0</port>: must lie in [1, 65535]; write a number there",
@@ -56,10 +56,10 @@ TEST(RobotList, RefusesEveryFaultAtOnce) {
                    ":5: <color>: unknown tag in <robot>; accepted here are: hostname, name, port, primary"}));
   EXPECT_EQ(faults("<world/>"), Lines{":1: <world>: is not a robot list; the first element of one is <RobotInfo>"});
   EXPECT_EQ(faults("<RobotInfo>"), Lines{":1: an element is closed by another's tag, or not at all (was the file cut "
-                                         "off?); mend the file here or just before"});
+                                         "off?); fix the file here or just before"});
 }
 
-TEST(RobotList, ThatIsMissingIsRefused) {
+TEST(RobotList, RejectsAMissingFile) {
   ErrorList errors;
   EXPECT_TRUE(readRobotList("/nowhere/robots.xml", errors).empty());
   EXPECT_EQ(errors.errors(), Lines{"/nowhere/robots.xml: no such file; check the path"});

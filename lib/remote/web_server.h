@@ -1,6 +1,5 @@
 #pragma once
 #include <chrono>
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -10,81 +9,69 @@
 #include <vector>
 
 #include "net/tls.h"
-#include "net/wire_error.h"
+#include "remote/web_message.h"
 
 namespace robosim {
 
-/// A file that browsers may fetch; its bytes are in the program.
+/// A file served to browsers, embedded in the program.
 struct WebFile {
   std::string path;  ///< "/style.css"; "/" for the page itself
   std::string type;  ///< "text/css; charset=utf-8"
   std::span<const unsigned char> bytes;
 };
 
-/// A message for browsers. Made once, it may go to any number of them.
-class WebMessage {
+/// Handler of WebSocket events. Called in the server's thread.
+class WebPageHandler {
  public:
-  static WebMessage text(std::string_view text) { return WebMessage(text, {}, false); }
-  /// Two parts, one after the other.
-  static WebMessage binary(std::string_view first, std::string_view second) { return WebMessage(first, second, true); }
-
- private:
-  friend class WebServer;
-  WebMessage(std::string_view first, std::string_view second, bool is_binary);
-
-  std::vector<unsigned char> bytes_;  ///< behind the room that the server needs for a header
-  bool is_binary_;
-};
-
-/// Browsers are told apart by these.
-using GuestId = std::uint64_t;
-
-/// What becomes of the browsers that have come. Called in the server's thread.
-class WebGuests {
- public:
-  virtual ~WebGuests() = default;
-  virtual void came(GuestId guest, const std::string& peer) = 0;
-  /// @throws WireError for what makes no sense: it loses its connection, and is told why.
-  virtual void said(GuestId guest, std::string_view text) = 0;
-  virtual void left(GuestId guest) = 0;
-  /// What to tell it next: asked after WebServer::wake(), when its connection takes another message, and after each
-  /// one. So what is old by then is never sent. Null for nothing.
-  virtual std::shared_ptr<const WebMessage> next(GuestId guest) = 0;
-  /// Some time has passed (WebServer::kTick), or somebody has rung.
+  virtual ~WebPageHandler() = default;
+  virtual void opened(PageId page, const std::string& peer) = 0;
+  virtual void received(PageId page, std::string_view text) = 0;
+  virtual void closed(PageId page) = 0;
+  /// The next message; null for none. Called after WebServer::wake() and after each message sent, when the connection
+  /// accepts another, so that outdated state is never sent.
+  virtual WebMessagePtr next(PageId page) = 0;
+  /// Called every WebServer::kTick, and after WebServer::requestTick().
   virtual void tick() = 0;
 };
 
-/// Serves a page, and talks with it over WebSockets: libwebsockets, in one thread.
+/// HTTP and WebSocket server of a page: Boost.Beast, in one thread. Converts sockets, TLS, HTTP and timers to the
+/// events of a WebPageHandler, and contains no logic of the console.
+///
+/// Limits: at most kMaxRequests connections without a WebSocket, each with a few seconds for its request; beyond them,
+/// the oldest connection of the address with the most connections is closed. At most kMaxPages WebSockets.
 class WebServer {
  public:
+  static constexpr std::size_t kMaxRequests = 128;
+  static constexpr std::size_t kMaxPages = 256;
   static constexpr std::chrono::milliseconds kTick{50};
 
   struct Options {
     std::string listen = "127.0.0.1:0";  ///< "host:port"
     std::optional<TlsIdentity> tls;      ///< absent: without TLS
     std::vector<WebFile> files;
-    std::string protocol;  ///< WebSocket's name for what is spoken; a page that names another is refused
+    std::string protocol;  ///< WebSocket subprotocol; pages with another are refused
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
   };
 
   /// Opens the port.
-  /// @param guests must outlive this
-  /// @throws std::runtime_error when the port is taken.
-  WebServer(const Options& options, WebGuests& guests);
+  /// @param handler must outlive this
+  /// @throws std::runtime_error when it cannot be opened, and why.
+  WebServer(const Options& options, WebPageHandler& handler);
   ~WebServer();
   WebServer(const WebServer&) = delete;
   WebServer& operator=(const WebServer&) = delete;
 
   int port() const;
-  /// Serves until `interrupted` says so (asked at every tick).
+  /// Serves until `interrupted` returns true (polled at every tick).
   void serve(const std::function<bool()>& interrupted);
-  /// From any thread: has WebGuests::tick() called soon.
-  void ring();
+  /// Schedules WebPageHandler::tick(). Thread-safe.
+  void requestTick();
 
-  /// @name In the server's thread
+  /// @name In the server's thread. No effect for pages that are no longer connected
   ///@{
-  void wake(GuestId guest);  ///< there may be something to tell it
-  void hangUp(GuestId guest, const std::string& why);
+  void wake(PageId page);  ///< a message may be available
+  /// Disconnects a page after its pending messages have been sent.
+  void disconnect(PageId page, const std::string& why);
   ///@}
 
  private:

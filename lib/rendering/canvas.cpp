@@ -5,6 +5,8 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "rendering/outline_text.h"
+
 namespace robosim {
 namespace {
 
@@ -45,7 +47,7 @@ Canvas::Layer Canvas::differenceFrom(const Canvas& ground) const {
 }
 
 cv::Point Canvas::fine(const TPoint2D& pixel) const {
-  // Pixel 0 is made of the fine pixels 0 and 1, so its middle lies at 0.5 of the fine ones.
+  // Pixel 0 covers the fine pixels 0 and 1, so its centre is at 0.5 in fine pixels.
   const auto fixed = [](double coordinate) {
     return static_cast<int>(std::lround((coordinate * kFiner + (kFiner - 1) / 2.0) * (1 << kShift)));
   };
@@ -110,7 +112,7 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
   const Bounds2D bounds = boundsOf(shape);
   const auto low = view_.toPixel({bounds.x_min, bounds.y_max}), high = view_.toPixel({bounds.x_max, bounds.y_min});
   const cv::Rect region = fineRect({low.x - reach_px, high.x + reach_px, low.y - reach_px, high.y + reach_px});
-  if (region.empty()) return;  // beside the picture
+  if (region.empty()) return;  // outside the picture
   Canvas light(view_, {0, 0, 0});
   light.fill(shape, {1, 1, 1});
   light.outline(shape, reach_px * 0.7, {1, 1, 1});
@@ -124,10 +126,10 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
   });
 }
 
-void Canvas::veil(std::span<const std::vector<TPoint2D>> polygons, const Color& color, float opacity) {
+void Canvas::tint(std::span<const std::vector<TPoint2D>> polygons, const Color& color, float opacity) {
   if (polygons.empty()) return;
   cv::Mat mask = cv::Mat::zeros(fine_.size(), CV_8U);
-  // Without smoothing of OpenCV's, which costs as much again and is hardly seen in a tint.
+  // Without OpenCV's antialiasing, which doubles the cost and is hardly visible in a tint.
   std::vector<std::vector<cv::Point>> points(1);
   for (const auto& polygon : polygons) {
     points[0].clear();
@@ -139,8 +141,8 @@ void Canvas::veil(std::span<const std::vector<TPoint2D>> polygons, const Color& 
     }
   }
   const int share = static_cast<int>(std::lround(opacity * 256));
-  const cv::Scalar tint = bgr(color) * share;
-  const int add[] = {static_cast<int>(tint[0]), static_cast<int>(tint[1]), static_cast<int>(tint[2])};
+  const cv::Scalar weighted = bgr(color) * share;
+  const int add[] = {static_cast<int>(weighted[0]), static_cast<int>(weighted[1]), static_cast<int>(weighted[2])};
   for (int y = 0; y < fine_.rows; ++y) {
     const uchar* const covered = mask.ptr<uchar>(y);
     auto* const pixels = fine_.ptr<cv::Vec3b>(y);
@@ -152,21 +154,49 @@ void Canvas::veil(std::span<const std::vector<TPoint2D>> polygons, const Color& 
 }
 
 void Canvas::text(const TPoint2D& at, const std::string& text, double size_px, const Color& color) {
+  if (needsOutlineFont(text)) {
+    if (const auto drawn = drawOutlineText(text, size_px * kFiner)) return outlineText(at, *drawn, size_px, color);
+  }
   const auto [scale, thickness] = styleOf(size_px);
-  // putText() knows whole pixels only.
+  // putText() takes whole pixels only.
   const cv::Point origin(static_cast<int>(std::lround(at.x * kFiner)),
                          static_cast<int>(std::lround((at.y + size_px / 2) * kFiner)));
   cv::putText(fine_, text, origin, kFont, scale, bgr({1, 1, 1}), thickness + 3 * kFiner, cv::LINE_AA);
   cv::putText(fine_, text, origin, kFont, scale, bgr(color), thickness, cv::LINE_AA);
 }
 
+void Canvas::outlineText(const TPoint2D& at, const OutlineText& drawn, double size_px, const Color& color) {
+  constexpr int kRim = 3 * kFiner / 2;
+  cv::Mat coverage, rim;
+  cv::copyMakeBorder(drawn.coverage, coverage, kRim, kRim, kRim, kRim, cv::BORDER_CONSTANT);
+  cv::dilate(coverage, rim, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kRim + 1, 2 * kRim + 1}));
+  const cv::Point origin(static_cast<int>(std::lround(at.x * kFiner)) - kRim,
+                         static_cast<int>(std::lround((at.y + size_px / 2) * kFiner)) - drawn.baseline_px - kRim);
+  const cv::Rect wanted(origin, coverage.size());
+  const cv::Rect on = wanted & cv::Rect(0, 0, fine_.cols, fine_.rows);
+  if (on.empty()) return;
+  cv::Mat ground = fine_(on);
+  for (const auto& [mask, paint] : {std::pair{rim, bgr({1, 1, 1})}, {coverage, bgr(color)}}) {
+    const cv::Mat part = mask(on - wanted.tl());
+    ground.forEach<cv::Vec3b>([&](cv::Vec3b& pixel, const int* place) {
+      const double share = part.at<uchar>(place[0], place[1]) / 255.0;
+      for (int i = 0; i < 3; ++i) pixel[i] = cv::saturate_cast<uchar>(pixel[i] + (paint[i] - pixel[i]) * share);
+    });
+  }
+}
+
 double Canvas::textWidth(const std::string& text, double size_px) {
+  if (needsOutlineFont(text)) {
+    if (const auto drawn = drawOutlineText(text, size_px * kFiner)) {
+      return drawn->coverage.cols / static_cast<double>(kFiner);
+    }
+  }
   const auto [scale, thickness] = styleOf(size_px);
   int below = 0;
   return cv::getTextSize(text, kFont, scale, thickness, &below).width / static_cast<double>(kFiner);
 }
 
-double Canvas::unrest(const Bounds2D& pixels) const {
+double Canvas::contrast(const Bounds2D& pixels) const {
   cv::Scalar mean, spread;
   cv::meanStdDev(fine_(fineRect(pixels)), mean, spread);
   return spread[0] + spread[1] + spread[2];
@@ -180,7 +210,7 @@ cv::Mat Canvas::picture() const {
 
 cv::Mat Canvas::pictureForFile() const {
   cv::Mat picture = this->picture();
-  constexpr int kLevelStep = 5;  // which leaves 52 levels
+  constexpr int kLevelStep = 5;  // 52 levels remain
   cv::Mat level(1, 256, CV_8U);
   for (int i = 0; i < 256; ++i) level.at<uchar>(i) = static_cast<uchar>((i + kLevelStep / 2) / kLevelStep * kLevelStep);
   cv::LUT(picture, level, picture);

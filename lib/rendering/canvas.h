@@ -6,27 +6,29 @@
 #include <mrpt/math/TPoint2D.h>
 #include <opencv2/core/mat.hpp>
 
-#include "geometry/solid.h"
+#include "geometry/shapes/solid.h"
 #include "rendering/color.h"
 #include "rendering/ground_view.h"
 
 namespace robosim {
 
-/// Draws on a GroundView. Places are pixels of the finished picture (GroundView::toPixel()) or outlines in the world
-/// frame; widths and radii are pixels. Works at twice the resolution, which smooths what OpenCV's own smoothing leaves
-/// rough.
+struct OutlineText;
+
+/// Drawing surface over a GroundView. Positions are pixels of the finished picture (GroundView::toPixel()) or outlines
+/// in the world frame; widths and radii are in pixels. Renders at twice the resolution and downsamples, which
+/// antialiases better than OpenCV alone.
 class Canvas {
  public:
   Canvas(const GroundView& view, const Color& background);
 
-  /// A copy is drawn on by itself.
+  /// Deep copy: the copies share no pixels.
   Canvas(const Canvas& other) : view_(other.view_), fine_(other.fine_.clone()) {}
   Canvas(Canvas&&) = default;
   Canvas& operator=(const Canvas&) = delete;
 
   const GroundView& view() const { return view_; }
 
-  /// What one canvas has more than another, to be laid upon canvases of the same view.
+  /// Difference between two canvases of the same view, which can be composited onto further canvases.
   struct Layer {
     cv::Mat fine, mask;
   };
@@ -36,29 +38,30 @@ class Canvas {
   void line(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, double width_px, const Color&);
   void polyline(std::span<const mrpt::math::TPoint2D> points, double width_px, const Color&);
   void disc(const mrpt::math::TPoint2D& center, double radius_px, const Color&);
-  /// A disc of a few pixels, less exact than a disc, and ten times as fast.
+  /// A disc of a few pixels: less exact than disc() and ten times as fast.
   void dot(const mrpt::math::TPoint2D& center, double radius_px, const Color&);
   void fill(const Outline&, const Color&);
   void outline(const Outline&, double width_px, const Color&);
-  /// A soft light around the outline that fades within some pixels.
+  /// A glow around the outline that fades within `reach_px`.
   void glow(const Outline&, double reach_px, const Color&);
 
-  /// A tint over what polygons of pixels cover, each place once.
+  /// Tints the union of the polygons, in pixels; overlaps are tinted once.
   /// @param opacity in [0, 1]
-  void veil(std::span<const std::vector<mrpt::math::TPoint2D>> polygons, const Color&, float opacity);
+  void tint(std::span<const std::vector<mrpt::math::TPoint2D>> polygons, const Color&, float opacity);
 
   /// A line of text with its left end at `at`, vertically centred on it, with a light rim.
   void text(const mrpt::math::TPoint2D& at, const std::string& text, double size_px, const Color&);
   static double textWidth(const std::string& text, double size_px);
-  /// How much there is to see already in a rectangle of pixels: 0 for an even colour.
-  double unrest(const Bounds2D& pixels) const;
+  /// Contrast within a rectangle of pixels; 0 for a uniform colour.
+  double contrast(const Bounds2D& pixels) const;
 
   /// The finished picture.
   cv::Mat picture() const;
-  /// The same in fewer colours: nobody sees it, and a PNG file of it is a quarter smaller.
+  /// The finished picture with fewer colours: not visible to the eye, and 25 % smaller as a PNG file.
   cv::Mat pictureForFile() const;
 
  private:
+  void outlineText(const mrpt::math::TPoint2D& at, const OutlineText& drawn, double size_px, const Color&);
   cv::Point fine(const mrpt::math::TPoint2D& pixel) const;
   std::vector<cv::Point> finePolygon(const OrientedBox&) const;
   cv::Rect fineRect(const Bounds2D& pixels) const;

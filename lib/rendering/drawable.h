@@ -3,10 +3,10 @@
 
 namespace robosim {
 
-/// Something in an MRPT scene that we draw with OpenGL ourselves. It stands in the scene's own frame, which is `world`,
-/// decides itself what of it is in view, and cannot be written to a file.
+/// Base class of objects in an MRPT scene that RoboSim draws with its own OpenGL calls. Coordinates are in the scene's
+/// frame, which is `world`. Each object culls itself, and cannot be serialized.
 ///
-/// Its OpenGL objects are made when it is first drawn, and belong to the context, and the thread, that drew it.
+/// OpenGL resources are created on the first draw, and belong to the context and thread of that draw.
 class Drawable : public mrpt::opengl::CRenderizable {
  public:
   void renderUpdateBuffers() const override {}

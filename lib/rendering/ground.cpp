@@ -16,10 +16,10 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPoint3D;
 
-/// How far the ground goes beyond the bounds: from a robot's height it ends a hundredth of a degree below the horizon.
+/// Extent of the ground beyond the bounds: from a robot's height its edge is 0.01° below the horizon.
 constexpr double kGroundReach_m = 2000;
-constexpr float kShade = 0.70f;  ///< of the light on the ground, in a shadow
-/// Where a thing's top throws its shadow, for each metre of height: the sun of shaders.cpp.
+constexpr float kShadowBrightness = 0.70f;  ///< brightness factor in a shadow
+/// Offset of a shadow per metre of the object's height, for the sun direction of shaders.cpp.
 constexpr double kShadow_x = 0.385 / 0.741, kShadow_y = 0.550 / 0.741;
 
 void addLevel(Mesh& mesh, double west, double east, double south, double north) {
@@ -27,13 +27,13 @@ void addLevel(Mesh& mesh, double west, double east, double south, double north) 
   addPolygon(mesh, corners, {});
 }
 
-/// Small pieces where things happen, larger and larger ones around: of the depth inside a piece of kilometres, which is
-/// worked out in single precision, the metres would be wrong. Each ring reaches a little under what it surrounds: the
-/// same ground twice looks like ground.
+/// Builds the ground from small quads within the bounds and growing rings around them: depth is interpolated in single
+/// precision, which is inexact by metres inside a quad of kilometres. Each ring overlaps the previous one slightly,
+/// which is not visible.
 Mesh groundMesh(const Bounds2D& bounds) {
-  constexpr double kPiece_m = 4, kPiecesMost = 32, kGrowth = 2, kUnder_m = 0.05;
+  constexpr double kPiece_m = 4, kMaxPieces = 32, kGrowth = 2, kUnder_m = 0.05;
   const double piece_m =
-      std::max({kPiece_m, (bounds.x_max - bounds.x_min) / kPiecesMost, (bounds.y_max - bounds.y_min) / kPiecesMost});
+      std::max({kPiece_m, (bounds.x_max - bounds.x_min) / kMaxPieces, (bounds.y_max - bounds.y_min) / kMaxPieces});
   Bounds2D inner{bounds.x_min - piece_m, bounds.x_min - piece_m, bounds.y_min - piece_m, bounds.y_min - piece_m};
   while (inner.x_max < bounds.x_max + piece_m) inner.x_max += piece_m;
   while (inner.y_max < bounds.y_max + piece_m) inner.y_max += piece_m;
@@ -67,7 +67,7 @@ void setGround(const mrpt::opengl::CRenderizable::RenderContext& rc, const Bound
   glUniform1f(rc.shader->uniformId("light"), light);
 }
 
-/// The smallest convex outline round some points, counter-clockwise (Andrew's monotone chain, 1979).
+/// Convex hull of points, counter-clockwise (Andrew's monotone chain, 1979).
 std::vector<TPoint2D> convexHull(std::vector<TPoint2D> points) {
   std::sort(points.begin(), points.end(),
             [](const TPoint2D& a, const TPoint2D& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -81,7 +81,7 @@ std::vector<TPoint2D> convexHull(std::vector<TPoint2D> points) {
       while (hull.size() >= first + 2 && !left_of(hull[hull.size() - 2], hull.back(), p)) hull.pop_back();
       hull.push_back(p);
     }
-    hull.pop_back();  // it begins the other pass
+    hull.pop_back();  // first point of the other pass
     if (pass == 0) std::reverse(points.begin(), points.end());
   }
   return hull;
@@ -95,7 +95,7 @@ mrpt::opengl::shader_list_t Ground::requiredShaders() const { return {kGroundSha
 
 void Ground::render(const RenderContext& rc) const {
   setGround(rc, bounds_, 1);
-  mesh_.draw({Member{}});
+  mesh_.draw({MeshInstance{}});
 }
 
 Shadows::Shadows(Mesh shadows, const Bounds2D& bounds) : bounds_(bounds), mesh_(std::move(shadows)) {}
@@ -103,12 +103,12 @@ Shadows::Shadows(Mesh shadows, const Bounds2D& bounds) : bounds_(bounds), mesh_(
 mrpt::opengl::shader_list_t Shadows::requiredShaders() const { return {kShadowShader}; }
 
 void Shadows::render(const RenderContext& rc) const {
-  setGround(rc, bounds_, kShade);
-  // In front of the ground, though at the same place; the depth stays the ground's.
+  setGround(rc, bounds_, kShadowBrightness);
+  // Drawn over the ground at equal depth; the depth buffer stays that of the ground.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(-1, -1);
   glDepthMask(GL_FALSE);
-  mesh_.draw(members_);
+  mesh_.draw(instances_);
   glDepthMask(GL_TRUE);
   glDisable(GL_POLYGON_OFFSET_FILL);
 }

@@ -1,10 +1,10 @@
 #pragma once
-#include "geometry/solid.h"
-#include "rendering/crowd.h"
+#include "geometry/shapes/solid.h"
+#include "rendering/instanced_mesh.h"
 
 namespace robosim {
 
-/// The ground, z = 0, as far as one can see: a floor of tiles of 1 m inside a world's bounds, and plain ground beyond.
+/// The ground plane z = 0 out to the horizon: tiles of 1 m inside the world's bounds, plain ground outside.
 class Ground : public Drawable {
  public:
   explicit Ground(const Bounds2D& bounds);
@@ -18,14 +18,14 @@ class Ground : public Drawable {
   mutable GlMesh mesh_;
 };
 
-/// Shadows of upright things on the ground. Each is ground once more, but darker: so where two fall on one another it
-/// is no darker than where there is one.
+/// Shadows of upright objects on the ground. Each shadow redraws the ground at a lower brightness, so overlapping
+/// shadows are no darker than one.
 class Shadows : public Drawable {
  public:
-  /// @param shadows on z = 0, about each member's place, and never turned
+  /// @param shadows on z = 0, relative to each instance's position; not rotated
   Shadows(Mesh shadows, const Bounds2D& bounds);
 
-  std::vector<Member>& members() { return members_; }
+  std::vector<MeshInstance>& instances() { return instances_; }
 
   mrpt::opengl::shader_list_t requiredShaders() const override;
   void render(const RenderContext&) const override;
@@ -33,14 +33,14 @@ class Shadows : public Drawable {
 
  private:
   Bounds2D bounds_;
-  std::vector<Member> members_;
+  std::vector<MeshInstance> instances_;
   mutable GlMesh mesh_;
 };
 
-/// Adds the shadow of an upright thing with this convex outline, counter-clockwise, that stands on the ground.
+/// Adds the shadow of an upright prism that stands on the ground, with this convex outline, counter-clockwise.
 void addShadow(Mesh& mesh, std::span<const mrpt::math::TPoint2D> outline, double height_m);
 
-/// The sky, wherever nothing else is in the picture. It has no depth.
+/// The sky: drawn where nothing else is in the picture. Writes no depth.
 class Sky : public Drawable {
  public:
   mrpt::opengl::shader_list_t requiredShaders() const override;
@@ -48,7 +48,7 @@ class Sky : public Drawable {
   void freeOpenGLResources() override { attributes_.destroy(); }
 
  private:
-  mutable mrpt::opengl::COpenGLVertexArrayObject attributes_;
+  mutable GlVertexArray attributes_;
 };
 
 }  // namespace robosim

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <mrpt/core/format.h>
@@ -39,6 +40,17 @@ Color robotColor(std::size_t robot) {
   return color;
 }
 
+std::vector<Color> robotColors(const Fleet& fleet) {
+  std::map<Color, std::size_t> count;
+  for (const auto& robot : fleet.robots) ++count[robot.body.color];
+  std::vector<Color> colors;
+  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
+    const Color& in_file = fleet.robots[i].body.color;
+    colors.push_back(count[in_file] == 1 ? in_file : robotColor(i));
+  }
+  return colors;
+}
+
 void drawFloor(Canvas& canvas, const Bounds2D& b) {
   const GroundView& view = canvas.view();
   const mrpt::math::TPose2D center{(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2, 0};
@@ -46,9 +58,9 @@ void drawFloor(Canvas& canvas, const Bounds2D& b) {
   canvas.fill(floor, kFloorColor);
   constexpr double kGridMin_px = 32;
   const double cell_m = roundLengthUpTo(2 * kGridMin_px / view.pixelsPerMetre());
-  const Bounds2D shown = view.shown();
-  const Bounds2D seen{std::max(b.x_min, shown.x_min), std::min(b.x_max, shown.x_max), std::max(b.y_min, shown.y_min),
-                      std::min(b.y_max, shown.y_max)};
+  const Bounds2D visible = view.visibleArea();
+  const Bounds2D seen{std::max(b.x_min, visible.x_min), std::min(b.x_max, visible.x_max),
+                      std::max(b.y_min, visible.y_min), std::min(b.y_max, visible.y_max)};
   for (double x = std::ceil(seen.x_min / cell_m) * cell_m; x <= seen.x_max; x += cell_m) {
     canvas.line(view.toPixel({x, seen.y_min}), view.toPixel({x, seen.y_max}), 1, kGridColor);
   }
@@ -63,7 +75,7 @@ void drawMaps(Canvas& canvas, const World& world) {
     std::vector<Solid> solids;
     addSolids(map.plan, map.world_from_map, map.heights(), solids);
     for (const auto& solid : solids) canvas.fill(solid.outline, map.color);
-    // A map's walls may be thinner than can be seen.
+    // Walls of a map may be thinner than a visible line.
     for (std::size_t i = map.plan.occupied.size(); i < solids.size(); ++i) {
       canvas.outline(solids[i].outline, 1.5, map.color);
     }
@@ -86,7 +98,7 @@ void drawObjects(Canvas& canvas, const World& world) {
 }
 
 void drawRobot(Canvas& canvas, const TPoint2D& center, double radius_px, const TPoint2D& ahead, const Color& color) {
-  const bool small = radius_px < 6;  // too small to draw in, or to be seen to be rough
+  const bool small = radius_px < 6;  // too small for details and antialiasing
   const auto disc = small ? &Canvas::dot : &Canvas::disc;
   (canvas.*disc)(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
   (canvas.*disc)(center, radius_px - 1, color);
@@ -117,17 +129,17 @@ void NameWriter::write(const std::string& name, const TPoint2D& center, double h
   const TPoint2D half(canvas_.view().width() / 2.0, canvas_.view().height() / 2.0);
   const Bounds2D page = around(half, half.x - 2, half.y - 2);
   std::optional<Bounds2D> best;
-  double best_unrest = 0;
+  double best_contrast = 0;
   for (const auto& offset : offsets) {
     const Bounds2D place = around(center + offset, width / 2 + 2, height / 2);
     if (!inside(place, page) ||
         std::any_of(taken_.begin(), taken_.end(), [&](const Bounds2D& other) { return cover(place, other); })) {
       continue;
     }
-    const double unrest = canvas_.unrest(place);
-    if (best && unrest >= best_unrest) continue;
+    const double contrast = canvas_.contrast(place);
+    if (best && contrast >= best_contrast) continue;
     best = place;
-    best_unrest = unrest;
+    best_contrast = contrast;
   }
   if (!best) return;
   taken_.push_back(*best);

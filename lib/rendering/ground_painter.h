@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "rendering/canvas.h"
+#include "robots/fleet.h"
 #include "world/world.h"
 
 namespace robosim {
 
-/// @name What pictures from above have in common
+/// @name Shared by all pictures from above
 ///@{
 inline constexpr Color kPageColor{0.922f, 0.941f, 0.961f};
 inline constexpr Color kFloorColor{1, 1, 1};
@@ -17,29 +18,31 @@ inline constexpr Color kGlowColor{1.0f, 0.55f, 0.15f};
 inline constexpr Color kWhite{1, 1, 1};
 inline constexpr double kTextSize_px = 10;  ///< height of a capital
 
-/// Colours that stay apart beside each other: eight well-known ones first, then hues in steps of the golden angle.
+/// Distinguishable colours: eight of a fixed palette first, then hues in steps of the golden angle.
 Color robotColor(std::size_t robot);
+/// By robot: the body colour given in the file where no other robot has the same, else robotColor().
+std::vector<Color> robotColors(const Fleet&);
 
 /// The ground within the world's bounds, with a grid of a round number of metres.
 void drawFloor(Canvas&, const Bounds2D& bounds);
 /// The walls of the world's maps.
 void drawMaps(Canvas&, const World&);
-/// The world's objects in their colours, the lower ones first, hot ones with a glow.
+/// The world's objects in their colours, in order of height, hot ones with a glow.
 void drawObjects(Canvas&, const World&);
-/// A disc with a mark where it looks; all in pixels.
+/// A disc with a mark in the direction of its heading; all in pixels.
 void drawRobot(Canvas&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
                const Color&);
-/// A round length, from a place on [px], with its number of metres. @return its length [px]
+/// A scale bar of a round length, starting at `from` [px], with its number of metres. @return its length [px]
 double drawScale(Canvas&, const mrpt::math::TPoint2D& from);
 ///@}
 
-/// Writes names beside things, where they cover neither each other nor what must stay to be seen.
+/// Places labels beside objects so that they overlap neither each other nor reserved areas.
 class NameWriter {
  public:
   explicit NameWriter(Canvas& canvas) : canvas_(canvas) {}
 
   void keepClear(const mrpt::math::TPoint2D& center, double half_width_px, double half_height_px);
-  /// Writes a name on the calmest of the free places beside a thing; nowhere if there is none.
+  /// Writes a label at the free position beside an object that has the lowest contrast; omits it if there is none.
   void write(const std::string& name, const mrpt::math::TPoint2D& center, double half_width_px, double half_height_px,
              const Color&);
   /// The name of each hot object.

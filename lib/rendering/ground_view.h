@@ -1,11 +1,11 @@
 #pragma once
 #include <mrpt/math/TPoint2D.h>
 
-#include "geometry/solid.h"
+#include "geometry/shapes/solid.h"
 
 namespace robosim {
 
-/// How a piece of ground, seen from straight above, lies on a picture: to scale, x to the right, y up.
+/// Transform between the world frame and a picture from straight above: uniform scale, x to the right, y up.
 class GroundView {
  public:
   GroundView() = default;
@@ -27,8 +27,8 @@ class GroundView {
   mrpt::math::TPoint2D toWorld(const mrpt::math::TPoint2D& pixel) const {
     return {at_zero_.x + pixel.x / px_per_m_, at_zero_.y - pixel.y / px_per_m_};
   }
-  /// All that is on the picture, world frame.
-  Bounds2D shown() const {
+  /// The part of the world that the picture covers, world frame.
+  Bounds2D visibleArea() const {
     const auto low = toWorld({-0.5, height_px_ - 0.5});
     const auto high = toWorld({width_px_ - 0.5, -0.5});
     return {low.x, high.x, low.y, high.y};
@@ -37,7 +37,7 @@ class GroundView {
 
  private:
   double px_per_m_ = 1;
-  mrpt::math::TPoint2D at_zero_;  ///< the world's point in the middle of pixel (0, 0)
+  mrpt::math::TPoint2D at_zero_;  ///< world coordinates of the centre of pixel (0, 0)
   int width_px_ = 1, height_px_ = 1;
 };
 

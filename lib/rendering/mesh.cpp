@@ -15,21 +15,21 @@ std::int8_t toSignedByte(double value) {
   return static_cast<std::int8_t>(std::lround(127 * std::clamp(value, -1.0, 1.0)));
 }
 
-MeshVertex vertex(const TPoint3D& at, const TPoint3D& normal, const Finish& finish) {
+MeshVertex vertex(const TPoint3D& at, const TPoint3D& normal, const Material& material) {
   MeshVertex v{.x_m = static_cast<float>(at.x), .y_m = static_cast<float>(at.y), .z_m = static_cast<float>(at.z)};
   for (int i = 0; i < 3; ++i) {
     v.normal[i] = toSignedByte(normal[i]);
-    v.color[i] =
-        static_cast<std::uint8_t>(std::lround(255 * std::clamp(finish.color[static_cast<std::size_t>(i)], 0.0f, 1.0f)));
+    v.color[i] = static_cast<std::uint8_t>(
+        std::lround(255 * std::clamp(material.color[static_cast<std::size_t>(i)], 0.0f, 1.0f)));
   }
-  v.gloss = toSignedByte(finish.gloss);
-  v.painted = finish.painted ? 255 : 0;
+  v.gloss = toSignedByte(material.gloss);
+  v.painted = material.painted ? 255 : 0;
   return v;
 }
 
-/// The corners a, b, c, d of a quadrangle, counter-clockwise, with a normal at each.
-void addQuad(Mesh& mesh, const TPoint3D (&at)[4], const TPoint3D (&normal)[4], const Finish& finish) {
-  for (const int i : {0, 1, 2, 0, 2, 3}) mesh.vertices.push_back(vertex(at[i], normal[i], finish));
+/// Adds the quadrilateral a, b, c, d, counter-clockwise, with a normal at each corner.
+void addQuad(Mesh& mesh, const TPoint3D (&at)[4], const TPoint3D (&normal)[4], const Material& material) {
+  for (const int i : {0, 1, 2, 0, 2, 3}) mesh.vertices.push_back(vertex(at[i], normal[i], material));
 }
 
 }  // namespace
@@ -48,27 +48,27 @@ void Mesh::add(const Mesh& other, const mrpt::math::TPose3D& at) {
   }
 }
 
-void addPolygon(Mesh& mesh, std::span<const TPoint3D> corners, const Finish& finish) {
+void addPolygon(Mesh& mesh, std::span<const TPoint3D> corners, const Material& material) {
   const TPoint3D a = corners[1] - corners[0], b = corners[2] - corners[1];
   TPoint3D normal{a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
   normal *= 1 / normal.norm();
   for (std::size_t i = 2; i < corners.size(); ++i) {
     for (const std::size_t corner : {std::size_t{0}, i - 1, i}) {
-      mesh.vertices.push_back(vertex(corners[corner], normal, finish));
+      mesh.vertices.push_back(vertex(corners[corner], normal, material));
     }
   }
 }
 
-void addBox(Mesh& mesh, const TPoint3D& low, const TPoint3D& high, const Finish& finish) {
+void addBox(Mesh& mesh, const TPoint3D& low, const TPoint3D& high, const Material& material) {
   const TPoint2D outline[] = {{low.x, low.y}, {high.x, low.y}, {high.x, high.y}, {low.x, high.y}};
-  addPrism(mesh, outline, low.z, high.z, finish, finish);
+  addPrism(mesh, outline, low.z, high.z, material, material);
   const TPoint3D bottom[] = {
       {low.x, low.y, low.z}, {low.x, high.y, low.z}, {high.x, high.y, low.z}, {high.x, low.y, low.z}};
-  addPolygon(mesh, bottom, finish);
+  addPolygon(mesh, bottom, material);
 }
 
-void addPrism(Mesh& mesh, std::span<const TPoint2D> outline, double z_low_m, double z_high_m, const Finish& side,
-              const std::optional<Finish>& top) {
+void addPrism(Mesh& mesh, std::span<const TPoint2D> outline, double z_low_m, double z_high_m, const Material& side,
+              const std::optional<Material>& top) {
   std::vector<TPoint3D> cover;
   for (std::size_t i = 0; i < outline.size(); ++i) {
     const TPoint2D &from = outline[i], &to = outline[(i + 1) % outline.size()];
@@ -80,7 +80,7 @@ void addPrism(Mesh& mesh, std::span<const TPoint2D> outline, double z_low_m, dou
   if (top) addPolygon(mesh, cover, *top);
 }
 
-void addCone(Mesh& mesh, const Cone& cone, const Finish& side, const std::optional<Finish>& top) {
+void addCone(Mesh& mesh, const Cone& cone, const Material& side, const std::optional<Material>& top) {
   const double slope = (cone.radius_low_m - cone.radius_high_m) / (cone.z_high_m - cone.z_low_m);
   const double level = 1 / std::hypot(1, slope);
   const auto directions = circlePoints({0, 0}, 1, cone.sides);
@@ -99,10 +99,10 @@ void addCone(Mesh& mesh, const Cone& cone, const Finish& side, const std::option
   if (top) addDisc(mesh, cone.axis, cone.z_high_m, cone.radius_high_m, cone.sides, *top);
 }
 
-void addDisc(Mesh& mesh, const TPoint2D& center, double z_m, double radius_m, int sides, const Finish& finish) {
+void addDisc(Mesh& mesh, const TPoint2D& center, double z_m, double radius_m, int sides, const Material& material) {
   std::vector<TPoint3D> corners;
   for (const TPoint2D& point : circlePoints(center, radius_m, sides)) corners.emplace_back(point.x, point.y, z_m);
-  addPolygon(mesh, corners, finish);
+  addPolygon(mesh, corners, material);
 }
 
 std::vector<TPoint2D> circlePoints(const TPoint2D& center, double radius_m, int count) {

@@ -12,14 +12,14 @@
 
 namespace robosim {
 
-/// How a surface looks.
-struct Finish {
+/// Surface properties.
+struct Material {
   Color color{1, 1, 1};
-  float gloss = 0;       ///< [0, 1]: 0 matt, 1 polished metal
-  bool painted = false;  ///< in the colour of the thing that has this mesh, times `color`
+  float gloss = 0;       ///< [0, 1]: 0 is matt, 1 is polished metal
+  bool painted = false;  ///< multiplied by the colour of the instance
 };
 
-/// As the graphics driver takes it.
+/// Vertex in the layout of the vertex buffer.
 struct MeshVertex {
   float x_m = 0, y_m = 0, z_m = 0;
   std::int8_t normal[3] = {};  ///< of length 127
@@ -36,32 +36,32 @@ struct Mesh {
   bool operator==(const Mesh&) const = default;
 
   std::size_t triangles() const { return vertices.size() / 3; }
-  /// Adds another mesh at a place.
+  /// Adds a copy of another mesh at a pose.
   void add(const Mesh& other, const mrpt::math::TPose3D& at);
 };
 
 /// An upright box with opposite corners at `low` and `high`.
-void addBox(Mesh& mesh, const mrpt::math::TPoint3D& low, const mrpt::math::TPoint3D& high, const Finish& finish);
+void addBox(Mesh& mesh, const mrpt::math::TPoint3D& low, const mrpt::math::TPoint3D& high, const Material& material);
 
-/// An upright prism on a convex outline, counter-clockwise; open at the bottom, and at the top when it has no finish.
+/// An upright prism over a convex outline, counter-clockwise; open at the bottom, and at the top if `top` is nullopt.
 void addPrism(Mesh& mesh, std::span<const mrpt::math::TPoint2D> outline, double z_low_m, double z_high_m,
-              const Finish& side, const std::optional<Finish>& top);
+              const Material& side, const std::optional<Material>& top);
 
-/// An upright cylinder or truncated cone round `axis`, whose sides look round; open at the bottom, and at the top when
-/// it has no finish.
+/// An upright cylinder or truncated cone round `axis` with smooth shading; open at the bottom, and at the top if `top`
+/// is nullopt.
 struct Cone {
   mrpt::math::TPoint2D axis;
   double z_low_m = 0, z_high_m = 0;
   double radius_low_m = 0, radius_high_m = 0;
   int sides = 32;
 };
-void addCone(Mesh& mesh, const Cone& cone, const Finish& side, const std::optional<Finish>& top);
+void addCone(Mesh& mesh, const Cone& cone, const Material& side, const std::optional<Material>& top);
 
-/// A level disc that looks up. Bottoms of robots are in the dark and are left out; so there is none that looks down.
-void addDisc(Mesh& mesh, const mrpt::math::TPoint2D& center, double z_m, double radius_m, int sides, const Finish&);
+/// A horizontal disc that faces up. Undersides are never drawn.
+void addDisc(Mesh& mesh, const mrpt::math::TPoint2D& center, double z_m, double radius_m, int sides, const Material&);
 
-/// A convex polygon in space, counter-clockwise as seen from where it can be seen.
-void addPolygon(Mesh& mesh, std::span<const mrpt::math::TPoint3D> corners, const Finish&);
+/// A convex polygon in space, counter-clockwise as seen from its visible side.
+void addPolygon(Mesh& mesh, std::span<const mrpt::math::TPoint3D> corners, const Material&);
 
 /// Points on a circle, counter-clockwise.
 std::vector<mrpt::math::TPoint2D> circlePoints(const mrpt::math::TPoint2D& center, double radius_m, int count);

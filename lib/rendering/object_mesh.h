@@ -4,12 +4,11 @@
 
 namespace robosim {
 
-/// Adds a body that stands still, in its colour, to a mesh in the world frame. What is hot shines like metal, as gold
-/// does.
-/// @param sides of a cylinder, at least 3. With 72 none is further inside the true circle than 0.1 % of its radius.
+/// Adds a static body, in its colour, to a mesh in the world frame. Hot bodies get a metallic material.
+/// @param sides of a cylinder, at least 3; with 72, the mesh deviates from the true radius by at most 0.1 %
 void addBody(Mesh& mesh, const Body& body, int sides);
 
-/// What a map's occupied cells and walls are made of, in the world frame.
+/// The occupied cells and walls of a map as bodies, world frame.
 std::vector<Body> bodiesOf(const WorldMap& map);
 
 }  // namespace robosim

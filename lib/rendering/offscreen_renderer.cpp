@@ -19,10 +19,10 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 using mrpt::poses::CPose3D;
 
-/// What is nearer than this is not drawn; how deep the farthest thing may lie.
-constexpr float kNearest_m = 0.02f, kFarthest_m = 5000;
+/// Near plane and far plane.
+constexpr float kNear_m = 0.02f, kFar_m = 5000;
 
-/// A camera looks along its z to MRPT, with x to the right.
+/// MRPT camera at a pose of RoboSim's camera frame (x forward); MRPT's has z forward and x to the right.
 mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from_camera) {
   mrpt::img::TCamera pinhole;
   pinhole.ncols = info.width_px;
@@ -36,10 +36,10 @@ mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from
   return camera;
 }
 
-/// What the depth buffer says of a pixel, in metres; 0 where nothing was drawn.
+/// Converts a depth buffer value to metres; 0 at the far plane.
 float metresAhead(float depth) {
   if (depth >= 1) return 0;
-  constexpr double n = kNearest_m, f = kFarthest_m;
+  constexpr double n = kNear_m, f = kFar_m;
   return static_cast<float>(n * f / (f - depth * (f - n)));
 }
 
@@ -50,7 +50,7 @@ struct OffscreenRenderer::Impl {
     for (const auto& robot : the_fleet.robots) underside_m.push_back(robot.body.heights().z_min_m);
     thread->run([&](RenderThread::Targets&) {
       scene = std::make_unique<mrpt::opengl::COpenGLScene>();
-      scene->getViewport()->setViewportClipDistances(kNearest_m, kFarthest_m);
+      scene->getViewport()->setViewportClipDistances(kNear_m, kFar_m);
       world.emplace(the_world, the_fleet);
       world->addTo(*scene);
       installShaders(*scene->getViewport());
@@ -65,7 +65,7 @@ struct OffscreenRenderer::Impl {
 
   std::shared_ptr<RenderThread> thread;
   std::vector<double> underside_m;  ///< of each robot
-  // The render thread's own:
+  // Used in the render thread only:
   std::unique_ptr<mrpt::opengl::COpenGLScene> scene;
   std::optional<WorldScene> world;
 };

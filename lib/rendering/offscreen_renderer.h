@@ -12,8 +12,8 @@
 
 namespace robosim {
 
-/// Draws a world without a screen: for its robots' cameras, and from anywhere else. Any thread may ask; the drawing is
-/// done by the program's one RenderThread.
+/// Renders a world without a display, from robot cameras or from any pose. May be called from any thread; drawing takes
+/// place in the process's RenderThread.
 class OffscreenRenderer : public ImageSource {
  public:
   /// @throws ConfigError when this machine has no OpenGL.
@@ -23,13 +23,13 @@ class OffscreenRenderer : public ImageSource {
   void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
             std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override;
 
-  /// @name From anywhere
+  /// @name Rendering from any pose
   /// @param camera its size and field of view; x of `world_from_camera` is along the optical axis, z up
   ///@{
   /// Blue, green, red, 8 bits each.
   cv::Mat picture(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
                   std::span<const mrpt::math::TPose2D> world_from_robot);
-  /// How far ahead, along the optical axis, each pixel is [m], single precision; 0 for the sky.
+  /// Depth of each pixel along the optical axis [m], single precision; 0 for the sky.
   cv::Mat depth(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
                 std::span<const mrpt::math::TPose2D> world_from_robot);
   ///@}
@@ -39,7 +39,7 @@ class OffscreenRenderer : public ImageSource {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether any robot has a camera, so that a run needs an OffscreenRenderer.
+/// Whether any robot has a camera, which makes an OffscreenRenderer necessary.
 bool hasCamera(const Fleet& fleet);
 
 }  // namespace robosim

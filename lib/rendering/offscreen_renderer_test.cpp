@@ -22,7 +22,7 @@ using mrpt::math::TPoint3D;
 using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 
-// Worlds to look at
+// Worlds
 
 World emptyWorld() {
   World world;
@@ -51,10 +51,10 @@ std::vector<TPose2D> starts(const Fleet& fleet) {
 
 // Pictures
 
-/// 320 × 240 with the picture's plane 160 pixels ahead: what lies as far aside as ahead is on the picture's edge.
+/// 320 × 240 pixels with a focal length of 160 pixels: a point at 45° is on the picture's edge.
 constexpr CameraInfo kCamera{320, 240, M_PI / 2, 10};
 
-/// At a height, looking along x.
+/// A camera at a height, facing along x.
 TPose3D at(double x_m, double y_m, double z_m, double yaw_rad = 0, double down_rad = 0) {
   return {x_m, y_m, z_m, yaw_rad, down_rad, 0};
 }
@@ -63,7 +63,7 @@ cv::Vec3b pixel(const cv::Mat& picture, int row, int column) { return picture.at
 
 double difference(const cv::Vec3b& a, const cv::Vec3b& b) { return cv::norm(cv::Vec3i(a) - cv::Vec3i(b)); }
 
-/// Where, from left to right, a row's colour jumps: each number is the first column of a new colour.
+/// Columns at which a row's colour changes, from left to right: first column of each new colour.
 std::vector<int> jumpsInRow(const cv::Mat& picture, int row) {
   std::vector<int> jumps;
   for (int column = 1; column < picture.cols; ++column) {
@@ -78,27 +78,27 @@ std::vector<int> jumpsInColumn(const cv::Mat& picture, int column) {
   return jumpsInRow(turned, column);
 }
 
-/// The first pixel whose middle lies beyond an edge at `edge_px` from the left, or the top.
+/// The first pixel whose centre is beyond an edge at `edge_px` from the left, or the top.
 int firstBeyond(double edge_px) { return static_cast<int>(std::ceil(edge_px - 0.5)); }
 
 double brightness(const cv::Vec3b& color) { return (color[0] + color[1] + color[2]) / 3.0; }
 
-TEST(OffscreenRenderer, PutsAWallsEdgesOnTheRightPixels) {
+TEST(OffscreenRenderer, DrawsEdgesAtTheExpectedPixels) {
   World world = emptyWorld();
   addBox(world, {2, 2.2, -0.333, 0.777}, 1.5, {0.8f, 0.1f, 0.1f});
   OffscreenRenderer renderer(world, {});
   const cv::Mat picture = renderer.picture(kCamera, at(0, 0, 0.5), {});
   ASSERT_EQ(picture.size(), cv::Size(320, 240));
-  // The face that looks at the camera is 2 m ahead: a metre is 80 pixels. Its left edge is at y = 0.777. Above the
-  // horizon, where its shadow is not, only sky is beside it.
+  // The visible face is 2 m ahead: a metre is 80 pixels. Its left edge is at y = 0.777. Above the horizon, out of its
+  // shadow, it borders on sky only.
   EXPECT_EQ(jumpsInRow(picture, 100), (std::vector<int>{firstBeyond(160 - 80 * 0.777), firstBeyond(160 + 80 * 0.333)}));
-  // Its top is 1 m above the eye, its foot 0.5 m below it.
+  // Its top is 1 m above the camera, its foot 0.5 m below it.
   EXPECT_EQ(jumpsInColumn(picture, 160), (std::vector<int>{firstBeyond(120 - 80), firstBeyond(120 + 80 * 0.5)}));
 }
 
-TEST(OffscreenRenderer, PutsTheHorizonWhereALevelLookGoes) {
+TEST(OffscreenRenderer, DrawsTheHorizonAtZeroElevation) {
   World world = emptyWorld();
-  world.bounds = {-1000, 1000, -1000, 1000};  // the floor's edge is no horizon
+  world.bounds = {-1000, 1000, -1000, 1000};  // moves the floor's edge beyond the horizon
   OffscreenRenderer renderer(world, {});
   for (const double down_rad : {0.0, 0.1, 0.25, -0.2}) {
     const cv::Mat picture = renderer.picture(kCamera, at(-30, 0, 0.3, 1, down_rad), {});
@@ -109,7 +109,7 @@ TEST(OffscreenRenderer, PutsTheHorizonWhereALevelLookGoes) {
   }
 }
 
-TEST(OffscreenRenderer, LooksFromWhereTheCameraSitsOnTheRobot) {
+TEST(OffscreenRenderer, UsesTheCamerasMountingPose) {
   const LoadedWorld maze = shipped("small_maze.xml");
   OffscreenRenderer renderer(maze.world, maze.fleet);
   auto poses = starts(maze.fleet);
@@ -128,7 +128,7 @@ TEST(OffscreenRenderer, LooksFromWhereTheCameraSitsOnTheRobot) {
 
 // Depth
 
-/// What a pixel shows, by our own geometry: how far ahead; nullopt for the sky.
+/// Reference depth of a pixel by ray casting; nullopt for the sky.
 class ExactDepth {
  public:
   explicit ExactDepth(const World& world) : scene_(solidsOf(world), 0, world.bounds) {}
@@ -155,7 +155,7 @@ class ExactDepth {
   Scene scene_;
 };
 
-TEST(OffscreenRenderer, TellsDepthsAsExactRaysDo) {
+TEST(OffscreenRenderer, DepthMatchesExactRays) {
   const World world = shipped("opho2_1.xml").world;
   const ExactDepth exact(world);
   OffscreenRenderer renderer(world, {});
@@ -170,7 +170,7 @@ TEST(OffscreenRenderer, TellsDepthsAsExactRaysDo) {
     for (int row = 0; row < 240; row += 3) {
       for (int column = 0; column < 320; column += 3) {
         const auto expected = exact.of(column + 0.5, row + 0.5, world_from_camera);
-        // Along an edge a pixel may show either side of it; and what is closer than the nearest that is drawn, nothing.
+        // At an edge a pixel may show either side; objects nearer than the near plane are not drawn.
         const auto is_smooth = [&](double x, double y) {
           const auto before = exact.of(column + 0.5 - x, row + 0.5 - y, world_from_camera);
           const auto after = exact.of(column + 0.5 + x, row + 0.5 + y, world_from_camera);
@@ -194,20 +194,20 @@ TEST(OffscreenRenderer, TellsDepthsAsExactRaysDo) {
   RecordProperty("worst_ppm", static_cast<int>(worst * 1e6));
 }
 
-TEST(OffscreenRenderer, TellsTheSkysDepthAsNone) {
+TEST(OffscreenRenderer, DepthOfTheSkyIsZero) {
   OffscreenRenderer renderer(emptyWorld(), {});
   const cv::Mat depth = renderer.depth(kCamera, at(0, 0, 1), {});
   EXPECT_EQ(depth.at<float>(60, 160), 0);
-  EXPECT_NEAR(depth.at<float>(199, 160), 160 / 79.5, 0.001);  // the ground, 1 m below the eye
+  EXPECT_NEAR(depth.at<float>(199, 160), 160 / 79.5, 0.001);  // the ground, 1 m below the camera
 }
 
-// Looks
+// Appearance
 
-TEST(OffscreenRenderer, MakesWallsDistinctFromGroundSkyAndEachOther) {
+TEST(OffscreenRenderer, ShadesWallsDifferentlyFromGroundSkyAndEachOther) {
   World world = emptyWorld();
   addBox(world, {2, 3, -0.5, 0.5}, 1, {0.6f, 0.6f, 0.6f});
   OffscreenRenderer renderer(world, {});
-  // From above its corner: two of its sides and its top.
+  // From above its corner: two sides and the top.
   const cv::Mat picture = renderer.picture(kCamera, at(1.3, -1.2, 1.8, M_PI / 4, 0.6), {});
   const auto expected_at = [&](const TPoint3D& point) {
     const mrpt::poses::CPose3D world_from_camera(at(1.3, -1.2, 1.8, M_PI / 4, 0.6));
@@ -230,7 +230,7 @@ cv::Vec3b hsvOf(const cv::Vec3b& bgr) {
   return hsv.at<cv::Vec3b>(0, 0);
 }
 
-TEST(OffscreenRenderer, ShowsColoursOfTheFile) {
+TEST(OffscreenRenderer, DrawsColoursOfTheFile) {
   const std::pair<std::array<float, 3>, int> colors[] = {
       {{0.8f, 0.1f, 0.1f}, 0}, {{0.1f, 0.7f, 0.1f}, 60}, {{0.1f, 0.2f, 0.8f}, 115}, {{0.8f, 0.7f, 0.1f}, 26}};
   for (const auto& [color, hue] : colors) {
@@ -244,10 +244,10 @@ TEST(OffscreenRenderer, ShowsColoursOfTheFile) {
   }
 }
 
-TEST(OffscreenRenderer, ShowsGoldShiningWhereItStands) {
+TEST(OffscreenRenderer, DrawsGoldWithAMetallicMaterial) {
   const World world = shipped("opho2_1.xml").world;
   OffscreenRenderer renderer(world, {});
-  // The gold of opho2_1 stands at (0, 1), is 0.4 m across and 1 m high; the eye is 2 m south of it, and half as high.
+  // The gold of opho2_1 is at (0, 1), 0.4 m across and 1 m high; the camera is 2 m south of it, at half its height.
   const cv::Mat picture = renderer.picture(kCamera, at(0, -1, 0.5, M_PI / 2), {});
   std::vector<unsigned char> bytes;
   cv::imencode(".jpg", picture, bytes);
@@ -255,7 +255,7 @@ TEST(OffscreenRenderer, ShowsGoldShiningWhereItStands) {
   EXPECT_NEAR(blobs[0].x_px, 159.5, 1);
   EXPECT_NEAR(blobs[0].width_px, 2 * 160 * 0.2 / std::sqrt(4 - 0.04), 3);
   EXPECT_NEAR(blobs[0].height_px, 2 * 160 * 0.5 / 1.8, 3);
-  // It shines: on a cylinder of one colour, some places are much brighter than others.
+  // Metallic reflection: on a cylinder of one colour, some pixels are much brighter than others.
   double darkest = 255, brightest = 0;
   for (int column = 148; column <= 171; ++column) {
     darkest = std::min(darkest, brightness(pixel(picture, 115, column)));
@@ -266,7 +266,7 @@ TEST(OffscreenRenderer, ShowsGoldShiningWhereItStands) {
 
 // Robots
 
-/// Two robots of a type, 1.5 m apart, that look at one another along x.
+/// Two robots of a type, 1.5 m apart, that face each other along x.
 LoadedWorld twoOf(const std::string& model) {
   LoadedWorld two;
   two.world = emptyWorld();
@@ -284,7 +284,7 @@ LoadedWorld twoOf(const std::string& model) {
   return two;
 }
 
-TEST(OffscreenRenderer, ShowsRobotsToEachOther) {
+TEST(OffscreenRenderer, DrawsOtherRobots) {
   for (const char* model : {"pioneer3dx_camera", "scout"}) {
     const LoadedWorld two = twoOf(model);
     OffscreenRenderer renderer(two.world, two.fleet);
@@ -292,10 +292,10 @@ TEST(OffscreenRenderer, ShowsRobotsToEachOther) {
     std::vector<std::string> jpegs(2);
     const std::vector<std::uint32_t> both{0, 1};
     renderer.take(camera, starts(two.fleet), both, jpegs);
-    const SoughtColor red{.name = "red", .hue_rad = 0}, green{.name = "green", .hue_rad = 128 * M_PI / 180};
+    const TargetColor red{.name = "red", .hue_rad = 0}, green{.name = "green", .hue_rad = 128 * M_PI / 180};
     const auto seen_by_a = findBlobs(jpegs[0], {red, green}, 20), seen_by_b = findBlobs(jpegs[1], {red, green}, 20);
-    // Each sees the other straight ahead, in its colour. Between them are 1.2 m, so that a robot's width of 0.4 m is
-    // some 50 pixels.
+    // Each sees the other straight ahead, in its colour. The distance is 1.2 m, so that a robot's width of 0.4 m is
+    // about 50 pixels.
     for (const Blob& blob : {seen_by_a[1], seen_by_b[0]}) {
       EXPECT_GT(blob.pixels, 100u) << model;
       EXPECT_NEAR(blob.x_px, 160, 8) << model;
@@ -306,7 +306,7 @@ TEST(OffscreenRenderer, ShowsRobotsToEachOther) {
   }
 }
 
-TEST(OffscreenRenderer, ShowsRobotsWhereTheyAreNow) {
+TEST(OffscreenRenderer, DrawsRobotsAtTheirCurrentPoses) {
   const LoadedWorld two = twoOf("scout");
   OffscreenRenderer renderer(two.world, two.fleet);
   const auto picture = [&](const TPose2D& second) {
@@ -317,7 +317,7 @@ TEST(OffscreenRenderer, ShowsRobotsWhereTheyAreNow) {
   EXPECT_EQ(cv::norm(there, again, cv::NORM_INF), 0);
 }
 
-TEST(OffscreenRenderer, ShowsWhichWayABodyLooks) {
+TEST(OffscreenRenderer, MarksARobotsHeading) {
   for (const char* model : {"pioneer3dx", "scout"}) {
     const LoadedWorld two = twoOf(model);
     OffscreenRenderer renderer(two.world, two.fleet);
@@ -330,7 +330,7 @@ TEST(OffscreenRenderer, ShowsWhichWayABodyLooks) {
   }
 }
 
-TEST(OffscreenRenderer, DrawsAThousandRobotsAndOnlyThoseInView) {
+TEST(OffscreenRenderer, DrawsAThousandRobotsWithCulling) {
   LoadedWorld two = twoOf("scout");
   std::vector<TPose2D> poses;
   Fleet crowd;
@@ -351,9 +351,9 @@ TEST(OffscreenRenderer, DrawsAThousandRobotsAndOnlyThoseInView) {
             0);
 }
 
-// How it goes about it
+// Rendering contexts and threads
 
-TEST(OffscreenRenderer, DrawsTheSamePictureAgainWhateverWasDrawnBetween) {
+TEST(OffscreenRenderer, IsDeterministicAfterOtherPictures) {
   const LoadedWorld maze = shipped("small_maze.xml");
   const auto poses = starts(maze.fleet);
   const auto same = [](const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF) == 0; };
@@ -370,21 +370,21 @@ TEST(OffscreenRenderer, DrawsTheSamePictureAgainWhateverWasDrawnBetween) {
     EXPECT_FALSE(same(other.picture(kCamera, eye, {}), first));
     EXPECT_TRUE(same(renderer.picture(kCamera, eye, poses), first));
   }
-  EXPECT_TRUE(same(renderer.picture(kCamera, eye, poses), first)) << "when another one is gone";
+  EXPECT_TRUE(same(renderer.picture(kCamera, eye, poses), first)) << "after another renderer has been destroyed";
   EXPECT_TRUE(same(renderer.picture({641, 333, 1, 10}, eye, poses), large));
 }
 
-TEST(OffscreenRenderer, DrawsTheSamePictureInAContextMadeAnew) {
+TEST(OffscreenRenderer, IsDeterministicInANewContext) {
   const LoadedWorld maze = shipped("small_maze.xml");
   cv::Mat pictures[2];
   for (auto& picture : pictures) {
-    OffscreenRenderer only(maze.world, maze.fleet);  // the render thread ends with it
+    OffscreenRenderer only(maze.world, maze.fleet);  // its destruction ends the render thread
     picture = only.picture(kCamera, at(-4, -3, 0.4, 0.7), starts(maze.fleet));
   }
   EXPECT_EQ(cv::norm(pictures[0], pictures[1], cv::NORM_INF), 0);
 }
 
-TEST(OffscreenRenderer, ServesSeveralThreadsAtOnce) {
+TEST(OffscreenRenderer, MayBeUsedBySeveralThreads) {
   const LoadedWorld maze = shipped("small_maze.xml");
   const auto poses = starts(maze.fleet);
   OffscreenRenderer renderer(maze.world, maze.fleet);
@@ -406,7 +406,7 @@ TEST(OffscreenRenderer, ServesSeveralThreadsAtOnce) {
   EXPECT_EQ(second.get(), wide);
 }
 
-TEST(OffscreenRenderer, CompressesAsMuchAsTheCameraSays) {
+TEST(OffscreenRenderer, AppliesTheJpegQuality) {
   const LoadedWorld maze = shipped("small_maze.xml");
   OffscreenRenderer renderer(maze.world, maze.fleet);
   const auto size = [&](int quality) {
@@ -420,7 +420,7 @@ TEST(OffscreenRenderer, CompressesAsMuchAsTheCameraSays) {
   EXPECT_LT(2 * size(20), size(95));
 }
 
-TEST(HasCamera, TellsWhetherAnyRobotHasOne) {
+TEST(HasCamera, DetectsCameras) {
   EXPECT_FALSE(hasCamera(shipped("small_maze.xml").fleet));
   EXPECT_TRUE(hasCamera(twoOf("pioneer3dx_camera").fleet));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rendering/air_overlay.h"
 #include "rendering/ground_painter.h"
 
 namespace robosim {
@@ -13,11 +14,11 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 
 constexpr int kGap_px = 4;
-/// Of so many robots all readings may be shown; of more, only those that a pane follows.
-constexpr std::size_t kMostWithReadings = 20;
-constexpr double kRound_m = 6;  ///< of a robot that a 2D pane follows, at first
+/// Maximum number of robots for which all readings are shown; beyond it, only those of followed robots.
+constexpr std::size_t kMaxWithReadings = 20;
+constexpr double kFollowRadius_m = 6;  ///< initial radius shown around a followed robot
 
-/// How high things stand in a world.
+/// Height of the tallest object of a world.
 double topOf(const World& world) {
   double top_m = 0;
   for (const auto& object : world.objects) top_m = std::max(top_m, object.body.heights().z_max_m);
@@ -25,13 +26,13 @@ double topOf(const World& world) {
   return top_m;
 }
 
-/// How far from its target an eye in the air must be to have all of a world in its picture.
-double distanceToShow(const World& world, const AirCamera& air, double width_px, double height_px) {
+/// Distance from the target at which a world fits into the camera's picture.
+double distanceToShow(const World& world, const OrbitCamera& air, double width_px, double height_px) {
   constexpr double kMargin = 1.03;
-  const double half_width = std::tan(air.field_of_view_rad / 2) / kMargin;  // of the picture, a metre ahead
+  const double half_width = std::tan(air.field_of_view_rad / 2) / kMargin;  // of the picture at a distance of 1 m
   const double half_height = half_width * height_px / width_px;
   const TPose3D from_target = [&] {
-    AirCamera at_target = air;
+    OrbitCamera at_target = air;
     at_target.distance_m = 0;
     return at_target.worldFromCamera(nullptr);
   }();
@@ -40,7 +41,7 @@ double distanceToShow(const World& world, const AirCamera& air, double width_px,
   for (const double x : {b.x_min, b.x_max}) {
     for (const double y : {b.y_min, b.y_max}) {
       for (const double z : {0.0, topOf(world)}) {
-        // Ahead, to the left and up from the target, as the eye looks.
+        // Forward, left and up from the target, in the camera's axes.
         mrpt::math::TPoint3D corner;
         from_target.inverseComposePoint({x, y, z}, corner);
         const double ahead_m = std::max(std::abs(corner.y) / half_width, std::abs(corner.z) / half_height);
@@ -53,7 +54,7 @@ double distanceToShow(const World& world, const AirCamera& air, double width_px,
 
 }  // namespace
 
-TPose3D AirCamera::worldFromCamera(const TPose2D* robot) const {
+TPose3D OrbitCamera::worldFromCamera(const TPose2D* robot) const {
   const TPoint2D at = robot ? TPoint2D(robot->x, robot->y) : target;
   const double from_rad = robot ? robot->phi + azimuth_rad + M_PI / 2 + M_PI : azimuth_rad;
   const double level_m = distance_m * std::cos(elevation_rad);
@@ -71,7 +72,7 @@ Pane makePane(bool is_3d, std::optional<std::size_t> follow, const World& world)
   pane.follow = follow;
   const Bounds2D& b = world.bounds;
   pane.air.target = {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2};
-  if (follow) pane.air.distance_m = 4;  // else as far as the picture's size asks for
+  if (follow) pane.air.distance_m = 4;  // else computed when the size is known
   pane.air.elevation_rad = follow ? 0.45 : 0.85;
   return pane;
 }
@@ -97,7 +98,7 @@ void Panes::fit(Pane& pane, std::size_t index) const {
   pane.top = TopViewCamera::showing(world_.bounds, rect.width, rect.height);
   pane.top.follow = pane.follow;
   if (pane.follow) {
-    pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(rect.width, rect.height) / kRound_m);
+    pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(rect.width, rect.height) / kFollowRadius_m);
   }
   pane.air = makePane(pane.is_3d, pane.follow, world_).air;
   if (!pane.follow) pane.air.distance_m = distanceToShow(world_, pane.air, rect.width, rect.height);
@@ -108,7 +109,7 @@ cv::Rect Panes::rectOf(std::size_t pane) const {
   const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
   const int rows = (count + columns - 1) / columns;
   const int row = static_cast<int>(pane) / columns;
-  // The last row may have fewer, which are wider.
+  // The last row may have fewer panes, which are wider.
   const int in_row = row == rows - 1 ? count - row * columns : columns;
   const int column = static_cast<int>(pane) - row * columns;
   const auto edge = [](int i, int of, int length) { return (length + kGap_px) * i / of; };
@@ -118,29 +119,34 @@ cv::Rect Panes::rectOf(std::size_t pane) const {
           std::max(1, edge(row + 1, rows, height_px_) - kGap_px - top)};
 }
 
-cv::Mat Panes::draw(const Shown& shown, const Trails& trails) {
-  if (panes_.size() == 1) return drawPane(panes_[0], shown, trails);
+cv::Mat Panes::draw(const RunSnapshot& snapshot, const Trails& trails) {
+  if (panes_.size() == 1) return drawPane(panes_[0], snapshot, trails);
   cv::Mat picture(height_px_, width_px_, CV_8UC3, cv::Scalar(90, 80, 75));
   for (std::size_t i = 0; i < panes_.size(); ++i) {
-    drawPane(panes_[i], shown, trails).copyTo(picture(rectOf(i)));
+    drawPane(panes_[i], snapshot, trails).copyTo(picture(rectOf(i)));
   }
   return picture;
 }
 
-cv::Mat Panes::drawPane(const Pane& pane, const Shown& shown, const Trails& trails) {
-  if (!pane.is_3d) return top_view_.draw(shown, trails, pane.top, layers_);
+cv::Mat Panes::drawPane(const Pane& pane, const RunSnapshot& snapshot, const Trails& trails) {
+  if (!pane.is_3d) return top_view_.draw(snapshot, trails, pane.top, layers_);
   CameraInfo camera;
   camera.width_px = static_cast<std::uint32_t>(pane.top.width_px);
   camera.height_px = static_cast<std::uint32_t>(pane.top.height_px);
   camera.field_of_view_rad = pane.air.field_of_view_rad;
   std::vector<TPose2D> world_from_robot;
-  for (const auto& robot : shown.robots) world_from_robot.push_back(robot.world_from_robot);
+  for (const auto& robot : snapshot.robots) world_from_robot.push_back(robot.world_from_robot);
   const TPose2D* ridden = pane.follow ? &world_from_robot[*pane.follow] : nullptr;
-  return draw_3d_(camera, pane.air.worldFromCamera(ridden), world_from_robot);
+  const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
+  cv::Mat picture = draw_3d_(camera, world_from_camera, world_from_robot);
+  if (world_.objects.empty() && world_.maps.empty()) {
+    drawAirOverlay(picture, camera, world_from_camera, snapshot, fleet_, trails, layers_);
+  }
+  return picture;
 }
 
-std::vector<std::uint8_t> Panes::wantedReadings() const {
-  if (fleet_.robots.size() <= kMostWithReadings) return {};
+std::vector<std::uint8_t> Panes::requestedReadings() const {
+  if (fleet_.robots.size() <= kMaxWithReadings) return {};
   std::vector<std::uint8_t> wanted(fleet_.robots.size(), 0);
   for (const auto& pane : panes_) {
     if (pane.follow) wanted[*pane.follow] = 1;
@@ -148,32 +154,32 @@ std::vector<std::uint8_t> Panes::wantedReadings() const {
   return wanted;
 }
 
-Pane* Panes::paneAt(const TPoint2D& at, TPoint2D& in_pane) {
+Pane* Panes::paneAt(const TPoint2D& at, TPoint2D& pixel_in_pane) {
   for (std::size_t i = 0; i < panes_.size(); ++i) {
     const cv::Rect rect = rectOf(i);
     if (!rect.contains({static_cast<int>(at.x), static_cast<int>(at.y)})) continue;
-    in_pane = {at.x - rect.x, at.y - rect.y};
+    pixel_in_pane = {at.x - rect.x, at.y - rect.y};
     return &panes_[i];
   }
   return nullptr;
 }
 
 void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
-  TPoint2D in_pane;
-  Pane* const pane = paneAt(at, in_pane);
+  TPoint2D pixel_in_pane;
+  Pane* const pane = paneAt(at, pixel_in_pane);
   if (!pane) return;
   if (!pane->is_3d) {
     pane->top.center += TPoint2D(-by_px.x, by_px.y) * (1 / pane->top.px_per_m);
     return;
   }
-  AirCamera& air = pane->air;
+  OrbitCamera& air = pane->air;
   if (how == Drag::turn) {
     constexpr double kPerPixel_rad = 0.006;
     air.azimuth_rad -= by_px.x * kPerPixel_rad;
     air.elevation_rad = std::clamp(air.elevation_rad + by_px.y * kPerPixel_rad, 0.02, M_PI / 2 - 0.01);
     return;
   }
-  // A pixel at the target's distance, along the ground.
+  // Size of a pixel on the ground at the target's distance.
   const double per_pixel_m = 2 * air.distance_m * std::tan(air.field_of_view_rad / 2) / pane->top.width_px;
   const TPoint2D ahead(-std::cos(air.azimuth_rad), -std::sin(air.azimuth_rad));
   const TPoint2D right(ahead.y, -ahead.x);
@@ -181,28 +187,28 @@ void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
 }
 
 void Panes::zoom(const TPoint2D& at, double factor) {
-  TPoint2D in_pane;
-  Pane* const pane = paneAt(at, in_pane);
+  TPoint2D pixel_in_pane;
+  Pane* const pane = paneAt(at, pixel_in_pane);
   if (!pane) return;
   if (pane->is_3d) {
     pane->air.distance_m = std::clamp(pane->air.distance_m / factor, 0.3, 1e5);
   } else {
     const TPoint2D middle(pane->top.width_px / 2.0, pane->top.height_px / 2.0);
-    pane->top.zoom(factor, pane->follow ? middle : in_pane);
+    pane->top.zoom(factor, pane->follow ? middle : pixel_in_pane);
   }
 }
 
-void Panes::click(const TPoint2D& at, const Shown& shown) {
-  TPoint2D in_pane;
-  Pane* const pane = paneAt(at, in_pane);
+void Panes::click(const TPoint2D& at, const RunSnapshot& snapshot) {
+  TPoint2D pixel_in_pane;
+  Pane* const pane = paneAt(at, pixel_in_pane);
   if (!pane || pane->is_3d) return;
-  const auto robot = TopView::robotAt(in_pane, shown, fleet_, pane->top);
+  const auto robot = TopView::robotAt(pixel_in_pane, snapshot, fleet_, pane->top);
   if (!robot && !pane->follow) return;
   if (!robot)
     pane->top.center =
-        TopView::groundView(shown, pane->top).toWorld({pane->top.width_px / 2.0, pane->top.height_px / 2.0});
+        TopView::groundView(snapshot, pane->top).toWorld({pane->top.width_px / 2.0, pane->top.height_px / 2.0});
   pane->follow = pane->top.follow = robot;
-  // The views from the air ride on whom one has picked from above.
+  // 3D panes follow the robot picked in a 2D pane.
   for (auto& other : panes_) {
     if (other.is_3d && other.follow && robot) other.follow = other.top.follow = robot;
   }

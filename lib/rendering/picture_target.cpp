@@ -9,7 +9,7 @@ std::vector<float> PictureTarget::lastDepths() {
   const auto before = m_fb.bind();
   glReadPixels(0, 0, static_cast<int>(m_params.width), static_cast<int>(m_params.height), GL_DEPTH_COMPONENT, GL_FLOAT,
                depths.data());
-  mrpt::opengl::COpenGLFramebuffer::Bind(before);
+  decltype(m_fb)::Bind(before);
   return depths;
 }
 

@@ -5,14 +5,13 @@
 
 namespace robosim {
 
-/// What pictures of one size are drawn into. In the render thread only.
+/// Framebuffer for pictures of one size. Used in the render thread only.
 class PictureTarget : public mrpt::opengl::CFBORender {
  public:
   using CFBORender::CFBORender;
 
-  /// The depth buffer of the picture that was drawn last: from 0, the nearest that is drawn, to 1, row by row from the
-  /// bottom. MRPT's own way from there to metres (render_RGBD()) goes through a table of 2¹⁷ entries: at 30 m, that is
-  /// a step of 0.3 m.
+  /// Depth buffer of the last picture, row by row from the bottom: 0 at the near plane, 1 at the far plane. MRPT's own
+  /// conversion to metres (render_RGBD()) uses a table of 2¹⁷ entries, which has steps of 0.3 m at a depth of 30 m.
   std::vector<float> lastDepths();
 };
 

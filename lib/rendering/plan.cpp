@@ -13,11 +13,11 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kPathWidth_px = 1.6;
-constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover in their full colours
+constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover at full opacity
 constexpr double kStartRadius_px = 4.5;
-constexpr double kRobotRadiusMin_px = 3;  // in a wide world a robot to scale would be lost
+constexpr double kRobotRadiusMin_px = 3;  // minimum for large worlds
 
-/// Draws one plan, from the ground up.
+/// Draws one plan, from back to front.
 class Drawing {
  public:
   Drawing(const World& world, const Fleet& fleet, PlanPaths paths,
@@ -34,7 +34,7 @@ class Drawing {
     const float paleness = pathPaleness();
     for (std::size_t i = 0; i < paths_.size(); ++i) drawPath(i, paleness);
     for (std::size_t i = 0; i < paths_.size(); ++i) {
-      if (!paths_[i].empty()) drawStart(view_.toPixel(paths_[i].front()), robotColor(i));
+      if (!paths_[i].empty()) drawStart(view_.toPixel(paths_[i].front()), colors_[i]);
     }
     drawMaps(canvas_, world_);
     drawObjects(canvas_, world_);
@@ -54,7 +54,8 @@ class Drawing {
     return std::max(kRobotRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
   }
 
-  /// How far paths fade into the floor: the more of it they would cover, so that what stands on it can be seen.
+  /// Blend factor of paths towards the floor colour: grows with the share of the picture that they cover, so that
+  /// objects stay visible.
   float pathPaleness() const {
     double length_m = 0;
     for (const auto& path : paths_) {
@@ -66,12 +67,12 @@ class Drawing {
   }
 
   void drawPath(std::size_t robot, float paleness) {
-    std::vector<TPoint2D> way;
-    for (const auto& point : paths_[robot]) way.push_back(view_.toPixel(point));
-    if (way.empty()) return;
-    if (robot < world_from_robot_.size()) way.push_back(robotPixel(robot));
-    canvas_.polyline(way, kPathWidth_px + 1.6, kWhite);
-    canvas_.polyline(way, kPathWidth_px, mix(robotColor(robot), kFloorColor, paleness));
+    std::vector<TPoint2D> path;
+    for (const auto& point : paths_[robot]) path.push_back(view_.toPixel(point));
+    if (path.empty()) return;
+    if (robot < world_from_robot_.size()) path.push_back(robotPixel(robot));
+    canvas_.polyline(path, kPathWidth_px + 1.6, kWhite);
+    canvas_.polyline(path, kPathWidth_px, mix(colors_[robot], kFloorColor, paleness));
   }
 
   void drawStart(const TPoint2D& at, const Color& color) {
@@ -82,7 +83,7 @@ class Drawing {
   void drawRobot(std::size_t robot) {
     const double heading = world_from_robot_[robot].phi;
     robosim::drawRobot(canvas_, robotPixel(robot), robotRadius(robot), {std::cos(heading), -std::sin(heading)},
-                       robotColor(robot));
+                       colors_[robot]);
   }
 
   void writeNames() {
@@ -93,7 +94,7 @@ class Drawing {
     names.writeHotObjects(world_);
     for (std::size_t i = 0; i < world_from_robot_.size(); ++i) {
       names.write(fleet_.robots[i].info.name, robotPixel(i), robotRadius(i), robotRadius(i),
-                  mix(robotColor(i), {0, 0, 0}, 0.35f));
+                  mix(colors_[i], {0, 0, 0}, 0.35f));
     }
   }
 
@@ -122,6 +123,7 @@ class Drawing {
   PlanPaths paths_;
   std::span<const mrpt::math::TPose2D> world_from_robot_;
   PlanView view_;
+  std::vector<Color> colors_ = robotColors(fleet_);  ///< by robot
   Canvas canvas_;
 };
 

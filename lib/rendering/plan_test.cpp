@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/file_size_limit.h"
 #include "base/test_folder.h"
 
 namespace robosim {
@@ -70,13 +71,13 @@ bool colorful(const cv::Vec3b& bgr) {
   return std::max({bgr[0], bgr[1], bgr[2]}) - std::min({bgr[0], bgr[1], bgr[2]}) > 80;
 }
 
-TEST_F(PlanFile, HasTheSizeOfItsView) {
+TEST_F(PlanFile, MatchesTheSizeOfItsView) {
   const cv::Mat picture = Scene10x5().draw(folder_ / "plan.png");
   EXPECT_EQ(picture.cols, 1200);
   EXPECT_EQ(picture.rows, 676);
 }
 
-TEST_F(PlanFile, ShowsWhatMapsHaveWithoutAHairBetweenCells) {
+TEST_F(PlanFile, DrawsMapsWithoutSeamsBetweenCells) {
   Scene10x5 scene;
   WorldMap map;
   map.color = {1, 0, 0};
@@ -90,10 +91,10 @@ TEST_F(PlanFile, ShowsWhatMapsHaveWithoutAHairBetweenCells) {
   for (double x = 0.35; x < 1.05; x += 0.01) expectColor(scene.at(picture, {x, 0.5}), 255, 0, 0);
   for (double y = 0.35; y < 1.05; y += 0.01) expectColor(scene.at(picture, {0.5, y}), 255, 0, 0);
   EXPECT_TRUE(light(scene.at(picture, {0.95, 0.95})));
-  EXPECT_TRUE(colorful(scene.at(picture, {5.3, 2.5}))) << "a wall of 2 mm can be seen";
+  EXPECT_TRUE(colorful(scene.at(picture, {5.3, 2.5}))) << "a wall of 2 mm is visible";
 }
 
-TEST_F(PlanFile, ShowsObjectsInTheirColoursWhereTheyStand) {
+TEST_F(PlanFile, DrawsObjectsInTheirColoursAtTheirPositions) {
   const Scene10x5 scene;
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
   expectColor(scene.at(picture, {3, 3.5}), 0, 0, 255);
@@ -104,7 +105,7 @@ TEST_F(PlanFile, ShowsObjectsInTheirColoursWhereTheyStand) {
   EXPECT_TRUE(light(scene.at(picture, {8.5 - 0.38, 1.5 - 0.38})));  // a corner that a square would have
 }
 
-TEST_F(PlanFile, TurnsABoxAsTheWorldDoes) {
+TEST_F(PlanFile, RotatesBoxesLikeTheWorld) {
   Scene10x5 scene;
   scene.world.objects[0].body.world_from_body.phi = std::numbers::pi / 6;
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
@@ -113,7 +114,7 @@ TEST_F(PlanFile, TurnsABoxAsTheWorldDoes) {
   EXPECT_TRUE(light(scene.at(picture, {3 + along_x, 3.5 - along_y})));
 }
 
-TEST_F(PlanFile, ShowsTheHigherOfTwoObjects) {
+TEST_F(PlanFile, DrawsTheHigherOfTwoObjects) {
   Scene10x5 scene;
   scene.world.objects.push_back(object("rug", Cube{6, 2}, {3, 3.5, 0}, {1, 0, 0}));
   scene.world.objects.back().body.height_m = 0.1;
@@ -123,7 +124,7 @@ TEST_F(PlanFile, ShowsTheHigherOfTwoObjects) {
   expectColor(scene.at(picture, {3, 2.75}), 255, 0, 0);
 }
 
-TEST_F(PlanFile, GlowsAroundWhatIsHotOnly) {
+TEST_F(PlanFile, DrawsAGlowAroundHotObjectsOnly) {
   const Scene10x5 scene;
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
   const auto by_gold = scene.at(picture, {8.5 + 0.36, 3.5}), by_post = scene.at(picture, {8.5 + 0.46, 1.5});
@@ -131,34 +132,34 @@ TEST_F(PlanFile, GlowsAroundWhatIsHotOnly) {
   EXPECT_TRUE(light(by_post)) << by_post;
 }
 
-TEST_F(PlanFile, DrawsEachRobotAndItsWayInOneColourOfItsOwn) {
+TEST_F(PlanFile, DrawsEachRobotAndItsPathInADistinctColour) {
   const Scene10x5 scene;
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
   const auto ann = scene.at(picture, {4.5 - 0.15, 1.25}), bob = scene.at(picture, {6.5, 4.25 - 0.15});  // behind
   EXPECT_TRUE(colorful(ann)) << ann;
   EXPECT_TRUE(colorful(bob)) << bob;
   EXPECT_GT(cv::norm(ann, bob), 80);
-  const auto way = scene.at(picture, {3.25, 1.25});
-  EXPECT_TRUE(colorful(way)) << way;
-  EXPECT_LT(cv::norm(way, ann), 40) << way << ann;
-  EXPECT_TRUE(light(scene.at(picture, {3.25, 1.35})));  // beside the way
+  const auto path = scene.at(picture, {3.25, 1.25});
+  EXPECT_TRUE(colorful(path)) << path;
+  EXPECT_LT(cv::norm(path, ann), 40) << path << ann;
+  EXPECT_TRUE(light(scene.at(picture, {3.25, 1.35})));  // next to the path
 }
 
-TEST_F(PlanFile, MarksWhereAWayStartsAndWhereABodyLooks) {
+TEST_F(PlanFile, MarksStartsAndHeadings) {
   const Scene10x5 scene;
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
   EXPECT_TRUE(light(scene.at(picture, {1.5, 1.25})));         // the middle of the start ring
-  EXPECT_TRUE(light(scene.at(picture, {4.5 + 0.15, 1.25})));  // Ann looks east
-  EXPECT_TRUE(light(scene.at(picture, {6.5, 4.25 + 0.15})));  // Bob looks north
+  EXPECT_TRUE(light(scene.at(picture, {4.5 + 0.15, 1.25})));  // Ann faces east
+  EXPECT_TRUE(light(scene.at(picture, {6.5, 4.25 + 0.15})));  // Bob faces north
   EXPECT_TRUE(colorful(scene.at(picture, {4.5, 1.25 + 0.15})));
 }
 
 TEST_F(PlanFile, FadesPathsThatWouldCoverMuchOfTheFloor) {
   Scene10x5 scene;
   for (int i = 0; i < 400; ++i) scene.paths[0].push_back({i % 2 ? 1.5 : 4.5, 1.25});
-  const auto way = scene.at(scene.draw(folder_ / "plan.png"), {3.25, 1.25});
-  EXPECT_TRUE(way[0] > 180 && way[1] > 180 && way[2] > 180) << way;
-  EXPECT_FALSE(light(way)) << way;
+  const auto path = scene.at(scene.draw(folder_ / "plan.png"), {3.25, 1.25});
+  EXPECT_TRUE(path[0] > 180 && path[1] > 180 && path[2] > 180) << path;
+  EXPECT_FALSE(light(path)) << path;
 }
 
 TEST_F(PlanFile, WritesEachRobotsNameBesideItsDisc) {
@@ -177,7 +178,7 @@ TEST_F(PlanFile, WritesEachRobotsNameBesideItsDisc) {
   }
 }
 
-TEST_F(PlanFile, ShowsWhatLiesBeyondTheWorldsBounds) {
+TEST_F(PlanFile, DrawsObjectsOutsideTheBounds) {
   Scene10x5 scene;
   scene.paths[0].push_back({12, 1.25});
   scene.world_from_robot[0] = {12, 1.25, 0};
@@ -201,7 +202,7 @@ TEST_F(PlanFile, IsCompact) {
   EXPECT_LT(fs::file_size(folder_ / "plan.png"), 60'000u);
 }
 
-TEST_F(PlanFile, IsTheSameForTheSameRun) {
+TEST_F(PlanFile, IsDeterministic) {
   const auto bytes = [&](const char* name) {
     Scene10x5().draw(folder_ / name);
     std::ifstream file(folder_ / name, std::ios::binary);
@@ -219,7 +220,7 @@ std::string errorOf(const std::function<void()>& work) {
   return "no error";
 }
 
-TEST_F(PlanFile, SaysWhatIsWrongWithItsNameBeforeARunAndAfterIt) {
+TEST_F(PlanFile, RejectsInvalidNamesBeforeAndAfterARun) {
   fs::create_directory(folder_ / "folder.png");
   struct Case {
     fs::path file;
@@ -228,8 +229,8 @@ TEST_F(PlanFile, SaysWhatIsWrongWithItsNameBeforeARunAndAfterIt) {
   const Case cases[] = {
       {folder_ / "plan.jpg", ": a picture is a PNG file; give it a name that ends in .png"},
       {folder_ / "folder.png", ": is a folder; name a file in it"},
-      {folder_ / "none" / "plan.png",
-       ": cannot be written (No such file or directory); check that its folder exists and may be written to"}};
+      {folder_ / "none" / "plan.png", ": cannot be created: the folder " + (folder_ / "none").string() +
+                                          " does not exist; create it, or choose another"}};
   const Scene10x5 scene;
   for (const Case& c : cases) {
     EXPECT_EQ(errorOf([&] { checkPlanFile(c.file); }), c.file.string() + c.what);
@@ -237,7 +238,7 @@ TEST_F(PlanFile, SaysWhatIsWrongWithItsNameBeforeARunAndAfterIt) {
   }
 }
 
-TEST_F(PlanFile, IsLeftAsItWasByTheCheck) {
+TEST_F(PlanFile, IsNotChangedByTheCheck) {
   std::ofstream(folder_ / "plan.png") << "as it was";
   checkPlanFile(folder_ / "plan.png");
   checkPlanFile(folder_ / "new.png");
@@ -247,11 +248,10 @@ TEST_F(PlanFile, IsLeftAsItWasByTheCheck) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
 }
 
-TEST_F(PlanFile, LeavesNothingHalfWrittenOnAFullDisk) {
-  // /dev/full takes every open() and refuses every byte, as a full disk does.
-  fs::create_symlink("/dev/full", folder_ / "plan.png.part");
+TEST_F(PlanFile, LeavesNoPartialFileOnAFullDisk) {
+  const FileSizeLimit full(10);
   EXPECT_EQ(errorOf([&] { Scene10x5().draw(folder_ / "plan.png"); }),
-            (folder_ / "plan.png").string() + ": cannot be written (No space left on device); choose another place");
+            (folder_ / "plan.png").string() + ": cannot be written (File too large); choose another place");
   EXPECT_TRUE(fs::is_empty(folder_));
 }
 

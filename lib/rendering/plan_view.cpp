@@ -8,7 +8,7 @@ namespace {
 
 GroundView fitted(const Bounds2D& area) {
   constexpr double kMargins_px[] = {2 * PlanView::kSideMargin_px, PlanView::kTopMargin_px + PlanView::kBottomMargin_px};
-  // A strip of no width, or a point, would have no scale.
+  // Avoids an infinite scale for an area without extent.
   const double longer_m = std::max({area.x_max - area.x_min, area.y_max - area.y_min, 1e-3});
   const double size_m[] = {std::max(area.x_max - area.x_min, longer_m / 1000),
                            std::max(area.y_max - area.y_min, longer_m / 1000)};
@@ -18,7 +18,7 @@ GroundView fitted(const Bounds2D& area) {
     return std::clamp(static_cast<int>(std::ceil(size_m[i] * px_per_m + kMargins_px[i])), PlanView::kShortSideMin_px,
                       PlanView::kLongSide_px);
   };
-  // The margin below is the wider one, so what lies in the middle of the picture lies below the area's middle.
+  // The bottom margin is larger than the top one, so the picture's centre is below the area's centre.
   const double lower_m = (PlanView::kBottomMargin_px - PlanView::kTopMargin_px) / 2.0 / px_per_m;
   const mrpt::math::TPoint2D middle(area.x_min + size_m[0] / 2, area.y_max - size_m[1] / 2 - lower_m);
   return {side_px(0), side_px(1), middle, px_per_m};

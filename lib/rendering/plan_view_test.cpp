@@ -16,19 +16,19 @@ TEST(PlanView, HasXToTheRightAndYUp) {
   const PlanView view({-5, 5, 0, 5});
   const auto upper_left = view.toPixel({-5, 5}), lower_right = view.toPixel({5, 0});
   EXPECT_NEAR(upper_left.x, 24 - 0.5, 1e-9);
-  EXPECT_NEAR(upper_left.y, 44 - 0.5, 0.5);  // the height is whole pixels: up to one is shared out
+  EXPECT_NEAR(upper_left.y, 44 - 0.5, 0.5);  // the height is rounded to whole pixels
   EXPECT_NEAR(lower_right.x, 1200 - 24 - 0.5, 1e-9);
   EXPECT_NEAR(lower_right.y, 676 - 56 - 0.5, 0.5);
 }
 
-TEST(PlanView, MakesATallWorldTwelveHundredPixelsHigh) {
+TEST(PlanView, IsTwelveHundredPixelsHighForATallWorld) {
   const PlanView view({0, 10, 0, 20});
   EXPECT_EQ(view.height(), 1200);
   EXPECT_DOUBLE_EQ(view.pixelsPerMetre(), 55);
   EXPECT_EQ(view.width(), 598);
 }
 
-TEST(PlanView, PutsACorridorInTheMiddleOfAPictureWideEnoughForTheLegend) {
+TEST(PlanView, CentresANarrowWorldAboveTheLegend) {
   const PlanView view({0, 1, 0, 100});
   EXPECT_EQ(view.width(), PlanView::kShortSideMin_px);
   EXPECT_NEAR(view.toPixel({0.5, 0}).x, view.width() / 2.0 - 0.5, 1e-9);

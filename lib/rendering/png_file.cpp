@@ -1,12 +1,13 @@
 #include "rendering/png_file.h"
 
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/atomic_file.h"
 #include "base/error_list.h"
-#include "base/whole_file.h"
 
 namespace robosim {
 namespace {
@@ -26,9 +27,11 @@ void checkPngFile(const std::filesystem::path& file) {
 
 void writePngFile(const std::filesystem::path& file, const cv::Mat& picture) {
   checkName(file);
-  WholeFile whole(file);
+  AtomicFile whole(file);
   std::vector<unsigned char> bytes;
-  cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9});
+  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
+    throw std::runtime_error(file.string() + ": the picture could not be compressed; ask for a smaller one");
+  }
   whole.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   whole.commit();
 }

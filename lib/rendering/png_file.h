@@ -5,11 +5,11 @@
 
 namespace robosim {
 
-/// @throws ConfigError when the name does not end in .png, or no file can be made there. Leaves everything as it was.
+/// @throws ConfigError when the name does not end in .png, or the file cannot be created. Changes no file.
 void checkPngFile(const std::filesystem::path& file);
 
-/// Writes the picture as a WholeFile.
-/// @throws ConfigError as checkPngFile() does, and std::runtime_error when there is no room for the file.
+/// Writes the picture as an AtomicFile.
+/// @throws ConfigError as checkPngFile() does, and std::runtime_error when the disk is full.
 void writePngFile(const std::filesystem::path& file, const cv::Mat& picture);
 
 }  // namespace robosim

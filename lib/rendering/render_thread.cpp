@@ -15,11 +15,11 @@
 namespace robosim {
 namespace {
 
-/// The first target makes the context in which all of them draw, so it is the last to go.
+/// Framebuffers by size. The first one creates the OpenGL context shared by all, so it is destroyed last.
 class ContextTargets : public RenderThread::Targets {
  public:
   ContextTargets() : context_(16, 16) {
-    // MRPT's pictures have no gaps between their rows, and OpenGL would write some.
+    // MRPT's images have no row padding, so OpenGL must not write any.
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
   }
 
@@ -38,8 +38,8 @@ class ContextTargets : public RenderThread::Targets {
   std::map<std::pair<unsigned, unsigned>, std::unique_ptr<PictureTarget>> of_size_;
 };
 
-/// MRPT puts what went wrong between a heading and a trace of the program.
-std::string whatOf(const std::exception& error) {
+/// Extracts the message from MRPT's exception text, which surrounds it with a heading and a stack trace.
+std::string messageOf(const std::exception& error) {
   const std::string text = error.what(), heading = "Message:";
   const auto found = text.find(heading);
   auto begin = found == std::string::npos ? 0 : found + heading.size();
@@ -58,12 +58,12 @@ struct RenderThread::Impl {
       const std::lock_guard lock(mutex);
       tasks.push_back(std::move(task));
     }
-    news.notify_one();
+    condition.notify_one();
   }
 
   std::mutex mutex;
-  std::condition_variable news;
-  std::deque<Task> tasks;  ///< one that is not valid ends the thread
+  std::condition_variable condition;
+  std::deque<Task> tasks;  ///< an invalid task ends the thread
   std::thread thread;
 };
 
@@ -77,7 +77,7 @@ void RenderThread::Impl::work(std::promise<void> ready) {
   }
   for (;;) {
     std::unique_lock lock(mutex);
-    news.wait(lock, [this] { return !tasks.empty(); });
+    condition.wait(lock, [this] { return !tasks.empty(); });
     Task task = std::move(tasks.front());
     tasks.pop_front();
     lock.unlock();
@@ -95,7 +95,7 @@ RenderThread::RenderThread() : impl_(std::make_unique<Impl>()) {
   } catch (const std::exception& error) {
     impl_->thread.join();
     throw ConfigError(
-        "cameras need OpenGL, and this machine has none (" + whatOf(error) +
+        "cameras need OpenGL, and this machine has none (" + messageOf(error) +
         "); install its drivers: apt-get install libegl1 libgl1-mesa-dri. Worlds without cameras need none");
   }
 }

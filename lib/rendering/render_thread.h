@@ -6,26 +6,26 @@ namespace robosim {
 
 class PictureTarget;
 
-/// The one thread that draws off screen, with the OpenGL context that it owns. Contexts of several threads would do as
-/// well, but MRPT takes its display down with each of them.
+/// The single thread that renders off screen, and owns the OpenGL context. MRPT closes its display connection with each
+/// context, so several contexts in several threads do not work.
 class RenderThread {
  public:
-  /// What is drawn into, for one size of pictures. In the render thread only.
+  /// Framebuffers by size. Used in the render thread only.
   class Targets {
    public:
     virtual ~Targets() = default;
     virtual PictureTarget& ofSize(unsigned width_px, unsigned height_px) = 0;
   };
 
-  /// The program's only one; it starts when first asked for, and ends with the last who holds on to it.
-  /// @throws ConfigError when this machine has no OpenGL, with the packages that bring it.
+  /// The process's only instance: created on first use, destroyed with the last reference.
+  /// @throws ConfigError when this machine has no OpenGL; the text names the packages to install.
   static std::shared_ptr<RenderThread> shared();
 
   ~RenderThread();
   RenderThread(const RenderThread&) = delete;
   RenderThread& operator=(const RenderThread&) = delete;
 
-  /// Has the thread do it, and waits until it is done. Any thread may call. What `work` throws is thrown here.
+  /// Runs `work` in the render thread and waits for it. May be called from any thread. Rethrows what `work` throws.
   void run(const std::function<void(Targets&)>& work);
 
  private:

@@ -14,8 +14,8 @@ namespace {
 
 using mrpt::opengl::Program;
 
-/// What the world is lit by, for all programs. The sun stands behind the viewer's left shoulder when he looks along a
-/// plan's y axis, so that faces along x and along y differ.
+/// Lighting, common to all programs. The sun is behind the left shoulder of a viewer who faces along the y axis of a
+/// plan, so that faces along x and y differ in brightness.
 constexpr const char* kCommon = R"(#version 300 es
 precision highp float;
 precision highp int;
@@ -29,7 +29,7 @@ const vec3 kHaze = vec3(0.66, 0.70, 0.72);
 
 vec3 skyAt(float up) { return mix(kHorizon, kZenith, sqrt(clamp(up, 0.0, 1.0))); }
 
-// Things far away fade a little.
+// Distance fog.
 vec3 hazy(vec3 color, float away) { return mix(color, kHaze, 0.55 * (1.0 - exp(-away / 90.0))); }
 )";
 
@@ -62,14 +62,14 @@ void main() {
   vec3 away = eye - at;
   float distance = length(away);
   vec3 mirrored = reflect(-away / distance, n);
-  // A foot in its own shade looks as if it stood on the ground.
+  // Darkens the foot of an object, as ambient occlusion does.
   float foot = mix(0.80, 1.0, smoothstep(0.0, 0.20, at.z));
   vec3 light = mix(kGroundLight, kSkyLight, 0.5 + 0.5 * n.z) + kSunLight * max(dot(n, kSun), 0.0);
   vec3 matt = tint * light * foot;
   float spark = max(dot(mirrored, kSun), 0.0);
   spark *= spark; spark *= spark; spark *= spark; spark *= spark;
   vec3 around = mirrored.z > 0.0 ? skyAt(mirrored.z) : mix(kHorizon, vec3(0.42, 0.40, 0.37), min(1.0, -4.0 * mirrored.z));
-  // Bright and dark sides all round, as of a room that is not drawn.
+  // Environment reflection of bright and dark sides, as in a room.
   float sides = mirrored.x * mirrored.x - mirrored.y * mirrored.y;
   around *= 0.72 + 0.75 * sides * sides;
   vec3 metal = tint * (0.42 * light * foot + 0.95 * around);
@@ -89,8 +89,8 @@ void main() {
 }
 )";
 
-// A floor of tiles of 1 m inside the bounds, plain ground outside. Lines and tiles are as sharp as a pixel allows, and
-// fade where they would be finer than one.
+// Floor of 1 m tiles inside the bounds, plain ground outside. Lines are antialiased, and fade where they are narrower
+// than a pixel.
 constexpr const char* kGroundFragment = R"(
 in vec2 at;
 uniform vec3 eye;
@@ -115,7 +115,7 @@ void main() {
 }
 )";
 
-// One triangle that covers the picture.
+// One triangle that covers the viewport.
 constexpr const char* kSkyVertex = R"(
 uniform mat4 world_from_picture;
 out vec3 ahead;
@@ -141,10 +141,10 @@ Program::Ptr made(const char* vertex, const char* fragment) {
   std::vector<mrpt::opengl::Shader> shaders(2);
   std::string errors;
   auto program = std::make_shared<Program>();
-  if (!shaders[0].compile(GL_VERTEX_SHADER, std::string(kCommon) + vertex, errors) ||
-      !shaders[1].compile(GL_FRAGMENT_SHADER, std::string(kCommon) + fragment, errors) ||
+  if (!shaders[0].compile(GL_VERTEX_SHADER, {std::string(kCommon) + vertex}, errors) ||
+      !shaders[1].compile(GL_FRAGMENT_SHADER, {std::string(kCommon) + fragment}, errors) ||
       !program->linkProgram(shaders, errors)) {
-    throw std::runtime_error("this machine's OpenGL does not take our shaders: " + errors);
+    throw std::runtime_error("this machine's OpenGL driver rejects the shaders: " + errors);
   }
   return program;
 }

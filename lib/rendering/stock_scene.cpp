@@ -19,12 +19,12 @@ using mrpt::opengl::CSetOfTriangles;
 using mrpt::opengl::TTriangle;
 
 constexpr int kSides = 48;
-/// So many robots are drawn in all detail, which takes a quarter of a megabyte each in the file.
-constexpr std::size_t kDetailedRobotsMost = 100;
-/// What the grid's lines and the floor below them look like. The floor lies deeper, or the two would flicker.
+/// Maximum number of robots drawn in full detail, which takes 0.25 MB each in the file.
+constexpr std::size_t kMaxDetailedRobots = 100;
+/// Appearance of the grid and of the floor below it. The floor is lower, which avoids z-fighting.
 constexpr double kGrid_m = 1, kFloor_m = -0.005;
 const TColor kGridColor(170, 176, 184);
-const Finish kFloorFinish{.color = {0.82f, 0.84f, 0.86f}};
+const Material kFloorFinish{.color = {0.82f, 0.84f, 0.86f}};
 
 TTriangle::Vertex toVertex(const MeshVertex& from, const Color& paint) {
   TTriangle::Vertex v;
@@ -83,7 +83,7 @@ std::string toStockScene(const World& world, const Fleet& fleet) {
     for (const auto& body : bodiesOf(map)) addBody(mesh, body, kSides);
     scene.insert(thing(map.file, mesh));
   }
-  const Detail detail = fleet.robots.size() <= kDetailedRobotsMost ? Detail::full : Detail::rough;
+  const Detail detail = fleet.robots.size() <= kMaxDetailedRobots ? Detail::full : Detail::rough;
   for (const auto& robot : fleet.robots) {
     auto body = thing(robot.info.name, robotMesh(*robot.model, robot.body, detail), robot.body.color);
     const auto& start = robot.world_from_start;

@@ -6,9 +6,9 @@
 
 namespace robosim {
 
-/// The bytes of a .3Dscene file, which MRPT's SceneViewer3D opens: the world as MRPT's own classes of OpenGL objects,
-/// in metres and the world's frame. Each object, map and robot is a mrpt::opengl::CSetOfTriangles of its name; robots
-/// stand where they start, and have their pose, so that a program that reads the scene may move them.
+/// Contents of a .3Dscene file for MRPT's SceneViewer3D: the world as MRPT's own OpenGL classes, in metres and the
+/// world frame. Each object, map and robot is a named mrpt::opengl::CSetOfTriangles; robots are at their start poses,
+/// stored as object poses, so that a program that reads the scene can move them.
 std::string toStockScene(const World&, const Fleet&);
 
 }  // namespace robosim

@@ -14,10 +14,10 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-constexpr double kLongSide_px = 1200;  ///< as large as it opens; it may be drawn at any size
+constexpr double kLongSide_px = 1200;  ///< initial size in a viewer
 constexpr const char* kInk = "#29303a";
 
-/// A length or place [m], to a tenth of a millimetre.
+/// A length or coordinate [m], rounded to 0.1 mm.
 std::string number(double value) { return toText(std::round(value * 1e4) / 1e4 + 0.0); }
 
 std::string colorText(const std::array<float, 3>& color, double brightness = 1) {
@@ -25,7 +25,7 @@ std::string colorText(const std::array<float, 3>& color, double brightness = 1) 
   return mrpt::format("#%02x%02x%02x", part(color[0]), part(color[1]), part(color[2]));
 }
 
-/// What an XML document may hold of a name.
+/// A name without the characters that XML does not allow.
 std::string fit(std::string text) {
   const bool is_utf8 = isUtf8(text);
   for (char& c : text) {
@@ -115,7 +115,7 @@ class SvgPlan {
         {{"d", lines}, {"stroke", "#dfe4ea"}, {"stroke-width", number(long_m_ / 1200)}, {"fill", "none"}});
   }
 
-  /// All cells in one path, so that no hair shows between two of them.
+  /// All cells as one path, which avoids visible seams between them.
   void drawMap(const WorldMap& map) {
     XmlElement& group = add(svg_, "g", {{"fill", colorText(map.color)}});
     group.add("title", fit(map.file));
@@ -131,7 +131,7 @@ class SvgPlan {
            {"d", cells}});
     }
     for (const auto& box : plan.boxes) {
-      // Walls of a map may be thinner than can be seen.
+      // Walls of a map may be thinner than a visible line.
       XmlElement& wall = drawBox(group, map.world_from_map + box.map_from_box, box.length_m, box.width_m);
       wall.attributes.emplace_back("stroke", colorText(map.color));
       wall.attributes.emplace_back("stroke-width", number(long_m_ / 800));

@@ -44,7 +44,7 @@ std::string attribute(const XmlElement& element, const std::string& name) {
   return "";
 }
 
-/// All elements of a tag, wherever they lie.
+/// All elements with a tag, at any depth.
 void find(const XmlElement& in, const std::string& tag, std::vector<XmlElement>& found) {
   if (in.name == tag) found.push_back(in);
   for (const auto& child : in.children) find(child, tag, found);
@@ -74,7 +74,7 @@ TEST(SvgPlan, IsADocumentInMetresWithYUpwards) {
   EXPECT_EQ(attribute(all(svg, "rect").back(), "transform"), "translate(3 -3.5) rotate(-30)");
   EXPECT_EQ(attribute(all(svg, "rect").back(), "width"), "4");
   EXPECT_TRUE(hasText(svg, "gold"));
-  EXPECT_FALSE(hasText(svg, "wall")) << "only what is hot is named";
+  EXPECT_FALSE(hasText(svg, "wall")) << "only hot objects are named";
   EXPECT_TRUE(hasText(svg, "Ann"));
   EXPECT_TRUE(hasText(svg, "1 m"));
 }
@@ -100,7 +100,7 @@ TEST(SvgPlan, DrawsTheCellsOfAMapAsOnePath) {
   EXPECT_EQ(attribute(*cells, "transform"), "translate(3 -1.5) rotate(-90) scale(0.05 -0.05)");
 }
 
-TEST(SvgPlan, IsWellFormedWhateverNamesHold) {
+TEST(SvgPlan, IsWellFormedForAnyNames) {
   World world = smallWorld();
   world.name = "caf\xe9";
   world.objects[1].name = "\x01<b>\"'&amp;\n";
@@ -109,7 +109,7 @@ TEST(SvgPlan, IsWellFormedWhateverNamesHold) {
   EXPECT_TRUE(hasText(svg, "?<b>\"'&amp;?"));
 }
 
-TEST(SvgPlan, OfNothingIsAnEmptyFloor) {
+TEST(SvgPlan, OfAnEmptyWorldShowsTheFloor) {
   World world;
   world.bounds = {0, 1, 0, 1};
   EXPECT_EQ(parseXml(toSvg(world, {}), "plan.svg").name, "svg");

@@ -19,10 +19,10 @@ constexpr Color kLaserColor{0.86f, 0.20f, 0.25f};
 constexpr Color kInfraredColor{0.55f, 0.25f, 0.70f};
 constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
 constexpr double kRobotRadiusMin_px = 3;
-/// Names of more robots than this only clutter the picture; whoever wants one zooms in.
-constexpr std::size_t kMostNames = 60;
+/// Maximum number of visible robots whose names are drawn.
+constexpr std::size_t kMaxNames = 60;
 
-/// A fan of at least a few pixels, for what a beam of no width would not show.
+/// Minimum aperture of a drawn fan, which makes beams of zero aperture visible.
 constexpr double kThinBeam_rad = 0.02;
 
 const Color& colorOf(SensorKind kind) {
@@ -35,27 +35,33 @@ Canvas emptyFloor(const World& world, const GroundView& view) {
   return canvas;
 }
 
-void drawThings(Canvas& canvas, const World& world) {
+void drawObjectsAndMaps(Canvas& canvas, const World& world) {
   drawMaps(canvas, world);
   drawObjects(canvas, world);
 }
 
-/// Draws one picture, from the ground up.
+/// Draws one picture, from back to front.
 class Drawing {
  public:
-  /// @param things what stands on the floor, if that has been drawn already
-  Drawing(const World& world, const Fleet& fleet, const Shown& shown, Canvas floor, const Canvas::Layer* things)
-      : world_(world), fleet_(fleet), shown_(shown), view_(floor.view()), canvas_(std::move(floor)), things_(things) {}
+  /// @param objects layer with the objects on the floor; null to draw them
+  Drawing(const World& world, const Fleet& fleet, const RunSnapshot& snapshot, Canvas floor,
+          const Canvas::Layer* objects)
+      : world_(world),
+        fleet_(fleet),
+        snapshot_(snapshot),
+        view_(floor.view()),
+        canvas_(std::move(floor)),
+        objects_(objects) {}
 
   cv::Mat draw(const Trails& trails, const TopViewLayers& layers) {
     if (layers.trails) drawTrails(trails);
     if (layers.sensors) drawRanges();
-    if (things_) {
-      canvas_.lay(*things_);
+    if (objects_) {
+      canvas_.lay(*objects_);
     } else {
-      drawThings(canvas_, world_);
+      drawObjectsAndMaps(canvas_, world_);
     }
-    for (std::size_t i = 0; i < shown_.robots.size(); ++i) drawRobot(i);
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) drawRobot(i);
     if (layers.sensors) drawTouch();
     if (layers.names) writeNames();
     writeLegend();
@@ -73,24 +79,24 @@ class Drawing {
   }
 
   void drawTrails(const Trails& trails) {
-    for (std::size_t i = 0; i < trails.ofRobot().size() && i < shown_.robots.size(); ++i) {
-      std::vector<TPoint2D> way;
+    for (std::size_t i = 0; i < trails.ofRobot().size() && i < snapshot_.robots.size(); ++i) {
+      std::vector<TPoint2D> path;
       constexpr double kStride_px = 1.5;
-      const auto draw_way = [&] { canvas_.polyline(way, 1.6, mix(robotColor(i), kFloorColor, 0.35f)); };
+      const auto draw_path = [&] { canvas_.polyline(path, 1.6, mix(colors_[i], kFloorColor, 0.35f)); };
       for (const auto& [point, is_after_gap] : trails.ofRobot()[i]) {
         const TPoint2D pixel = view_.toPixel(point);
         if (is_after_gap) {
-          draw_way();
-          way.clear();
+          draw_path();
+          path.clear();
         }
-        if (way.empty() || (pixel - way.back()).norm() >= kStride_px) way.push_back(pixel);
+        if (path.empty() || (pixel - path.back()).norm() >= kStride_px) path.push_back(pixel);
       }
-      way.push_back(pixelOf(shown_.robots[i].world_from_robot));
-      draw_way();
+      path.push_back(pixelOf(snapshot_.robots[i].world_from_robot));
+      draw_path();
     }
   }
 
-  /// Areas that are seen to be free, a tint for each kind of sensor, and dots where echoes came from.
+  /// Draws regions measured as free, with a tint per kind of sensor, and dots at echoes.
   void drawRanges() {
     struct Dot {
       TPoint2D at;
@@ -99,7 +105,7 @@ class Drawing {
     std::vector<Dot> dots;
     std::vector<std::vector<TPoint2D>> free[3];
     const SensorKind kinds[] = {SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
-    forEachRanges([&](const ShownRobot& robot, const SensorInfo& sensor, const Echoes& echoes) {
+    forEachRanges([&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
       auto& areas = free[std::find(std::begin(kinds), std::end(kinds), sensor.kind) - std::begin(kinds)];
       if (sensor.kind == SensorKind::laser && echoes.size() > 2) {
         areas.push_back(scanArea(robot, sensor, echoes));
@@ -111,7 +117,7 @@ class Drawing {
         }
       }
     });
-    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.veil(free[i], colorOf(kinds[i]), 0.17f);
+    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], colorOf(kinds[i]), 0.17f);
     for (const auto& dot : dots) {
       if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, *dot.color);
     }
@@ -119,8 +125,8 @@ class Drawing {
 
   template <typename Visit>
   void forEachRanges(const Visit& visit) const {
-    for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
-      const ShownRobot& robot = shown_.robots[i];
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+      const RobotSnapshot& robot = snapshot_.robots[i];
       if (!robot.readings) continue;
       const auto& sensors = *fleet_.robots[i].info.sensors;
       for (std::size_t k = 0; k < sensors.size(); ++k) {
@@ -130,24 +136,24 @@ class Drawing {
     }
   }
 
-  TPoint2D toPixel(const ShownRobot& robot, const TPoint2D& in_robot) const {
+  TPoint2D toPixel(const RobotSnapshot& robot, const TPoint2D& in_robot) const {
     return view_.toPixel(robot.world_from_robot.composePoint(in_robot));
   }
 
-  std::vector<TPoint2D> scanArea(const ShownRobot& robot, const SensorInfo& sensor, const Echoes& echoes) const {
+  std::vector<TPoint2D> scanArea(const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) const {
     const auto& at = sensor.beams.front().robot_from_beam;
     std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
     for (const auto& echo : echoes) area.push_back(toPixel(robot, {echo.point_m.x, echo.point_m.y}));
     return area;
   }
 
-  std::vector<TPoint2D> cone(const ShownRobot& robot, const SensorInfo& sensor, std::size_t beam,
+  std::vector<TPoint2D> cone(const RobotSnapshot& robot, const SensorInfo& sensor, std::size_t beam,
                              const Echo& echo) const {
     const auto& at = sensor.beams[beam].robot_from_beam;
     const double middle_rad = at.yaw + (sensor.pans ? robot.laser_pan_rad : 0);
     const double half_rad = std::max(kThinBeam_rad, sensor.beam_width_rad) / 2;
     std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
-    // As many straight pieces as an arc of its size needs on the picture.
+    // Segments of an arc, according to its size on the picture.
     const double arc_px = 2 * half_rad * echo.range_m * view_.pixelsPerMetre();
     const int pieces = std::clamp(static_cast<int>(arc_px / 8), 1, 12);
     for (int i = 0; i <= pieces; ++i) {
@@ -159,22 +165,21 @@ class Drawing {
   }
 
   void drawRobot(std::size_t i) {
-    const ShownRobot& robot = shown_.robots[i];
+    const RobotSnapshot& robot = snapshot_.robots[i];
     const TPoint2D center = pixelOf(robot.world_from_robot);
     const double radius = radiusPx(i);
     if (!isOnPicture(center, radius + 8)) return;
     if (robot.stalled) canvas_.disc(center, radius + 3, kStallColor);
     if (robot.activity == Activity::found) canvas_.disc(center, radius + 3.5, kGlowColor);
-    const Color color =
-        robot.activity == Activity::active ? robotColor(i) : mix(robotColor(i), {0.5f, 0.5f, 0.5f}, 0.6f);
+    const Color color = robot.activity == Activity::active ? colors_[i] : mix(colors_[i], {0.5f, 0.5f, 0.5f}, 0.6f);
     const double heading = robot.world_from_robot.phi;
     robosim::drawRobot(canvas_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
   }
 
-  /// What bumpers feel, as arcs on the rim, and heat as a number with a bar.
+  /// Draws bumper contacts as arcs on the rim, and heat as a number with a bar.
   void drawTouch() {
-    for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
-      const ShownRobot& robot = shown_.robots[i];
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+      const RobotSnapshot& robot = snapshot_.robots[i];
       if (!robot.readings || !isOnPicture(pixelOf(robot.world_from_robot), 100)) continue;
       const auto& info = fleet_.robots[i].info;
       for (std::size_t k = 0; k < info.sensors->size(); ++k) {
@@ -186,7 +191,7 @@ class Drawing {
     }
   }
 
-  void drawContacts(const ShownRobot& robot, const RobotInfo& info, const SensorInfo& sensor,
+  void drawContacts(const RobotSnapshot& robot, const RobotInfo& info, const SensorInfo& sensor,
                     const Contacts& contacts) {
     for (std::size_t i = 0; i < contacts.pressed.size(); ++i) {
       if (!contacts.pressed[i]) continue;
@@ -202,7 +207,7 @@ class Drawing {
 
   void drawHeat(std::size_t i, double heat) {
     if (heat < 0.5) return;
-    const TPoint2D center = pixelOf(shown_.robots[i].world_from_robot);
+    const TPoint2D center = pixelOf(snapshot_.robots[i].world_from_robot);
     canvas_.text({center.x + radiusPx(i) * 0.7 + 4, center.y + radiusPx(i) * 0.7 + 8}, mrpt::format("heat %.0f", heat),
                  kTextSize_px, mix(kGlowColor, {0.5f, 0, 0}, 0.5f));
   }
@@ -211,42 +216,43 @@ class Drawing {
     NameWriter names(canvas_);
     names.keepClear({0, 0}, 330, 34);
     std::vector<std::size_t> seen;
-    for (std::size_t i = 0; i < shown_.robots.size(); ++i) {
-      const TPoint2D center = pixelOf(shown_.robots[i].world_from_robot);
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+      const TPoint2D center = pixelOf(snapshot_.robots[i].world_from_robot);
       if (!isOnPicture(center, 0)) continue;
       names.keepClear(center, radiusPx(i), radiusPx(i));
       seen.push_back(i);
     }
     names.writeHotObjects(world_);
-    if (seen.size() > kMostNames) return;
+    if (seen.size() > kMaxNames) return;
     for (const std::size_t i : seen) {
-      names.write(fleet_.robots[i].info.name, pixelOf(shown_.robots[i].world_from_robot), radiusPx(i), radiusPx(i),
-                  mix(robotColor(i), {0, 0, 0}, 0.35f));
+      names.write(fleet_.robots[i].info.name, pixelOf(snapshot_.robots[i].world_from_robot), radiusPx(i), radiusPx(i),
+                  mix(colors_[i], {0, 0, 0}, 0.35f));
     }
   }
 
   void writeLegend() {
     canvas_.text({12, 16},
-                 mrpt::format("%s   %.1f s   step %llu", world_.name.c_str(), shown_.time_s,
-                              static_cast<unsigned long long>(shown_.step)),
+                 mrpt::format("%s   %.1f s   step %llu", world_.name.c_str(), snapshot_.time_s,
+                              static_cast<unsigned long long>(snapshot_.step)),
                  11, kInkColor);
     drawScale(canvas_, {14, view_.height() - 18.0});
   }
 
   const World& world_;
   const Fleet& fleet_;
-  const Shown& shown_;
+  const RunSnapshot& snapshot_;
   GroundView view_;
+  std::vector<Color> colors_ = robotColors(fleet_);  ///< by robot
   Canvas canvas_;
-  const Canvas::Layer* things_;
+  const Canvas::Layer* objects_;
 };
 
 }  // namespace
 
-/// What is the same in every picture of a view that does not move: most of the work.
-struct TopView::Stills {
+/// Layers that stay the same while the view does not move: most of the work.
+struct TopView::StaticLayers {
   Canvas floor;
-  Canvas::Layer things;
+  Canvas::Layer objects;
 };
 
 TopView::TopView(const World& world, const Fleet& fleet) : world_(world), fleet_(fleet) {}
@@ -268,42 +274,42 @@ TopViewCamera TopViewCamera::showing(const Bounds2D& area, int width_px, int hei
 void TopViewCamera::zoom(double factor, const TPoint2D& pixel) {
   const double before = px_per_m;
   px_per_m = std::clamp(px_per_m * factor, 0.01, 5000.0);
-  // From the middle of the picture, in metres, y up.
+  // Relative to the picture's centre, in metres, y up.
   const TPoint2D off((pixel.x - (width_px - 1) / 2.0), -(pixel.y - (height_px - 1) / 2.0));
   center += off * (1 / before - 1 / px_per_m);
 }
 
-GroundView TopView::groundView(const Shown& shown, const TopViewCamera& camera) {
+GroundView TopView::groundView(const RunSnapshot& snapshot, const TopViewCamera& camera) {
   TPoint2D center = camera.center;
-  if (camera.follow && *camera.follow < shown.robots.size()) {
-    const auto& pose = shown.robots[*camera.follow].world_from_robot;
+  if (camera.follow && *camera.follow < snapshot.robots.size()) {
+    const auto& pose = snapshot.robots[*camera.follow].world_from_robot;
     center = {pose.x, pose.y};
   }
   return {camera.width_px, camera.height_px, center, camera.px_per_m};
 }
 
-cv::Mat TopView::draw(const Shown& shown, const Trails& trails, const TopViewCamera& camera,
+cv::Mat TopView::draw(const RunSnapshot& snapshot, const Trails& trails, const TopViewCamera& camera,
                       const TopViewLayers& layers) {
-  const GroundView view = groundView(shown, camera);
+  const GroundView view = groundView(snapshot, camera);
   if (std::exchange(last_view_, view) != view) {
-    stills_.reset();
-    return Drawing(world_, fleet_, shown, emptyFloor(world_, view), nullptr).draw(trails, layers);
+    static_layers_.reset();
+    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view), nullptr).draw(trails, layers);
   }
-  if (!stills_) {
+  if (!static_layers_) {
     Canvas floor = emptyFloor(world_, view);
     Canvas with_things(floor);
-    drawThings(with_things, world_);
-    Canvas::Layer things = with_things.differenceFrom(floor);
-    stills_ = std::make_unique<Stills>(Stills{std::move(floor), std::move(things)});
+    drawObjectsAndMaps(with_things, world_);
+    Canvas::Layer objects = with_things.differenceFrom(floor);
+    static_layers_ = std::make_unique<StaticLayers>(StaticLayers{std::move(floor), std::move(objects)});
   }
-  return Drawing(world_, fleet_, shown, stills_->floor, &stills_->things).draw(trails, layers);
+  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects).draw(trails, layers);
 }
 
-std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const Shown& shown, const Fleet& fleet,
+std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const RunSnapshot& snapshot, const Fleet& fleet,
                                             const TopViewCamera& camera) {
-  const GroundView view = groundView(shown, camera);
-  for (std::size_t i = 0; i < shown.robots.size(); ++i) {
-    const auto& pose = shown.robots[i].world_from_robot;
+  const GroundView view = groundView(snapshot, camera);
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    const auto& pose = snapshot.robots[i].world_from_robot;
     const double radius = std::max(6.0, fleet.robots[i].info.radius_m * view.pixelsPerMetre());
     if ((view.toPixel({pose.x, pose.y}) - pixel).norm() <= radius) return i;
   }

@@ -36,19 +36,19 @@ struct TopViewTest : testing::Test {
       robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sonar});
       fleet.robots.push_back(robot);
     }
-    shown.robots.resize(2);
-    shown.robots[0].world_from_robot = {5, 2.5, 0};
-    shown.robots[1].world_from_robot = {8, 4, std::numbers::pi / 2};
+    snapshot.robots.resize(2);
+    snapshot.robots[0].world_from_robot = {5, 2.5, 0};
+    snapshot.robots[1].world_from_robot = {8, 4, std::numbers::pi / 2};
   }
 
   cv::Vec3b at(const cv::Mat& picture, const TPoint2D& world_point) const {
-    const TPoint2D pixel = TopView::groundView(shown, camera).toPixel(world_point);
+    const TPoint2D pixel = TopView::groundView(snapshot, camera).toPixel(world_point);
     return picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
   }
 
   World world;
   Fleet fleet;
-  Shown shown;
+  RunSnapshot snapshot;
   Trails trails;
   TopViewCamera camera = TopViewCamera::showing({0, 10, 0, 5}, 1048, 700);
   TopViewLayers layers{.trails = true, .sensors = true, .names = false};
@@ -56,7 +56,7 @@ struct TopViewTest : testing::Test {
 
 TEST_F(TopViewTest, FillsThePictureToScaleWithXToTheRightAndYUp) {
   EXPECT_DOUBLE_EQ(camera.px_per_m, 100) << "1048 px without two margins of 24, over 10 m";
-  const GroundView view = TopView::groundView(shown, camera);
+  const GroundView view = TopView::groundView(snapshot, camera);
   EXPECT_NEAR(view.toPixel({0, 5}).x, 23.5, 1e-9);
   EXPECT_NEAR(view.toPixel({10, 2.5}).x, 1023.5, 1e-9);
   EXPECT_NEAR(view.toPixel({5, 2.5}).y, 349.5, 1e-9);
@@ -67,7 +67,7 @@ TEST_F(TopViewTest, FillsThePictureToScaleWithXToTheRightAndYUp) {
 }
 
 TEST_F(TopViewTest, DrawsAnObjectToThePixel) {
-  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
   ASSERT_EQ(picture.cols, 1048);
   ASSERT_EQ(picture.rows, 700);
   const cv::Vec3b blue(255, 0, 0);
@@ -79,20 +79,20 @@ TEST_F(TopViewTest, DrawsAnObjectToThePixel) {
   EXPECT_EQ(at(picture, {2.15, 1.5 + 0.55}), floor);
 }
 
-TEST_F(TopViewTest, DrawsARobotWhereItIsWithAMarkWhereItLooks) {
-  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+TEST_F(TopViewTest, DrawsRobotsWithAHeadingMark) {
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
   const cv::Vec3b red = at(picture, {5 - 0.3, 2.5});
   EXPECT_GT(red[2], 2 * red[0]) << "the first robot is red";
-  EXPECT_EQ(at(picture, {5 + 0.3, 2.5}), cv::Vec3b(255, 255, 255)) << "a white mark ahead";
-  EXPECT_EQ(at(picture, {8, 4 + 0.3}), cv::Vec3b(255, 255, 255)) << "the other one looks up";
+  EXPECT_EQ(at(picture, {5 + 0.3, 2.5}), cv::Vec3b(255, 255, 255)) << "a white heading mark";
+  EXPECT_EQ(at(picture, {8, 4 + 0.3}), cv::Vec3b(255, 255, 255)) << "the other robot faces north";
   EXPECT_NE(at(picture, {8 + 0.3, 4}), cv::Vec3b(255, 255, 255));
 }
 
-TEST_F(TopViewTest, TintsWhatASonarSeesToBeFreeAndDotsItsEcho) {
+TEST_F(TopViewTest, TintsTheFreeSectorOfASonarAndMarksItsEcho) {
   Readings readings;
   readings.measurements = {Echoes{{2, {2.5F, 0, 0.2F}}}};
-  shown.robots[0].readings = readings;
-  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  snapshot.robots[0].readings = readings;
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
   const auto is_tinted = [&](const TPoint2D& p) {
     const cv::Vec3b pixel = at(picture, p);
     return pixel[0] > pixel[2] + 10;  // bluish
@@ -102,25 +102,25 @@ TEST_F(TopViewTest, TintsWhatASonarSeesToBeFreeAndDotsItsEcho) {
   EXPECT_FALSE(is_tinted({5 + 0.5 + 1.53, 2.5 + 0.42})) << "beyond 0.2 rad";
   EXPECT_FALSE(is_tinted({5 + 0.5 + 2.23, 2.53})) << "beyond the echo";
   const cv::Vec3b dot = at(picture, {7.5, 2.5});
-  EXPECT_LT(dot[2], 100) << "a dot where the echo came from";
+  EXPECT_LT(dot[2], 100) << "a dot at the echo";
   layers.sensors = false;
   EXPECT_FALSE([&] {
-    const cv::Vec3b pixel = at(TopView(world, fleet).draw(shown, trails, camera, layers), {6.53, 2.53});
+    const cv::Vec3b pixel = at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {6.53, 2.53});
     return pixel[0] > pixel[2] + 10;
   }());
 }
 
-TEST_F(TopViewTest, TintsWhatAScanSeesToBeFreeAndDotsItsEchoes) {
-  // To the left, ahead and to the right of where it sits, the middle one heard nothing.
+TEST_F(TopViewTest, TintsTheFreeAreaOfAScanAndMarksItsEchoes) {
+  // To the left, ahead and to the right of the laser; the middle beam has no echo.
   SensorInfo laser;
   laser.kind = SensorKind::laser;
   laser.range_max_m = laser.no_echo_m = 1;
   for (const double yaw : {std::numbers::pi / 2, 0.0, -std::numbers::pi / 2})
     laser.beams.push_back({{0, 0, 0.2, yaw, 0, 0}});
   fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{laser});
-  shown.robots[0].readings.emplace();
-  shown.robots[0].readings->measurements = {Echoes{{0.9F, {0, 0.9F, 0}}, {1, {1, 0, 0}}, {0.9F, {0, -0.9F, 0}}}};
-  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  snapshot.robots[0].readings.emplace();
+  snapshot.robots[0].readings->measurements = {Echoes{{0.9F, {0, 0.9F, 0}}, {1, {1, 0, 0}}, {0.9F, {0, -0.9F, 0}}}};
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
   const auto is_tinted = [&](const TPoint2D& p) {
     const cv::Vec3b pixel = at(picture, p);
     return pixel[2] > pixel[0] + 10;  // reddish
@@ -130,28 +130,28 @@ TEST_F(TopViewTest, TintsWhatAScanSeesToBeFreeAndDotsItsEchoes) {
   EXPECT_FALSE(is_tinted({5.53, 2.53 + 0.55})) << "beyond the line between two echoes";
   EXPECT_FALSE(is_tinted({4.93, 2.53 + 0.6})) << "behind the laser";
   const cv::Vec3b dot = at(picture, {5, 3.4});
-  EXPECT_GT(dot[2], dot[0] + 100) << "a dot where the echo came from";
+  EXPECT_GT(dot[2], dot[0] + 100) << "a dot at the echo";
   const cv::Vec3b tip = at(picture, {6, 2.5});
-  EXPECT_LT(tip[2], tip[0] + 100) << "none where nothing was heard";
+  EXPECT_LT(tip[2], tip[0] + 100) << "no dot without an echo";
 }
 
-TEST_F(TopViewTest, TakesASensorThatHasNotMeasuredYet) {
-  shown.robots[0].readings.emplace();
-  shown.robots[0].readings->measurements = {Echoes{}};
-  const cv::Mat silent = TopView(world, fleet).draw(shown, trails, camera, layers);
-  shown.robots[0].readings.reset();
-  const cv::Mat without = TopView(world, fleet).draw(shown, trails, camera, layers);
+TEST_F(TopViewTest, AcceptsASensorWithoutMeasurement) {
+  snapshot.robots[0].readings.emplace();
+  snapshot.robots[0].readings->measurements = {Echoes{}};
+  const cv::Mat silent = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  snapshot.robots[0].readings.reset();
+  const cv::Mat without = TopView(world, fleet).draw(snapshot, trails, camera, layers);
   EXPECT_EQ(cv::norm(silent, without, cv::NORM_INF), 0);
 }
 
-TEST_F(TopViewTest, WritesTheHeatThatARobotFeelsBesideIt) {
+TEST_F(TopViewTest, WritesTheHeatBesideARobot) {
   SensorInfo heat;
   heat.kind = SensorKind::heat;
   fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{heat});
   const auto picture_at = [&](double heat_now) {
-    shown.robots[0].readings.emplace();
-    shown.robots[0].readings->measurements = {Scalar{heat_now}};
-    return TopView(world, fleet).draw(shown, trails, camera, layers);
+    snapshot.robots[0].readings.emplace();
+    snapshot.robots[0].readings->measurements = {Scalar{heat_now}};
+    return TopView(world, fleet).draw(snapshot, trails, camera, layers);
   };
   const cv::Mat cold = picture_at(0), warm = picture_at(7), hot = picture_at(40);
   // Below and to the right of the robot, "heat 7" and "heat 40" at 11 px or so, and nowhere else.
@@ -167,21 +167,21 @@ TEST_F(TopViewTest, WritesTheHeatThatARobotFeelsBesideIt) {
   EXPECT_GT(ink_of(hot, beside), ink_of(warm, beside)) << "two digits";
 }
 
-TEST_F(TopViewTest, ShowsTheWayThatARobotHasCome) {
-  Shown before = shown;
+TEST_F(TopViewTest, DrawsTrails) {
+  RunSnapshot before = snapshot;
   for (int i = 0; i <= 20; ++i) {
     before.step = static_cast<std::uint64_t>(i);
     before.robots[0].world_from_robot = {3 + 0.1 * i, 3.53, 0};
     trails.add(before);
   }
-  shown.robots[0].world_from_robot = {5, 3.53, 0};
-  const cv::Vec3b on_way = at(TopView(world, fleet).draw(shown, trails, camera, layers), {3.75, 3.53});
-  EXPECT_GT(on_way[2], on_way[0] + 40) << "reddish, as the robot";
+  snapshot.robots[0].world_from_robot = {5, 3.53, 0};
+  const cv::Vec3b on_trail = at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {3.75, 3.53});
+  EXPECT_GT(on_trail[2], on_trail[0] + 40) << "reddish, like the robot";
 }
 
-TEST_F(TopViewTest, TrailsForgetTheOldestAndBeginAnewWhenTheRunIsWoundBack) {
+TEST_F(TopViewTest, TrailsReachTheStartAndRestartAfterRewinding) {
   Trails few(10);
-  Shown moment;
+  RunSnapshot moment;
   moment.robots.resize(1);
   for (std::uint64_t i = 0; i < 100; ++i) {
     moment.step = i;
@@ -189,25 +189,26 @@ TEST_F(TopViewTest, TrailsForgetTheOldestAndBeginAnewWhenTheRunIsWoundBack) {
     few.add(moment);
   }
   EXPECT_LE(few.ofRobot()[0].size(), 10U);
-  EXPECT_EQ(few.ofRobot()[0].back().at.x, 99);
+  EXPECT_EQ(few.ofRobot()[0].front().at.x, 0);
+  EXPECT_GT(few.ofRobot()[0].back().at.x, 70) << "ten points over 99 m may lie 20 m apart";
   moment.step = 5;
   few.add(moment);
   EXPECT_EQ(few.ofRobot()[0].size(), 1U);
 }
 
-TEST_F(TopViewTest, TrailsDoNotJumpOverWhatWasNotShown) {
-  Shown before = shown;
+TEST_F(TopViewTest, TrailsHaveGapsAfterSkippedSteps) {
+  RunSnapshot before = snapshot;
   const auto come_to = [&](std::uint64_t step, double x) {
     before.step = step;
     before.robots[0].world_from_robot = {x, 3.53, 0};
     trails.add(before);
   };
   come_to(0, 1);
-  come_to(50, 1.9);  // so little that it may as well have come straight
-  come_to(100, 4);   // wound on
-  come_to(101, 6);   // fast
-  shown.robots[0].world_from_robot = {6, 3.53, 0};
-  const cv::Mat picture = TopView(world, fleet).draw(shown, trails, camera, layers);
+  come_to(50, 1.9);  // short enough for a straight line
+  come_to(100, 4);   // seek
+  come_to(101, 6);   // fast run
+  snapshot.robots[0].world_from_robot = {6, 3.53, 0};
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
   const auto is_red = [&](double x) {
     const cv::Vec3b pixel = at(picture, {x, 3.53});
     return pixel[2] > pixel[0] + 40;
@@ -217,9 +218,9 @@ TEST_F(TopViewTest, TrailsDoNotJumpOverWhatWasNotShown) {
   EXPECT_TRUE(is_red(4.95));
 }
 
-TEST_F(TopViewTest, DrawsTrailsWhoseOldestPartIsForgottenAndThatBeginAfterAGap) {
+TEST_F(TopViewTest, DrawsThinnedTrailsThatBeginAfterAGap) {
   Trails few(2);
-  Shown before = shown;
+  RunSnapshot before = snapshot;
   for (std::uint64_t i = 0; i < 5; ++i) {
     before.step = 10 * i;
     before.robots[0].world_from_robot = {1 + 2.0 * static_cast<double>(i), 3.53, 0};
@@ -229,60 +230,73 @@ TEST_F(TopViewTest, DrawsTrailsWhoseOldestPartIsForgottenAndThatBeginAfterAGap) 
   }
 }
 
-TEST_F(TopViewTest, ARobotThatIsFollowedStaysInTheMiddle) {
+TEST_F(TopViewTest, UsesTheFilesColoursUnlessTheyAreEqual) {
+  const auto color_of = [&](double x, double y) {
+    return at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {x, y});
+  };
+  fleet.robots[0].body.color = {0, 1, 0};
+  fleet.robots[1].body.color = {0, 0, 1};
+  const cv::Vec3b green = color_of(4.75, 2.5), blue = color_of(8, 3.75);
+  EXPECT_GT(green[1], green[2] + 100);
+  EXPECT_GT(blue[0], blue[2] + 100);
+  fleet.robots[1].body.color = {0, 1, 0};
+  EXPECT_NE(color_of(4.75, 2.5), color_of(8, 3.75)) << "equal robots get different colours";
+}
+
+TEST_F(TopViewTest, KeepsAFollowedRobotInTheMiddle) {
   camera.follow = 1;
-  const TPoint2D pixel = TopView::groundView(shown, camera).toPixel({8, 4});
+  const TPoint2D pixel = TopView::groundView(snapshot, camera).toPixel({8, 4});
   EXPECT_NEAR(pixel.x, 523.5, 1e-9);
   EXPECT_NEAR(pixel.y, 349.5, 1e-9);
 }
 
-TEST_F(TopViewTest, ZoomingKeepsWhatLiesUnderThePointerWhereItIs) {
+TEST_F(TopViewTest, ZoomingKeepsThePointUnderThePointer) {
   const TPoint2D pixel(200, 600);
-  const TPoint2D before = TopView::groundView(shown, camera).toWorld(pixel);
+  const TPoint2D before = TopView::groundView(snapshot, camera).toWorld(pixel);
   camera.zoom(2.5, pixel);
   EXPECT_DOUBLE_EQ(camera.px_per_m, 250);
-  const TPoint2D after = TopView::groundView(shown, camera).toWorld(pixel);
+  const TPoint2D after = TopView::groundView(snapshot, camera).toWorld(pixel);
   EXPECT_NEAR(after.x, before.x, 1e-9);
   EXPECT_NEAR(after.y, before.y, 1e-9);
 }
 
-TEST_F(TopViewTest, KnowsWhichRobotIsAtAPixel) {
-  const GroundView view = TopView::groundView(shown, camera);
-  EXPECT_EQ(TopView::robotAt(view.toPixel({8.3, 4.2}), shown, fleet, camera), 1U);
-  EXPECT_EQ(TopView::robotAt(view.toPixel({8.6, 4}), shown, fleet, camera), std::nullopt);
+TEST_F(TopViewTest, FindsTheRobotAtAPixel) {
+  const GroundView view = TopView::groundView(snapshot, camera);
+  EXPECT_EQ(TopView::robotAt(view.toPixel({8.3, 4.2}), snapshot, fleet, camera), 1U);
+  EXPECT_EQ(TopView::robotAt(view.toPixel({8.6, 4}), snapshot, fleet, camera), std::nullopt);
 }
 
-TEST_F(TopViewTest, PanesShareThePictureAndEachFollowsItsOwnRobot) {
+TEST_F(TopViewTest, PanesShareThePictureAndFollowSeparateRobots) {
   Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(false, 0, world)}, {});
   panes.resize(804, 400);
-  const cv::Mat picture = panes.draw(shown, trails);
+  const cv::Mat picture = panes.draw(snapshot, trails);
   ASSERT_EQ(picture.size(), cv::Size(804, 400));
-  // The right one, 402 px wide, has the first robot in its middle; the left one shows the whole hall.
+  // The right pane, 402 px wide, has the first robot in its middle; the left one shows the whole hall.
   const cv::Vec3b middle = picture.at<cv::Vec3b>(200, 404 + 200 - 20);
   EXPECT_GT(middle[2], 2 * middle[0]) << "red";
 }
 
-TEST_F(TopViewTest, DraggingMovesTheGroundWithTheHandAndAClickFollowsARobot) {
+TEST_F(TopViewTest, DraggingPansAndClickingFollowsARobot) {
   Panes panes(world, fleet, {makePane(false, std::nullopt, world)}, {});
   panes.resize(1048, 700);
-  const TPoint2D bob = TopView::groundView(shown, camera).toPixel({8, 4});
+  const TPoint2D bob = TopView::groundView(snapshot, camera).toPixel({8, 4});
   panes.drag(bob, {-100, 50}, Panes::Drag::turn);
-  // He is where the hand took him: click there.
-  panes.click(bob + TPoint2D(-100, 50), shown);
-  const cv::Mat picture = panes.draw(shown, trails);
+  // Clicks on the robot at its position after the drag.
+  panes.click(bob + TPoint2D(-100, 50), snapshot);
+  const cv::Mat picture = panes.draw(snapshot, trails);
   const auto& blue = picture.at<cv::Vec3b>(349 + 25, 523);
   EXPECT_GT(blue[0], 2 * blue[2]) << "the second robot, which is blue, is in the middle now";
 }
 
-TEST_F(TopViewTest, OnlyThoseFollowedTellTheirReadingsWhereThereAreMany) {
+TEST_F(TopViewTest, RequestsOnlyReadingsOfFollowedRobotsWhenThereAreMany) {
   fleet.robots.resize(21, fleet.robots[0]);
-  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings()[3], 1);
-  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings()[4], 0);
+  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).requestedReadings()[3], 1);
+  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).requestedReadings()[4], 0);
   fleet.robots.resize(20);
-  EXPECT_TRUE(Panes(world, fleet, {makePane(false, 3, world)}, {}).wantedReadings().empty()) << "all";
+  EXPECT_TRUE(Panes(world, fleet, {makePane(false, 3, world)}, {}).requestedReadings().empty()) << "all";
 }
 
-TEST_F(TopViewTest, FromTheAirAPaneOfAnySizeShowsTheWholeWorldAtFirstAndOnAskingForEverything) {
+TEST_F(TopViewTest, Pane3dOfAnySizeInitiallyShowsTheWholeWorld) {
   WorldObject tower = world.objects[0];
   tower.body.height_m = 4;
   tower.body.center_z_m = 2;
@@ -297,9 +311,9 @@ TEST_F(TopViewTest, FromTheAirAPaneOfAnySizeShowsTheWholeWorldAtFirstAndOnAsking
                   return cv::Mat(cv::Size(size), CV_8UC3);
                 });
     panes.resize(size.width, size.height);
-    /// How far out of the picture's middle the farthest corner lies: 1 is the picture's edge.
+    /// Largest distance of a corner from the picture's centre: 1 is the picture's edge.
     const auto farthest = [&] {
-      panes.draw(shown, trails);
+      panes.draw(snapshot, trails);
       double share = 0;
       for (const double x : {0.0, 10.0}) {
         for (const double y : {0.0, 5.0}) {
@@ -315,7 +329,7 @@ TEST_F(TopViewTest, FromTheAirAPaneOfAnySizeShowsTheWholeWorldAtFirstAndOnAsking
       return share;
     };
     EXPECT_LE(farthest(), 1) << size.width << " × " << size.height;
-    EXPECT_GE(farthest(), 0.9) << "and no smaller than it must be";
+    EXPECT_GE(farthest(), 0.9) << "and not smaller than necessary";
     panes.zoom({10, 10}, 3);
     EXPECT_GT(farthest(), 1);
     panes.showAll();
@@ -323,8 +337,8 @@ TEST_F(TopViewTest, FromTheAirAPaneOfAnySizeShowsTheWholeWorldAtFirstAndOnAsking
   }
 }
 
-TEST(AirCamera, LooksAtItsTargetFromWhereItIs) {
-  AirCamera camera;
+TEST(OrbitCamera, FacesItsTarget) {
+  OrbitCamera camera;
   camera.target = {3, 4};
   camera.distance_m = 10;
   camera.azimuth_rad = -std::numbers::pi / 2;  // south of it
@@ -339,8 +353,8 @@ TEST(AirCamera, LooksAtItsTargetFromWhereItIs) {
   EXPECT_NEAR(ahead.z, 0, 1e-9);
 }
 
-TEST(AirCamera, RidesBehindARobotAndLooksWhereItGoes) {
-  AirCamera camera;
+TEST(OrbitCamera, FollowsBehindARobot) {
+  OrbitCamera camera;
   camera.distance_m = 2;
   camera.elevation_rad = 0.5;
   const TPose2D robot(1, 2, 0.3);

@@ -20,7 +20,7 @@ ViewVolume::ViewVolume(const mrpt::opengl::TRenderMatrices& matrices) {
   px_per_radian_ = y.head<3>().norm() * static_cast<float>(matrices.viewport_height) / 2;
 }
 
-bool ViewVolume::mayHold(const mrpt::math::TPoint3Df& center, float radius_m) const {
+bool ViewVolume::mayIntersect(const mrpt::math::TPoint3Df& center, float radius_m) const {
   return std::all_of(sides_.begin(), sides_.end(), [&](const Plane& side) { return side.of(center) > -radius_m; });
 }
 

@@ -3,31 +3,31 @@
 #include <span>
 
 #include <mrpt/math/TPose2D.h>
-#include <mrpt/opengl/opengl_frwds.h>
+#include <mrpt/opengl/COpenGLScene.h>
 
 #include "robots/fleet.h"
 #include "world/world.h"
 
 namespace robosim {
 
-/// A world and its robots as things of an MRPT OpenGL scene: ground, sky, objects in the file's colours, robots. Built
-/// once; before each frame the robots are put where they are, which takes some nanoseconds each. Robots that look the
-/// same are drawn by one call, those that look small roughly, and nothing that is out of view.
+/// A world and its robots as objects of an MRPT OpenGL scene: ground, sky, objects in the file's colours, robots. The
+/// scene is built once; before each frame only the robots' poses are updated, at a few nanoseconds each. Robots of
+/// equal appearance are drawn by one call, with levels of detail, and objects out of view are culled.
 ///
-/// It may be drawn in one OpenGL context, and one thread, only: build another one for another. Whoever draws it calls
-/// installShaders() (shaders.h) for its viewport.
+/// An instance may be drawn in one OpenGL context, and one thread, only. The caller must call installShaders()
+/// (shaders.h) for its viewport.
 class WorldScene {
  public:
-  /// @param fleet need not outlive this, nor need the world
+  /// @param world, fleet are not referenced after construction
   WorldScene(const World& world, const Fleet& fleet);
   ~WorldScene();
   WorldScene(const WorldScene&) = delete;
   WorldScene& operator=(const WorldScene&) = delete;
 
-  /// Adds all of it to a scene's main viewport.
+  /// Adds the objects to a scene's main viewport.
   void addTo(mrpt::opengl::COpenGLScene& scene) const;
 
-  /// Puts each robot where it is, in the fleet's order.
+  /// Sets the pose of each robot, in the fleet's order.
   void place(std::span<const mrpt::math::TPose2D> world_from_robot);
 
  private:

@@ -2,15 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include <mrpt/math/wrap2pi.h>
 
-#include "robots/model_shelf.h"
+#include "robots/robot_model_cache.h"
 #include "robots/start_check.h"
 #include "world/world_file.h"
 
 namespace robosim {
 namespace {
+
+/// Sums the beams and rays that determine a fleet's memory.
+class RayBudget {
+ public:
+  /// Adds a robot.
+  /// @return which limit is exceeded; empty if none
+  std::string add(const std::shared_ptr<const RobotModel>& model) {
+    auto [counted, is_new] = models_.try_emplace(model);
+    if (is_new) {
+      for (const auto& sensor : model->sensors) {
+        counted->second += sensor->info().beams.size();
+        model_rays_ += sensor->rayCount();
+      }
+    }
+    beams_ += counted->second;
+    if (beams_ > kWorldBeamsMax) return "the robots have more than " + std::to_string(kWorldBeamsMax) + " beams";
+    if (model_rays_ <= kWorldModelRaysMax) return "";
+    return "the sensors of the " + std::to_string(models_.size()) + " kinds of robots have more than " +
+           std::to_string(kWorldModelRaysMax) + " rays";
+  }
+
+ private:
+  std::unordered_map<std::shared_ptr<const RobotModel>, std::size_t> models_;  ///< with the number of beams of each
+  std::size_t beams_ = 0, model_rays_ = 0;
+};
 
 FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
   FleetRobot robot;
@@ -35,9 +61,10 @@ FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotMode
 
 Fleet buildFleet(const World& world, const std::string& world_file, const RobotTypes& types,
                  const std::vector<std::string>& controllers, ErrorList& errors) {
-  // Where a place or a size could not be read, something harmless stands, and whether that overlaps is no news.
-  const bool places_are_known = errors.empty();
-  ModelShelf shelf(world, world_file, types, errors);
+  // After earlier errors, placeholder poses and sizes may be in use, so overlaps are not checked.
+  const bool are_poses_valid = errors.empty();
+  RobotModelCache models(world, world_file, types, errors);
+  RayBudget budget;
   Fleet fleet;
   std::vector<RobotStart> starts;
   fleet.robots.reserve(world.robots.size());
@@ -49,14 +76,19 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
                  "robot '" + placement.name + "': there is no controller '" + placement.controller +
                      "'; known are: " + listed(controllers));
     }
-    auto model = shelf.modelFor(placement);
+    auto model = models.modelFor(placement);
     if (!model) continue;
+    if (const std::string excess = budget.add(model); !excess.empty()) {
+      errors.add(world_file, placement.line.number,
+                 "robot '" + placement.name + "': with it " + excess + "; use fewer robots, or sensors of fewer beams");
+      break;
+    }
     fleet.robots.push_back(made(placement, std::move(model)));
     const FleetRobot& robot = fleet.robots.back();
     const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
-    starts.push_back({placement.name, placement.line.number, disc, robot.body.heights()});
+    starts.push_back({placement.name, placement.line.number, disc, robot.body.heights(), robot.body.solid().outline});
   }
-  if (places_are_known) checkStarts(world, starts, world_file, errors);
+  if (are_poses_valid) checkStarts(world, starts, world_file, errors);
   return fleet;
 }
 

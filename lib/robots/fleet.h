@@ -11,23 +11,30 @@
 
 namespace robosim {
 
-/// A robot of a world, ready to run.
+/// A robot of a world with its model resolved.
 struct FleetRobot {
   RobotInfo info;
   std::shared_ptr<const RobotModel> model;
   mrpt::math::TPose2D world_from_start;
-  Body body;               ///< at the start; sensors of others see this shape
+  Body body;               ///< at the start; other robots' sensors detect this shape
   std::string controller;  ///< empty: the program's default
 };
 
-/// The robots of a world, in the world's order.
+/// Robots of a world, in the world's order.
 struct Fleet {
   std::vector<FleetRobot> robots;
 };
 
-/// Makes each placed robot's model, and checks the start: adds to `errors` every unknown model, wrong sensor, unknown
-/// controller (not in `controllers`; an empty list accepts all), robot outside the bounds, and robot that overlaps
-/// an object or another robot. `world_file` names the file in errors.
+/// @name Limits over all robots of a world, which bound the memory of a run
+///@{
+constexpr std::size_t kWorldBeamsMax = 50'000'000;     ///< beams of all robots' sensors; 16 bytes per reading
+constexpr std::size_t kWorldModelRaysMax = 2'000'000;  ///< Sensor::rayCount() of all robot models, each counted once
+///@}
+
+/// Makes the model of each placed robot and checks its start. Adds to `errors`: unknown models, faulty sensors, unknown
+/// controllers (not in `controllers`; an empty list accepts all), robots outside the bounds, robots that overlap an
+/// object or another robot, and the first robot that exceeds the limit of beams or rays. `world_file` names the file in
+/// errors.
 Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& types,
                  const std::vector<std::string>& controllers, ErrorList& errors);
 

@@ -22,7 +22,7 @@ const std::filesystem::path kWorlds = ROBOSIM_SOURCE_DIR "/worlds";
 const std::vector<std::filesystem::path> kTypes{kWorlds / "robots"};
 const Lines kControllers{"gold_finder", "still", "wander"};
 
-/// A world of these robots, each on a line of its own, the first on line 2.
+/// A world of these robots, each on its own line, the first on line 2.
 std::string worldOf(const Lines& robots, const std::string& unit_m = "1") {
   std::string text = "<world unit_m='" + unit_m +
                      "'><surface><size><xmin>-50</xmin><xmax>50</xmax><ymin>-50</ymin><ymax>50</ymax></size>";
@@ -66,7 +66,7 @@ class WorldFolder : public TestFolder {
   }
 };
 
-TEST(Fleet, HasTheWorldsRobotsInItsOrder) {
+TEST(Fleet, KeepsTheWorldsOrderOfRobots) {
   const Fleet fleet = fleetOf(worldOf({placed("scout", "B", 3,
                                               "<direction>7</direction><color>1 0 0</color>"
                                               "<controller>wander</controller>"),
@@ -86,7 +86,7 @@ TEST(Fleet, HasTheWorldsRobotsInItsOrder) {
   EXPECT_EQ(fleet.robots[1].controller, "");
 }
 
-TEST(Fleet, RobotsThatAreAlikeShareOneModel) {
+TEST(Fleet, EqualRobotsShareOneModel) {
   const std::string heat = "<sensor><type>heat</type><range>15</range></sensor>";
   const std::string sensors = "<sensors><compass/></sensors>";
   const Fleet fleet = fleetOf(worldOf({placed("scout", "A", 0), placed("scout", "B", 2), placed("pioneer3dx", "C", 4),
@@ -113,7 +113,7 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
   EXPECT_EQ(robot.info.sensors->at(1).label, "odometry");
 }
 
-TEST(Fleet, RefusesUnknownModelsAndControllersAndNamesTheKnownOnes) {
+TEST(Fleet, RejectsUnknownModelsAndControllersAndListsTheKnownOnes) {
   const std::string known = "known are: pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, scout, scout_driven";
   EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
                             placed("../robots/scout", "C", 4)})),
@@ -122,7 +122,7 @@ TEST(Fleet, RefusesUnknownModelsAndControllersAndNamesTheKnownOnes) {
                    "w.xml:4: robot 'C': there is no robot type '../robots/scout'; " + known}));
 }
 
-TEST(Fleet, RefusesFaultySensorsOfEveryRobotThatHasThem) {
+TEST(Fleet, ReportsFaultySensorsOfEveryRobot) {
   const std::string sensor = "<sensor><type>radar</type></sensor>";
   EXPECT_EQ(faults(worldOf({of2005("A", 0, sensor), of2005("B", 10, sensor),
                             placed("scout", "C", 20, "<sensors><heat range_max_m='-1'/></sensors>")})),
@@ -131,20 +131,20 @@ TEST(Fleet, RefusesFaultySensorsOfEveryRobotThatHasThem) {
                    "w.xml:4: <heat range_max_m=\"-1\">: must lie in (0, 1e+06] metres; drop it for the default, 1.5"}));
 }
 
-TEST(Fleet, RefusesRobotsThatStandInEachOtherOrOutside) {
-  EXPECT_EQ(
-      faults(worldOf({placed("scout", "A", 0), placed("scout", "B", 0.3), placed("scout", "C", 50)})),
-      (Lines{"w.xml:3: robot 'B' overlaps the robot 'A' of line 2; move one of them",
-             "w.xml:4: robot 'C' stands outside the surface, or reaches over its edge; move it inside, or widen the "
-             "surface's <size>"}));
+TEST(Fleet, RejectsRobotsThatOverlapOrStandOutside) {
+  EXPECT_EQ(faults(worldOf({placed("scout", "A", 0), placed("scout", "B", 0.3), placed("scout", "C", 50)})),
+            (Lines{"w.xml:3: robot 'B' at (0.3, 0) m overlaps the robot 'A' of line 2; move one of them",
+                   "w.xml:4: robot 'C' at (50, 0) m stands outside the surface, or reaches over its edge; move it "
+                   "inside, or widen the "
+                   "surface's <size>"}));
 }
 
-TEST(Fleet, SaysNothingOfOverlapsWhilePlacesAreUnknown) {
+TEST(Fleet, DoesNotCheckOverlapsAfterEarlierErrors) {
   EXPECT_EQ(faults(worldOf({placed("scout", "A", 1), "<model>scout</model><name>B</name><x>one</x><y>0</y>"})),
             Lines{"w.xml:3: <x>one</x>: is not a number; write a number there"});
 }
 
-TEST_F(WorldFolder, TypesBesideTheWorldComeBeforeTheShippedOnes) {
+TEST_F(WorldFolder, TypesBesideTheWorldPrecedeTheShippedOnes) {
   write("robots/scout.xml",
         "<robot name='scout'><body radius_m='0.5' height_m='0.5'/><limits speed_max_mps='1' accel_mps2='2' "
         "decel_mps2='3' turn_max_degps='90' turn_accel_degps2='180'/></robot>");
@@ -154,7 +154,7 @@ TEST_F(WorldFolder, TypesBesideTheWorldComeBeforeTheShippedOnes) {
   EXPECT_EQ(loaded.fleet.robots[1].info.radius_m, 0.267);
 }
 
-TEST_F(WorldFolder, AFaultyTypeIsToldOfOnceHoweverManyRobotsAreOfIt) {
+TEST_F(WorldFolder, ReportsAFaultyTypeOnce) {
   const auto type =
       write("robots/broken.xml",
             "<robot name='broken'><body radius_m='0' height_m='1'/><limits speed_max_mps='1' accel_mps2='2' "
@@ -169,7 +169,7 @@ TEST_F(WorldFolder, AFaultyTypeIsToldOfOnceHoweverManyRobotsAreOfIt) {
   }
 }
 
-TEST_F(WorldFolder, TheEnvironmentMayNameAnotherFolderOfWorlds) {
+TEST_F(WorldFolder, UsesTheFolderInTheEnvironmentVariable) {
   ASSERT_EQ(setenv("ROBOSIM_WORLDS", "/elsewhere", 1), 0);
   const auto folders = robotTypeFolders("here/w.xml");
   unsetenv("ROBOSIM_WORLDS");
@@ -188,7 +188,7 @@ TEST_F(WorldFolder, AHundredThousandRobotsLoadWithOneModel) {
   EXPECT_EQ(loaded.fleet.robots.front().model, loaded.fleet.robots.back().model);
 }
 
-TEST(Worlds, ThatAreShippedAllLoadAndSurviveWriting) {
+TEST(Worlds, ShippedWorldsLoadAndRoundTrip) {
   int worlds = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kWorlds)) {
     if (entry.path().extension() != ".xml") continue;
@@ -197,13 +197,13 @@ TEST(Worlds, ThatAreShippedAllLoadAndSurviveWriting) {
     const LoadedWorld loaded = loadWorld(entry.path(), {"gold_finder", "wander", "wall_follower", "still"});
     EXPECT_FALSE(loaded.fleet.robots.empty());
     ErrorList errors;
-    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), shelfOnDisk(entry.path()), errors), loaded.world);
+    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), filesOnDisk(entry.path()), errors), loaded.world);
     EXPECT_EQ(errors.errors(), Lines{});
   }
   EXPECT_GE(worlds, 4);
 }
 
-TEST(Worlds, OneOf2005LoadsUnchanged) {
+TEST(Worlds, World2005LoadsUnchanged) {
   const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", kControllers);
   ASSERT_EQ(loaded.fleet.robots.size(), 1u);
   const RobotInfo& finder = loaded.fleet.robots[0].info;
@@ -240,14 +240,14 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
     } else if (example.name == "map") {
       const auto beside = kWorlds / "some.xml";
       const std::string world = "<world><surface>" + text(example) + "</surface></world>";
-      EXPECT_EQ(parseWorld(world, beside.string(), shelfOnDisk(beside), errors).maps.size(), 1u);
+      EXPECT_EQ(parseWorld(world, beside.string(), filesOnDisk(beside), errors).maps.size(), 1u);
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 5);
+  EXPECT_EQ(examples, 6);
 }
 
-TEST(Worlds, RobotTypesThatAreShippedAllLoad) {
+TEST(Worlds, ShippedRobotTypesLoad) {
   int types = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kWorlds / "robots")) {
     ErrorList errors;
@@ -257,6 +257,37 @@ TEST(Worlds, RobotTypesThatAreShippedAllLoad) {
     ++types;
   }
   EXPECT_GE(types, 2);
+}
+
+TEST(Fleet, RejectsTheRobotThatExceedsTheBeamLimit) {
+  // Equal robots share their sensors; each has its own readings: 501 × 100,000 beams are more than 50 million.
+  const std::string laser = "<laser beams='10000'/>";
+  std::string sensors;
+  for (int i = 0; i < 10; ++i) sensors += laser;
+  Lines robots;
+  for (int i = 0; i < 501; ++i) {
+    robots.push_back(
+        placed("scout", "r" + std::to_string(i), -45 + 0.4 * (i % 200), "<sensors>" + sensors + "</sensors>"));
+    robots.back().replace(robots.back().find("<y>0</y>"), 8, "<y>" + toText(i / 200) + "</y>");
+  }
+  EXPECT_EQ(faults(worldOf(robots)),
+            (Lines{"w.xml:502: robot 'r500': with it the robots have more than 50000000 beams; use fewer robots, or "
+                   "sensors of fewer beams"}));
+  robots.pop_back();
+  EXPECT_EQ(faults(worldOf(robots)), Lines{});
+}
+
+TEST(Fleet, RejectsTheRobotThatExceedsTheLimitOfRaysOfAllModels) {
+  // 21 models of 100 sonars of 1,000 rays each: 21 × 100,000 are more than 2 million.
+  Lines robots;
+  for (int i = 0; i < 21; ++i) {
+    robots.push_back(placed("scout", "r" + std::to_string(i), i,
+                            "<sensors><sonar model='rays' rays='1000' range_max_m='" + toText(i + 1) +
+                                "'><ring count='100' radius_m='0.1'/></sonar></sensors>"));
+  }
+  EXPECT_EQ(faults(worldOf(robots)),
+            (Lines{"w.xml:22: robot 'r20': with it the sensors of the 21 kinds of robots have more than 2000000 rays; "
+                   "use fewer robots, or sensors of fewer beams"}));
 }
 
 }  // namespace

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_set>
 
+#include "base/digest.h"
 #include "base/xml_reader.h"
+#include "robots/sensor_names.h"
 #include "sensors/odometry.h"
 #include "sensors/registry.h"
 
@@ -42,38 +43,61 @@ MotionLimits readLimits(XmlReader& reader) {
   return limits;
 }
 
-void mount(std::vector<XmlReader> readers, double unit_m, RobotModel& model) {
+/// Sensors of a model, with whether the file gives each a label.
+struct Mounted {
+  explicit Mounted(RobotModel& robot_model) : model(robot_model) {}
+
+  void add(std::shared_ptr<const Sensor> sensor, bool is_labelled) {
+    model.sensors.push_back(std::move(sensor));
+    labelled.push_back(is_labelled);
+  }
+
+  RobotModel& model;
+  std::vector<bool> labelled;  ///< in the order of model.sensors
+};
+
+void mount(std::vector<XmlReader> readers, double unit_m, Mounted& mounted) {
+  checkSensorNames(readers);
+  const RobotModel& model = mounted.model;
+  std::size_t rays = 0;
   for (auto& reader : readers) {
-    if (auto sensor = readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors})) {
-      model.sensors.push_back(std::move(sensor));
+    if (auto sensor = readSensor(reader, {unit_m, model.radius_m, model.body.height_m, model.sensors, rays})) {
+      rays += sensor->rayCount();
+      mounted.add(std::move(sensor), reader.has("label"));
     }
   }
 }
 
-/// Mounts the sensors that a world file lists, and, so that the robot can be programmed, exact odometry if it has none.
-void mountDescribed(const RobotDescription& description, RobotModel& model, ErrorList& errors) {
+std::uint64_t digestOf(const std::vector<XmlElement>& sensors) {
+  Digest digest;
+  for (const auto& sensor : sensors) {
+    const std::string text = toXml(sensor);
+    digest.addBytes(text.data(), text.size());
+  }
+  return digest.value();
+}
+
+/// Mounts the sensors that a world file lists, and adds exact odometry if it lists none, because controllers require
+/// it.
+void mountDescribed(const RobotDescription& description, Mounted& mounted, ErrorList& errors) {
   std::vector<XmlReader> readers;
   for (const auto& element : *description.sensors) readers.emplace_back(element, description.file, errors);
-  mount(std::move(readers), description.unit_m, model);
-  const bool has_odometry = std::any_of(model.sensors.begin(), model.sensors.end(),
+  mount(std::move(readers), description.unit_m, mounted);
+  mounted.model.sensors_digest = digestOf(*description.sensors);
+  const auto& sensors = mounted.model.sensors;
+  const bool has_odometry = std::any_of(sensors.begin(), sensors.end(),
                                         [](const auto& sensor) { return sensor->info().kind == SensorKind::odometry; });
-  if (!has_odometry) model.sensors.push_back(makeOdometry({}));
+  if (!has_odometry) mounted.add(makeOdometry({}), false);
 }
 
-/// The sensors' infos, a label that is taken with _2, _3, … behind it.
-void tellSensors(RobotModel& model) {
+void describeSensors(Mounted& mounted) {
   std::vector<SensorInfo> infos;
-  std::unordered_set<std::string> taken;
-  for (const auto& sensor : model.sensors) {
-    SensorInfo info = sensor->info();
-    const std::string label = info.label;
-    for (int i = 2; !taken.insert(info.label).second; ++i) info.label = label + "_" + std::to_string(i);
-    infos.push_back(std::move(info));
-  }
-  model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
+  for (const auto& sensor : mounted.model.sensors) infos.push_back(sensor->info());
+  makeLabelsUnique(infos, mounted.labelled);
+  mounted.model.sensor_infos = std::make_shared<const std::vector<SensorInfo>>(std::move(infos));
 }
 
-void giveBody(const Body& body, RobotModel& model) {
+void setBody(const Body& body, RobotModel& model) {
   model.body = body;
   model.body.world_from_body = {};
   model.radius_m = body.coveringRadius();
@@ -104,33 +128,38 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   }
   model.help = root.word("help", "");
   XmlReader body = root.requiredChild("body");
-  giveBody(readBody(body, model.look), model);
+  setBody(readBody(body, model.look), model);
   XmlReader limits = root.requiredChild("limits");
   model.limits = readLimits(limits);
-  if (description.body) giveBody(*description.body, model);
+  if (description.body) setBody(*description.body, model);
   auto sensors = root.child("sensors");
+  Mounted mounted(model);
   if (description.sensors) {
-    mountDescribed(description, model, errors);
+    mountDescribed(description, mounted, errors);
   } else if (sensors) {
-    mount(sensors->all(), 1, model);
+    mount(sensors->all(), 1, mounted);
     sensors->finish();
+    const auto element = std::find_if(type.children.begin(), type.children.end(),
+                                      [](const XmlElement& child) { return child.name == "sensors"; });
+    model.sensors_digest = digestOf(element->children);
   }
   root.finish();
-  tellSensors(model);
+  describeSensors(mounted);
   return model;
 }
 
 RobotModel modelOf2005(const RobotDescription& description, ErrorList& errors) {
   RobotModel model;
   model.name = "2005";
-  giveBody(*description.body, model);
+  setBody(*description.body, model);
   model.limits = {.speed_max_mps = 2.5 * model.radius_m,
                   .turn_max_radps = 1.74,
                   .accel_mps2 = 2.5 * model.radius_m,
                   .decel_mps2 = 2.5 * model.radius_m,
                   .turn_accel_radps2 = 3.5};
-  mountDescribed(description, model, errors);
-  tellSensors(model);
+  Mounted mounted(model);
+  mountDescribed(description, mounted, errors);
+  describeSensors(mounted);
   return model;
 }
 

@@ -50,7 +50,7 @@ Lines labelsOf(const RobotModel& model) {
 
 std::vector<XmlElement> elements(const std::string& text) { return parseXml("<a>" + text + "</a>", "").children; }
 
-TEST(RobotModel, OfThePioneerHasTheRealRobotsSonarsAndLimits) {
+TEST(RobotModel, PioneerHasTheRealRobotsSonarsAndLimits) {
   const RobotModel model = shipped("pioneer3dx");
   EXPECT_EQ(model.name, "pioneer3dx");
   EXPECT_EQ(model.radius_m, 0.267);
@@ -88,7 +88,7 @@ TEST(RobotModel, OfThePioneerHasTheRealRobotsSonarsAndLimits) {
   EXPECT_EQ(laser.range_max_m, 8);
 }
 
-TEST(RobotModel, OfTheScoutHasSixteenSonarsEvenlyAroundAndNoLaser) {
+TEST(RobotModel, ScoutHasSixteenEvenlySpacedSonarsAndNoLaser) {
   const RobotModel model = shipped("scout");
   EXPECT_EQ(model.radius_m, 0.19);
   EXPECT_EQ(labelsOf(model), (Lines{"sonar", "heat", "bumper", "odometry", "compass"}));
@@ -101,20 +101,20 @@ TEST(RobotModel, OfTheScoutHasSixteenSonarsEvenlyAroundAndNoLaser) {
   }
 }
 
-TEST(RobotModel, SensorsOfTheShippedTypesSeeOverEachOthersHeights) {
+TEST(RobotModel, SensorsOfTheShippedTypesDetectEachOther) {
   const RobotModel pioneer = shipped("pioneer3dx"), scout = shipped("scout");
-  for (const auto* looker : {&pioneer, &scout}) {
-    for (const auto& info : *looker->sensor_infos) {
+  for (const auto* observer : {&pioneer, &scout}) {
+    for (const auto& info : *observer->sensor_infos) {
       for (const auto& beam : info.beams) {
         for (const auto* other : {&pioneer, &scout}) {
-          EXPECT_TRUE(other->body.heights().contains(beam.robot_from_beam.z)) << looker->name << " " << info.label;
+          EXPECT_TRUE(other->body.heights().contains(beam.robot_from_beam.z)) << observer->name << " " << info.label;
         }
       }
     }
   }
 }
 
-TEST(RobotModel, MayBeABoxAboveTheGround) {
+TEST(RobotModel, SupportsABoxAboveTheGround) {
   const RobotModel model =
       parsed("<body length_m='0.8' width_m='0.6' height_m='0.5' clearance_m='0.1' color='1 0 0'/>" + kLimits);
   EXPECT_EQ(std::get<Cube>(model.body.shape), (Cube{0.8, 0.6}));
@@ -125,14 +125,48 @@ TEST(RobotModel, MayBeABoxAboveTheGround) {
   EXPECT_TRUE(model.sensors.empty());
 }
 
-TEST(RobotModel, GivesEverySensorALabelOfItsOwn) {
+TEST(RobotModel, MakesSensorLabelsUnique) {
   const std::string sensors =
       "<sensors><compass/><compass label='compass_2'/><compass/><compass label='north'/><compass/></sensors>";
   EXPECT_EQ(labelsOf(parsed(kBody + kLimits + sensors)),
             (Lines{"compass", "compass_2", "compass_3", "north", "compass_4"}));
 }
 
-TEST(RobotModel, TakesSensorsOfTheWorldFileInsteadOfItsOwnAndOdometryBesides) {
+TEST(RobotModel, KeepsLabelsGivenInTheFile) {
+  EXPECT_EQ(labelsOf(parsed(kBody + kLimits + "<sensors><compass/><compass label='compass'/></sensors>")),
+            (Lines{"compass_2", "compass"}));
+}
+
+TEST(RobotModel, RejectsDuplicateSensorLabels) {
+  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
+                   "<sensors>\n<compass label='north'/>\n<heat range_max_m='2' label='north'/>\n</sensors></robot>"),
+            Lines{"r.xml:3: <heat label=\"north\">: is taken already, by the sensor in line 2; give each sensor of a "
+                  "robot a label of its own"});
+}
+
+TEST(RobotModel, RejectsDuplicateIdsOf2005Sensors) {
+  ErrorList errors;
+  Body body;
+  body.shape = Cylinder{0.3};
+  const auto sensors = elements(
+      "<sensor><id>1</id><type>heat</type><range>15</range></sensor>\n"
+      "<sensor><id>2</id><type>sonar</type><range>15</range></sensor>\n"
+      "<sensor><id>1.0</id><type>sonar</type><range>15</range></sensor>");
+  modelOf2005({.body = &body, .sensors = &sensors, .file = "world.xml", .unit_m = 0.1}, errors);
+  EXPECT_EQ(errors.errors(), Lines{"world.xml:3: <id>1.0</id>: is taken already, by the sensor in line 1; give each "
+                                   "sensor of a robot an id of its own"});
+}
+
+TEST(RobotModel, RejectsALabelThatARecordingCannotHold) {
+  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
+                   "<sensors><compass label='GROUND_TRUTH'/>\n<heat range_max_m='2' label='a/b'/></sensors></robot>"),
+            (Lines{"r.xml:1: <compass label=\"GROUND_TRUTH\">: is reserved for recordings (GROUND_TRUTH, STATUS, "
+                   "INBOX, POINTS); choose another label",
+                   "r.xml:2: <heat label=\"a/b\">: must not contain '/', which separates robot and sensor in a "
+                   "recording; choose another label"}));
+}
+
+TEST(RobotModel, UsesTheWorldFilesSensorsInsteadOfItsOwnAndAddsOdometry) {
   const auto own = elements("<heat range_max_m='2'/><compass/>");
   const RobotModel model =
       parsed(kBody + kLimits + "<sensors><bumper/></sensors>", {.sensors = &own, .file = "world.xml"});
@@ -141,7 +175,24 @@ TEST(RobotModel, TakesSensorsOfTheWorldFileInsteadOfItsOwnAndOdometryBesides) {
   EXPECT_EQ(labelsOf(parsed(kBody + kLimits, {.sensors = &with_odometry, .file = "world.xml"})), Lines{"odometry"});
 }
 
-TEST(RobotModel, TakesABodyOfTheWorldFileAndFitsItsBumperToIt) {
+TEST(RobotModel, DigestOfItsSensorsDependsOnEveryOption) {
+  const auto digest_of = [](const std::string& sensors) {
+    return parsed(kBody + kLimits + "<sensors>" + sensors + "</sensors>").sensors_digest;
+  };
+  const std::uint64_t battery = digest_of("<battery standing_h='9'/>");
+  EXPECT_EQ(digest_of("<battery standing_h='9'/>"), battery);
+  EXPECT_EQ(digest_of("<!-- full --><battery  standing_h='9' />"), battery) << "only the content matters";
+  EXPECT_NE(digest_of("<battery standing_h='8'/>"), battery);
+  EXPECT_NE(digest_of("<battery/>"), battery);
+  EXPECT_NE(digest_of("<battery standing_h='9'/><odometry/>"), battery);
+  EXPECT_NE(digest_of("<odometry/>"), digest_of("<odometry><noise/></odometry>"));
+
+  const auto own = elements("<battery standing_h='9'/>");
+  const std::string type = kBody + kLimits + "<sensors><odometry/></sensors>";
+  EXPECT_EQ(parsed(type, {.sensors = &own, .file = "world.xml"}).sensors_digest, battery) << "instead of the type's";
+}
+
+TEST(RobotModel, UsesTheWorldFilesBodyAndAdaptsItsBumper) {
   Body body;
   body.shape = Cylinder{0.5};
   body.height_m = 1;
@@ -152,7 +203,7 @@ TEST(RobotModel, TakesABodyOfTheWorldFileAndFitsItsBumperToIt) {
   EXPECT_EQ(model.sensor_infos->at(0).beams.at(0).robot_from_beam.x, 0.5);
 }
 
-TEST(RobotModel, Of2005MovesLikeAPioneerOfItsSize) {
+TEST(RobotModel, Model2005MovesLikeAPioneerOfItsSize) {
   Body body;
   body.shape = Cylinder{0.3};
   body.height_m = 1;
@@ -178,7 +229,7 @@ TEST(RobotModel, Of2005MovesLikeAPioneerOfItsSize) {
   EXPECT_DOUBLE_EQ(laser.no_echo_m, 2.1);
 }
 
-TEST(RobotModel, RefusesEveryFaultAtOnce) {
+TEST(RobotModel, ReportsAllFaultsAtOnce) {
   EXPECT_EQ(faults("<world/>"), Lines{"r.xml:1: <world>: is not a robot type; the first element of one is <robot>"});
   EXPECT_EQ(faults("<robot name='r'/>"),
             (Lines{"r.xml:1: <robot>: <body> is missing; add it", "r.xml:1: <robot>: <limits> is missing; add it"}));
@@ -190,17 +241,42 @@ TEST(RobotModel, RefusesEveryFaultAtOnce) {
              "r.xml:2: <body height_m=\"x\">: is not a number; write a number there",
              "r.xml:3: <limits speed_max_mps=\"-1\">: must lie in (0, 100] metres per second; write a number there",
              "r.xml:3: <limits>: <turn_accel_degps2> is missing; add it",
-             "r.xml:5: <sonar>: has no place on the robot; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>"}));
+             "r.xml:5: <sonar>: has no mounting pose; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>"}));
   EXPECT_EQ(
       faults("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
       Lines{"r.xml:1: <robot>: unknown attribute hue=\"1\"; accepted here are: body, help, limits, name, sensors"});
 }
 
-TEST(RobotModel, RefusesABodyThatIsRoundAndSquare) {
+TEST(RobotModel, RejectsABodyThatIsBothRoundAndRectangular) {
   EXPECT_EQ(
       faults("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
       Lines{"r.xml:1: <body>: unknown attribute length_m=\"1\"; accepted here are: clearance_m, color, height_m, look, "
             "radius_m"});
+}
+
+TEST(RobotModel, RejectsTheSensorThatExceedsTheRayLimit) {
+  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
+                   "<sensors>\n<sonar model='rays' rays='1000'><ring count='99' radius_m='0.1'/></sonar>"
+                   "\n<laser beams='1000'/>\n<laser beams='1'/></sensors></robot>"),
+            (Lines{"r.xml:4: <laser>: has 1 rays, and the sensors before it 100000; a robot may have 100000 in all, so "
+                   "use fewer"}));
+  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
+                   "<sensors>\n<sonar model='rays' rays='1000'><ring count='1024' radius_m='0.1'/></sonar>"
+                   "</sensors></robot>"),
+            (Lines{"r.xml:2: <sonar>: has 1024000 rays, and the sensors before it 0; a robot may have 100000 in all, "
+                   "so use fewer"}));
+}
+
+TEST(RobotModel, NumbersManySensorsOfOneLabelInTheirOrder) {
+  // 20,000 sensors: numbering that begins at 2 each time would take 200 million attempts.
+  std::string sensors = "<compass label='heat_2'/>";
+  for (int i = 0; i < 20000; ++i) sensors += "<heat range_max_m='1'/>";
+  const Lines labels = labelsOf(parsed(kBody + kLimits + "<sensors>" + sensors + "</sensors>"));
+  ASSERT_EQ(labels.size(), 20001u);
+  EXPECT_EQ(labels[0], "heat_2");
+  EXPECT_EQ(labels[1], "heat");
+  EXPECT_EQ(labels[2], "heat_3");
+  EXPECT_EQ(labels[20000], "heat_20001");
 }
 
 }  // namespace

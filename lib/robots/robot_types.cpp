@@ -2,6 +2,8 @@
 
 #include <cstdlib>
 
+#include "robots/robot_type_folders_text.h"
+
 namespace robosim {
 namespace {
 
@@ -14,6 +16,15 @@ std::filesystem::path worldsFolder() {
 
 std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file) {
   return {world_file.parent_path() / "robots", worldsFolder() / "robots"};
+}
+
+std::string robotTypeFoldersText() {
+  std::string text = "robot types are the *.xml files in robots/ beside the world file and in robots/ of ";
+  const auto worlds = worldsFolder();
+  std::error_code none;
+  const bool is_there = std::filesystem::is_directory(worlds, none);
+  const bool is_given = worlds != std::filesystem::path(ROBOSIM_WORLDS_DIR);
+  return text + worlds.string() + (is_there ? "" : ", which does not exist") + (is_given ? " (ROBOSIM_WORLDS)" : "");
 }
 
 RobotTypes robotTypesIn(const std::vector<std::filesystem::path>& folders) {

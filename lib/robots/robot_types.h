@@ -9,23 +9,23 @@
 
 namespace robosim {
 
-/// Where a robot type is told: in a file, or in a text that came from elsewhere.
+/// Source of a robot type: a file, or a text received from elsewhere.
 struct RobotTypeFile {
   std::filesystem::path file;       ///< names it in errors
-  std::optional<std::string> text;  ///< nullopt: as the file has it
+  std::optional<std::string> text;  ///< nullopt: the text of the file
 
   /// @throws ConfigError as readXmlFile() does.
   XmlElement read() const { return text ? parseXml(*text, file.string()) : readXmlFile(file); }
 };
 
-/// By name.
+/// Robot types by name.
 using RobotTypes = std::map<std::string, RobotTypeFile>;
 
-/// Where robot types are looked for: `robots/` beside the world file, then `robots/` in the folder of worlds that came
-/// with RoboSim, or in the one that the environment variable ROBOSIM_WORLDS names instead.
+/// Folders searched for robot types: `robots/` beside the world file, then `robots/` in the worlds folder shipped with
+/// RoboSim, or in the folder that the environment variable ROBOSIM_WORLDS names instead.
 std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file);
 
-/// The robot types in some folders: each `*.xml`; of two with the same name, the earlier folder's.
+/// Robot types in the given folders: every `*.xml`. Of two with the same name, the one in the earlier folder.
 RobotTypes robotTypesIn(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace robosim

@@ -6,6 +6,9 @@
 #include <optional>
 #include <unordered_map>
 
+#include <mrpt/core/format.h>
+
+#include "base/xml_element.h"
 #include "geometry/scene.h"
 
 namespace robosim {
@@ -16,17 +19,17 @@ bool isWithin(const Circle& disc, const Bounds2D& bounds) {
          disc.center.y - disc.radius_m >= bounds.y_min && disc.center.y + disc.radius_m <= bounds.y_max;
 }
 
-/// Robots seen so far, by the square cell of their centres. A cell is as wide as the widest robot, so whatever overlaps
-/// a robot has its centre in the robot's cell or in one of the eight around it.
-class RobotsSoFar {
+/// Hash grid of the robots checked so far, by the cell of their centres. A cell is as wide as the widest robot, so
+/// overlapping robots are in the same cell or one of the eight neighbours.
+class CheckedRobots {
  public:
-  explicit RobotsSoFar(const std::vector<RobotStart>& robots) : robots_(robots) {
+  explicit CheckedRobots(const std::vector<RobotStart>& robots) : robots_(robots) {
     for (const auto& robot : robots) cell_m_ = std::max(cell_m_, 2 * robot.disc.radius_m);
   }
 
   void add(std::size_t i) { cells_[key(robots_[i], 0, 0)].push_back(i); }
 
-  /// One that overlaps robot i; nullopt when none does.
+  /// Index of a robot that overlaps robot i; nullopt when none does.
   std::optional<std::size_t> overlapping(std::size_t i) const {
     const Solid solid{robots_[i].disc, robots_[i].heights};
     for (int column = -1; column <= 1; ++column) {
@@ -42,7 +45,7 @@ class RobotsSoFar {
   }
 
  private:
-  /// Cells may share a key by chance: that costs a comparison, no more.
+  /// Hash collisions cost a comparison, but do not affect the result.
   std::uint64_t key(const RobotStart& robot, int column, int row) const {
     const auto x = static_cast<std::int64_t>(std::floor(robot.disc.center.x / cell_m_)) + column;
     const auto y = static_cast<std::int64_t>(std::floor(robot.disc.center.y / cell_m_)) + row;
@@ -54,8 +57,8 @@ class RobotsSoFar {
   std::unordered_map<std::uint64_t, std::vector<std::size_t>> cells_;
 };
 
-/// Of the solids, those that each robot may reach to, in ascending order. Asked of the solids, not of the robots: a map
-/// has millions of them, few are near a robot, and an index of them all would be made for nothing else.
+/// For each robot, the solids that it may overlap, in ascending order. The robots are indexed and queried with each
+/// solid, because a map may have millions of solids, of which few are near a robot.
 std::vector<std::vector<std::size_t>> solidsNear(const std::vector<RobotStart>& robots,
                                                  const std::vector<Solid>& solids, const Bounds2D& world_bounds) {
   Scene scene({}, robots.size(), world_bounds);
@@ -71,7 +74,7 @@ std::vector<std::vector<std::size_t>> solidsNear(const std::vector<RobotStart>& 
   return near;
 }
 
-/// The map that a solid of stationarySolids() comes from; null for an object's.
+/// Map that a solid of stationarySolids() belongs to; null for an object's.
 const WorldMap* mapWith(const World& world, std::size_t solid) {
   if (solid < world.objects.size()) return nullptr;
   solid -= world.objects.size();
@@ -83,7 +86,19 @@ const WorldMap* mapWith(const World& world, std::size_t solid) {
   return nullptr;
 }
 
-/// A disc that touches what a map has, which reaches a little over its edges, and no more than touches it.
+std::string placeOf(const RobotStart& robot) {
+  const auto text = [](double at_m) { return toText(std::round(at_m * 1000) / 1000 + 0.0); };
+  return "at (" + text(robot.disc.center.x) + ", " + text(robot.disc.center.y) + ") m";
+}
+
+/// Note for a box-shaped robot whose box does not overlap the solid.
+std::string discNote(const RobotStart& robot, const Solid& solid) {
+  if (std::holds_alternative<Circle>(robot.outline) || overlap({robot.outline, robot.heights}, solid)) return "";
+  return mrpt::format(" (its box does not, but moves are authorised for the disc of %.3f m radius around it)",
+                      robot.disc.radius_m);
+}
+
+/// The disc shrunk by the map's seam, so that a disc that only touches a wall does not overlap it.
 Circle withoutSeam(const Circle& disc, const WorldMap& map) {
   return {disc.center, disc.radius_m - 2 * seamOf(map.plan, map.world_from_map)};
 }
@@ -94,37 +109,38 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
                  ErrorList& errors) {
   const std::vector<Solid> solids = stationarySolids(world);
   const auto solids_near = solidsNear(robots, solids, world.bounds);
-  RobotsSoFar so_far(robots);
+  CheckedRobots checked(robots);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const RobotStart& robot = robots[i];
     const auto report = [&](const std::string& fault) {
-      errors.add(world_file, robot.line, "robot '" + robot.name + "' " + fault);
+      errors.add(world_file, robot.line, "robot '" + robot.name + "' " + placeOf(robot) + " " + fault);
     };
     if (!isWithin(robot.disc, world.bounds)) {
       report("stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>");
       continue;
     }
-    const WorldMap* met = nullptr;
+    const WorldMap* reported = nullptr;
     for (const auto index : solids_near[i]) {
       const WorldMap* map = mapWith(world, index);
-      if (map == met && met) continue;
+      if (map == reported && reported) continue;
       const Circle disc = map ? withoutSeam(robot.disc, *map) : robot.disc;
       if (!overlap({disc, robot.heights}, solids[index])) continue;
       if (map) {
-        met = map;
-        report("overlaps what the map '" + map->file + "' of line " + std::to_string(map->line.number) +
-               " has there; move the robot");
+        reported = map;
+        const std::string line = map->line.number > 0 ? " of line " + std::to_string(map->line.number) : "";
+        report("overlaps an obstacle of the map '" + map->file + "'" + line + discNote(robot, solids[index]) +
+               "; move the robot");
         continue;
       }
       const WorldObject& object = world.objects[index];
       report("overlaps the object '" + object.name + "' of line " + std::to_string(object.line.number) +
-             "; move one of them");
+             discNote(robot, solids[index]) + "; move one of them");
     }
-    if (const auto other = so_far.overlapping(i)) {
+    if (const auto other = checked.overlapping(i)) {
       report("overlaps the robot '" + robots[*other].name + "' of line " + std::to_string(robots[*other].line) +
-             "; move one of them");
+             discNote(robot, {robots[*other].outline, robots[*other].heights}) + "; move one of them");
     }
-    so_far.add(i);
+    checked.add(i);
   }
 }
 

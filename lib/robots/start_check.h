@@ -3,21 +3,22 @@
 #include <vector>
 
 #include "base/error_list.h"
-#include "geometry/solid.h"
+#include "geometry/shapes/solid.h"
 #include "world/world.h"
 
 namespace robosim {
 
-/// What a robot takes up at the start.
+/// Space occupied by a robot at the start.
 struct RobotStart {
   std::string name;
   int line = 0;  ///< in the world file
   Circle disc;   ///< covers its body in plan
   HeightSpan heights;
+  Outline outline = {};  ///< of the body, which may be a box within the disc
 };
 
-/// Adds to `errors` every robot that is not wholly on the surface, or overlaps an object or another robot. Touching is
-/// no overlap. Takes time in proportion to the number of robots.
+/// Adds to `errors` every robot that is not entirely on the surface, or overlaps an object or another robot. Touching
+/// is not an overlap. Takes linear time in the number of robots.
 void checkStarts(const World&, const std::vector<RobotStart>&, const std::string& world_file, ErrorList& errors);
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #include "robots/start_check.h"
 
+#include <cmath>
 #include <set>
 #include <string>
 #include <vector>
@@ -38,15 +39,15 @@ Lines faults(const World& world, const std::vector<RobotStart>& robots) {
   return errors.errors();
 }
 
-TEST(CheckStarts, NamesBothWhoOverlap) {
+TEST(CheckStarts, NamesBothOverlappingRobots) {
   World world = surface(10);
   addPillar(world, "Pillar", 0, 0, 1);
   EXPECT_EQ(faults(world, {robot("A", 20, 1.2, 0, 0.3), robot("B", 21, 1.3, 0.5, 0.3)}),
-            (Lines{"w.xml:20: robot 'A' overlaps the object 'Pillar' of line 7; move one of them",
-                   "w.xml:21: robot 'B' overlaps the robot 'A' of line 20; move one of them"}));
+            (Lines{"w.xml:20: robot 'A' at (1.2, 0) m overlaps the object 'Pillar' of line 7; move one of them",
+                   "w.xml:21: robot 'B' at (1.3, 0.5) m overlaps the robot 'A' of line 20; move one of them"}));
 }
 
-TEST(CheckStarts, LetsRobotsTouch) {
+TEST(CheckStarts, AllowsRobotsToTouch) {
   World world = surface(10);
   addPillar(world, "Pillar", 0, 0, 1);
   EXPECT_EQ(faults(world, {robot("A", 20, 1.5, 0, 0.5), robot("B", 21, 2.5, 0, 0.5), robot("C", 22, 9.5, -9.5, 0.5)}),
@@ -65,39 +66,54 @@ WorldMap wall() {
   return map;
 }
 
-TEST(CheckStarts, NamesTheMapOnceThatARobotOverlaps) {
+TEST(CheckStarts, ReportsAnOverlappedMapOnce) {
   World world = surface(10);
   addPillar(world, "Pillar", 5, 5, 1);
   world.maps = {wall()};
   EXPECT_EQ(
       faults(world, {robot("A", 20, 1, 1.2, 0.3), robot("B", 21, 5, 5, 0.5), robot("C", 22, 1, 0.5, 0.1, {1, 2})}),
-      (Lines{"w.xml:20: robot 'A' overlaps what the map 'wall.png' of line 8 has there; move the robot",
-             "w.xml:21: robot 'B' overlaps the object 'Pillar' of line 7; move one of them"}));
+      (Lines{"w.xml:20: robot 'A' at (1, 1.2) m overlaps an obstacle of the map 'wall.png' of line 8; move the robot",
+             "w.xml:21: robot 'B' at (5, 5) m overlaps the object 'Pillar' of line 7; move one of them"}));
 }
 
-TEST(CheckStarts, LetsRobotsTouchAMap) {
+TEST(CheckStarts, AllowsRobotsToTouchAMap) {
   World world = surface(10);
   world.maps = {wall()};
   EXPECT_EQ(faults(world, {robot("A", 20, 1, 1.5, 0.5), robot("B", 21, -0.25, 0.5, 0.25)}), Lines{});
 }
 
-TEST(CheckStarts, LooksAtHeights) {
+TEST(CheckStarts, ExplainsThatOnlyTheDiscOfABoxOverlaps) {
+  // A box of 1 m × 0.2 m along a wall whose face is 0.2 m away; its disc has a radius of hypot(0.5, 0.1) = 0.510 m.
+  World world = surface(10);
+  addPillar(world, "Pillar", 0, 1.2, 1);
+  RobotStart box = robot("A", 20, 0, 0, std::hypot(0.5, 0.1));
+  box.outline = OrientedBox::from({0, 0, 0}, 1, 0.2);
+  EXPECT_EQ(faults(world, {box}),
+            Lines{"w.xml:20: robot 'A' at (0, 0) m overlaps the object 'Pillar' of line 7 (its box does not, but moves "
+                  "are authorised for the disc of 0.510 m radius around it); move one of them"});
+  box.outline = OrientedBox::from({0, 0, M_PI / 2}, 1, 0.2);  // now it reaches into the pillar
+  EXPECT_EQ(faults(world, {box}),
+            Lines{"w.xml:20: robot 'A' at (0, 0) m overlaps the object 'Pillar' of line 7; move one of them"});
+}
+
+TEST(CheckStarts, ConsidersHeights) {
   World world = surface(10);
   addPillar(world, "Bridge", 0, 0, 1, {2, 3});
   EXPECT_EQ(faults(world, {robot("A", 20, 0, 0, 0.5), robot("B", 21, 0, 0, 0.5, {1, 2})}), Lines{});
   EXPECT_EQ(faults(world, {robot("A", 20, 0, 0, 0.5, {0, 2.1})}),
-            Lines{"w.xml:20: robot 'A' overlaps the object 'Bridge' of line 7; move one of them"});
+            Lines{"w.xml:20: robot 'A' at (0, 0) m overlaps the object 'Bridge' of line 7; move one of them"});
 }
 
-TEST(CheckStarts, WantsAllOfARobotOnTheSurface) {
+TEST(CheckStarts, RequiresTheWholeRobotOnTheSurface) {
   const std::string fault =
-      " stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>";
+      " m stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>";
   EXPECT_EQ(
       faults(surface(10), {robot("A", 20, 9.6, 0, 0.5), robot("B", 21, 0, -9.51, 0.5), robot("C", 22, 1e9, 0, 0.5)}),
-      (Lines{"w.xml:20: robot 'A'" + fault, "w.xml:21: robot 'B'" + fault, "w.xml:22: robot 'C'" + fault}));
+      (Lines{"w.xml:20: robot 'A' at (9.6, 0)" + fault, "w.xml:21: robot 'B' at (0, -9.51)" + fault,
+             "w.xml:22: robot 'C' at (1e+09, 0)" + fault}));
 }
 
-TEST(CheckStarts, FindsTheSameAsLookingAtEveryPair) {
+TEST(CheckStarts, AgreesWithTestingEveryPair) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Rng rng(seed);
     World world = surface(10);
@@ -121,19 +137,19 @@ TEST(CheckStarts, FindsTheSameAsLookingAtEveryPair) {
         if (overlap(solid, {robots[j].disc, robots[j].heights})) overlapping.insert(robots[i].name);
       }
     }
-    std::set<std::string> told;
+    std::set<std::string> reported;
     for (const auto& fault : faults(world, robots)) {
       const auto begin = fault.find('\'') + 1;
-      told.insert(fault.substr(begin, fault.find('\'', begin) - begin));
+      reported.insert(fault.substr(begin, fault.find('\'', begin) - begin));
     }
-    EXPECT_EQ(told, overlapping) << "seed " << seed;
+    EXPECT_EQ(reported, overlapping) << "seed " << seed;
   }
 }
 
-TEST(CheckStarts, TakesAHundredThousandRobotsOnOnePlaceInItsStride) {
+TEST(CheckStarts, ChecksAHundredThousandRobotsAtOnePosition) {
   const std::vector<RobotStart> robots(100'000, robot("A", 20, 0, 0, 0.5));
   const Lines lines = faults(surface(10), robots);
-  ASSERT_EQ(lines.size(), ErrorList::kMostErrors + 1);
+  ASSERT_EQ(lines.size(), ErrorList::kMaxErrors + 1);
   EXPECT_EQ(lines.back(), "and 98999 more errors");
 }
 

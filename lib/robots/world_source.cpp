@@ -1,6 +1,7 @@
 #include "robots/world_source.h"
 
 #include "base/digest.h"
+#include "world/caching_file_provider.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -16,16 +17,16 @@ void add(Digest& digest, const std::string& text) {
 WorldSource readWorldSource(const std::filesystem::path& file) {
   WorldSource source;
   source.file = file.string();
-  source.text = readWorldText(file);
-  const FileShelf disk = shelfOnDisk(file);
+  const FileProvider disk = cachingFileProvider(filesOnDisk(file));
+  source.text = readWorldText(file, disk);
   int unread = 0;
-  const FileShelf kept{disk.folder, [&](const std::string& name) {
-                         ++unread;
-                         std::string text = disk.read(name);
-                         --unread;
-                         return source.files[name] = std::move(text);
-                       }};
-  ErrorList errors;  // told by loadWorld(), unless it would lack a file
+  const FileProvider kept{disk.folder, [&](const std::string& name) {
+                            ++unread;
+                            std::string text = disk.read(name);
+                            --unread;
+                            return source.files[name] = std::move(text);
+                          }};
+  ErrorList errors;  // reported by loadWorld(), unless a file is missing
   const World world = parseWorld(source.text, source.file, kept, errors);
   if (unread > 0) errors.throwIfAny();
   const RobotTypes known = robotTypesIn(robotTypeFolders(file));
@@ -40,7 +41,7 @@ WorldSource readWorldSource(const std::filesystem::path& file) {
 LoadedWorld loadWorld(const WorldSource& source, const std::vector<std::string>& controllers) {
   ErrorList errors;
   LoadedWorld loaded;
-  loaded.world = parseWorld(source.text, source.file, shelfOf(source.file, source.files), errors);
+  loaded.world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
   loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, controllers, errors);
   errors.throwIfAny();
   return loaded;

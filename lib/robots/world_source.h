@@ -5,28 +5,28 @@
 
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
-#include "world/file_shelf.h"
+#include "world/file_provider.h"
 
 namespace robosim {
 
-/// All that a world is made from, as text: whoever has it builds the same World and Fleet, bit for bit, without a file
-/// of his own.
+/// All files that define a world, as text. The same source gives the same World and Fleet, bit for bit, on any machine
+/// without access to files.
 struct WorldSource {
   std::string file;  ///< names it in errors; its stem names the world
   std::string text;
-  RobotTypes robot_types;  ///< those that the world names, each with its text
-  FileTexts files{};       ///< its maps, by the names that FileShelf has for them
+  RobotTypes robot_types;  ///< the types that the world uses, each with its text
+  FileTexts files{};       ///< its maps, by their FileProvider names
 };
 
-/// @throws ConfigError when the world's file, or that of a robot type or a map, cannot be read. What is wrong inside,
-/// loadWorld() tells.
+/// Reads a world file and the files that it refers to.
+/// @throws ConfigError when the file of the world, a robot type or a map cannot be read. loadWorld() reports faults in
+/// their contents.
 WorldSource readWorldSource(const std::filesystem::path& file);
 
-/// As loadWorld() of a file.
-/// @throws ConfigError with every fault found.
+/// Equivalent to loadWorld() of a file.
 LoadedWorld loadWorld(const WorldSource&, const std::vector<std::string>& controllers);
 
-/// Short text that is another for every other source. What the files are called is no part of it.
+/// Hash of a source's contents, which does not depend on the names of its files.
 std::string versionOf(const WorldSource&);
 
 }  // namespace robosim

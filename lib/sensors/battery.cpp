@@ -14,11 +14,11 @@ class Battery : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   Measurement blank() const override { return Scalar{options_.full_v}; }
-  bool staysHome() const override { return true; }
+  bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    if (now.time.step == 0) return;  // nothing has been used as yet
+    if (now.time.step == 0) return;  // the battery is still full
     for (const auto robot : robots) {
       const Motion& motion = now.last_motion[robot];
       const bool drives = motion.length_m != 0 || motion.turn_rad != 0;

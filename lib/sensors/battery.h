@@ -6,16 +6,16 @@
 
 namespace robosim {
 
-/// Voltage of the battery [V]. Its charge goes down evenly while the robot stands, and faster while it drives or turns;
-/// the voltage falls with the charge in a straight line, down to that of an empty one, and no further: a robot with an
-/// empty battery is not stopped.
+/// Battery voltage [V]. The charge falls at a constant rate while the robot stands, and faster while it drives or
+/// turns. The voltage is linear in the charge, down to that of an empty battery. An empty battery does not stop the
+/// robot.
 struct BatteryOptions {
   std::string label = "battery";
-  /// As ARCOS has it for a Pioneer: 13 V when charged, and at 11 V the robot would switch itself off.
+  /// Values of ARCOS for a Pioneer: 13 V when charged; the robot switches itself off at 11 V.
   double full_v = 13;
   double empty_v = 11;
-  /// How long a full one lasts [s]: a Pioneer 3 with three batteries runs for eight to ten hours (data sheet). How much
-  /// of that is standing is assumed.
+  /// Runtime [s] of a full battery: a Pioneer 3 with three batteries runs for eight to ten hours (data sheet). The
+  /// share of standing in that is an assumption.
   double standing_s = 10 * 3600;
   double driving_s = 8 * 3600;
 

@@ -22,8 +22,7 @@ class BlobFinder : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return blankBlobs(info_); }
-  bool staysHome() const override { return true; }
+  bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot&, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
@@ -44,7 +43,7 @@ class BlobFinder : public Sensor {
   SensorInfo info_;
 };
 
-/// In [0, 2π); nullopt for a grey, which has none.
+/// Hue in [0, 2π); nullopt for a grey, which has none.
 std::optional<double> hueOf(const std::vector<double>& rgb) {
   const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
   const double spread = *high - *low;
@@ -55,15 +54,15 @@ std::optional<double> hueOf(const std::vector<double>& rgb) {
   return std::fmod(sixths + 6, 6) * M_PI / 3;
 }
 
-SoughtColor readColor(XmlReader reader) {
-  SoughtColor color;
+TargetColor readColor(XmlReader reader) {
+  TargetColor color;
   color.name = reader.word("name");
   if (!reader.has("rgb")) reader.error("<rgb> is missing; add red, green and blue, such as rgb=\"1 0.8 0.1\"");
   const auto rgb = reader.numbers("rgb", 3, {0, 1}, {1, 0, 0});
   if (const auto hue_rad = hueOf(rgb)) {
     color.hue_rad = *hue_rad;
   } else {
-    reader.errorAt("rgb", "is a grey, which has no hue to look for; give a colour");
+    reader.errorAt("rgb", "is a grey, which has no hue; give a colour");
   }
   color.within_rad = reader.angle("within_deg", Bounds::positive(180), color.within_rad);
   color.saturation_min = reader.number("saturation_min", {0, 1}, color.saturation_min);
@@ -72,8 +71,8 @@ SoughtColor readColor(XmlReader reader) {
   return color;
 }
 
-/// Where a picture of hue (0 … 255 all round), saturation and value has the colour.
-cv::Mat maskOf(const cv::Mat& hsv, const SoughtColor& color) {
+/// Mask of the pixels that have the colour. `hsv` holds hue (0 … 255 for a full turn), saturation and value.
+cv::Mat maskOf(const cv::Mat& hsv, const TargetColor& color) {
   const double unit = 256 / (2 * M_PI);
   const int low = static_cast<int>(std::lround((color.hue_rad - color.within_rad) * unit));
   const int high = static_cast<int>(std::lround((color.hue_rad + color.within_rad) * unit));
@@ -126,8 +125,8 @@ BlobFinderOptions BlobFinderOptions::read(XmlReader& reader) {
   }
   constexpr std::size_t kColorsMax = 32;
   if (o.colors.empty() || o.colors.size() > kColorsMax) {
-    reader.error("looks for " + std::to_string(o.colors.size()) + " colours; give it 1 to " +
-                 std::to_string(kColorsMax) + ", such as <color name=\"gold\" rgb=\"1 0.8 0.1\"/>");
+    reader.error("has " + std::to_string(o.colors.size()) + " colours; give 1 to " + std::to_string(kColorsMax) +
+                 ", such as <color name=\"gold\" rgb=\"1 0.8 0.1\"/>");
   }
   return o;
 }
@@ -142,7 +141,7 @@ std::unique_ptr<Sensor> makeBlobFinder(const BlobFinderOptions& options,
   return nullptr;
 }
 
-std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<SoughtColor>& colors, unsigned pixels_min) {
+std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors, unsigned pixels_min) {
   std::vector<Blob> blobs(colors.size());
   const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8U, const_cast<char*>(jpeg.data()));
   const cv::Mat picture = jpeg.empty() ? cv::Mat() : cv::imdecode(bytes, cv::IMREAD_COLOR);

@@ -9,34 +9,35 @@
 
 namespace robosim {
 
-/// What counts as one colour, as hue, saturation and value: light and shade change mostly the last, so that a lit thing
+/// A colour to detect, as ranges of hue, saturation and value. Illumination changes mostly the value, so a lit object
 /// keeps its hue.
-struct SoughtColor {
+struct TargetColor {
   std::string name;
   double hue_rad = 0;            ///< [0, 2π): red 0, green 2π/3, blue 4π/3
-  double within_rad = M_PI / 9;  ///< how far the hue may be off, (0, π]
+  double within_rad = M_PI / 9;  ///< maximum deviation of the hue, (0, π]
   double saturation_min = 0.35;  ///< [0, 1]
   double value_min = 0.15;       ///< [0, 1]
 };
 
-/// Looks for spots of colour in the picture of a camera on the same robot, as ACTS does for a Pioneer: of each colour
-/// it tells the largest connected one.
+/// Detects colour blobs in the picture of a camera on the same robot, as ACTS does for a Pioneer. Reports the largest
+/// connected blob of each colour.
 struct BlobFinderOptions {
   std::string label = "blob_finder";
-  std::string camera;               ///< the label of one that is mounted before it; empty for the last one before it
-  unsigned pixels_min = 4;          ///< smaller spots are noise, [1, 1e6]
-  std::vector<SoughtColor> colors;  ///< one to 32
+  std::string camera;               ///< label of a camera mounted before it; empty: the last one before it
+  unsigned pixels_min = 4;          ///< smaller blobs are ignored as noise, [1, 1e6]
+  std::vector<TargetColor> colors;  ///< one to 32
 
   /// Reads <blob_finder>.
   static BlobFinderOptions read(XmlReader&);
 };
 
-/// @param mounted what is mounted before it: its camera must be among them
-/// @return null, and no more, when the camera is not there
+/// @param mounted the sensors mounted before it, which must include its camera
+/// @return null when the camera is missing; reports no error
 std::unique_ptr<Sensor> makeBlobFinder(const BlobFinderOptions&,
                                        std::span<const std::shared_ptr<const Sensor>> mounted);
 
-/// The largest spot of each colour in a picture. @throws nothing: in what is no JPEG file nothing is found.
-std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<SoughtColor>& colors, unsigned pixels_min);
+/// The largest blob of each colour in a picture. Finds none in bytes that are not a JPEG file.
+/// @throws nothing
+std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors, unsigned pixels_min);
 
 }  // namespace robosim

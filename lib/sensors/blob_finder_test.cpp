@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "sensors/one_robot.h"
+#include "sensors/single_robot_scene.h"
 
 namespace robosim {
 namespace {
@@ -28,16 +28,16 @@ struct Painting {
   }
 };
 
-SoughtColor gold() { return {.name = "gold", .hue_rad = 47 * M_PI / 180}; }
-SoughtColor red() { return {.name = "red", .hue_rad = 0}; }
+TargetColor gold() { return {.name = "gold", .hue_rad = 47 * M_PI / 180}; }
+TargetColor red() { return {.name = "red", .hue_rad = 0}; }
 
-Blob only(const std::string& jpeg, const SoughtColor& color, unsigned pixels_min = 4) {
+Blob only(const std::string& jpeg, const TargetColor& color, unsigned pixels_min = 4) {
   const auto blobs = findBlobs(jpeg, {color}, pixels_min);
   EXPECT_EQ(blobs.size(), 1u);
   return blobs.at(0);
 }
 
-/// JPEG blurs colours along edges: by a pixel or two.
+/// Tolerance for JPEG, which blurs colours along edges by a pixel or two.
 void expectAt(const Blob& blob, const cv::Rect& where) {
   EXPECT_NEAR(blob.left_px, where.x, 2);
   EXPECT_NEAR(blob.top_px, where.y, 2);
@@ -48,19 +48,19 @@ void expectAt(const Blob& blob, const cv::Rect& where) {
   EXPECT_NEAR(blob.pixels, where.area(), 0.1 * where.area() + 8);
 }
 
-TEST(BlobFinder, FindsASpotAndWhereItIs) {
+TEST(BlobFinder, FindsABlobAndItsPosition) {
   const cv::Rect where(100, 60, 40, 90);
   const Blob blob = only(Painting().with(where, kGold).jpeg(), gold());
   EXPECT_EQ(blob.color, "gold");
   expectAt(blob, where);
 }
 
-TEST(BlobFinder, KnowsAColourInTheShade) {
+TEST(BlobFinder, FindsAColourInTheShade) {
   const cv::Rect where(100, 60, 40, 90);
   expectAt(only(Painting().with(where, kDarkGold).jpeg(), gold()), where);
 }
 
-TEST(BlobFinder, TellsTheLargestOfSeveralSpots) {
+TEST(BlobFinder, ReportsTheLargestBlob) {
   const cv::Rect large(200, 100, 50, 50);
   expectAt(only(Painting().with({20, 20, 30, 30}, kGold).with(large, kGold).jpeg(), gold()), large);
 }
@@ -80,20 +80,22 @@ TEST(BlobFinder, FindsRedOnBothSidesOfHueZero) {
   expectAt(only(Painting().with(where, cv::Scalar(20, 60, 200)).jpeg(), red()), where);  // of +13°
 }
 
-TEST(BlobFinder, FindsNothingInGreyAndTellsSo) { EXPECT_EQ(only(Painting().jpeg(), gold()), Blob{.color = "gold"}); }
+TEST(BlobFinder, ReportsAnEmptyBlobForAGreyPicture) {
+  EXPECT_EQ(only(Painting().jpeg(), gold()), Blob{.color = "gold"});
+}
 
-TEST(BlobFinder, TakesSmallSpotsForNoise) {
+TEST(BlobFinder, IgnoresSmallBlobs) {
   const std::string jpeg = Painting().with({100, 60, 5, 5}, kGold).jpeg(100);
   EXPECT_GT(only(jpeg, gold(), 4).pixels, 10u);
   EXPECT_EQ(only(jpeg, gold(), 100).pixels, 0u);
 }
 
-TEST(BlobFinder, FindsNothingInWhatIsNoPicture) {
+TEST(BlobFinder, FindsNothingInInvalidPictures) {
   EXPECT_EQ(only("", gold()).pixels, 0u);
   EXPECT_EQ(only("\xFF\xD8 no picture \xFF\xD9", gold()).pixels, 0u);
 }
 
-/// A robot's camera that always sees the same.
+/// A camera that always returns the same picture.
 class OnePicture : public ImageSource {
  public:
   explicit OnePicture(std::string jpeg) : jpeg_(std::move(jpeg)) {}
@@ -106,7 +108,8 @@ class OnePicture : public ImageSource {
   std::string jpeg_;
 };
 
-/// Two cameras and a blob finder on one of them, in the order of `xml`; what the last sensor measured in some steps.
+/// Two cameras and a blob finder on one of them, in the order of `xml`; returns the last sensor's measurements over
+/// some steps.
 class Mounted {
  public:
   explicit Mounted(const std::vector<std::string>& xml) {
@@ -141,7 +144,7 @@ class Mounted {
 
 const std::string kFinder = "<blob_finder camera='left'><color name='gold' rgb='1 0.8 0.1'/></blob_finder>";
 
-TEST(BlobFinder, LooksThroughTheCameraThatItNames) {
+TEST(BlobFinder, UsesTheCameraWithTheGivenLabel) {
   Mounted mounted({"<camera label='left' width_px='100' rate_hz='5'/>", "<camera label='right'/>", kFinder});
   EXPECT_EQ(mounted.info().camera.width_px, 100u);
   EXPECT_EQ(mounted.info().colors, std::vector<std::string>{"gold"});
@@ -150,11 +153,11 @@ TEST(BlobFinder, LooksThroughTheCameraThatItNames) {
   EXPECT_TRUE(seen.taken);
   ASSERT_EQ(seen.of_color.size(), 1u);
   expectAt(seen.of_color[0], {100, 60, 40, 90});
-  // Its camera takes a picture every second step; the other one's does not count.
+  // Its camera takes a picture every second step; the other camera's pictures are ignored.
   EXPECT_EQ(mounted.sense(3, images), (Blobs{false, {{.color = "gold"}}}));
 }
 
-TEST(BlobFinder, LooksThroughTheLastCameraBeforeItWhenItNamesNone) {
+TEST(BlobFinder, UsesTheLastCameraBeforeItByDefault) {
   Mounted mounted({"<camera width_px='100'/>", "<camera width_px='200'/>",
                    "<blob_finder><color name='gold' rgb='1 0.8 0.1'/></blob_finder>"});
   EXPECT_EQ(mounted.info().camera.width_px, 200u);
@@ -170,18 +173,17 @@ std::string errorOf(const std::string& xml) {
   return "none";
 }
 
-TEST(BlobFinder, RefusesWhatItCannotLookFor) {
+TEST(BlobFinder, RejectsInvalidColoursAndCameras) {
   EXPECT_EQ(errorOf("<blob_finder><color name='gold' rgb='1 0.8 0.1'/></blob_finder>"), "none");
   EXPECT_EQ(
       errorOf(kFinder),
       "sensor.xml:1: <blob_finder camera=\"left\">: is not the label of a camera that is mounted before it; mount "
-      "one, or mend the label");
-  EXPECT_EQ(
-      errorOf("<blob_finder/>"),
-      "sensor.xml:1: <blob_finder>: looks for 0 colours; give it 1 to 32, such as <color name=\"gold\" rgb=\"1 0.8 "
-      "0.1\"/>");
+      "one, or fix the label");
+  EXPECT_EQ(errorOf("<blob_finder/>"),
+            "sensor.xml:1: <blob_finder>: has 0 colours; give 1 to 32, such as <color name=\"gold\" rgb=\"1 0.8 "
+            "0.1\"/>");
   EXPECT_EQ(errorOf("<blob_finder><color name='grey' rgb='0.5 0.5 0.5'/></blob_finder>"),
-            "sensor.xml:1: <color rgb=\"0.5 0.5 0.5\">: is a grey, which has no hue to look for; give a colour");
+            "sensor.xml:1: <color rgb=\"0.5 0.5 0.5\">: is a grey, which has no hue; give a colour");
   EXPECT_EQ(errorOf("<blob_finder><color name='gold'/></blob_finder>"),
             "sensor.xml:1: <color>: <rgb> is missing; add red, green and blue, such as rgb=\"1 0.8 0.1\"");
   EXPECT_EQ(errorOf("<blob_finder><color name='a' rgb='1 0 0'/><color name='a' rgb='0 1 0'/></blob_finder>"),
@@ -193,7 +195,7 @@ TEST(BlobFinder, CannotBeMountedWithoutACamera) {
     sensorFrom("<blob_finder><color name='gold' rgb='1 0.8 0.1'/></blob_finder>");
     FAIL() << "a blob finder without a camera";
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(), "sensor.xml:1: <blob_finder>: has no camera to look through; mount one before it");
+    EXPECT_STREQ(error.what(), "sensor.xml:1: <blob_finder>: has no camera; mount one before it");
   }
 }
 

@@ -1,12 +1,15 @@
 #include "sensors/bumper.h"
 
+#include <algorithm>
 #include <cmath>
 
-#include "geometry/sector_batch.h"
+#include "base/portable_math.h"
 #include "sensors/beam_mounts.h"
 
 namespace robosim {
 namespace {
+
+using mrpt::math::TPoint2D;
 
 class Bumper : public Sensor {
  public:
@@ -18,32 +21,59 @@ class Bumper : public Sensor {
     std::vector<Sector> sectors;
     for (int i = 0; i < options.segments; ++i) {
       const double angle = i * width_rad;
-      info_.beams.push_back(levelBeam(options.robot_radius_m * std::cos(angle),
-                                      options.robot_radius_m * std::sin(angle), options.z_m, angle));
+      const auto [sin, cos] = portable::sincos(angle);
+      info_.beams.push_back(planarBeam(options.robot_radius_m * cos, options.robot_radius_m * sin, options.z_m, angle));
       sectors.push_back(Sector::towards({0, 0, options.z_m}, angle, width_rad / 2));
     }
-    fan_ = SectorFan(sectors);
+    sectors_ = sectors;
+    fan_ = BeamFan(sectors);
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Contacts{std::vector<std::uint8_t>(fan_.size(), 0)}; }
+  bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    static thread_local SectorBatch batch;  // its arrays serve all robots of a thread
+    static thread_local BeamBatch batch;  // reused for all robots of a thread
     const double reach_m = options_.robot_radius_m + options_.travel_m;
     for (const auto robot : robots) {
       auto& pressed = std::get<Contacts>(readings[robot].measurements[slot]).pressed;
       batch.place(fan_, now.frames[robot], reach_m);
-      now.scene.senseSectors(batch, now.bodyOf(robot), now.near[robot]);
-      for (std::size_t i = 0; i < pressed.size(); ++i) pressed[i] = batch.body(i) == SectorBatch::kNothing ? 0 : 1;
+      now.scene.cast(batch, now.bodyOf(robot), now.near[robot]);
+      for (std::size_t i = 0; i < pressed.size(); ++i) pressed[i] = batch.body(i) == BeamBatch::kNothing ? 0 : 1;
+      if (now.surface) pressAtEdge(*now.surface, now.frames[robot], reach_m, pressed);
     }
   }
 
  private:
+  /// Presses the segments that extend over an edge of the surface.
+  void pressAtEdge(const Bounds2D& surface, const PlanarTransform& frame, double reach_m,
+                   std::vector<std::uint8_t>& pressed) const {
+    const auto press = [&](const TPoint2D& outwards, double distance_m) {
+      if (distance_m > reach_m) return;
+      const TPoint2D normal(frame.cos() * outwards.x + frame.sin() * outwards.y,
+                            frame.cos() * outwards.y - frame.sin() * outwards.x);
+      for (std::size_t i = 0; i < pressed.size(); ++i) {
+        if (extentAlong(normal, sectors_[i], reach_m) >= distance_m) pressed[i] = 1;
+      }
+    };
+    press({1, 0}, surface.x_max - frame.x());
+    press({-1, 0}, frame.x() - surface.x_min);
+    press({0, 1}, surface.y_max - frame.y());
+    press({0, -1}, frame.y() - surface.y_min);
+  }
+
+  /// Extent of a segment from the robot's centre along a direction (unit vector, robot frame) [m].
+  static double extentAlong(const TPoint2D& normal, const Sector& segment, double reach_m) {
+    if (segment.contains(normal)) return reach_m;
+    const auto along = [&](const TPoint2D& v) { return v.x * normal.x + v.y * normal.y; };
+    return reach_m * std::max(along(segment.left), along(segment.right));
+  }
+
   BumperOptions options_;
   SensorInfo info_;
-  SectorFan fan_;  ///< from the robot's centre, robot frame
+  std::vector<Sector> sectors_;
+  BeamFan fan_;  ///< sectors about the robot's centre, robot frame
 };
 
 }  // namespace

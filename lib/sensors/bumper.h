@@ -7,12 +7,13 @@
 
 namespace robosim {
 
-/// A ring of contact segments round the robot's body, counter-clockwise; the first is centred straight ahead.
+/// Ring of contact segments around the robot's body, counter-clockwise; the first is centred straight ahead. The edge
+/// of the surface presses segments as a wall does.
 struct BumperOptions {
   std::string label = "bumper";
   int segments = 12;          ///< [3, 360]
-  double travel_m = 0.002;    ///< (0, 0.1]: something this near to the body presses a segment
-  double robot_radius_m = 0;  ///< from the robot, not from the element
+  double travel_m = 0.002;    ///< (0, 0.1]: anything within this distance of the body presses a segment
+  double robot_radius_m = 0;  ///< set from the robot, not from the element
   double z_m = 0;             ///< height of the ring above the robot's underside; default half the robot's height
 
   /// Reads <bumper>.

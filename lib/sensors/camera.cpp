@@ -18,8 +18,7 @@ class Camera : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Image{}; }
-  bool staysHome() const override { return true; }
+  bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
@@ -67,9 +66,9 @@ std::unique_ptr<Sensor> makeCamera(const CameraOptions& options) { return std::m
 
 bool takesPicture(double rate_hz, const SimTime& now) {
   if (now.step == 0) return true;
-  constexpr double kGrace = 1e-6;  // of a picture: a step that is due is meant, not its last digit
+  constexpr double kTolerance = 1e-6;  // in pictures; absorbs the rounding error of the time
   const auto due = [&](std::uint64_t step) {
-    return std::floor(static_cast<double>(step) * now.period_s * rate_hz + kGrace);
+    return std::floor(static_cast<double>(step) * now.period_s * rate_hz + kTolerance);
   };
   return due(now.step) > due(now.step - 1);
 }

@@ -8,7 +8,7 @@
 
 namespace robosim {
 
-/// A colour camera. Its pictures come from the Snapshot's ImageSource; without one it takes none.
+/// A colour camera. The Snapshot's ImageSource renders its pictures; without an ImageSource it takes none.
 struct CameraOptions {
   std::string label = "camera";
   CameraView view{.info = {.width_px = 320, .height_px = 240, .field_of_view_rad = 60 * (M_PI / 180), .rate_hz = 10},
@@ -21,8 +21,8 @@ struct CameraOptions {
 
 std::unique_ptr<Sensor> makeCamera(const CameraOptions&);
 
-/// Whether a camera of this rate takes a picture in a step: the first in step 0, and then in the first step that ends
-/// no earlier than it is due. A rate beyond that of the steps gives one in each.
+/// Whether a camera of this rate takes a picture in a step: in step 0, then in each first step that ends no earlier
+/// than the next due time. At a rate above the step rate it takes one in every step.
 bool takesPicture(double rate_hz, const SimTime& now);
 
 }  // namespace robosim

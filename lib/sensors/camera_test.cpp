@@ -4,23 +4,23 @@
 
 #include <gtest/gtest.h>
 
-#include "sensors/one_robot.h"
+#include "sensors/single_robot_scene.h"
 
 namespace robosim {
 namespace {
 
-/// Notes what it is asked for, and gives pictures that are none.
+/// ImageSource that records its calls and returns placeholder bytes.
 class FakeImages : public ImageSource {
  public:
   void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
             std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override {
-    ++asked;
+    ++calls;
     view = camera;
     poses.assign(world_from_robot.begin(), world_from_robot.end());
     for (std::size_t i = 0; i < robots.size(); ++i) jpegs[i] = "robot " + std::to_string(robots[i]);
   }
 
-  int asked = 0;
+  int calls = 0;
   CameraView view;
   std::vector<mrpt::math::TPose2D> poses;
 };
@@ -36,12 +36,12 @@ std::string errorOf(const std::string& xml) {
   return "none";
 }
 
-TEST(Camera, TakesItsPictureFromWhereItSitsOnTheRobot) {
+TEST(Camera, RendersFromItsMountingPose) {
   const auto camera = sensorFrom(
       "<camera x_m='0.1' y_m='-0.2' z_m='0.3' angle_deg='90' tilt_deg='-30' width_px='64' height_px='48' "
       "field_of_view_deg='90' jpeg_quality='70'/>");
   FakeImages images;
-  OneRobot robot({}, {1, 2, 0.5});
+  SingleRobotScene robot({}, {1, 2, 0.5});
   robot.images = &images;
   EXPECT_EQ(jpeg(robot.sense(*camera)), "robot 0");
   EXPECT_EQ(images.poses, std::vector<mrpt::math::TPose2D>{robot.world_from_robot});
@@ -49,14 +49,14 @@ TEST(Camera, TakesItsPictureFromWhereItSitsOnTheRobot) {
   EXPECT_EQ(images.view.jpeg_quality, 70);
   const auto& pose = images.view.robot_from_camera;
   EXPECT_EQ(mrpt::math::TPoint3D(pose.x, pose.y, pose.z), mrpt::math::TPoint3D(0.1, -0.2, 0.3));
-  // It looks to the robot's left and 30° down.
+  // It faces the robot's left and 30° down.
   const auto ahead = pose.composePoint({1, 0, 0}) - pose.composePoint({0, 0, 0});
   EXPECT_NEAR(ahead.x, 0, 1e-12);
   EXPECT_NEAR(ahead.y, std::cos(M_PI / 6), 1e-12);
   EXPECT_NEAR(ahead.z, -0.5, 1e-12);
 }
 
-TEST(Camera, TellsItsControllerWhereItSitsAndHowItSees) {
+TEST(Camera, ReportsItsMountingPoseAndOptics) {
   const auto camera = sensorFrom("<camera x_m='0.1' z_m='0.3' field_of_view_deg='60' rate_hz='2' label='front'/>");
   const SensorInfo& info = camera->info();
   EXPECT_EQ(info.kind, SensorKind::camera);
@@ -67,19 +67,19 @@ TEST(Camera, TellsItsControllerWhereItSitsAndHowItSees) {
   EXPECT_EQ(std::get<Image>(camera->blank()), Image{});
 }
 
-TEST(Camera, TakesPicturesAtItsRateAndNoneBetweenThem) {
+TEST(Camera, TakesPicturesAtItsRate) {
   const auto camera = sensorFrom("<camera rate_hz='2.5'/>");  // every fourth step of 0.1 s
   FakeImages images;
-  OneRobot robot({});
+  SingleRobotScene robot({});
   robot.images = &images;
   std::string taken;
   for (int step = 1; step <= 9; ++step) taken += jpeg(robot.sense(*camera)).empty() ? '-' : 'x';
   EXPECT_EQ(taken, "---x---x-");
-  EXPECT_EQ(images.asked, 2);
+  EXPECT_EQ(images.calls, 2);
 }
 
-TEST(Camera, WithoutAnImageSourceTakesNoPicture) {
-  OneRobot robot({});
+TEST(Camera, TakesNoPictureWithoutAnImageSource) {
+  SingleRobotScene robot({});
   EXPECT_EQ(jpeg(robot.sense(*sensorFrom("<camera/>"))), "");
 }
 
@@ -89,8 +89,8 @@ int picturesUntil(std::uint64_t last_step, double period_s, double rate_hz) {
   return pictures;
 }
 
-TEST(TakesPicture, KeepsItsRateForAnHourWhateverTheSteps) {
-  // One at the start, and then so many a second, whether or not steps and pictures fall together.
+TEST(TakesPicture, KeepsItsRateForAnHourAtAnyStepLength) {
+  // One at the start, then `rate_hz` per second, whether or not steps and pictures coincide.
   EXPECT_EQ(picturesUntil(36000, 0.1, 10), 1 + 36000);
   EXPECT_EQ(picturesUntil(36000, 0.1, 5), 1 + 18000);
   EXPECT_EQ(picturesUntil(36000, 0.1, 3), 1 + 10800);
@@ -98,12 +98,12 @@ TEST(TakesPicture, KeepsItsRateForAnHourWhateverTheSteps) {
   EXPECT_EQ(picturesUntil(36000, 0.1, 0.001), 1 + 3);
 }
 
-TEST(TakesPicture, TakesOneInEachStepAtARateBeyondTheSteps) {
+TEST(TakesPicture, TakesOneInEachStepAtRatesAboveTheStepRate) {
   EXPECT_EQ(picturesUntil(100, 0.1, 30), 101);
   EXPECT_EQ(picturesUntil(100, 0.1, 1000), 101);
 }
 
-TEST(Camera, RefusesSettingsThatMakeNoPicture) {
+TEST(Camera, RejectsInvalidSettings) {
   EXPECT_EQ(errorOf("<camera width_px='2049'/>"),
             "sensor.xml:1: <camera width_px=\"2049\">: must lie in [1, 2048] pixels; drop it for the default, 320");
   EXPECT_EQ(errorOf("<camera height_px='0'/>"),

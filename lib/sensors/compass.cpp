@@ -15,7 +15,8 @@ class Compass : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Scalar{}; }
+  bool isNoisy() const override { return options_.noise_std_rad > 0; }
+  bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

@@ -16,7 +16,8 @@ class Heat : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Scalar{}; }
+  bool isNoisy() const override { return options_.noise_std > 0; }
+  bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
@@ -28,7 +29,7 @@ class Heat : public Sensor {
         sum += heatAt(options_, source.heat_celsius, (source.center - mrpt::math::TPoint2D(pose.x, pose.y)).norm());
       }
       if (options_.noise_std > 0) sum += options_.noise_std * now.noise(robot, slot).gaussian();
-      // Single precision, as MRPT's observations keep it: a recorded reading is the reading.
+      // Single precision, as in MRPT's observations, so that a recorded reading equals the reading.
       readings[robot].measurements[slot] = Scalar{static_cast<float>(sum)};
     }
   }

@@ -7,13 +7,13 @@
 
 namespace robosim {
 
-/// How the heat of a source fades with the distance d between the robot's centre and the source's.
+/// Attenuation of a heat source of temperature T with the distance d between the centres of robot and source.
 enum class HeatLaw {
-  linear,   ///< T · (1 − d / range): what the 2005 report's own table follows
-  inverse,  ///< T / d, d in length units of the file: what its text says; d counts as 0.01 units at least
+  linear,   ///< T · (1 − d / range): the law of the 2005 report's table
+  inverse,  ///< T / d, d in length units of the file and at least 0.01: the law of its text
 };
 
-/// One number: the sum over all sources within range. Walls do not stop heat.
+/// Heat sensor: the sum of all sources within range. Walls do not attenuate heat.
 struct HeatOptions {
   std::string label = "heat";
   HeatLaw law = HeatLaw::linear;
@@ -23,13 +23,13 @@ struct HeatOptions {
 
   /// Reads <heat>.
   static HeatOptions read(XmlReader&);
-  /// Reads 2005's <sensor> of type heat.
+  /// Reads a 2005 <sensor> of type heat.
   static HeatOptions read2005(XmlReader&, const Mount&);
 };
 
 std::unique_ptr<Sensor> makeHeat(const HeatOptions&);
 
-/// What a source of temperature `heat_celsius` adds at a distance; 0 beyond the range.
+/// Contribution of a source of temperature `heat_celsius` at a distance; 0 beyond the range.
 double heatAt(const HeatOptions&, double heat_celsius, double distance_m);
 
 }  // namespace robosim

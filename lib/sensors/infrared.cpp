@@ -8,7 +8,7 @@
 namespace robosim {
 namespace {
 
-/// Of a GP2D12 behind an 8-bit converter: one step is about 2 % of the range in the middle of its curve (data sheet).
+/// GP2D12 behind an 8-bit converter: one step is about 2 % of the range in the middle of its curve (data sheet).
 constexpr RangeNoise kDataSheet{.on = true, .std_m = 0, .std_per_m = 0.02, .dropout = 0};
 
 }  // namespace
@@ -35,7 +35,7 @@ std::unique_ptr<Sensor> makeInfrared(const InfraredOptions& o) {
                         .range_max_m = o.range_max_m,
                         .no_echo_m = o.range_max_m,
                         .beam_width_rad = 0,
-                        .noise_std_m = o.noise.std_m,
+                        .noise_std_m = o.noise.stdAt(o.range_max_m),
                         .pans = false},
                        o.noise);
 }

@@ -7,12 +7,12 @@
 
 namespace robosim {
 
-/// Short single beams around the robot. Defaults: Sharp GP2D12, 10 cm … 80 cm (data sheet).
+/// Short-range single beams around the robot. Defaults: Sharp GP2D12, 10 cm … 80 cm (data sheet).
 struct InfraredOptions {
   std::string label = "infrared";
   std::vector<Beam> beams;   ///< in the order of the readings
-  double range_min_m = 0.1;  ///< [0, range_max_m): nearer things read this
-  double range_max_m = 0.8;  ///< (0, 10]: only things nearer than this are seen, and silence reads this
+  double range_min_m = 0.1;  ///< [0, range_max_m): nearer objects read this
+  double range_max_m = 0.8;  ///< (0, 10]: only nearer objects are detected; no echo reads this
   RangeNoise noise;
 
   /// Reads <infrared>.

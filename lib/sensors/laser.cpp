@@ -26,8 +26,7 @@ RangeNoise readNoise(XmlReader& reader) {
 LaserOptions LaserOptions::read(XmlReader& reader) {
   LaserOptions o;
   o.label = reader.word("label", o.label);
-  o.robot_from_laser = {reader.number("x_m", {-100, 100}, 0), reader.number("y_m", {-100, 100}, 0),
-                        reader.number("z_m", {-100, 100}, 0)};
+  o.robot_from_laser = readPosition(reader);
   o.direction_rad = reader.angle("angle_deg", {-360, 360}, 0);
   const double beams = reader.number("beams", {1, 10000}, o.beams);
   if (beams != std::floor(beams)) reader.errorAt("beams", "must be a whole number");
@@ -62,12 +61,12 @@ std::unique_ptr<Sensor> makeLaser(const LaserOptions& o) {
                   .range_max_m = o.range_max_m,
                   .no_echo_m = o.no_return_m,
                   .beam_width_rad = 0,
-                  .noise_std_m = o.noise.std_m,
+                  .noise_std_m = o.noise.stdAt(o.range_max_m),
                   .pans = o.pans};
   for (int i = 0; i < o.beams; ++i) {
     const double off_middle = o.beams == 1 ? 0 : o.field_of_view_rad * (static_cast<double>(i) / (o.beams - 1) - 0.5);
     info.beams.push_back(
-        levelBeam(o.robot_from_laser.x, o.robot_from_laser.y, o.robot_from_laser.z, o.direction_rad + off_middle));
+        planarBeam(o.robot_from_laser.x, o.robot_from_laser.y, o.robot_from_laser.z, o.direction_rad + off_middle));
   }
   return makeThinBeams(info, o.noise);
 }

@@ -4,15 +4,17 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/portable_math.h"
+
 namespace robosim {
 namespace {
 
 /// The pose after an arc of constant curvature.
 mrpt::math::TPose2D afterArc(const mrpt::math::TPose2D& from, double length_m, double turn_rad) {
   const double half = turn_rad / 2;
-  const double chord = length_m * (half == 0 ? 1 : std::sin(half) / half);
-  return {from.x + chord * std::cos(from.phi + half), from.y + chord * std::sin(from.phi + half),
-          mrpt::math::wrapToPi(from.phi + turn_rad)};
+  const double chord = length_m * (half == 0 ? 1 : portable::sin(half) / half);
+  const auto [sin, cos] = portable::sincos(from.phi + half);
+  return {from.x + chord * cos, from.y + chord * sin, mrpt::math::wrapToPi(from.phi + turn_rad)};
 }
 
 class WheelOdometry : public Sensor {
@@ -23,18 +25,18 @@ class WheelOdometry : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Odometry{}; }
-  bool staysHome() const override { return true; }
+  bool isNoisy() const override { return options_.noise.on; }
+  bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
       auto& odometry = std::get<Odometry>(readings[robot].measurements[slot]);
-      Motion told = now.last_motion[robot];
-      if (options_.noise.on) told = withNoise(told, now.noise(robot, slot));
-      odometry.odom_from_robot = afterArc(odometry.odom_from_robot, told.length_m, told.turn_rad);
-      odometry.speed_mps = told.length_m / now.time.period_s;
-      odometry.turn_radps = told.turn_rad / now.time.period_s;
+      Motion measured = now.last_motion[robot];
+      if (options_.noise.on) measured = withNoise(measured, now.noise(robot, slot));
+      odometry.odom_from_robot = afterArc(odometry.odom_from_robot, measured.length_m, measured.turn_rad);
+      odometry.speed_mps = measured.length_m / now.time.period_s;
+      odometry.turn_radps = measured.turn_rad / now.time.period_s;
     }
   }
 
@@ -43,11 +45,11 @@ class WheelOdometry : public Sensor {
     const auto& noise = options_.noise;
     const double root_m = std::sqrt(std::abs(true_motion.length_m));
     const double root_rad = std::sqrt(std::abs(true_motion.turn_rad));
-    Motion told = true_motion;
-    told.length_m += noise.length_std_per_sqrt_m * root_m * rng.gaussian();
-    told.turn_rad += noise.turn_std_per_sqrt_rad * root_rad * rng.gaussian();
-    told.turn_rad += noise.drift_std_per_sqrt_m * root_m * rng.gaussian();
-    return told;
+    Motion measured = true_motion;
+    measured.length_m += noise.length_std_per_sqrt_m * root_m * rng.gaussian();
+    measured.turn_rad += noise.turn_std_per_sqrt_rad * root_rad * rng.gaussian();
+    measured.turn_rad += noise.drift_std_per_sqrt_m * root_m * rng.gaussian();
+    return measured;
   }
 
   OdometryOptions options_;

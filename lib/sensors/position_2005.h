@@ -4,8 +4,8 @@
 
 namespace robosim {
 
-/// What a 2005 <sensor> says of its place and reach, in metres and in the robot's frame. The file's x-, y- and
-/// z-relative count from the robot's centre; <range> stands in <sensor> or inside <position>.
+/// Mounting position and range of a 2005 <sensor>, in metres and in the robot frame. The file's x-, y- and z-relative
+/// are relative to the robot's centre; <range> is given in <sensor> or in <position>.
 struct Position2005 {
   double x_m = 0;
   double y_m = 0;

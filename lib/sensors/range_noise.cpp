@@ -15,7 +15,7 @@ RangeNoise RangeNoise::read(XmlReader& noise, const RangeNoise& data_sheet) {
 
 double RangeNoise::apply(double range_m, Rng& rng) const {
   if (rng.uniform() < dropout) return std::numeric_limits<double>::infinity();
-  const double error_m = (std_m + std_per_m * range_m) * rng.gaussian();
+  const double error_m = stdAt(range_m) * rng.gaussian();
   return std::isfinite(range_m) ? std::max(0.0, range_m + error_m) : range_m;
 }
 

@@ -1,6 +1,7 @@
 #include "sensors/registry.h"
 
 #include "sensors/battery.h"
+#include "sensors/beacons.h"
 #include "sensors/blob_finder.h"
 #include "sensors/bumper.h"
 #include "sensors/camera.h"
@@ -21,46 +22,54 @@ Made readBlobFinder(XmlReader& reader, const Mount& mount) {
   Made finder = makeBlobFinder(options, mount.mounted);
   if (finder) return finder;
   if (options.camera.empty()) {
-    reader.error("has no camera to look through; mount one before it");
+    reader.error("has no camera; mount one before it");
   } else {
-    reader.errorAt("camera", "is not the label of a camera that is mounted before it; mount one, or mend the label");
+    reader.errorAt("camera", "is not the label of a camera that is mounted before it; mount one, or fix the label");
   }
   return nullptr;
+}
+
+/// Reports a sensor that exceeds its robot's limit of rays.
+bool fits(XmlReader& reader, const Mount& mount, std::size_t rays) {
+  if (mount.mounted_rays + rays <= kRobotRaysMax) return true;
+  reader.error("has " + std::to_string(rays) + " rays, and the sensors before it " +
+               std::to_string(mount.mounted_rays) + "; a robot may have " + std::to_string(kRobotRaysMax) +
+               " in all, so use fewer");
+  return false;
+}
+
+/// A sonar with too many rays is rejected before its memory is allocated.
+Made make(XmlReader& reader, const Mount& mount, const SonarOptions& options) {
+  return fits(reader, mount, options.rayCount()) ? makeSonar(options) : nullptr;
 }
 
 // clang-format off
 constexpr SensorType kTypes[] = {
-    {"sonar", "A ring of sonars, each the nearest thing in its cone.",
-     [](XmlReader& r, const Mount&) -> Made { return makeSonar(SonarOptions::read(r)); },
-     [](XmlReader& r, const Mount& m) -> Made { return makeSonar(SonarOptions::read2005(r, m)); }},
-    {"laser", "A level laser scanner, or one beam that turns.",
+    {"sonar", "A ring of sonars; each measures the nearest object in its cone.", true,
+     [](XmlReader& r, const Mount& m) -> Made { return make(r, m, SonarOptions::read(r)); },
+     [](XmlReader& r, const Mount& m) -> Made { return make(r, m, SonarOptions::read2005(r, m)); }},
+    {"laser", "A planar laser scanner, or one beam that pans.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeLaser(LaserOptions::read(r)); },
      [](XmlReader& r, const Mount& m) -> Made { return makeLaser(LaserOptions::read2005(r, m)); }},
-    {"heat", "The warmth of everything hot within range, one number.",
+    {"heat", "The sum of the heat of all sources within range.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeHeat(HeatOptions::read(r)); },
      [](XmlReader& r, const Mount& m) -> Made { return makeHeat(HeatOptions::read2005(r, m)); }},
-    {"infrared", "Short single beams.",
+    {"infrared", "Short-range single beams.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeInfrared(InfraredOptions::read(r)); }, nullptr},
-    {"bumper", "A ring of contact segments.",
+    {"bumper", "A ring of contact segments.", false,
      [](XmlReader& r, const Mount& m) -> Made { return makeBumper(BumperOptions::read(r, m)); }, nullptr},
-    {"odometry", "The pose since the start as the wheels tell it.",
+    {"odometry", "The pose since the start as measured by the wheels.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeOdometry(OdometryOptions::read(r)); }, nullptr},
-    {"compass", "The heading in the world.",
+    {"compass", "The heading in the world.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeCompass(CompassOptions::read(r)); }, nullptr},
-    {"camera", "Colour pictures.",
+    {"camera", "Colour pictures.", false,
      [](XmlReader& r, const Mount&) -> Made { return makeCamera(CameraOptions::read(r)); }, nullptr},
-    {"battery", "The battery's voltage, which falls with use.",
+    {"battery", "The battery's voltage, which falls with use.", false,
      [](XmlReader& r, const Mount&) -> Made { return makeBattery(BatteryOptions::read(r)); }, nullptr},
-    {"blob_finder", "The largest spot of each of some colours in a camera's picture.", readBlobFinder, nullptr},
+    {"beacons", "Ranges to ultra-wideband beacons.", true, readBeacons, nullptr},
+    {"blob_finder", "The largest blob of each given colour in a camera's picture.", false, readBlobFinder, nullptr},
 };
 // clang-format on
-
-const SensorType* find(const std::string& name) {
-  for (const auto& type : kTypes) {
-    if (name == type.name) return &type;
-  }
-  return nullptr;
-}
 
 std::string names(bool of_2005) {
   std::string all;
@@ -73,7 +82,7 @@ std::string names(bool of_2005) {
 Made read2005(XmlReader& reader, const Mount& mount) {
   reader.number("id", {0, 1e6}, 0);  // 2005 numbered a robot's sensors; nothing refers to it
   const std::string name = reader.word("type");
-  const SensorType* type = find(name);
+  const SensorType* type = sensorType(name);
   if (!type || !type->read_2005) {
     if (!name.empty()) reader.errorAt("type", "is unknown; accepted are: " + names(true));
     return nullptr;
@@ -85,17 +94,25 @@ Made read2005(XmlReader& reader, const Mount& mount) {
 
 std::span<const SensorType> sensorTypes() { return kTypes; }
 
+const SensorType* sensorType(const std::string& name) {
+  for (const auto& type : kTypes) {
+    if (name == type.name) return &type;
+  }
+  return nullptr;
+}
+
 std::unique_ptr<Sensor> readSensor(XmlReader& reader, const Mount& mount) {
   Made sensor;
   if (reader.name() == "sensor") {
     sensor = read2005(reader, mount);
-  } else if (const SensorType* type = find(reader.name())) {
+  } else if (const SensorType* type = sensorType(reader.name())) {
     sensor = type->read(reader, mount);
   } else {
-    reader.error("is no sensor; there are: " + names(false) + ", and 2005's <sensor>");
+    reader.error("is not a sensor; accepted are: " + names(false) + ", and the 2005 <sensor>");
   }
-  if (sensor) reader.finish();
-  return sensor;
+  if (!sensor) return nullptr;
+  reader.finish();
+  return fits(reader, mount, sensor->rayCount()) ? std::move(sensor) : nullptr;
 }
 
 }  // namespace robosim

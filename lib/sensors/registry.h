@@ -7,28 +7,36 @@
 
 namespace robosim {
 
-/// What a sensor's reader may need to know of the robot that carries it.
+/// Maximum number of rays and sectors of one robot's sensors. A sonar of the model `rays` counts every ray of its
+/// bundle.
+constexpr std::size_t kRobotRaysMax = 100'000;
+
+/// Properties of the robot that carries a sensor, for the sensor's reader.
 struct Mount {
-  double unit_m = 1;  ///< a length unit of the file, in metres; only 2005's <sensor> uses it
+  double unit_m = 1;  ///< length unit of the file [m]; used by 2005 <sensor> elements only
   double robot_radius_m = 0;
   double robot_height_m = 0;
-  std::span<const std::shared_ptr<const Sensor>> mounted = {};  ///< what is mounted already, by slot
+  std::span<const std::shared_ptr<const Sensor>> mounted = {};  ///< sensors mounted before, by slot
+  std::size_t mounted_rays = 0;                                 ///< sum of their Sensor::rayCount()
 };
 
-/// A kind of sensor, and how its element in a file is read.
+/// A kind of sensor and the readers of its elements.
 struct SensorType {
   const char* name;  ///< the element's tag in a robot type: <sonar …/>; <type> in a 2005 <sensor>
   const char* help;  ///< one sentence
+  bool has_noise;    ///< whether its element may have a <noise> child
   std::unique_ptr<Sensor> (*read)(XmlReader&, const Mount&);
-  /// Reads 2005's <sensor>; null for a kind that 2005 had not.
+  /// Reads a 2005 <sensor>; null for kinds that 2005 did not have.
   std::unique_ptr<Sensor> (*read_2005)(XmlReader&, const Mount&);
 };
 
-/// Every kind of sensor there is.
+/// All kinds of sensors.
 std::span<const SensorType> sensorTypes();
+/// The kind of a name; null for an unknown one.
+const SensorType* sensorType(const std::string& name);
 
-/// Reads a sensor from its element, `<sonar …/>` or 2005's `<sensor>`; reports faults to the reader's list, and returns
-/// null for a kind that does not exist.
+/// Reads a sensor from its element, `<sonar …/>` or a 2005 `<sensor>`. Reports faults to the reader's list; returns
+/// null for an unknown kind.
 std::unique_ptr<Sensor> readSensor(XmlReader&, const Mount&);
 
 }  // namespace robosim

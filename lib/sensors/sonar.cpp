@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/portable_math.h"
 #include "sensors/beam_mounts.h"
-#include "sensors/level_beams.h"
+#include "sensors/planar_beams.h"
 #include "sensors/position_2005.h"
 #include "sensors/thin_beams.h"
 
@@ -19,31 +20,33 @@ constexpr double kRadPerDeg = M_PI / 180;
 /// Polaroid 6500 ranging module with the 600 series transducer, as on Pioneer and Scout: ±1 % of the range (data
 /// sheet).
 constexpr RangeNoise kDataSheet{.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0};
-/// Smooth walls mirror the ping away beyond about half the beam width of the transducer (Leonard & Durrant-Whyte,
+/// Smooth walls reflect the ping away beyond about half the beam width of the transducer (Leonard & Durrant-Whyte,
 /// *Directed Sonar Sensing for Mobile Robot Navigation*, 1992, ch. 2).
 constexpr double kSpecular_deg = 15;
 
-/// Directions that fill a cone about x: one on the axis, the rest on a sunflower's spiral, which spreads any number
-/// evenly (Vogel, "A better way to construct the sunflower head", 1979). The last lies on the cone itself.
+/// Directions that fill a cone about x: one on the axis, the others on a sunflower spiral, which distributes any number
+/// evenly (Vogel, "A better way to construct the sunflower head", 1979). The last one lies on the cone's surface.
 std::vector<TPoint3D> coneDirections(int rays, double half_width_rad) {
   const double golden_rad = M_PI * (3 - std::sqrt(5.0));
   std::vector<TPoint3D> directions;
   for (int i = 0; i < rays; ++i) {
     const double off = rays == 1 ? 0 : half_width_rad * std::sqrt(static_cast<double>(i) / (rays - 1));
     const double around = i * golden_rad;
-    directions.emplace_back(std::cos(off), std::sin(off) * std::cos(around), std::sin(off) * std::sin(around));
+    const auto aside = portable::sincos(off);
+    const auto spiral = portable::sincos(around);
+    directions.emplace_back(aside.cos, aside.sin * spiral.cos, aside.sin * spiral.sin);
   }
   return directions;
 }
 
-/// One sonar, worked out for its place on the robot.
+/// A sonar's geometry at its mounting pose.
 struct MountedSonar {
   TPoint3D origin;
   TPoint3D axis;
   std::vector<TPoint3D> rays;  ///< of the bundle, robot frame
 };
 
-struct Heard {
+struct Detection {
   double range_m = std::numeric_limits<double>::infinity();
   TPoint3D direction;  ///< robot frame, unit vector
   BodyId body = kNoBody;
@@ -57,7 +60,7 @@ SensorInfo infoOf(const SonarOptions& options) {
           .range_max_m = options.range_max_m,
           .no_echo_m = options.no_echo_m,
           .beam_width_rad = options.beam_width_rad,
-          .noise_std_m = options.noise.range.on ? options.noise.range.std_m : 0,
+          .noise_std_m = options.noise.range.stdAt(options.range_max_m),
           .pans = false};
 }
 
@@ -65,11 +68,11 @@ class Sonar : public Sensor {
  public:
   explicit Sonar(const SonarOptions& options) : options_(options), info_(infoOf(options)), axes_(options.beams) {
     const double half_rad = options.beam_width_rad / 2;
-    const auto cone = coneDirections(options.rays, half_rad);
+    const auto cone = coneDirections(options.model == SonarModel::rays ? options.rays : 0, half_rad);
     for (const auto& beam : options.beams) {
       const double yaw = beam.robot_from_beam.yaw;
       MountedSonar sonar{originOf(beam), directionOf(beam), {}};
-      const LevelFrame turned({0, 0, yaw}, 0);
+      const PlanarTransform turned({0, 0, yaw}, 0);
       for (const auto& ray : cone) sonar.rays.push_back(turned.turnToWorld(ray));
       sonars_.push_back(std::move(sonar));
     }
@@ -78,60 +81,64 @@ class Sonar : public Sensor {
       for (const auto i : sonars) {
         sectors.push_back(Sector::towards(sonars_[i].origin, options.beams[i].robot_from_beam.yaw, half_rad));
       }
-      tiers_.push_back({sonars, SectorFan(sectors)});
+      groups_.push_back({sonars, BeamFan(sectors)});
     }
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Echoes(sonars_.size()); }
+  bool isNoisy() const override { return options_.noise.range.on; }
+  std::size_t rayCount() const override { return options_.rayCount(); }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
-      const LevelFrame& frame = now.frames[robot];
-      static thread_local std::vector<Heard> heard;
-      hearAll(now, robot, frame, heard);
-      if (options_.noise.range.on) addNoise(now, robot, slot, frame, heard);
-      for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = told(i, heard[i]);
+      const PlanarTransform& frame = now.frames[robot];
+      static thread_local std::vector<Detection> detections;
+      detectAll(now, robot, frame, detections);
+      if (options_.noise.range.on) addNoise(now, robot, slot, frame, detections);
+      for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = echoOf(i, detections[i]);
     }
   }
 
  private:
-  void hearAll(const Snapshot& now, std::uint32_t robot, const LevelFrame& frame, std::vector<Heard>& heard) const {
-    heard.assign(sonars_.size(), {});
+  void detectAll(const Snapshot& now, std::uint32_t robot, const PlanarTransform& frame,
+                 std::vector<Detection>& detections) const {
+    detections.assign(sonars_.size(), {});
     if (options_.model == SonarModel::rays && options_.rays == 1) {
       axes_.cast(now, robot, 0, options_.range_max_m, [&](std::size_t i, double distance_m, BodyId body) {
-        if (body != kNoBody) heard[i] = {distance_m, sonars_[i].axis, body};
+        if (body != kNoBody) detections[i] = {distance_m, sonars_[i].axis, body};
       });
       return;
     }
-    if (options_.model == SonarModel::sector) return hearSectors(now, robot, frame, heard);
-    for (std::size_t i = 0; i < sonars_.size(); ++i) heard[i] = hearBundle(now, robot, frame, sonars_[i]);
+    if (options_.model == SonarModel::sector) return detectWithSectors(now, robot, frame, detections);
+    for (std::size_t i = 0; i < sonars_.size(); ++i) detections[i] = detectWithRays(now, robot, frame, sonars_[i]);
   }
 
-  void hearSectors(const Snapshot& now, std::uint32_t robot, const LevelFrame& frame, std::vector<Heard>& heard) const {
-    static thread_local SectorBatch batch;  // its arrays serve all robots of a thread
-    for (const auto& tier : tiers_) {
-      batch.place(tier.fan, frame, options_.range_max_m);
-      now.scene.senseSectors(batch, now.bodyOf(robot), now.near[robot]);
-      for (std::size_t k = 0; k < tier.sonars.size(); ++k) {
-        if (batch.body(k) == SectorBatch::kNothing) continue;
-        const std::size_t i = tier.sonars[k];
+  void detectWithSectors(const Snapshot& now, std::uint32_t robot, const PlanarTransform& frame,
+                         std::vector<Detection>& detections) const {
+    static thread_local BeamBatch batch;  // reused for all robots of a thread
+    for (const auto& group : groups_) {
+      batch.place(group.fan, frame, options_.range_max_m);
+      now.scene.cast(batch, now.bodyOf(robot), now.near[robot]);
+      for (std::size_t k = 0; k < group.sonars.size(); ++k) {
+        if (batch.body(k) == BeamBatch::kNothing) continue;
+        const std::size_t i = group.sonars[k];
         const TPoint3D out = frame.turnToFrame(TPoint3D(batch.towards(k).x, batch.towards(k).y, 0));
-        heard[i] = echoFrom(sonars_[i], batch.distance(k), out, BodyId(static_cast<std::uint32_t>(batch.body(k))));
+        detections[i] = echoFrom(sonars_[i], batch.distance(k), out, BodyId(static_cast<std::uint32_t>(batch.body(k))));
       }
     }
   }
 
-  /// @param out from the sonar to what it hears, robot frame
-  static Heard echoFrom(const MountedSonar& sonar, double distance_m, const TPoint3D& out, BodyId body) {
+  /// @param out vector from the sonar to the echo's origin, robot frame
+  static Detection echoFrom(const MountedSonar& sonar, double distance_m, const TPoint3D& out, BodyId body) {
     return {distance_m, distance_m > 0 ? out * (1 / distance_m) : sonar.axis, body};
   }
 
-  Heard hearBundle(const Snapshot& now, std::uint32_t robot, const LevelFrame& frame, const MountedSonar& sonar) const {
+  Detection detectWithRays(const Snapshot& now, std::uint32_t robot, const PlanarTransform& frame,
+                           const MountedSonar& sonar) const {
     const TPoint3D origin = frame.pointToWorld(sonar.origin);
-    Heard nearest;
+    Detection nearest;
     for (const auto& ray : sonar.rays) {
       const double reach = std::min(nearest.range_m, options_.range_max_m);
       const Hit hit = now.scene.castRay({origin, frame.turnToWorld(ray)}, reach, now.bodyOf(robot));
@@ -140,59 +147,60 @@ class Sonar : public Sensor {
     return nearest;
   }
 
-  /// The echo as the hardware tells it.
-  Echo told(std::size_t sonar, const Heard& heard) const {
-    const auto range = static_cast<float>(heard.range_m);
+  /// The echo as reported by the hardware.
+  Echo echoOf(std::size_t sonar, const Detection& detection) const {
+    const auto range = static_cast<float>(detection.range_m);
     if (!(range < static_cast<float>(options_.range_max_m))) {
       return {static_cast<float>(options_.no_echo_m),
               pointAlong(sonars_[sonar].origin, sonars_[sonar].axis, static_cast<float>(options_.no_echo_m))};
     }
     return {std::max(range, static_cast<float>(options_.range_min_m)),
-            pointAlong(sonars_[sonar].origin, heard.direction, range)};
+            pointAlong(sonars_[sonar].origin, detection.direction, range)};
   }
 
-  void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const LevelFrame& frame,
-                std::vector<Heard>& heard) const {
+  void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const PlanarTransform& frame,
+                std::vector<Detection>& detections) const {
     Rng rng = now.noise(robot, slot);
     for (std::size_t i = 0; i < sonars_.size(); ++i) {
-      if (heard[i].body != kNoBody && mirrorsAway(now, frame, sonars_[i], heard[i])) heard[i] = {};
-      // Drawn for silence too, so that one sonar's luck does not depend on what another hears.
-      heard[i].range_m = options_.noise.range.apply(heard[i].range_m, rng);
+      if (detections[i].body != kNoBody && isSpecular(now, frame, sonars_[i], detections[i])) detections[i] = {};
+      // Drawn without an echo too, so that a sonar's noise does not depend on the echoes of the others.
+      detections[i].range_m = options_.noise.range.apply(detections[i].range_m, rng);
     }
-    if (options_.noise.crosstalk > 0) mixNeighbours(rng, heard);
+    if (options_.noise.crosstalk > 0) addCrosstalk(rng, detections);
   }
 
-  bool mirrorsAway(const Snapshot& now, const LevelFrame& frame, const MountedSonar& sonar, const Heard& heard) const {
-    if (options_.noise.specular_rad >= M_PI || heard.range_m <= 0) return false;
-    const TPoint3D met = frame.pointToWorld(sonar.origin + heard.direction * heard.range_m);
-    const TPoint3D out = frame.turnToWorld(heard.direction);
-    const TPoint2D normal = normalAt(now.scene.solid(heard.body).outline, {met.x, met.y});
-    const double straightness = -(out.x * normal.x + out.y * normal.y) / std::hypot(out.x, out.y);
-    return straightness < std::cos(options_.noise.specular_rad);
+  bool isSpecular(const Snapshot& now, const PlanarTransform& frame, const MountedSonar& sonar,
+                  const Detection& detection) const {
+    if (options_.noise.specular_rad >= M_PI || detection.range_m <= 0) return false;
+    const TPoint3D met = frame.pointToWorld(sonar.origin + detection.direction * detection.range_m);
+    const TPoint3D out = frame.turnToWorld(detection.direction);
+    const TPoint2D normal = normalAt(now.scene.solid(detection.body).outline, {met.x, met.y});
+    const double straightness = -(out.x * normal.x + out.y * normal.y) / portable::hypot(out.x, out.y);
+    return straightness < portable::cos(options_.noise.specular_rad);
   }
 
-  void mixNeighbours(Rng& rng, std::vector<Heard>& heard) const {
-    // Neighbours' echoes as they were, so that an echo does not wander round the ring.
-    const std::vector<Heard> own = heard;
+  void addCrosstalk(Rng& rng, std::vector<Detection>& detections) const {
+    // The neighbours' own echoes, so that an echo does not propagate around the ring.
+    const std::vector<Detection> own = detections;
     const std::size_t n = own.size();
     for (std::size_t i = 0; i < n; ++i) {
       const bool mixed = rng.uniform() < options_.noise.crosstalk;
       const std::size_t other = (i + (rng.below(2) ? 1 : n - 1)) % n;
-      if (mixed && own[other].range_m < own[i].range_m) heard[i] = {own[other].range_m, sonars_[i].axis, kNoBody};
+      if (mixed && own[other].range_m < own[i].range_m) detections[i] = {own[other].range_m, sonars_[i].axis, kNoBody};
     }
   }
 
-  /// Sonars of one height: a fan of sectors has one.
-  struct Tier {
+  /// Sonars at one height, as a BeamFan requires.
+  struct HeightGroup {
     std::vector<std::size_t> sonars;
-    SectorFan fan;
+    BeamFan fan;
   };
 
   SonarOptions options_;
   SensorInfo info_;
   std::vector<MountedSonar> sonars_;
-  std::vector<Tier> tiers_;  ///< for the model of sectors
-  LevelBeams axes_;          ///< for the model of one ray a sonar
+  std::vector<HeightGroup> groups_;  ///< for the model `sector`
+  PlanarBeams axes_;                 ///< for the model `rays` with one ray per sonar
 };
 
 SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
@@ -241,21 +249,27 @@ SonarOptions SonarOptions::read2005(XmlReader& reader, const Mount& mount) {
   o.no_echo_m = position.range_m + mount.unit_m;
   const double mode = reader.number("mode", {1, 2}, 2);
   if (mode != 1 && mode != 2) reader.errorAt("mode", "must be 1 (8 sonars in front) or 2 (16 all round)");
-  // In the table the four sonars that look straight aside sit 0.5 before or behind the centre of a robot of radius 3.
+  // In the table the four sonars that face straight sideways are mounted 0.5 before or behind the centre of a robot of
+  // radius 3.
   const double aside_m = mount.robot_radius_m / 6;
   const double bearings_deg[] = {-90, -50, -30, -10, 10, 30, 50, 90, 90, 130, 150, 170, -170, -150, -130, -90};
   for (int i = 0; i < (mode == 1 ? 8 : 16); ++i) {
     const double angle = bearings_deg[i] * kRadPerDeg;
-    const bool looks_aside = std::abs(bearings_deg[i]) == 90;
-    const double x_m = looks_aside ? (i < 8 ? aside_m : -aside_m) : mount.robot_radius_m * std::cos(angle);
-    o.beams.push_back(levelBeam(x_m, mount.robot_radius_m * std::sin(angle), position.z_m, angle));
+    const bool faces_sideways = std::abs(bearings_deg[i]) == 90;
+    const auto [sin, cos] = portable::sincos(angle);
+    const double x_m = faces_sideways ? (i < 8 ? aside_m : -aside_m) : mount.robot_radius_m * cos;
+    o.beams.push_back(planarBeam(x_m, mount.robot_radius_m * sin, position.z_m, angle));
   }
   o.noise = readNoise(reader);
   return o;
 }
 
+std::size_t SonarOptions::rayCount() const {
+  return beams.size() * (model == SonarModel::rays ? static_cast<std::size_t>(rays) : 1);
+}
+
 std::unique_ptr<Sensor> makeSonar(const SonarOptions& options) {
-  // One ray without its errors is any thin beam.
+  // A single ray without noise is a thin beam.
   if (options.model == SonarModel::rays && options.rays == 1 && !options.noise.range.on) {
     return makeThinBeams(infoOf(options), {});
   }

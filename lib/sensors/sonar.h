@@ -9,16 +9,16 @@
 
 namespace robosim {
 
-/// How one sonar hears.
+/// Model of one sonar's beam.
 enum class SonarModel {
-  sector,  ///< the exact nearest point of any object inside the level wedge
+  sector,  ///< the exact nearest point of any object inside the planar wedge
   rays,    ///< the nearest hit of a bundle of rays that fills the cone, in 3D
 };
 
 struct SonarNoise {
   RangeNoise range;
-  double specular_rad = M_PI;  ///< a surface met more askew than this mirrors the ping away; [0, π], π: never
-  double crosstalk = 0;        ///< probability that a sonar takes the nearer echo of a neighbour for its own, [0, 1]
+  double specular_rad = M_PI;  ///< a surface at a larger angle of incidence returns no echo; [0, π], π: never
+  double crosstalk = 0;        ///< probability of reading a neighbour's nearer echo, [0, 1]
 };
 
 /// A ring of sonars that fire in every time step.
@@ -26,18 +26,20 @@ struct SonarOptions {
   std::string label = "sonar";
   SonarModel model = SonarModel::sector;
   std::vector<Beam> beams;                  ///< in the order of the readings
-  double range_min_m = 0;                   ///< [0, range_max_m): nearer things read this
-  double range_max_m = 5;                   ///< (0, 100]: only things nearer than this echo
-  double no_echo_m = 5;                     ///< [range_max_m, 1000]: what silence reads
+  double range_min_m = 0;                   ///< [0, range_max_m): nearer objects read this
+  double range_max_m = 5;                   ///< (0, 100]: only nearer objects return an echo
+  double no_echo_m = 5;                     ///< [range_max_m, 1000]: reading without an echo
   double beam_width_rad = 20 * M_PI / 180;  ///< full angle of the cone, (0°, 120°]; 2005: 20°
-  int rays = 19;                            ///< of the model `rays`, [1, 1000]; 1 is the axis alone
+  int rays = 19;                            ///< for the model `rays`, [1, 1000]; 1: the axis only
   SonarNoise noise;
+
+  std::size_t rayCount() const;
 
   /// Reads <sonar>. @throws nothing: faults go to the reader's list.
   static SonarOptions read(XmlReader&);
-  /// Reads 2005's <sensor> of type sonar. Its 8 (mode 1, front) or 16 (mode 2) sonars sit where the 2005 report's Table
-  /// 1 shows them: on a ring of the robot's radius round its centre, numbered from its right over its front to its left
-  /// and round its back, at the height of <z-relative> above the robot's centre. Silence reads the range + 1 unit.
+  /// Reads a 2005 <sensor> of type sonar. Its 8 (mode 1, front) or 16 (mode 2) sonars are mounted as in Table 1 of the
+  /// 2005 report: on a ring of the robot's radius about its centre, numbered from its right over its front to its left
+  /// and around its back, at the height of <z-relative> above the robot's centre. No echo reads the range + 1 unit.
   static SonarOptions read2005(XmlReader&, const Mount&);
 };
 

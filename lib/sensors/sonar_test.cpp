@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sensors/one_robot.h"
+#include "sensors/single_robot_scene.h"
 
 namespace robosim {
 namespace {
@@ -15,23 +15,23 @@ std::unique_ptr<Sensor> sonarAhead(const std::string& attributes = "", const std
   return sensorFrom("<sonar " + attributes + "><at x_m='0.2' z_m='0.1'/>" + inside + "</sonar>");
 }
 
-TEST(Sonar, HearsTheWallAheadFromWhereItIsMounted) {
-  // The wall's face is at x = 2; the sonar sits at x = 0.2 on the robot.
-  OneRobot robot({block(2.5, 0, 1, 10)});
+TEST(Sonar, MeasuresTheWallAheadFromItsMountingPose) {
+  // The wall's face is at x = 2; the sonar is mounted at x = 0.2.
+  SingleRobotScene robot({block(2.5, 0, 1, 10)});
   EXPECT_NEAR(robot.ranges(*sonarAhead())[0], 1.8, kFloat);
 }
 
-TEST(Sonar, TellsWhereInTheRobotsFrameTheEchoCameFrom) {
-  OneRobot robot({block(2.5, 0, 1, 10)}, {0.5, 0, 0});
+TEST(Sonar, ReportsTheEchosOriginInTheRobotsFrame) {
+  SingleRobotScene robot({block(2.5, 0, 1, 10)}, {0.5, 0, 0});
   const auto echo = std::get<Echoes>(robot.sense(*sonarAhead()))[0];
   EXPECT_NEAR(echo.point_m.x, 1.5, kFloat);
   EXPECT_NEAR(echo.point_m.y, 0, kFloat);
   EXPECT_NEAR(echo.point_m.z, 0.1, kFloat);
 }
 
-TEST(Sonar, TellsThePointInTheRobotsFrameAlsoWhenTheRobotIsTurned) {
-  // It looks along the world's y; the pillar is met a little left of the axis, at its nearest point.
-  OneRobot robot({pillar(-0.1, 3, 0.5)}, {0, 0, M_PI_2});
+TEST(Sonar, ReportsThePointInTheFrameOfARotatedRobot) {
+  // It faces the world's y; the pillar's nearest point is slightly left of the axis.
+  SingleRobotScene robot({pillar(-0.1, 3, 0.5)}, {0, 0, M_PI_2});
   const auto echo = std::get<Echoes>(robot.sense(*sonarAhead()))[0];
   const double far = std::hypot(0.1, 2.8);
   EXPECT_NEAR(echo.range_m, far - 0.5, kFloat);
@@ -39,79 +39,80 @@ TEST(Sonar, TellsThePointInTheRobotsFrameAlsoWhenTheRobotIsTurned) {
   EXPECT_NEAR(echo.point_m.y, 0.1 * (far - 0.5) / far, kFloat);
 }
 
-TEST(Sonar, OfTheSectorModelHearsThePillarThatItsAxisMisses) {
+TEST(Sonar, SectorModelDetectsAPillarOffTheAxis) {
   // The pillar's nearest point lies 8° off the axis: inside a sector of ±10°, far from the axis.
   const double off = 8 * M_PI / 180;
   const std::vector<Solid> solids{pillar(0.2 + 3 * std::cos(off), 3 * std::sin(off), 0.1)};
-  EXPECT_NEAR(OneRobot(solids).ranges(*sonarAhead())[0], 2.9, kFloat);
-  EXPECT_NEAR(OneRobot(solids).ranges(*sonarAhead("model='rays' rays='1'"))[0], 5, kFloat);
+  EXPECT_NEAR(SingleRobotScene(solids).ranges(*sonarAhead())[0], 2.9, kFloat);
+  EXPECT_NEAR(SingleRobotScene(solids).ranges(*sonarAhead("model='rays' rays='1'"))[0], 5, kFloat);
 }
 
-TEST(Sonar, OfTheRaysModelSeesOnlyWhatTheConesHeightMeets) {
-  // A shelf hangs 2 m before the sonar at z = 0.1. At its face the cone of ±10° has risen by 2·tan 10° = 0.353 m: it
-  // passes under a shelf that begins at z = 0.5 and meets its underside only 0.4 / sin 10° = 2.3035 m away.
-  const auto shelf_from = [](double z_m) { return Solid{OrientedBox::from({2.7, 0, 0}, 1, 4), {z_m, 1.0}}; };
+TEST(Sonar, RaysModelDetectsOnlyObjectsWithinTheConesHeights) {
+  // A shelf is 2 m before the sonar at z = 0.1. At its face the cone of ±10° has risen by 2·tan 10° = 0.353 m: it
+  // passes under a shelf that begins at z = 0.5 and hits its underside only 0.4 / sin 10° = 2.3035 m away.
+  const auto files_from = [](double z_m) { return Solid{OrientedBox::from({2.7, 0, 0}, 1, 4), {z_m, 1.0}}; };
   const auto range = [](const Solid& shelf, const std::string& range_max_m) {
-    return OneRobot({shelf}).ranges(*sonarAhead("model='rays' rays='400' range_max_m='" + range_max_m + "'"))[0];
+    return SingleRobotScene({shelf}).ranges(
+        *sonarAhead("model='rays' rays='400' range_max_m='" + range_max_m + "'"))[0];
   };
-  EXPECT_NEAR(range(shelf_from(0.5), "2.3"), 2.3, kFloat) << "silence";
-  EXPECT_NEAR(range(shelf_from(0.5), "5"), 2.31, 0.01) << "the edge of the cone meets the underside";
-  // A shelf from z = 0.3 is met by every ray that rises by 0.2 m or more: the nearest is √(2² + 0.2²) = 2.010 m long.
-  EXPECT_NEAR(range(shelf_from(0.3), "5"), 2.012, 0.0021);
+  EXPECT_NEAR(range(files_from(0.5), "2.3"), 2.3, kFloat) << "no echo";
+  EXPECT_NEAR(range(files_from(0.5), "5"), 2.31, 0.01) << "the edge of the cone hits the underside";
+  // A shelf from z = 0.3 is hit by every ray that rises by 0.2 m or more: the shortest is √(2² + 0.2²) = 2.010 m long.
+  EXPECT_NEAR(range(files_from(0.3), "5"), 2.012, 0.0021);
 }
 
-TEST(Sonar, OfTheSectorModelLooksOverWhatIsLower) {
-  EXPECT_NEAR(OneRobot({block(2.5, 0, 1, 10, 0, 0.05)}).ranges(*sonarAhead())[0], 5, kFloat);
-  EXPECT_NEAR(OneRobot({block(2.5, 0, 1, 10, 0, 0.1)}).ranges(*sonarAhead())[0], 1.8, kFloat);
+TEST(Sonar, SectorModelIgnoresLowerObjects) {
+  EXPECT_NEAR(SingleRobotScene({block(2.5, 0, 1, 10, 0, 0.05)}).ranges(*sonarAhead())[0], 5, kFloat);
+  EXPECT_NEAR(SingleRobotScene({block(2.5, 0, 1, 10, 0, 0.1)}).ranges(*sonarAhead())[0], 1.8, kFloat);
 }
 
-TEST(Sonar, HearsOnlyWhatIsNearerThanItsRange) {
+TEST(Sonar, DetectsOnlyObjectsNearerThanItsRange) {
   const std::vector<Solid> wall_at_2{block(2.5, 0, 1, 10)};
-  EXPECT_NEAR(OneRobot(wall_at_2).ranges(*sonarAhead("range_max_m='1.8' no_echo_m='9'"))[0], 9, kFloat);
-  EXPECT_NEAR(OneRobot(wall_at_2).ranges(*sonarAhead("range_max_m='1.81' no_echo_m='9'"))[0], 1.8, kFloat);
+  EXPECT_NEAR(SingleRobotScene(wall_at_2).ranges(*sonarAhead("range_max_m='1.8' no_echo_m='9'"))[0], 9, kFloat);
+  EXPECT_NEAR(SingleRobotScene(wall_at_2).ranges(*sonarAhead("range_max_m='1.81' no_echo_m='9'"))[0], 1.8, kFloat);
 }
 
 TEST(Sonar, NeverReadsLessThanItsMinimum) {
-  OneRobot robot({block(0.75, 0, 1, 10)});
+  SingleRobotScene robot({block(0.75, 0, 1, 10)});
   EXPECT_NEAR(robot.ranges(*sonarAhead("range_min_m='0.1'"))[0], 0.1, kFloat);
 }
 
-TEST(Sonar, NeverHearsItsOwnRobot) {
-  OneRobot robot({});
+TEST(Sonar, NeverDetectsItsOwnRobot) {
+  SingleRobotScene robot({});
   EXPECT_NEAR(robot.ranges(*sensorFrom("<sonar><at x_m='0.1'/></sonar>"))[0], 5, kFloat);
 }
 
-TEST(Sonar, RingLooksOutwardsCounterClockwise) {
+TEST(Sonar, RingFacesOutwardsCounterClockwise) {
   // Four sonars on a ring of 0.2 m; walls at distances 1, 2, 3 and 4 ahead, left, behind and right.
-  OneRobot robot({block(1.5, 0, 1, 1), block(0, 2.5, 1, 1), block(-3.5, 0, 1, 1), block(0, -4.5, 1, 1)});
+  SingleRobotScene robot({block(1.5, 0, 1, 1), block(0, 2.5, 1, 1), block(-3.5, 0, 1, 1), block(0, -4.5, 1, 1)});
   const auto ranges = robot.ranges(*sensorFrom("<sonar><ring count='4' radius_m='0.2'/></sonar>"));
   ASSERT_EQ(ranges.size(), 4u);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(ranges[static_cast<std::size_t>(i)], i + 0.8, kFloat) << i;
 }
 
-TEST(Sonar, Of2005SitsOnARingOfTheRobotsRadiusAndReadsOneUnitMoreThanItsRangeWhenSilent) {
+TEST(Sonar, Format2005MountsARingOfTheRobotsRadiusAndReadsTheRangePlusOneUnitWithoutEcho) {
   // unit 0.1 m, radius 3 units: the numbers of opho2_1.md. A wall on the right, its face 10 units from the centre.
-  OneRobot robot({block(0, -1.5, 100, 1)});
+  SingleRobotScene robot({block(0, -1.5, 100, 1)});
   const auto sonar =
       sensorFrom("<sensor><id>2</id><type>sonar</type><mode>2</mode><range>15</range></sensor>", Mount{0.1, 0.3, 0.3});
   const auto ranges = robot.ranges(*sonar);
   ASSERT_EQ(ranges.size(), 16u);
-  EXPECT_NEAR(ranges[0], 0.7, kFloat) << "sonar 1 looks straight right from the ring: 10 - 3 units";
+  EXPECT_NEAR(ranges[0], 0.7, kFloat) << "sonar 1 faces straight right from the ring: 10 - 3 units";
   EXPECT_NEAR(ranges[15], 0.7, kFloat) << "so does sonar 16";
-  EXPECT_NEAR(ranges[3], 1.6, kFloat) << "sonar 4 looks ahead: silence";
+  EXPECT_NEAR(ranges[3], 1.6, kFloat) << "sonar 4 faces ahead: no echo";
   EXPECT_NEAR(sonar->info().beams[0].robot_from_beam.x, 0.05, 1e-12) << "half a unit ahead of the centre";
   EXPECT_NEAR(sonar->info().beams[15].robot_from_beam.x, -0.05, 1e-12);
   EXPECT_NEAR(sonar->info().beams[3].robot_from_beam.x, 0.29544, 1e-5);
   EXPECT_NEAR(sonar->info().beams[3].robot_from_beam.y, -0.05209, 1e-5);
 }
 
-TEST(Sonar, Of2005InMode1HasTheFrontArrayOnly) {
+TEST(Sonar, Format2005Mode1HasTheFrontArrayOnly) {
   const auto sonar = sensorFrom("<sensor><type>sonar</type><mode>1</mode><range>15</range></sensor>");
   EXPECT_EQ(sonar->info().beams.size(), 8u);
 }
 
 TEST(Sonar, NoiseIsOffByDefaultAndOnePercentWhenSwitchedOn) {
-  OneRobot robot({block(2.7, 0, 1, 10)});  // 2 m ahead
+  SingleRobotScene robot({block(2.7, 0, 1, 10)});  // 2 m ahead
   const auto exact = sonarAhead();
   const auto noisy = sonarAhead("", "<noise/>");
   double sum = 0;
@@ -127,23 +128,23 @@ TEST(Sonar, NoiseIsOffByDefaultAndOnePercentWhenSwitchedOn) {
   EXPECT_NEAR(std::sqrt(squares / n), 0.02, 0.001);
 }
 
-TEST(Sonar, DropsAsManyEchoesAsTold) {
-  OneRobot robot({block(2.7, 0, 1, 10)});
+TEST(Sonar, DropsTheGivenShareOfItsEchoes) {
+  SingleRobotScene robot({block(2.7, 0, 1, 10)});
   const auto sonar = sonarAhead("", "<noise std_per_m='0' dropout='0.25'/>");
   int silent = 0;
   for (int i = 0; i < 4000; ++i) silent += robot.ranges(*sonar)[0] > 4 ? 1 : 0;
   EXPECT_NEAR(silent, 1000, 4 * std::sqrt(4000 * 0.25 * 0.75));
 }
 
-TEST(Sonar, SpecularWallMirrorsThePingAwayBeyondItsAngle) {
-  // The wall runs at 45° to the axis: its nearest point in the sector lies on the edge, met 35° from its normal.
-  OneRobot robot({block(2.2 + std::sqrt(0.5), 0 - std::sqrt(0.5), 2, 20, M_PI_4)});
+TEST(Sonar, SpecularWallReturnsNoEchoBeyondItsAngle) {
+  // The wall is at 45° to the axis: its nearest point in the sector lies on the edge, 35° from its normal.
+  SingleRobotScene robot({block(2.2 + std::sqrt(0.5), 0 - std::sqrt(0.5), 2, 20, M_PI_4)});
   EXPECT_LT(robot.ranges(*sonarAhead("", "<noise std_per_m='0' specular_deg='36'/>"))[0], 5);
   EXPECT_NEAR(robot.ranges(*sonarAhead("", "<noise std_per_m='0' specular_deg='34'/>"))[0], 5, kFloat);
 }
 
 TEST(Sonar, CrosstalkTakesANeighboursNearerEcho) {
-  OneRobot robot({block(1.5, 0, 1, 0.2)});
+  SingleRobotScene robot({block(1.5, 0, 1, 0.2)});
   const auto ring = [](const std::string& crosstalk) {
     return sensorFrom("<sonar><ring count='4' radius_m='0.2'/><noise std_per_m='0' crosstalk='" + crosstalk +
                       "'/></sonar>");
@@ -153,14 +154,14 @@ TEST(Sonar, CrosstalkTakesANeighboursNearerEcho) {
   for (int i = 0; i < 2000; ++i) {
     const auto ranges = robot.ranges(*sonar);
     EXPECT_NEAR(ranges[0], 0.8, kFloat);
-    EXPECT_NEAR(ranges[2], 5, kFloat) << "its neighbours hear nothing";
+    EXPECT_NEAR(ranges[2], 5, kFloat) << "its neighbours have no echo";
     mixed += ranges[1] < 4 ? 1 : 0;
   }
-  // Half the time mixed, half of these with the neighbour that hears something.
+  // Crosstalk occurs half the time, in half of these with the neighbour that has an echo.
   EXPECT_NEAR(mixed, 500, 4 * std::sqrt(2000 * 0.25 * 0.75));
 }
 
-TEST(Sonar, SaysWhatIsWrongWithItsElement) {
+TEST(Sonar, ReportsFaultsOfItsElement) {
   const auto complaint = [](const std::string& xml) -> std::string {
     try {
       sensorFrom(xml);
@@ -171,16 +172,16 @@ TEST(Sonar, SaysWhatIsWrongWithItsElement) {
   };
   EXPECT_EQ(complaint("<sonar range_max_m='-1'><at/></sonar>"),
             "sensor.xml:1: <sonar range_max_m=\"-1\">: must lie in (0, 100] metres; drop it for the default, 5");
-  EXPECT_EQ(
-      complaint("<sonar/>"),
-      "sensor.xml:1: <sonar>: has no place on the robot; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>");
+  EXPECT_EQ(complaint("<sonar/>"),
+            "sensor.xml:1: <sonar>: has no mounting pose; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>");
   EXPECT_EQ(complaint("<sonar model='cone'><at/></sonar>"),
             "sensor.xml:1: <sonar model=\"cone\">: is unknown; accepted are: sector, rays");
   EXPECT_EQ(complaint("<sonar beamwidth_deg='20'><at/></sonar>").find("sensor.xml:1: <sonar>: unknown attribute"), 0u);
-  EXPECT_EQ(complaint("<radar/>"),
-            "sensor.xml:1: <radar>: is no sensor; there are: sonar, laser, heat, infrared, bumper, odometry, compass, "
-            "camera, battery, blob_finder, "
-            "and 2005's <sensor>");
+  EXPECT_EQ(
+      complaint("<radar/>"),
+      "sensor.xml:1: <radar>: is not a sensor; accepted are: sonar, laser, heat, infrared, bumper, odometry, compass, "
+      "camera, battery, beacons, blob_finder, "
+      "and the 2005 <sensor>");
 }
 
 }  // namespace

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/vector_clones.h"
+#include "geometry/vector_width.h"
 #include "sensors/beam_mounts.h"
-#include "sensors/level_beams.h"
+#include "sensors/planar_beams.h"
 
 namespace robosim {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Where beams start and look, robot frame, before panning; by field, so that a loop over beams becomes vector
-/// instructions.
+/// Origins and directions of the beams, robot frame, before panning: structure of arrays, so that loops over beams are
+/// vectorised.
 struct BeamFields {
   std::vector<double> x, y, z, dx, dy, dz;
 
@@ -27,21 +27,19 @@ struct BeamFields {
   }
 };
 
-/// The echo of every beam that met something at `met_m`. Whether that is in range is anybody's guess, so nothing here
-/// branches on it.
-ROBOSIM_VECTOR_CLONES
-void tellAll(const BeamFields& beams, std::size_t count, const LevelFrame& pan, const double* __restrict met_m,
-             float range_min_m, float range_max_m, float no_echo_m, Echo* __restrict echoes) {
-  const double* __restrict x = beams.x.data();
-  const double* __restrict y = beams.y.data();
-  const double* __restrict z = beams.z.data();
-  const double* __restrict dx = beams.dx.data();
-  const double* __restrict dy = beams.dy.data();
-  const double* __restrict dz = beams.dz.data();
-  const double cos = pan.cos();
-  const double sin = pan.sin();
+/// Computes the echo of each beam from its hit at `hit_m`. Branch-free, because whether a hit is in range is
+/// unpredictable.
+[[gnu::always_inline]] inline void computeEchoes(const BeamFields* beams, std::size_t count, double cos, double sin,
+                                                 const double* __restrict hit_m, float range_min_m, float range_max_m,
+                                                 float no_echo_m, Echo* __restrict echoes) {
+  const double* __restrict x = beams->x.data();
+  const double* __restrict y = beams->y.data();
+  const double* __restrict z = beams->z.data();
+  const double* __restrict dx = beams->dx.data();
+  const double* __restrict dy = beams->dy.data();
+  const double* __restrict dz = beams->dz.data();
   for (std::size_t i = 0; i < count; ++i) {
-    const auto range_m = static_cast<float>(met_m[i]);
+    const auto range_m = static_cast<float>(hit_m[i]);
     const bool is_echo = range_m < range_max_m;
     const float at_m = is_echo ? range_m : no_echo_m;
     const double out_m = at_m;
@@ -55,51 +53,52 @@ void tellAll(const BeamFields& beams, std::size_t count, const LevelFrame& pan, 
 class ThinBeams : public Sensor {
  public:
   ThinBeams(const SensorInfo& info, const RangeNoise& noise)
-      : info_(info), noise_(noise), beams_(info.beams), silence_(beams_.size()) {
+      : info_(info), noise_(noise), beams_(info.beams), no_echoes_(beams_.size()) {
     for (std::size_t i = 0; i < beams_.size(); ++i) fields_.add(beams_[i]);
-    tell(LevelFrame(), std::vector<double>(beams_.size(), kInfinity), silence_);
+    setEchoes(PlanarTransform(), std::vector<double>(beams_.size(), kInfinity), no_echoes_);
   }
 
   const SensorInfo& info() const override { return info_; }
-  Measurement blank() const override { return Echoes(beams_.size()); }
+  bool isNoisy() const override { return noise_.on; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    static thread_local std::vector<double> met_m;
+    static thread_local std::vector<double> hit_m;
     for (const auto robot : robots) {
       auto& echoes = std::get<Echoes>(readings[robot].measurements[slot]);
       const double pan_rad = info_.pans ? now.laser_pan_rad[robot] : 0;
-      met_m.assign(beams_.size(), kInfinity);
+      hit_m.assign(beams_.size(), kInfinity);
       const bool any = beams_.cast(now, robot, pan_rad, info_.range_max_m,
-                                   [&](std::size_t i, double distance_m, BodyId) { met_m[i] = distance_m; });
+                                   [&](std::size_t i, double distance_m, BodyId) { hit_m[i] = distance_m; });
       if (noise_.on) {
-        addNoise(now.noise(robot, slot), met_m);
+        addNoise(now.noise(robot, slot), hit_m);
       } else if (!any && pan_rad == 0) {
-        std::copy(silence_.begin(), silence_.end(), echoes.begin());
+        std::copy(no_echoes_.begin(), no_echoes_.end(), echoes.begin());
         continue;
       }
-      tell(LevelFrame(LevelFrame(), pan_rad), met_m, echoes);
+      setEchoes(PlanarTransform(PlanarTransform(), pan_rad), hit_m, echoes);
     }
   }
 
  private:
-  /// Every beam draws its own numbers, whatever the others meet.
-  void addNoise(Rng rng, std::vector<double>& met_m) const {
-    for (auto& distance_m : met_m) {
+  /// Every beam draws its own random numbers, independent of the other beams' hits.
+  void addNoise(Rng rng, std::vector<double>& hit_m) const {
+    for (auto& distance_m : hit_m) {
       distance_m = noise_.apply(distance_m < info_.range_max_m ? distance_m : kInfinity, rng);
     }
   }
 
-  void tell(const LevelFrame& pan, const std::vector<double>& met_m, Echoes& echoes) const {
-    tellAll(fields_, met_m.size(), pan, met_m.data(), static_cast<float>(info_.range_min_m),
-            static_cast<float>(info_.range_max_m), static_cast<float>(info_.no_echo_m), echoes.data());
+  void setEchoes(const PlanarTransform& pan, const std::vector<double>& hit_m, Echoes& echoes) const {
+    withVectors<computeEchoes>(&fields_, hit_m.size(), pan.cos(), pan.sin(), hit_m.data(),
+                               static_cast<float>(info_.range_min_m), static_cast<float>(info_.range_max_m),
+                               static_cast<float>(info_.no_echo_m), echoes.data());
   }
 
   SensorInfo info_;
   RangeNoise noise_;
-  LevelBeams beams_;
+  PlanarBeams beams_;
   BeamFields fields_;
-  Echoes silence_;  ///< of all beams, not panned, where nothing is in range
+  Echoes no_echoes_;  ///< of all beams without pan and without hits
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 
 namespace robosim {
 
-/// A sensor of thin rays: laser and infrared.
-/// @param info its beams, ranges and label say all that the rays need.
+/// Makes a sensor of thin rays: laser, infrared, or sonars of one ray each.
+/// @param info specifies beams, ranges and label
 std::unique_ptr<Sensor> makeThinBeams(const SensorInfo& info, const RangeNoise& noise);
 
 }  // namespace robosim

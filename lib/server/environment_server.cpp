@@ -2,20 +2,22 @@
 
 #include <algorithm>
 #include <optional>
+#include <random>
 
 #include <sched.h>
 
 #include "base/error_list.h"
-#include "net/switchboard.h"
-#include "server/control_panel_conversation.h"
-#include "server/geometry_conversation.h"
-#include "server/robot_conversation.h"
-#include "server/viewer_conversation.h"
+#include "hardware/inbox_limit.h"
+#include "net/completion_queue_server.h"
+#include "server/control_panel_session.h"
+#include "server/geometry_session.h"
+#include "server/robot_session.h"
+#include "server/viewer_session.h"
 
 namespace robosim {
 namespace {
 
-using Clock = Lobby::Clock;
+using Clock = ServingState::Clock;
 
 Clock::duration seconds(double s) {
   return std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(s));
@@ -27,7 +29,13 @@ std::size_t processorsForUs() {
   return sched_getaffinity(0, sizeof ours, &ours) == 0 ? static_cast<std::size_t>(CPU_COUNT(&ours)) : 1;
 }
 
-/// How many steps a second the run takes of late.
+/// 64 unpredictable bits. They select the results that are checked, and have no effect on the run.
+std::uint64_t randomSecret() {
+  std::random_device random;
+  return std::uint64_t{random()} << 32 | random();
+}
+
+/// Measures the step rate over windows of at least one second.
 class StepRate {
  public:
   void note(Clock::time_point now) {
@@ -38,7 +46,7 @@ class StepRate {
     steps_ = 0;
     since_ = now;
   }
-  /// Nobody steps at the moment, and that time does not count.
+  /// Restarts the window, so that paused time does not count.
   void rest(Clock::time_point now) {
     steps_ = 0;
     since_ = now;
@@ -54,184 +62,247 @@ class StepRate {
 }  // namespace
 
 struct EnvironmentServer::Impl {
-  Lobby lobby;
-  PanelDesk desk;
-  RunSwitch& run_switch = desk.run_switch;
-  RobotConversation robots{lobby};
-  ViewerConversation viewers{lobby};
-  GeometryConversation geometry{lobby};
-  ControlPanelConversation panels{lobby};
-  std::optional<std::vector<std::string>> waited_for;  ///< robots that had not come yet; nullopt: not asked yet
-  Clock::time_point due;                               ///< when the next step is
+  ServingState serving;
+  RunOperations operations;
+  RunControl& run_control = operations.run_control;
+  RobotSession robots{serving};
+  ViewerSession viewers{serving};
+  GeometrySession geometry;
+  ControlPanelSession panels{serving};
+  OnLostRobot on_lost_robot;
+  std::optional<std::vector<std::string>>
+      waited_for;         ///< robots not yet connected at the last check; nullopt: not checked
+  Clock::time_point due;  ///< time of the next step
   StepRate rate;
-  Switchboard switchboard;
+  std::uint64_t messages_dropped = 0;  ///< already logged
+  std::uint64_t access_version = 0;    ///< at the last checkAccess()
+  CompletionQueueServer queue_server;
 
-  Impl(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit)
-      : switchboard({{options.listen.viewers, &viewers},
-                     {options.listen.robots, &robots},
-                     {options.listen.geometry, &geometry},
-                     {options.listen.control, &panels}},
-                    {options.tls, "--listen", options.keepalive}) {
-    lobby.log = options.log;
-    lobby.step_deadline = options.step_deadline;
-    lobby.hello_deadline = options.hello_deadline;
-    lobby.now = options.now;
-    lobby.pace = options.pace;
-    lobby.access = options.access;
-    lobby.switchboard = &switchboard;
-    run_switch.is_paused = options.is_paused;
-    run_switch.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
-    due = lobby.now();
-    show(std::move(exhibit));
-    viewers.open(switchboard.line(0));
-    robots.open(switchboard.line(1));
-    geometry.open(switchboard.line(2));
-    panels.open(switchboard.line(3));
+  Impl(const ServerOptions& options, std::shared_ptr<const RunInfo> run_info)
+      : geometry(serving, ResultSamples(options.check_results, randomSecret())),
+        on_lost_robot(options.on_lost_robot),
+        queue_server({{options.listen.viewers, &viewers},
+                      {options.listen.robots, &robots},
+                      {options.listen.geometry, &geometry},
+                      {options.listen.control, &panels}},
+                     {options.tls, "--listen", options.keepalive}) {
+    serving.log = options.log;
+    serving.step_deadline = options.step_deadline;
+    serving.hello_deadline = options.hello_deadline;
+    serving.load_deadline = options.load_deadline;
+    serving.now = options.now;
+    serving.pace = options.pace;
+    serving.access = options.access;
+    serving.queue_server = &queue_server;
+    run_control.is_paused = options.is_paused;
+    run_control.speed = options.pace == Pace::realtime && options.speed == 0 ? 1 : options.speed;
+    due = serving.now();
+    resetSessions(std::move(run_info));
+    viewers.open(queue_server.queuesFor(0));
+    robots.open(queue_server.queuesFor(1));
+    geometry.open(queue_server.queuesFor(2));
+    panels.open(queue_server.queuesFor(3));
   }
 
   ~Impl() { close(); }
 
-  void show(std::shared_ptr<const Exhibit> exhibit) {
-    lobby.exhibit = std::move(exhibit);
+  void resetSessions(std::shared_ptr<const RunInfo> run_info) {
+    serving.run_info = std::move(run_info);
     waited_for.reset();
-    robots.show();
-    viewers.show();
-    geometry.show();
+    robots.reset();
+    viewers.reset();
+    geometry.reset();
   }
 
-  /// Has everyone who has come by now take part.
+  /// Ends the calls of clients whose token was withdrawn or has expired.
+  void checkAccess() {
+    if (std::exchange(access_version, serving.access.refresh()) == access_version) return;
+    robots.checkAccess();
+    viewers.checkAccess();
+    geometry.checkAccess();
+    panels.checkAccess();
+  }
+
+  /// Admits the clients that have connected since the last call.
   void admit() {
     robots.admit();
     geometry.admit();
-    viewers.tell();
+    viewers.publish();
   }
 
-  /// Another world in place of the one that is run. What clients are shown stays until they are shown the other.
-  void load(ServedRun& run, const WorldSource& source) {
-    const auto shown_until_now = run.exhibit();
-    run.load(source);
-    show(run.exhibit());
-    isEveryoneHere();
+  RunReport report() const {
+    RunReport report;
+    report.on_lost_robot = on_lost_robot;
+    robots.describe(report);
+    geometry.describe(report);
+    return report;
+  }
+
+  /// Replaces the run that is served. The old RunInfo stays alive until the sessions have switched to the new one.
+  void replace(ServedRun& run, std::unique_ptr<PreparedRun> next) {
+    const auto previous_run_info = run.runInfo();
+    run.ends(report());
+    run.replace(std::move(next));
+    resetSessions(run.runInfo());
+    areRobotsConnected();
   }
 
   void describe(const ServedRun& run, wire::RunStatus& status) const {
-    const Exhibit& exhibit = *run.exhibit();
-    const State& state = exhibit.environment.state();
+    const RunInfo& run_info = *run.runInfo();
+    const State& state = run_info.environment.state();
     const bool waits = !waited_for || !waited_for->empty();
-    const bool goes_on = !waits && run_switch.mayStep();
+    const bool goes_on = !waits && run_control.mayStep();
     status.Clear();
-    status.set_phase(lobby.is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
-    status.set_world(exhibit.environment.world().name);
-    status.set_world_version(exhibit.world_version);
+    status.set_phase(serving.is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
+    status.set_world(run_info.environment.world().name);
+    status.set_world_version(run_info.world_version);
     status.set_step(state.time.step);
     status.set_time_s(state.time.seconds());
-    status.set_speed(run_switch.speed);
+    status.set_speed(run_control.speed);
     status.set_steps_per_s(goes_on ? rate.stepsPerSecond() : 0);
-    status.set_robots(static_cast<std::uint32_t>(exhibit.robot_names.size()));
+    status.set_robots(static_cast<std::uint32_t>(run_info.robot_names.size()));
     status.set_robots_connected(static_cast<std::uint32_t>(robots.connected()));
-    constexpr std::size_t most_named = 100;
+    constexpr std::size_t kNamesMax = 100;
     std::vector<std::string> absent = robots.absent();
-    absent.resize(std::min(absent.size(), most_named));
+    absent.resize(std::min(absent.size(), kNamesMax));
     status.mutable_robots_absent()->Assign(absent.begin(), absent.end());
     status.set_robots_active(
         static_cast<std::uint32_t>(std::count(state.activity.begin(), state.activity.end(), Activity::active)));
     status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
     status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
     status.set_late(robots.late());
-    if (state.winner) status.set_winner(exhibit.robot_names[*state.winner]);
+    const RunReport so_far = report();
+    status.set_on_lost_robot(nameOf(on_lost_robot));
+    for (const LostRobot& robot : so_far.lost_robots) {
+      if (static_cast<std::size_t>(status.lost_robots_size()) == kNamesMax) break;
+      auto& lost = *status.add_lost_robots();
+      lost.set_name(robot.name);
+      lost.set_times(robot.times);
+      lost.set_steps_missed(robot.steps_missed);
+      lost.set_is_lost(robot.is_lost);
+    }
+    status.set_messages_lost(so_far.messages_lost);
+    status.set_geometry_workers_rejected(static_cast<std::uint32_t>(so_far.rejected_workers.size()));
+    if (state.winner) status.set_winner(run_info.robot_names[*state.winner]);
   }
 
-  /// Says goodbye to everyone, and waits until they have heard it.
+  /// Ends all calls, and waits until their final status has been sent.
   void close() {
-    if (std::exchange(lobby.is_over, true)) return;
-    panels.sayGoodbye(desk);
-    robots.sayGoodbye();
-    viewers.sayGoodbye();
-    geometry.sayGoodbye();
-    switchboard.close();
+    if (std::exchange(serving.is_over, true)) return;
+    panels.endAll(operations);
+    robots.endAll();
+    viewers.endAll();
+    geometry.endAll();
+    queue_server.close();
   }
 
-  /// Whether all networked robots have been here; says who is missing, each time that changes.
-  bool isEveryoneHere() {
-    if (waited_for && waited_for->empty()) return true;
-    auto missing = robots.notYetHere();
-    if (missing == waited_for) return false;
-    if (!missing.empty()) lobby.log("waiting for " + listed(missing));
-    if (missing.empty() && waited_for) lobby.log("all robots are here");
+  /// Whether all robots that a step requires are connected; logs the missing ones whenever they change.
+  bool areRobotsConnected() {
+    auto missing = robots.awaited(on_lost_robot);
+    if (waited_for && missing == *waited_for) return missing.empty();
+    if (!missing.empty()) {
+      serving.log("waiting for " + listed(missing));
+    } else if (waited_for) {
+      serving.log("all robots are here");
+    }
     waited_for = std::move(missing);
     return waited_for->empty();
   }
 
-  /// Waits for the robots' answers and for the step's time, but no longer than a nap.
+  /// Waits for the robots' answers and for the step's time, for at most ServingState::kPollInterval.
   /// @return whether it is time to step
   bool isTimeToStep() {
-    const auto is_time = [&] { return lobby.now() >= due && (lobby.pace == Pace::realtime || robots.allAnswered()); };
-    // Where the robots' processes want all processors, one that looks out for their answers is in their way.
+    const auto is_time = [&] {
+      return serving.now() >= due && (serving.pace == Pace::realtime || robots.allAnswered());
+    };
+    // Busy polling would take a processor from the robots' processes when they use all of them.
     static const std::size_t processors = processorsForUs();
-    switchboard.lookOut(robots.processes() < processors);
-    const auto until_due = due - lobby.now();
-    lobby.nap(until_due > Clock::duration::zero() ? until_due : Lobby::kNap, [&] { return lobby.rang || is_time(); });
+    queue_server.setAdaptivePolling(robots.processes() < processors);
+    const auto until_due = due - serving.now();
+    serving.pollUntil(until_due > Clock::duration::zero() ? until_due : ServingState::kPollInterval,
+                      [&] { return serving.wake_requested || is_time(); });
     return is_time();
   }
 
-  /// Does what the control panels ask.
-  void obeyPanels() {
-    const double speed = run_switch.speed;
-    panels.obey(desk);
-    if (run_switch.speed != speed) due = lobby.now();
+  /// Executes the requests of control panels.
+  void executePanelRequests() {
+    const double speed = run_control.speed;
+    panels.execute(operations);
+    if (run_control.speed != speed) due = serving.now();
+  }
+
+  void logDroppedMessages(const State& state) {
+    const auto before = std::exchange(messages_dropped, state.messages_dropped);
+    if (state.messages_dropped <= before) return;
+    serving.limited_log.write("messages dropped", std::to_string(state.messages_dropped - before) +
+                                                      " messages dropped in step " + std::to_string(state.time.step) +
+                                                      ": a robot sends at most " + std::to_string(kMaxMessagesSent) +
+                                                      " messages in a step, and receives at most " +
+                                                      std::to_string(InboxLimit::kMaxMessages) + " and " +
+                                                      std::to_string(InboxLimit::kMaxBytes / 1024) + " KiB");
   }
 
   void noteStep(double period_s) {
-    if (run_switch.steps_left > 0) --run_switch.steps_left;
-    if (run_switch.speed > 0) due += seconds(period_s / run_switch.speed);
-    rate.note(lobby.now());
+    if (run_control.steps_left > 0) --run_control.steps_left;
+    if (run_control.speed > 0) due += seconds(period_s / run_control.speed);
+    rate.note(serving.now());
   }
 
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
-    desk.load = [&](const WorldSource& source) { load(run, source); };
-    lobby.interrupted = interrupted;
-    desk.describe = [&](wire::RunStatus& status) { describe(run, status); };
+    operations.prepare = [&run](const WorldSource& source) { return run.prepare(source); };
+    operations.replace = [&](std::unique_ptr<PreparedRun> next) { replace(run, std::move(next)); };
+    serving.interrupted = interrupted;
+    operations.describe = [&](wire::RunStatus& status) { describe(run, status); };
     admit();
-    isEveryoneHere();  // a panel that asks first of all is to be told how the run stands
+    areRobotsConnected();  // so that a status requested first is correct
     while (!run.isOver()) {
-      lobby.rang = false;
-      obeyPanels();
-      if (run_switch.stop) return Served::stopped;
+      serving.wake_requested = false;
+      checkAccess();
+      executePanelRequests();
+      serving.limited_log.reportSuppressed();
+      if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       admit();
-      if (!isEveryoneHere() || !run_switch.mayStep()) {
-        lobby.nap(Lobby::kNap, [&] { return lobby.rang; });
-        due = lobby.now();
+      if (on_lost_robot == OnLostRobot::fail && robots.isAnyLost()) {
+        serving.log("the run ends, as --on-lost-robot fail wants it: lost " + listed(robots.lost()));
+        return Served::robot_lost;
+      }
+      if (!areRobotsConnected() || !run_control.mayStep()) {
+        serving.pollUntil(ServingState::kPollInterval, [&] { return serving.wake_requested; });
+        due = serving.now();
         rate.rest(due);
         continue;
       }
       const bool is_time = isTimeToStep();
-      if (!is_time || lobby.pace == Pace::realtime) robots.evictLate();
+      if (!is_time || serving.pace == Pace::realtime) robots.disconnectLate();
       if (!is_time) continue;
-      const std::size_t late = robots.handOver(run.environment());
+      if (on_lost_robot != OnLostRobot::continue_ && robots.isAnyLost()) continue;  // lost during the wait
+      const std::size_t late = robots.applyAnswers(run.environment());
       run.decide();
       geometry.step(run.environment());
+      logDroppedMessages(run.environment().state());
       run.stepped(late);
-      robots.tell();
-      viewers.tell();
+      robots.publish();
+      viewers.publish();
       noteStep(run.environment().time().period_s);
     }
     return Served::to_its_end;
   }
 };
 
-EnvironmentServer::EnvironmentServer(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit)
-    : impl_(std::make_unique<Impl>(options, std::move(exhibit))) {}
+EnvironmentServer::EnvironmentServer(const ServerOptions& options, std::shared_ptr<const RunInfo> run_info)
+    : impl_(std::make_unique<Impl>(options, std::move(run_info))) {}
 
 EnvironmentServer::~EnvironmentServer() = default;
 
 std::array<int, 4> EnvironmentServer::ports() const {
-  const Switchboard& at = impl_->switchboard;
+  const CompletionQueueServer& at = impl_->queue_server;
   return {at.port(0), at.port(1), at.port(2), at.port(3)};
 }
 
 Served EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
   const Served how = impl_->serve(run, interrupted);
+  run.ends(impl_->report());
   impl_->close();
   return how;
 }

@@ -9,68 +9,57 @@
 
 #include "environment/environment.h"
 #include "net/access.h"
-#include "net/dial.h"
+#include "net/connect.h"
 #include "net/listen.h"
 #include "net/tls.h"
-#include "server/lobby.h"
+#include "server/run_report.h"
+#include "server/served_run.h"
+#include "server/serving_state.h"
 
 namespace robosim {
 
 struct ServerOptions {
   ListenAddresses listen = ListenAddresses::parse(kDefaultListen);
-  Access access;                                     ///< who may do what
+  Access access;                                     ///< rights by token
   std::optional<TlsIdentity> tls;                    ///< absent: without TLS
-  std::chrono::milliseconds step_deadline{1000};     ///< how long a step waits for anybody
-  std::chrono::milliseconds hello_deadline{10'000};  ///< how long a client may take to say who it is
-  std::chrono::milliseconds keepalive = kKeepalive;  ///< after which a silent machine is asked whether it is there
+  std::chrono::milliseconds step_deadline{1000};     ///< maximum time that a step waits for a client
+  std::chrono::milliseconds hello_deadline{10'000};  ///< maximum time from a call to its first message
+  std::chrono::milliseconds keepalive = kKeepalive;  ///< idle time after which a client is pinged
   Pace pace = Pace::lockstep;
-  double speed = 0;  ///< simulated seconds a second; 0: as fast as it can, in lockstep only
+  OnLostRobot on_lost_robot = OnLostRobot::continue_;
+  double check_results = 0.01;  ///< fraction of each geometry worker's results that is recomputed, [0, 1]; at least one
+  std::chrono::milliseconds load_deadline{60'000};  ///< maximum time for a control panel to send a world
+  double speed = 0;                                 ///< simulated seconds per second; 0: unlimited, in lockstep only
   bool is_paused = false;
-  std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
-  std::function<Lobby::Clock::time_point()> now = Lobby::Clock::now;        ///< what tells deadlines
+  std::function<void(const std::string&)> log = [](const std::string&) {};          ///< receives one line
+  std::function<ServingState::Clock::time_point()> now = ServingState::Clock::now;  ///< clock for deadlines
 };
 
-/// A run as its server needs it: the environment, and what the program does besides in each step.
-class ServedRun {
- public:
-  virtual ~ServedRun() = default;
-  virtual Environment& environment() = 0;
-  /// What is shown of it.
-  virtual std::shared_ptr<const Exhibit> exhibit() const = 0;
-  /// Lets the environment's own controllers decide; just before a step.
-  virtual void decide() = 0;
-  /// A step was taken, for which the commands of `late` robots came too late: records it, say.
-  virtual void stepped(std::size_t late) = 0;
-  virtual bool isOver() const = 0;
-  /// Begins another run, with another world. Whoever holds the exhibit so far may go on looking at it.
-  /// @throws ConfigError when the world is no good; this run then goes on.
-  virtual void load(const WorldSource& world) = 0;
-};
-
-/// How serving came to its end.
+/// Why EnvironmentServer::serve() returned.
 enum class Served {
-  to_its_end,   ///< the run's own
-  stopped,      ///< from a control panel
-  interrupted,  ///< by whoever started it
+  to_its_end,   ///< the run is over
+  stopped,      ///< by a control panel
+  interrupted,  ///< by the `interrupted` callback
+  robot_lost,   ///< OnLostRobot::fail
 };
 
-/// Shows one environment to its clients: robots, viewers, geometry workers and control panels; and lets it step, in
-/// the order of 2005: admit who has come, take the robots' messages, step, tell everyone. All of it happens on the
-/// thread that serves.
+/// Serves one environment to robots, viewers, geometry workers and control panels, and steps it. Each cycle runs in the
+/// order of 2005: admit new clients, apply the robots' messages, step, publish the state. Everything runs on the thread
+/// that calls serve().
 class EnvironmentServer {
  public:
   /// Opens the ports.
-  /// @throws std::runtime_error when a port is taken; what, where and the mend.
-  EnvironmentServer(const ServerOptions& options, std::shared_ptr<const Exhibit> exhibit);
+  /// @throws std::runtime_error when a port is in use, with the address and how to fix it.
+  EnvironmentServer(const ServerOptions& options, std::shared_ptr<const RunInfo> run_info);
   ~EnvironmentServer();
   EnvironmentServer(const EnvironmentServer&) = delete;
   EnvironmentServer& operator=(const EnvironmentServer&) = delete;
 
-  /// The ports in use: viewers', robots', geometry's, control's.
+  /// TCP ports for viewers, robots, geometry workers and control panels.
   std::array<int, 4> ports() const;
 
-  /// Waits for the networked robots, then steps until the run is over, a control panel stops it, or `interrupted` says
-  /// so (asked 20 times a second at least); then says goodbye to everyone, and closes the ports.
+  /// Waits for the networked robots, then steps until the run is over, a control panel stops it, or `interrupted`
+  /// returns true (polled at least 20 times per second). Then ends all calls and closes the ports.
   Served serve(ServedRun& run, const std::function<bool()>& interrupted);
 
  private:

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "net/robot_wire.h"
+#include "server/plausible_echoes.h"
 
 namespace robosim {
 namespace {
@@ -25,119 +26,89 @@ double checkedFinite(double value) {
   return value;
 }
 
-/// Calls visit(measurement) for all that is measured, by sensors that need not stay home, of a range's robots.
-template <typename Visit>
-void forMeasurements(Environment& environment, RobotRange range, const Visit& visit) {
+/// Calls visit(measurement, sensor) for each sensor of the robots in `range` that a replica may compute.
+template <typename ReadingsSpan, typename Visit>
+void forMeasurements(const Fleet& fleet, ReadingsSpan& readings, RobotRange range, const Visit& visit) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    const auto& sensors = environment.fleet().robots[i].model->sensors;
+    const auto& sensors = fleet.robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-      if (!sensors[slot]->staysHome()) visit(environment.measurement(i, slot));
+      if (!sensors[slot]->sensesInHostProcess()) visit(readings[i].measurements[slot], sensors[slot]->info());
     }
   }
 }
 
 }  // namespace
 
-void encode(const Moment& moment, wire::Moment& out) {
+void encode(const State& state, wire::ReplicaState& out) {
   out.Clear();
-  out.set_step(moment.step);
-  for (std::size_t i = 0; i < moment.commands.size(); ++i) {
+  out.set_step(state.time.step);
+  for (std::size_t i = 0; i < state.commands.size(); ++i) {
     auto& robot = *out.add_robots();
-    robot.set_x_m(moment.world_from_robot[i].x);
-    robot.set_y_m(moment.world_from_robot[i].y);
-    robot.set_phi_rad(moment.world_from_robot[i].phi);
-    robot.set_speed_mps(moment.speed_mps[i]);
-    robot.set_turn_radps(moment.turn_radps[i]);
-    robot.set_activity(static_cast<wire::Activity>(moment.activity[i]));
-    encode(moment.commands[i], static_cast<std::uint32_t>(i), *robot.mutable_command());
+    robot.set_x_m(state.world_from_robot[i].x);
+    robot.set_y_m(state.world_from_robot[i].y);
+    robot.set_phi_rad(state.world_from_robot[i].phi);
+    robot.set_speed_mps(state.speed_mps[i]);
+    robot.set_turn_radps(state.turn_radps[i]);
+    robot.set_activity(static_cast<wire::Activity>(state.activity[i]));
+    encode(state.commands[i], static_cast<std::uint32_t>(i), *robot.mutable_command());
   }
 }
 
-Moment decode(const wire::Moment& in, std::size_t robots) {
-  if (static_cast<std::size_t>(in.robots_size()) != robots) throw WireError("a moment of another world");
-  Moment moment;
-  moment.step = in.step();
-  for (const auto& robot : in.robots()) {
-    if (!wire::Activity_IsValid(robot.activity())) throw WireError("a moment with an unknown activity");
-    moment.world_from_robot.emplace_back(checkedFinite(robot.x_m()), checkedFinite(robot.y_m()),
-                                         checkedFinite(robot.phi_rad()));
-    moment.speed_mps.push_back(checkedFinite(robot.speed_mps()));
-    moment.turn_radps.push_back(checkedFinite(robot.turn_radps()));
-    moment.activity.push_back(static_cast<Activity>(robot.activity()));
-    moment.commands.push_back(decode(robot.command(), robots));
+void decodeInto(const wire::ReplicaState& in, State& state) {
+  const std::size_t robots = state.commands.size();
+  if (static_cast<std::size_t>(in.robots_size()) != robots) throw WireError("a state of another world");
+  state.time.step = in.step();
+  for (std::size_t i = 0; i < robots; ++i) {
+    const auto& robot = in.robots(static_cast<int>(i));
+    if (!wire::Activity_IsValid(robot.activity())) throw WireError("a state with an unknown activity");
+    state.world_from_robot[i] = {checkedFinite(robot.x_m()), checkedFinite(robot.y_m()),
+                                 checkedFinite(robot.phi_rad())};
+    state.speed_mps[i] = checkedFinite(robot.speed_mps());
+    state.turn_radps[i] = checkedFinite(robot.turn_radps());
+    state.activity[i] = static_cast<Activity>(robot.activity());
+    state.commands[i] = decode(robot.command(), robots);
   }
-  return moment;
 }
 
-void encode(Environment& environment, wire::TaskResult& out) {
-  const RobotRange range{out.begin(), out.end()};
-  out.clear_fractions();
-  out.clear_stay();
+void encode(const Environment& environment, wire::TaskResult& out) {
   out.clear_measurements();
-  switch (out.part()) {
-    case wire::CLIP:
-      for (std::size_t i = range.begin; i < range.end; ++i) out.add_fractions(environment.clipped(i));
-      break;
-    case wire::JUDGE:
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        if (environment.stays(i)) out.add_stay(static_cast<std::uint32_t>(i));
-      }
-      break;
-    default:
-      forMeasurements(environment, range, [&](const Measurement& m) { encode(m, *out.add_measurements()); });
-  }
+  forMeasurements(environment.fleet(), environment.state().readings, {out.begin(), out.end()},
+                  [&](const Measurement& m, const SensorInfo&) { encode(m, *out.add_measurements()); });
 }
 
 void put(const wire::TaskResult& in, Environment& environment) {
-  const RobotRange range{in.begin(), in.end()};
-  switch (in.part()) {
-    case wire::CLIP:
-      if (static_cast<std::size_t>(in.fractions_size()) != range.end - range.begin) {
-        throw WireError("a result of another size than its range");
-      }
-      for (std::size_t i = range.begin; i < range.end; ++i) {
-        environment.putClipped(i, checkedFraction(in.fractions(static_cast<int>(i - range.begin))));
-      }
-      break;
-    case wire::JUDGE:
-      for (std::size_t i = range.begin; i < range.end; ++i) environment.putStays(i, false);
-      for (const auto robot : in.stay()) environment.putStays(checkedRobot(robot, range), true);
-      break;
-    default: {
-      int next = 0;
-      forMeasurements(environment, range, [&](Measurement& m) {
-        if (next == in.measurements_size()) throw WireError("a result with too few measurements");
-        decode(in.measurements(next++), m);
-      });
-      if (next != in.measurements_size()) throw WireError("a result with too many measurements");
-    }
-  }
+  const auto readings = environment.results().readings;
+  int next = 0;
+  forMeasurements(environment.fleet(), readings, {in.begin(), in.end()}, [&](Measurement& m, const SensorInfo& sensor) {
+    if (next == in.measurements_size()) throw WireError("a result with too few measurements");
+    decode(in.measurements(next++), m);
+    const std::string fault = faultOf(std::get<Echoes>(m), sensor);
+    if (!fault.empty()) throw WireError(fault);
+  });
+  if (next != in.measurements_size()) throw WireError("a result with too many measurements");
 }
 
-void encodeOutcome(const Environment& environment, wire::Task& out) {
+void encodeOutcome(Environment& environment, wire::Task& out) {
+  const PhaseResults results = environment.results();
   for (std::size_t i = 0; i < environment.robotCount(); ++i) {
     const auto robot = static_cast<std::uint32_t>(i);
-    if (out.part() == wire::JUDGE && environment.clipped(i) < 1) {
+    const double fraction = results.paths[i].end_fraction;
+    if (fraction < 1) {
       out.add_clipped(robot);
-      out.add_clipped_fractions(environment.clipped(i));
+      out.add_clipped_fractions(fraction);
     }
-    if (out.part() == wire::SENSE && environment.stays(i)) out.add_stay(robot);
+    if (results.stays[i]) out.add_stay(robot);
   }
 }
 
 void putOutcome(const wire::Task& in, Environment& environment) {
   const RobotRange every{0, environment.robotCount()};
-  if (in.part() == wire::JUDGE) {
-    if (in.clipped_size() != in.clipped_fractions_size()) throw WireError("clipped robots without their fractions");
-    for (std::size_t i = 0; i < every.end; ++i) environment.putClipped(i, 1);
-    for (int k = 0; k < in.clipped_size(); ++k) {
-      environment.putClipped(checkedRobot(in.clipped(k), every), checkedFraction(in.clipped_fractions(k)));
-    }
+  const PhaseResults results = environment.results();
+  if (in.clipped_size() != in.clipped_fractions_size()) throw WireError("clipped robots without their fractions");
+  for (int k = 0; k < in.clipped_size(); ++k) {
+    results.paths[checkedRobot(in.clipped(k), every)].end_fraction = checkedFraction(in.clipped_fractions(k));
   }
-  if (in.part() == wire::SENSE) {
-    for (std::size_t i = 0; i < every.end; ++i) environment.putStays(i, false);
-    for (const auto robot : in.stay()) environment.putStays(checkedRobot(robot, every), true);
-  }
+  for (const auto robot : in.stay()) results.stays[checkedRobot(robot, every)] = 1;
 }
 
 }  // namespace robosim

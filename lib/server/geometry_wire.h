@@ -5,20 +5,23 @@
 namespace robosim {
 
 /// @file
-/// The geometry workers' conversation between our values and protobuf's (geometry.proto). Decoding takes nothing on
-/// trust: it throws WireError (net/wire_error.h).
+/// Conversion between value types and the messages of geometry.proto. Decoding validates its input and throws WireError
+/// (net/wire_error.h).
 
-void encode(const Moment& moment, wire::Moment& out);
-/// @param robots how many the world has
-Moment decode(const wire::Moment& in, std::size_t robots);
+/// Encodes the part of the state that a replica requires: all that moves and range measurements depend on.
+void encode(const State& state, wire::ReplicaState& out);
+/// Overwrites that part of a replica's state.
+void decodeInto(const wire::ReplicaState& in, State& state);
 
-/// What has been worked out of a part for the robots [out.begin, out.end), which are set.
-void encode(Environment& environment, wire::TaskResult& out);
-/// Puts a result into the environment. @pre its range lies within the world's robots.
+/// Encodes the range measurements of the robots [out.begin, out.end). @pre both are set.
+void encode(const Environment& environment, wire::TaskResult& out);
+/// Stores a result in the environment. @pre its range lies within the world's robots.
+/// @throws WireError also for measurements that no correct sensor returns.
 void put(const wire::TaskResult& in, Environment& environment);
 
-/// What all robots did in the part before `part`, which is set in `out`: where the clipped ones stop, or who stays.
-void encodeOutcome(const Environment& environment, wire::Task& out);
+/// Encodes the motion of all robots in a step: the fractions of clipped moves, and the robots that stay.
+void encodeOutcome(Environment& environment, wire::Task& out);
+/// @pre the environment has begun the step
 void putOutcome(const wire::Task& in, Environment& environment);
 
 }  // namespace robosim

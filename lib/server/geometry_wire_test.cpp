@@ -19,9 +19,8 @@ std::unique_ptr<Environment> maze() {
   return std::make_unique<Environment>(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
 }
 
-wire::TaskResult emptyResult(wire::StepPart part, std::uint32_t begin, std::uint32_t end) {
+wire::TaskResult emptyResult(std::uint32_t begin, std::uint32_t end) {
   wire::TaskResult result;
-  result.set_part(part);
   result.set_begin(begin);
   result.set_end(end);
   return result;
@@ -36,40 +35,43 @@ std::string complaint(const std::function<void()>& read) {
   return "";
 }
 
-TEST(GeometryWire, CarriesAMomentBitForBit) {
+TEST(GeometryWire, RoundTripsTheStateOfAReplicaBitForBit) {
   const auto environment = maze();
   environment->setCommand(0, {0.5, 0.25, 0, Activity::active});
   for (int i = 0; i < 5; ++i) environment->step();
-  const Moment moment = environment->moment();
-  wire::Moment wire;
-  encode(moment, wire);
-  const Moment heard = decode(wire, 2);
-  EXPECT_EQ(heard.step, 5u);
-  EXPECT_EQ(heard.world_from_robot, moment.world_from_robot);
-  EXPECT_EQ(heard.speed_mps, moment.speed_mps);
-  EXPECT_EQ(heard.turn_radps, moment.turn_radps);
-  EXPECT_EQ(heard.activity, moment.activity);
-  EXPECT_EQ(heard.commands, moment.commands);
+  const State& sent = environment->state();
+  wire::ReplicaState wire;
+  encode(sent, wire);
+  State received = maze()->state();
+  decodeInto(wire, received);
+  EXPECT_EQ(received.time.step, 5u);
+  EXPECT_EQ(received.world_from_robot, sent.world_from_robot);
+  EXPECT_EQ(received.speed_mps, sent.speed_mps);
+  EXPECT_EQ(received.turn_radps, sent.turn_radps);
+  EXPECT_EQ(received.activity, sent.activity);
+  EXPECT_EQ(received.commands, sent.commands);
 }
 
-TEST(GeometryWire, RefusesAMomentOfAnotherWorldOrThatIsNotFinite) {
-  wire::Moment good;
-  encode(maze()->moment(), good);
-  const auto complaint_after = [&](const std::function<void(wire::Moment&)>& spoil) {
-    wire::Moment bad = good;
+TEST(GeometryWire, RefusesAStateOfAnotherWorldOrThatIsNotFinite) {
+  const auto environment = maze();
+  wire::ReplicaState good;
+  encode(environment->state(), good);
+  const auto complaint_after = [&](const std::function<void(wire::ReplicaState&)>& spoil) {
+    wire::ReplicaState bad = good;
     spoil(bad);
-    return complaint([&] { decode(bad, 2); });
+    State state = environment->state();
+    return complaint([&] { decodeInto(bad, state); });
   };
   EXPECT_EQ(complaint_after([](auto&) {}), "");
-  EXPECT_EQ(complaint_after([](auto& bad) { bad.add_robots(); }), "a moment of another world");
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.add_robots(); }), "a state of another world");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(1)->set_phi_rad(kNan); }),
             "a robot's state that is not finite");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(0)->set_activity(static_cast<wire::Activity>(9)); }),
-            "a moment with an unknown activity");
+            "a state with an unknown activity");
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_robots(0)->mutable_command()->set_speed_mps(kNan); }), "");
 }
 
-TEST(GeometryWire, CarriesWhatWasSensed) {
+TEST(GeometryWire, RoundTripsMeasurements) {
   const auto here = maze(), there = maze();
   for (const auto& environment : {here.get(), there.get()}) {
     environment->begin();
@@ -78,34 +80,29 @@ TEST(GeometryWire, CarriesWhatWasSensed) {
     environment->move();
   }
   there->sense({0, 2});
-  wire::TaskResult result = emptyResult(wire::SENSE, 1, 2);
+  wire::TaskResult result = emptyResult(1, 2);
   encode(*there, result);
   put(result, *here);
-  for (std::size_t slot = 0; slot < there->state().readings[1].measurements.size(); ++slot) {
-    EXPECT_EQ(here->measurement(1, slot), there->measurement(1, slot)) << slot;
+  EXPECT_EQ(here->state().readings[1].measurements, there->state().readings[1].measurements);
+}
+
+TEST(GeometryWire, EncodesRangeSensorsOnly) {
+  const auto environment = maze();
+  wire::TaskResult result = emptyResult(0, 2);
+  encode(*environment, result);
+  for (const auto& measurement : result.measurements()) {
+    EXPECT_GT(measurement.floats_size(), 0);
+    EXPECT_EQ(measurement.numbers_size(), 0);
+    EXPECT_TRUE(measurement.flags().empty());
   }
 }
 
-TEST(GeometryWire, RefusesResultsOfAnotherSizeForOtherRobotsOrOutOfRange) {
+TEST(GeometryWire, RefusesResultsOfAnotherSizeOrImplausibleOnes) {
   const auto environment = maze();
-  environment->begin();
   const auto complaint_of = [&](const wire::TaskResult& result) {
     return complaint([&] { put(result, *environment); });
   };
-
-  wire::TaskResult clips = emptyResult(wire::CLIP, 0, 2);
-  clips.add_fractions(1);
-  EXPECT_EQ(complaint_of(clips), "a result of another size than its range");
-  for (const double bad : {kNan, -0.01, 1.01}) {
-    wire::TaskResult wrong = clips;
-    wrong.add_fractions(bad);
-    EXPECT_EQ(complaint_of(wrong), "a part of a way that is not in [0, 1]");
-  }
-  wire::TaskResult stay = emptyResult(wire::JUDGE, 0, 1);
-  stay.add_stay(1);
-  EXPECT_EQ(complaint_of(stay), "a robot of the number 1 where those of [0, 1) are meant");
-
-  wire::TaskResult sensed = emptyResult(wire::SENSE, 0, 1);
+  wire::TaskResult sensed = emptyResult(0, 1);
   encode(*environment, sensed);
   EXPECT_EQ(complaint_of(sensed), "");
   wire::TaskResult more = sensed, fewer = sensed;
@@ -113,26 +110,41 @@ TEST(GeometryWire, RefusesResultsOfAnotherSizeForOtherRobotsOrOutOfRange) {
   fewer.mutable_measurements()->RemoveLast();
   EXPECT_EQ(complaint_of(more), "a result with too many measurements");
   EXPECT_EQ(complaint_of(fewer), "a result with too few measurements");
+  for (const float bad : {-5.f, 1e30f, std::numeric_limits<float>::infinity()}) {
+    wire::TaskResult wrong = sensed;
+    wrong.mutable_measurements(0)->set_floats(0, bad);
+    EXPECT_NE(complaint_of(wrong).find("beam 0: a range of "), std::string::npos) << complaint_of(wrong);
+  }
+  wire::TaskResult wrong = sensed;
+  wrong.mutable_measurements(0)->set_floats(0, std::numeric_limits<float>::quiet_NaN());
+  EXPECT_EQ(complaint_of(wrong), "beam 0: a range of nan m; it must be a finite number");
 }
 
-TEST(GeometryWire, CarriesTheOutcomeOfThePartBefore) {
+TEST(GeometryWire, RoundTripsTheMotionOfAllRobots) {
   const auto here = maze(), there = maze();
   here->begin();
   there->begin();
-  here->putClipped(0, 0.25);
-  here->putClipped(1, 1);
+  here->results().paths[0].end_fraction = 0.25;
+  here->results().stays[1] = 1;
   wire::Task task;
-  task.set_part(wire::JUDGE);
   encodeOutcome(*here, task);
-  EXPECT_EQ(task.clipped_size(), 1) << "only the one that is clipped is told";
+  EXPECT_EQ(task.clipped_size(), 1) << "only the clipped one is sent";
   putOutcome(task, *there);
-  EXPECT_EQ(there->clipped(0), 0.25);
-  EXPECT_EQ(there->clipped(1), 1);
+  EXPECT_EQ(there->results().paths[0].end_fraction, 0.25);
+  EXPECT_EQ(there->results().paths[1].end_fraction, 1);
+  EXPECT_EQ(there->results().stays[0], 0);
+  EXPECT_EQ(there->results().stays[1], 1);
 
+  wire::Task unknown = task;
+  unknown.add_stay(2);
+  EXPECT_EQ(complaint([&] { putOutcome(unknown, *there); }), "a robot of the number 2 where those of [0, 2) are meant");
   task.add_clipped(1);
   EXPECT_EQ(complaint([&] { putOutcome(task, *there); }), "clipped robots without their fractions");
-  task.add_clipped_fractions(2);
-  EXPECT_EQ(complaint([&] { putOutcome(task, *there); }), "a part of a way that is not in [0, 1]");
+  for (const double bad : {kNan, -0.01, 1.01}) {
+    wire::Task wrong = task;
+    wrong.add_clipped_fractions(bad);
+    EXPECT_EQ(complaint([&] { putOutcome(wrong, *there); }), "a part of a way that is not in [0, 1]");
+  }
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "server/world_wire.h"
 
+#include <utility>
+
 namespace robosim {
 
 void encode(const WorldSource& source, wire::WorldSource& out) {
@@ -19,12 +21,16 @@ void encode(const WorldSource& source, wire::WorldSource& out) {
   }
 }
 
-WorldSource decode(const wire::WorldSource& in) {
+WorldSource decode(const wire::WorldSource& in) { return decode(wire::WorldSource(in)); }
+
+WorldSource decode(wire::WorldSource&& in) {
   WorldSource source;
   source.file = in.file();
-  source.text = in.text();
-  for (const auto& type : in.robot_types()) source.robot_types[type.name()] = {type.file(), type.text()};
-  for (const auto& file : in.files()) source.files[file.name()] = file.content();
+  source.text = std::move(*in.mutable_text());
+  for (auto& type : *in.mutable_robot_types()) {
+    source.robot_types[type.name()] = {type.file(), std::move(*type.mutable_text())};
+  }
+  for (auto& file : *in.mutable_files()) source.files[file.name()] = std::move(*file.mutable_content());
   return source;
 }
 

@@ -4,8 +4,9 @@
 
 namespace robosim {
 
-/// A world between our value and protobuf's (world.proto). What is wrong inside, loadWorld() tells.
+/// Conversion between WorldSource and wire::WorldSource (world.proto). loadWorld() validates the content.
 void encode(const WorldSource& source, wire::WorldSource& out);
+WorldSource decode(wire::WorldSource&& in);  ///< moves the texts
 WorldSource decode(const wire::WorldSource& in);
 
 }  // namespace robosim

@@ -1,5 +1,5 @@
-// ActivMedia's 2D-Map, as ARIA and MobileSim know it: walls as line segments, points that a laser saw, and "cairns",
-// things with a name and a place. Millimetres and degrees.
+// Reader of ActivMedia's 2D-Map, the format of ARIA and MobileSim: walls as line segments, points scanned by a laser,
+// and "cairns", named objects with a position. Units are millimetres and degrees.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -10,6 +10,10 @@
 #include <string_view>
 
 #include "base/error_list.h"
+#include "base/portable_math.h"
+#include "base/portable_pose.h"
+#include "base/printable_text.h"
+#include "base/xml_element.h"
 #include "world/map_reader.h"
 
 namespace robosim {
@@ -17,13 +21,15 @@ namespace {
 
 using mrpt::math::TPose2D;
 
-/// A line is a wall without thickness; solids have one. As thin as makes no difference to any sensor: ranges come out
-/// half of it short. Ends reach out by as much, so that walls that share a corner close it.
+/// Width of the wall that represents a line, which has none: thin enough not to matter to any sensor; ranges are half
+/// of it too short. Ends are extended by half of it, so that walls that share a corner are closed.
 constexpr double kLineWidth_m = 0.002;
-/// Of points, where the file does not tell it: what MobileSim takes them for.
+/// Default resolution of points, as in MobileSim.
 constexpr double kDefaultResolution_mm = 20;
-/// 1,000 km from the origin: no map is so large, and all cells of a millimetre can be counted with 32 bits.
+/// Maximum coordinate: 1,000 km from the origin, so that all cells of a millimetre can be counted with 32 bits.
 constexpr double kFarthest_mm = 1e9;
+/// Maximum number of points in a file; several may lie in one cell. Sorting takes 32 bytes per point.
+constexpr std::size_t kMaxPoints = 4 * kMaxMapBoxes;
 
 bool isSame(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
@@ -31,7 +37,7 @@ bool isSame(std::string_view a, std::string_view b) {
   });
 }
 
-/// The words of a line; one in quotation marks may hold blanks, and comes without them.
+/// Splits a line into words. A word in quotation marks may contain blanks; the marks are removed.
 std::vector<std::string> wordsOf(std::string_view line) {
   std::vector<std::string> words;
   std::size_t at = 0;
@@ -54,7 +60,7 @@ class ActivmediaReader {
     enum class Section { metadata, lines, points } section = Section::metadata;
     while (nextLine()) {
       if (line_.find_first_not_of(" \t") == std::string_view::npos) continue;
-      // A scanner of its own may have sections of its own: <name>_LINES.
+      // Other scanners have sections of their own: <name>_LINES.
       const std::string_view word = line_.substr(0, line_.find_last_not_of(" \t") + 1);
       const auto words = wordsOf(line_);
       if (word.ends_with("LINES")) {
@@ -67,6 +73,9 @@ class ActivmediaReader {
         const auto at = numbers<4>("a wall, x1 y1 x2 y2 in millimetres");
         addLine(at[0], at[1], at[2], at[3]);
       } else {
+        if (points_.size() == kMaxPoints) {
+          fail("is a point beyond the " + std::to_string(kMaxPoints) + " that a map may have; use fewer");
+        }
         points_.push_back(numbers<2>("a point, x y in millimetres"));
       }
     }
@@ -103,17 +112,19 @@ class ActivmediaReader {
       if (is_there && isSame(word, known)) return;
     }
     number_ = 1;
-    fail("is no ActivMedia map: its first line is not 2D-Map");
+    fail("is not an ActivMedia map: its first line is not 2D-Map");
   }
 
   std::optional<double> parsed(std::string_view word) const {
     double value = 0;
     const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error != std::errc{} || stop != word.data() + word.size() || !std::isfinite(value)) return std::nullopt;
+    if (error == std::errc::result_out_of_range) value = parseNumber(std::string(word)).value_or(INFINITY);
+    if (error == std::errc::invalid_argument || stop != word.data() + word.size() || !std::isfinite(value))
+      return std::nullopt;
     return value;
   }
 
-  /// The first numbers of the line; what stands behind them means nothing.
+  /// Parses the first `count` numbers of the line; ignores what follows them.
   template <std::size_t count>
   std::array<double, count> numbers(const char* what) const {
     std::array<double, count> values{};
@@ -122,7 +133,7 @@ class ActivmediaReader {
       rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
       const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
       const auto number = parsed(word);
-      if (!number) fail("'" + std::string(line_.substr(0, 60)) + "' is no line of " + what);
+      if (!number) fail("'" + quotable(line_) + "' is not " + what);
       value = checked(*number);
       rest.remove_prefix(word.size());
     }
@@ -150,7 +161,7 @@ class ActivmediaReader {
     }
   }
 
-  /// A type of sector that is an obstacle: MapInfo: SectorType Name=Box Sim.Obstacle=yes
+  /// Reads a sector type that is an obstacle: MapInfo: SectorType Name=Box Sim.Obstacle=yes
   void readMapInfo(const std::vector<std::string>& words) {
     std::string name;
     bool is_obstacle = false;
@@ -161,7 +172,7 @@ class ActivmediaReader {
     if (words.size() > 1 && words[1] == "SectorType" && is_obstacle) obstacles_.insert(name);
   }
 
-  /// Cairn: type x y theta "…" icon "label" [x1 y1 x2 y2]
+  /// Reads a cairn: Cairn: type x y theta "…" icon "label" [x1 y1 x2 y2]
   void readCairn(const std::vector<std::string>& words) {
     const std::string type = words.size() > 1 ? words[1] : "";
     const bool is_home = type == "RobotHome";
@@ -171,7 +182,7 @@ class ActivmediaReader {
     if (words.size() < 8) fail("a cairn has a type, x, y, theta, a name, an icon and a label; something is missing");
     const auto number = [&](std::size_t i) {
       const auto value = parsed(words[i]);
-      if (!value) fail("'" + words[i] + "' of the cairn " + type + " is no number");
+      if (!value) fail("'" + quotable(words[i]) + "' of the cairn " + quotable(type) + " is not a number");
       return checked(*value);
     };
     const TPose2D pose{number(2) / 1000, number(3) / 1000, number(4) * M_PI / 180};
@@ -185,26 +196,34 @@ class ActivmediaReader {
       addLine(x1, y1, x2, y2);
       return;
     }
-    // The corners of an area lie in a frame turned by theta about the map's origin.
-    const TPose2D center = TPose2D(0, 0, pose.phi) + TPose2D((x1 + x2) / 2000, (y1 + y2) / 2000, 0);
+    // The corners of an area are given in a frame rotated by theta about the map's origin.
+    const TPose2D center = portable::compose(TPose2D(0, 0, pose.phi), TPose2D((x1 + x2) / 2000, (y1 + y2) / 2000, 0));
     if (is_home) {
       area_homes_.push_back(center);
     } else if (is_dock) {
       docks_.push_back(pose);
     } else {
+      checkBoxCount();
       plan_.boxes.push_back(
           {center, std::max(kLineWidth_m, std::abs(x2 - x1) / 1000), std::max(kLineWidth_m, std::abs(y2 - y1) / 1000)});
     }
   }
 
+  /// Reports an error if another box would exceed the limit.
+  void checkBoxCount() const {
+    if (plan_.boxes.size() < kMaxMapBoxes) return;
+    fail("is the wall or box beyond the " + std::to_string(kMaxMapBoxes) + " that a map may have; use fewer");
+  }
+
   void addLine(double x1, double y1, double x2, double y2) {
+    checkBoxCount();
     const double dx = (x2 - x1) / 1000, dy = (y2 - y1) / 1000;
-    plan_.boxes.push_back({{(x1 + x2) / 2000, (y1 + y2) / 2000, dx == 0 && dy == 0 ? 0 : std::atan2(dy, dx)},
-                           std::hypot(dx, dy) + kLineWidth_m,
+    plan_.boxes.push_back({{(x1 + x2) / 2000, (y1 + y2) / 2000, dx == 0 && dy == 0 ? 0 : portable::atan2(dy, dx)},
+                           portable::hypot(dx, dy) + kLineWidth_m,
                            kLineWidth_m});
   }
 
-  /// Each point is a cell, of a raster with a cell's centre at the origin, which is where scanned points lie.
+  /// Converts the points to cells of a raster that has a cell centred at the origin, as scanned points do.
   void addPoints() {
     if (points_.empty()) return;
     struct Cell {
@@ -240,13 +259,14 @@ class ActivmediaReader {
     plan_.occupied = merger.finish();
   }
 
-  std::string_view text_;  ///< what is left
+  std::string_view text_;  ///< the unread rest
   const std::string& path_;
   std::string_view line_;
   int number_ = 0;
   double resolution_mm_ = kDefaultResolution_mm;
-  std::set<std::string> obstacles_;                               ///< types of cairns that are
-  std::vector<std::pair<int, std::vector<std::string>>> cairns_;  ///< with their lines; what they are may be told later
+  std::set<std::string> obstacles_;  ///< types of cairns that are obstacles
+  /// With their line numbers; read last, because a MapInfo line may follow.
+  std::vector<std::pair<int, std::vector<std::string>>> cairns_;
   std::vector<std::array<double, 2>> points_;
   std::vector<TPose2D> homes_, area_homes_, docks_;
   FloorPlan plan_;

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/level_frame.h"
+#include "base/portable_pose.h"
+#include "geometry/shapes/planar_transform.h"
 
 namespace robosim {
 namespace {
@@ -11,10 +12,10 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-/// The rectangle about boxes.
+/// Axis-aligned bounding rectangle of boxes.
 class Hull {
  public:
-  void include(const LevelFrame& frame, double x_from, double x_to, double y_from, double y_to) {
+  void include(const PlanarTransform& frame, double x_from, double x_to, double y_from, double y_to) {
     for (const double x : {x_from, x_to}) {
       for (const double y : {y_from, y_to}) include(frame.pointToWorld(TPoint2D(x, y)));
     }
@@ -76,32 +77,35 @@ FloorPlan floorPlanOf(const OccupancyGrid& grid, bool unknown_is_occupied) {
   plan.rows = grid.rows;
   plan.cell_m = grid.cell_m;
   plan.map_from_grid = grid.map_from_grid;
-  const auto stands = [&](Occupancy cell) {
-    return cell == Occupancy::occupied || (unknown_is_occupied && cell == Occupancy::unknown);
-  };
-  CellMerger merger;
-  for (std::uint32_t row = 0; row < grid.rows; ++row) {
-    const auto begin = grid.cells.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * grid.columns);
-    const auto end = begin + grid.columns;
-    for (auto at = std::find_if(begin, end, stands); at != end; at = std::find_if(at, end, stands)) {
-      const auto first = at;
-      at = std::find_if_not(at, end, stands);
-      merger.add(row, static_cast<std::uint32_t>(first - begin), static_cast<std::uint32_t>(at - begin));
+  const auto merged = [&](const auto& stands) {
+    CellMerger merger;
+    for (std::uint32_t row = 0; row < grid.rows; ++row) {
+      const auto begin = grid.cells.begin() + static_cast<std::ptrdiff_t>(std::size_t{row} * grid.columns);
+      const auto end = begin + grid.columns;
+      for (auto at = std::find_if(begin, end, stands); at != end; at = std::find_if(at, end, stands)) {
+        const auto first = at;
+        at = std::find_if_not(at, end, stands);
+        merger.add(row, static_cast<std::uint32_t>(first - begin), static_cast<std::uint32_t>(at - begin));
+      }
     }
-  }
-  plan.occupied = merger.finish();
+    return merger.finish();
+  };
+  plan.occupied = merged([&](Occupancy cell) {
+    return cell == Occupancy::occupied || (unknown_is_occupied && cell == Occupancy::unknown);
+  });
+  if (!unknown_is_occupied) plan.unknown = merged([](Occupancy cell) { return cell == Occupancy::unknown; });
   return plan;
 }
 
 Bounds2D boundsOf(const FloorPlan& plan, const TPose2D& world_from_map) {
   Hull hull;
   if (plan.columns > 0) {
-    hull.include(LevelFrame(world_from_map + plan.map_from_grid, 0), 0, plan.columns * plan.cell_m, 0,
-                 plan.rows * plan.cell_m);
+    hull.include(PlanarTransform(portable::compose(world_from_map, plan.map_from_grid), 0), 0,
+                 plan.columns * plan.cell_m, 0, plan.rows * plan.cell_m);
   }
   for (const auto& box : plan.boxes) {
-    hull.include(LevelFrame(world_from_map + box.map_from_box, 0), -box.length_m / 2, box.length_m / 2,
-                 -box.width_m / 2, box.width_m / 2);
+    hull.include(PlanarTransform(portable::compose(world_from_map, box.map_from_box), 0), -box.length_m / 2,
+                 box.length_m / 2, -box.width_m / 2, box.width_m / 2);
   }
   if (hull.isEmpty()) hull.include({world_from_map.x, world_from_map.y});
   return hull.bounds();
@@ -117,7 +121,7 @@ void addSolids(const FloorPlan& plan, const TPose2D& world_from_map, const Heigh
                std::vector<Solid>& solids) {
   const double seam_m = seamOf(plan, world_from_map);
   solids.reserve(solids.size() + plan.occupied.size() + plan.boxes.size());
-  const LevelFrame grid(world_from_map + plan.map_from_grid, 0);
+  const PlanarTransform grid(portable::compose(world_from_map, plan.map_from_grid), 0);
   const TPoint2D along(grid.cos(), grid.sin());
   for (const auto& cells : plan.occupied) {
     const TPoint2D center((cells.column + cells.columns / 2.0) * plan.cell_m,
@@ -127,9 +131,9 @@ void addSolids(const FloorPlan& plan, const TPose2D& world_from_map, const Heigh
                       heights});
   }
   for (const auto& box : plan.boxes) {
-    solids.push_back(
-        {OrientedBox::from(world_from_map + box.map_from_box, box.length_m + 2 * seam_m, box.width_m + 2 * seam_m),
-         heights});
+    solids.push_back({OrientedBox::from(portable::compose(world_from_map, box.map_from_box), box.length_m + 2 * seam_m,
+                                        box.width_m + 2 * seam_m),
+                      heights});
   }
 }
 

@@ -4,19 +4,19 @@
 
 #include <mrpt/math/TPose2D.h>
 
-#include "geometry/solid.h"
+#include "geometry/shapes/solid.h"
 #include "world/occupancy_grid.h"
 
 namespace robosim {
 
-/// Cells side by side, all of them occupied.
+/// Rectangle of occupied cells.
 struct CellRectangle {
-  std::uint32_t column = 0, row = 0;    ///< of the lower left one
-  std::uint32_t columns = 1, rows = 1;  ///< how many
+  std::uint32_t column = 0, row = 0;    ///< of the lower left cell
+  std::uint32_t columns = 1, rows = 1;  ///< number of columns and rows
   bool operator==(const CellRectangle&) const = default;
 };
 
-/// A rectangle of any direction.
+/// A rectangle of any orientation.
 struct PlanBox {
   mrpt::math::TPose2D map_from_box;  ///< of its centre
   double length_m = 0;               ///< along its x axis
@@ -24,21 +24,22 @@ struct PlanBox {
   bool operator==(const PlanBox&) const = default;
 };
 
-/// What a map file says, whatever its format: where something stands. Plain values, in the map's own frame.
+/// Contents of a map file, independent of its format, in the map's frame.
 struct FloorPlan {
-  std::uint32_t columns = 0, rows = 0;  ///< of the cells; 0 when the map has none
+  std::uint32_t columns = 0, rows = 0;  ///< number of cells; 0 when the map has none
   double cell_m = 0;
-  mrpt::math::TPose2D map_from_grid;        ///< of the lower left corner of the first cell
-  std::vector<CellRectangle> occupied;      ///< all occupied cells, each in one rectangle
-  std::vector<PlanBox> boxes;               ///< what is told otherwise than by cells
-  std::vector<mrpt::math::TPose2D> starts;  ///< where the map says that a robot may start, the best first
+  mrpt::math::TPose2D map_from_grid;    ///< of the lower left corner of the first cell
+  std::vector<CellRectangle> occupied;  ///< all occupied cells, each in one rectangle
+  std::vector<CellRectangle> unknown;   ///< all unknown cells that are not taken for occupied, each in one rectangle
+  std::vector<PlanBox> boxes;           ///< obstacles that are not given as cells
+  std::vector<mrpt::math::TPose2D> starts;  ///< start poses given by the map, best first
   bool operator==(const FloorPlan&) const = default;
 
   std::uint64_t occupiedCells() const;
 };
 
-/// Joins cells to rectangles: runs within a row first, then equal runs of rows one above the other. Takes the rows in
-/// ascending order, and the runs of a row from left to right with a gap between any two.
+/// Merges occupied cells into rectangles: runs within a row first, then equal runs of consecutive rows. Rows must be
+/// added in ascending order, and the runs of a row from left to right with a gap between any two.
 class CellMerger {
  public:
   void add(std::uint32_t row, std::uint32_t first_column, std::uint32_t end_column);
@@ -48,22 +49,22 @@ class CellMerger {
   void closeRow();
 
   std::vector<CellRectangle> done_;
-  std::vector<CellRectangle> below_;  ///< that may go on in the row at hand, from left to right
-  std::vector<CellRectangle> here_;   ///< runs of the row at hand, with what they go on from
+  std::vector<CellRectangle> below_;  ///< rectangles that the current row may extend, from left to right
+  std::vector<CellRectangle> here_;   ///< runs of the current row, with the rectangles that they extend
   std::uint32_t row_ = 0;
 };
 
-/// @param unknown_is_occupied otherwise it is free
+/// @param unknown_is_occupied whether unknown cells become occupied; otherwise they become free
 FloorPlan floorPlanOf(const OccupancyGrid&, bool unknown_is_occupied);
 
-/// The rectangle, along the map's axes, of all that the map is about, free cells too; an empty map is a point.
+/// Bounding rectangle in the world of the whole map including its free cells; a point for an empty map.
 Bounds2D boundsOf(const FloorPlan&, const mrpt::math::TPose2D& world_from_map);
 
-/// By how much [m] solids made of cells and boxes reach over their edges, so that no ray slips between two that touch,
-/// however its sums are rounded: about a nanometre.
+/// Distance [m], about a nanometre, by which the solids of cells and boxes extend over their edges, so that no ray
+/// passes between two touching solids because of rounding.
 double seamOf(const FloorPlan&, const mrpt::math::TPose2D& world_from_map);
 
-/// Appends what stands there as solids: a box for every rectangle of cells and for every box.
+/// Appends the obstacles as solids: a box for every rectangle of cells and for every box.
 void addSolids(const FloorPlan&, const mrpt::math::TPose2D& world_from_map, const HeightSpan& heights,
                std::vector<Solid>& solids);
 

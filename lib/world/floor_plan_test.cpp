@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "geometry/random_scene.h"
 #include "geometry/scene.h"
+#include "geometry/testing/random_scene.h"
 #include "world/random_grid.h"
 
 namespace robosim {
@@ -37,7 +37,7 @@ std::vector<Solid> solidsOf(const FloorPlan& plan, const TPose2D& world_from_map
   return solids;
 }
 
-TEST(FloorPlan, JoinsARoomsWallsToFourBoxes) {
+TEST(FloorPlan, MergesARoomsWallsIntoFourBoxes) {
   const FloorPlan plan = floorPlanOf(gridOf({"######",  //
                                              "#....#",  //
                                              "#....#",  //
@@ -47,7 +47,7 @@ TEST(FloorPlan, JoinsARoomsWallsToFourBoxes) {
   EXPECT_EQ(plan.occupiedCells(), 16u);
 }
 
-TEST(FloorPlan, KeepsApartWhatOnlyTouchesAtACorner) {
+TEST(FloorPlan, DoesNotMergeCellsThatTouchAtACorner) {
   const FloorPlan plan = floorPlanOf(gridOf({"#.#",  //
                                              ".#.",  //
                                              "#.#"}),
@@ -55,13 +55,21 @@ TEST(FloorPlan, KeepsApartWhatOnlyTouchesAtACorner) {
   EXPECT_EQ(plan.occupied.size(), 5u);
 }
 
-TEST(FloorPlan, TakesTheUnknownForFreeUnlessToldOtherwise) {
+TEST(FloorPlan, TreatsUnknownAsFreeByDefault) {
   const OccupancyGrid grid = gridOf({"?#?"});
   EXPECT_EQ(floorPlanOf(grid, false).occupiedCells(), 1u);
   EXPECT_EQ(floorPlanOf(grid, true).occupiedCells(), 3u);
 }
 
-TEST(FloorPlan, CoversEveryOccupiedCellOnceAndNoOther) {
+TEST(FloorPlan, KeepsUnknownCellsUnlessTheyCountAsOccupied) {
+  OccupancyGrid grid{.columns = 3, .rows = 2, .cell_m = 1, .map_from_grid = {}, .cells = {}};
+  grid.cells.assign(6, Occupancy::unknown);
+  grid.cells[0] = Occupancy::free;
+  EXPECT_EQ(floorPlanOf(grid, false).unknown, (std::vector<CellRectangle>{{1, 0, 2, 1}, {0, 1, 3, 1}}));
+  EXPECT_TRUE(floorPlanOf(grid, true).unknown.empty());
+}
+
+TEST(FloorPlan, CoversExactlyTheOccupiedCellsOnce) {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     Rng rng(seed, RandomPurpose::test);
     const OccupancyGrid grid = randomGrid(rng, 1 + rng.below(30), 1 + rng.below(30), 1);
@@ -81,10 +89,10 @@ TEST(FloorPlan, CoversEveryOccupiedCellOnceAndNoOther) {
   }
 }
 
-TEST(FloorPlan, LiesWhereTheGridsCornerIs) {
+TEST(FloorPlan, IsPlacedByTheGridsCorner) {
   OccupancyGrid grid = gridOf({".#"});
   grid.map_from_grid = {1, 2, M_PI / 2};
-  // The map is turned by a quarter once more and laid at (10, 0): its x axis is the world's y axis.
+  // The map is rotated by another quarter and placed at (10, 0): its x axis is the world's y axis.
   const auto solids = solidsOf(floorPlanOf(grid, false), {10, 0, M_PI / 2});
   ASSERT_EQ(solids.size(), 1u);
   // In the grid the cell is [0.5, 1] × [0, 0.5]; in the map [0.5, 1] × [2.5, 3]; in the world [7, 7.5] × [0.5, 1].
@@ -98,9 +106,9 @@ TEST(FloorPlan, LiesWhereTheGridsCornerIs) {
   EXPECT_NEAR(all.x_max, 8, 1e-12);
 }
 
-// Beside each of a scene's answers about a map a loop over all of its cells, one by one.
+// Compares scene queries on a map with loops over all of its cells.
 
-/// A map somewhere in the world, as a scene and cell by cell.
+/// A map at a random pose, as a scene and cell by cell.
 struct Case {
   OccupancyGrid grid;
   TPose2D world_from_map;
@@ -122,21 +130,21 @@ struct Case {
   TPose2D worldFromGrid() const { return world_from_map + grid.map_from_grid; }
   Scene scene() const { return {solidsOf(plan(), world_from_map), 0, area()}; }
 
-  /// Every occupied cell, larger all around by a hair.
-  std::vector<Solid> cells(double hair_m) const {
+  /// All occupied cells, enlarged slightly.
+  std::vector<Solid> cells(double margin_m) const {
     std::vector<Solid> solids;
     for (std::uint32_t row = 0; row < grid.rows; ++row) {
       for (std::uint32_t column = 0; column < grid.columns; ++column) {
         if (grid.at(column, row) != Occupancy::occupied) continue;
         const TPose2D grid_from_cell((column + 0.5) * grid.cell_m, (row + 0.5) * grid.cell_m, 0);
-        const double side_m = grid.cell_m + 2 * hair_m;
+        const double side_m = grid.cell_m + 2 * margin_m;
         solids.push_back({OrientedBox::from(worldFromGrid() + grid_from_cell, side_m, side_m), {0, 1}});
       }
     }
     return solids;
   }
 
-  /// A corner of cells, or a point between two on a border, or anywhere.
+  /// A random corner of cells, point on a cell border, or arbitrary point.
   TPoint2D place(Rng& rng) const {
     const auto along = [&](std::uint32_t count) {
       const double cell = static_cast<double>(rng.below(count + 3)) - 1;
@@ -146,7 +154,7 @@ struct Case {
     return worldFromGrid().composePoint(TPoint2D(x, along(grid.rows)));
   }
 
-  /// Along the cells, from corner to corner, or anywhere.
+  /// A random direction: along the cells, from corner to corner, or arbitrary.
   double direction(Rng& rng) const {
     const auto turns = rng.below(3);
     if (turns == 0) return rng.uniform(-M_PI, M_PI);
@@ -154,7 +162,7 @@ struct Case {
     return worldFromGrid().phi + (quarters + (turns == 1 ? 0 : 0.5)) * M_PI / 2;
   }
 
-  /// Exactly so where a lattice allows it.
+  /// Exact where a lattice allows it.
   Ray ray(Rng& rng) const {
     const TPoint2D from = place(rng);
     Ray ray = Ray::towards({from.x, from.y, 0.5}, direction(rng));
@@ -185,7 +193,7 @@ double nearest(const std::vector<Solid>& cells, const Sector& sector) {
 constexpr double kSame_m = 1e-8;
 constexpr double kHair_m = 3e-9;  ///< a little more than a seam
 
-TEST(FloorPlanBruteForce, RaysMeetTheCellsAndNothingSlipsThrough) {
+TEST(FloorPlanBruteForce, RaysHitTheCellsWithoutGaps) {
   std::size_t hits = 0;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Rng rng(seed, RandomPurpose::test);
@@ -195,7 +203,7 @@ TEST(FloorPlanBruteForce, RaysMeetTheCellsAndNothingSlipsThrough) {
     for (int i = 0; i < 100; ++i) {
       const Ray ray = map.ray(rng);
       const double got_m = scene.castRay(ray, 1e6).distance_m;
-      // A cell that the ray meets is never passed by, not even at a seam or a corner; and what is met is a cell.
+      // A ray never misses a cell in its way, even at a seam or a corner; and every hit is a cell.
       ASSERT_LE(got_m, nearest(cells, ray)) << "seed " << seed << " ray " << i;
       ASSERT_GE(got_m, nearest(grown, ray) - kSame_m) << "seed " << seed << " ray " << i;
       hits += got_m < kInfinity ? 1 : 0;
@@ -204,7 +212,7 @@ TEST(FloorPlanBruteForce, RaysMeetTheCellsAndNothingSlipsThrough) {
   EXPECT_GT(hits, 10'000u);
 }
 
-TEST(FloorPlanBruteForce, FansOfRaysMeetTheCellsToo) {
+TEST(FloorPlanBruteForce, RayBatchesHitTheCellsWithoutGaps) {
   for (std::uint64_t seed = 1; seed <= 100; ++seed) {
     Rng rng(seed, RandomPurpose::test);
     const Case map(rng);
@@ -213,12 +221,12 @@ TEST(FloorPlanBruteForce, FansOfRaysMeetTheCellsToo) {
     const TPoint2D from = map.place(rng);
     std::vector<Ray> rays;
     for (int i = 0; i < 64; ++i) rays.push_back(Ray::towards({from.x, from.y, 0.5}, map.direction(rng)));
-    const RayFan fan(rays);
-    RayBatch batch;
+    const BeamFan fan(rays);
+    BeamBatch batch;
     batch.place(fan, {}, 1e6);
-    scene.castRays(batch);
+    scene.cast(batch);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const double got_m = batch.body(i) == RayBatch::kNothing ? kInfinity : batch.distance(i);
+      const double got_m = batch.body(i) == BeamBatch::kNothing ? kInfinity : batch.distance(i);
       ASSERT_LE(got_m, nearest(cells, rays[i])) << "seed " << seed << " ray " << i;
       ASSERT_GE(got_m, nearest(grown, rays[i]) - kSame_m) << "seed " << seed << " ray " << i;
     }
@@ -241,7 +249,7 @@ TEST(FloorPlanBruteForce, SectorsFindTheNearestCell) {
   }
 }
 
-TEST(FloorPlanBruteForce, ADiscComesAsFarAsTheCellsLetIt) {
+TEST(FloorPlanBruteForce, ADiscStopsAtTheCells) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed, RandomPurpose::test);
     const Case map(rng);
@@ -256,22 +264,22 @@ TEST(FloorPlanBruteForce, ADiscComesAsFarAsTheCellsLetIt) {
       double slow = 1, fast = 1;
       for (const auto& cell : cells) slow = std::min(slow, firstContact(path, radius_m, cell.outline));
       for (const auto& solid : solids) fast = std::min(fast, firstContact(path, radius_m, solid.outline));
-      // Brushing past at a flat angle a nanometre decides over more of the way, but never lets the disc in.
+      // At a grazing angle a nanometre affects a longer part of the path, but never lets the disc in.
       ASSERT_LE(fast * std::abs(path.length_m), slow * std::abs(path.length_m) + kSame_m) << "seed " << seed;
       ASSERT_GE(fast * std::abs(path.length_m), slow * std::abs(path.length_m) - 1e-3) << "seed " << seed;
     }
   }
 }
 
-TEST(FloorPlan, LetsARayOverItsWalls) {
+TEST(FloorPlan, DoesNotBlockRaysAboveItsWalls) {
   const FloorPlan plan = floorPlanOf(gridOf({"#"}), false);
   const Scene scene(solidsOf(plan, {}, {0, 0.8}), 0, {-1, 1, -1, 1});
   EXPECT_TRUE(scene.castRay(Ray::towards({-1, 0.25, 0.8}, 0), 5));
   EXPECT_FALSE(scene.castRay(Ray::towards({-1, 0.25, 0.81}, 0), 5));
 }
 
-TEST(FloorPlan, LeavesNoCrackFarFromTheOrigin) {
-  // At the size of coordinates that surveyors use a nanometre is less than a double can tell apart.
+TEST(FloorPlan, HasNoGapsFarFromTheOrigin) {
+  // At coordinates used in surveying, a nanometre is below the resolution of doubles.
   OccupancyGrid grid = gridOf({"#", "#", "#", "#"});
   grid.map_from_grid = {4'451'000.3, 5'438'000.7, 0.3};
   FloorPlan plan = floorPlanOf(grid, false);

@@ -1,6 +1,6 @@
-// MRPT's file of a COccupancyGridMap2D: one object in MRPT's serialization, often compressed with gzip. It is taken
-// apart here, not by MRPT, whose reader makes room for whatever a header promises. What it stores: MRPT 2.5.8,
-// COccupancyGridMap2D::serializeTo(); the oldest version read is its 2, of MRPT 0.6.
+// Reader of MRPT's COccupancyGridMap2D files: one object in MRPT's serialization, often compressed with gzip. Parsed
+// here rather than with MRPT, whose reader allocates whatever a header claims. Format: MRPT 2.5.8,
+// COccupancyGridMap2D::serializeTo(); the oldest supported version is 2, of MRPT 0.6.
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -16,8 +16,8 @@
 namespace robosim {
 namespace {
 
-/// The cells, and room for the rest.
-constexpr std::size_t kMostBytes = 2 * kMostMapCells + (1u << 20);
+/// Maximum size [bytes] of a decompressed file: the cells, and space for the rest.
+constexpr std::size_t kMaxBytes = 2 * kMaxMapCells + (1u << 20);
 
 std::string inflated(const std::string& bytes, const std::string& path) {
   inflate_state state;
@@ -35,8 +35,8 @@ std::string inflated(const std::string& bytes, const std::string& path) {
     if (status != ISAL_DECOMP_OK && status != ISAL_END_INPUT) {
       throw ConfigError(path + ": is damaged: it cannot be decompressed beyond byte " + std::to_string(out.size()));
     }
-    if (out.size() > kMostBytes) {
-      throw ConfigError(path + ": holds more than " + std::to_string(kMostBytes >> 20) +
+    if (out.size() > kMaxBytes) {
+      throw ConfigError(path + ": holds more than " + std::to_string(kMaxBytes >> 20) +
                         " MiB once it is decompressed; no map has so many cells");
     }
     if (state.block_state != ISAL_BLOCK_FINISH && state.avail_out == block.size() && state.avail_in == 0) {
@@ -46,8 +46,8 @@ std::string inflated(const std::string& bytes, const std::string& path) {
   return out;
 }
 
-/// The double that a person meant who wrote a decimal that became this float: 0.05, not 0.05000000074505806.
-double meant(float value) {
+/// The double with the shortest decimal text of a float: 0.05, not 0.05000000074505806.
+double shortestDecimal(float value) {
   char text[32];
   const auto end = std::to_chars(text, text + sizeof text, value).ptr;
   return parseNumber(std::string(text, end)).value_or(value);
@@ -74,14 +74,14 @@ class GridmapReader {
     }
     checkSize(grid.columns, x_min, x_max, cell_m, "x");
     checkSize(grid.rows, y_min, y_max, cell_m, "y");
-    if (std::uint64_t{grid.columns} * grid.rows > kMostMapCells) {
+    if (std::uint64_t{grid.columns} * grid.rows > kMaxMapCells) {
       fail("has " + std::to_string(grid.columns) + " × " + std::to_string(grid.rows) + " cells; a map may have " +
-           std::to_string(kMostMapCells) + " at most");
+           std::to_string(kMaxMapCells) + " at most");
     }
-    grid.cell_m = meant(cell_m);
-    grid.map_from_grid = {meant(x_min), meant(y_min), 0};
+    grid.cell_m = shortestDecimal(cell_m);
+    grid.map_from_grid = {shortestDecimal(x_min), shortestDecimal(y_min), 0};
     readCells(grid, version, bits / 8, thresholds);
-    // What is left tells how MRPT would insert scans, and ends with the mark of every object.
+    // The rest holds MRPT's insertion options and ends with the end mark of every object.
     if (at_ == bytes_.size() || bytes_.back() != '\x88') failCutOff("the end of the object");
     return grid;
   }
@@ -111,7 +111,7 @@ class GridmapReader {
     const auto length = bytes_.empty() ? 0 : static_cast<unsigned char>(bytes_[0]);
     const std::string name = bytes_.substr(std::min<std::size_t>(1, bytes_.size()), length & 0x7f);
     if (length < 0x80 || (name != "mrpt::maps::COccupancyGridMap2D" && name != "COccupancyGridMap2D")) {
-      fail("is no MRPT grid map: it does not begin with a COccupancyGridMap2D");
+      fail("is not an MRPT grid map: it does not begin with a COccupancyGridMap2D");
     }
     at_ = 1 + name.size();
     constexpr int first = 2, last = 6;
@@ -124,7 +124,7 @@ class GridmapReader {
   }
 
   void checkSize(std::uint32_t count, float low, float high, float cell_m, const std::string& axis) const {
-    // As MRPT finds the count, which stands in the file twice so.
+    // The formula by which MRPT computes the count, which the file states redundantly.
     if (count > 0 && std::abs((double{high} - low) / cell_m - count) < 0.5) return;
     fail("size_" + axis + " is " + std::to_string(count) + ", but from " + axis + "_min to " + axis +
          "_max there are " + toText(std::round((double{high} - low) / cell_m)) + " cells");
@@ -133,7 +133,7 @@ class GridmapReader {
   void readCells(OccupancyGrid& grid, int version, std::size_t bytes_a_cell, const OccupancyThresholds& thresholds) {
     std::array<Occupancy, 256> occupancy_of;
     for (int i = 0; i < 256; ++i) {
-      // Since version 3 logarithms of odds, before that probabilities, of being free either way.
+      // Version 3 and later store log-odds, earlier versions probabilities; both of a cell being free.
       const double free = version >= 3 ? mrpt::maps::COccupancyGridMap2D::l2p(static_cast<std::int8_t>(i)) : i / 255.0;
       occupancy_of[static_cast<std::size_t>(i)] = thresholds.of(1 - free);
     }

@@ -14,7 +14,7 @@ void append(std::string& bytes, const auto& value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-TEST(Gridmap, IsReadAsMrptHasItCellByCell) {
+TEST(Gridmap, EqualsMrptsMapCellByCell) {
   Rng rng(1, RandomPurpose::test);
   COccupancyGridMap2D grid(-1.25f, 2, -1, 1.5f, 0.05f);
   for (unsigned y = 0; y < grid.getSizeY(); ++y) {
@@ -36,12 +36,12 @@ TEST(Gridmap, IsReadAsMrptHasItCellByCell) {
   }
 }
 
-TEST(Gridmap, OfMrptIsUnknownWhereNothingWasInserted) {
+TEST(Gridmap, IsUnknownWhereNothingWasInserted) {
   const COccupancyGridMap2D untouched(0, 1, 0, 0.5f, 0.5f);
   EXPECT_EQ(drawn(readGridmap(gridmapBytes(untouched), "a", {})), "??\n");
 }
 
-TEST(Gridmap, OfOlderVersionsHasProbabilitiesOrSixteenBits) {
+TEST(Gridmap, ReadsOlderVersionsAndSixteenBitCells) {
   const auto file = [](std::int8_t version, std::uint8_t bits, const std::string& cells) {
     std::string bytes =
         "\x93"
@@ -55,7 +55,7 @@ TEST(Gridmap, OfOlderVersionsHasProbabilitiesOrSixteenBits) {
   };
   const std::string probabilities("\x00\x80\xff", 3);     // of being free
   const std::string odds("\x81\x00\x7f", 3);              // the logarithm of that
-  const std::string wide("\x77\x81\x00\x00\x77\x7f", 6);  // the upper byte says it
+  const std::string wide("\x77\x81\x00\x00\x77\x7f", 6);  // the upper byte decides
   EXPECT_EQ(drawn(readGridmap(file(2, 8, probabilities), "a", {})), "#?.\n");
   EXPECT_EQ(drawn(readGridmap(file(3, 8, odds), "a", {})), "#?.\n");
   EXPECT_EQ(drawn(readGridmap(file(6, 16, wide), "a", {})), "#?.\n");

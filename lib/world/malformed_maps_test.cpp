@@ -1,5 +1,5 @@
-// Maps that are refused, each with the words that say what is wrong and where; and maps damaged by chance, which must
-// never do worse than be refused.
+// Malformed maps, with the error text and position for each; and randomly damaged maps, which must be read or rejected
+// without undefined behaviour.
 #include <cstring>
 #include <limits>
 
@@ -42,7 +42,7 @@ std::string gzipped(const std::string& bytes) {
   return out;
 }
 
-/// Where the fields of a grid map's header begin.
+/// Offsets of the fields of a grid map's header.
 enum GridmapField : std::size_t {
   version_at = 32,
   bits_at = 33,
@@ -65,7 +65,7 @@ std::string with(std::string bytes, std::size_t at, Value value) {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
-TEST(MalformedMaps, OfMrpt) {
+TEST(MalformedMaps, ReportsFaultsOfMrptFiles) {
   const std::string good = gridmapBytes(smallGrid());
   ASSERT_EQ(faultsOf("a.gridmap", {{"a.gridmap", good}}), Lines{});
   ASSERT_EQ(faultsOf("a.gridmap.gz", {{"a.gridmap.gz", gzipped(good)}}), Lines{});
@@ -77,10 +77,10 @@ TEST(MalformedMaps, OfMrpt) {
   const struct {
     std::string bytes, fault;
   } cases[] = {
-      {"", "is no MRPT grid map: it does not begin with a COccupancyGridMap2D"},
-      {"\x9f", "is no MRPT grid map: it does not begin with a COccupancyGridMap2D"},
-      {"<world/>", "is no MRPT grid map: it does not begin with a COccupancyGridMap2D"},
-      {"\x8bmrpt::X::Y", "is no MRPT grid map: it does not begin with a COccupancyGridMap2D"},
+      {"", "is not an MRPT grid map: it does not begin with a COccupancyGridMap2D"},
+      {"\x9f", "is not an MRPT grid map: it does not begin with a COccupancyGridMap2D"},
+      {"<world/>", "is not an MRPT grid map: it does not begin with a COccupancyGridMap2D"},
+      {"\x8bmrpt::X::Y", "is not an MRPT grid map: it does not begin with a COccupancyGridMap2D"},
       {good.substr(0, 32), "is cut off: the version is missing"},
       {with(good, version_at, std::int8_t{1}), "is a COccupancyGridMap2D of version 1; versions 2 to 6 are read"},
       {with(good, version_at, std::int8_t{77}), "is a COccupancyGridMap2D of version 77; versions 2 to 6 are read"},
@@ -111,7 +111,7 @@ TEST(MalformedMaps, OfMrpt) {
   }
 }
 
-TEST(MalformedMaps, OfRos) {
+TEST(MalformedMaps, ReportsFaultsOfRosFiles) {
   const std::string image = "P2 1 1 255 0";
   const std::string good = rosYaml("a.pgm");
   const auto faults = [&](const std::string& yaml) { return faultsOf("a.yaml", {{"a.yaml", yaml}, {"a.pgm", image}}); };
@@ -126,9 +126,9 @@ TEST(MalformedMaps, OfRos) {
     std::string yaml;
     Lines faults;
   } cases[] = {
-      {"", {"1: is no map_server map; image: and others were expected"}},
-      {"just words", {"1: is no map_server map; image: and others were expected"}},
-      {"- a\n- list", {"1: is no map_server map; image: and others were expected"}},
+      {"", {"1: is not a map_server map; expected image: and other keys"}},
+      {"just words", {"1: is not a map_server map; expected image: and other keys"}},
+      {"- a\n- list", {"1: is not a map_server map; expected image: and other keys"}},
       {"image: a.pgm\nresolution: [1, 2\n", {"3: this is not YAML: end of sequence flow not found"}},
       {"image: a.pgm\n\tresolution: 1", {"2: this is not YAML: illegal tab when looking for indentation"}},
       {std::string(300, '['), {"1: this is not YAML: "}},
@@ -136,7 +136,7 @@ TEST(MalformedMaps, OfRos) {
        {"1: image: is missing; add it", "1: origin: is missing; add it", "1: negate: is missing; add it",
         "1: occupied_thresh: is missing; add it", "1: free_thresh: is missing; add it"}},
       {changed("a.pgm", "[a, b]"), {"1: image: is not a single value"}},
-      {changed("a.pgm", "''"), {"1: image: is empty; write a word there"}},
+      {changed("a.pgm", "''"), {"1: image: is empty; give a value"}},
       {changed("0.05", ".nan"), {"2: resolution: .nan" + in_resolution}},
       {changed("0.05", "nan"), {"2: resolution: nan" + in_resolution}},
       {changed("0.05", "inf"), {"2: resolution: inf" + in_resolution}},
@@ -161,11 +161,13 @@ TEST(MalformedMaps, OfRos) {
       EXPECT_TRUE(found[i].starts_with("maps/a.yaml:" + expected[i])) << found[i] << "\nis not\n" << expected[i];
     }
   }
-  EXPECT_EQ(faultsOf("a.yaml", {{"a.yaml", good}}), Lines{"maps/a.pgm: did not come with the world"});
+  EXPECT_EQ(faultsOf("a.yaml", {{"a.yaml", good}}),
+            Lines{"maps/a.yaml:1: image: a.pgm: maps/a.pgm: did not come with the world"});
   EXPECT_EQ(faultsOf("a.yaml", {{"a.yaml", std::string(2 << 20, ' ')}}),
             Lines{"maps/a.yaml: is larger than 1 MiB; is it a map's .yaml?"});
-  EXPECT_EQ(faultsOf("a.yaml", {{"a.yaml", changed("0.05", "100")}, {"a.pgm", "P5 1 1 255\n"}}),
-            Lines{"maps/a.pgm: is cut off: its pixels take at least 1 bytes, and 0 are left"});
+  EXPECT_EQ(
+      faultsOf("a.yaml", {{"a.yaml", changed("0.05", "100")}, {"a.pgm", "P5 1 1 255\n"}}),
+      Lines{"maps/a.yaml:1: image: a.pgm: maps/a.pgm: is cut off: its pixels take at least 1 bytes, and 0 are left"});
 }
 
 std::string bigEndian(std::size_t value) {
@@ -174,7 +176,7 @@ std::string bigEndian(std::size_t value) {
   return bytes;
 }
 
-/// A chunk of a PNG file with the check sum that it ought to have.
+/// A chunk of a PNG file with its correct check sum.
 std::string chunk(const std::string& type, const std::string& data) {
   std::uint32_t crc = 0xffffffff;  // bit by bit: PNG specification, annex D
   for (const char c : type + data) {
@@ -184,7 +186,7 @@ std::string chunk(const std::string& type, const std::string& data) {
   return bigEndian(data.size()) + type + data + bigEndian(crc ^ 0xffffffff);
 }
 
-TEST(MalformedMaps, ThatArePictures) {
+TEST(MalformedMaps, ReportsFaultsOfPictures) {
   const std::string good = pngBytes(cv::Mat(20, 30, CV_8U, cv::Scalar(0)));
   ASSERT_EQ(faultsOf("a.png", {{"a.png", good}}, ofPixels(0.05)), Lines{});
   const std::string signature = good.substr(0, 8);
@@ -213,30 +215,30 @@ TEST(MalformedMaps, ThatArePictures) {
        ": is cut off: the part at byte " + std::to_string(good.size() - 12) + " is missing"},
       {flipped, ": is damaged: the part at byte 33 has a wrong check sum"},
       {signature + chunk("IDAT", "xxx") + chunk("IEND", ""), ": is damaged: it has no header"},
-      {signature + header(0, 1) + chunk("IEND", ""), ": its header tells of 0 × 1 pixels, which is none"},
+      {signature + header(0, 1) + chunk("IEND", ""), ": its header declares 0 × 1 pixels, which is empty"},
       {signature + header(0x7fffffff, 0x7fffffff) + chunk("IEND", ""),
-       ": its header tells of 2147483647 × 2147483647 pixels; a map may have 67108864 cells at most, so make it "
+       ": its header declares 2147483647 × 2147483647 pixels; a map may have 67108864 cells at most, so make it "
        "smaller"},
       {"P5", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
       {"P5\n", ":2: the width is missing"},
       {"P5\n# only a comment", ":2: the width is missing"},
       {"P5\nwide", ":2: the width is missing"},
       {"P5\n-3 4 255\n", ":2: the width is missing"},
-      {"P5\n3.5 4 255\n", ":2: the width is no whole number"},
-      {"P5\n99999999999 4 255\n", ":2: the width is too large; 67108864 is the most"},
+      {"P5\n3.5 4 255\n", ":2: the width is not a whole number"},
+      {"P5\n99999999999 4 255\n", ":2: the width is too large; 67108864 is the maximum"},
       {"P5\n60000 60000 255\n",
-       ": its header tells of 60000 × 60000 pixels; a map may have 67108864 cells at most, so make it smaller"},
-      {"P5\n0 4 255\n", ": its header tells of 0 × 4 pixels, which is none"},
+       ": its header declares 60000 × 60000 pixels; a map may have 67108864 cells at most, so make it smaller"},
+      {"P5\n0 4 255\n", ": its header declares 0 × 4 pixels, which is empty"},
       {"P5\n2 2", ":2: the value of white is missing"},
       {"P5\n2 2\n0\n....", ":3: the value of white is 0; it must lie in [1, 65535]"},
-      {"P5\n2 2\n65536\n....", ":3: the value of white is too large; 65535 is the most"},
+      {"P5\n2 2\n65536\n....", ":3: the value of white is too large; 65535 is the maximum"},
       {"P5\n2 2\n255\n...", ": is cut off: its pixels take at least 4 bytes, and 3 are left"},
       {"P5\n2 2\n256\n.......", ": is cut off: its pixels take at least 8 bytes, and 7 are left"},
       {"P6\n2 2\n255\n...........", ": is cut off: its pixels take at least 12 bytes, and 11 are left"},
       {"P4\n9 2\n...", ": is cut off: its pixels take at least 4 bytes, and 3 are left"},
       {"P5\n2 2\n255", ": is cut off: its pixels take at least 4 bytes, and 0 are left"},
       {"P2\n8000 8000\n255\n1 2 3", ": is cut off: its pixels take at least 127999999 bytes, and 6 are left"},
-      {"P2\n2 2\n255\n1 2 300 4", ":4: a value is too large; 255 is the most"},
+      {"P2\n2 2\n255\n1 2 300 4", ":4: a value is too large; 255 is the maximum"},
       {"P2\n2 2\n255\n1 2\n3      ", ":5: a value is missing"},
       {"P1\n2 2\n0 1 2 1", ":3: a pixel is neither 0 nor 1"},
       {"P5\n2 2\n100\n..\xff.", ":4: the value 255 is more than white, 100"},
@@ -248,13 +250,13 @@ TEST(MalformedMaps, ThatArePictures) {
             Lines{"maps/a.pgm: reaches over more than 10,000 km; its resolution cannot be right"});
 }
 
-TEST(MalformedMaps, OfActivmedia) {
+TEST(MalformedMaps, ReportsFaultsOfActivmediaFiles) {
   const struct {
     std::string text, fault;
   } cases[] = {
-      {"", "1: is no ActivMedia map: its first line is not 2D-Map"},
-      {"\n2D-Map\n", "1: is no ActivMedia map: its first line is not 2D-Map"},
-      {"2D-Map-Ex5\n", "1: is no ActivMedia map: its first line is not 2D-Map"},
+      {"", "1: is not an ActivMedia map: its first line is not 2D-Map"},
+      {"\n2D-Map\n", "1: is not an ActivMedia map: its first line is not 2D-Map"},
+      {"2D-Map-Ex5\n", "1: is not an ActivMedia map: its first line is not 2D-Map"},
       {"2D-Map\nResolution: fine\n",
        "2: the resolution must be a number in [0, 100000] millimetres; 0 stands for the usual one, 20"},
       {"2D-Map\nResolution: nan\n",
@@ -264,31 +266,32 @@ TEST(MalformedMaps, OfActivmedia) {
       {"2D-Map\nResolution: -20\n",
        "2: the resolution must be a number in [0, 100000] millimetres; 0 stands for the usual one, 20"},
       {"2D-Map\nResolution: 1e-9\n", "2: the resolution must be 0 or at least 1 millimetre"},
-      {"2D-Map\nLINES\n1 2 3\n", "3: '1 2 3' is no line of a wall, x1 y1 x2 y2 in millimetres"},
-      {"2D-Map\nLINES\n1 2 3 four\n", "3: '1 2 3 four' is no line of a wall, x1 y1 x2 y2 in millimetres"},
-      {"2D-Map\nLINES\n1 2 3 nan\n", "3: '1 2 3 nan' is no line of a wall, x1 y1 x2 y2 in millimetres"},
-      {"2D-Map\nLINES\n1 2 3 4\n\nDATA\n5\n", "6: '5' is no line of a point, x y in millimetres"},
+      {"2D-Map\nLINES\n1 2 3\n", "3: '1 2 3' is not a wall, x1 y1 x2 y2 in millimetres"},
+      {"2D-Map\nLINES\n1 2 3 four\n", "3: '1 2 3 four' is not a wall, x1 y1 x2 y2 in millimetres"},
+      {"2D-Map\nLINES\n1 2 3 nan\n", "3: '1 2 3 nan' is not a wall, x1 y1 x2 y2 in millimetres"},
+      {"2D-Map\nLINES\n1 2 3 4\n\nDATA\n5\n", "6: '5' is not a point, x y in millimetres"},
       {"2D-Map\r\nDATA\r\n1 1e10\r\n", "3: lies more than 1,000 km from the origin; coordinates are in millimetres"},
       {"2D-Map\nCairn: RobotHome 1 2\n",
        "2: a cairn has a type, x, y, theta, a name, an icon and a label; something is missing"},
-      {"2D-Map\nLINES\n\nCairn: Dock 1 inf 0 \"\" ICON \"\"\n", "4: 'inf' of the cairn Dock is no number"},
+      {"2D-Map\nLINES\n\nCairn: Dock 1 inf 0 \"\" ICON \"\"\n", "4: 'inf' of the cairn Dock is not a number"},
   };
   for (const auto& [text, fault] : cases) {
     EXPECT_EQ(faultsOf("a.map", {{"a.map", text}}), Lines{"maps/a.map:" + fault}) << text;
   }
 }
 
-TEST(MalformedMaps, OfNoKnownName) {
+TEST(MalformedMaps, RejectsUnknownFileNames) {
   for (const char* name : {"a.jpg", "a", "", "gridmap", "a.yaml.bak"}) {
-    EXPECT_EQ(faultsOf(name, {{name, ""}}),
-              Lines{std::string(name) +
-                    ": is no map by its name; maps end in .gridmap, .yaml (of ROS), .png, .pgm, .ppm, .pbm or .map"});
+    EXPECT_EQ(
+        faultsOf(name, {{name, ""}}),
+        Lines{std::string(name) +
+              ": is not a map by its name; maps end in .gridmap, .yaml (of ROS), .png, .pgm, .ppm, .pbm or .map"});
   }
   EXPECT_EQ(mapFormatOf("A.GridMap.GZ"), MapFormat::gridmap);
   EXPECT_EQ(mapFormatOf("x/y.YML"), MapFormat::ros_yaml);
 }
 
-/// Flips bits, and cuts out, doubles and inserts runs of bytes.
+/// Flips bits, and removes, duplicates and inserts runs of bytes.
 std::string damaged(std::string bytes, Rng& rng) {
   for (auto blows = 1 + rng.below(4); blows > 0 && !bytes.empty(); --blows) {
     const auto size = static_cast<std::uint32_t>(bytes.size());
@@ -317,7 +320,7 @@ std::string damaged(std::string bytes, Rng& rng) {
   return bytes;
 }
 
-TEST(MalformedMaps, DamagedByChanceAreReadOrRefused) {
+TEST(MalformedMaps, RandomlyDamagedAreReadOrRejected) {
   const std::string pgm = "P5\n# a\n6 4\n255\n" + std::string(24, '\x80');
   const FileTexts good{
       {"a.gridmap", gridmapBytes(smallGrid())},

@@ -29,7 +29,7 @@ MapFormat mapFormatOf(const std::filesystem::path& file) {
     if (name.ends_with(ending)) return format;
   }
   throw ConfigError(file.string() +
-                    ": is no map by its name; maps end in .gridmap, .yaml (of ROS), .png, .pgm, .ppm, .pbm or .map");
+                    ": is not a map by its name; maps end in .gridmap, .yaml (of ROS), .png, .pgm, .ppm, .pbm or .map");
 }
 
 bool isMapFile(const std::filesystem::path& file) {
@@ -41,32 +41,34 @@ bool isMapFile(const std::filesystem::path& file) {
   }
 }
 
-FloorPlan readMap(const std::string& name, const FileShelf& shelf, const MapReading& reading) {
-  const std::string path = shelf.pathOf(name);
+FloorPlan readMap(const std::string& name, const FileProvider& files, const MapReading& reading) {
+  const std::string path = files.pathOf(name);
+  const auto checked = [&](FloorPlan plan) {
+    const std::size_t solids = plan.occupied.size() + plan.boxes.size();
+    const std::size_t boxes = std::max(solids, plan.unknown.size());
+    if (boxes <= kMaxMapBoxes) return plan;
+    throw ConfigError(path + (solids == boxes ? ": its occupied" : ": its unknown") +
+                      " cells are so scattered that they make " + std::to_string(boxes) + " boxes; a map may have " +
+                      std::to_string(kMaxMapBoxes) + " at most, so make it smaller, or its cells larger");
+  };
   OccupancyGrid grid;
   switch (mapFormatOf(name)) {
     case MapFormat::activmedia:
-      return readActivmediaMap(shelf.read(name), path);
+      return checked(readActivmediaMap(files.read(name), path));
     case MapFormat::gridmap:
-      grid = readGridmap(shelf.read(name), path, reading.thresholds);
+      grid = readGridmap(files.read(name), path, reading.thresholds);
       break;
     case MapFormat::ros_yaml:
-      grid = readRosMap(name, shelf);
+      grid = readRosMap(name, files);
       break;
     case MapFormat::picture:
-      grid = readPictureMap(shelf.read(name), path, reading);
+      grid = readPictureMap(files.read(name), path, reading);
       break;
   }
   const double far_m = std::max(grid.columns, grid.rows) * grid.cell_m;
   if (far_m > kMapReach_m)
     throw ConfigError(path + ": reaches over more than 10,000 km; its resolution cannot be right");
-  FloorPlan plan = floorPlanOf(grid, reading.unknown_is_occupied);
-  if (plan.occupied.size() > kMostMapBoxes) {
-    throw ConfigError(path + ": its occupied cells are so scattered that they make " +
-                      std::to_string(plan.occupied.size()) + " boxes; a map may have " + std::to_string(kMostMapBoxes) +
-                      " at most, so make it smaller, or its cells larger");
-  }
-  return plan;
+  return checked(floorPlanOf(grid, reading.unknown_is_occupied));
 }
 
 }  // namespace robosim

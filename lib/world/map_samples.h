@@ -10,34 +10,34 @@
 #include "base/error_list.h"
 #include "world/map_reader.h"
 
-/// Files of maps for tests, made by the libraries that they belong to.
+/// Map files for tests, written by the libraries that define the formats.
 namespace robosim {
 
-/// What MRPT writes for a grid map.
+/// A grid map as written by MRPT.
 inline std::string gridmapBytes(const mrpt::maps::COccupancyGridMap2D& grid) {
   mrpt::io::CMemoryStream stream;
   mrpt::serialization::archiveFrom(stream) << grid;
   return {static_cast<const char*>(stream.getRawBufferData()), static_cast<std::size_t>(stream.getTotalBytesCount())};
 }
 
-/// What OpenCV writes for a picture.
+/// A picture as written by OpenCV.
 inline std::string pngBytes(const cv::Mat& picture) {
   std::vector<unsigned char> bytes;
   cv::imencode(".png", picture, bytes);
   return {bytes.begin(), bytes.end()};
 }
 
-/// A .yaml as ROS's map_saver writes it.
+/// A .yaml file as written by ROS's map_saver.
 inline std::string rosYaml(const std::string& image) {
   return "image: " + image +
          "\nresolution: 0.05\norigin: [-1.5, 2.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 }
 
-/// What readMap() throws when these files are all there is, line by line; empty when it reads the first of them.
+/// Errors of readMap() given only these files, line by line; empty when it succeeds.
 inline std::vector<std::string> faultsOf(const std::string& name, const FileTexts& files,
                                          const MapReading& reading = {}) {
   try {
-    readMap(name, shelfOf("maps/world.xml", files), reading);
+    readMap(name, providerOf("maps/world.xml", files), reading);
     return {};
   } catch (const ConfigError& error) {
     return error.errors();

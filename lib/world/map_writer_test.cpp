@@ -5,11 +5,11 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
-#define OCTOMAP_NODEBUGOUT  // or it tells standard error what it does
+#define OCTOMAP_NODEBUGOUT  // otherwise it logs to standard error
 #include <octomap/OcTree.h>
 
 #include "base/random.h"
-#include "geometry/random_scene.h"
+#include "geometry/testing/random_scene.h"
 #include "world/map_samples.h"
 #include "world/random_grid.h"
 
@@ -47,17 +47,17 @@ World randomWorld(Rng& rng) {
   return world;
 }
 
-/// A box, smaller on all sides by `by_m`.
+/// A box shrunk by `by_m` on all sides.
 Solid cuboid(double x, double y, double z, double side_m, double height_m, double by_m) {
   return {OrientedBox{{x + side_m / 2, y + side_m / 2}, {1, 0}, side_m / 2 - by_m, side_m / 2 - by_m},
           {z + by_m, z + height_m - by_m}};
 }
 
-/// What is known of a piece of space, by a loop over all solids: occupied, when it is so by more than a touch; nothing,
-/// when it hangs on a little more than a touch.
+/// Expected state of a region of space, by a loop over all solids: occupied when a solid overlaps it by more than the
+/// tolerance; nullopt when the result depends on the tolerance.
 std::optional<Occupancy> slowly(const std::vector<Solid>& solids, const Bounds2D& surface, const HeightSpan& heights,
                                 double x, double y, double z, double side_m, double height_m) {
-  const auto meets = [&](double by_m) {
+  const auto overlaps = [&](double by_m) {
     const Solid piece = cuboid(x, y, z, side_m, height_m, by_m);
     return std::any_of(solids.begin(), solids.end(),
                        [&](const Solid& solid) { return solid.heights.overlaps(heights) && overlap(piece, solid); });
@@ -67,31 +67,31 @@ std::optional<Occupancy> slowly(const std::vector<Solid>& solids, const Bounds2D
            surface.y_min < y + side_m - by_m && z + by_m < heights.z_max_m && heights.z_min_m < z + height_m - by_m;
   };
   const auto known = [&](double by_m) {
-    if (meets(by_m)) return Occupancy::occupied;
+    if (overlaps(by_m)) return Occupancy::occupied;
     return is_over(by_m) ? Occupancy::free : Occupancy::unknown;
   };
-  const Occupancy least = known(2 * kTouch_m), most = known(kTouch_m / 100);
-  return least == most ? std::optional(least) : std::nullopt;
+  const Occupancy strict = known(2 * kTouch_m), tolerant = known(kTouch_m / 100);
+  return strict == tolerant ? std::optional(strict) : std::nullopt;
 }
 
-TEST(Raster, MarksEveryCellThatAWallReachesInto) {
+TEST(Raster, MarksEveryCellThatAWallOverlaps) {
   World world = emptyWorld({0, 1, 0, 0.75});
   add(world, cuboid(0.25, 0.25, 0, 0.25, 1, 0));                        // fills one cell, touches eight
   add(world, {OrientedBox{{0.75, 0.7}, {1, 0}, 0.05, 0.001}, {0, 1}});  // 2 mm thin, across a border
   EXPECT_EQ(drawn(rasterOf(world, {0.25, {0, 1}})), "..##\n.#..\n....\n");
 }
 
-TEST(Raster, HasOnlyWhatStandsWithinTheHeights) {
+TEST(Raster, ContainsOnlySolidsWithinTheHeights) {
   World world = emptyWorld({0, 1, 0, 0.25});
   add(world, cuboid(0, 0, 0, 0.25, 0.3, 0));      // a step
   add(world, cuboid(0.25, 0, 0.3, 0.25, 2, 0));   // over it
-  add(world, cuboid(0.5, 0, 1.5, 0.25, 0.2, 0));  // a lintel
+  add(world, cuboid(0.5, 0, 1.5, 0.25, 0.2, 0));  // above the heights
   EXPECT_EQ(drawn(rasterOf(world, {0.25, {0, 0.3}})), "#...\n");
   EXPECT_EQ(drawn(rasterOf(world, {0.25, {0.3, 1.5}})), ".#..\n");
   EXPECT_EQ(drawn(rasterOf(world, {0.25, {0, 3}})), "###.\n");
 }
 
-TEST(Raster, KnowsNothingBeyondTheSurfaceButWhatStandsThere) {
+TEST(Raster, IsUnknownBeyondTheSurfaceExceptForSolids) {
   World world = emptyWorld({0, 0.5, 0, 0.5});
   add(world, cuboid(0.75, 0.75, 0, 0.25, 1, 0));
   const OccupancyGrid grid = rasterOf(world, {0.25, {0, 1}});
@@ -124,12 +124,11 @@ TEST(Raster, AgreesWithALoopOverAllSolidsCellByCell) {
   EXPECT_LT(in_doubt, 100u);
 }
 
-TEST(Raster, GivesAMapsCellsBackAsTheyWere) {
+TEST(Raster, ReproducesTheCellsOfAMap) {
   for (std::uint64_t seed = 1; seed <= 50; ++seed) {
     Rng rng(seed, RandomPurpose::test);
     OccupancyGrid grid = randomGrid(rng, 5 + rng.below(40), 5 + rng.below(40), 0.05);
     grid.map_from_grid = {0.05 * (static_cast<double>(rng.below(100)) - 50), 0.05 * rng.below(100), 0};
-    for (auto& cell : grid.cells) cell = cell == Occupancy::unknown ? Occupancy::free : cell;
     World world;
     world.maps.emplace_back();
     world.maps[0].plan = floorPlanOf(grid, false);
@@ -141,7 +140,47 @@ TEST(Raster, GivesAMapsCellsBackAsTheyWere) {
   }
 }
 
-TEST(Raster, IsRefusedWhenItWouldBeHuge) {
+TEST(Raster, AlignsWithTheCellsOfTheMap) {
+  // Cells of 0.05 m from (0.02, -0.03) on; multiples of 0.05 m would cut every one of them in four.
+  Rng rng(1, RandomPurpose::test);
+  OccupancyGrid grid = randomGrid(rng, 20, 30, 0.05);
+  grid.map_from_grid = {0.02, -0.03, 0};
+  World world;
+  world.maps.emplace_back();
+  world.maps[0].plan = floorPlanOf(grid, false);
+  world.bounds = boundsOf(world.maps[0].plan, {});
+  MapExtent extent = *extentOfMap(world);
+  extent.heights = {0, 1};
+  const OccupancyGrid again = rasterOf(world, extent);
+  EXPECT_EQ(drawn(again), drawn(grid));
+  EXPECT_EQ(again.cell_m, 0.05);
+  EXPECT_NEAR(again.map_from_grid.x, 0.02, 1e-12);
+  EXPECT_NEAR(again.map_from_grid.y, -0.03, 1e-12);
+}
+
+TEST(MapExtent, IsAbsentWithoutAnUnrotatedMapWithCells) {
+  World world;
+  EXPECT_FALSE(extentOfMap(world));
+  world.maps.emplace_back();
+  EXPECT_FALSE(extentOfMap(world)) << "a map without cells";
+  world.maps[0].plan.columns = world.maps[0].plan.rows = 2;
+  world.maps[0].plan.cell_m = 0.1;
+  world.maps[0].world_from_map = {1, 2, 0.5};
+  EXPECT_FALSE(extentOfMap(world)) << "turned";
+  world.maps[0].world_from_map.phi = 0;
+  EXPECT_EQ(extentOfMap(world)->cell_m, 0.1);
+  EXPECT_EQ(extentOfMap(world)->origin, mrpt::math::TPoint2D(1, 2));
+}
+
+TEST(GridmapWriter, CompressesReadably) {
+  Rng rng(1, RandomPurpose::test);
+  const OccupancyGrid grid = randomGrid(rng, 200, 300, 0.05);
+  const std::string bytes = toGridmap(grid), compressed = gzipped(bytes);
+  EXPECT_LT(compressed.size(), bytes.size() / 2);
+  EXPECT_EQ(drawn(readGridmap(compressed, "a.gridmap.gz", {})), drawn(readGridmap(bytes, "a.gridmap", {})));
+}
+
+TEST(Raster, IsRejectedAboveTheCellLimit) {
   const World world = emptyWorld({0, 100, 0, 100});
   try {
     rasterOf(world, {0.001, {0, 1}});
@@ -160,7 +199,7 @@ OccupancyGrid sampleRaster() {
   return rasterOf(world, {0.05, {0, 1}});
 }
 
-TEST(GridmapWriter, WritesWhatMrptReadsCellByCell) {
+TEST(GridmapWriter, IsReadByMrptCellByCell) {
   const OccupancyGrid grid = sampleRaster();
   const std::string bytes = toGridmap(grid);
   mrpt::io::CMemoryStream stream;
@@ -181,7 +220,7 @@ TEST(GridmapWriter, WritesWhatMrptReadsCellByCell) {
   }
 }
 
-TEST(GridmapWriter, WritesWhatWeReadAsItWas) {
+TEST(GridmapWriter, RoundTripsThroughTheReader) {
   const OccupancyGrid grid = sampleRaster();
   const OccupancyGrid again = readGridmap(toGridmap(grid), "a.gridmap", {});
   EXPECT_EQ(drawn(again), drawn(grid));
@@ -189,7 +228,7 @@ TEST(GridmapWriter, WritesWhatWeReadAsItWas) {
   EXPECT_EQ(again.cell_m, 0.05);
 }
 
-TEST(GridmapWriter, RefusesWhatSinglePrecisionCannotTell) {
+TEST(GridmapWriter, RejectsCellsBelowSinglePrecision) {
   OccupancyGrid grid = sampleRaster();
   grid.map_from_grid.x = 4'000'000;
   try {
@@ -197,12 +236,12 @@ TEST(GridmapWriter, RefusesWhatSinglePrecisionCannotTell) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "MRPT's grid maps count in single precision, which cannot tell cells of 0.05 m apart so far from the "
+                 "MRPT's grid maps count in single precision, which cannot resolve cells of 0.05 m so far from the "
                  "origin; make them larger, or move the world");
   }
 }
 
-TEST(RosMapWriter, WritesWhatMapServerIsToldToExpect) {
+TEST(RosMapWriter, WritesTheFormatOfMapServer) {
   OccupancyGrid grid = sampleRaster();
   grid.map_from_grid = {-3 * 0.7, 12.5, 0};  // -2.0999999999999996
   const RosMap map = toRosMap(grid, "my lab: 1.png");
@@ -210,12 +249,12 @@ TEST(RosMapWriter, WritesWhatMapServerIsToldToExpect) {
             "image: \"my lab: 1.png\"\nresolution: 0.05\norigin: [-2.1, 12.5, 0]\nnegate: 0\noccupied_thresh: 0.65\n"
             "free_thresh: 0.196\n");
   const OccupancyGrid again =
-      readRosMap("a.yaml", shelfOf("world.xml", {{"a.yaml", map.yaml}, {"my lab: 1.png", map.png}}));
+      readRosMap("a.yaml", providerOf("world.xml", {{"a.yaml", map.yaml}, {"my lab: 1.png", map.png}}));
   EXPECT_EQ(drawn(again), drawn(grid));
   EXPECT_EQ(again.map_from_grid, mrpt::math::TPose2D(-2.1, 12.5, 0));
 }
 
-/// What octomap's own reader finds.
+/// The tree as read by octomap.
 std::unique_ptr<octomap::OcTree> readOctomap(const std::string& bytes, OctomapForm form) {
   std::istringstream in(bytes);
   if (form == OctomapForm::probabilities) {
@@ -262,14 +301,14 @@ TEST(OctomapWriter, AgreesWithALoopOverAllSolidsVoxelByVoxel) {
   EXPECT_LT(in_doubt, 100u);
 }
 
-TEST(OctomapWriter, KeepsWideSpacesInLargeCubes) {
+TEST(OctomapWriter, MergesLargeUniformSpaces) {
   World world = emptyWorld({-12.8, 12.8, -12.8, 12.8});
   const auto tree =
       readOctomap(toOctomap(world, {0.05, {0, 1.6}}, OctomapForm::binary, [](double) {}), OctomapForm::binary);
   EXPECT_EQ(tree->getNumLeafNodes(), 16u * 16u) << "of 1.6 m, not 512 × 512 × 32 of 5 cm";
 }
 
-TEST(OctomapWriter, TellsHowFarItIs) {
+TEST(OctomapWriter, ReportsProgress) {
   World world = emptyWorld({-3, 3, -3, 3});
   for (int i = 0; i < 40; ++i) add(world, {Circle{{i * 0.1 - 2, 0.05 * i - 1}, 0.3}, {0, 1}});
   std::vector<double> told;
@@ -280,7 +319,7 @@ TEST(OctomapWriter, TellsHowFarItIs) {
   EXPECT_GT(told.back(), 0.9);
 }
 
-TEST(OctomapWriter, RefusesAWorldBeyondItsReach) {
+TEST(OctomapWriter, RejectsAWorldBeyondItsExtent) {
   try {
     toOctomap(emptyWorld({0, 400, 0, 10}), {0.01, {0, 1}}, OctomapForm::binary, [](double) {});
     FAIL();
@@ -292,7 +331,7 @@ TEST(OctomapWriter, RefusesAWorldBeyondItsReach) {
   }
 }
 
-TEST(OctomapWriter, RefusesVoxelsThatWouldFillTheMemory) {
+TEST(OctomapWriter, RejectsTooManyVoxels) {
   World world = emptyWorld({-5, 5, -5, 5});
   world.objects.push_back({.name = "Box", .body = {Cube{8, 8}, {0, 0, 0}, 0.5, 1, {}, 0}, .line = {}});
   try {
@@ -300,11 +339,11 @@ TEST(OctomapWriter, RefusesVoxelsThatWouldFillTheMemory) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "an OctoMap of 0.0025 m voxels would have some 26 million on the faces of things; make them larger");
+                 "an OctoMap of 0.0025 m voxels would have some 26 million on the faces of solids; make them larger");
   }
 }
 
-TEST(MapExtent, IsWhatRobotsAndThingsTakeUp) {
+TEST(MapExtent, CoversTheHeightsOfRobotsAndObjects) {
   EXPECT_EQ(robotHeights({}), (HeightSpan{0, 1}));
   EXPECT_EQ(robotHeights({{0.1, 0.4}, {0, 0.3}}), (HeightSpan{0, 0.4}));
   World world = emptyWorld({0, 1, 0, 1});

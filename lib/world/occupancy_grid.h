@@ -6,10 +6,10 @@
 
 namespace robosim {
 
-/// What is known of a cell.
+/// State of a cell.
 enum class Occupancy : std::uint8_t { free, occupied, unknown };
 
-/// Square cells over a rectangle of ground. Plain values.
+/// Grid of square cells over a rectangle of the ground.
 struct OccupancyGrid {
   std::uint32_t columns = 0, rows = 0;
   double cell_m = 0;                  ///< side of a cell, (0, kCellMax_m]
@@ -19,15 +19,15 @@ struct OccupancyGrid {
   Occupancy at(std::uint32_t column, std::uint32_t row) const { return cells[std::size_t{row} * columns + column]; }
 };
 
-/// @name More than any map has: a typing error, or worse
+/// @name Limits of a map
 ///@{
 constexpr double kCellMax_m = 100;
-constexpr std::uint64_t kMostMapCells = 1u << 26;
-constexpr std::size_t kMostMapBoxes = 4'000'000;  ///< that its occupied cells are joined to; some 200 bytes each
-constexpr double kMapReach_m = 1e7;               ///< of any coordinate: as large as the Earth's grids have them
+constexpr std::uint64_t kMaxMapCells = 1u << 26;
+constexpr std::size_t kMaxMapBoxes = 4'000'000;  ///< boxes that occupied cells are merged into; about 200 bytes each
+constexpr double kMapReach_m = 1e7;              ///< of any coordinate: the maximum of geodetic grids
 ///@}
 
-/// Which probability of being occupied makes a cell what; the defaults are those of ROS's map_server.
+/// Thresholds of the probability of occupancy; the defaults are those of ROS's map_server.
 struct OccupancyThresholds {
   double occupied = 0.65;  ///< occupied above this
   double free = 0.196;     ///< free below this; unknown between the two

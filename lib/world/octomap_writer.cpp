@@ -3,7 +3,7 @@
 #include <cmath>
 #include <sstream>
 
-#define OCTOMAP_NODEBUGOUT  // or it tells standard error what it does
+#define OCTOMAP_NODEBUGOUT  // otherwise it logs to standard error
 #include <octomap/OcTree.h>
 
 #include "base/error_list.h"
@@ -13,12 +13,12 @@
 namespace robosim {
 namespace {
 
-/// By less than this [m] nothing reaches into a voxel: rounding puts faces that touch a border on either side of it.
+/// Minimum overlap [m] with a voxel: rounding may put faces that touch a border on either side of it.
 constexpr double kTouch_m = 1e-7;
-constexpr unsigned kDepth = 16;          ///< of every octomap::OcTree
-constexpr double kVoxelsToEdge = 32768;  ///< from the origin
+constexpr unsigned kDepth = 16;          ///< depth of every octomap::OcTree
+constexpr double kVoxelsToEdge = 32768;  ///< distance from the origin in voxels
 
-/// Upright, along the axes.
+/// Axis-aligned cuboid.
 struct Cuboid {
   Bounds2D plan;
   HeightSpan heights;
@@ -43,12 +43,12 @@ struct Cuboid {
                         (plan.y_max - plan.y_min) / 2},
             heights};
   }
-  /// [m²]
+  /// Surface area [m²].
   double surface() const {
     const double x = plan.x_max - plan.x_min, y = plan.y_max - plan.y_min, z = heights.z_max_m - heights.z_min_m;
     return 2 * (x * y + y * z + z * x);
   }
-  /// What it shares with another [m³].
+  /// Volume [m³] of the intersection with another cuboid.
   double sharedVolume(const Cuboid& other) const {
     const auto shared = [](double a1, double a2, double b1, double b2) {
       return std::max(0.0, std::min(a2, b2) - std::max(a1, b1));
@@ -59,10 +59,10 @@ struct Cuboid {
   }
 };
 
-/// The lower corner of a cube: in voxels from the lowest that a tree can have.
+/// Lower corner of a cube, in voxels from the lowest corner of a tree.
 using Corner = std::array<std::uint32_t, 3>;
 
-/// Takes leaves of any size, so that large cubes of one kind are never made of voxels.
+/// OcTree that accepts leaves at any depth, so that large uniform cubes are not made of voxels.
 class Tree : public octomap::OcTree {
  public:
   explicit Tree(double voxel_m) : OcTree(voxel_m) {
@@ -82,9 +82,9 @@ class Tree : public octomap::OcTree {
   }
 };
 
-class OctomapMaker {
+class OctomapBuilder {
  public:
-  OctomapMaker(const World& world, const MapExtent& extent, const std::function<void(double)>& progress)
+  OctomapBuilder(const World& world, const MapExtent& extent, const std::function<void(double)>& progress)
       : voxel_m_(extent.cell_m),
         tree_(extent.cell_m),
         space_{world.bounds, extent.heights},
@@ -92,7 +92,7 @@ class OctomapMaker {
         volume_m3_(space_.sharedVolume(space_)) {
     for (const auto& solid : stationarySolids(world)) {
       if (!solid.heights.overlaps(extent.heights)) continue;
-      things_.push_back({solid, Cuboid::around(solid)});
+      obstacles_.push_back({solid, Cuboid::around(solid)});
     }
     const double edge_m = kVoxelsToEdge * voxel_m_;
     const Cuboid all{{-edge_m, edge_m, -edge_m, edge_m}, {-edge_m, edge_m}};
@@ -102,21 +102,21 @@ class OctomapMaker {
                         " m from the origin, and the world reaches further; make them larger, or move the world");
     };
     check(space_);
-    for (const auto& thing : things_) check(thing.around);
-    refuseTooMany();
+    for (const auto& obstacle : obstacles_) check(obstacle.around);
+    checkVoxelCount();
   }
 
   std::string write(OctomapForm form) {
-    std::vector<std::uint32_t> everything(things_.size());
-    for (std::uint32_t i = 0; i < everything.size(); ++i) everything[i] = i;
-    fill({0, 0, 0}, 0, everything);
+    std::vector<std::uint32_t> all_obstacles(obstacles_.size());
+    for (std::uint32_t i = 0; i < all_obstacles.size(); ++i) all_obstacles[i] = i;
+    fill({0, 0, 0}, 0, all_obstacles);
     tree_.updateInnerOccupancy();
     tree_.prune();
     std::ostringstream out;
     if (form == OctomapForm::probabilities) {
       tree_.write(out);
     } else {
-      // As writeBinary() does, which however tells standard error of it.
+      // Equivalent to writeBinary(), which would log to standard error.
       out << "# Octomap OcTree binary file\n#\nid OcTree\nsize " << tree_.size() << "\nres " << toText(voxel_m_)
           << "\ndata\n";
       tree_.writeBinaryData(out);
@@ -125,17 +125,18 @@ class OctomapMaker {
   }
 
  private:
-  /// Where things end, voxels are single; within them and beside them there are larger cubes.
-  void refuseTooMany() const {
-    constexpr double most = 2e7;
+  /// Rejects a tree that would be too large: single voxels occur at the surfaces of solids only; their interiors and
+  /// the free space consist of larger cubes.
+  void checkVoxelCount() const {
+    constexpr double max_voxels = 2e7;
     double voxels = 0;
-    for (const auto& thing : things_) voxels += thing.around.surface() / (voxel_m_ * voxel_m_);
-    if (voxels <= most) return;
+    for (const auto& obstacle : obstacles_) voxels += obstacle.around.surface() / (voxel_m_ * voxel_m_);
+    if (voxels <= max_voxels) return;
     throw ConfigError("an OctoMap of " + toText(voxel_m_) + " m voxels would have some " +
-                      std::to_string(std::llround(voxels / 1e6)) + " million on the faces of things; make them larger");
+                      std::to_string(std::llround(voxels / 1e6)) + " million on the faces of solids; make them larger");
   }
 
-  struct Thing {
+  struct Obstacle {
     Solid solid;
     Cuboid around;
   };
@@ -157,8 +158,8 @@ class OctomapMaker {
     return true;
   }
 
-  /// Puts into the tree what is known of a cube.
-  /// @param near what may reach into it
+  /// Adds a cube to the tree, recursively.
+  /// @param near indices of the obstacles that may overlap it
   void fill(const Corner& corner, unsigned depth, const std::vector<std::uint32_t>& near) {
     const Cuboid cube = cubeAt(corner, depth);
     const Cuboid core = cube.shrunk(kTouch_m);
@@ -167,9 +168,9 @@ class OctomapMaker {
     std::vector<std::uint32_t> inside;
     bool is_occupied = false;
     for (const auto i : near) {
-      if (!things_[i].around.overlaps(core) || !overlap(core_solid, things_[i].solid)) continue;
+      if (!obstacles_[i].around.overlaps(core) || !overlap(core_solid, obstacles_[i].solid)) continue;
       inside.push_back(i);
-      is_occupied = is_occupied || is_voxel || isInside(core, things_[i].solid);
+      is_occupied = is_occupied || is_voxel || isInside(core, obstacles_[i].solid);
     }
     const bool is_empty = inside.empty();
     const bool is_free = is_empty && (is_voxel ? space_.overlaps(core) : space_.contains(core));
@@ -189,14 +190,14 @@ class OctomapMaker {
 
   void count(const Cuboid& cube) {
     done_m3_ += cube.sharedVolume(space_);
-    constexpr unsigned kCubesATold = 4096;
-    if (++cubes_ % kCubesATold == 0) progress_(std::min(1.0, done_m3_ / volume_m3_));
+    constexpr unsigned kCubesPerReport = 4096;
+    if (++cubes_ % kCubesPerReport == 0) progress_(std::min(1.0, done_m3_ / volume_m3_));
   }
 
   double voxel_m_;
   Tree tree_;
   Cuboid space_;
-  std::vector<Thing> things_;
+  std::vector<Obstacle> obstacles_;
   const std::function<void(double)>& progress_;
   double volume_m3_ = 0;
   double done_m3_ = 0;
@@ -207,7 +208,7 @@ class OctomapMaker {
 
 std::string toOctomap(const World& world, const MapExtent& extent, OctomapForm form,
                       const std::function<void(double)>& progress) {
-  return OctomapMaker(world, extent, progress).write(form);
+  return OctomapBuilder(world, extent, progress).write(form);
 }
 
 }  // namespace robosim

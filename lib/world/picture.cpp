@@ -12,14 +12,14 @@ Picture readPicture(const std::string& bytes, const std::string& name, Picture::
 
 void checkPictureSize(std::uint64_t columns, std::uint64_t rows, const std::string& name) {
   const std::string size = std::to_string(columns) + " × " + std::to_string(rows) + " pixels";
-  if (columns == 0 || rows == 0) throw ConfigError(name + ": its header tells of " + size + ", which is none");
-  if (columns > kMostMapCells || rows > kMostMapCells || columns * rows > kMostMapCells) {
-    throw ConfigError(name + ": its header tells of " + size + "; a map may have " + std::to_string(kMostMapCells) +
+  if (columns == 0 || rows == 0) throw ConfigError(name + ": its header declares " + size + ", which is empty");
+  if (columns > kMaxMapCells || rows > kMaxMapCells || columns * rows > kMaxMapCells) {
+    throw ConfigError(name + ": its header declares " + size + "; a map may have " + std::to_string(kMaxMapCells) +
                       " cells at most, so make it smaller");
   }
 }
 
-OccupancyGrid gridOf(const Picture& picture, const PictureMeaning& meaning) {
+OccupancyGrid gridOf(const Picture& picture, const PixelInterpretation& meaning) {
   const auto occupancy_at = [&](std::uint32_t sum) {
     const double value = static_cast<double>(sum) / picture.channels;
     if (meaning.is_percent) return value > 100 ? Occupancy::unknown : meaning.thresholds.of(value / 100);

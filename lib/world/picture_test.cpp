@@ -9,12 +9,12 @@
 namespace robosim {
 namespace {
 
-std::string cellsOf(const std::string& bytes, const PictureMeaning& meaning = {},
+std::string cellsOf(const std::string& bytes, const PixelInterpretation& meaning = {},
                     Picture::Alpha alpha = Picture::Alpha::counts) {
   return drawn(gridOf(readPicture(bytes, "a", alpha), meaning));
 }
 
-TEST(Picture, OfEveryPortableFormatSaysTheSame) {
+TEST(Picture, IsEqualInEveryPortableFormat) {
   const std::string cells = "#..\n.?#\n";
   for (const std::string bytes :
        {"P2 3 2 255 0 255 254 255 128 10", "P2\n# made by hand\n3 2 # wide, high\n15\n0 15 15\n15 8 1\n",
@@ -27,12 +27,12 @@ TEST(Picture, OfEveryPortableFormatSaysTheSame) {
   EXPECT_EQ(cellsOf(of_two_bytes), cells);
 }
 
-TEST(Picture, OfBitsIsBlackWhereTheyAreSet) {
+TEST(Picture, ReadsSetBitsAsBlack) {
   EXPECT_EQ(cellsOf("P1 3 2\n100 0 1\n1"), "#..\n.##\n");
   EXPECT_EQ(cellsOf("P4 3 2\n\x80\x60"), "#..\n.##\n");
 }
 
-TEST(Picture, OfPngAveragesItsChannels) {
+TEST(Picture, AveragesTheChannelsOfPng) {
   cv::Mat gray(1, 3, CV_8U);
   gray.at<std::uint8_t>(0, 0) = 0;
   gray.at<std::uint8_t>(0, 1) = 205;
@@ -48,7 +48,7 @@ TEST(Picture, OfPngAveragesItsChannels) {
   EXPECT_EQ(cellsOf(pngBytes(color)), "#?\n");
 }
 
-TEST(Picture, TakesAlphaForAChannelOnlyWhereItCounts) {
+TEST(Picture, IncludesAlphaOnlyOnRequest) {
   cv::Mat picture(1, 2, CV_8UC4);
   picture.at<cv::Vec4b>(0, 0) = {60, 60, 60, 255};  // 60, or with alpha 108.75: p = 0.765, or 0.574
   picture.at<cv::Vec4b>(0, 1) = {255, 255, 255, 255};
@@ -65,7 +65,7 @@ TEST(Picture, DecidesAtTheThresholdsAsMapServerDoes) {
   EXPECT_EQ(cellsOf("P2 4 1 255  0 50 100 101", {.thresholds = {}, .is_percent = true}), ".?#?\n");
 }
 
-TEST(Picture, TurnsEveryPixelIntoTheCellThatTheRuleOfMapServerNames) {
+TEST(Picture, ConvertsEveryPixelByTheRuleOfMapServer) {
   Rng rng(1, RandomPurpose::test);
   cv::Mat picture(40, 30, CV_8UC3);
   for (int row = 0; row < picture.rows; ++row) {

@@ -18,8 +18,8 @@ std::uint32_t bigEndian(const std::string& bytes, std::size_t at) {
   return value;
 }
 
-/// Looks at the frame of a PNG file (PNG specification, 2nd edition, § 5): its size, and that every chunk is there and
-/// whole. What the decoder would say of a damaged file tells nobody where.
+/// Validates the structure of a PNG file (PNG specification, 2nd edition, § 5): its size, and that every chunk is
+/// present and intact. The decoder's errors would not name a position.
 void check(const std::string& bytes, const std::string& name) {
   constexpr std::size_t kAroundData = 12;  // length, type, and check sum
   bool is_first = true;
@@ -68,7 +68,7 @@ Picture readPng(const std::string& bytes, const std::string& name, Picture::Alph
   } catch (const cv::Exception&) {
     image.release();
   }
-  if (image.empty()) throw ConfigError(name + ": is a PNG file whose picture cannot be decoded; save it anew");
+  if (image.empty()) throw ConfigError(name + ": is a PNG file whose picture cannot be decoded; save it again");
   Picture picture;
   picture.columns = static_cast<std::uint32_t>(image.cols);
   picture.rows = static_cast<std::uint32_t>(image.rows);

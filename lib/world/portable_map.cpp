@@ -1,5 +1,5 @@
-// Portable bit-, gray- and pixmaps, as the manual pages pbm(5), pgm(5) and ppm(5) of Netpbm tell of them. OpenCV reads
-// them too, but scales some pictures whose white is not 255 and others not.
+// Reader of portable bit-, gray- and pixmaps as specified by Netpbm's manual pages pbm(5), pgm(5) and ppm(5). OpenCV
+// reads them too, but scales only some pictures whose white is not 255.
 #include <algorithm>
 #include <charconv>
 
@@ -21,8 +21,8 @@ class PortableMapReader {
     const bool is_bitmap = kind == 1 || kind == 4;
     at_ = 2;
     Picture picture;
-    picture.columns = number("the width", kMostMapCells);
-    picture.rows = number("the height", kMostMapCells);
+    picture.columns = number("the width", kMaxMapCells);
+    picture.rows = number("the height", kMaxMapCells);
     checkPictureSize(picture.columns, picture.rows, name_);
     picture.white = is_bitmap ? 1 : number("the value of white", 65535);
     if (picture.white == 0) fail("the value of white is 0; it must lie in [1, 65535]");
@@ -52,7 +52,7 @@ class PortableMapReader {
   }
   std::ptrdiff_t position() const { return static_cast<std::ptrdiff_t>(std::min(at_, bytes_.size())); }
 
-  /// Refuses a picture that promises more than the file holds, before room is made for it.
+  /// Rejects a truncated picture before memory is allocated for it.
   void expect(std::size_t bytes) const {
     if (at_ > bytes_.size() || bytes_.size() - at_ < bytes) {
       throw ConfigError(name_ + ": is cut off: its pixels take at least " + std::to_string(bytes) + " bytes, and " +
@@ -93,16 +93,16 @@ class PortableMapReader {
     }
   }
 
-  std::uint32_t number(const char* what, std::uint64_t most) {
+  std::uint32_t number(const char* what, std::uint64_t max) {
     skipWhite();
     std::uint32_t value = 0;
     const char* end = bytes_.data() + bytes_.size();
     const auto [stop, error] = std::from_chars(bytes_.data() + std::min(at_, bytes_.size()), end, value);
     if (error == std::errc::invalid_argument) fail(std::string(what) + " is missing");
-    if (error != std::errc{} || value > most) {
-      fail(std::string(what) + " is too large; " + std::to_string(most) + " is the most");
+    if (error != std::errc{} || value > max) {
+      fail(std::string(what) + " is too large; " + std::to_string(max) + " is the maximum");
     }
-    if (stop != end && !isWhite(*stop) && *stop != '#') fail(std::string(what) + " is no whole number");
+    if (stop != end && !isWhite(*stop) && *stop != '#') fail(std::string(what) + " is not a whole number");
     at_ = static_cast<std::size_t>(stop - bytes_.data());
     return value;
   }

@@ -4,7 +4,7 @@
 
 namespace robosim {
 
-/// A grid for tests: some cells by chance, and some rectangles of them, so that there are seams and lone cells.
+/// Random grid for tests: some isolated cells and some rectangles of cells, so that both seams and single cells occur.
 inline OccupancyGrid randomGrid(Rng& rng, std::uint32_t columns, std::uint32_t rows, double cell_m) {
   OccupancyGrid grid{columns, rows, cell_m, {}, {}};
   grid.cells.assign(std::size_t{columns} * rows, Occupancy::free);

@@ -5,6 +5,7 @@
 #include <mrpt/core/format.h>
 
 #include "base/error_list.h"
+#include "base/portable_pose.h"
 #include "base/xml_element.h"
 #include "world/map_writer.h"
 
@@ -13,14 +14,14 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-/// By less than this [m] nothing reaches into a cell: rounding puts faces that touch a border on either side of it.
+/// Minimum overlap [m] with a cell: rounding may put faces that touch a border on either side of it.
 constexpr double kTouch_m = 1e-7;
 
 struct Interval {
   double from, to;
 };
 
-/// From where to where, in x, an outline goes within a strip of y; nullopt when it does not.
+/// Interval in x of an outline within a strip of y; nullopt when they do not intersect.
 std::optional<Interval> within(const Circle& circle, const Interval& strip) {
   const double off = std::max({0.0, strip.from - circle.center.y, circle.center.y - strip.to});
   if (off >= circle.radius_m) return std::nullopt;
@@ -47,8 +48,7 @@ std::optional<Interval> within(const OrientedBox& box, const Interval& strip) {
   return found;
 }
 
-/// Which cells, by their numbers from the origin, an interval reaches into: all that it shares more than a touch with,
-/// and one of them at least.
+/// Range of cell numbers, counted from the origin, that an interval overlaps by more than a touch; at least one cell.
 struct Cells {
   std::int64_t first, last;
 
@@ -63,17 +63,41 @@ struct Cells {
   }
 };
 
-/// A grid of which the first cell is found by its numbers from the origin.
+/// Occupancy grid addressed by cell numbers counted from the origin.
 class Raster {
  public:
+  /// @param origin point from which cells lie at multiples of their side
+  Raster(const Bounds2D& in_world, double cell_m, const TPoint2D& origin) : Raster(moved(in_world, origin), cell_m) {
+    origin_ = origin;
+    grid_.map_from_grid.x += origin.x;
+    grid_.map_from_grid.y += origin.y;
+  }
+
+  void fill(const Outline& in_world, Occupancy what) {
+    const Outline outline = std::visit(
+        [&](auto shape) -> Outline {
+          shape.center -= origin_;
+          return shape;
+        },
+        in_world);
+    fillFromOrigin(outline, what);
+  }
+
+  OccupancyGrid finish() { return std::move(grid_); }
+
+ private:
+  static Bounds2D moved(const Bounds2D& area, const TPoint2D& origin) {
+    return {area.x_min - origin.x, area.x_max - origin.x, area.y_min - origin.y, area.y_max - origin.y};
+  }
+
   Raster(const Bounds2D& area, double cell_m)
       : cell_m_(cell_m), columns_({area.x_min, area.x_max}, cell_m), rows_({area.y_min, area.y_max}, cell_m) {
     const auto columns = static_cast<double>(columns_.last - columns_.first + 1);
     const auto rows = static_cast<double>(rows_.last - rows_.first + 1);
-    if (columns * rows > static_cast<double>(kMostMapCells)) {
+    if (columns * rows > static_cast<double>(kMaxMapCells)) {
       throw ConfigError("cells of " + toText(cell_m) + " m make a grid of " +
                         mrpt::format("%.0f × %.0f", columns, rows) + "; a map may have " +
-                        std::to_string(kMostMapCells) + " at most, so make them larger");
+                        std::to_string(kMaxMapCells) + " at most, so make them larger");
     }
     grid_.columns = static_cast<std::uint32_t>(columns);
     grid_.rows = static_cast<std::uint32_t>(rows);
@@ -82,11 +106,11 @@ class Raster {
     grid_.cells.assign(std::size_t{grid_.columns} * grid_.rows, Occupancy::unknown);
   }
 
-  void fill(const Outline& outline, Occupancy what) {
+  void fillFromOrigin(const Outline& outline, Occupancy what) {
     const Bounds2D b = boundsOf(outline);
     const Cells rows({b.y_min, b.y_max}, cell_m_);
     for (std::int64_t row = rows.first; row <= rows.last; ++row) {
-      // In the strip that the row is, but for a touch; or just where a thin outline lies.
+      // The strip of the row, reduced by the touch tolerance; or a line where a thin outline lies.
       const double middle = std::clamp((b.y_min + b.y_max) / 2, static_cast<double>(row) * cell_m_,
                                        static_cast<double>(row + 1) * cell_m_);
       const Interval strip{std::min(static_cast<double>(row) * cell_m_ + kTouch_m, middle),
@@ -96,9 +120,6 @@ class Raster {
     }
   }
 
-  OccupancyGrid finish() { return std::move(grid_); }
-
- private:
   void fillRow(std::int64_t row, const Cells& cells, Occupancy what) {
     if (row < rows_.first || row > rows_.last) return;
     const auto begin = std::max(cells.first, columns_.first) - columns_.first;
@@ -107,6 +128,7 @@ class Raster {
     if (begin < end) std::fill(first + begin, first + end, what);
   }
 
+  TPoint2D origin_{0, 0};
   double cell_m_;
   Cells columns_, rows_;
   OccupancyGrid grid_;
@@ -133,6 +155,15 @@ HeightSpan heightsOfAll(const World& world) {
   return all.z_max_m > 0 ? all : HeightSpan{all.z_min_m, 1};
 }
 
+std::optional<MapExtent> extentOfMap(const World& world) {
+  for (const auto& map : world.maps) {
+    const mrpt::math::TPose2D corner = portable::compose(map.world_from_map, map.plan.map_from_grid);
+    if (map.plan.columns == 0 || corner.phi != 0) continue;
+    return MapExtent{.cell_m = map.plan.cell_m, .heights = {}, .origin = {corner.x, corner.y}};
+  }
+  return std::nullopt;
+}
+
 OccupancyGrid rasterOf(const World& world, const MapExtent& extent) {
   std::vector<Solid> solids = stationarySolids(world);
   const HeightSpan heights{extent.heights.z_min_m + kTouch_m, extent.heights.z_max_m - kTouch_m};
@@ -143,10 +174,13 @@ OccupancyGrid rasterOf(const World& world, const MapExtent& extent) {
     area = {std::min(area.x_min, b.x_min), std::max(area.x_max, b.x_max), std::min(area.y_min, b.y_min),
             std::max(area.y_max, b.y_max)};
   }
-  Raster raster(area, extent.cell_m);
+  Raster raster(area, extent.cell_m, extent.origin);
   const Bounds2D& surface = world.bounds;
   const mrpt::math::TPose2D middle{(surface.x_min + surface.x_max) / 2, (surface.y_min + surface.y_max) / 2, 0};
   raster.fill(OrientedBox::from(middle, surface.x_max - surface.x_min, surface.y_max - surface.y_min), Occupancy::free);
+  for (const auto& map : world.maps) {
+    for (const auto& solid : unknownOf(map)) raster.fill(solid.outline, Occupancy::unknown);
+  }
   for (const auto& solid : solids) raster.fill(solid.outline, Occupancy::occupied);
   return raster.finish();
 }

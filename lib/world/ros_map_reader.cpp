@@ -1,71 +1,85 @@
-// ROS's map_server: a YAML file that names a picture and says where it lies and what its pixels mean
-// (http://wiki.ros.org/map_server). What map_server requires is required here too; settings it does not know are left
-// alone, as it leaves them.
+// Reader of ROS map_server maps: a YAML file that refers to a picture and gives its pose and the meaning of its pixels
+// (http://wiki.ros.org/map_server). The settings that map_server requires are required here too; unknown settings are
+// ignored, as map_server does.
 #include <array>
 #include <cmath>
 
 #include <yaml-cpp/yaml.h>
 
 #include "base/error_list.h"
+#include "base/input_file.h"
+#include "base/printable_text.h"
 #include "base/xml_element.h"
 #include "base/xml_reader.h"
+#include "world/map_files.h"
 #include "world/map_reader.h"
 #include "world/picture.h"
 
 namespace robosim {
 namespace {
 
-/// A few lines in earnest.
-constexpr std::size_t kMostYamlBytes = 1u << 20;
+/// Maximum size [bytes] of the YAML file, which normally has a few lines.
+constexpr std::size_t kMaxYamlBytes = 1u << 20;
 
 class RosMapReader {
  public:
-  RosMapReader(const std::string& name, const FileShelf& shelf) : name_(name), path_(shelf.pathOf(name)) {
-    const std::string text = shelf.read(name);
-    if (text.size() > kMostYamlBytes) throw ConfigError(path_ + ": is larger than 1 MiB; is it a map's .yaml?");
+  RosMapReader(const std::string& name, const FileProvider& files) : name_(name), path_(files.pathOf(name)) {
+    const std::string text = files.read(name);
+    if (text.size() > kMaxYamlBytes) throw ConfigError(path_ + ": is larger than 1 MiB; is it a map's .yaml?");
     try {
       root_ = YAML::Load(text);
     } catch (const YAML::Exception& error) {
       throw ConfigError(path_ + ":" + std::to_string(error.mark.line + 1) + ": this is not YAML: " + error.msg);
     }
-    if (!root_.IsMap()) throw ConfigError(path_ + ":1: is no map_server map; image: and others were expected");
+    if (!root_.IsMap()) throw ConfigError(path_ + ":1: is not a map_server map; expected image: and other keys");
   }
 
-  OccupancyGrid read(const FileShelf& shelf) {
+  OccupancyGrid read(const FileProvider& files) {
     const std::string image = word("image");
     const double cell_m = number("resolution", {0, kCellMax_m, true}, " metres per pixel");
     const mrpt::math::TPose2D map_from_grid = origin();
-    PictureMeaning meaning;
-    meaning.negate = negate();
-    meaning.thresholds.occupied = number("occupied_thresh", {0, 1}, "");
-    meaning.thresholds.free = number("free_thresh", {0, 1}, "");
-    if (meaning.thresholds.free > meaning.thresholds.occupied && errors_.empty()) {
+    PixelInterpretation pixels;
+    pixels.negate = negate();
+    pixels.thresholds.occupied = number("occupied_thresh", {0, 1}, "");
+    pixels.thresholds.free = number("free_thresh", {0, 1}, "");
+    if (pixels.thresholds.free > pixels.thresholds.occupied && errors_.empty()) {
       report(root_["free_thresh"], "free_thresh", "is above occupied_thresh");
     }
     const std::string mode = root_["mode"] ? word("mode") : "trinary";
     if (mode != "trinary" && mode != "scale" && mode != "raw") {
       report(root_["mode"], "mode", "is unknown; accepted are: trinary, scale, raw");
     }
-    meaning.is_percent = mode == "raw";
+    pixels.is_percent = mode == "raw";
     errors_.throwIfAny();
 
     const std::string picture = (std::filesystem::path(name_).parent_path() / image).string();
-    // In the mode `scale` a picture's alpha tells what is unknown; which is what the pixels in between are anyway.
+    // In the mode `scale`, alpha marks unknown pixels, which the values between the thresholds do anyway.
     const auto alpha = mode == "trinary" ? Picture::Alpha::counts : Picture::Alpha::is_left_out;
-    OccupancyGrid grid = gridOf(readPicture(shelf.read(picture), shelf.pathOf(picture), alpha), meaning);
+    OccupancyGrid grid = gridOf(pictureOf(picture, alpha, files), pixels);
     grid.cell_m = cell_m;
     grid.map_from_grid = map_from_grid;
     return grid;
   }
 
  private:
+  /// Reads the picture; its errors are reported at the line that refers to it.
+  Picture pictureOf(const std::string& name, Picture::Alpha alpha, const FileProvider& files) {
+    try {
+      return readPicture(files.read(name), files.pathOf(name), alpha);
+    } catch (const ConfigError& error) {
+      report(root_["image"], "image", error.what());
+      errors_.throwIfAny();
+      throw;
+    }
+  }
+
   void report(const YAML::Node& node, const std::string& key, const std::string& what) {
     std::string quoted = key + ": ";
-    if (node.IsScalar() && !node.Scalar().empty()) quoted += node.Scalar() + ": ";
+    if (node.IsScalar() && !node.Scalar().empty()) quoted += quotable(node.Scalar()) + ": ";
     errors_.add(path_, node.Mark().line + 1, quoted + what);
   }
 
-  /// The scalar under a key; an invalid node, reported, when there is none.
+  /// The scalar under a key; reports an error and returns an invalid node when there is none.
   YAML::Node scalar(const std::string& key) {
     const YAML::Node node = root_[key];
     if (!node) {
@@ -81,7 +95,7 @@ class RosMapReader {
   std::string word(const std::string& key) {
     const YAML::Node node = scalar(key);
     if (!node.IsScalar()) return "";
-    if (node.Scalar().empty()) report(node, key, "is empty; write a word there");
+    if (node.Scalar().empty()) report(node, key, "is empty; give a value");
     return node.Scalar();
   }
 
@@ -131,8 +145,23 @@ class RosMapReader {
 
 }  // namespace
 
-OccupancyGrid readRosMap(const std::string& name, const FileShelf& shelf) {
-  return RosMapReader(name, shelf).read(shelf);
+std::vector<std::filesystem::path> filesOfMap(const std::filesystem::path& map) {
+  std::vector<std::filesystem::path> files{map};
+  std::error_code none;
+  if (!isMapFile(map) || mapFormatOf(map) != MapFormat::ros_yaml || !std::filesystem::is_regular_file(map, none)) {
+    return files;
+  }
+  try {
+    const YAML::Node image = YAML::Load(readWholeFile(map, kMaxYamlBytes, ""))["image"];
+    if (image && image.IsScalar()) files.push_back(map.parent_path() / image.Scalar());
+  } catch (const std::exception&) {
+    // Reported when the map is read.
+  }
+  return files;
+}
+
+OccupancyGrid readRosMap(const std::string& name, const FileProvider& files) {
+  return RosMapReader(name, files).read(files);
 }
 
 }  // namespace robosim

@@ -4,15 +4,15 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "base/scratch_folder.h"
+#include "base/temporary_directory.h"
 #include "world/map_samples.h"
 
 namespace robosim {
 namespace {
 
-OccupancyGrid readFrom(const FileTexts& files) { return readRosMap("lab/a.yaml", shelfOf("world.xml", files)); }
+OccupancyGrid readFrom(const FileTexts& files) { return readRosMap("lab/a.yaml", providerOf("world.xml", files)); }
 
-TEST(RosMap, FindsItsPictureBesideItself) {
+TEST(RosMap, ReadsItsPictureRelativeToItsFolder) {
   const OccupancyGrid grid =
       readFrom({{"lab/a.yaml", rosYaml("pictures/a.pgm")}, {"lab/pictures/a.pgm", "P2 3 2 255  0 205 254  254 254 0"}});
   EXPECT_EQ(drawn(grid), "#?.\n..#\n");
@@ -20,7 +20,7 @@ TEST(RosMap, FindsItsPictureBesideItself) {
   EXPECT_EQ(grid.map_from_grid, mrpt::math::TPose2D(-1.5, 2, 0));
 }
 
-TEST(RosMap, MayBeTurnedNegatedScaledOrRaw) {
+TEST(RosMap, SupportsRotationNegationScaleAndRawModes) {
   const auto yaml = [](const std::string& end) {
     return "image: /abs/a.pgm\nresolution: 1e-1\norigin: [1, 2, 0.5]\noccupied_thresh: 0.6\nfree_thresh: 0.2\n" + end;
   };
@@ -36,9 +36,9 @@ TEST(RosMap, MayBeTurnedNegatedScaledOrRaw) {
   EXPECT_EQ(drawn(read("negate: 0\ncost: [unknown to us]")), "###.\n");
 }
 
-TEST(RosMap, IsReadAsMrptReadsItWhereMrptKnowsBlackFromWhite) {
-  // MRPT keeps a pixel's darkness itself, and knows no thresholds; on black and white both must say the same.
-  const ScratchFolder folder;
+TEST(RosMap, EqualsMrptsMapForBlackAndWhitePixels) {
+  // MRPT stores a pixel's darkness without thresholds; for black and white pixels both must agree.
+  const TemporaryDirectory folder;
   Rng rng(2, RandomPurpose::test);
   cv::Mat picture(30, 47, CV_8U);
   for (int i = 0; i < static_cast<int>(picture.total()); ++i) {
@@ -48,7 +48,7 @@ TEST(RosMap, IsReadAsMrptReadsItWhereMrptKnowsBlackFromWhite) {
   for (const auto& [name, text] : files) std::ofstream(folder / name, std::ios::binary) << text;
   mrpt::maps::COccupancyGridMap2D theirs;
   ASSERT_TRUE(theirs.loadFromROSMapServerYAML((folder / "a.yaml").string()));
-  const OccupancyGrid ours = readRosMap("a.yaml", shelfOf("world.xml", files));
+  const OccupancyGrid ours = readRosMap("a.yaml", providerOf("world.xml", files));
   ASSERT_EQ(ours.columns, theirs.getSizeX());
   ASSERT_EQ(ours.rows, theirs.getSizeY());
   EXPECT_NEAR(ours.map_from_grid.x, theirs.getXMin(), 1e-6);

@@ -23,7 +23,7 @@ std::string pictureOf(const OccupancyGrid& grid) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// A length [m] without the digits that only rounding has left.
+/// Text of a length [m] without digits caused by rounding.
 std::string lengthText(double length_m) { return toText(std::round(length_m * 1e9) / 1e9 + 0.0); }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include "world/world.h"
 
-#include <cmath>
+#include "base/portable_math.h"
 
 namespace robosim {
 
@@ -15,7 +15,16 @@ Solid Body::solid() const {
 double Body::coveringRadius() const {
   if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cylinder->radius_m;
   const auto& cube = std::get<Cube>(shape);
-  return std::hypot(cube.length_m, cube.width_m) / 2;
+  return portable::hypot(cube.length_m, cube.width_m) / 2;
+}
+
+std::vector<Solid> unknownOf(const WorldMap& map) {
+  FloorPlan plan = map.plan;
+  plan.boxes.clear();
+  plan.occupied = std::move(plan.unknown);
+  std::vector<Solid> boxes;
+  addSolids(plan, map.world_from_map, map.heights(), boxes);
+  return boxes;
 }
 
 std::vector<Solid> stationarySolids(const World& world) {

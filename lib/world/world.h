@@ -8,7 +8,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include "base/xml_element.h"
-#include "geometry/solid.h"
+#include "geometry/shapes/solid.h"
 #include "world/floor_plan.h"
 #include "world/map_reader.h"
 
@@ -18,13 +18,13 @@ struct Cylinder {
   double radius_m = 0;
   bool operator==(const Cylinder&) const = default;
 };
-struct Cube {           ///< the 2005 word for a box
+struct Cube {           ///< a box, named as in 2005
   double length_m = 0;  ///< along the body's x axis
   double width_m = 0;
   bool operator==(const Cube&) const = default;
 };
 
-/// An upright solid with a look and a temperature: what a 2005 file says in <cylinder> or <cube>.
+/// An upright solid with colour and temperature, as described by <cylinder> or <cube> of a 2005 file.
 struct Body {
   std::variant<Cylinder, Cube> shape;
   mrpt::math::TPose2D world_from_body;           ///< of its centre, in plan; phi is the file's direction [rad]
@@ -43,66 +43,69 @@ struct Body {
 struct WorldObject {
   std::string name;
   Body body;
-  bool stationary = true;  ///< kept for the file's sake: nothing moves an object that is no robot
+  bool stationary = true;  ///< kept for the file format only: objects other than robots never move
   SourceLine line;
   bool operator==(const WorldObject&) const = default;
 };
 
-/// A map that stands in the world: what is occupied on it rises from the ground as walls.
+/// A map placed in the world; its occupied cells become walls.
 struct WorldMap {
-  std::string file;    ///< as the world file has it: counted from its folder
+  std::string file;    ///< path relative to the world file's folder
   MapReading reading;  ///< how the file is read
   mrpt::math::TPose2D world_from_map;
   double height_m = 1;                           ///< of the walls, > 0
   std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
-  FloorPlan plan;                                ///< what the file says
+  FloorPlan plan;                                ///< contents of the file
   SourceLine line;
   bool operator==(const WorldMap&) const = default;
 
   HeightSpan heights() const { return {0, height_m}; }
 };
 
-/// A robot as the world file places it. What its model and its sensor elements mean is told by the room `robots`.
+/// A robot as placed by the world file. The module `robots` interprets its model and its sensor elements.
 struct RobotPlacement {
   std::string name;
-  std::string model;  ///< names worlds/robots/<model>.xml; empty for a robot that the file describes itself (2005)
+  std::string model;  ///< refers to worlds/robots/<model>.xml; empty for a robot described in the file (2005)
   mrpt::math::TPose2D world_from_robot;  ///< start
   std::optional<Body> body;  ///< from <cylinder> or <cube>; absent: the model's. Its pose is world_from_robot
   std::optional<std::array<float, 3>> color;  ///< instead of the model's, when `body` is absent
   std::vector<XmlElement>
-      sensors;             ///< 2005's <sensor> elements and those inside <sensors>, in file units, unread as yet
-  std::string controller;  ///< empty: whatever the program runs by default
+      sensors;             ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
+  std::string controller;  ///< empty: the program's default
   std::string neighbour;   ///< empty: none
   SourceLine line;
   bool operator==(const RobotPlacement&) const = default;
 };
 
-/// How far robots can talk.
+/// Limits of the robots' communication.
 struct Communication {
-  std::optional<double> range_m;  ///< between robots' centres; nullopt: everywhere
-  double loss_probability = 0;    ///< [0, 1], of each message
+  std::optional<double> range_m;  ///< between robots' centres; nullopt: unlimited
+  double loss_probability = 0;    ///< of each message, [0, 1]
   bool operator==(const Communication&) const = default;
 };
 
-/// How near to the gold a robot must be to win, from outline to outline, unless the world says otherwise: a step that a
-/// driver can take in by eye, and less than would reach through a wall into the next cell of the mazes.
+/// Default of the maximum distance to the gold, from outline to outline, at which a robot wins: an operator can judge
+/// it by eye, and it does not reach through a wall into the next cell of the mazes.
 constexpr double kWinDistance_m = 0.5;
 
-/// What a world file says, in SI units: everything that is constant over a run. Plain values.
+/// Contents of a world file in SI units, constant during a run.
 struct World {
-  std::string name;  ///< the file's stem; no part of the file's text
+  std::string name;  ///< the file's stem, not stored in the file
   std::string surface_type = "smooth";
   double unit_m = 1;  ///< one length unit of the file, in metres
-  Bounds2D bounds;    ///< robots start inside
+  Bounds2D bounds;    ///< area of the surface, within which robots start
   Communication communication;
-  double win_distance_m = kWinDistance_m;  ///< a robot that is this near to the gold has won, when it asks
+  double win_distance_m = kWinDistance_m;  ///< maximum distance to the gold at which checkWin() succeeds
   std::vector<WorldObject> objects;
   std::vector<WorldMap> maps;
   std::vector<RobotPlacement> robots;
   bool operator==(const World&) const = default;
 };
 
-/// All that stands still: first the objects, in their order, then what stands on each map.
+/// Unknown cells of a map as boxes of the map's height. They are no obstacles.
+std::vector<Solid> unknownOf(const WorldMap&);
+
+/// All stationary solids: first the objects, in their order, then those of each map.
 std::vector<Solid> stationarySolids(const World&);
 
 }  // namespace robosim

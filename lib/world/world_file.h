@@ -3,28 +3,29 @@
 #include <string>
 
 #include "base/error_list.h"
-#include "world/file_shelf.h"
+#include "world/file_provider.h"
 #include "world/world.h"
 
 namespace robosim {
 
-/// Reads a world file (the 2005 form, and what RoboSim adds: doc/world_file.md). Adds every fault it finds to `errors`
-/// as "file:line: what; the mend" and returns what could be read. Faults here: XML, tags, values, names given twice, a
-/// neighbour that is no robot, maps that cannot be read. The room `robots` finds the rest: models, sensors, robots that
-/// overlap something.
-/// @param file may be a map itself: see readWorldText()
+/// Reads a world file (the 2005 format and RoboSim's extensions: doc/world_file.md). Adds all faults to `errors` as
+/// "file:line: what; how to fix it" and returns what could be read. Faults reported here: XML, tags, values, duplicate
+/// names, unknown neighbours, unreadable maps. The module `robots` reports the others: models, sensors, overlapping
+/// robots.
+/// @param file may be a map: see readWorldText()
 World readWorld(const std::filesystem::path& file, ErrorList& errors);
-/// The same from text; `file` names it in errors, and maps are taken from the shelf.
-World parseWorld(std::string text, const std::string& file, const FileShelf& shelf, ErrorList& errors);
-/// The same of a world that names no other file.
+/// Parses the text of a world file; `file` names it in errors, and `files` provides the maps.
+World parseWorld(std::string text, const std::string& file, const FileProvider& files, ErrorList& errors);
+/// Parses a world that refers to no other file.
 World parseWorld(std::string text, const std::string& file, ErrorList& errors);
 
-/// The text of a world file. A map's file stands for a world that is nothing but this map, with a Pioneer where the
-/// map says that a robot starts, if it does.
-/// @throws ConfigError when it cannot be read, or is a picture, of which nobody knows how large it is.
-std::string readWorldText(const std::filesystem::path& file);
+/// Text of a world file. For a map file, the text of a world that consists of this map and, if the map gives a start
+/// pose, a Pioneer there.
+/// @param files files beside it
+/// @throws ConfigError when it cannot be read, or is a picture, whose scale is unknown
+std::string readWorldText(const std::filesystem::path& file, const FileProvider& files);
 
-/// The world as the text of a world file; parseWorld() of it, with the same maps, gives an equal world.
+/// Text of a world file for the world. parseWorld() of it, with the same maps, gives an equal world.
 std::string toXml(const World&);
 
 }  // namespace robosim

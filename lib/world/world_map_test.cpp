@@ -1,4 +1,4 @@
-// Maps as parts of a world file.
+// Maps in a world file.
 #include <filesystem>
 #include <fstream>
 
@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "base/test_folder.h"
+#include "world/map_files.h"
 #include "world/map_samples.h"
 #include "world/world_file.h"
 
@@ -24,7 +25,7 @@ const FileTexts kFiles{{"lab.pgm", "P2 3 2 255  0 205 254  254 254 0"},
                         "LINES\n-3000 0 5000 0\n0 -1000 0 4000\n"}};
 
 World parsed(const std::string& text, ErrorList& errors) {
-  return parseWorld(text, "some/a.xml", shelfOf("some/a.xml", kFiles), errors);
+  return parseWorld(text, "some/a.xml", providerOf("some/a.xml", kFiles), errors);
 }
 World parsed(const std::string& text) {
   ErrorList errors;
@@ -43,7 +44,7 @@ std::string robot(const std::string& name, const std::string& more = "") {
   return "<object><shape><robot><model>scout</model><name>" + name + "</name>" + more + "</robot></shape></object>";
 }
 
-TEST(WorldMap, StandsWhereTheWorldLaysIt) {
+TEST(WorldMap, IsPlacedByTheWorldFile) {
   const World world = parsed(
       "<world unit_m='0.1'><surface><map file='lab.pgm' resolution='0.5' x='10' y='20' direction='1' "
       "height='8' color='1 0 0'/></surface></world>");
@@ -57,14 +58,14 @@ TEST(WorldMap, StandsWhereTheWorldLaysIt) {
   EXPECT_EQ(map.plan.occupiedCells(), 2u);
 }
 
-TEST(WorldMap, IsGrayAndOneMetreHighUnlessToldOtherwise) {
+TEST(WorldMap, IsGrayAndOneMetreHighByDefault) {
   const World world = parsed("<world unit_m='0.1'><surface><map file='lab.gridmap'/></surface></world>");
   EXPECT_EQ(world.maps[0].height_m, 1);
   EXPECT_EQ(world.maps[0].color, (std::array<float, 3>{0.5f, 0.5f, 0.5f}));
   EXPECT_EQ(world.maps[0].world_from_map, TPose2D(0, 0, 0));
 }
 
-TEST(WorldMap, GivesTheSurfaceItsSizeWhereTheWorldDoesNot) {
+TEST(WorldMap, DefinesTheSurfacesSizeByDefault) {
   // The .yaml's origin is (-1.5, 2); 3 × 2 cells of 5 cm. The other map is 1 m × 1 m.
   const std::string maps = "<map file='maps/lab.yaml'/><map file='lab.gridmap' x='2'/>";
   const World world = parsed(worldOf(maps));
@@ -78,7 +79,7 @@ TEST(WorldMap, GivesTheSurfaceItsSizeWhereTheWorldDoesNot) {
       << "without a map";
 }
 
-TEST(WorldMap, DecidesWhatTheUnknownIs) {
+TEST(WorldMap, SupportsUnknownAsFreeOrOccupied) {
   const auto occupied = [](const std::string& map) { return parsed(worldOf(map)).maps[0].plan.occupiedCells(); };
   EXPECT_EQ(occupied("<map file='maps/lab.yaml'/>"), 2u);
   EXPECT_EQ(occupied("<map file='maps/lab.yaml' unknown='occupied'/>"), 3u);
@@ -88,7 +89,7 @@ TEST(WorldMap, DecidesWhatTheUnknownIs) {
   EXPECT_EQ(occupied("<map file='lab.pgm' resolution='1' negate='1'/>"), 4u);
 }
 
-TEST(WorldMap, HasAPlaceForARobotThatTheWorldGivesNone) {
+TEST(WorldMap, ProvidesTheStartPoseOfARobotWithoutOne) {
   const World world = parsed(worldOf("<map file='home.map' x='10'/>" + robot("A") + robot("B", "<x>1</x><y>1</y>") +
                                      robot("C", "<direction>1</direction>")));
   EXPECT_EQ(world.robots[0].world_from_robot, TPose2D(11, 2, M_PI / 2));
@@ -98,7 +99,7 @@ TEST(WorldMap, HasAPlaceForARobotThatTheWorldGivesNone) {
             (Lines{"some/a.xml:2: <robot>: <x> is missing; add it", "some/a.xml:2: <robot>: <y> is missing; add it"}));
 }
 
-TEST(WorldMap, IsRefusedWithTheWorldsLineWhereItIsNamedWrongly) {
+TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
   const auto fault = [](const std::string& map) { return faults("<world>\n<surface>\n" + map + "</surface></world>"); };
   const std::string at = "some/a.xml:3: ";
   EXPECT_EQ(fault("<map/>"), Lines{at + "<map>: <file> is missing; add it"});
@@ -106,7 +107,8 @@ TEST(WorldMap, IsRefusedWithTheWorldsLineWhereItIsNamedWrongly) {
             Lines{at + "<map file=\"none.yaml\">: some/none.yaml: did not come with the world"});
   EXPECT_EQ(
       fault("<map file='lab.jpg'/>"),
-      Lines{"lab.jpg: is no map by its name; maps end in .gridmap, .yaml (of ROS), .png, .pgm, .ppm, .pbm or .map"});
+      Lines{at + "<map file=\"lab.jpg\">: lab.jpg: is not a map by its name; maps end in .gridmap, .yaml (of ROS), "
+                 ".png, .pgm, .ppm, .pbm or .map"});
   EXPECT_EQ(fault("<map file='lab.pgm'/>"), Lines{at + "<map>: <resolution> is missing; add it"});
   EXPECT_EQ(fault("<map file='lab.pgm' resolution='nan'/>"),
             Lines{at + "<map resolution=\"nan\">: must be a finite number; write a number there"});
@@ -121,27 +123,42 @@ TEST(WorldMap, IsRefusedWithTheWorldsLineWhereItIsNamedWrongly) {
             Lines{at + "<map unknown=\"perhaps\">: is unknown; accepted are: free, occupied"});
 }
 
-TEST(WorldMap, IsRefusedWithItsOwnLineWhereItIsWrongInside) {
+TEST(WorldMap, ReportsFaultsOfItsFileAtTheFilesLine) {
   const FileTexts files{{"b.yaml",
                          "image: a.pgm\nresolution: nan\norigin: [0, 0, 0]\nnegate: 0\n"
                          "occupied_thresh: 0.65\nfree_thresh: 0.196"}};
   ErrorList errors;
-  parseWorld(worldOf("<map file='b.yaml'/>"), "some/a.xml", shelfOf("some/a.xml", files), errors);
+  parseWorld(worldOf("<map file='b.yaml'/>"), "some/a.xml", providerOf("some/a.xml", files), errors);
   EXPECT_EQ(errors.errors(), Lines{"some/b.yaml:2: resolution: nan: must be a number in (0, 100] metres per pixel"});
 }
 
-TEST(WorldMap, MayBeEmptyOnlyIfTheWorldSaysHowLargeItIs) {
+TEST(WorldMap, ReportsFaultsOfBinaryFilesAtTheWorldsLine) {
+  const FileTexts files{{"a.png", "no picture"}, {"a.gridmap", "no grid"}, {"a.yaml", rosYaml("a.png")}};
+  const auto fault = [&](const std::string& map) {
+    ErrorList errors;
+    parseWorld("<world><surface>\n" + map + "</surface></world>", "a.xml", providerOf("a.xml", files), errors);
+    return errors.errors();
+  };
+  const std::string no_picture = "a.png: is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these";
+  EXPECT_EQ(fault("<map file='a.png' resolution='1'/>"), Lines{"a.xml:2: <map file=\"a.png\">: " + no_picture});
+  EXPECT_EQ(fault("<map file='a.gridmap'/>"),
+            Lines{"a.xml:2: <map file=\"a.gridmap\">: a.gridmap: is not an MRPT grid map: it does not begin with a "
+                  "COccupancyGridMap2D"});
+  EXPECT_EQ(fault("<map file='a.yaml'/>"), Lines{"a.yaml:1: image: a.png: " + no_picture}) << "which has lines";
+}
+
+TEST(WorldMap, MayBeEmptyOnlyIfTheWorldHasASize) {
   const FileTexts files{{"a.map", "2D-Map\n"}};
   const auto faults_with = [&](const std::string& size) {
     ErrorList errors;
-    parseWorld(worldOf(size + "<map file='a.map'/>"), "a.xml", shelfOf("a.xml", files), errors);
+    parseWorld(worldOf(size + "<map file='a.map'/>"), "a.xml", providerOf("a.xml", files), errors);
     return errors.errors();
   };
   EXPECT_EQ(faults_with(""), Lines{"a.xml:1: <surface>: has no <size>, and its maps are empty; add a <size>"});
   EXPECT_EQ(faults_with("<size xmin='0' xmax='1' ymin='0' ymax='1'/>"), Lines{});
 }
 
-TEST(WorldMap, SurvivesWriting) {
+TEST(WorldMap, RoundTrips) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     Rng rng(seed, RandomPurpose::test);
     const auto number = [&](double low, double high) { return toText(rng.uniform(low, high)); };
@@ -173,7 +190,7 @@ class MapAsWorld : public TestFolder {
   }
 };
 
-TEST_F(MapAsWorld, IsAWorldOfNothingButTheMap) {
+TEST_F(MapAsWorld, ConsistsOfTheMap) {
   ErrorList errors;
   const World world = readWorld(folder_ / "maps/lab.yaml", errors);
   EXPECT_EQ(errors.errors(), Lines{});
@@ -183,7 +200,7 @@ TEST_F(MapAsWorld, IsAWorldOfNothingButTheMap) {
   EXPECT_TRUE(world.robots.empty());
 }
 
-TEST_F(MapAsWorld, HasAPioneerWhereTheMapSaysThatARobotStarts) {
+TEST_F(MapAsWorld, PlacesAPioneerAtTheMapsStartPose) {
   ErrorList errors;
   const World world = readWorld(folder_ / "home.map", errors);
   EXPECT_EQ(errors.errors(), Lines{});
@@ -192,7 +209,7 @@ TEST_F(MapAsWorld, HasAPioneerWhereTheMapSaysThatARobotStarts) {
   EXPECT_EQ(world.robots[0].world_from_robot, TPose2D(1, 2, M_PI / 2));
 }
 
-TEST_F(MapAsWorld, MustBeMoreThanAPicture) {
+TEST_F(MapAsWorld, RejectsAPicture) {
   ErrorList errors;
   readWorld(folder_ / "lab.pgm", errors);
   EXPECT_EQ(errors.errors(),
@@ -201,7 +218,30 @@ TEST_F(MapAsWorld, MustBeMoreThanAPicture) {
                   "file=\"lab.pgm\" resolution=\"0.05\"/></surface></world> for pixels of 5 cm"});
 }
 
-TEST_F(MapAsWorld, TellsOfMissingFilesWhereTheyAreNamed) {
+TEST_F(MapAsWorld, ReportsFaultsWithoutLinesOfTheGeneratedWorld) {
+  const auto fault = [&](const char* name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    ErrorList errors;
+    readWorld(folder_ / name, errors);
+    return errors.errors();
+  };
+  const std::string in = folder_.string() + "/";
+  EXPECT_EQ(fault("no.gridmap", "no grid"),
+            Lines{in + "no.gridmap: is not an MRPT grid map: it does not begin with a COccupancyGridMap2D"});
+  EXPECT_EQ(fault("no.yaml", rosYaml("none.pgm")),
+            Lines{in + "no.yaml:1: image: none.pgm: " + in + "none.pgm: no such file; check the path"});
+  EXPECT_EQ(fault("no.map", "2D-Map\n"),
+            Lines{in + "no.map: <surface>: the map is empty; write a world with a <size> around it"});
+}
+
+TEST_F(MapAsWorld, IncludesTheMapsPictureAmongItsFiles) {
+  using Paths = std::vector<std::filesystem::path>;
+  EXPECT_EQ(filesOfMap(folder_ / "maps/lab.yaml"), (Paths{folder_ / "maps/lab.yaml", folder_ / "maps/../lab.pgm"}));
+  EXPECT_EQ(filesOfMap(folder_ / "home.map"), Paths{folder_ / "home.map"});
+  EXPECT_EQ(filesOfMap(folder_ / "none.yaml"), Paths{folder_ / "none.yaml"});
+}
+
+TEST_F(MapAsWorld, ReportsMissingFilesWhereTheyAreReferredTo) {
   std::ofstream(folder_ / "a.xml") << "<world><surface>\n<map file='none.png' resolution='1'/></surface></world>";
   ErrorList errors;
   readWorld(folder_ / "a.xml", errors);

@@ -1,12 +1,16 @@
 #include <algorithm>
+#include <cctype>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
+#include "base/label.h"
+#include "base/portable_pose.h"
 #include "base/xml_parser.h"
 #include "base/xml_reader.h"
+#include "world/caching_file_provider.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -14,13 +18,13 @@ namespace {
 
 using Color = std::array<float, 3>;
 
-/// The longest length unit; no file is about more than kilometres.
+/// Maximum length unit; files use kilometres at most.
 constexpr double kUnitMax_m = 1000;
 
 class WorldReader {
  public:
-  WorldReader(const XmlElement& root, const std::string& file, const FileShelf& shelf, ErrorList& errors)
-      : root_(root, file, errors), shelf_(shelf), errors_(errors) {
+  WorldReader(const XmlElement& root, const std::string& file, const FileProvider& files, ErrorList& errors)
+      : root_(root, file, errors), files_(files), errors_(errors) {
     world_.name = std::filesystem::path(file).stem().string();
   }
 
@@ -42,7 +46,7 @@ class WorldReader {
  private:
   void readSurface(XmlReader& surface) {
     world_.surface_type = surface.word("type", "smooth");
-    for (auto& map : surface.all("map")) readMapHere(map);
+    for (auto& map : surface.all("map")) readMapElement(map);
     readSize(surface);
     for (auto& object : surface.all("object")) readObject(object);
     surface.finish();
@@ -60,7 +64,7 @@ class WorldReader {
     world_.bounds.y_min = length(size, "ymin");
     world_.bounds.y_max = length(size, "ymax");
     if (errors_.count() == faults) {
-      const std::string fault = "; the surface must be wider than nothing, so mend one of them";
+      const std::string fault = "; the size of the surface must be positive; fix one of them";
       if (world_.bounds.x_min >= world_.bounds.x_max) size.errorAt("xmin", "is not below <xmax>" + fault);
       if (world_.bounds.y_min >= world_.bounds.y_max) size.errorAt("ymin", "is not below <ymax>" + fault);
     }
@@ -76,12 +80,13 @@ class WorldReader {
              std::max(all.y_max, b.y_max)};
     }
     if ((all.x_min >= all.x_max || all.y_min >= all.y_max) && errors_.empty()) {
-      surface.error("has no <size>, and its maps are empty; add a <size>");
+      surface.error(surface.line().number == 0 ? "the map is empty; write a world with a <size> around it"
+                                               : "has no <size>, and its maps are empty; add a <size>");
     }
   }
 
-  /// Reads a <map>, and the file that it names.
-  void readMapHere(XmlReader& reader) {
+  /// Reads a <map> and the file that it refers to.
+  void readMapElement(XmlReader& reader) {
     const std::size_t faults = errors_.count();
     WorldMap map;
     map.line = reader.line();
@@ -93,17 +98,27 @@ class WorldReader {
     try {
       if (errors_.count() == faults) readMapSettings(reader, mapFormatOf(map.file), map.reading);
       reader.finish();
-      if (errors_.count() == faults) map.plan = readMap(map.file, shelf_, map.reading);
-      for (const auto& start : map.plan.starts) starts_.push_back(map.world_from_map + start);
-    } catch (const UnreadableFile& error) {
-      reader.errorAt("file", error.what());
+      if (errors_.count() == faults) map.plan = readMap(map.file, files_, map.reading);
+      for (const auto& start : map.plan.starts) starts_.push_back(portable::compose(map.world_from_map, start));
     } catch (const ConfigError& error) {
-      errors_.add(error);
+      for (const auto& fault : error.errors()) addMapError(reader, map.file, fault);
     }
     world_.maps.push_back(std::move(map));
   }
 
-  /// What the file's format leaves to the world to say.
+  /// Reports an error with a line of the map's own file unchanged, and any other at the world's line that refers to the
+  /// map.
+  void addMapError(XmlReader& reader, const std::string& map_file, const std::string& fault) {
+    const std::string path = files_.pathOf(map_file) + ":";
+    const bool has_line = fault.starts_with(path) && std::isdigit(static_cast<unsigned char>(fault[path.size()])) != 0;
+    if (has_line || reader.line().number == 0) {
+      errors_.add(ConfigError(fault));
+    } else {
+      reader.errorAt("file", fault);
+    }
+  }
+
+  /// Reads the settings that apply to the format.
   void readMapSettings(XmlReader& reader, MapFormat format, MapReading& reading) {
     if (format == MapFormat::activmedia) return;
     reading.unknown_is_occupied =
@@ -129,8 +144,8 @@ class WorldReader {
     XmlReader shape = object.requiredChild("shape");
     auto primitive = shape.child("primitive");
     auto robot = shape.child("robot");
-    if (!primitive && !robot) shape.error("holds neither a <primitive> nor a <robot>; put one in it");
-    if (primitive && robot) robot->error("stands beside a <primitive>; give each an <object> of its own");
+    if (!primitive && !robot) shape.error("contains neither a <primitive> nor a <robot>; add one");
+    if (primitive && robot) robot->error("is given beside a <primitive>; put each in its own <object>");
     if (primitive) readPrimitive(*primitive);
     if (robot) readRobot(*robot);
     shape.finish();
@@ -147,7 +162,7 @@ class WorldReader {
       object.stationary = solid->flag("stationary", true);
       solid->finish();
     } else {
-      primitive.error("holds neither a <cylinder> nor a <cube>; put one in it");
+      primitive.error("contains neither a <cylinder> nor a <cube>; add one");
     }
     primitive.finish();
     world_.objects.push_back(std::move(object));
@@ -158,13 +173,13 @@ class WorldReader {
     placement.line = robot.line();
     placement.model = robot.word("model", "");
     if (auto solid = solidIn(robot)) {
-      placement.name = readName(*solid);
+      placement.name = readRobotName(*solid);
       placement.body = readBody(*solid);
       placement.world_from_robot = placement.body->world_from_body;
-      solid->flag("stationary", false);  // 2005 says it of robots too; they move
+      solid->flag("stationary", false);  // 2005 files set it for robots too; ignored
       solid->finish();
     } else if (robot.has("model")) {
-      placement.name = readName(robot);
+      placement.name = readRobotName(robot);
       placement.world_from_robot = readPlace(robot);
       placement.color = readColor(robot);
     } else {
@@ -182,11 +197,11 @@ class WorldReader {
     world_.robots.push_back(std::move(placement));
   }
 
-  /// The <cylinder> or <cube> inside; nullopt when there is none.
+  /// The <cylinder> or <cube> inside; nullopt if there is none.
   std::optional<XmlReader> solidIn(XmlReader& owner) {
     auto cylinder = owner.child("cylinder");
     auto cube = owner.child("cube");
-    if (cylinder && cube) cube->error("stands beside a <cylinder>; keep one");
+    if (cylinder && cube) cube->error("is given beside a <cylinder>; keep one");
     return cylinder ? cylinder : cube;
   }
 
@@ -206,7 +221,7 @@ class WorldReader {
     return body;
   }
 
-  /// Without a place of its own a robot takes the next one that a map has for it.
+  /// A robot without a position gets the next start pose that a map gives.
   mrpt::math::TPose2D readPlace(XmlReader& robot) {
     if (robot.has("x") || robot.has("y") || next_start_ == starts_.size()) return readPose(robot);
     mrpt::math::TPose2D start = starts_[next_start_++];
@@ -237,6 +252,12 @@ class WorldReader {
     return name;
   }
 
+  std::string readRobotName(XmlReader& reader) {
+    std::string name = readName(reader);
+    if (const std::string fault = robotNameError(name); !fault.empty()) reader.errorAt("name", fault);
+    return name;
+  }
+
   double length(XmlReader& reader, const char* tag, Bounds bounds = Bounds::any()) {
     return reader.length(tag, bounds, world_.unit_m);
   }
@@ -245,29 +266,35 @@ class WorldReader {
     std::vector<std::string> names;
     for (const auto& robot : world_.robots) names.push_back(robot.name);
     const std::unordered_set<std::string> known(names.begin(), names.end());
-    const std::string mend = "; the robots are: " + listed(names);
+    const std::string fix = "; the robots are: " + listed(names);
     for (auto& [reader, index] : neighbours_) {
       const RobotPlacement& robot = world_.robots[index];
       if (robot.neighbour == robot.name) {
         reader.errorAt("neighbour", "is the robot itself; name another one, or drop it");
       } else if (!known.contains(robot.neighbour)) {
-        reader.errorAt("neighbour", "is the name of no robot" + mend);
+        reader.errorAt("neighbour", "is not the name of a robot" + fix);
       }
     }
   }
 
   XmlReader root_;
-  const FileShelf& shelf_;
+  const FileProvider& files_;
   ErrorList& errors_;
   World world_;
   std::unordered_map<std::string, int> line_of_name_;
-  std::vector<mrpt::math::TPose2D> starts_;  ///< that maps tell of, in the world
+  std::vector<mrpt::math::TPose2D> starts_;  ///< start poses given by maps, world frame
   std::size_t next_start_ = 0;
-  std::vector<std::pair<XmlReader, std::size_t>> neighbours_;  ///< robots that name one, and their index
+  std::vector<std::pair<XmlReader, std::size_t>> neighbours_;  ///< robots with a neighbour, and their index
 };
 
-/// A world of one map.
-XmlElement worldAround(const std::filesystem::path& map_file) {
+/// Clears the line numbers of a world generated around a map, which refer to no file.
+void clearLines(XmlElement& element) {
+  element.line.number = 0;
+  for (auto& child : element.children) clearLines(child);
+}
+
+/// A generated world that consists of one map.
+XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider& files) {
   const std::string name = map_file.filename().string();
   const MapFormat format = mapFormatOf(map_file);
   if (format == MapFormat::picture) {
@@ -282,34 +309,37 @@ XmlElement worldAround(const std::filesystem::path& map_file) {
   surface.add("map", "").attributes.emplace_back("file", name);
   if (format != MapFormat::activmedia) return root;
   try {
-    if (readMap(name, shelfOnDisk(map_file), {}).starts.empty()) return root;
+    if (readMap(name, files, {}).starts.empty()) return root;
     XmlElement& robot = surface.add("object").add("shape").add("robot");
     robot.add("model", "pioneer3dx");
     robot.add("name", "Robot1");
   } catch (const ConfigError&) {
-    // Whoever reads the world will be told.
+    // Reported when the world is read.
   }
   return root;
 }
 
 }  // namespace
 
-std::string readWorldText(const std::filesystem::path& file) {
-  return isMapFile(file) ? toXml(worldAround(file)) : readXmlText(file);
+std::string readWorldText(const std::filesystem::path& file, const FileProvider& files) {
+  return isMapFile(file) ? toXml(worldAround(file, files)) : readXmlText(file);
 }
 
 World readWorld(const std::filesystem::path& file, ErrorList& errors) {
   try {
-    return parseWorld(readWorldText(file), file.string(), shelfOnDisk(file), errors);
+    const FileProvider files = isMapFile(file) ? cachingFileProvider(filesOnDisk(file)) : filesOnDisk(file);
+    return parseWorld(readWorldText(file, files), file.string(), files, errors);
   } catch (const ConfigError& error) {
     errors.add(error);
     return {};
   }
 }
 
-World parseWorld(std::string text, const std::string& file, const FileShelf& shelf, ErrorList& errors) {
+World parseWorld(std::string text, const std::string& file, const FileProvider& files, ErrorList& errors) {
   try {
-    return WorldReader(parseXml(std::move(text), file), file, shelf, errors).read();
+    XmlElement root = parseXml(std::move(text), file);
+    if (isMapFile(file)) clearLines(root);
+    return WorldReader(root, file, files, errors).read();
   } catch (const ConfigError& error) {
     errors.add(error);
     return {};
@@ -318,7 +348,7 @@ World parseWorld(std::string text, const std::string& file, const FileShelf& she
 
 World parseWorld(std::string text, const std::string& file, ErrorList& errors) {
   const FileTexts none;
-  return parseWorld(std::move(text), file, shelfOf(file, none), errors);
+  return parseWorld(std::move(text), file, providerOf(file, none), errors);
 }
 
 }  // namespace robosim

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "base/scratch_folder.h"
+#include "base/temporary_directory.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -16,7 +16,7 @@ using Lines = std::vector<std::string>;
 
 const std::string kSurface = "<type>smooth</type><size><xmin>0</xmin><xmax>9</xmax><ymin>0</ymin><ymax>9</ymax></size>";
 
-/// A world of these objects, each on a line of its own, the first on line 2.
+/// A world of these objects, each on its own line, the first on line 2.
 std::string worldOf(const std::vector<std::string>& objects, const std::string& after_surface = "") {
   std::string text = "<world><surface>" + kSurface;
   for (const auto& object : objects) text += "\n<object><shape>" + object + "</shape></object>";
@@ -84,7 +84,7 @@ TEST(WorldReader, ReadsThe2005FileUnchanged) {
   EXPECT_EQ(finder.sensors[1].children[3].name, "position");
 }
 
-TEST(WorldReader, TurnsTheFilesUnitIntoMetresButNotAnglesNorTemperatures) {
+TEST(WorldReader, ConvertsLengthsToMetresButNotAnglesOrTemperatures) {
   const World world = parsed(
       "<world "
       "unit_m='0.1'><win_distance>8</win_distance><surface><size><xmin>-10</xmin><xmax>10</xmax><ymin>-20</"
@@ -102,7 +102,7 @@ TEST(WorldReader, TurnsTheFilesUnitIntoMetresButNotAnglesNorTemperatures) {
   EXPECT_EQ(world.win_distance_m, 0.8);
 }
 
-TEST(WorldReader, LeavesOutWhatHasAnObviousDefault) {
+TEST(WorldReader, AppliesDefaults) {
   const World world = parsed(worldOf({pillar("p")}));
   EXPECT_EQ(world.objects[0].body.world_from_body.phi, 0);
   EXPECT_EQ(world.objects[0].body.heat_celsius, 0);
@@ -129,7 +129,7 @@ TEST(WorldReader, PlacesARobotByItsModel) {
   EXPECT_FALSE(world.robots[1].color);
 }
 
-TEST(WorldReader, LetsARobotHaveABodyOfItsOwnBesidesAModel) {
+TEST(WorldReader, AcceptsABodyBesidesAModel) {
   const World world =
       parsed(worldOf({"<robot><model>scout</model><cylinder><name>A</name><x>1</x><y>2</y><z>3</z><radius>1</radius>"
                       "<height>4</height></cylinder></robot>"}));
@@ -137,7 +137,7 @@ TEST(WorldReader, LetsARobotHaveABodyOfItsOwnBesidesAModel) {
   EXPECT_EQ(std::get<Cylinder>(world.robots[0].body->shape), Cylinder{1});
 }
 
-TEST(WorldReader, RefusesUnknownTags) {
+TEST(WorldReader, RejectsUnknownTags) {
   EXPECT_EQ(faults("<worlds/>"),
             Lines{"a.xml:1: <worlds>: is not a world; the first element of a world file is <world>"});
   EXPECT_EQ(
@@ -145,7 +145,7 @@ TEST(WorldReader, RefusesUnknownTags) {
       Lines{"a.xml:2: <colour>: unknown tag in <cylinder>; accepted here are: color, direction, height, hot, name, "
             "radius, stationary, x, y, z"});
   EXPECT_EQ(faults(worldOf({"<primitve/>"})),
-            (Lines{"a.xml:2: <shape>: holds neither a <primitive> nor a <robot>; put one in it",
+            (Lines{"a.xml:2: <shape>: contains neither a <primitive> nor a <robot>; add one",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));
   EXPECT_EQ(faults("<world size='3'><surface>" + kSurface + "<objekt/></surface></world>"),
             (Lines{"a.xml:1: <objekt>: unknown tag in <surface>; accepted here are: map, object, size, type",
@@ -153,7 +153,7 @@ TEST(WorldReader, RefusesUnknownTags) {
                    "win_distance"}));
 }
 
-TEST(WorldReader, RefusesMissingAndMalformedValues) {
+TEST(WorldReader, RejectsMissingAndMalformedValues) {
   EXPECT_EQ(faults("<world/>"), Lines{"a.xml:1: <world>: <surface> is missing; add it"});
   EXPECT_EQ(faults("<world><surface/></world>"), Lines{"a.xml:1: <surface>: <size> is missing; add it"});
   EXPECT_EQ(faults(worldOf({"<primitive><cylinder/></primitive>"})),
@@ -171,16 +171,16 @@ TEST(WorldReader, RefusesMissingAndMalformedValues) {
   EXPECT_EQ(faults(worldOf({"<robot></robot>"})),
             Lines{"a.xml:2: <robot>: has no body; add a <cylinder> or <cube>, or a <model> that has one"});
   EXPECT_EQ(faults(worldOf({"<primitive/>"})),
-            Lines{"a.xml:2: <primitive>: holds neither a <cylinder> nor a <cube>; put one in it"});
+            Lines{"a.xml:2: <primitive>: contains neither a <cylinder> nor a <cube>; add one"});
 }
 
-TEST(WorldReader, RefusesWhatIsNotFinite) {
+TEST(WorldReader, RejectsNonFiniteNumbers) {
   EXPECT_EQ(faults(worldOf({pillar("p", "nan"), pillar("q", "inf")})),
             (Lines{"a.xml:2: <radius>nan</radius>: must be a finite number; write a number there",
                    "a.xml:3: <radius>inf</radius>: must be a finite number; write a number there"}));
 }
 
-TEST(WorldReader, RefusesSizesThatAreNotAboveZero) {
+TEST(WorldReader, RejectsSizesThatAreNotPositive) {
   EXPECT_EQ(faults(worldOf({pillar("p", "0"), pillar("q", "-1")})),
             (Lines{"a.xml:2: <radius>0</radius>: must be above 0; write a number there",
                    "a.xml:3: <radius>-1</radius>: must be above 0; write a number there"}));
@@ -191,7 +191,7 @@ TEST(WorldReader, RefusesSizesThatAreNotAboveZero) {
                    "a.xml:2: <height>-3</height>: must be above 0; write a number there"}));
 }
 
-TEST(WorldReader, RefusesValuesOutOfBounds) {
+TEST(WorldReader, RejectsValuesOutOfBounds) {
   EXPECT_EQ(faults(worldOf({pillar("p", "1", "<color>1 0 1.5</color><hot>-3</hot><stationary>2</stationary>")})),
             (Lines{"a.xml:2: <color>1 0 1.5</color>: '1.5' is no number that fits; it must lie in [0, 1]",
                    "a.xml:2: <hot>-3</hot>: must be at least 0; drop it for the default, 0",
@@ -205,28 +205,33 @@ TEST(WorldReader, RefusesValuesOutOfBounds) {
                    "a.xml:2: <loss>2</loss>: must lie in [0, 1]; drop it for the default, 0"}));
 }
 
-TEST(WorldReader, RefusesASurfaceOfNoWidth) {
-  EXPECT_EQ(
-      faults("<world><surface><size>\n<xmin>9</xmin>\n<xmax>9</xmax>\n<ymin>1</ymin>\n<ymax>0</ymax>\n</size>"
-             "</surface></world>"),
-      (Lines{"a.xml:2: <xmin>9</xmin>: is not below <xmax>; the surface must be wider than nothing, so mend one of "
-             "them",
-             "a.xml:4: <ymin>1</ymin>: is not below <ymax>; the surface must be wider than nothing, so mend one of "
-             "them"}));
+TEST(WorldReader, RejectsASurfaceWithoutWidth) {
+  EXPECT_EQ(faults("<world><surface><size>\n<xmin>9</xmin>\n<xmax>9</xmax>\n<ymin>1</ymin>\n<ymax>0</ymax>\n</size>"
+                   "</surface></world>"),
+            (Lines{"a.xml:2: <xmin>9</xmin>: is not below <xmax>; the size of the surface must be positive; fix one of "
+                   "them",
+                   "a.xml:4: <ymin>1</ymin>: is not below <ymax>; the size of the surface must be positive; fix one of "
+                   "them"}));
 }
 
-TEST(WorldReader, RefusesTwoThingsOfOneName) {
+TEST(WorldReader, RejectsDuplicateNames) {
   EXPECT_EQ(
       faults(worldOf({pillar("p"), pillar("q"), pillar("p"), scout("q")})),
       (Lines{"a.xml:4: <name>p</name>: is taken already, in line 2; give each object and robot a name of its own",
              "a.xml:5: <name>q</name>: is taken already, in line 3; give each object and robot a name of its own"}));
 }
 
-TEST(WorldReader, RefusesANeighbourThatIsNoOtherRobot) {
+TEST(WorldReader, RejectsASlashInTheNameOfARobotButNotOfAnObject) {
+  EXPECT_EQ(faults(worldOf({pillar("a/b"), scout("c/d")})),
+            Lines{"a.xml:3: <name>c/d</name>: must not contain '/', which separates robot and sensor in a recording; "
+                  "choose another name"});
+}
+
+TEST(WorldReader, RejectsANeighbourThatIsNotAnotherRobot) {
   EXPECT_EQ(faults(worldOf({pillar("p"), scout("A", "<neighbour>p</neighbour>"), scout("B", "<neighbour>C</neighbour>"),
                             scout("D", "<neighbour>D</neighbour>")})),
-            (Lines{"a.xml:3: <neighbour>p</neighbour>: is the name of no robot; the robots are: A, B, D",
-                   "a.xml:4: <neighbour>C</neighbour>: is the name of no robot; the robots are: A, B, D",
+            (Lines{"a.xml:3: <neighbour>p</neighbour>: is not the name of a robot; the robots are: A, B, D",
+                   "a.xml:4: <neighbour>C</neighbour>: is not the name of a robot; the robots are: A, B, D",
                    "a.xml:5: <neighbour>D</neighbour>: is the robot itself; name another one, or drop it"}));
 }
 
@@ -234,14 +239,14 @@ TEST(WorldReader, AcceptsANeighbourThatComesLaterInTheFile) {
   EXPECT_EQ(parsed(worldOf({scout("A", "<neighbour>B</neighbour>"), scout("B")})).robots[0].neighbour, "B");
 }
 
-TEST(WorldReader, RefusesTwoShapesWhereOneBelongs) {
+TEST(WorldReader, RejectsTwoShapesInOneElement) {
   EXPECT_EQ(faults(worldOf({pillar("p") + scout("A")})),
-            Lines{"a.xml:2: <robot>: stands beside a <primitive>; give each an <object> of its own"});
+            Lines{"a.xml:2: <robot>: is given beside a <primitive>; put each in its own <object>"});
   EXPECT_EQ(faults(worldOf({pillar("p") + pillar("q")})),
             Lines{"a.xml:2: <primitive>: is given twice in <shape>; keep one"});
 }
 
-TEST(WorldReader, TellsAllFaultsOfAFileInItsOrder) {
+TEST(WorldReader, ReportsAllFaultsInTheFilesOrder) {
   EXPECT_EQ(faults(worldOf({pillar("p", "-1"), scout("A", "<modell/>"), pillar("p", "x")})),
             (Lines{"a.xml:2: <radius>-1</radius>: must be above 0; write a number there",
                    "a.xml:3: <modell>: unknown tag in <robot>; accepted here are: color, controller, cube, cylinder, "
@@ -250,13 +255,13 @@ TEST(WorldReader, TellsAllFaultsOfAFileInItsOrder) {
                    "a.xml:4: <radius>x</radius>: is not a number; write a number there"}));
 }
 
-TEST(WorldReader, RefusesWhatIsNoXmlFile) {
+TEST(WorldReader, RejectsFilesThatAreNotXml) {
   EXPECT_EQ(faults(""), Lines{"a.xml:1: the file is empty; an XML document was expected"});
   EXPECT_EQ(faults("These are no worlds."),
-            Lines{"a.xml:1: this is not XML, or the file was cut off; mend the file here or just before"});
+            Lines{"a.xml:1: this is not XML, or the file was cut off; fix the file here or just before"});
   EXPECT_EQ(
       faults("<world>\n<surface>"),
-      Lines{"a.xml:2: an element is closed by another's tag, or not at all (was the file cut off?); mend the file here "
+      Lines{"a.xml:2: an element is closed by another's tag, or not at all (was the file cut off?); fix the file here "
             "or just before"});
   EXPECT_EQ(faults("<!DOCTYPE a [<!ENTITY b \"c\">]><world/>"),
             Lines{"a.xml:1: a DOCTYPE (and with it entities) is not accepted; take it out"});
@@ -268,8 +273,8 @@ TEST(WorldReader, RefusesWhatIsNoXmlFile) {
                                     ROBOSIM_SOURCE_DIR "/tests/none.xml: no such file; check the path"}));
 }
 
-TEST(WorldReader, RefusesTwoHundredMegabytes) {
-  const ScratchFolder folder;
+TEST(WorldReader, RejectsTwoHundredMegabytes) {
+  const TemporaryDirectory folder;
   const auto file = folder / "two_hundred_megabytes.xml";
   std::ofstream(file) << "<world>";
   std::filesystem::resize_file(file, 200'000'000);
@@ -279,7 +284,7 @@ TEST(WorldReader, RefusesTwoHundredMegabytes) {
             Lines{file.string() + ": is larger than 128 MiB, the most that is read; is it a world file?"});
 }
 
-TEST(WorldReader, SurvivesDamageOfAnyKind) {
+TEST(WorldReader, HandlesRandomlyDamagedFiles) {
   ErrorList none;
   const std::string text = toXml(readWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", none));
   const std::string strange = "<>/&\"'=-!?[]\n0e9.\xff";
@@ -305,7 +310,7 @@ TEST(WorldReader, SurvivesDamageOfAnyKind) {
     }
     ErrorList errors;
     const World world = parseWorld(damaged, "legacy_world.xml", errors);
-    if (!errors.empty()) continue;  // refused, as it should be
+    if (!errors.empty()) continue;  // rejected, as expected
     EXPECT_EQ(parseWorld(toXml(world), "legacy_world.xml", errors), world) << damaged;
     EXPECT_TRUE(errors.empty()) << errors.errors()[0] << damaged;
   }

@@ -7,7 +7,7 @@
 namespace robosim {
 namespace {
 
-TEST(Body, OfACylinderIsADiscBetweenItsHeights) {
+TEST(Body, IsADiscForACylinder) {
   Body body;
   body.shape = Cylinder{0.3};
   body.world_from_body = {1, 2, 0.5};
@@ -21,7 +21,7 @@ TEST(Body, OfACylinderIsADiscBetweenItsHeights) {
   EXPECT_EQ(body.coveringRadius(), 0.3);
 }
 
-TEST(Body, OfACubeIsABoxTurnedAboutItsCentre) {
+TEST(Body, IsAnOrientedBoxForACube) {
   Body body;
   body.shape = Cube{4, 3};
   body.world_from_body = {1, 2, M_PI / 2};

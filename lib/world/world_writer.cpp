@@ -7,11 +7,12 @@
 namespace robosim {
 namespace {
 
-/// The shortest text that reads back, by way of a double, as exactly `value`.
+/// The shortest text that, parsed as a double, gives exactly `value`.
 std::string floatText(float value) {
   char buffer[32];
   const std::string text{buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr};
-  // Rounded twice, decimal to double to float, a number very near the middle between two floats may go astray.
+  // Double rounding from decimal to double to float may be wrong for a number very close to the middle between two
+  // floats.
   return static_cast<float>(toNumber(text, 1)) == value ? text : toText(static_cast<double>(value));
 }
 
@@ -85,7 +86,7 @@ class WorldWriter {
 
   void addSensors(XmlElement& robot, const std::vector<XmlElement>& sensors) const {
     if (sensors.empty()) return;
-    // As in 2005 when nothing is newer; else all in one place, which keeps their order.
+    // Uses the 2005 form if all sensors have it; otherwise puts all into one element, which keeps their order.
     const bool all_2005 =
         std::all_of(sensors.begin(), sensors.end(), [](const XmlElement& sensor) { return sensor.name == "sensor"; });
     auto& place = (all_2005 ? robot : robot.add("sensors")).children;

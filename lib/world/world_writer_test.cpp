@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ World readBack(const World& world) {
   return again;
 }
 
-/// Random worlds with everything that a world can have.
+/// Random worlds that use all features of a world file.
 class WorldMaker {
  public:
   explicit WorldMaker(std::uint64_t seed) : rng_(seed, RandomPurpose::test) {}
@@ -44,7 +45,7 @@ class WorldMaker {
 
  private:
   bool maybe() { return rng_.below(2) == 1; }
-  /// Above zero, of any magnitude up to `max`.
+  /// Random positive number of any magnitude up to `max`.
   double size(double max) { return max * std::pow(10, rng_.uniform(-6, 0)); }
   double coordinate() { return maybe() ? rng_.uniform(-100, 100) : static_cast<double>(rng_.below(100)) / 4; }
 
@@ -57,6 +58,12 @@ class WorldMaker {
     return text + "w";
   }
   std::string name() { return word() + std::to_string(++names_); }
+  /// Without '/', which robot names must not contain.
+  std::string robotName() {
+    std::string text = name();
+    std::replace(text.begin(), text.end(), '/', '|');
+    return text;
+  }
   std::array<float, 3> color() {
     const auto part = [this] { return static_cast<float>(rng_.uniform()); };
     return {part(), part(), part()};
@@ -93,7 +100,7 @@ class WorldMaker {
 
   RobotPlacement robot() {
     RobotPlacement robot;
-    robot.name = name();
+    robot.name = robotName();
     if (maybe()) robot.model = word();
     robot.world_from_robot = pose();
     if (robot.model.empty() || maybe()) {
@@ -114,7 +121,7 @@ class WorldMaker {
   int names_ = 0;
 };
 
-TEST(WorldWriter, WritesWhatReadsBackEqual) {
+TEST(WorldWriter, RoundTripsThroughTheReader) {
   for (std::uint64_t seed = 0; seed < 1000; ++seed) {
     const World world = WorldMaker(seed).make();
     ASSERT_EQ(readBack(world), world) << "seed " << seed << "\n" << toXml(world);
@@ -145,7 +152,7 @@ TEST(WorldWriter, WritesThe2005FormOfA2005World) {
   EXPECT_EQ(text.find("<sensors>"), std::string::npos);
 }
 
-TEST(WorldWriter, WritesTheNumbersThatAPersonWrote) {
+TEST(WorldWriter, KeepsTheDecimalTextOfNumbers) {
   ErrorList errors;
   const World world = parseWorld(
       "<world unit_m='0.1'><surface><size><xmin>-101</xmin><xmax>200.9</xmax><ymin>-0.45</ymin><ymax>38</ymax></size>"

@@ -1,28 +1,28 @@
-// A browser for the tests: Debian's Chromium without a window.
+// Headless Chromium (Debian's) for the tests.
 
 import { existsSync } from 'node:fs';
 
 const { chromium } = await import('playwright-core').catch(() => {
-  throw new Error('playwright-core is not there: run ./dev test, which fetches it, or npm ci in tests/browser');
+  throw new Error('playwright-core is not installed: run ./dev test, which fetches it, or npm ci in tests/browser');
 });
 
 const CHROMIUM = process.env.ROBOSIM_CHROMIUM ?? '/usr/bin/chromium';
-// Only what hangs takes so long.
-const PATIENCE_MS = 120_000;
+// For calls that never return.
+const TIMEOUT_MS = 120_000;
 
 export async function openBrowser() {
-  if (!existsSync(CHROMIUM)) throw new Error(`there is no ${CHROMIUM}: run ./dev test, which installs it, or apt-get install chromium`);
+  if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is not installed: run ./dev test, which installs it, or apt-get install chromium`);
   return chromium.launch({
     executablePath: CHROMIUM,
     args: ['--no-sandbox', '--disable-gpu', '--disable-dev-shm-usage', '--disable-background-networking', '--no-first-run'],
-    timeout: PATIENCE_MS,
+    timeout: TIMEOUT_MS,
   });
 }
 
-// A person at the console: a page of their own, which has everything that it shows. Whatever goes wrong on it is kept.
+// A user with a separate page that has all panels open. Errors of the page are collected.
 export async function visit(browser, url, { name, init, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
-  context.setDefaultTimeout(PATIENCE_MS);
+  context.setDefaultTimeout(TIMEOUT_MS);
   if (name) await context.addInitScript((text) => localStorage.setItem('name', text), name);
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
@@ -34,12 +34,13 @@ export async function visit(browser, url, { name, init, ...options } = {}) {
   return page;
 }
 
-// Takes the wheel as soon as nobody has it. (The console may not yet have seen that the one before has gone.)
-export async function takeWheel(page) {
+// Takes control as soon as it is free, and waits until the robot can be moved. (The console may still consider the
+// previous page connected.)
+export async function takeControl(page) {
   await page.waitForFunction(() => {
-    if (document.querySelector('#status').textContent === 'You drive') return true;
-    const wheel = document.querySelector('#wheel');
-    if (!wheel.hidden) wheel.click();
+    if (document.querySelector('#status').textContent === 'You drive') return !document.querySelector('#accelerate').disabled;
+    const button = document.querySelector('#control');
+    if (!button.hidden) button.click();
     return false;
   });
 }

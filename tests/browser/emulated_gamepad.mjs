@@ -1,5 +1,5 @@
-// Runs in a page before anything else: a gamepad that a test holds, as the browser tells of one. Its axes and buttons
-// are those of window.emulatedGamepad.
+// Script injected before the page loads: an emulated gamepad, whose axes and buttons are those of
+// window.emulatedGamepad.
 
 export function emulateGamepad() {
   const pad = {
@@ -11,10 +11,10 @@ export function emulateGamepad() {
   navigator.getGamepads = () => [pad, null, null, null];
 }
 
-// To the right and towards the person, each [-1, 1].
+// To the right and towards the user, each [-1, 1].
 export const moveStick = (page, x, y) => page.evaluate(([x, y]) => { emulatedGamepad.axes = [x, y, 0, 0]; }, [x, y]);
 
-// Buttons are counted from 1, as on the joystick of 2005. It is held until `seen` has come about.
+// Buttons are counted from 1, as on the joystick of 2005. A button is held until `seen` resolves.
 export async function pressButton(page, button, seen) {
   const hold = (pressed) => page.evaluate(([i, pressed]) => { emulatedGamepad.buttons[i].pressed = pressed; }, [button - 1, pressed]);
   await hold(true);

@@ -1,20 +1,21 @@
-// How soon a key press comes to the environment and a step to the screen, and what the console costs: ./dev bench remote
+// Latency from a key press to the environment and from a step to the screen, and CPU use of the console: ./dev bench
+// remote
 //
-// worlds/open_house.xml in real time, steps of 20 ms, three robots with cameras of 25 pictures a second, everything on
-// this machine, Chromium without a window. doc/performance.md tells what is measured, and has figures.
+// worlds/open_house.xml in real time, steps of 20 ms, three robots with cameras of 25 pictures per second, everything
+// on this machine, headless Chromium. doc/performance.md describes the measurements and has figures.
 
 import { readFileSync } from 'node:fs';
 
-import { openBrowser, takeWheel, visit } from './browser.mjs';
+import { openBrowser, takeControl, visit } from './browser.mjs';
 import { Session } from './session.mjs';
 import { spectate } from './web_socket.mjs';
 
 const PRESSES = 100;
 const STEP_MS = 20;
 const NEAR_STEPS = 25;
-const CLOCK_TICKS = 100;  // of /proc/PID/stat, a second: sysconf(_SC_CLK_TCK) on every Linux there is
+const CLOCK_TICKS = 100;  // of /proc/PID/stat, per second: sysconf(_SC_CLK_TCK), 100 on Linux
 
-// Runs in the page before anything else: notes when keys are pressed, updates come and pictures are drawn.
+// Script injected before the page loads: records times of key presses, updates and drawn pictures.
 function noteTimes() {
   const now = () => performance.timeOrigin + performance.now();
   window.noted = { updates: [], pictures: [], pressed: 0 };
@@ -27,7 +28,7 @@ function noteTimes() {
         const at = now();
         const { state, measurements } = JSON.parse(new TextDecoder().decode(new Uint8Array(data, 4, new DataView(data).getUint32(0, true))));
         const odometry = measurements.find((one) => one?.turn_radps !== undefined);
-        noted.updates.push({ at, asked: state.turn_radps, turns: odometry.turn_radps });
+        noted.updates.push({ at, commanded: state.turn_radps, turned: odometry.turn_radps });
       });
     }
   };
@@ -46,23 +47,23 @@ function processorSeconds(pid) {
   return (Number(fields[11]) + Number(fields[12])) / CLOCK_TICKS;
 }
 
-// When a step was there at the earliest: when a viewer was told of it, or of one near it, taken to that step by the run's
-// pace. The soonest of those counts, so that what keeps the viewer waiting does not flatter the picture.
+// Earliest time of a step: extrapolated, at the run's pace, from the times at which a viewer received this or nearby
+// steps. The minimum is used, so that delays of the viewer do not reduce the measured latency.
 class Pace {
-  #told = [];  // [step, when]
-  take(text) {
+  #received = [];  // [step, time]
+  add(text) {
     const now = performance.timeOrigin + performance.now();
-    for (const [, step] of text.matchAll(/^step (\d+)/gm)) this.#told.push([Number(step), now]);
+    for (const [, step] of text.matchAll(/^step (\d+)/gm)) this.#received.push([Number(step), now]);
   }
   due(step) {
-    const near = this.#told.filter(([told]) => Math.abs(told - step) <= NEAR_STEPS);
-    return Math.min(...near.map(([told, when]) => when + (step - told) * STEP_MS));
+    const near = this.#received.filter(([other]) => Math.abs(other - step) <= NEAR_STEPS);
+    return Math.min(...near.map(([other, when]) => when + (step - other) * STEP_MS));
   }
 }
 
 async function measure(page, session) {
   const pace = new Pace();
-  const listen = (text) => pace.take(text);
+  const listen = (text) => pace.add(text);
   session.truth.viewer.child.stdout.on('data', listen);
   await page.evaluate(() => { noted.pictures = []; });
   const begun = { at: performance.now(), processor_s: processorSeconds(session.console.child.pid) };
@@ -71,17 +72,17 @@ async function measure(page, session) {
     const key = i % 2 ? 'ArrowLeft' : 'ArrowRight';
     await page.evaluate(() => { noted.updates = []; });
     await page.keyboard.down(key);
-    const [asked, turns] = await (await page.waitForFunction(() => {
+    const [command_ms, turn_ms] = await (await page.waitForFunction(() => {
       const after = noted.updates.filter(({ at }) => at > noted.pressed);
-      const asked = after.find((update) => update.asked !== 0);
-      const turns = after.find((update) => update.turns !== 0);
-      return asked && turns && [asked.at - noted.pressed, turns.at - noted.pressed];
+      const command = after.find((update) => update.commanded !== 0);
+      const turn = after.find((update) => update.turned !== 0);
+      return command && turn && [command.at - noted.pressed, turn.at - noted.pressed];
     })).jsonValue();
     await page.keyboard.up(key);
-    await page.waitForFunction(() => noted.updates.at(-1).asked === 0 && noted.updates.at(-1).turns === 0);
-    await page.waitForTimeout(37 * Math.random());  // at no fixed time of a step
-    commanded.push(asked);
-    turned.push(turns);
+    await page.waitForFunction(() => noted.updates.at(-1).commanded === 0 && noted.updates.at(-1).turned === 0);
+    await page.waitForTimeout(37 * Math.random());  // random phase relative to steps
+    commanded.push(command_ms);
+    turned.push(turn_ms);
   }
   const seconds = (performance.now() - begun.at) / 1000;
   const cores = (processorSeconds(session.console.child.pid) - begun.processor_s) / seconds;
@@ -97,11 +98,11 @@ async function measure(page, session) {
 const session = await Session.open({ world: 'worlds/open_house.xml', robots: ['Pioneer1', 'Scout1', 'Pioneer2'] });
 const browser = await openBrowser();
 const page = await visit(browser, session.url, { name: 'Ada', init: noteTimes });
-await takeWheel(page);
+await takeControl(page);
 console.log('one browser:');
 await measure(page, session);
 const spectators = await Promise.all(Array.from({ length: 50 }, (_, i) => spectate(session.url, `Spectator ${i}`)));
-console.log('and 50 spectators, who are told everything:');
+console.log('and 50 spectators, which receive everything:');
 await measure(page, session);
 for (const one of spectators) one.destroy();
 await browser.close();

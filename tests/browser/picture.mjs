@@ -1,13 +1,13 @@
-// Pictures of the console's page, for doc/images and to look at:
+// Creates screenshots of the console's page, for doc/images and for inspection:
 //
 //     node tests/browser/picture.mjs FOLDER
 //
-// A person drives a Pioneer through worlds/open_house.xml for some seconds, at a desk and on a phone, by day and by night.
+// A user drives a Pioneer through worlds/open_house.xml for some seconds; desktop and phone, light and dark theme.
 
 import { mkdirSync } from 'node:fs';
 import { join } from 'node:path';
 
-import { openBrowser, takeWheel, visit } from './browser.mjs';
+import { openBrowser, takeControl, visit } from './browser.mjs';
 import { Session } from './session.mjs';
 
 const LOOKS = {  // those with a dark look have the map open
@@ -23,7 +23,7 @@ const browser = await openBrowser();
 for (const [look, options] of Object.entries(LOOKS)) {
   const session = await Session.open({ world: 'worlds/open_house.xml', robots: ['Pioneer1', 'Scout1', 'Pioneer2'] });
   const page = await visit(browser, session.url, { name: 'Ada', ...options });
-  await takeWheel(page);
+  await takeControl(page);
   if (look.endsWith('dark')) await page.click('#map-toggle');
   const start = await session.truth.standstill('Pioneer1');
   await page.keyboard.down('ArrowUp');

@@ -1,4 +1,4 @@
-// Programs that run beside a test, from the project's folder.
+// Programs that run concurrently with a test, in the project's folder.
 
 import { spawn } from 'node:child_process';
 import { fileURLToPath } from 'node:url';
@@ -14,15 +14,15 @@ for (const signal of ['SIGINT', 'SIGTERM']) process.on(signal, () => process.exi
 export class Program {
   output = '';
   error = '';
-  code = undefined;  // until it has ended: then its exit code, or the signal that ended it
+  code = undefined;  // exit code or signal once it has ended
   #watchers = new Set();
 
   constructor(command, args) {
     this.name = args[0];
     this.child = spawn(command, args, { cwd: FOLDER, stdio: ['ignore', 'pipe', 'pipe'] });
     running.add(this.child);
-    this.child.stdout.setEncoding('utf8').on('data', (text) => this.#take('output', text));
-    this.child.stderr.setEncoding('utf8').on('data', (text) => this.#take('error', text));
+    this.child.stdout.setEncoding('utf8').on('data', (text) => this.#receive('output', text));
+    this.child.stderr.setEncoding('utf8').on('data', (text) => this.#receive('error', text));
     this.child.on('error', (error) => { this.error += error.message; });
     this.child.on('close', (code, signal) => {
       running.delete(this.child);
@@ -35,7 +35,7 @@ export class Program {
     if (this.code === undefined) this.child.kill(name);
   }
 
-  // What `find` makes of this program, as soon as that is something.
+  // Result of `find` on this program, as soon as it is defined.
   until(find, what = find) {
     return new Promise((done, failed) => {
       const look = () => {
@@ -50,7 +50,7 @@ export class Program {
     });
   }
 
-  // Its log has this: the match.
+  // Waits for a match in its log: the match.
   says(pattern) {
     return this.until(() => this.error.match(pattern), `it said ${pattern}`);
   }
@@ -59,7 +59,7 @@ export class Program {
     return this.until(() => this.code !== undefined, 'its end');
   }
 
-  // Ends it as Ctrl-C does.
+  // Interrupts it like Ctrl-C.
   async end() {
     this.signal('SIGCONT');
     this.signal('SIGINT');
@@ -67,7 +67,7 @@ export class Program {
     return this;
   }
 
-  #take(stream, text) {
+  #receive(stream, text) {
     this[stream] += text;
     for (const watcher of [...this.#watchers]) watcher();
   }

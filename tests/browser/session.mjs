@@ -1,5 +1,4 @@
-// What the tests of the console begin with: an environment, its robots, the console, each a program of its own, and a
-// browser that looks at it.
+// Fixture of the console tests: an environment, its robots and the console, each a separate program, and a browser.
 
 import { mkdtempSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
@@ -7,7 +6,7 @@ import { join } from 'node:path';
 
 import { Program, ROBOSIM, TEXT_VIEWER } from './program.mjs';
 
-// Where the robots really are, and have been, as a viewer of the environment is told: not of every step.
+// True poses of the robots over time, received as a viewer of the environment; not of every step.
 class Truth {
   #frames = [];  // {step, robots: {name: {x, y, phi}}}
   #read = 0;
@@ -16,7 +15,7 @@ class Truth {
     this.viewer = new Program(TEXT_VIEWER, [address]);
   }
 
-  // The poses in that step; undefined if the viewer was told of none.
+  // Poses at a step; undefined if the viewer did not receive it.
   at(step) {
     this.#readOn();
     return this.#frames.findLast((frame) => frame.step === step)?.robots;
@@ -35,7 +34,7 @@ class Truth {
     }, `${robot} was where ${holds}`);
   }
 
-  // Waits until the robot has not moved for so many steps: where it stands.
+  // Waits until the robot has not moved for a number of steps: its pose.
   async standstill(robot, steps = 10) {
     return this.viewer.until(() => {
       const pose = this.now?.[robot];
@@ -67,8 +66,8 @@ export class Session {
   robots = {};
   programs = [];
 
-  // `world`: a file; `robots`: their names, the first of them the primary; `speed`: simulated seconds in a second.
-  // Further arguments for each of the programs.
+  // `world`: a file; `robots`: their names, the first is the primary; `speed`: simulated seconds per second.
+  // Further arguments for each program.
   static async open({ world, robots, speed = 1, serve = [], robot = [], remote = [] }) {
     const session = new Session();
     try {
@@ -80,7 +79,7 @@ export class Session {
     }
   }
 
-  // A folder of the session's own.
+  // A folder for this session.
   folder = mkdtempSync(join(tmpdir(), 'robosim_console_'));
 
   start(...args) {
@@ -90,7 +89,8 @@ export class Session {
   }
 
   async #start({ world, robots, speed, serve, robot, remote }) {
-    this.serve = this.start('serve', world, '--wait-for-robots', '--listen', ':0', '--speed', speed, '--step', 0.02, ...serve);
+    this.serve = this.start('serve', world, '--wait-for-robots', '--listen', ':0', '--speed', speed, '--step', 0.02,
+      '--on-lost-robot', 'continue', ...serve);
     this.address = (await this.serve.says(/listening on (\S+)/))[1];
     this.robotArguments = robot;
     const ports = {};
@@ -116,7 +116,7 @@ export class Session {
     return this.robots[name];
   }
 
-  // Anew, where it was before if it was.
+  // Restarts it, at the same address if it had one.
   async startConsole() {
     this.console = this.start('remote', ...this.remoteArguments, '--listen', `127.0.0.1:${this.port ?? 0}`);
     this.url = (await this.console.says(/the console is at (\S+)/))[1];

@@ -1,4 +1,4 @@
-// A WebSocket that says what it likes, which no browser would: RFC 6455, as much of it as the tests need.
+// A minimal WebSocket client (RFC 6455) that can send arbitrary frames, unlike a browser.
 
 import { createHash, randomBytes } from 'node:crypto';
 import { request } from 'node:http';
@@ -13,45 +13,45 @@ export class RawSocket {
   #rest = Buffer.alloc(0);
   #watchers = new Set();
 
-  // @throws Error with the HTTP status if the other end does not want us
+  // @throws Error with the HTTP status if the connection is refused
   static open(url, { origin = url, protocol = PROTOCOL, host } = {}) {
     const key = randomBytes(16).toString('base64');
     const { hostname, port, host: at } = new URL(url);
     return new Promise((done, failed) => {
-      const asked = request({
+      const upgrade = request({
         hostname, port,
         headers: {
           Host: host ?? at, Upgrade: 'websocket', Connection: 'Upgrade', Origin: origin.replace(/\/$/, ''),
           'Sec-WebSocket-Key': key, 'Sec-WebSocket-Version': 13, 'Sec-WebSocket-Protocol': protocol,
         },
       });
-      asked.on('upgrade', (answer, socket, head) => {
+      upgrade.on('upgrade', (answer, socket, head) => {
         const accept = createHash('sha1').update(`${key}258EAFA5-E914-47DA-95CA-C5AB0DC85B11`).digest('base64');
         if (answer.headers['sec-websocket-accept'] !== accept) failed(new Error('not a WebSocket'));
         done(new RawSocket(socket, head));
       });
-      asked.on('response', (answer) => failed(new Error(`HTTP ${answer.statusCode}`)));
-      asked.on('error', failed);
-      asked.end();
+      upgrade.on('response', (answer) => failed(new Error(`HTTP ${answer.statusCode}`)));
+      upgrade.on('error', failed);
+      upgrade.end();
     });
   }
 
   constructor(socket, head) {
     this.#socket = socket;
-    socket.on('data', (data) => this.#take(data));
+    socket.on('data', (data) => this.#receive(data));
     socket.on('error', () => {});
     socket.on('close', () => {
       this.closed ??= {};
-      this.#tell();
+      this.#notify();
     });
-    this.#take(head);
+    this.#receive(head);
   }
 
   say(message) {
     this.frame(0x1, typeof message === 'string' ? message : JSON.stringify(message));
   }
 
-  // A frame of any kind (RFC 6455, 5.2), final, masked as a client's must be.
+  // A frame of any kind (RFC 6455, 5.2), final, masked as required of clients.
   frame(opcode, payload) {
     const bytes = Buffer.from(payload);
     const mask = randomBytes(4);
@@ -63,7 +63,7 @@ export class RawSocket {
     this.#socket.write(Buffer.concat([head, mask, bytes.map((byte, i) => byte ^ mask[i % 4])]));
   }
 
-  // Bytes that are no frame.
+  // Bytes that are not a valid frame.
   write(bytes) {
     this.#socket.write(bytes);
   }
@@ -90,11 +90,11 @@ export class RawSocket {
     return this.until(() => this.closed);
   }
 
-  #tell() {
+  #notify() {
     for (const watcher of [...this.#watchers]) watcher();
   }
 
-  #take(data) {
+  #receive(data) {
     this.#rest = Buffer.concat([this.#rest, data]);
     for (;;) {
       if (this.#rest.length < 4) break;
@@ -117,11 +117,11 @@ export class RawSocket {
       if (opcode === 0x8) this.closed = { code: payload.length ? payload.readUInt16BE(0) : 0, reason: payload.subarray(2).toString() };
       if (opcode === 0x9) this.frame(0xa, payload);
     }
-    this.#tell();
+    this.#notify();
   }
 }
 
-// A page without a browser: it looks on, and shows everything at once.
+// A page without a browser: a viewer that acknowledges everything at once.
 export async function spectate(url, name) {
   const socket = await RawSocket.open(url);
   socket.say({ type: 'hello', protocol: 1, name });

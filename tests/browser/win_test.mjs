@@ -1,5 +1,5 @@
-// A whole game: a person drives a Pioneer through the small maze to the gold, and wins. The environment decides, all
-// halt, and the console, the run's summary and its recording say who has won.
+// A complete run: a user drives a Pioneer through the small maze to the gold and wins. All robots halt, and the console,
+// the run's summary and its recording name the winner.
 
 import assert from 'node:assert/strict';
 import { existsSync, mkdtempSync, rmSync } from 'node:fs';
@@ -7,12 +7,12 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, takeWheel, visit } from './browser.mjs';
+import { openBrowser, takeControl, visit } from './browser.mjs';
 import { emulateGamepad, moveStick } from './emulated_gamepad.mjs';
 import { Program, ROBOSIM } from './program.mjs';
 import { Session } from './session.mjs';
 
-// From cell to cell of worlds/small_maze.xml, and up to the gold, which is at (-3.75, 1.5).
+// Cells of worlds/small_maze.xml on the way to the gold, which is at (-3.75, 1.5).
 const WAY = [[-2.25, -3], [-0.75, -3], [-0.75, -1.5], [-2.25, -1.5], [-3.75, -1.5], [-3.75, 0], [-2.25, 0], [-2.25, 1.5], [-2.25, 3], [-3.75, 3], [-3.75, 2.3]];
 
 let folder, rawlog, session, browser, page;
@@ -26,7 +26,7 @@ before(async () => {
   });
   browser = await openBrowser();
   page = await visit(browser, session.url, { name: 'Ada', init: emulateGamepad });
-  await takeWheel(page);
+  await takeControl(page);
 });
 after(async () => {
   await browser?.close();
@@ -37,7 +37,7 @@ after(async () => {
 const shows = (selector, text) =>
   page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
 
-// Holds the stick so that the robot comes to (x, y), as a person would who looks at the map.
+// Controls the stick so that the robot reaches (x, y), from poses on the map.
 async function driveTo(x, y) {
   for (;;) {
     const at = session.truth.now.Pioneer1;
@@ -51,15 +51,15 @@ async function driveTo(x, y) {
   }
 }
 
-test('far from the gold nobody has won', async () => {
+test('CheckWin fails far from the gold', async () => {
   await page.keyboard.press('c');
   await shows('#notes', 'Pioneer1 is too far from the gold to have won.');
   assert.ok(await page.isHidden('#won'));
 });
 
-test('at the gold the person has won, and everything says so', async () => {
+test('CheckWin succeeds at the gold, and all outputs report it', async () => {
   for (const [x, y] of WAY) await driveTo(x, y);
-  // Where pictures come late one drives past it.
+  // With delayed pictures the robot may overshoot.
   const [goal_x, goal_y] = WAY.at(-1);
   for (let off = Infinity; off > 0.3;) {
     await driveTo(goal_x, goal_y);
@@ -79,12 +79,12 @@ test('at the gold the person has won, and everything says so', async () => {
   assert.deepEqual(page.problems, []);
 });
 
-test('the recording has who won and what the driver commanded, and is the same run again', async () => {
+test('the recording contains the winner and the commands, and reproduces the run', async () => {
   assert.ok(existsSync(rawlog));
-  const told = new Program(ROBOSIM, ['replay', rawlog]);
-  await told.ended();
-  assert.match(told.output, /Pioneer1 has won/);
-  const again = new Program(ROBOSIM, ['replay', rawlog, '--check', 'worlds/small_maze.xml']);
-  await again.ended();
-  assert.equal(again.code, 0, again.output + again.error);
+  const replay = new Program(ROBOSIM, ['replay', rawlog]);
+  await replay.ended();
+  assert.match(replay.output, /Pioneer1 has won/);
+  const check = new Program(ROBOSIM, ['replay', rawlog, '--check', 'worlds/small_maze.xml']);
+  await check.ended();
+  assert.equal(check.code, 0, check.output + check.error);
 });

@@ -1,4 +1,4 @@
-// A world that a control panel sends.
+// Fuzzes a world sent by a control panel.
 #include "server/world_wire.h"
 #include "tests/fuzz/fuzz.h"
 

@@ -1,5 +1,5 @@
-// What an environment shows to viewers.
-#include "server/sight.h"
+// Fuzzes the frames that an environment sends to viewers.
+#include "server/viewed_run.h"
 #include "server/world_wire.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/small_maze.h"
@@ -8,23 +8,23 @@ using namespace robosim;
 
 namespace {
 
-/// A viewer that has seen the small maze once.
-Sight sightOfTheMaze() {
+/// A viewer that has received a first frame of the small maze.
+ViewedRun mazeRun() {
   wire::Frame frame;
   encode(readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml"), *frame.mutable_world());
   frame.set_period_s(0.1);
-  for (std::size_t i = 0; i < smallMaze().robotCount(); ++i) encode(RobotLook{}, i, *frame.add_robots());
-  Sight sight;
-  update(sight, frame);
-  return sight;
+  for (std::size_t i = 0; i < smallMaze().robotCount(); ++i) encode(RobotSnapshot{}, i, *frame.add_robots());
+  ViewedRun run;
+  update(run, frame);
+  return run;
 }
 
 }  // namespace
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Sight seen = sightOfTheMaze();
+  static const ViewedRun first_frame = mazeRun();
   return fuzzMessage<wire::Frame>(data, size, [](const wire::Frame& frame) {
-    Sight sight = seen;
-    update(sight, frame);
+    ViewedRun run = first_frame;
+    update(run, frame);
   });
 }

@@ -1,7 +1,7 @@
-// What a viewer asks for.
+// Fuzzes the requests of a viewer.
 #include <cstdlib>
 
-#include "server/sight.h"
+#include "server/viewed_run.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/small_maze.h"
 

@@ -1,4 +1,4 @@
-// What a process of robots sends: a hello, or commands and letters.
+// Fuzzes the messages of a robot process: a hello, or commands and messages.
 #include <cmath>
 #include <cstdlib>
 
@@ -8,7 +8,7 @@
 using namespace robosim;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzzMessage<wire::FromRobots>(data, size, [](const wire::FromRobots& message) {
+  return fuzzMessage<wire::DriveRequest>(data, size, [](const wire::DriveRequest& message) {
     checkProtocol(message.has_hello() ? message.hello().protocol() : kProtocolVersion);
     for (const auto& name : message.hello().names()) inQuotes(name);
     constexpr std::size_t robots = 3;

@@ -6,13 +6,13 @@
 #include "base/error_list.h"
 #include "net/wire_error.h"
 
-/// What libFuzzer, or replay.cpp, calls with one input. It must come back, whatever the input is.
-// NOLINTNEXTLINE(readability-identifier-naming): the name is libFuzzer's
+/// Entry point called by libFuzzer or replay.cpp with one input. Must return for every input.
+// NOLINTNEXTLINE(readability-identifier-naming): name required by libFuzzer
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace robosim {
 
-/// Reads the input as a message, if it is one, and hands it to `use`, which may refuse it.
+/// Parses the input as a message and, if valid, passes it to `use`, which may reject it.
 template <typename Message, typename Use>
 int fuzzMessage(const std::uint8_t* data, std::size_t size, const Use& use) {
   Message message;

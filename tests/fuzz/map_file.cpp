@@ -1,5 +1,5 @@
-// A map of any format. The first line of the input is the map's name, which tells the format; the rest is the file. A
-// .yaml finds a small picture.
+// Fuzzes map files of all formats. The first line of the input is the file name, which determines the format; the rest
+// is the content. A .yaml file refers to a small image.
 #include <algorithm>
 
 #include "tests/fuzz/fuzz.h"
@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   MapReading reading;
   reading.pixel_m = 0.05;
   try {
-    readMap(name, shelfOf("world.xml", files), reading);
+    readMap(name, providerOf("world.xml", files), reading);
   } catch (const ConfigError&) {
   }
   return 0;

@@ -1,4 +1,4 @@
-// Runs a fuzz target once on every file of the folders given.
+// Runs a fuzz target once on every file of the given folders.
 #include <filesystem>
 #include <fstream>
 #include <iostream>

@@ -1,5 +1,5 @@
-// Rays and sectors in a scene of any solids, beside a loop over them. Each solid, ray and sector takes some bytes of
-// the input, as long as it has any; coordinates lie on a lattice, a hair (of a micrometre or less) beside it, or
+// Fuzzes rays and sectors in a scene of random solids, compared with a loop over all solids. Each solid, ray and sector
+// consumes some bytes of the input while there are any; coordinates are on a lattice, at most a micrometre off it, or
 // anywhere within 128 m.
 #include <cmath>
 #include <cstdlib>
@@ -14,7 +14,7 @@ using mrpt::math::TPoint3D;
 
 namespace {
 
-/// The input, number by number; zeros once it is at its end. (libFuzzer has such a reader, but g++ has not.)
+/// The input, number by number; zeros after its end. (libFuzzer's FuzzedDataProvider is not available with g++.)
 class Bytes {
  public:
   Bytes(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}

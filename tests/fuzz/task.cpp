@@ -1,4 +1,4 @@
-// What an environment gives a geometry worker to do.
+// Fuzzes tasks sent to a geometry worker.
 #include "net/robot_wire.h"
 #include "server/geometry_wire.h"
 #include "tests/fuzz/fuzz.h"
@@ -9,7 +9,8 @@ using namespace robosim;
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   return fuzzMessage<wire::Task>(data, size, [](const wire::Task& task) {
     Environment& replica = smallMaze();
-    if (task.has_moment()) decode(task.moment(), replica.robotCount());
+    State state = replica.state();
+    if (task.has_state()) decodeInto(task.state(), state);
     for (const auto& command : task.commands()) decode(command, replica.robotCount());
     putOutcome(task, replica);
   });

@@ -1,4 +1,4 @@
-// A world file, with the types of robot that come with RoboSim.
+// Fuzzes world files, with the robot types shipped with RoboSim.
 #include "robots/world_source.h"
 #include "tests/fuzz/fuzz.h"
 

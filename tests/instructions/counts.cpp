@@ -4,7 +4,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "robosim/text.h"
+#include "base/text_table.h"
 #include "tests/instructions/loads.h"
 
 namespace robosim {
@@ -50,7 +50,7 @@ std::vector<std::string> growthOf(const InstructionCounts& now, const Instructio
   return faults;
 }
 
-std::string tableOf(const InstructionCounts& now, const InstructionCounts& kept) {
+std::string toTable(const InstructionCounts& now, const InstructionCounts& kept) {
   Rows rows{{"load", "instructions", "a", "kept", "change"}};
   for (const auto& load : instructionLoads()) {
     const auto count = now.instructions.find(load.name);

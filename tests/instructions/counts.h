@@ -8,26 +8,26 @@
 
 namespace robosim {
 
-/// Instructions a unit of each load, and what they were counted with: both decide how many there are.
+/// Instructions per unit of each load, and the compiler and processor variant that they depend on.
 struct InstructionCounts {
   std::string compiler;
-  std::string vectors;  ///< which of the clones that the compiler makes for several processors ran
+  std::string vectors;  ///< variant of the function clones (vector_clones.h) that ran
   std::map<std::string, double> instructions;
 };
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InstructionCounts, compiler, vectors, instructions)
 
-/// By how much a load may grow before the test fails.
+/// Relative growth of a load's count that the test allows.
 constexpr double kGrowthAllowed = 0.1;
 
-/// What is wrong with `now` beside what is `kept`: a line for each load that has grown by more than kGrowthAllowed, or
-/// is in only one of the two; and then one on how to mend it. Empty when all is well.
+/// Compares counts: a line for each load of `now` that exceeds `kept` by more than kGrowthAllowed, or that is in only
+/// one of the two; then a line on how to fix it. Empty if there is no difference.
 std::vector<std::string> growthOf(const InstructionCounts& now, const InstructionCounts& kept);
 
-/// A row for each load of `now`: its count, and how it differs from the one `kept`.
-std::string tableOf(const InstructionCounts& now, const InstructionCounts& kept);
+/// A table row for each load of `now`: its count, and the difference from `kept`.
+std::string toTable(const InstructionCounts& now, const InstructionCounts& kept);
 
-/// Counts of a file; none when there is no such file.
-/// @throws std::runtime_error when it holds something else
+/// Reads counts from a file; empty when there is no such file.
+/// @throws std::runtime_error for an invalid file
 InstructionCounts readCounts(const std::filesystem::path& file);
 /// @throws std::runtime_error when it cannot be written
 void writeCounts(const std::filesystem::path& file, const InstructionCounts& counts);

@@ -2,16 +2,16 @@
 
 #include <memory>
 
-#include "robosim/bench_ray_caster.h"
-#include "robosim/local_run.h"
-#include "robosim/workloads.h"
+#include "robosim_bench/ray_caster.h"
+#include "robosim_bench/workloads.h"
+#include "run/local_run.h"
 
 namespace robosim {
 namespace {
 
 constexpr std::uint64_t kSeed = 1;
 
-/// 100 robots that have been on their way for a while.
+/// 100 robots after some warm-up steps.
 InstructionWork robots(const char* workload) {
   constexpr std::size_t kRobots = 100;
   constexpr int kWarmUpSteps = 10;
@@ -26,7 +26,7 @@ InstructionWork robots(const char* workload) {
 InstructionWork rays(void (RayCaster::*cast)(double range_m), double range_m) {
   const RayScene scene = makeRayScene(20, kSeed);
   const std::shared_ptr<RayCaster> caster = makeSceneCaster(scene);
-  (*caster.*cast)(range_m);  // once before, to give arrays their sizes
+  (*caster.*cast)(range_m);  // warm-up, which allocates arrays
   return {.units = static_cast<double>(scene.beams.size()),
           .work = [caster, cast, range_m] { (*caster.*cast)(range_m); }};
 }
@@ -47,7 +47,7 @@ InstructionWork smallRun() {
   return {.units = robot_steps, .work = [run = made(), drive] { drive(*run); }};
 }
 
-/// From the file to where the first step can be taken.
+/// Loading a world from its file up to the first step.
 InstructionWork loading() {
   return {.units = 1, .work = [] {
             const LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/maze_20x20.xml", ""), RunOptions{});
@@ -75,5 +75,5 @@ std::span<const InstructionLoad> instructionLoads() { return kLoads; }
 
 __attribute__((noinline)) void robosimCounted(const std::function<void()>& work) {
   work();
-  asm volatile("");  // so that the call above is no jump, which would leave this function
+  asm volatile("");  // prevents a tail call, which would leave this function early
 }

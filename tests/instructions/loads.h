@@ -4,16 +4,16 @@
 
 namespace robosim {
 
-/// Some work, ready to be done and counted.
+/// A prepared piece of work whose instructions are counted.
 struct InstructionWork {
   double units = 1;
   std::function<void()> work;
 };
 
-/// A small load, the same always, of which the instructions are counted.
+/// A small fixed load whose instructions are counted.
 struct InstructionLoad {
   const char* name;
-  const char* unit;  ///< "robot-step": what instructions are told by
+  const char* unit;  ///< "robot-step": unit of work
   InstructionWork (*prepare)();
 };
 
@@ -22,6 +22,6 @@ std::span<const InstructionLoad> instructionLoads();
 }  // namespace robosim
 
 extern "C" {
-/// Does the work. Callgrind counts while this runs, and not what comes before and after; it knows it by its name.
+/// Does the work. Callgrind counts only inside this function, which it finds by name.
 void robosimCounted(const std::function<void()>& work);
 }

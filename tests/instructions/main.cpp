@@ -1,13 +1,13 @@
-// Counts the instructions of fixed small loads, so that a change in cost is seen however busy the machine is:
-//   robosim_instructions FILE            counts under callgrind, and fails where more than FILE keeps
-//   robosim_instructions FILE --update   counts, and keeps the counts in FILE
-//   robosim_instructions --do TALLY      does the loads once: what callgrind runs
+// Counts the instructions of fixed small loads, which makes a change of cost visible independently of other load:
+//   robosim_instructions FILE            counts under callgrind, and fails if a count exceeds that in FILE
+//   robosim_instructions FILE --update   counts, and stores the counts in FILE
+//   robosim_instructions --do TALLY      runs the loads once: the program that callgrind runs
 #include <fstream>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
 
-#include "base/scratch_folder.h"
+#include "base/temporary_directory.h"
 #include "tests/instructions/counts.h"
 #include "tests/instructions/loads.h"
 #include "tests/stock_tools.h"
@@ -20,7 +20,7 @@ std::string compilerName() {
          std::to_string(__GNUC_PATCHLEVEL__);
 }
 
-/// Which clones of lib/geometry/vector_clones.h run on the processor that callgrind shows: never the widest.
+/// The variant of withVectors() (lib/geometry/vector_width.h) used on callgrind's processor, which is never the widest.
 std::string vectorsName() {
 #ifdef __x86_64__
   __builtin_cpu_init();
@@ -32,8 +32,8 @@ std::string vectorsName() {
 #endif
 }
 
-/// Does all loads, and writes down of each how many units that was. What callgrind runs: it takes longer over the start
-/// of a program than over most loads, so that all share one.
+/// Runs all loads and writes the number of units of each. Run under callgrind in one process, because starting a
+/// program there takes longer than most loads.
 void doAll(const std::string& tally) {
   std::ofstream out(tally);
   out << vectorsName() << '\n';
@@ -44,7 +44,7 @@ void doAll(const std::string& tally) {
   }
 }
 
-/// What callgrind counted in one of its profiles.
+/// The instruction count of one callgrind profile.
 double totalOf(const std::filesystem::path& profile) {
   std::ifstream in(profile);
   double total = 0;
@@ -56,14 +56,15 @@ double totalOf(const std::filesystem::path& profile) {
 }
 
 InstructionCounts countAll() {
-  const ScratchFolder folder;
-  // A profile for each return from robosimCounted(): profile.1, profile.2, …
+  const TemporaryDirectory folder;
+  // One profile per return from robosimCounted(): profile.1, profile.2, …
   const ToolRun run = runTool(
       "valgrind --quiet --tool=callgrind --toggle-collect=robosimCounted --dump-after=robosimCounted "
       "--callgrind-out-file=profile '" +
           std::filesystem::read_symlink("/proc/self/exe").string() + "' --do tally",
       folder.path());
-  if (run.exit_code != 0) throw std::runtime_error("could not count; is valgrind installed? It said:\n" + run.output);
+  if (run.exit_code != 0)
+    throw std::runtime_error("could not count; check that valgrind is installed. Its output:\n" + run.output);
   InstructionCounts counts{.compiler = compilerName(), .vectors = "", .instructions = {}};
   std::ifstream tally(folder.path() / "tally");
   tally >> counts.vectors;
@@ -76,11 +77,11 @@ InstructionCounts countAll() {
   return counts;
 }
 
-/// @return whether all is well
+/// @return whether all counts are within limits
 bool countAndCompare(const std::filesystem::path& file, bool update) {
   const InstructionCounts kept = readCounts(file);
   const InstructionCounts now = countAll();
-  std::cout << tableOf(now, kept);
+  std::cout << toTable(now, kept);
   if (update) {
     writeCounts(file, now);
     return true;
@@ -98,9 +99,10 @@ int main(int argc, char** argv) {
   std::string file;
   std::string tally;
   bool update = false;
-  program.add_option("FILE", file, "the counts that are kept");
-  program.add_flag("--update", update, "keep what is counted now");
-  program.add_option("--do", tally, "do the loads, count nothing, and write how many units each was to this file");
+  program.add_option("FILE", file, "file with the stored counts");
+  program.add_flag("--update", update, "store the new counts");
+  program.add_option("--do", tally,
+                     "run the loads without counting, and write the number of units of each to this file");
   program.require_option(1, 2);
   CLI11_PARSE(program, argc, argv);
   try {

@@ -1,4 +1,4 @@
-// Clients that talk nonsense: each gets an error, and nobody else notices.
+// Clients that send invalid input: each receives an error, and other clients are not affected.
 #include <functional>
 #include <future>
 #include <limits>
@@ -15,6 +15,7 @@
 #include "net/robots.grpc.pb.h"
 #include "net/viewing.grpc.pb.h"
 #include "net/wire_error.h"
+#include "server/geometry_seal.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/served_world.h"
 
@@ -25,48 +26,47 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 const std::string kHuge(1 << 20, 'x');
 
-/// A world of two robots, of which one is driven as it should be, and the other is up for trouble.
+/// A world of two robots, of which one is driven correctly, and the other by the tested client.
 class BadInput : public testing::Test {
  protected:
-  BadInput() : world_(options()), good_(world_.dialOptions(), {"Pioneer1"}) {}
+  BadInput() : world_(options()), correct_robot_(world_.connectOptions(), {"Pioneer1"}) {}
 
   static ServedWorld::Options options() {
     ServedWorld::Options options;
     options.robots_elsewhere = true;
-    options.server.step_deadline =
-        std::chrono::minutes(1);  // the good one takes its time while the other makes trouble
+    options.server.step_deadline = std::chrono::minutes(1);  // longer than the test
     return options;
   }
 
-  /// Says hello for the other robot, reads what comes, and then sends this. @return how the stream ends
-  grpc::Status afterHello(const wire::FromRobots& message) {
-    return talk({"Scout1"}, [&](auto& stream) { stream.Write(message); });
+  /// Sends a hello for the other robot, reads the replies, and then sends this. @return status of the stream
+  grpc::Status afterHello(const wire::DriveRequest& message) {
+    return send({"Scout1"}, [&](auto& stream) { stream.Write(message); });
   }
 
-  template <typename Say>
-  grpc::Status talk(const std::vector<std::string>& names, const Say& say) {
+  template <typename Send>
+  grpc::Status send(const std::vector<std::string>& names, const Send& send_messages) {
     grpc::ClientContext context;
-    const auto stub = wire::Robots::NewStub(dial(world_.dialOptions()));
+    const auto stub = wire::Robots::NewStub(connect(world_.connectOptions()));
     const auto stream = stub->Drive(&context);
-    wire::FromRobots hello;
+    wire::DriveRequest hello;
     hello.mutable_hello()->set_protocol(kProtocolVersion);
     for (const auto& name : names) hello.mutable_hello()->add_names(name);
     stream->Write(hello);
-    wire::ToRobots in;
+    wire::DriveResponse in;
     if (stream->Read(&in) && stream->Read(&in)) {
       asked_step_ = in.step();
-      say(*stream);
+      send_messages(*stream);
     }
     while (stream->Read(&in)) {
     }
     grpc::Status status = stream->Finish();
-    while (Panel(world_).status().robots_connected() > 1) {  // our end may know sooner
+    while (Panel(world_).status().robots_connected() > 1) {  // the client may detect the end first
     }
     return status;
   }
 
-  wire::FromRobots command(double speed, int activity = 0, std::uint32_t robot = 0) const {
-    wire::FromRobots message;
+  wire::DriveRequest command(double speed, int activity = 0, std::uint32_t robot = 0) const {
+    wire::DriveRequest message;
     auto& command = *message.add_commands();
     command.set_robot(robot);
     command.set_speed_mps(speed);
@@ -74,19 +74,19 @@ class BadInput : public testing::Test {
     return message;
   }
 
-  /// A process that does as it should has the other robot now, and steps go on for both.
-  void expectTheOthersNoticeNothing() {
+  /// Another correct process takes the other robot, and the run continues for both.
+  void expectOtherClientsUnaffected() {
     const auto take_steps = [](NetworkHardware& robots) {
       for (int i = 0; i < 3; ++i) EXPECT_TRUE(robots.nextStep());
     };
-    NetworkHardware other(world_.dialOptions(), {"Scout1"});
+    NetworkHardware other(world_.connectOptions(), {"Scout1"});
     auto others_steps = std::async(std::launch::async, [&] { take_steps(other); });
-    take_steps(good_);
+    take_steps(correct_robot_);
     others_steps.get();
   }
 
   ServedWorld world_;
-  NetworkHardware good_;
+  NetworkHardware correct_robot_;
   std::uint64_t asked_step_ = 0;
 };
 
@@ -96,54 +96,55 @@ void expectError(const grpc::Status& status, grpc::StatusCode code, const std::s
   EXPECT_LT(status.error_message().size(), 2100u);
 }
 
-TEST_F(BadInput, OfSpeedsThatAreNoNumbers) {
+TEST_F(BadInput, RejectsNonFiniteSpeeds) {
   for (const double speed : {kNan, kInfinite, -kInfinite}) {
     expectError(afterHello(command(speed)), grpc::StatusCode::INVALID_ARGUMENT, "must be a finite number");
   }
-  wire::FromRobots turn = command(0);
+  wire::DriveRequest turn = command(0);
   turn.mutable_commands(0)->set_turn_radps(kNan);
   expectError(afterHello(turn), grpc::StatusCode::INVALID_ARGUMENT, "turn_radps");
-  wire::FromRobots pan = command(0);
+  wire::DriveRequest pan = command(0);
   pan.mutable_commands(0)->set_laser_pan_rad(std::numeric_limits<float>::infinity());
   expectError(afterHello(pan), grpc::StatusCode::INVALID_ARGUMENT, "laser_pan_rad");
-  expectTheOthersNoticeNothing();
+  expectOtherClientsUnaffected();
 }
 
-TEST_F(BadInput, OfAnUnknownActivityAndAnotherRobot) {
+TEST_F(BadInput, RejectsUnknownActivitiesAndOtherRobots) {
   expectError(afterHello(command(0, 77)), grpc::StatusCode::INVALID_ARGUMENT, "the activity 77");
   expectError(afterHello(command(0, 0, 1)), grpc::StatusCode::INVALID_ARGUMENT, "a command for robot 1 of 1");
-  expectTheOthersNoticeNothing();
+  expectOtherClientsUnaffected();
 }
 
-TEST_F(BadInput, OfHugeNamesLettersAndMessages) {
-  expectError(talk({kHuge}, [](auto&) {}), grpc::StatusCode::NOT_FOUND, "has no robot 'xxx");
-  wire::FromRobots to_nobody;
-  to_nobody.add_letters()->set_to(kHuge);
-  expectError(afterHello(to_nobody), grpc::StatusCode::INVALID_ARGUMENT, "'xxx");
-  wire::FromRobots long_letter;
+TEST_F(BadInput, RejectsOversizedNamesAndMessages) {
+  expectError(send({kHuge}, [](auto&) {}), grpc::StatusCode::NOT_FOUND, "has no robot 'xxx");
+  wire::DriveRequest to_unknown;
+  to_unknown.add_letters()->set_to(kHuge);
+  expectError(afterHello(to_unknown), grpc::StatusCode::INVALID_ARGUMENT, "'xxx");
+  wire::DriveRequest long_letter;
   long_letter.add_letters()->set_to("Pioneer1");
   long_letter.mutable_letters(0)->set_text(kHuge);
-  expectError(afterHello(long_letter), grpc::StatusCode::INVALID_ARGUMENT, "a letter of 1048576 bytes");
-  wire::FromRobots huge;
+  expectError(afterHello(long_letter), grpc::StatusCode::INVALID_ARGUMENT, "a message of 1048576 bytes");
+  wire::DriveRequest huge;
   for (int i = 0; i < 5; ++i) huge.add_letters()->set_text(kHuge);
   expectError(afterHello(huge), grpc::StatusCode::RESOURCE_EXHAUSTED, "larger than max");
   EXPECT_LT(world_.log().size(), 10'000u) << "nor does the log fill up";
-  expectTheOthersNoticeNothing();
+  expectOtherClientsUnaffected();
 }
 
-TEST_F(BadInput, OfMessagesThatAreNone) {
-  // A field of text that is no UTF-8, and bytes that are no fields: as bytes of another message they pass our own end.
-  wire::FromRobots no_text;
-  wire::FromRobots::GetReflection()->MutableUnknownFields(&no_text)->AddLengthDelimited(4, "\x12\x02\xff\xfe");
-  expectError(afterHello(no_text), grpc::StatusCode::INVALID_ARGUMENT, "is no robosim.wire.FromRobots");
-  expectTheOthersNoticeNothing();
+TEST_F(BadInput, RejectsMalformedMessages) {
+  // A text field that is not UTF-8, and bytes that are no fields: sent as bytes of another message to bypass the
+  // client's checks.
+  wire::DriveRequest no_text;
+  wire::DriveRequest::GetReflection()->MutableUnknownFields(&no_text)->AddLengthDelimited(4, "\x12\x02\xff\xfe");
+  expectError(afterHello(no_text), grpc::StatusCode::INVALID_ARGUMENT, "is not a valid robosim.wire.DriveRequest");
+  expectOtherClientsUnaffected();
 }
 
-TEST_F(BadInput, OfAnotherVersionOfTheProtocol) {
+TEST_F(BadInput, RejectsOtherProtocolVersions) {
   grpc::ClientContext robots, viewing, geometry, panel;
-  wire::FromRobots hello;
+  wire::DriveRequest hello;
   hello.mutable_hello()->set_protocol(2);
-  const auto channel = dial(world_.dialOptions());
+  const auto channel = connect(world_.connectOptions());
   const auto robots_stub = wire::Robots::NewStub(channel);
   const auto drive = robots_stub->Drive(&robots);
   drive->Write(hello);
@@ -160,16 +161,18 @@ TEST_F(BadInput, OfAnotherVersionOfTheProtocol) {
   worker.mutable_hello()->set_protocol(0);
   const auto geometry_stub = wire::Geometry::NewStub(channel);
   const auto work = geometry_stub->Work(&geometry);
-  work->Write(worker);
-  expectError(work->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the protocol");
+  wire::Sealed sealed;
+  seal(worker, sealed);
+  work->Write(sealed);
+  expectError(work->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "speaks version 0 of its conversation");
 
   wire::RunStatus status;
   expectError(wire::ControlPanel::NewStub(channel)->Start(&panel, wire::PanelRequest(), &status),
               grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the protocol");
-  expectTheOthersNoticeNothing();
+  expectOtherClientsUnaffected();
 }
 
-/// What a control panel may ask for, and be refused.
+/// Requests of a control panel that are refused.
 void expectRefusal(const std::function<void()>& ask, const std::string& words) {
   try {
     ask();
@@ -179,7 +182,7 @@ void expectRefusal(const std::function<void()>& ask, const std::string& words) {
   }
 }
 
-TEST_F(BadInput, OfAControlPanel) {
+TEST_F(BadInput, RejectsInvalidControlRequests) {
   Panel panel(world_);
   for (const double speed : {kNan, kInfinite, -1.0, 1e-9}) {
     expectRefusal([&] { panel.setSpeed(speed); }, "must lie in [0.001, 1000000]");
@@ -192,30 +195,30 @@ TEST_F(BadInput, OfAControlPanel) {
         panel.load(WorldSource{"broken.xml", "<world>" + kHuge + "</world>", {}, {}});
       },
       "broken.xml:1: ");
-  for (const std::string bytes : {"nonsense", ""}) {
-    expectError(howLoadEnds(world_.dialOptions(), bytes, 3), grpc::StatusCode::INVALID_ARGUMENT,
-                "make no robosim.wire.World");
-  }
-  expectTheOthersNoticeNothing();
+  expectError(howLoadEnds(world_.connectOptions(), "nonsense", 3), grpc::StatusCode::INVALID_ARGUMENT,
+              "make no robosim.wire.World");
+  expectError(howLoadEnds(world_.connectOptions(), "", 3), grpc::StatusCode::INVALID_ARGUMENT,
+              "no piece of a robosim.wire.WorldSource came");
+  expectOtherClientsUnaffected();
 }
 
-/// How a call with one request ends, where these bytes are the request.
-grpc::Status howCallEnds(const DialOptions& dialled, const std::string& method, const std::string& bytes) {
+/// Status of a unary call whose request consists of these bytes.
+grpc::Status howCallEnds(const ConnectOptions& connect_options, const std::string& method, const std::string& bytes) {
   grpc::ClientContext context;
   const grpc::Slice slice(bytes);
   const grpc::ByteBuffer request(&slice, 1);
   grpc::ByteBuffer reply;
   std::promise<grpc::Status> end;
-  grpc::GenericStub stub(dial(dialled));
+  grpc::GenericStub stub(connect(connect_options));
   stub.UnaryCall(&context, method, {}, &request, &reply,
                  [&](grpc::Status status) { end.set_value(std::move(status)); });
   return end.get_future().get();
 }
 
-TEST_F(BadInput, OfCallsWithOneRequest) {
+TEST_F(BadInput, RejectsMalformedUnaryRequests) {
   const std::string service = "/robosim.wire.ControlPanel/";
   const std::string five_mb(5 << 20, 'x');
-  const auto& at = world_.dialOptions();
+  const auto& at = world_.connectOptions();
   for (const std::string method : {"Start", "Pause", "Step", "SetSpeed", "Stop", "Status"}) {
     EXPECT_FALSE(howCallEnds(at, service + method, "\xff\xff no message").ok()) << method;
     expectError(howCallEnds(at, service + method, ""), grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the");
@@ -225,10 +228,10 @@ TEST_F(BadInput, OfCallsWithOneRequest) {
   Panel panel(world_);
   EXPECT_EQ(panel.status().robots_connected(), 1u) << "and calls that are as they should be are answered";
   panel.setSpeed(0);
-  expectTheOthersNoticeNothing();
+  expectOtherClientsUnaffected();
 }
 
-/// Sends bytes to the port, and waits until the environment hangs up, or has enough and closes its end.
+/// Sends bytes to the port, and waits until the environment closes the connection or its sending side.
 void throwAt(int port, const std::string& bytes) {
   const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};
@@ -249,15 +252,15 @@ void throwAt(int port, const std::string& bytes) {
   close(socket);
 }
 
-TEST_F(BadInput, OfRandomBytesOnThePort) {
+TEST_F(BadInput, SurvivesRandomBytesOnThePort) {
   Rng rng(1);
   const std::string preface = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
   for (int i = 0; i < 200; ++i) {
-    std::string bytes = i % 2 ? preface : "";  // every other one gets past the first look
+    std::string bytes = i % 2 ? preface : "";  // every second one passes the check of the preface
     for (std::uint32_t n = rng.below(2000); n > 0; --n) bytes += static_cast<char>(rng.below(256));
     throwAt(world_.port(), bytes);
   }
-  expectTheOthersNoticeNothing();
+  expectOtherClientsUnaffected();
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Robots with cameras, in runs of the program, over the network and in recordings.
+// Robots with cameras, in local runs, over the network and in recordings.
 
 #include <algorithm>
 #include <cstdlib>
@@ -11,7 +11,9 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "client/viewer.h"
 #include "control/network_hardware.h"
+#include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
@@ -26,17 +28,17 @@ using nlohmann::json;
 
 std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
-/// Ann looks along x; 2 m ahead and 0.3 m to the left of her stands the gold, 0.2 m across and 0.3 m high. Bob stands
-/// behind her.
-fs::path writeRoom(const fs::path& folder) {
-  std::ofstream(folder / "room.xml") << R"(<world><surface>
+/// Ann faces along x; 2 m ahead and 0.3 m to the left of her is the gold, 0.2 m across and 0.3 m high. Bob is behind
+/// her.
+fs::path writeTestWorld(const fs::path& folder) {
+  std::ofstream(folder / "camera_world.xml") << R"(<world><surface>
     <size><xmin>-4</xmin><xmax>4</xmax><ymin>-4</ymin><ymax>4</ymax></size>
     <object><shape><primitive><cylinder><name>Gold</name><x>2</x><y>0.3</y><z>0.15</z><radius>0.1</radius>
       <height>0.3</height><color>1 0.8 0.1</color><hot>20</hot></cylinder></primitive></shape></object>
     <object><shape><robot><model>pioneer3dx_camera</model><name>Ann</name><x>0</x><y>0</y></robot></shape></object>
     <object><shape><robot><model>pioneer3dx_camera</model><name>Bob</name><x>-2</x><y>0</y></robot></shape></object>
   </surface></world>)";
-  return folder / "room.xml";
+  return folder / "camera_world.xml";
 }
 
 std::string bytesOf(const fs::path& file) {
@@ -44,15 +46,23 @@ std::string bytesOf(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-// The eye of a pioneer3dx_camera is 0.12 m ahead of its centre; a picture of 320 pixels is 48° wide.
+/// Index of a robot's camera among its sensors.
+std::size_t cameraOf(const ServedWorld& world, std::size_t robot) {
+  const auto& measurements = world.state().readings[robot].measurements;
+  return static_cast<std::size_t>(std::find_if(measurements.begin(), measurements.end(),
+                                               [](const Measurement& m) { return std::holds_alternative<Image>(m); }) -
+                                  measurements.begin());
+}
+
+// The camera of a pioneer3dx_camera is 0.12 m ahead of the centre; its picture of 320 pixels covers 48°.
 const double kFocal_px = 160 / std::tan(24 * M_PI / 180);
 const double kGoldColumn = 160 - kFocal_px * 0.3 / 1.88;
 
-TEST(Camera, RecordsWhatItsRobotSeesAtItsRate) {
+TEST(Camera, RecordsPicturesAtItsRate) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
   const Ended run =
-      runProgram("run " + quoted(writeRoom(folder)) + " --controller still --time 10 --record " + quoted(rawlog));
+      runProgram("run " + quoted(writeTestWorld(folder)) + " --controller still --time 10 --record " + quoted(rawlog));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   std::map<std::string, int> count;
   forEachObservation(rawlog, [&](const mrpt::obs::CObservation::Ptr& observation) {
@@ -61,8 +71,8 @@ TEST(Camera, RecordsWhatItsRobotSeesAtItsRate) {
       const auto& seen = dynamic_cast<const mrpt::obs::CObservationImage&>(*observation);
       EXPECT_EQ(seen.image.getWidth(), 320u);
       EXPECT_EQ(seen.image.getHeight(), 240u);
-      // Gold is much more red than blue, what lies left of it is not. Its middle is 0.17 m below the eye, which looks
-      // 8° down.
+      // Gold has much more red than blue, unlike the background to its left. Its centre is 0.17 m below the camera,
+      // which is pitched down by 8°.
       const auto column = static_cast<unsigned>(kGoldColumn);
       const auto row = static_cast<unsigned>(120 + kFocal_px * std::tan(std::atan(0.17 / 1.88) - 8 * M_PI / 180));
       EXPECT_GT(*seen.image(column, row, 2) - *seen.image(column, row, 0), 80);
@@ -79,16 +89,16 @@ TEST(Camera, RecordsWhatItsRobotSeesAtItsRate) {
       EXPECT_LT(blob.at(5), kFocal_px * 0.2 / 1.88) << "Bob is further away";
     }
   });
-  // 5 pictures a second: one at the start, and one in every second step.
+  // 5 pictures per second: one at the start, and one in every second step.
   for (const char* label : {"Ann/camera", "Ann/blob_finder", "Bob/camera", "Bob/blob_finder"}) {
     EXPECT_EQ(count[label], 51) << label;
   }
   EXPECT_EQ(count["Ann/sonar"], 101);
 }
 
-TEST(Camera, LeavesPicturesAsFilesThatRawlogEditLists) {
+TEST(Camera, WritesExternalPicturesThatRawlogEditLists) {
   const auto folder = emptyFolder();
-  const Ended run = runProgram("run " + quoted(writeRoom(folder)) + " --controller still --time 1 --record " +
+  const Ended run = runProgram("run " + quoted(writeTestWorld(folder)) + " --controller still --time 1 --record " +
                                quoted(folder / "run.rawlog") + " --record-images external");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const cv::Mat picture = cv::imread((folder / "run_Images" / "Bob_camera_00000010.jpg").string());
@@ -100,14 +110,14 @@ TEST(Camera, LeavesPicturesAsFilesThatRawlogEditLists) {
   EXPECT_NE(list.find("Ann_camera_00000008.jpg"), std::string::npos) << list;
 }
 
-TEST(Camera, TakesTheSamePicturesInEveryRunWithAnyNumberOfThreads) {
+TEST(Camera, IsDeterministicForAnyNumberOfThreads) {
   const auto folder = emptyFolder();
-  const auto room = writeRoom(folder);
+  const auto world_file = writeTestWorld(folder);
   std::vector<std::string> digests, recordings;
   for (const char* threads : {"1", "1", "2"}) {
     const auto rawlog = folder / "run.rawlog";
-    const Ended run = runProgram("run " + quoted(room) + " --controller wander --time 20 --json --threads " + threads +
-                                 " --record " + quoted(rawlog));
+    const Ended run = runProgram("run " + quoted(world_file) + " --controller wander --time 20 --json --threads " +
+                                 threads + " --record " + quoted(rawlog));
     ASSERT_EQ(run.exit_code, 0) << run.err;
     digests.push_back(json::parse(run.out)["digest"]);
     recordings.push_back(bytesOf(rawlog));
@@ -118,13 +128,13 @@ TEST(Camera, TakesTheSamePicturesInEveryRunWithAnyNumberOfThreads) {
   EXPECT_TRUE(recordings[0] == recordings[2]);
 }
 
-TEST(Camera, ReachesARobotInAnotherProcess) {
+TEST(Camera, SendsPicturesToARobotInAnotherProcess) {
   ServedWorld::Options options;
-  options.world = fs::relative(writeRoom(emptyFolder()), ROBOSIM_SOURCE_DIR).string();
+  options.world = fs::relative(writeTestWorld(emptyFolder()), ROBOSIM_SOURCE_DIR).string();
   options.robots_elsewhere = true;
   options.last_step = 4;
   ServedWorld world(options);
-  NetworkHardware robots(world.dialOptions(), {"Ann", "Bob"});
+  NetworkHardware robots(world.connectOptions(), {"Ann", "Bob"});
   const auto& sensors = *robots.robot(0).info().sensors;
   const auto slot_of = [&](SensorKind kind) {
     const auto found =
@@ -149,24 +159,24 @@ TEST(Camera, ReachesARobotInAnotherProcess) {
   world.wait();
 }
 
-TEST(Camera, TakesPicturesInTheEnvironmentWhileGeometryWorkersHelp) {
-  const auto room = writeRoom(emptyFolder());
+TEST(Camera, TakesPicturesInTheEnvironmentWithGeometryWorkers) {
+  const auto world_file = writeTestWorld(emptyFolder());
   const std::string wander = "--controller wander --time 5 --json";
-  const auto alone = json::parse(runProgram("run " + quoted(room) + " " + wander).out)["digest"];
-  Serving serving({"--controller", "wander", "--time", "5", "--json", "--speed", "max"}, room.string());
+  const auto alone = json::parse(runProgram("run " + quoted(world_file) + " " + wander).out)["digest"];
+  Serving serving({"--controller", "wander", "--time", "5", "--json", "--speed", "max"}, world_file.string());
   const auto worker = startWorker(serving.address());
   const auto summary = json::parse(serving.program().wait().out);
   EXPECT_EQ(summary["digest"], alone);
 }
 
-/// The program on a machine where EGL finds no driver.
+/// Runs the program on a machine where EGL finds no driver.
 Ended withoutDriver(const std::string& arguments) {
   return runCommand("__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent/driver.json '" ROBOSIM_PROGRAM "' " + arguments);
 }
 
-TEST(Camera, WithoutADriverSaysWhichPackagesBringOne) {
-  const auto room = writeRoom(emptyFolder());
-  const Ended run = withoutDriver("run " + quoted(room) + " --time 1");
+TEST(Camera, WithoutADriverNamesThePackagesToInstall) {
+  const auto world_file = writeTestWorld(emptyFolder());
+  const Ended run = withoutDriver("run " + quoted(world_file) + " --time 1");
   EXPECT_NE(run.exit_code, 0);
   EXPECT_EQ(run.out, "");
   EXPECT_NE(run.err.find("cameras need OpenGL, and this machine has none ("), std::string::npos) << run.err;
@@ -176,11 +186,35 @@ TEST(Camera, WithoutADriverSaysWhichPackagesBringOne) {
   EXPECT_EQ(countOf("\n", run.err), 1u) << run.err;
 }
 
-TEST(Camera, IsNoMatterToWorldsWithoutOneNorToCheckingAWorld) {
+TEST(Camera, IsNotRequiredForWorldsWithoutCamerasNorForCheck) {
   EXPECT_EQ(withoutDriver("run worlds/small_maze.xml --time 1").exit_code, 0);
-  const Ended check = withoutDriver("check " + quoted(writeRoom(emptyFolder())));
+  const Ended check = withoutDriver("check " + quoted(writeTestWorld(emptyFolder())));
   EXPECT_EQ(check.exit_code, 0) << check.err;
   EXPECT_NE(check.out.find("camera blob_finder"), std::string::npos) << check.out;
+}
+
+TEST(Camera, SendsViewersOnlyPicturesRequestedWhenTaken) {
+  const auto folder = emptyFolder();
+  ServedWorld::Options options = paused();
+  options.world = fs::relative(writeTestWorld(folder), ROBOSIM_SOURCE_DIR);
+  options.controller = "still";
+  ServedWorld world(options);
+  const ReadingsSelection ann{.of_all = false, .of = {0}}, no_robots;
+  Viewer viewer(world.connectOptions(), ann);
+  const std::size_t camera = cameraOf(world, 0);
+  EXPECT_EQ(viewer.run().pictureStep(0, camera), 0u);
+  viewer.select(no_robots);
+  ASSERT_TRUE(viewer.waitForFrame());
+  Panel panel(world);
+  panel.step(101);  // one picture every second step: the last at step 100
+  viewer.select(ann);
+  ASSERT_TRUE(viewer.waitForFrame());
+  EXPECT_EQ(viewer.run().snapshot.step, 101u);
+  EXPECT_TRUE(std::get<Image>(viewer.run().readingsOf(0)->measurements[camera]).jpeg.empty());
+  EXPECT_EQ(viewer.run().pictureStep(0, camera), std::nullopt);
+  panel.step(1);
+  ASSERT_TRUE(viewer.waitForFrame());
+  EXPECT_EQ(viewer.run().pictureStep(0, camera), 102u);
 }
 
 }  // namespace

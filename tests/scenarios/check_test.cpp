@@ -1,4 +1,4 @@
-// `robosim check` and `robosim bench gold` as a person runs them.
+// `robosim check` and `robosim bench gold` from the command line.
 #include <algorithm>
 #include <cmath>
 #include <fstream>
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "environment/start_poses.h"
-#include "robosim/local_run.h"
+#include "run/local_run.h"
 #include "tests/scenarios/program.h"
 
 namespace robosim {
@@ -16,14 +16,14 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Check, SaysOkAndWhatIsInAWorld) {
+TEST(Check, SummarisesAValidWorld) {
   const Ended check = runProgram("check worlds/opho2_1.xml");
   EXPECT_EQ(check.exit_code, 0);
   EXPECT_EQ(check.out.substr(0, 2), "ok");
   EXPECT_NE(check.out.find("Finder1"), std::string::npos);
 }
 
-TEST(Check, SaysTheSameAsAnObject) {
+TEST(Check, PrintsTheSummaryAsJson) {
   const json ok = json::parse(runProgram("check --json worlds/opho2_1.xml").out);
   EXPECT_EQ(ok["ok"], true);
   EXPECT_EQ(ok["errors"], json::array());
@@ -57,7 +57,7 @@ TEST(Check, ListsEveryErrorOfAFile) {
   }
 }
 
-TEST(Check, ReadsTheRobotListOf2005) {
+TEST(Check, ReadsARobotListOf2005) {
   const Ended check = runProgram("check tests/data/legacy_robots.xml");
   EXPECT_EQ(check.exit_code, 0) << check.out;
   EXPECT_NE(check.out.find("Finder2"), std::string::npos);
@@ -78,20 +78,23 @@ TEST(BenchGold, PrintsTheSameTableForAnyNumberOfThreads) {
   EXPECT_EQ(textOf(folder / "1.csv").substr(0, 16), "world,seed,gold_");
 }
 
-TEST(BenchGold, EndsWhenInterruptedHoweverManyRunsAreLeft) {
+TEST(BenchGold, PrintsTheCompletedRunsWhenInterrupted) {
   const auto folder = emptyFolder();
   StartedProgram bench({"bench", "gold", "worlds/small_maze.xml", "--runs", "1000000", "--threads", "2", "--csv",
                         (folder / "runs.csv").string()});
   while (!std::filesystem::exists(folder / "runs.csv.part") && bench.isRunning()) std::this_thread::yield();
   bench.interrupt();
   const Ended ended = bench.wait();
-  EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("interrupted before all runs were done"), std::string::npos) << ended.err;
-  EXPECT_TRUE(std::filesystem::is_empty(folder));
+  EXPECT_EQ(ended.exit_code, 130);
+  EXPECT_NE(ended.err.find("interrupted; the figures are of the "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find(" of 1000000 runs that were completed"), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.out.substr(0, 6), "world ");
+  EXPECT_EQ(textOf(folder / "runs.csv").substr(0, 16), "world,seed,gold_");
+  EXPECT_FALSE(std::filesystem::exists(folder / "runs.csv.part"));
 }
 
-TEST(BenchGold, CountsOnlyGoldThatIsThere) {
-  // Whoever says that it has found gold stands where its heat is felt: within 1.5 m of it in this maze.
+TEST(BenchGold, CountsOnlyTrueGold) {
+  // A robot that reports gold is where its heat is measurable: within 1.5 m of it in this maze.
   RunOptions options;
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     options.environment.seed = seed;

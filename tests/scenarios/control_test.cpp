@@ -1,4 +1,4 @@
-// The control panel, and what a person meets who works it.
+// The control panel, as a class and from the command line.
 #include <functional>
 #include <future>
 
@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(ControlPanel, StepsAPausedRunAndWaitsUntilTheStepsAreDone) {
+TEST(ControlPanel, StepsAPausedRunAndWaitsForCompletion) {
   ServedWorld world(paused());
   Panel panel(world);
   EXPECT_EQ(panel.status().phase(), wire::PAUSED);
@@ -28,7 +28,7 @@ TEST(ControlPanel, StepsAPausedRunAndWaitsUntilTheStepsAreDone) {
   EXPECT_EQ(panel.status().step(), 31u);
 }
 
-TEST(ControlPanel, SteppedRunsAreTheSameAsRunsAtAStretch) {
+TEST(ControlPanel, SteppedRunsEqualContinuousRuns) {
   ServedWorld::Options options = paused();
   options.last_step = 200;
   ServedWorld stepped(options), at_a_stretch(options);
@@ -53,9 +53,9 @@ TEST(ControlPanel, StartsPausesAndStops) {
   EXPECT_EQ(world.wait(), Served::stopped);
 }
 
-TEST(ControlPanel, TellsWhoWaitsForStepsThatAnotherPanelPaused) {
+TEST(ControlPanel, ReportsAPauseByAnotherPanelToAWaitingStepCall) {
   ServedWorld::Options options = paused();
-  options.server.speed = 1;  // a step takes a tenth of a second, so the other panel comes in time
+  options.server.speed = 1;  // a step takes 0.1 s, which leaves time for the other panel
   ServedWorld world(options);
   auto waiting = std::async(std::launch::async, [&] { Panel(world).step(1'000'000); });
   world.waitForLog(": step");
@@ -69,9 +69,9 @@ TEST(ControlPanel, TellsWhoWaitsForStepsThatAnotherPanelPaused) {
   }
 }
 
-TEST(ControlPanel, EndsACallThatWaitsAndEveryLaterOneWhenItLeaves) {
+TEST(ControlPanel, CancelsPendingAndLaterCallsOnDisconnect) {
   ServedWorld::Options options = paused();
-  options.robots_elsewhere = true;  // and never there, so that no step is ever done
+  options.robots_elsewhere = true;  // never connected, so that no step is completed
   ServedWorld world(options);
   Panel panel(world);
   const auto code_of = [](const std::function<void()>& call) {
@@ -89,12 +89,13 @@ TEST(ControlPanel, EndsACallThatWaitsAndEveryLaterOneWhenItLeaves) {
   EXPECT_EQ(code_of([&] { panel.status(); }), grpc::StatusCode::CANCELLED);
 }
 
-TEST(ConnectionError, SaysInWordsThatTheEnvironmentHungUp) {
+TEST(ConnectionError, DescribesAClosedConnection) {
   const ConnectionError error({grpc::StatusCode::CANCELLED, "CANCELLED"}, {.address = "lab:3000"});
-  EXPECT_STREQ(error.what(), "the environment at lab:3000 hung up before it answered; its run may just have ended");
+  EXPECT_STREQ(error.what(),
+               "the environment at lab:3000 closed the connection before it responded; its run may have ended");
 }
 
-TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheOldOneIfItIsNoGood) {
+TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheCurrentOneOnErrors) {
   ServedWorld world(paused());
   Panel panel(world);
   panel.step(5);
@@ -108,12 +109,12 @@ TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheOldOneIfItIsNoGood) {
   EXPECT_EQ(panel.step(2).step(), 2u);
 }
 
-TEST(ControlPanel, TellsWhichRobotsAreAbsent) {
+TEST(ControlPanel, ReportsAbsentRobots) {
   ServedWorld::Options options;
   options.robots_elsewhere = true;
   ServedWorld world(options);
   Panel panel(world);
-  const NetworkHardware robot(world.dialOptions(), {"Scout1"});
+  const NetworkHardware robot(world.connectOptions(), {"Scout1"});
   const wire::RunStatus status = panel.status();
   EXPECT_EQ(status.phase(), wire::WAITING);
   EXPECT_EQ(status.robots_connected(), 1u);
@@ -121,7 +122,7 @@ TEST(ControlPanel, TellsWhichRobotsAreAbsent) {
   EXPECT_EQ(status.robots_absent(0), "Pioneer1");
 }
 
-TEST(ControlPanel, ReportsToWhoWatchesUntilTheRunIsOver) {
+TEST(ControlPanel, StreamsStatusReportsUntilTheRunIsOver) {
   ServedWorld world(paused());
   Panel panel(world);
   std::vector<wire::RunStatus> reports;
@@ -136,7 +137,7 @@ TEST(ControlPanel, ReportsToWhoWatchesUntilTheRunIsOver) {
   EXPECT_EQ(reports.back().phase(), wire::ENDED);
 }
 
-TEST(Control, WorksARunFromTheCommandLine) {
+TEST(Control, ControlsARunFromTheCommandLine) {
   Serving serving({"--paused", "--controller", "wander", "--json"});
   const auto control = [&](const std::string& what) {
     const Ended ended = runProgram("control " + serving.address() + " " + what);
@@ -161,7 +162,7 @@ TEST(Control, WorksARunFromTheCommandLine) {
   EXPECT_NE(served.out.find("\"ended_by\": \"control_panel\""), std::string::npos) << served.out;
 }
 
-TEST(Control, EndsTheRunWhenItsRecordingCannotBeKeptWhileAnotherWorldIsLoaded) {
+TEST(Control, EndsTheRunIfItsRecordingFailsDuringALoad) {
   const auto folder = emptyFolder();
   Serving serving({"--record", (folder / "run.rawlog").string(), "--paused", "--controller", "wander"});
   std::filesystem::remove_all(folder);

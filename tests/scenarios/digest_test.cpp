@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "maze/controllers.h"
-#include "robosim/local_run.h"
+#include "run/local_run.h"
 
 namespace robosim {
 namespace {
@@ -19,7 +19,7 @@ std::string digestAfter(int steps, const std::string& world, std::uint64_t seed,
   return run->environment().digest();
 }
 
-TEST(Digest, IsTheSameFor1And2And4ThreadsAndFromRunToRun) {
+TEST(Digest, IsIdenticalFor1And2And4ThreadsAndForRepeatedRuns) {
   for (const char* world : {"open_100.xml", "maze_20x20.xml", "opho2_1.xml"}) {
     const std::string one = digestAfter(300, world, 5, 1);
     EXPECT_EQ(digestAfter(300, world, 5, 1), one) << world;
@@ -28,13 +28,13 @@ TEST(Digest, IsTheSameFor1And2And4ThreadsAndFromRunToRun) {
   }
 }
 
-TEST(Digest, DiffersForAnotherSeedAndForOneStepMore) {
+TEST(Digest, DiffersForAnotherSeedAndForAnotherStep) {
   const std::string one = digestAfter(100, "open_100.xml", 1, 1);
   EXPECT_NE(digestAfter(100, "open_100.xml", 2, 1), one);
   EXPECT_NE(digestAfter(101, "open_100.xml", 1, 1), one);
 }
 
-TEST(Digest, OfAWorldIsNotDisturbedByAnotherWorldInTheSameProcess) {
+TEST(Digest, IsIndependentOfOtherWorldsInTheProcess) {
   const std::string maze_alone = digestAfter(200, "maze_20x20.xml", 1, 1);
   const std::string open_alone = digestAfter(200, "open_100.xml", 2, 1);
   const auto maze = start("maze_20x20.xml", 1, 1);

@@ -1,4 +1,4 @@
-// Strangers who come in crowds: the run goes on meanwhile, and afterwards the door is open as before.
+// Floods of clients without tokens: the run continues, and afterwards new clients can connect.
 #include <atomic>
 #include <future>
 
@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 #include "net/control_panel.grpc.pb.h"
-#include "tests/scenarios/hand_clock.h"
+#include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
@@ -16,13 +16,13 @@
 namespace robosim {
 namespace {
 
-/// Asks for the status over and over, a thousand calls at a time, until told to stop.
+/// Requests the status repeatedly, a thousand concurrent calls, until stopped.
 class Flood {
  public:
-  explicit Flood(const DialOptions& dialled) : stub_(wire::ControlPanel::NewStub(dial(dialled))) {
+  explicit Flood(const ConnectOptions& connect_options) : stub_(wire::ControlPanel::NewStub(connect(connect_options))) {
     for (int i = 0; i < 1000; ++i) ask();
   }
-  /// @return how many calls were answered
+  /// @return number of answered calls
   std::size_t goOnUntil(const std::atomic<bool>& is_enough) {
     std::size_t answered = 0;
     void* tag = nullptr;
@@ -57,8 +57,8 @@ class Flood {
   std::size_t waiting_ = 0;
 };
 
-TEST(Flood, OfCallsWithoutATokenKeepsNoRobotWaitingNorFillsTheLog) {
-  HandClock clock;  // whose deadline never comes, and by which all happens in one second
+TEST(Flood, UnauthenticatedCallsNeitherDelayRobotsNorFillTheLog) {
+  ManualClock clock;  // not advanced: no deadline passes, and all is within one second
   ServedWorld::Options options;
   options.robots_elsewhere = true;
   options.server.is_paused = true;
@@ -67,14 +67,14 @@ TEST(Flood, OfCallsWithoutATokenKeepsNoRobotWaitingNorFillsTheLog) {
   options.server.access = Access::parse(master + " operator\n" + robots_token + " robot Pioneer1 Scout1\n", "tokens");
   ServedWorld world(options);
   setenv("ROBOSIM_TOKEN", robots_token.c_str(), 1);
-  const auto robots = startRobots({"Pioneer1", "Scout1"}, world.dialOptions().address);
+  const auto robots = startRobots({"Pioneer1", "Scout1"}, world.connectOptions().address);
   unsetenv("ROBOSIM_TOKEN");
-  DialOptions dialled = world.dialOptions();
-  dialled.token = master;
-  ControlPanel panel(dialled);
+  ConnectOptions connect_options = world.connectOptions();
+  connect_options.token = master;
+  ControlPanel panel(connect_options);
   panel.step(1);
   std::atomic<bool> is_enough{false};
-  auto flood = std::async(std::launch::async, [&] { return Flood(world.dialOptions()).goOnUntil(is_enough); });
+  auto flood = std::async(std::launch::async, [&] { return Flood(world.connectOptions()).goOnUntil(is_enough); });
   world.waitForLog("refused: ");
   EXPECT_EQ(panel.step(100).step(), 101u);
   is_enough = true;
@@ -82,7 +82,7 @@ TEST(Flood, OfCallsWithoutATokenKeepsNoRobotWaitingNorFillsTheLog) {
   EXPECT_LE(countOf("refused: ", world.log()), 10u);
 }
 
-TEST(Flood, OfConnectionsBeyondAShellsUsualLimitLeavesTheDoorOpen) {
+TEST(Flood, ConnectionsBeyondTheDescriptorLimitDoNotBlockLaterClients) {
   StartedProgram server("/bin/sh", {"-c", "ulimit -Sn 64; exec '" ROBOSIM_PROGRAM
                                           "' serve worlds/small_maze.xml --listen :0 --paused --controller wander"});
   server.waitForError("listening on 127.0.0.1:");
@@ -97,11 +97,11 @@ TEST(Flood, OfConnectionsBeyondAShellsUsualLimitLeavesTheDoorOpen) {
     sockets.push_back(socket(AF_INET, SOCK_STREAM, 0));
     ASSERT_EQ(connect(sockets.back(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
   }
-  DialOptions dialled;
-  dialled.address = "127.0.0.1:" + std::to_string(port);
-  EXPECT_EQ(ControlPanel(dialled).status().phase(), wire::PAUSED);
+  ConnectOptions connect_options;
+  connect_options.address = "127.0.0.1:" + std::to_string(port);
+  EXPECT_EQ(ControlPanel(connect_options).status().phase(), wire::PAUSED);
   for (const int socket : sockets) close(socket);
-  EXPECT_EQ(ControlPanel(dialled).status().phase(), wire::PAUSED);
+  EXPECT_EQ(ControlPanel(connect_options).status().phase(), wire::PAUSED);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 
 namespace robosim {
 
-/// As a stranger's robot would record: a laser and odometry, in MRPT's own words, without a robot's name. It goes 4.9 m
-/// along x in 9.8 s, and sees a half circle of 4 m around it.
-/// @param early how much too early its first observation claims to be
+/// Writes a recording as of another program: a laser and odometry, with MRPT's default labels and no robot name. The
+/// robot moves 4.9 m along x in 9.8 s, and measures a half circle of 4 m radius.
+/// @param early offset by which the timestamp of the first observation is too early
 inline void writeForeignRawlog(const std::filesystem::path& file, mrpt::Clock::duration early = {}) {
   mrpt::io::CFileGZOutputStream stream(file.string());
   auto archive = mrpt::serialization::archiveFrom(stream);

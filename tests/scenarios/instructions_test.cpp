@@ -1,4 +1,4 @@
-// How counts of instructions are held against those that are kept; the test `instructions` does it with real ones.
+// Comparison of instruction counts with stored ones; the test `instructions` compares measured counts.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -18,18 +18,18 @@ InstructionCounts counts(double sonar, double laser) {
 
 const char* const kMend = "If what was gained is worth it, keep the new counts: ./dev bench --instructions --update";
 
-TEST(Instructions, MayGrowByATenthAndFallAsTheyLike) {
+TEST(Instructions, MayGrowByTenPercentAndFallWithoutLimit) {
   EXPECT_EQ(growthOf(counts(1100, 5000), counts(1000, 50000)), Lines{});
 }
 
-TEST(Instructions, ThatGrewMoreAreToldWithTheMend) {
+TEST(Instructions, ReportLargerGrowthAndHowToFixIt) {
   EXPECT_EQ(growthOf(counts(1000, 60500), counts(1000, 50000)),
             (Lines{"laser: 60,500 instructions a robot-step, which is +21.0 % on the 50,000 that are kept; +10 % is "
                    "allowed",
                    kMend}));
 }
 
-TEST(Instructions, OfAnotherCompilerAreToldToBeSo) {
+TEST(Instructions, ReportAnotherCompiler) {
   InstructionCounts now = counts(1200, 50000);
   now.compiler = "g++ 13";
   EXPECT_EQ(growthOf(now, counts(1000, 50000)),
@@ -40,7 +40,7 @@ TEST(Instructions, OfAnotherCompilerAreToldToBeSo) {
                    kMend}));
 }
 
-TEST(Instructions, AreToldWhenALoadIsNewOrGone) {
+TEST(Instructions, ReportNewAndMissingLoads) {
   InstructionCounts now = counts(1000, 50000);
   now.instructions.erase("laser");
   now.instructions["radar"] = 1;
@@ -48,7 +48,7 @@ TEST(Instructions, AreToldWhenALoadIsNewOrGone) {
                                                        "laser: a count is kept, but there is no such load", kMend}));
 }
 
-TEST(Instructions, AreKeptInAFile) {
+TEST(Instructions, AreStoredInAFile) {
   const auto file = emptyFolder() / "counts.json";
   EXPECT_TRUE(readCounts(file).instructions.empty()) << "no file, no counts";
   writeCounts(file, counts(1000.26, 50000));
@@ -59,13 +59,13 @@ TEST(Instructions, AreKeptInAFile) {
   EXPECT_THROW(readCounts(file), std::runtime_error);
 }
 
-TEST(Instructions, AreKeptForEveryLoad) {
+TEST(Instructions, AreStoredForEveryLoad) {
   const auto kept = readCounts(ROBOSIM_SOURCE_DIR "/tests/data/instructions.json");
   for (const auto& load : instructionLoads()) EXPECT_TRUE(kept.instructions.count(load.name)) << load.name;
   EXPECT_EQ(kept.instructions.size(), instructionLoads().size());
 }
 
-TEST(Instructions, AreThoseOfWorkThatIsDone) {
+TEST(Instructions, CountTheMeasuredWork) {
   for (const auto& load : instructionLoads()) {
     const InstructionWork work = load.prepare();
     EXPECT_GE(work.units, 1) << load.name;

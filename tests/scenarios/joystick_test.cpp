@@ -1,5 +1,4 @@
-// A robot driven with a joystick: `robosim remote --joystick`, and a device file that the test writes to as the kernel
-// would.
+// `robosim remote --joystick` with a device file to which the test writes like the kernel.
 
 #include <cmath>
 #include <cstdlib>
@@ -13,7 +12,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "server/viewer.h"
+#include "client/viewer.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/serving.h"
 #include "tests/stock_tools.h"
@@ -28,7 +27,7 @@ constexpr int kY = 1;
 constexpr int kAway = -32767;
 constexpr int kLeft = -32767;
 
-/// A /dev with one joystick, and the least that programs want.
+/// A minimal /dev with one joystick.
 class EmulatedJoystick {
  public:
   explicit EmulatedJoystick(const fs::path& folder) : folder_(folder) {
@@ -41,7 +40,7 @@ class EmulatedJoystick {
   EmulatedJoystick(const EmulatedJoystick&) = delete;
   EmulatedJoystick& operator=(const EmulatedJoystick&) = delete;
 
-  /// Starts `robosim ARGUMENTS` in a mount namespace of its own, where this is /dev.
+  /// Starts `robosim ARGUMENTS` in a mount namespace in which this folder is /dev.
   StartedProgram start(const std::string& arguments) const {
     const std::string script = "set -e; cd '" + folder_.string() +
                                "'; for file in null zero random urandom; do touch $file; "
@@ -51,13 +50,13 @@ class EmulatedJoystick {
     return StartedProgram("/usr/bin/unshare", {geteuid() == 0 ? "-m" : "-rm", "sh", "-c", script});
   }
 
-  void moveAxis(int axis, int value) { tell(JS_EVENT_AXIS, axis, value); }
+  void moveAxis(int axis, int value) { writeEvent(JS_EVENT_AXIS, axis, value); }
   /// Counted from 1.
-  void press(int button) { tell(JS_EVENT_BUTTON, button - 1, 1); }
-  void release(int button) { tell(JS_EVENT_BUTTON, button - 1, 0); }
+  void press(int button) { writeEvent(JS_EVENT_BUTTON, button - 1, 1); }
+  void release(int button) { writeEvent(JS_EVENT_BUTTON, button - 1, 0); }
 
  private:
-  void tell(int type, int number, int value) {
+  void writeEvent(int type, int number, int value) {
     js_event event{};
     event.type = static_cast<std::uint8_t>(type);
     event.number = static_cast<std::uint8_t>(number);
@@ -69,7 +68,7 @@ class EmulatedJoystick {
   int device_ = -1;
 };
 
-/// The maze, its two robots in programs of their own that listen for a remote control, and a list of them.
+/// The maze with two robot processes that listen for remote control, and a robot list.
 class JoystickDrive : public testing::Test {
  protected:
   JoystickDrive() {
@@ -95,13 +94,14 @@ class JoystickDrive : public testing::Test {
     return "remote '" + team_.string() + "' --environment " + serving_.address() + " --joystick " +
            std::to_string(joystick);
   }
-  /// Looks on until a robot is where one wants it.
+  /// Waits until a robot's pose satisfies a condition.
   void waitUntil(std::size_t robot, const std::function<bool(const mrpt::math::TPose2D&)>& holds) {
-    while (!holds(viewer_.sight().robots[robot].world_from_robot)) ASSERT_TRUE(viewer_.look()) << "the run has ended";
+    while (!holds(viewer_.run().snapshot.robots[robot].world_from_robot))
+      ASSERT_TRUE(viewer_.waitForFrame()) << "the run has ended";
   }
   mrpt::math::TPose2D at(std::size_t robot) {
-    viewer_.look();
-    return viewer_.sight().robots[robot].world_from_robot;
+    viewer_.waitForFrame();
+    return viewer_.run().snapshot.robots[robot].world_from_robot;
   }
 
   const fs::path folder_ = emptyFolder();
@@ -110,10 +110,10 @@ class JoystickDrive : public testing::Test {
   Serving serving_{{"--wait-for-robots", "--speed", "2", "--step", "0.02", "--record", rawlog_}};
   StartedProgram pioneer_ = robot("Pioneer1");
   StartedProgram scout_ = robot("Scout1");
-  Viewer viewer_{DialOptions{.address = serving_.address()}};
+  Viewer viewer_{ConnectOptions{.address = serving_.address()}};
 };
 
-TEST_F(JoystickDrive, DrivesARobotAndSwitchesAndIsRecorded) {
+TEST_F(JoystickDrive, DrivesSwitchesAndIsRecorded) {
   EmulatedJoystick stick(folder_ / "dev");
   StartedProgram remote = stick.start(arguments(0));
   remote.waitForError("joystick 0 drives Pioneer1");
@@ -148,7 +148,7 @@ TEST_F(JoystickDrive, DrivesARobotAndSwitchesAndIsRecorded) {
   serving_.program().interrupt();
   EXPECT_EQ(serving_.program().wait().exit_code, 0);
 
-  // What the driver commanded is in the recording: speed, turn, pan, activity, and whether a person drove.
+  // The recording contains the commands: speed, turn, pan, activity, and whether the robot was driven remotely.
   bool drove_ahead = false;
   bool turned_left = false;
   bool backed = false;
@@ -159,7 +159,7 @@ TEST_F(JoystickDrive, DrivesARobotAndSwitchesAndIsRecorded) {
     const double speed_mps = status->AOUT_double[0];
     const double turn_radps = status->AOUT_double[1];
     const bool is_pioneer = observation->sensorLabel == "Pioneer1/STATUS";
-    drove_ahead |= is_pioneer && speed_mps == 1 && turn_radps == 0;  // the handle's end: a Pioneer's most
+    drove_ahead |= is_pioneer && speed_mps == 1 && turn_radps == 0;  // full deflection: maximum speed of a Pioneer
     turned_left |= is_pioneer && speed_mps == 0 && std::abs(turn_radps - 99.7 * M_PI / 180) < 1e-6;
     backed |= is_pioneer && std::abs(speed_mps + 0.1) < 1e-9;  // one press of button 4
     scout_drove |= observation->sensorLabel == "Scout1/STATUS" && speed_mps > 0;
@@ -170,10 +170,10 @@ TEST_F(JoystickDrive, DrivesARobotAndSwitchesAndIsRecorded) {
   EXPECT_TRUE(scout_drove);
 }
 
-TEST_F(JoystickDrive, SaysWhichDeviceIsMissing) {
+TEST_F(JoystickDrive, NamesTheMissingDevice) {
   EmulatedJoystick stick(folder_ / "dev");
   StartedProgram remote = stick.start(arguments(7));
-  remote.waitForError("no joystick 7 (/dev/input/js7): plug one in");
+  remote.waitForError("no joystick 7 (/dev/input/js7): connect a joystick");
   EXPECT_TRUE(remote.isRunning()) << "it may be plugged in later";
   remote.interrupt();
   EXPECT_EQ(remote.wait().exit_code, 0);

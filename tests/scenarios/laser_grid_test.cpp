@@ -1,4 +1,4 @@
-// Our exact laser beside MRPT's simulator of a laser on an occupancy grid of the same scene.
+// Compares the exact laser with MRPT's simulation of a laser on an occupancy grid of the same scene.
 #include <algorithm>
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 #include "sensors/laser.h"
-#include "sensors/one_robot.h"
+#include "sensors/single_robot_scene.h"
 
 namespace robosim {
 namespace {
@@ -16,7 +16,7 @@ namespace {
 constexpr float kCell_m = 0.05f;
 constexpr double kHalf_m = 8;
 
-/// The scene as a grid of 5 cm cells: occupied where a cell's square touches a solid.
+/// Rasterises the scene to a grid of 5 cm cells: occupied where a cell's square touches a solid.
 mrpt::maps::COccupancyGridMap2D gridOf(const std::vector<Solid>& solids) {
   mrpt::maps::COccupancyGridMap2D grid(-kHalf_m, kHalf_m, -kHalf_m, kHalf_m, kCell_m);
   for (int cy = 0; cy < static_cast<int>(grid.getSizeY()); ++cy) {
@@ -30,7 +30,7 @@ mrpt::maps::COccupancyGridMap2D gridOf(const std::vector<Solid>& solids) {
   return grid;
 }
 
-/// The scene with every solid grown by `by_m` on all sides (corners stay square: at least as large as the real growth).
+/// The scene with every solid grown by `by_m` (corners stay square, which is at least the exact growth).
 std::vector<Solid> grown(std::vector<Solid> solids, double by_m) {
   for (auto& solid : solids) {
     if (auto* circle = std::get_if<Circle>(&solid.outline)) circle->radius_m += by_m;
@@ -42,31 +42,31 @@ std::vector<Solid> grown(std::vector<Solid> solids, double by_m) {
   return solids;
 }
 
-TEST(LaserBesideMrptsGrid, DiffersByNoMoreThanTheGridsOwnError) {
+TEST(LaserBesideMrptsGrid, DiffersByAtMostTheGridError) {
   std::vector<double> differences;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     Rng rng(seed);
     std::vector<Solid> solids;
     while (solids.size() < 25) {
       const mrpt::math::TPoint2D at(rng.uniform(-7, 7), rng.uniform(-7, 7));
-      if (at.norm() < 1.5) continue;  // the robot stands in the middle
+      if (at.norm() < 1.5) continue;  // position of the robot
       solids.push_back(rng.below(2) ? pillar(at.x, at.y, rng.uniform(0.1, 0.5))
                                     : block(at.x, at.y, rng.uniform(0.2, 1), rng.uniform(0.2, 1), rng.uniform(-3, 3)));
     }
     const auto grid = gridOf(solids);
     mrpt::obs::CObservation2DRangeScan scan;
     scan.aperture = static_cast<float>(M_PI);
-    scan.maxRange = 10;  // of which MRPT's simulator uses 80 %
+    scan.maxRange = 10;  // MRPT's simulator uses 80 % of it
     scan.rightToLeft = true;
     const mrpt::math::TPose2D pose(rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-3, 3));
     grid.laserScanSimulator(scan, mrpt::poses::CPose2D(pose), 0.5f, 181, 0);
 
     const auto laser = sensorFrom("<laser range_max_m='8'/>");
-    const auto exact = OneRobot(solids, pose).ranges(*laser);
-    // An occupied cell reaches at most its diagonal beyond the solid. The simulator walks in steps of a cell and may
-    // stop a step late.
+    const auto exact = SingleRobotScene(solids, pose).ranges(*laser);
+    // An occupied cell extends at most by its diagonal beyond the solid. The simulator advances in steps of a cell and
+    // may overshoot by a step.
     const double cell_diagonal_m = std::sqrt(2.0) * kCell_m;
-    const auto earliest = OneRobot(grown(solids, cell_diagonal_m), pose).ranges(*laser);
+    const auto earliest = SingleRobotScene(grown(solids, cell_diagonal_m), pose).ranges(*laser);
     for (std::size_t i = 0; i < 181; ++i) {
       if (!scan.getScanRangeValidity(i) || exact[i] >= 7.9) continue;
       const double on_grid = scan.getScanRange(i);

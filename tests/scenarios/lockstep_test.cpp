@@ -1,4 +1,4 @@
-// A world is the same run whichever processes its robots and its geometry are in.
+// A run is identical for any distribution of robots and geometry over processes.
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -16,7 +16,7 @@ ServedWorld::Options robotsElsewhere(const std::string& world, std::uint64_t las
   options.world = world;
   options.robots_elsewhere = true;
   options.last_step = last_step;
-  options.server.step_deadline = std::chrono::minutes(10);  // however slow the machine: nobody is given up
+  options.server.step_deadline = std::chrono::minutes(10);  // no robot is disconnected on slow machines
   return options;
 }
 
@@ -26,31 +26,31 @@ std::string digestInOneProcess(const std::string& world, int steps, const std::s
   return nlohmann::json::parse(run.out)["digest"];
 }
 
-/// The world's robots, dealt out to so many processes like cards.
+/// Distributes the world's robots over processes, round-robin.
 std::vector<std::unique_ptr<StartedProgram>> startAllRobots(const ServedWorld& world, std::size_t processes,
                                                             const std::string& controller) {
   std::vector<std::vector<std::string>> hands(processes);
   const auto& names = world.robotNames();
   for (std::size_t i = 0; i < names.size(); ++i) hands[i % processes].push_back(names[i]);
   std::vector<std::unique_ptr<StartedProgram>> started;
-  for (const auto& hand : hands) started.push_back(startRobots(hand, world.dialOptions().address, controller));
+  for (const auto& hand : hands) started.push_back(startRobots(hand, world.connectOptions().address, controller));
   return started;
 }
 
 std::string digestWith(std::size_t processes, std::size_t workers) {
   ServedWorld world(robotsElsewhere(kWorld, kSteps));
   std::vector<std::unique_ptr<StartedProgram>> helpers;
-  for (std::size_t i = 0; i < workers; ++i) helpers.push_back(startWorker(world.dialOptions().address));
+  for (std::size_t i = 0; i < workers; ++i) helpers.push_back(startWorker(world.connectOptions().address));
   if (workers > 0) world.waitForLog(": ready", workers);
   const auto robots = startAllRobots(world, processes, "wander");
   EXPECT_EQ(world.wait(), Served::to_its_end);
   for (const auto& process : robots) EXPECT_EQ(process->wait().exit_code, 0) << process->error();
   for (const auto& process : helpers) EXPECT_EQ(process->wait().exit_code, 0) << process->error();
-  EXPECT_EQ(countOf("hung up on", world.log()) + countOf("has left", world.log()), 0u) << world.log();
+  EXPECT_EQ(countOf("disconnected", world.log()) + countOf("has left", world.log()), 0u) << world.log();
   return world.digest();
 }
 
-TEST(Lockstep, IsTheSameRunWithRobotsIn1And3And10ProcessesAnd0And1And2GeometryWorkers) {
+TEST(Lockstep, IsIdenticalForAnyNumberOfProcessesAndGeometryWorkers) {
   const std::string one_process = digestInOneProcess(kWorld, kSteps, "wander");
   for (const std::size_t processes : {1, 3, 10}) {
     for (const std::size_t workers : {0, 1, 2}) {
@@ -59,42 +59,42 @@ TEST(Lockstep, IsTheSameRunWithRobotsIn1And3And10ProcessesAnd0And1And2GeometryWo
   }
 }
 
-TEST(Lockstep, IsTheSameRunWithEachRobotInAProcessThatOneProgramMakes) {
+TEST(Lockstep, IsIdenticalWithForkedRobotProcesses) {
   const auto in_one = nlohmann::json::parse(runProgram("run worlds/small_maze.xml --json --controller wander").out);
   ServedWorld world(robotsElsewhere("worlds/small_maze.xml", in_one["steps"]));
-  const auto robots = startRobots({"Pioneer1", "Scout1", "--apart"}, world.dialOptions().address);
+  const auto robots = startRobots({"Pioneer1", "Scout1", "--apart"}, world.connectOptions().address);
   EXPECT_EQ(world.wait(), Served::to_its_end);
   EXPECT_EQ(robots->wait().exit_code, 0) << robots->error();
-  EXPECT_EQ(world.digest(), in_one["digest"]);
+  EXPECT_EQ(world.digest(), in_one["digest"].get<std::string>());
   EXPECT_NE(world.log().find("robot Pioneer1 ("), std::string::npos) << world.log();
   EXPECT_NE(world.log().find("robot Scout1 ("), std::string::npos) << world.log();
 }
 
-TEST(Lockstep, TellsOfTheProcessesOfOneProgramThatHaveFailed) {
+TEST(Lockstep, ReportsFailedChildProcesses) {
   ServedWorld world(robotsElsewhere("worlds/small_maze.xml", 5));
-  const auto robots = startRobots({"Nobody", "Noone", "--apart"}, world.dialOptions().address);
+  const auto robots = startRobots({"Unknown1", "Unknown2", "--apart"}, world.connectOptions().address);
   EXPECT_NE(robots->wait().exit_code, 0);
-  EXPECT_NE(robots->error().find("2 of 2 processes have failed"), std::string::npos) << robots->error();
+  EXPECT_NE(robots->error().find("2 of 2 processes failed"), std::string::npos) << robots->error();
 }
 
-TEST(Lockstep, CarriesGoldMessagesBetweenProcessesAsInOne) {
+TEST(Lockstep, DeliversGoldMessagesBetweenProcesses) {
   const Ended run = runProgram("run worlds/small_maze.xml --json");
   const auto in_one = nlohmann::json::parse(run.out);
   ASSERT_GE(in_one["messages"].get<int>(), 1);
   ServedWorld world(robotsElsewhere("worlds/small_maze.xml", in_one["steps"]));
   const auto robots = startAllRobots(world, 2, "gold_finder");
   EXPECT_EQ(world.wait(), Served::to_its_end);
-  EXPECT_EQ(world.digest(), in_one["digest"]);
+  EXPECT_EQ(world.digest(), in_one["digest"].get<std::string>());
   EXPECT_EQ(world.state().messages_delivered, in_one["messages"]);
 }
 
-TEST(Lockstep, SaysWhoIsBeingWaitedForAndTakesNoStepBefore) {
+TEST(Lockstep, ReportsAwaitedRobotsAndTakesNoStepBefore) {
   ServedWorld world(robotsElsewhere("worlds/small_maze.xml", 5));
   world.waitForLog("waiting for Pioneer1, Scout1\n");
-  const auto pioneer = startRobots({"Pioneer1"}, world.dialOptions().address);
+  const auto pioneer = startRobots({"Pioneer1"}, world.connectOptions().address);
   world.waitForLog("waiting for Scout1\n");
   EXPECT_EQ(world.state().time.step, 0u);
-  const auto scout = startRobots({"Scout1"}, world.dialOptions().address);
+  const auto scout = startRobots({"Scout1"}, world.connectOptions().address);
   EXPECT_EQ(world.wait(), Served::to_its_end);
   EXPECT_EQ(countOf("all robots are here", world.log()), 1u);
 }

@@ -1,10 +1,10 @@
-// Worlds that are made of maps, run as a person runs them, in one process and in many.
+// Worlds that consist of maps, in one process and in several, from the command line.
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "server/viewer.h"
+#include "client/viewer.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/robot_processes.h"
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Maps, ThatAreShippedAllLoad) {
+TEST(Maps, AllShippedMapsLoad) {
   int maps = 0;
   for (const auto& entry : std::filesystem::directory_iterator(ROBOSIM_SOURCE_DIR "/maps")) {
     if (!isMapFile(entry.path()) || mapFormatOf(entry.path()) == MapFormat::picture) continue;
@@ -27,7 +27,7 @@ TEST(Maps, ThatAreShippedAllLoad) {
   EXPECT_EQ(maps, 3);
 }
 
-TEST(Maps, AreToldOfByCheck) {
+TEST(Maps, AreDescribedByCheck) {
   const Ended check = runProgram("check worlds/courtyard_and_office.xml");
   EXPECT_EQ(check.exit_code, 0);
   for (const char* part : {"200 × 150 cells of 0.1 m, 2,941 of them occupied, in 68 boxes",
@@ -36,24 +36,24 @@ TEST(Maps, AreToldOfByCheck) {
   }
 }
 
-TEST(Maps, HoldGoldThatIsFoundAmongTheirWalls) {
+TEST(Maps, ContainGoldThatRobotsFind) {
   const json run = json::parse(runProgram("run worlds/lab_map.xml --json").out);
   EXPECT_EQ(run["gold_found"], true);
   EXPECT_EQ(run["ended_by"], "all_halted");
 }
 
-TEST(Maps, AreWorldsOfTheirOwn) {
+TEST(Maps, CanBeRunWithoutAWorldFile) {
   const json run = json::parse(runProgram("run maps/office.map --controller wander --time 30 --json").out);
   EXPECT_EQ(run["robots"], 1) << "at the home that the map has";
   EXPECT_GT(run["driven_m"], 5);
-  const Ended nobody = runProgram("run maps/lab.yaml");
-  EXPECT_EQ(nobody.exit_code, 1);
-  EXPECT_NE(nobody.err.find("maps/lab.yaml: has no robot, so nothing would happen; add one"), std::string::npos)
-      << nobody.err;
+  const Ended without_robots = runProgram("run maps/lab.yaml");
+  EXPECT_EQ(without_robots.exit_code, 1);
+  EXPECT_NE(without_robots.err.find("maps/lab.yaml: has no robots; add at least one"), std::string::npos)
+      << without_robots.err;
 }
 
-TEST(Maps, GoWithTheWorldToRobotsWorkersAndViewersElsewhere) {
-  const std::string file = "worlds/courtyard_and_office.xml";  // a picture, and ActivMedia's
+TEST(Maps, AreSentToRobotsWorkersAndViewers) {
+  const std::string file = "worlds/courtyard_and_office.xml";  // an image and an ActivMedia map
   const json in_one = json::parse(runProgram("run " + file + " --json --controller wander --time 20").out);
   ServedWorld::Options options;
   options.world = file;
@@ -61,18 +61,18 @@ TEST(Maps, GoWithTheWorldToRobotsWorkersAndViewersElsewhere) {
   options.last_step = 200;
   options.server.step_deadline = std::chrono::minutes(10);
   ServedWorld world(options);
-  const auto worker = startWorker(world.dialOptions().address);
+  const auto worker = startWorker(world.connectOptions().address);
   world.waitForLog(": ready");
-  Viewer viewer(world.dialOptions());
-  EXPECT_EQ(stationarySolids(viewer.sight().world.world).size(), 68u + 182u + 10u);
+  Viewer viewer(world.connectOptions());
+  EXPECT_EQ(stationarySolids(viewer.run().world.world).size(), 68u + 182u + 10u);
   std::vector<std::unique_ptr<StartedProgram>> robots;
-  for (const auto& name : world.robotNames()) robots.push_back(startRobots({name}, world.dialOptions().address));
+  for (const auto& name : world.robotNames()) robots.push_back(startRobots({name}, world.connectOptions().address));
   EXPECT_EQ(world.wait(), Served::to_its_end);
-  EXPECT_EQ(countOf("hung up on", world.log()) + countOf("has left", world.log()), 0u) << world.log();
-  EXPECT_EQ(world.digest(), in_one["digest"]);
+  EXPECT_EQ(countOf("disconnected", world.log()) + countOf("has left", world.log()), 0u) << world.log();
+  EXPECT_EQ(world.digest(), in_one["digest"].get<std::string>());
 }
 
-TEST(Maps, ComeWithAWorldThatAControlPanelLoads) {
+TEST(Maps, AreSentWithAWorldByAControlPanel) {
   ServedWorld::Options options;
   options.server.is_paused = true;
   ServedWorld world(options);
@@ -81,23 +81,23 @@ TEST(Maps, ComeWithAWorldThatAControlPanelLoads) {
   panel.step(100);
   const json in_one = json::parse(runProgram("run worlds/lab_map.xml --json --controller wander --time 10").out);
   world.end();
-  EXPECT_EQ(world.digest(), in_one["digest"]);
+  EXPECT_EQ(world.digest(), in_one["digest"].get<std::string>());
 }
 
-TEST(Maps, AreNotTakenFromTheServersDiskByAWorldThatAStrangerSends) {
+TEST(Maps, AreNotReadFromTheServersDiskForAReceivedWorld) {
   ServedWorld::Options options;
   options.server.is_paused = true;
   ServedWorld world(options);
   wire::WorldSource source;
   source.set_file("a.xml");
   source.set_text("<world><surface><map file='" ROBOSIM_SOURCE_DIR "/maps/lab.yaml'/></surface></world>");
-  const grpc::Status how = howLoadEnds(world.dialOptions(), source.SerializeAsString(), 10'000);
+  const grpc::Status how = howLoadEnds(world.connectOptions(), source.SerializeAsString(), 10'000);
   EXPECT_EQ(how.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_NE(how.error_message().find("/maps/lab.yaml: did not come with the world"), std::string::npos)
       << how.error_message();
 }
 
-TEST(Maps, ThatAreMissingStopAServerBeforeItServes) {
+TEST(Maps, MissingMapsStopTheServerAtStart) {
   const auto file = emptyFolder() / "a.xml";
   std::ofstream(file) << "<world><surface>\n<map file='none.yaml'/>\n</surface></world>";
   for (const char* how : {"run", "serve", "check"}) {

@@ -1,28 +1,29 @@
 #pragma once
 #include <string>
 
+#include "client/control_panel.h"
+#include "net/connect.h"
 #include "net/control_panel.grpc.pb.h"
-#include "net/dial.h"
 #include "net/wire_error.h"
-#include "server/control_panel.h"
 #include "tests/scenarios/served_world.h"
 
 namespace robosim {
 
-/// A control panel of the world that the test serves.
+/// A control panel connected to the world that the test serves.
 class Panel : public ControlPanel {
  public:
-  explicit Panel(const ServedWorld& world) : ControlPanel(world.dialOptions()) {}
+  explicit Panel(const ServedWorld& world) : ControlPanel(world.connectOptions()) {}
 
   using ControlPanel::load;
-  /// @param file from the project's folder
+  /// @param file relative to the project's folder
   wire::RunStatus load(const std::string& file) { return load(readWorldSource(ROBOSIM_SOURCE_DIR "/" + file)); }
 };
 
-/// How a load of these bytes ends, sent in pieces.
-inline grpc::Status howLoadEnds(const DialOptions& dialled, const std::string& bytes, std::size_t piece_bytes) {
+/// Status of a load of these bytes, sent in pieces.
+inline grpc::Status howLoadEnds(const ConnectOptions& connect_options, const std::string& bytes,
+                                std::size_t piece_bytes) {
   grpc::ClientContext context;
-  const auto stub = wire::ControlPanel::NewStub(dial(dialled));
+  const auto stub = wire::ControlPanel::NewStub(connect(connect_options));
   const auto stream = stub->Load(&context);
   for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
     wire::WorldPiece piece;

@@ -1,5 +1,6 @@
 #include "tests/scenarios/program.h"
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -11,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/scratch_folder.h"
+#include "base/temporary_directory.h"
 
 namespace robosim {
 
@@ -30,18 +31,20 @@ std::size_t countOf(const std::string& part, const std::string& text) {
 
 namespace {
 
-/// Of this run of the tests, gone when it ends.
+/// Temporary folder of this test run, removed at its end.
 const std::filesystem::path& scratch() {
-  static const ScratchFolder folder;
+  static const TemporaryDirectory folder;
   return folder.path();
 }
 
 std::string testName() {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  return std::string(test->test_suite_name()) + "_" + test->name();
+  std::string name = std::string(test->test_suite_name()) + "_" + test->name();
+  std::replace(name.begin(), name.end(), '/', '_');  // in names of parameterised tests
+  return name;
 }
 
-/// Where the output of the test's next program goes.
+/// Output file for the next program of the test.
 std::string outputStem() {
   static int programs = 0;
   return scratch() / (testName() + "_program_" + std::to_string(++programs));

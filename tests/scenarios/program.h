@@ -7,21 +7,21 @@
 
 namespace robosim {
 
-/// What a run of the program left behind.
+/// Result of a run of the program.
 struct Ended {
   int exit_code = -1;
   std::string out;
   std::string err;
 };
 
-/// Runs `robosim ARGUMENTS` (through the shell, from the project's folder) to its end.
-/// @param out where its standard output goes instead of to Ended::out
+/// Runs `robosim ARGUMENTS` (through the shell, in the project's folder) to its end.
+/// @param out receives its standard output instead of Ended::out
 Ended runProgram(const std::string& arguments, const std::string& out = "");
 
 /// The same with any command.
 Ended runCommand(const std::string& command);
 
-/// A run of the program that goes on beside the test.
+/// The program running concurrently with the test.
 class StartedProgram {
  public:
   explicit StartedProgram(const std::vector<std::string>& arguments);  ///< robosim
@@ -30,10 +30,11 @@ class StartedProgram {
   StartedProgram(const StartedProgram&) = delete;
   StartedProgram& operator=(const StartedProgram&) = delete;
 
+  pid_t process() const { return process_; }
   bool isRunning();
-  void interrupt();  ///< as Ctrl-C does
+  void interrupt();  ///< like Ctrl-C
   void signal(int number);
-  /// Waits until standard output, or standard error, has this text; fails the test if the program ends without it.
+  /// Waits until standard output, or standard error, contains this text; fails the test if the program ends before.
   ///@{
   void waitForOutput(const std::string& text) { waitFor(".out", text); }
   void waitForError(const std::string& text) { waitFor(".err", text); }
@@ -51,10 +52,10 @@ class StartedProgram {
   bool ended_ = false;
 };
 
-/// A new, empty folder of the running test's own.
+/// A new, empty folder for the running test.
 std::filesystem::path emptyFolder();
 
-/// How often a text has another in it.
+/// Number of occurrences of a text in another.
 std::size_t countOf(const std::string& part, const std::string& text);
 
 std::string textOf(const std::filesystem::path& file);

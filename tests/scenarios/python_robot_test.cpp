@@ -1,4 +1,4 @@
-// The protocol is for any language: the Python example drives robots as its README tells.
+// The Python example of the protocol drives robots as described in its README.
 #include <algorithm>
 #include <cstdlib>
 
@@ -12,7 +12,8 @@ namespace {
 
 const char* const kExample = ROBOSIM_SOURCE_DIR "/doc/examples/python_robot/wander.py";
 
-/// Makes the modules that the example imports, as its README tells. @return the folder, with the example in it
+/// Generates the modules imported by the example, as described in its README. @return the folder, with the example in
+/// it
 std::filesystem::path exampleWithItsModules() {
   const auto folder = emptyFolder();
   std::filesystem::copy_file(kExample, folder / "wander.py");
@@ -38,12 +39,12 @@ TEST(PythonRobot, DrivesRobotsOfAnEnvironmentInFewerThan60Lines) {
   EXPECT_GT(summary["driven_m"], 2.0) << "two robots of 0.3 m/s had 30 s";
 }
 
-TEST(PythonRobot, IsToldWhatIsWrong) {
+TEST(PythonRobot, ReceivesErrorTexts) {
   const auto folder = exampleWithItsModules();
   Serving serving({"--wait-for-robots"});
   const Ended lost = StartedProgram("/usr/bin/python3", {folder / "wander.py", serving.address(), "Bogus"}).wait();
   EXPECT_EQ(lost.exit_code, 1);
-  EXPECT_NE(lost.err.find("the environment says: the world 'small_maze' has no robot 'Bogus'"), std::string::npos)
+  EXPECT_NE(lost.err.find("error from the environment: the world 'small_maze' has no robot 'Bogus'"), std::string::npos)
       << lost.err;
 }
 

@@ -1,5 +1,5 @@
-// What a window does to a run that goes on elsewhere, without the window.
-#include "robosim/run_operator.h"
+// RunOperator, the control of a served run from a window, without the window.
+#include "viewing/run_operator.h"
 
 #include <thread>
 
@@ -11,25 +11,25 @@
 namespace robosim {
 namespace {
 
-/// Until the environment says so, or for ever: the test's own time limit ends it.
+/// Waits without limit until the environment reports this; the time limit of the test applies.
 template <typename Condition>
 void waitUntil(const Condition& holds) {
   while (!holds()) std::this_thread::yield();
 }
 
-TEST(RunOperator, BeginsAsTheRunStands) {
+TEST(RunOperator, StartsWithTheRunsStatus) {
   ServedWorld::Options options = paused();
   options.server.speed = 3;
   ServedWorld world(options);
-  const RunOperator run_operator(world.dialOptions());
+  const RunOperator run_operator(world.connectOptions());
   EXPECT_TRUE(run_operator.isPaused());
   EXPECT_EQ(run_operator.speed(), 3);
 }
 
-TEST(RunOperator, DoesOneThingAfterTheOtherAndTellsAtOnceWhatItWasAskedFor) {
+TEST(RunOperator, ExecutesOperationsInOrderAndReportsTheRequestedState) {
   ServedWorld world(paused());
   Panel panel(world);
-  RunOperator run_operator(world.dialOptions());
+  RunOperator run_operator(world.connectOptions());
   for (int i = 0; i < 5; ++i) run_operator.step();
   run_operator.setSpeed(2);
   EXPECT_EQ(run_operator.speed(), 2);
@@ -42,10 +42,10 @@ TEST(RunOperator, DoesOneThingAfterTheOtherAndTellsAtOnceWhatItWasAskedFor) {
   EXPECT_EQ(panel.status().speed(), 2);
 }
 
-TEST(RunOperator, LearnsWhatAnotherPanelHasDone) {
+TEST(RunOperator, ReceivesChangesByOtherPanels) {
   ServedWorld world(paused());
   Panel panel(world);
-  const RunOperator run_operator(world.dialOptions());
+  const RunOperator run_operator(world.connectOptions());
   panel.setSpeed(7);
   panel.start();
   waitUntil([&] { return !run_operator.isPaused() && run_operator.speed() == 7; });
@@ -53,12 +53,12 @@ TEST(RunOperator, LearnsWhatAnotherPanelHasDone) {
   waitUntil([&] { return run_operator.isPaused(); });
 }
 
-TEST(RunOperator, WaitsForNoAnswerNeitherToGoOnNorToEnd) {
+TEST(RunOperator, NeverBlocksOnResponses) {
   ServedWorld::Options options = paused();
-  options.robots_elsewhere = true;  // and never there: no step is ever taken
+  options.robots_elsewhere = true;  // never connected, so that no step is taken
   ServedWorld world(options);
   {
-    RunOperator run_operator(world.dialOptions());
+    RunOperator run_operator(world.connectOptions());
     run_operator.step();
     world.waitForLog("step");
     EXPECT_TRUE(run_operator.isPaused());
@@ -66,28 +66,28 @@ TEST(RunOperator, WaitsForNoAnswerNeitherToGoOnNorToEnd) {
   EXPECT_EQ(Panel(world).status().step(), 0u);
 }
 
-TEST(RunOperator, TellsWhatTheEnvironmentWillNotDoAndGoesOn) {
+TEST(RunOperator, ReportsRefusedOperationsAndContinues) {
   ServedWorld::Options options = paused();
   options.robots_elsewhere = true;
   ServedWorld world(options);
   Panel panel(world);
   testing::internal::CaptureStderr();
-  RunOperator run_operator(world.dialOptions());
+  RunOperator run_operator(world.connectOptions());
   run_operator.step();
   world.waitForLog("step");
   panel.pause();
   run_operator.setSpeed(5);
   waitUntil([&] { return panel.status().speed() == 5; });
-  const std::string told = testing::internal::GetCapturedStderr();
-  EXPECT_NE(told.find("robosim view: "), std::string::npos) << told;
-  EXPECT_NE(told.find("another control panel has paused the run"), std::string::npos) << told;
+  const std::string output = testing::internal::GetCapturedStderr();
+  EXPECT_NE(output.find("robosim view: "), std::string::npos) << output;
+  EXPECT_NE(output.find("another control panel has paused the run"), std::string::npos) << output;
 }
 
-TEST(RunOperator, SaysNothingOfARunThatIsOver) {
+TEST(RunOperator, PrintsNothingAfterTheEndOfTheRun) {
   ServedWorld world(paused());
   testing::internal::CaptureStderr();
   {
-    RunOperator run_operator(world.dialOptions());
+    RunOperator run_operator(world.connectOptions());
     Panel(world).stop();
     EXPECT_EQ(world.wait(), Served::stopped);
     run_operator.pause(false);

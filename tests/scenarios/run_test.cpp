@@ -1,4 +1,4 @@
-// `robosim run` as a person runs it.
+// `robosim run` from the command line.
 
 #include <cstdlib>
 #include <fstream>
@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-TEST(Run, FindsTheGoldInTheSmallMazeAndSaysSo) {
+TEST(Run, FindsAndReportsTheGoldInTheSmallMaze) {
   const Ended run = runProgram("run worlds/small_maze.xml");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_NE(run.out.find("gold found by "), std::string::npos) << run.out;
@@ -23,7 +23,7 @@ TEST(Run, FindsTheGoldInTheSmallMazeAndSaysSo) {
   EXPECT_EQ(run.err, "") << "no progress line in a pipe";
 }
 
-TEST(Run, PrintsOneJsonObjectWithEverythingInIt) {
+TEST(Run, PrintsACompleteJsonObject) {
   const Ended run = runProgram("run worlds/small_maze.xml --json --seed 3");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const json summary = json::parse(run.out);
@@ -39,7 +39,7 @@ TEST(Run, PrintsOneJsonObjectWithEverythingInIt) {
   EXPECT_GE(summary["messages"].get<int>(), 1) << "GOLD goes round the ring";
 }
 
-TEST(Run, WithTheSameSeedIsTheSameRunForAnyNumberOfThreadsRecordedOrNot) {
+TEST(Run, IsIdenticalForEqualSeedsThreadsAndRecording) {
   const auto folder = emptyFolder();
   const auto digest = [](const std::string& arguments) {
     return json::parse(
@@ -51,7 +51,7 @@ TEST(Run, WithTheSameSeedIsTheSameRunForAnyNumberOfThreadsRecordedOrNot) {
   EXPECT_NE(digest("--seed 6"), one);
 }
 
-TEST(Run, EndsAtItsTimeLimitAndTakesAnotherControllerAndStep) {
+TEST(Run, AppliesTimeLimitControllerAndStep) {
   const json summary =
       json::parse(runProgram("run worlds/small_maze.xml --json --controller still --time 10 --step 0.05").out);
   EXPECT_EQ(summary["steps"], 200);
@@ -61,13 +61,13 @@ TEST(Run, EndsAtItsTimeLimitAndTakesAnotherControllerAndStep) {
   EXPECT_EQ(summary["driven_m"], 0);
 }
 
-TEST(Run, RunsAWorldOf2005AsItIs) {
+TEST(Run, RunsAWorldOf2005) {
   const Ended run = runProgram("run tests/data/legacy_world.xml --json");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(json::parse(run.out)["gold_found_by"], "Finder1");
 }
 
-TEST(Run, KeepsARawlogThatRawlogEditOpensAndAPicture) {
+TEST(Run, WritesARawlogForRawlogEditAndAPicture) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
   const auto picture = folder / "run.png";
@@ -83,17 +83,17 @@ TEST(Run, KeepsARawlogThatRawlogEditOpensAndAPicture) {
   }
 }
 
-TEST(Run, EndsCleanlyWhenInterruptedAndItsRawlogIsReadable) {
+TEST(Run, LeavesAReadableRawlogWhenInterrupted) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
-  // At real time the run would last half an hour. It is interrupted once its recording has been opened.
+  // At real time the run would take half an hour. It is interrupted after its recording has been opened.
   StartedProgram run({"run", "worlds/small_maze.xml", "--json", "--speed", "1", "--controller", "wander", "--record",
                       rawlog.string()});
   while (!std::filesystem::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
   run.interrupt();
   const Ended ended = run.wait();
-  EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_EQ(json::parse(ended.out)["ended_by"], "interrupt");
+  EXPECT_EQ(ended.exit_code, 130) << ended.err;
+  EXPECT_EQ(json::parse(ended.out)["ended_by"], "interrupted");
   EXPECT_TRUE(std::filesystem::exists(rawlog));
   EXPECT_FALSE(std::filesystem::exists(rawlog.string() + ".part"));
   EXPECT_EQ(runTool("rawlog-edit --info -i run.rawlog", folder).exit_code, 0);
@@ -104,7 +104,7 @@ struct Mistake {
   const char* complaint;
 };
 
-TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
+TEST(Run, RejectsBadInputWithCode1AndAnErrorText) {
   const Mistake mistakes[] = {
       {"run no_such_world.xml", "no_such_world.xml: no such file; check the path"},
       {"run worlds", "worlds: is a directory; name a file in it"},
@@ -121,7 +121,8 @@ TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
       {"run worlds/small_maze.xml --record ''", "--record"},
       {"run worlds/small_maze.xml --record worlds/../worlds/small_maze.xml", "is both WORLD and --record"},
       {"run worlds/small_maze.xml --record /tmp/robosim_same.png --picture /tmp/robosim_same.png", "--picture"},
-      {"bench gold worlds/small_maze.xml --csv worlds/small_maze.xml", "is both WORLD and --csv"},
+      {"bench gold worlds/small_maze.xml --csv worlds/small_maze.xml",
+       "worlds/small_maze.xml: would replace worlds/small_maze.xml, which this command reads"},
       {"bench gold worlds/small_maze.xml --time nan", "--time"},
       {"run worlds/small_maze.xml --threads 0", "--threads"},
       {"run worlds/small_maze.xml --speed fast", "--speed fast: must be 'max' or a number"},
@@ -139,16 +140,16 @@ TEST(Run, RefusesBadInputWithCode1AndSaysWhatIsWrong) {
   }
 }
 
-TEST(Run, EndsWhenInterruptedAlsoWhileItWaitsForAVerySlowClock) {
+TEST(Run, EndsOnInterruptAtVeryLowSpeed) {
   const auto rawlog = emptyFolder() / "run.rawlog";
   StartedProgram run({"run", "worlds/small_maze.xml", "--json", "--speed", "0.001", "--controller", "wander",
                       "--record", rawlog.string()});
   while (!std::filesystem::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
   run.interrupt();
-  EXPECT_EQ(json::parse(run.wait().out)["ended_by"], "interrupt");
+  EXPECT_EQ(json::parse(run.wait().out)["ended_by"], "interrupted");
 }
 
-TEST(Run, KeepsAnOlderRawlogWhenARobotCannotRunItsController) {
+TEST(Run, KeepsAnExistingRawlogWhenAControllerIsUnsuitable) {
   const auto folder = emptyFolder();
   std::ofstream(folder / "blind.xml") << R"(<world><surface>
     <size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size>
@@ -160,7 +161,7 @@ TEST(Run, KeepsAnOlderRawlogWhenARobotCannotRunItsController) {
   const Ended run =
       runProgram("run '" + (folder / "blind.xml").string() + "' --record '" + (folder / "old.rawlog").string() + "'");
   EXPECT_EQ(run.exit_code, 1);
-  EXPECT_NE(run.err.find("blind.xml:3: robot 'Blind': its controller gold_finder needs a sensor of the kind heat"),
+  EXPECT_NE(run.err.find("blind.xml:3: robot 'Blind': its controller gold_finder requires a sensor of kind heat"),
             std::string::npos)
       << run.err;
   EXPECT_EQ(textOf(folder / "old.rawlog"), "old");
@@ -173,7 +174,7 @@ TEST(Run, FailsWithCode2WhenItsSummaryCannotBeWritten) {
 
 TEST(Run, FailsWithCode2AndLeavesNoHalfWrittenRawlogWhenTheDiskIsFull) {
   const auto folder = emptyFolder();
-  // A limit on the size of files stands in for the full disk: the write fails in the same way.
+  // A limit on the size of files replaces the full disk: the write fails in the same way.
   const std::string rawlog = (folder / "run.rawlog").string();
   const int status = std::system(("bash -c \"ulimit -f 8; trap '' XFSZ; cd '" ROBOSIM_SOURCE_DIR "'; '" ROBOSIM_PROGRAM
                                   "' run worlds/open_100.xml --time 60 --record '" +

@@ -11,8 +11,8 @@
 
 namespace robosim {
 
-/// An X server without a screen, and what one sees on it. It does not begin anew when the last program leaves, which
-/// would turn away the next, nor does it repeat keys that a slow machine is late to release.
+/// A virtual X server (Xvfb), with inspection of its screen. It does not reset when the last client disconnects, which
+/// would reject the next one, and does not repeat keys that are released late on a slow machine.
 class Screen {
  public:
   Screen()
@@ -21,23 +21,23 @@ class Screen {
     server_.waitForOutput("\n");
     display_ = ":" + server_.output().substr(0, server_.output().find('\n'));
     setenv("DISPLAY", display_.c_str(), 1);
-    // What libraries of the window system leave behind when they are unloaded, nobody can tell apart by name. Programs
-    // without a window are searched for leaks as ever.
-    // And MRPT's nanogui frees its widgets by another way than a program of C++17 and later makes them.
+    // LeakSanitizer cannot name leaks of window system libraries that have been unloaded. Programs without a window are
+    // still checked for leaks.
+    // MRPT's nanogui deallocates widgets with another operator delete than programs of C++17 and later require.
     setenv("ASAN_OPTIONS", "detect_leaks=0:alloc_dealloc_mismatch=0", 1);
   }
   ~Screen() {
     unsetenv("DISPLAY");
     unsetenv("ASAN_OPTIONS");
-    server_.signal(SIGTERM);  // so that it takes its lock and its socket away
+    server_.signal(SIGTERM);  // lets it remove its lock and its socket
     server_.wait();
   }
 
-  /// What has act() press keys, as `xdotool` names them, where the focus is (window 0) rather than in a window it is
-  /// told of: when a key closes the window, its release would be sent to that, and the server would hold it for pressed
-  /// and, as nothing is repeated, not pass it on to the next window.
+  /// Prefix for act() that sends keys, named as in `xdotool`, to the focused window (0) rather than to a given window:
+  /// if a key closes the window, its release would go to that window, and the server would consider the key pressed and
+  /// not report it to the next window.
   static std::string keys(const std::string& names) { return "windowfocus key --window 0 " + names; }
-  /// Has `xdotool` do something in RoboSim's window.
+  /// Runs `xdotool` on RoboSim's window.
   void act(const std::string& what) const { runCommand("xdotool search --name RoboSim " + what); }
 
   cv::Mat shot(const std::filesystem::path& folder) const {
@@ -46,8 +46,8 @@ class Screen {
     return cv::imread(file.string());
   }
 
-  /// How many pixels are of a kind, as soon as there are so many; or whatever there are when the program has ended, or
-  /// after a long time.
+  /// Number of pixels that satisfy a predicate, as soon as it is at least `count`; the last number when the program has
+  /// ended, or after a timeout.
   int waitForPixels(int count, const std::function<bool(const cv::Vec3b&)>& is_one, const std::filesystem::path& folder,
                     StartedProgram& program) const {
     int found = 0;
@@ -66,11 +66,21 @@ class Screen {
   std::string display_;
 };
 
-/// Opens a file in one of MRPT's programs that have a window. Mesa's drawing by the processor is right for them only
-/// without what is newer than SSE 4.1.
+/// Opens a file in one of MRPT's programs with a window. Mesa's software renderer is correct for them only with
+/// instructions up to SSE 4.1.
 inline StartedProgram startStockWindow(const std::string& program, const std::filesystem::path& file) {
   return StartedProgram("/usr/bin/env", {"HOME=" + file.parent_path().string(), "GALLIUM_OVERRIDE_CPU_CAPS=sse4.1",
                                          program, file.string()});
+}
+
+/// What a program with a window wrote to standard error, without the messages that GLFW 3.4 (Debian 13) adds where no
+/// desktop session runs.
+inline std::string withoutDesktopMessages(std::string text) {
+  for (const std::string message :
+       {"error: XDG_RUNTIME_DIR is invalid or not set in the environment.\n", "sh: 1: gsettings: not found\n"}) {
+    for (auto at = text.find(message); at != std::string::npos; at = text.find(message)) text.erase(at, message.size());
+  }
+  return text;
 }
 
 }  // namespace robosim

@@ -17,17 +17,17 @@ RunOptions runOptions(const std::string& controller) {
 ServedWorld::Stage::Stage(LoadedWorld world, const WorldSource& source, const Options& options)
     : networked(world.fleet.robots.size(), options.robots_elsewhere ? 1 : 0),
       run(std::move(world), runOptions(options.controller), networked),
-      exhibit(run.environment(), source, 1, networked) {}
+      run_info(run.environment(), source, 1, networked) {}
 
 ServedWorld::ServedWorld(const Options& options) : options_(options) {
-  load(readWorldSource(ROBOSIM_SOURCE_DIR "/" + options.world));
+  stage_ = stageOf(readWorldSource(ROBOSIM_SOURCE_DIR "/" + options.world));
   options_.server.listen = ListenAddresses::parse("127.0.0.1:0");
   options_.server.log = [this](const std::string& line) {
     const std::lock_guard lock(mutex_);
     log_ += line + "\n";
-    bell_.notify_all();
+    condition_.notify_all();
   };
-  server_ = std::make_unique<EnvironmentServer>(options_.server, exhibit());
+  server_ = std::make_unique<EnvironmentServer>(options_.server, runInfo());
   thread_ = std::thread([this] {
     how_ = server_->serve(*this, [this] {
       const std::lock_guard lock(mutex_);
@@ -38,8 +38,8 @@ ServedWorld::ServedWorld(const Options& options) : options_(options) {
 
 ServedWorld::~ServedWorld() { end(); }
 
-DialOptions ServedWorld::dialOptions() const {
-  DialOptions options;
+ConnectOptions ServedWorld::connectOptions() const {
+  ConnectOptions options;
   options.address = "127.0.0.1:" + std::to_string(port());
   return options;
 }
@@ -64,11 +64,20 @@ std::string ServedWorld::log() const {
 
 void ServedWorld::waitForLog(const std::string& text, std::size_t times) {
   std::unique_lock lock(mutex_);
-  bell_.wait(lock, [&] { return countOf(text, log_) >= times; });
+  condition_.wait(lock, [&] { return countOf(text, log_) >= times; });
 }
 
-void ServedWorld::load(const WorldSource& source) {
-  stage_ = std::make_shared<Stage>(loadWorld(source, controllerNames()), source, options_);
+std::shared_ptr<ServedWorld::Stage> ServedWorld::stageOf(const WorldSource& source) const {
+  return std::make_shared<Stage>(loadWorld(source, controllerNames()), source, options_);
 }
+
+std::unique_ptr<PreparedRun> ServedWorld::prepare(const WorldSource& source) const {
+  options_.before_preparing();
+  auto prepared = std::make_unique<PreparedStage>();
+  prepared->stage = stageOf(source);
+  return prepared;
+}
+
+void ServedWorld::replace(std::unique_ptr<PreparedRun> next) { stage_ = static_cast<PreparedStage&>(*next).stage; }
 
 }  // namespace robosim

@@ -6,7 +6,7 @@
 
 namespace robosim {
 
-/// `robosim serve`, on a port of the system's choice, when it listens.
+/// `robosim serve`, listening on a port chosen by the system.
 class Serving {
  public:
   explicit Serving(std::vector<std::string> arguments, const std::string& world = "worlds/small_maze.xml")

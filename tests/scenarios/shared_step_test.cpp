@@ -1,8 +1,8 @@
-// A step whose parts are worked out by replicas is the step of one environment, bit for bit.
+// A step computed in parts by replicas is identical to that of one environment, bit for bit.
 #include <gtest/gtest.h>
 
 #include "maze/controllers.h"
-#include "robosim/local_run.h"
+#include "run/local_run.h"
 
 namespace robosim {
 namespace {
@@ -18,28 +18,31 @@ std::string digestAlone() {
   return run.environment().digest();
 }
 
-/// What a replica has worked out of a part, taken over.
-void takeClips(const Environment& from, Environment& to, RobotRange range) {
-  for (std::size_t i = range.begin; i < range.end; ++i) to.putClipped(i, from.clipped(i));
+/// Applies the results of another environment for some robots.
+void takeClips(Environment& from, Environment& to, RobotRange range) {
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    to.results().paths[i].end_fraction = from.results().paths[i].end_fraction;
+  }
 }
-void takeStays(const Environment& from, Environment& to, RobotRange range) {
-  for (std::size_t i = range.begin; i < range.end; ++i) to.putStays(i, from.stays(i));
+void takeStays(Environment& from, Environment& to, RobotRange range) {
+  for (std::size_t i = range.begin; i < range.end; ++i) to.results().stays[i] = from.results().stays[i];
 }
 void takeReadings(Environment& from, Environment& to, RobotRange range) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const auto& sensors = to.fleet().robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-      if (!sensors[slot]->staysHome()) to.measurement(i, slot) = from.measurement(i, slot);
+      if (sensors[slot]->sensesInHostProcess()) continue;
+      to.results().readings[i].measurements[slot] = from.results().readings[i].measurements[slot];
     }
   }
 }
 
-/// A step of which the replica does the robots of `share`, and the owner all others.
+/// A step in which the replica computes the robots of `share`, and the owner all others.
 void stepTogether(Environment& owner, Environment& replica, RobotRange share) {
   const RobotRange every{0, owner.robotCount()};
   const RobotRange others[] = {{0, share.begin}, {share.end, every.end}};
-  for (std::size_t i = 0; i < every.end; ++i) replica.setCommand(i, owner.nextCommand(i));
   owner.begin();
+  for (std::size_t i = 0; i < every.end; ++i) replica.setCommand(i, owner.state().commands[i]);
   replica.begin();
 
   replica.clip(share);
@@ -60,10 +63,10 @@ void stepTogether(Environment& owner, Environment& replica, RobotRange share) {
   owner.finish();
 }
 
-TEST(SharedStep, IsTheStepOfOneEnvironmentWhoeverDoesWhichRobots) {
+TEST(SharedStep, IsIdenticalForAnyPartition) {
   LocalRun run = startRun();
   Environment& owner = run.environment();
-  // The replica's seed is the owner's; where its robots stand it learns when it joins, in the middle of the run.
+  // The replica receives the state when it joins, during the run.
   LoadedWorld world = loadWorld(kWorld, controllerNames());
   Environment replica(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
   for (int i = 0; i < kSteps; ++i) {
@@ -72,7 +75,7 @@ TEST(SharedStep, IsTheStepOfOneEnvironmentWhoeverDoesWhichRobots) {
       owner.step();
       continue;
     }
-    if (i == 20) replica.resume(owner.moment());
+    if (i == 20) replica.restore(owner.state());
     const std::size_t begin = static_cast<std::size_t>(i) % 60;
     stepTogether(owner, replica, {begin, begin + 40});
   }

@@ -1,4 +1,4 @@
-// A stock SLAM program on a run that was simulated and recorded.
+// A stock SLAM program on a simulated and recorded run.
 #include <cstdio>
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@ TEST(IcpSlam, FollowsARecordedRunThroughTheMaze) {
   const Ended run = runProgram("run worlds/maze_20x20.xml --time 60 --record '" + rawlog.string() + "'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   for (const std::string robot : {"Pioneer1", "Pioneer2", "Pioneer3", "Pioneer4"}) {
-    const PathError error = icpSlamError(rawlog, robot, "laser", folder / robot);
+    const PathError error = icpSlamError(rawlog, robot, "laser", "icp-slam-exact.ini", folder / robot);
     std::printf("%s: icp-slam over %zu poses is %.3f m from the truth (RMS), %.3f m at worst\n", robot.c_str(),
                 error.poses, error.rms_m, error.worst_m);
     EXPECT_GT(error.poses, 300u);

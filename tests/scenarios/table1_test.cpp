@@ -28,7 +28,7 @@ std::vector<Row> table() {
     std::vector<double> numbers;
     for (std::string cell; numbers.size() < 23 && std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
     Row row{static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[4] * M_PI / 180}, {}};
-    // Printed 170; only 190 agrees with where the gold lies in rows 8 and 9 and with the heat.
+    // The report has 170; only 190 agrees with the position of the gold in rows 8 and 9 and with the heat.
     if (row.number == 10) row.pose.phi = 190 * M_PI / 180;
     row.readings.assign(numbers.begin() + 5, numbers.end());
     rows.push_back(row);
@@ -58,7 +58,7 @@ std::vector<double> simulated(const LoadedWorld& loaded, const Row& row) {
   return all;
 }
 
-TEST(Table1, OfThe2005ReportComesOutOfTheReconstructedMaze) {
+TEST(Table1, IsReproducedByTheReconstructedMaze) {
   const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml", {});
   const auto rows = table();
   ASSERT_EQ(rows.size(), 10u);
@@ -69,7 +69,7 @@ TEST(Table1, OfThe2005ReportComesOutOfTheReconstructedMaze) {
     ASSERT_EQ(row.readings.size(), 18u);
     ASSERT_EQ(readings.size(), 18u);
     for (std::size_t i = 0; i < 18; ++i) {
-      // The table is rounded to a digit or two, so a difference of 0.1 is printed as 0.1 and a little.
+      // The table is rounded to one or two digits, so a difference of 0.1 may be slightly exceeded.
       const double difference = std::abs(readings[i] - row.readings[i]);
       within_01 += difference <= 0.1 + 1e-6;
       within_02 += difference <= 0.2 + 1e-6;

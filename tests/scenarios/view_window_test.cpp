@@ -1,4 +1,4 @@
-// The windows of `robosim view` under Xvfb: what keys, the bar and its slider do.
+// Windows of `robosim view` under Xvfb: keys, the bar and its slider.
 #include <fstream>
 
 #include <gtest/gtest.h>
@@ -48,10 +48,10 @@ fs::path recordHall(const fs::path& folder) {
   return rawlog;
 }
 
-/// Of a window of 900 × 700, what is above its bar.
+/// The part of a 900 × 700 window above its bar.
 cv::Mat picturePart(const cv::Mat& screen) { return screen(cv::Rect(0, 0, 900, 640)).clone(); }
 
-/// A window of `robosim view`, once it has been drawn.
+/// A window of `robosim view`, after its first drawing.
 class Window {
  public:
   Window(const fs::path& folder, const std::vector<std::string>& arguments) : folder_(folder), view_(arguments) {
@@ -59,9 +59,9 @@ class Window {
     start_ = last_ = settled();
   }
 
-  /// What was to be seen first.
+  /// The first picture.
   const cv::Mat& start() const { return start_; }
-  /// What is to be seen after keys, or what else `xdotool` can do, have changed something.
+  /// The picture after it has changed as a result of keys or other `xdotool` actions.
   cv::Mat after(const std::string& keys) { return afterDoing(Screen::keys(keys)); }
   cv::Mat afterDoing(const std::string& what) {
     const cv::Mat before = last_;
@@ -72,16 +72,16 @@ class Window {
     ADD_FAILURE() << what << " changes nothing; " << view_.error();
     return before;
   }
-  /// Whether the part above the bar comes to be this picture.
-  bool comesToShow(const cv::Mat& wanted, const std::string& what) {
+  /// Whether the part above the bar becomes equal to this picture.
+  bool comesToShow(const cv::Mat& expected, const std::string& what) {
     screen_.act(what);
     for (int tries = 0; tries < 200 && view_.isRunning(); ++tries) {
       last_ = screen_.shot(folder_);
-      if (areSame(picturePart(last_), wanted)) return last_ = settled(), true;
+      if (areSame(picturePart(last_), expected)) return last_ = settled(), true;
     }
     return false;
   }
-  /// How the program ends when this is done.
+  /// Result of the program after these actions.
   Ended endAfter(const std::string& what) {
     screen_.act(what);
     return view_.wait();
@@ -97,7 +97,7 @@ class Window {
   }
 
  private:
-  /// As soon as nothing changes any more.
+  /// The picture when it has stopped changing.
   cv::Mat settled() {
     cv::Mat last = screen_.shot(folder_);
     while (view_.isRunning()) {
@@ -114,7 +114,7 @@ class Window {
   cv::Mat start_, last_;
 };
 
-/// So slow that nothing moves by itself while a test looks: 100 s a step.
+/// So slow that nothing moves during a test: 100 s per step.
 const std::vector<std::string> kHardlyMoving{"--speed", "0.001", "--size", "900x700"};
 
 std::vector<std::string> viewOf(const fs::path& file, const std::vector<std::string>& more = kHardlyMoving) {
@@ -123,12 +123,11 @@ std::vector<std::string> viewOf(const fs::path& file, const std::vector<std::str
   return words;
 }
 
-TEST(ViewWindow, WindsARecordingBackAndOnByKeys) {
+TEST(ViewWindow, SeeksInARecordingWithKeys) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
   const cv::Mat paused = window.after("space");
-  // Edges of things look a shade different in the first picture of all, which is drawn in another way than those after
-  // it (TopView::draw()).
+  // Edges differ slightly in the first picture, which is drawn in another way than later ones (TopView::draw()).
   const cv::Mat going = window.after("space");
   EXPECT_TRUE(areSame(window.after("space"), paused));
   const cv::Mat at_5_s = window.after("Right");
@@ -141,10 +140,10 @@ TEST(ViewWindow, WindsARecordingBackAndOnByKeys) {
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, WindsARecordingToWhereTheSliderIsPut) {
+TEST(ViewWindow, SeeksInARecordingWithTheSlider) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
-  // Without trails, a picture does not tell which way one came to its time.
+  // Without trails, a picture does not depend on how its time was reached.
   window.after("Right");
   window.after("t");
   const cv::Mat begin = picturePart(window.after("Left"));
@@ -152,7 +151,7 @@ TEST(ViewWindow, WindsARecordingToWhereTheSliderIsPut) {
   const cv::Mat at_15_s = picturePart(window.after("Right"));
   const cv::Mat end = picturePart(window.after("Right"));
   EXPECT_FALSE(areSame(begin, end));
-  // The slider goes from about 300 px to 600 px. Whoever leaves it with the button held, holds it at its end.
+  // The slider spans about 300 px to 600 px. Dragging beyond its end sets it to its end.
   const std::string press = "windowfocus mousemove --window %1 450 674 mousedown 1 ";
   EXPECT_TRUE(window.comesToShow(begin, press + "mousemove --window %1 5 674 mouseup 1"));
   EXPECT_TRUE(window.comesToShow(end, press + "mousemove --window %1 895 674 mouseup 1"));
@@ -165,30 +164,31 @@ TEST(ViewWindow, WindsARecordingToWhereTheSliderIsPut) {
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, ClosesWithAWordAndACodeWhenItCannotShowWhatItIsAskedFor) {
+TEST(ViewWindow, ClosesWithAnErrorWhenReadingFails) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
   const Ended run =
       runProgram("run '" + writeHall(folder).string() + "' --time 300 --record '" + rawlog.string() + "'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   Window window(folder, viewOf(rawlog, {"--speed", "0.001", "--size", "900x700", "--from", "299"}));
-  // Somebody empties the file, and then its beginning is to be shown.
+  // The file is truncated, and then its beginning is shown.
   fs::resize_file(rawlog, 0);
   const Ended ended = window.endAfter("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1");
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_EQ(ended.err, "robosim: " + rawlog.string() + ": has changed since it was opened; open it anew\n");
+  EXPECT_EQ(withoutDesktopMessages(ended.err),
+            "robosim: " + rawlog.string() + ": has changed since it was opened; open it again\n");
 }
 
-TEST(ViewWindow, ClosesOnCtrlCAtOnceWithoutAnyOtherEvent) {
+TEST(ViewWindow, ClosesOnCtrlCWithoutOtherEvents) {
   const auto folder = emptyFolder();
   const auto rawlog = recordHall(folder);
-  for (int i = 0; i < 4; ++i) {  // for it was a matter of chance
+  for (int i = 0; i < 4; ++i) {  // the failure was intermittent
     const Ended ended = Window(folder, viewOf(rawlog)).interrupt();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
   }
 }
 
-TEST(ViewWindow, RidesOnARobotAndShowsEverythingAgain) {
+TEST(ViewWindow, FollowsARobotAndShowsEverythingAgain) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
   const cv::Mat riding = window.after("f");
@@ -211,17 +211,17 @@ TEST(ViewWindow, HidesAndShowsTrailsSensorsAndNames) {
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, TellsTheSpeedThatKeysChange) {
+TEST(ViewWindow, ShowsTheSpeedChangedWithKeys) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
-  const cv::Mat slowest = window.after("space plus");  // 0.01, the least, and halted
+  const cv::Mat slowest = window.after("space plus");  // 0.01, the minimum, and paused
   const cv::Mat faster = window.after("plus");
   EXPECT_FALSE(areSame(faster, slowest));
   EXPECT_TRUE(areSame(window.after("minus"), slowest));
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, HasItsBarBelowThePictureAndNotUponIt) {
+TEST(ViewWindow, PlacesTheBarBelowThePicture) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
   const int above = bluesIn(window.start()(cv::Rect(0, 0, 1024, 350)));
@@ -231,7 +231,7 @@ TEST(ViewWindow, HasItsBarBelowThePictureAndNotUponIt) {
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, SaysOnTheTerminalWhyARecordingEndsEarly) {
+TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
   const auto folder = emptyFolder();
   const auto rawlog = recordHall(folder);
   fs::resize_file(rawlog, fs::file_size(rawlog) / 2);
@@ -240,7 +240,7 @@ TEST(ViewWindow, SaysOnTheTerminalWhyARecordingEndsEarly) {
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, ShowsAWorldFromTheAirAsAPictureFileDoes) {
+TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
   const auto folder = emptyFolder();
   const auto hall = writeHall(folder);
   const std::vector<std::string> how{"--3d", "--size", "600x500"};

@@ -1,4 +1,4 @@
-// Viewers, which may come, look, dawdle and go as they like.
+// Viewers that connect, read slowly or not at all, and disconnect.
 #include <algorithm>
 #include <future>
 #include <thread>
@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include "client/viewer.h"
 #include "net/viewing.grpc.pb.h"
 #include "net/wire_error.h"
-#include "server/viewer.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/served_world.h"
@@ -16,11 +16,11 @@
 namespace robosim {
 namespace {
 
-/// A viewer that shows what comes over the wire.
+/// A viewer that exposes the received messages.
 class RawViewer {
  public:
-  explicit RawViewer(const DialOptions& options)
-      : stub_(wire::Viewing::NewStub(dial(options))), stream_(stub_->Watch(&context_)) {}
+  explicit RawViewer(const ConnectOptions& options)
+      : stub_(wire::Viewing::NewStub(connect(options))), stream_(stub_->Watch(&context_)) {}
   ~RawViewer() {
     context_.TryCancel();
     if (stream_) stream_->Finish();
@@ -28,14 +28,14 @@ class RawViewer {
   RawViewer(const RawViewer&) = delete;
   RawViewer& operator=(const RawViewer&) = delete;
 
-  void ask(const ReadingsWish& wish = {}, bool amends = false) {
+  void ask(const ReadingsSelection& wish = {}, bool amends = false) {
     wire::FrameRequest request;
     request.set_protocol(kProtocolVersion);
     encode(wish, request);
     request.set_amends(amends);
     stream_->Write(request);
   }
-  void talkNonsense() {
+  void sendInvalid() {
     wire::FrameRequest request;
     wire::FrameRequest::GetReflection()->MutableUnknownFields(&request)->AddLengthDelimited(3, "\xff");
     stream_->Write(request);
@@ -62,11 +62,11 @@ class RawViewer {
   std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream_;
 };
 
-TEST(Viewing, ShowsTheWholeStateOnceAndThenWhatHasChanged) {
+TEST(Viewing, SendsTheFullStateOnceAndThenChanges) {
   ServedWorld::Options options = paused();
   options.controller = "still";
   ServedWorld world(options);
-  RawViewer viewer(world.dialOptions());
+  RawViewer viewer(world.connectOptions());
   const wire::Frame first = viewer.next();
   EXPECT_TRUE(first.has_world());
   EXPECT_EQ(first.step(), 0u);
@@ -75,156 +75,156 @@ TEST(Viewing, ShowsTheWholeStateOnceAndThenWhatHasChanged) {
   const wire::Frame second = viewer.next();
   EXPECT_FALSE(second.has_world());
   EXPECT_EQ(second.step(), 3u);
-  EXPECT_EQ(second.robots_size(), 0) << "nobody has moved";
+  EXPECT_EQ(second.robots_size(), 0) << "no robot has moved";
 }
 
-TEST(Viewing, ShowsWhereTheRobotsAre) {
+TEST(Viewing, SendsRobotPoses) {
   ServedWorld world(paused());
-  Viewer viewer(world.dialOptions());
+  Viewer viewer(world.connectOptions());
   Panel(world).step(40);
-  ASSERT_TRUE(viewer.look());
-  const Sight sight = viewer.sight();
-  EXPECT_EQ(sight.step, 40u);
-  EXPECT_DOUBLE_EQ(sight.time_s, 4.0);
-  Viewer latecomer(world.dialOptions());
-  EXPECT_EQ(latecomer.sight().robots, sight.robots) << "from changes, and as a whole";
+  ASSERT_TRUE(viewer.waitForFrame());
+  const ViewedRun viewed_run = viewer.run();
+  EXPECT_EQ(viewed_run.snapshot.step, 40u);
+  EXPECT_DOUBLE_EQ(viewed_run.snapshot.time_s, 4.0);
+  Viewer latecomer(world.connectOptions());
+  EXPECT_EQ(latecomer.run().snapshot.robots, viewed_run.snapshot.robots) << "from changes, and as a whole";
   world.end();
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(sight.robots[i].world_from_robot, world.state().world_from_robot[i]);
-    EXPECT_EQ(sight.robots[i].stalled, world.state().stalled[i] != 0);
+    EXPECT_EQ(viewed_run.snapshot.robots[i].world_from_robot, world.state().world_from_robot[i]);
+    EXPECT_EQ(viewed_run.snapshot.robots[i].stalled, world.state().stalled[i] != 0);
   }
 }
 
-TEST(Viewing, SendsASlowViewerTheNewestStepAndNotThoseThatItMissed) {
+TEST(Viewing, SendsASlowViewerOnlyTheLatestStep) {
   ServedWorld world(paused());
-  RawViewer slow(world.dialOptions());
+  RawViewer slow(world.connectOptions());
   slow.next();
   Panel panel(world);
   for (int i = 0; i < 5; ++i) panel.step(100);
   EXPECT_EQ(slow.next().step(), 500u);
 }
 
-TEST(Viewing, DelaysNobodyForAViewerThatNeverReads) {
+TEST(Viewing, IsNotDelayedByAViewerThatNeverReads) {
   ServedWorld::Options options = paused();
   options.world = "worlds/open_100.xml";
   ServedWorld world(options);
-  RawViewer deaf(world.dialOptions());
+  RawViewer deaf(world.connectOptions());
   for (int i = 0; i < 1000; ++i) deaf.ask();
-  Viewer viewer(world.dialOptions());
+  Viewer viewer(world.connectOptions());
   Panel panel(world);
   for (int i = 1; i <= 10; ++i) {
     panel.step(20);
-    ASSERT_TRUE(viewer.look());
-    EXPECT_EQ(viewer.sight().step, 20u * static_cast<unsigned>(i));
+    ASSERT_TRUE(viewer.waitForFrame());
+    EXPECT_EQ(viewer.run().snapshot.step, 20u * static_cast<unsigned>(i));
   }
   EXPECT_EQ(deaf.read().step(), 0u);
-  // What it asked for, and left lying, was new then. With what it asks for now it is up to date.
+  // The reply to its first request, which it did not read, is outdated. The reply to its next request is current.
   deaf.ask();
   while (deaf.read().step() != 200u) {
   }
 }
 
-void expectReadings(const Sight& sight, const ServedWorld& world, const std::vector<std::size_t>& of) {
-  for (std::size_t i = 0; i < sight.robots.size(); ++i) {
-    const Readings* readings = sight.readingsOf(i);
+void expectReadings(const ViewedRun& viewed_run, const ServedWorld& world, const std::vector<std::size_t>& of) {
+  for (std::size_t i = 0; i < viewed_run.snapshot.robots.size(); ++i) {
+    const Readings* readings = viewed_run.readingsOf(i);
     ASSERT_EQ(readings != nullptr, std::find(of.begin(), of.end(), i) != of.end()) << i;
     if (!readings) continue;
     EXPECT_EQ(readings->measurements, world.state().readings[i].measurements) << i;
   }
 }
 
-TEST(Viewing, LetsAViewerGoThatNeverReadsAndTalksNonsense) {
+TEST(Viewing, DisconnectsAViewerThatSendsInvalidInputWithoutReading) {
   ServedWorld::Options options = paused();
   options.world = "worlds/open_100.xml";
   ServedWorld world(options);
-  RawViewer deaf(world.dialOptions());
+  RawViewer deaf(world.connectOptions());
   Panel panel(world);
-  for (int i = 1; i <= 200; ++i) {  // far more than goes out before the first is taken
+  for (int i = 1; i <= 200; ++i) {  // far more than fits into the buffers
     deaf.ask({.of_all = true, .of = {}});
     panel.step(1);
   }
   EXPECT_EQ(panel.status().viewers(), 1u);
-  deaf.talkNonsense();
+  deaf.sendInvalid();
   while (panel.status().viewers() > 0) std::this_thread::yield();
-  EXPECT_EQ(countOf("hung up on: a message that is no robosim.wire.FrameRequest", world.log()), 1u);
+  EXPECT_EQ(countOf("disconnected: a message that is not a valid robosim.wire.FrameRequest", world.log()), 1u);
 }
 
-TEST(Viewing, AnswersWhoAsksOnceAndHasNothingMoreToSay) {
+TEST(Viewing, AnswersASingleRequestBeforeHalfClose) {
   ServedWorld world(paused());
-  RawViewer viewer(world.dialOptions());
+  RawViewer viewer(world.connectOptions());
   viewer.ask();
   viewer.sayNothingMore();
   EXPECT_EQ(viewer.read().robots_size(), 2);
   EXPECT_TRUE(viewer.howItEnds().ok());
 }
 
-TEST(Viewing, ShowsTheReadingsOfWhomTheViewerWishesAndOfNobodyElse) {
+TEST(Viewing, SendsOnlyRequestedReadings) {
   ServedWorld world(paused());
-  Viewer viewer(world.dialOptions(), {.of_all = true, .of = {}});
-  expectReadings(viewer.sight(), world, {0, 1});
-  viewer.want({.of_all = false, .of = {1}});
+  Viewer viewer(world.connectOptions(), {.of_all = true, .of = {}});
+  expectReadings(viewer.run(), world, {0, 1});
+  viewer.select({.of_all = false, .of = {1}});
   Panel(world).step(5);
-  ASSERT_TRUE(viewer.look());
-  EXPECT_EQ(viewer.sight().step, 5u);
-  expectReadings(viewer.sight(), world, {1});
-  viewer.want({});
-  ASSERT_TRUE(viewer.look()) << "the wish is another, so the step in sight comes once more";
-  EXPECT_EQ(viewer.sight().step, 5u);
-  expectReadings(viewer.sight(), world, {});
+  ASSERT_TRUE(viewer.waitForFrame());
+  EXPECT_EQ(viewer.run().snapshot.step, 5u);
+  expectReadings(viewer.run(), world, {1});
+  viewer.select({});
+  ASSERT_TRUE(viewer.waitForFrame()) << "other readings are requested, so the step is sent again";
+  EXPECT_EQ(viewer.run().snapshot.step, 5u);
+  expectReadings(viewer.run(), world, {});
 }
 
-TEST(Viewing, ShowsAPausedRunOnceMoreWhenTheWishChangesWhileTheViewerWaits) {
+TEST(Viewing, ResendsAPausedStepWhenTheRequestedReadingsChange) {
   ServedWorld world(paused());
-  RawViewer viewer(world.dialOptions());
+  RawViewer viewer(world.connectOptions());
   viewer.next();
-  viewer.ask();  // nothing has changed, so there is no answer as yet
+  viewer.ask();  // nothing has changed, so there is no reply yet
   viewer.ask({.of_all = false, .of = {0}}, true);
   const wire::Frame frame = viewer.read();
   EXPECT_EQ(frame.step(), 0u);
   ASSERT_EQ(frame.readings_size(), 1);
   EXPECT_EQ(frame.readings(0).robot(), 0u);
-  viewer.ask({.of_all = true, .of = {}}, true);  // asks for no frame
+  viewer.ask({.of_all = true, .of = {}}, true);  // does not request a frame
   Panel(world).step(1);
   viewer.ask({.of_all = true, .of = {}});
   EXPECT_EQ(viewer.read().step(), 1u) << "one frame for each request";
 }
 
-TEST(Viewing, EndsALookThatWaitsWhenItsOwnerLeaves) {
+TEST(Viewing, CancelsAPendingRequestOnDisconnect) {
   ServedWorld world(paused());
-  Viewer viewer(world.dialOptions());
-  auto look = std::async(std::launch::async, [&] { return viewer.look(); });
+  Viewer viewer(world.connectOptions());
+  auto look = std::async(std::launch::async, [&] { return viewer.waitForFrame(); });
   viewer.leave();
   EXPECT_FALSE(look.get());
-  EXPECT_FALSE(viewer.look());
+  EXPECT_FALSE(viewer.waitForFrame());
 }
 
-TEST(Viewing, TellsAViewerWhetherItsTokenIsAControlPanelsToo) {
+TEST(Viewing, ReportsWhetherATokenPermitsControl) {
   ServedWorld::Options options = paused();
   options.server.access = Access::parse("viewer-0123456789ab viewer\nmaster-0123456789ab operator\n", "tokens");
   ServedWorld world(options);
   const auto may_operate = [&](const std::string& token) {
-    DialOptions dialled = world.dialOptions();
-    dialled.token = token;
-    return Viewer(dialled).sight().may_operate;
+    ConnectOptions connect_options = world.connectOptions();
+    connect_options.token = token;
+    return Viewer(connect_options).run().may_operate;
   };
   EXPECT_FALSE(may_operate("viewer-0123456789ab"));
   EXPECT_TRUE(may_operate("master-0123456789ab"));
   ServedWorld open(paused());
-  EXPECT_TRUE(Viewer(open.dialOptions()).sight().may_operate);
+  EXPECT_TRUE(Viewer(open.connectOptions()).run().may_operate);
 }
 
-TEST(Viewing, LetsViewersComeAndGoWithoutATraceInTheRun) {
+TEST(Viewing, ViewersDoNotAffectTheRun) {
   const auto digest = [](bool is_watched) {
     ServedWorld::Options options;
     options.last_step = 3000;
     options.server.is_paused = true;
     ServedWorld world(options);
-    Viewer first(world.dialOptions());
+    Viewer first(world.connectOptions());
     Panel(world).start();
     for (int i = 0; is_watched && i < 20; ++i) {
       try {
-        Viewer viewer(world.dialOptions());
-        if (!viewer.look()) break;
+        Viewer viewer(world.connectOptions());
+        if (!viewer.waitForFrame()) break;
       } catch (const ConnectionError&) {
         break;  // the run is over
       }
@@ -235,18 +235,18 @@ TEST(Viewing, LetsViewersComeAndGoWithoutATraceInTheRun) {
   EXPECT_EQ(digest(true), digest(false));
 }
 
-TEST(Viewing, ShowsEveryoneTheOtherWorldThatAPanelLoads) {
+TEST(Viewing, SendsALoadedWorldToAllViewers) {
   ServedWorld world(paused());
-  Viewer viewer(world.dialOptions());
-  EXPECT_EQ(viewer.sight().world.world.name, "small_maze");
+  Viewer viewer(world.connectOptions());
+  EXPECT_EQ(viewer.run().world.world.name, "small_maze");
   Panel(world).load("worlds/open_100.xml");
-  ASSERT_TRUE(viewer.look());
-  EXPECT_TRUE(viewer.isOtherWorld());
-  EXPECT_EQ(viewer.sight().world.world.name, "open_100");
-  EXPECT_EQ(viewer.sight().robots.size(), 100u);
+  ASSERT_TRUE(viewer.waitForFrame());
+  EXPECT_TRUE(viewer.isNewWorld());
+  EXPECT_EQ(viewer.run().world.world.name, "open_100");
+  EXPECT_EQ(viewer.run().snapshot.robots.size(), 100u);
 }
 
-TEST(Viewing, TellsTheTextViewerEachFrameAndReadingsUntilTheRunIsOver) {
+TEST(Viewing, TextViewerPrintsFramesAndReadingsUntilTheRunIsOver) {
   ServedWorld world(paused());
   StartedProgram viewer(ROBOSIM_TEXT_VIEWER, {std::to_string(world.port()), "Scout1"});
   viewer.waitForOutput("step 0; Pioneer1 ");

@@ -1,8 +1,8 @@
-"""Drives robots of a RoboSim environment from Python: each goes ahead until its sonars hear something in its way, and turns.
+"""Drives robots of a RoboSim environment from Python: each drives ahead, and turns at obstacles measured by its sonars.
 
     /usr/bin/python3 wander.py HOST:PORT NAME...
 
-The token, if the environment asks for one, is in ROBOSIM_TOKEN. README.md tells how to make the modules in `net`.
+A token, if required, is read from ROBOSIM_TOKEN. README.md describes how to generate the modules in `net`.
 """
 import os
 import queue
@@ -13,14 +13,14 @@ from net import robots_pb2 as wire
 from net import robots_pb2_grpc
 
 def free_m(readings, sensors):
-    """How far the sonars hear nothing within the robot's width, ahead of its centre."""
-    way = float("inf")
+    """Free distance ahead of the robot's centre within its width, measured by the sonars."""
+    distance = float("inf")
     for reading, sensor in zip(readings.measurements, sensors):
-        if sensor.kind == wire.SONAR:
-            for x_m, y_m in zip(reading.echoes[1::4], reading.echoes[2::4]):
+        if sensor.kind == "sonar":
+            for x_m, y_m in zip(reading.floats[1::4], reading.floats[2::4]):
                 if x_m > 0 and abs(y_m) < 0.3:
-                    way = min(way, x_m)
-    return way
+                    distance = min(distance, x_m)
+    return distance
 
 
 def decide(i, readings, sensors):
@@ -31,7 +31,7 @@ def decide(i, readings, sensors):
 
 def drive(address, names):
     answers = queue.SimpleQueue()
-    answers.put(wire.FromRobots(hello=wire.RobotsHello(protocol=1, names=names)))
+    answers.put(wire.DriveRequest(hello=wire.RobotsHello(protocol=1, names=names)))
     token = os.environ.get("ROBOSIM_TOKEN")
     metadata = [("authorization", "Bearer " + token)] if token else []
     with grpc.insecure_channel(address) as channel:
@@ -41,7 +41,7 @@ def drive(address, names):
         steps = 0
         for message in stream:
             commands = [decide(i, readings, sensors[i]) for i, readings in enumerate(message.robots)]
-            answers.put(wire.FromRobots(step=message.step, commands=commands))
+            answers.put(wire.DriveRequest(step=message.step, commands=commands))
             steps = message.step
         print("the run is over after step", steps)
 
@@ -50,4 +50,4 @@ if __name__ == "__main__":
     try:
         drive(sys.argv[1], sys.argv[2:])
     except grpc.RpcError as error:
-        sys.exit("the environment says: " + error.details())
+        sys.exit("error from the environment: " + error.details())

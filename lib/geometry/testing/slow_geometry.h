@@ -6,19 +6,19 @@
 #include <optional>
 #include <variant>
 
-#include "geometry/solid.h"
+#include "geometry/shapes/solid.h"
 
-/// Slow answers to check the fast ones by: in long double (64 bits of mantissa), and by other ways than the room's own.
-/// All rest on two facts: how far a point stands out of a convex outline is a convex function of the point, and what is
-/// convex in the plane is convex along any straight line. So a search for the lowest value and a bisection find
-/// every first contact, with no formula for circles meeting lines.
+/// Slow reference implementations in long double (64 bits of mantissa) that use other algorithms than the module. All
+/// rest on two facts: the signed distance of a point to a convex outline is a convex function of the point, and a
+/// convex function in the plane is convex along any straight line. So a ternary search for the minimum and a bisection
+/// find every first contact, without formulas for circle–line intersection.
 namespace robosim {
 
 using Real = long double;
 
-/// Two shapes that differ by this much pass for the same: doubles of a few hundred metres are not much finer. Where an
-/// answer jumps (a ray that just touches, or just misses), either side of the jump is right if a change of this size
-/// could bring it about.
+/// Tolerance [m] below which two shapes count as equal: close to the resolution of doubles at a few hundred metres.
+/// Where a result is discontinuous (a ray that just touches, or just misses), both sides are accepted if a change of
+/// this size could cause either.
 constexpr Real kGrain_m = 1e-12L;
 
 struct RealPoint {
@@ -33,7 +33,7 @@ inline Real cross(RealPoint a, RealPoint b) { return a.x * b.y - a.y * b.x; }
 inline Real norm(RealPoint a) { return std::sqrt(dot(a, a)); }
 inline RealPoint real(const mrpt::math::TPoint2D& p) { return {p.x, p.y}; }
 
-/// Counter-clockwise.
+/// Corners of a box, counter-clockwise.
 inline std::array<RealPoint, 4> cornersOf(const OrientedBox& box) {
   const RealPoint along = real(box.axis) * box.half_length_m;
   const RealPoint across = RealPoint{-real(box.axis).y, real(box.axis).x} * box.half_width_m;
@@ -41,9 +41,9 @@ inline std::array<RealPoint, 4> cornersOf(const OrientedBox& box) {
   return {c + along + across, c - along + across, c - along - across, c + along - across};
 }
 
-/// > 0 outside, 0 on the outline, < 0 inside; convex. For a box it is the farthest that the point stands out beyond any
-/// of the four sides, which before a corner is less than the distance.
-inline Real standsOut(const Outline& outline, RealPoint p) {
+/// Convex function that is > 0 outside, 0 on the outline and < 0 inside. For a box, the maximum signed distance to its
+/// four sides, which is less than the distance near a corner.
+inline Real signedExcess(const Outline& outline, RealPoint p) {
   if (const auto* circle = std::get_if<Circle>(&outline)) return norm(p - real(circle->center)) - circle->radius_m;
   const auto& box = std::get<OrientedBox>(outline);
   const RealPoint from_center = p - real(box.center);
@@ -56,10 +56,10 @@ inline Real slowDistanceToSegment(RealPoint p, RealPoint a, RealPoint b) {
   return norm(p - (a + (b - a) * t));
 }
 
-/// To the filled outline.
+/// Distance to the filled outline.
 inline Real slowDistance(const Outline& outline, RealPoint p) {
-  if (std::holds_alternative<Circle>(outline)) return std::max(Real(0), standsOut(outline, p));
-  if (standsOut(outline, p) <= 0) return 0;
+  if (std::holds_alternative<Circle>(outline)) return std::max(Real(0), signedExcess(outline, p));
+  if (signedExcess(outline, p) <= 0) return 0;
   const auto corners = cornersOf(std::get<OrientedBox>(outline));
   Real nearest = std::numeric_limits<Real>::infinity();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -68,10 +68,10 @@ inline Real slowDistance(const Outline& outline, RealPoint p) {
   return nearest;
 }
 
-/// Where in [from, to] the convex function is least.
+/// Minimum position of a convex function in [from, to] by ternary search.
 template <typename Convex>
-Real leastOf(const Convex& f, Real from, Real to) {
-  // Thirds: 110 rounds shrink the span by 4e-20.
+Real argmin(const Convex& f, Real from, Real to) {
+  // 110 rounds shrink the interval by a factor of 4e-20.
   for (int round = 0; round < 110; ++round) {
     const Real a = from + (to - from) / 3, b = to - (to - from) / 3;
     if (f(a) <= f(b)) {
@@ -87,7 +87,7 @@ Real leastOf(const Convex& f, Real from, Real to) {
 template <typename Convex>
 std::optional<Real> firstAtMost(const Convex& f, Real from, Real to, Real level) {
   if (f(from) <= level) return from;
-  Real inside = leastOf(f, from, to);
+  Real inside = argmin(f, from, to);
   if (f(to) < f(inside)) inside = to;
   if (f(inside) > level) return std::nullopt;
   Real outside = from;

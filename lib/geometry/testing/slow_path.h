@@ -6,25 +6,26 @@
 #include <vector>
 
 #include "base/random.h"
-#include "geometry/path.h"
-#include "geometry/random_scene.h"
+#include "geometry/shapes/path.h"
+#include "geometry/testing/random_scene.h"
 #include "geometry/testing/slow_geometry.h"
 
 namespace robosim {
 
-/// From 5 cm to 10 m a step, forwards and backwards; straight, nearly so, gently turned, or round and round.
+/// Random path of 5 cm to 10 m per step, forwards or backwards: straight, almost straight, slightly curved, or several
+/// turns.
 inline Path randomPath(Rng& rng, const Bounds2D& area) {
   const mrpt::math::TPoint2D from = randomPoint(rng, area);
   Path path{{from.x, from.y, rng.uniform(-M_PI, M_PI)}, std::pow(10, rng.uniform(-1.3, 1)), 0};
   if (rng.below(2)) path.length_m = -path.length_m;
-  constexpr double kMostTurn_rad[] = {0, 1e-7, 0.5, 7};
-  const double most = kMostTurn_rad[rng.below(4)];
-  path.turn_rad = rng.uniform(-most, most);
+  constexpr double kMaxTurn_rad[] = {0, 1e-7, 0.5, 7};
+  const double max_turn_rad = kMaxTurn_rad[rng.below(4)];
+  path.turn_rad = rng.uniform(-max_turn_rad, max_turn_rad);
   return path;
 }
 
-/// Where the exact arc is: the straight line there from the start is length · sin(turn / 2) / (turn / 2) long, and half
-/// the turn aside.
+/// Position on the exact arc: its chord from the start has the length length · sin(turn / 2) / (turn / 2) and half the
+/// turn as its angle.
 inline RealPoint onArc(const Path& path, Real fraction) {
   const auto& start = path.world_from_start;
   const Real half = path.turn_rad * fraction / 2, length = path.length_m * fraction;
@@ -32,7 +33,7 @@ inline RealPoint onArc(const Path& path, Real fraction) {
   return RealPoint{start.x, start.y} + RealPoint{std::cos(start.phi + half), std::sin(start.phi + half)} * straight;
 }
 
-/// Where the chain of chords is, which stops at its end.
+/// Position on the chain of chords, which stops at its end.
 inline RealPoint onChords(const Path& path, Real fraction) {
   const int n = path.chords();
   const Real along = std::min(fraction, Real(path.end_fraction)) * n;
@@ -41,8 +42,8 @@ inline RealPoint onChords(const Path& path, Real fraction) {
   return a + (b - a) * (along - chord);
 }
 
-/// Chord by chord, as the distance to an outline is convex along each. nullopt when the disc, its contact gap made
-/// larger by `more_m`, never comes that near.
+/// First contact, chord by chord, because the distance to an outline is convex along each chord. nullopt when the disc,
+/// with its contact gap enlarged by `more_m`, never comes that near.
 inline std::optional<Real> slowFirstContact(const Path& path, double radius_m, const Outline& outline, Real more_m) {
   const int n = path.chords();
   const Real near = Real(radius_m) + kContactGap_m + more_m;
@@ -57,30 +58,30 @@ inline std::optional<Real> slowFirstContact(const Path& path, double radius_m, c
   return std::nullopt;
 }
 
-/// How far the disc, its contact gap around it, stands out of the area at a fraction; < 0 inside.
-inline Real standsOutOf(const Bounds2D& area, const Path& path, double radius_m, Real fraction) {
+/// Distance by which the disc with its contact gap extends beyond the area at a fraction; < 0 inside.
+inline Real excessBeyond(const Bounds2D& area, const Path& path, double radius_m, Real fraction) {
   const RealPoint p = onChords(path, fraction);
   return std::max({p.x - area.x_max, area.x_min - p.x, p.y - area.y_max, area.y_min - p.y}) + radius_m + kContactGap_m;
 }
 
-/// For a disc that starts inside: what stands out is convex along a chord, so a chord that ends inside never left.
+/// First exit of a disc that starts inside: the excess is convex along a chord, so a chord that ends inside never left.
 inline std::optional<Real> slowFirstExit(const Path& path, double radius_m, const Bounds2D& area) {
   const int n = path.chords();
   for (int chord = 0; chord < n; ++chord) {
     Real inside = Real(chord) / n, outside = std::min(Real(chord + 1) / n, Real(path.end_fraction));
     if (inside > outside) break;
-    if (standsOutOf(area, path, radius_m, outside) <= 0) continue;
+    if (excessBeyond(area, path, radius_m, outside) <= 0) continue;
     for (int round = 0; round < 80; ++round) {
       const Real middle = (inside + outside) / 2;
-      (standsOutOf(area, path, radius_m, middle) > 0 ? outside : inside) = middle;
+      (excessBeyond(area, path, radius_m, middle) > 0 ? outside : inside) = middle;
     }
     return outside;
   }
   return std::nullopt;
 }
 
-/// The nearest that the two discs' centres come to each other in the step. Between two ends of chords, of either path,
-/// they draw nearer and apart along straight lines at constant speed, so that their distance is convex.
+/// Minimum distance of the two discs' centres in the step. Between consecutive chord ends of either path their relative
+/// motion is straight and uniform, so their distance is convex.
 inline Real slowNearest(const Path& a, const Path& b) {
   std::vector<Real> ends{0, 1};
   for (const Path* path : {&a, &b}) {
@@ -99,7 +100,7 @@ inline Real slowNearest(const Path& a, const Path& b) {
     const RealPoint apart = of_a[i] - of_b[i], change = (of_a[i + 1] - of_b[i + 1]) - apart;
     if (norm(apart) - norm(change) > nearest) continue;
     const auto distance = [&](Real part) { return norm(apart + change * part); };
-    nearest = std::min(nearest, distance(leastOf(distance, 0, 1)));
+    nearest = std::min(nearest, distance(argmin(distance, 0, 1)));
   }
   return nearest;
 }

@@ -5,13 +5,13 @@
 
 #include "geometry/scene.h"
 
-/// A scene's answers, by loops over all its solids.
+/// Reference implementations of scene queries as loops over all solids.
 namespace robosim {
 
 inline std::size_t bodyCount(const Scene& scene) { return scene.stationaryCount() + scene.movingCount(); }
 inline BodyId body(std::size_t i) { return BodyId(static_cast<std::uint32_t>(i)); }
 
-/// What castRay is to find, asked of one solid after the other.
+/// Expected result of castRay: tests one solid after another.
 inline Hit castRaySlowly(const Scene& scene, const Ray& ray, double range_m, BodyId except) {
   Hit best;
   for (std::size_t i = 0; i < bodyCount(scene); ++i) {
@@ -36,7 +36,8 @@ inline Hit senseSectorSlowly(const Scene& scene, const Sector& sector, double ra
   return best;
 }
 
-/// What of an answer is not the same, bit for bit, for an index only chooses which solids to ask; empty when all is.
+/// Description of the difference between two results, which must be bit-identical because an index only selects
+/// candidates; empty when they are equal.
 inline std::string whatDiffers(const Hit& got, const Hit& expected) {
   if (got.body == expected.body && got.distance_m == expected.distance_m &&
       (!expected || got.point == expected.point)) {

@@ -1,4 +1,4 @@
-// The robot's picture, the newest first: one that comes while another is being decoded takes its place.
+// The robot's camera picture. Of pictures that arrive while another is decoded, only the newest is drawn.
 
 export class Camera {
   #next = null;
@@ -9,10 +9,10 @@ export class Camera {
     this.placeholder = placeholder;
   }
 
-  // `size` of the camera, null for a robot that has none
+  // `size`: {width_px, height_px}; null for a robot without a camera
   reset(name, size) {
     this.#next = null;
-    this.#say(size ? 'No picture yet' : `${name} has no camera. Drive by its sonar and laser.`);
+    this.#showText(size ? 'No picture yet' : `${name} has no camera. Use its sonar and laser.`);
     this.canvas.width = size?.width_px ?? 320;
     this.canvas.height = size?.height_px ?? 240;
     delete this.canvas.dataset.step;
@@ -38,15 +38,15 @@ export class Camera {
         picture.close();
         canvas.dataset.step = step;
         canvas.dataset.drawnAt = performance.timeOrigin + performance.now();
-        this.#say('');
+        this.#showText('');
       } catch {
-        this.#say('A picture came that cannot be shown');
+        this.#showText('A picture could not be decoded');
       }
     }
     this.#isBusy = false;
   }
 
-  #say(text) {
+  #showText(text) {
     if (this.placeholder.textContent !== text) this.placeholder.textContent = text;
     this.placeholder.hidden = !text;
   }

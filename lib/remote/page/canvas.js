@@ -1,4 +1,4 @@
-// What the drawings share: sharp lines on any screen, and the colours of the page's scheme.
+// Functions shared by the drawings: scaling to the screen's pixels, and the colours of the page's scheme.
 
 const scheme = matchMedia('(prefers-color-scheme: dark)');
 let colors = {};
@@ -16,7 +16,7 @@ export function color(name) {
   return colors[name];
 }
 
-// The drawing area in CSS pixels: {g, width, height}; cleared. Null while it is not shown.
+// Clears a canvas: {g, width, height} in CSS pixels; null while it is not visible.
 export function begin(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!width || !height) return null;
@@ -30,7 +30,7 @@ export function begin(canvas) {
   return { g, width, height };
 }
 
-// A robot seen from above, at the origin and looking along x: its body, and where its front is.
+// A robot seen from above, at the origin with its front along x.
 export function drawRobot(g, radius, fill, stroke, lineWidth) {
   g.beginPath();
   g.arc(0, 0, radius, 0, 2 * Math.PI);

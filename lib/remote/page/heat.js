@@ -1,4 +1,4 @@
-// How warm it is, and how that has changed over the last minute of simulated time.
+// The heat reading, and its history over the last minute of simulation time.
 
 import { begin, color } from './canvas.js';
 
@@ -6,26 +6,26 @@ const SPAN_S = 60;
 const HOT = 1;
 
 export class Heat {
-  #history = [];  // [time, heat]
+  #history = [];  // [time [s], heat]
 
   constructor(label, canvas) {
     this.label = label;
     this.canvas = canvas;
-    this.most = 10;  // top of the drawing
+    this.top = 10;  // value at the top edge
   }
 
   reset(hasSensor) {
     this.#history = [];
-    this.most = 10;
+    this.top = 10;
     this.label.textContent = hasSensor ? '–' : 'none';
     this.draw();
   }
 
-  take(time_s, heat) {
+  add(time_s, heat) {
     if (this.#history.length && this.#history.at(-1)[0] > time_s) this.#history = [];
     this.#history.push([time_s, heat]);
     while (this.#history[0][0] < time_s - SPAN_S) this.#history.shift();
-    this.most = Math.max(10, ...this.#history.map(([, value]) => value));
+    this.top = Math.max(10, ...this.#history.map(([, value]) => value));
     this.label.textContent = heat.toFixed(1);
     this.label.classList.toggle('hot', heat > HOT);
   }
@@ -42,7 +42,7 @@ export class Heat {
     if (this.#history.length < 2) return;
     const now = this.#history.at(-1)[0];
     const x = (time) => width - ((now - time) / SPAN_S) * width;
-    const y = (heat) => height - 1 - (heat / this.most) * (height - 4);
+    const y = (heat) => height - 1 - (heat / this.top) * (height - 4);
     g.beginPath();
     for (const [time, heat] of this.#history) g.lineTo(x(time), y(heat));
     g.strokeStyle = color('heat');

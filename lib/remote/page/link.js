@@ -1,11 +1,11 @@
-// The connection with the console: JSON one way and the other, and each step of the robot as a binary message of JSON
-// and picture. A connection that breaks is made anew.
+// The connection to the console: JSON in both directions, and updates of the robot as binary messages of JSON and picture.
+// Reconnects after a failure.
 
 const PROTOCOL = 'robosim.remote.1';
 const RETRY_MS = 700;
 
-// A message of a step: the length of its JSON text (4 bytes, the lowest first), the text, a JPEG file or nothing.
-function parts(buffer) {
+// Parses an update: the length of its JSON text (4 bytes, little-endian), the text, and a JPEG file or nothing.
+function parseUpdate(buffer) {
   const length = new DataView(buffer).getUint32(0, true);
   const json = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, length)));
   const jpeg = buffer.byteLength > 4 + length ? new Blob([new Uint8Array(buffer, 4 + length)], { type: 'image/jpeg' }) : null;
@@ -19,7 +19,7 @@ export class Link extends EventTarget {
 
   constructor(hello) {
     super();
-    this.hello = hello;  // called for what to say first: {name, token}
+    this.hello = hello;  // returns the members of the first message: {name, token}
     this.isOpen = false;
   }
 
@@ -31,40 +31,40 @@ export class Link extends EventTarget {
     this.#socket = socket;
     this.#received = 0;
     socket.onopen = () => socket.send(JSON.stringify({ type: 'hello', protocol: 1, ...this.hello() }));
-    socket.onmessage = (event) => this.#take(event.data);
-    socket.onclose = (event) => this.#lost(socket, event);
+    socket.onmessage = (event) => this.#receive(event.data);
+    socket.onclose = (event) => this.#handleClose(socket, event);
   }
 
   send(type, members = {}) {
     if (this.isOpen) this.#socket.send(JSON.stringify({ type, ...members }));
   }
 
-  // Everything that has come so far has been shown: there may be more.
+  // All updates received so far have been drawn.
   acknowledge() {
     this.send('ack', { number: this.#received });
   }
 
-  #take(data) {
+  #receive(data) {
     if (typeof data !== 'string') {
-      const [update, jpeg] = parts(data);
+      const [update, jpeg] = parseUpdate(data);
       ++this.#received;
-      this.#tell('update', { update, jpeg });
+      this.#dispatch('update', { update, jpeg });
       return;
     }
     const message = JSON.parse(data);
     if (message.type === 'welcome') this.isOpen = true;
     if (message.type === 'refused') this.#refused = true;
-    this.#tell(message.type, message);
+    this.#dispatch(message.type, message);
   }
 
-  #lost(socket, event) {
+  #handleClose(socket, event) {
     if (socket !== this.#socket) return;
     this.isOpen = false;
-    this.#tell('lost', { why: event.reason, refused: this.#refused });
+    this.#dispatch('lost', { why: event.reason, refused: this.#refused });
     if (!this.#refused) setTimeout(() => this.connect(), RETRY_MS);
   }
 
-  #tell(type, detail) {
+  #dispatch(type, detail) {
     this.dispatchEvent(new CustomEvent(type, { detail }));
   }
 }

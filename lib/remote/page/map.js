@@ -1,4 +1,4 @@
-// All robots from above: the truth, which a driver should not see, and so only shown when asked for.
+// Map of the true poses of all robots. Drivers normally use readings only, so that the map is shown only on request.
 
 import { begin, color, drawRobot } from './canvas.js';
 
@@ -12,7 +12,7 @@ export class Map2D {
     this.note = note;
   }
 
-  take(map) {
+  set(map) {
     this.#map = map.problem || !map.robots ? null : map;
     this.#poses = [];
     this.note.textContent = map.problem || map.name || '';
@@ -23,7 +23,7 @@ export class Map2D {
     this.draw('');
   }
 
-  takePoses(poses) {
+  setPoses(poses) {
     this.#poses = poses;
     this.canvas.dataset.robots = JSON.stringify(poses.map((robot) => robot.at));
   }

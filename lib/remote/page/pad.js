@@ -1,6 +1,6 @@
-// The drive pad: drag the knob, up for ahead; let go, and it springs back.
+// The drive pad: dragging the knob up drives ahead; when released it returns to the centre.
 
-const REACH = 0.34;  // of the pad's width: how far the knob goes
+const REACH = 0.34;  // maximum deflection of the knob, as a fraction of the pad's width
 
 export class Pad {
   #pointer = null;
@@ -38,12 +38,12 @@ export class Pad {
     const size = Math.hypot(x, y);
     if (size > 1) [x, y] = [x / size, y / size];
     this.knob.style.transform = `translate(${x * reach}px, ${y * reach}px)`;
-    this.drive.holdPad(-y, -0.8 * x);
+    this.drive.hold('pad', { speed: -y, turn: -0.8 * x });
   }
 
   #release() {
     this.#pointer = null;
     this.knob.style.transform = '';
-    this.drive.releasePad();
+    this.drive.release('pad');
   }
 }

@@ -1,11 +1,11 @@
-// What the robot hears around itself, to scale: its front is up. Sonar echoes are wedges as wide as the beam, the laser is
-// the outline that it saw, and the path behind the robot is what its wheels tell.
+// Ranges around the robot, to scale, with its front up. Sonar echoes are wedges of the beam's width, laser ranges are an
+// outline, and the dashed path is the robot's odometry.
 
 import { begin, color, drawRobot } from './canvas.js';
 
 const SCALES_M = [1, 2, 4, 8, 16];
 const TRAIL_STEP_M = 0.04;
-const TRAIL_MOST = 600;
+const TRAIL_POINTS = 600;
 const NEAR_M = 0.5;
 
 export class Radar {
@@ -13,7 +13,7 @@ export class Radar {
   #ranges = new Map();  // by slot: the newest reading
   #pan = 0;
   #bumper = null;
-  #trail = [];
+  #trail = [];  // positions by odometry [m]
   #pose = null;
 
   constructor(canvas) {
@@ -37,21 +37,21 @@ export class Radar {
     this.draw();
   }
 
-  take(slot, measurement, pan) {
+  setRanges(slot, measurement, pan) {
     this.#ranges.set(slot, measurement);
     this.#pan = pan;
   }
-  takeBumper(slot, pressed) {
+  setBumper(slot, pressed) {
     this.#bumper = { beams: this.#robot.sensors[slot].beams, width: this.#robot.sensors[slot].beam_width_rad, pressed };
   }
-  takePose(odometry) {
+  setPose(odometry) {
     this.#pose = odometry;
     const last = this.#trail.at(-1);
     if (last && Math.hypot(last[0] - odometry.x_m, last[1] - odometry.y_m) < TRAIL_STEP_M) return;
     this.#trail.push([odometry.x_m, odometry.y_m]);
-    if (this.#trail.length > TRAIL_MOST) this.#trail.shift();
+    if (this.#trail.length > TRAIL_POINTS) this.#trail.shift();
   }
-  forgetRanges() {
+  clearRanges() {
     this.#ranges.clear();
   }
 
@@ -95,7 +95,7 @@ export class Radar {
 
   #drawTrail(g, unit) {
     if (!this.#pose || this.#trail.length < 2) return;
-    const { x_m: x, y_m: y, phi_rad: phi } = this.#pose;
+    const { x_m: x, y_m: y, heading_rad: phi } = this.#pose;
     const [c, s] = [Math.cos(phi), Math.sin(phi)];
     g.beginPath();
     for (const [px, py] of this.#trail) g.lineTo(c * (px - x) + s * (py - y), -s * (px - x) + c * (py - y));
@@ -118,16 +118,16 @@ export class Radar {
   #drawWedges(g, sensor, ranges_mm) {
     const half = Math.max(sensor.beam_width_rad, 0.04) / 2;
     sensor.beams.forEach(([x, y, yaw], i) => {
-      const isSilent = ranges_mm[i] >= sensor.no_echo_mm;
+      const hasNoEcho = ranges_mm[i] >= sensor.no_echo_mm;
       const range = Math.min(ranges_mm[i] / 1000, sensor.range_max_m);
       g.beginPath();
       g.moveTo(x, y);
       g.arc(x, y, range, yaw - half, yaw + half);
       g.closePath();
-      g.fillStyle = !isSilent && range < NEAR_M ? color('bad') : color('sonar');
-      g.globalAlpha = isSilent ? 0.06 : 0.2;
+      g.fillStyle = !hasNoEcho && range < NEAR_M ? color('bad') : color('sonar');
+      g.globalAlpha = hasNoEcho ? 0.06 : 0.2;
       g.fill();
-      if (isSilent) return;
+      if (hasNoEcho) return;
       g.globalAlpha = 0.9;
       g.beginPath();
       g.arc(x, y, range, yaw - half, yaw + half);
@@ -141,9 +141,9 @@ export class Radar {
   #drawOutline(g, unit, sensor, ranges_mm) {
     const pan = sensor.pans ? this.#pan : 0;
     const points = sensor.beams.map(([x, y, yaw], i) => {
-      const isSilent = ranges_mm[i] >= sensor.no_echo_mm;
+      const hasNoEcho = ranges_mm[i] >= sensor.no_echo_mm;
       const range = Math.min(ranges_mm[i] / 1000, sensor.range_max_m);
-      return { x: x + range * Math.cos(yaw + pan), y: y + range * Math.sin(yaw + pan), isSilent };
+      return { x: x + range * Math.cos(yaw + pan), y: y + range * Math.sin(yaw + pan), hasNoEcho };
     });
     const [x, y] = sensor.beams[0];
     if (points.length > 2) {
@@ -159,7 +159,7 @@ export class Radar {
     g.fillStyle = color('laser');
     const size = 3 / unit;
     for (const point of points) {
-      if (!point.isSilent) g.fillRect(point.x - size / 2, point.y - size / 2, size, size);
+      if (!point.hasNoEcho) g.fillRect(point.x - size / 2, point.y - size / 2, size, size);
     }
     if (points.length > 2) return;
     g.strokeStyle = color('laser');

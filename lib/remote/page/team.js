@@ -1,33 +1,33 @@
-// The list of robots: who is up, who drives whom, and a button to be driven next.
+// The list of robots: their connection, their driver, and a button that switches to each.
 
-function words(robot) {
+function description(robot) {
   if (!robot.up) return robot.problem;
   if (robot.activity === 'found') return 'has found the gold, and halted';
   if (robot.activity === 'halted') return 'has halted';
-  if (robot.driver && !robot.is_yours) return `${robot.driver} has it`;
+  if (robot.driver && !robot.is_yours) return `driven by ${robot.driver}`;
   if (robot.autonomous) return 'autonomous';
   return robot.why_stopped ? `stopped: ${robot.why_stopped}` : 'driven';
 }
 
-function lamp(robot) {
+function lampOf(robot) {
   if (!robot.up) return 'down';
   return robot.activity === 'active' ? 'up' : 'halted';
 }
 
 function element(tag, className, text) {
-  const made = document.createElement(tag);
-  if (className) made.className = className;
-  if (text !== undefined) made.textContent = text;
-  return made;
+  const created = document.createElement(tag);
+  if (className) created.className = className;
+  if (text !== undefined) created.textContent = text;
+  return created;
 }
 
-// `mayDrive`: whether buttons are to work; `onSwitch(name)`
+// `mayDrive`: whether the buttons are enabled; `onSwitch(name)`: called for a click
 export function showTeam(list, robots, mayDrive, onSwitch) {
   const focused = document.activeElement?.dataset?.robot;
   list.replaceChildren(...robots.map((robot, i) => {
     const item = element('li', i === 0 ? 'primary' : '');
     item.dataset.robot = robot.name;
-    item.append(element('span', `lamp ${lamp(robot)}`), element('b', '', robot.name));
+    item.append(element('span', `lamp ${lampOf(robot)}`), element('b', '', robot.name));
     if (i > 0) {
       const button = element('button', '', 'Drive');
       button.type = 'button';
@@ -39,7 +39,7 @@ export function showTeam(list, robots, mayDrive, onSwitch) {
     } else {
       item.append(element('span', 'pill info', 'primary'));
     }
-    item.append(element('small', '', words(robot)));
+    item.append(element('small', '', description(robot)));
     return item;
   }));
   if (focused) list.querySelector(`button[data-robot="${CSS.escape(focused)}"]`)?.focus();

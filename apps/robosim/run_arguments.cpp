@@ -1,0 +1,69 @@
+#include "robosim/run_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "base/text_table.h"
+#include "maze/controllers.h"
+#include "robosim/arguments.h"
+
+namespace robosim {
+
+void addRunArguments(CLI::App& command, RunArguments& a) {
+  command.add_option("WORLD", a.world, "world file or map file")->type_name("FILE")->required();
+  addRobotOptions(command, a.changes);
+  command.add_flag("--random-starts", a.changes.has_random_starts,
+                   "move every robot to a random pose that it can reach from its start");
+  command
+      .add_option_function<std::string>(
+          "--noise", [&a](const std::string& text) { a.changes.has_noise = text == "on"; },
+          "on: sensors without a <noise> element get that of their data sheets; world: only sensors with a <noise>")
+      ->check(CLI::IsMember({"on", "world"}))
+      ->default_str("world");
+  command.add_option("--record", a.record, "record the run as an MRPT rawlog to this file")
+      ->type_name("FILE")
+      ->check(fileName());
+  command
+      .add_option("--rawlog-format", a.rawlog_format,
+                  "obs: observations; sf: pairs of action and sensory frame, one file per robot")
+      ->check(CLI::IsMember({"obs", "sf"}))
+      ->capture_default_str();
+  command
+      .add_option("--record-images", a.record_images,
+                  "camera pictures: embedded in the rawlog, or external, as JPEG files in the folder STEM_Images")
+      ->check(CLI::IsMember({"embedded", "external"}))
+      ->capture_default_str();
+  command
+      .add_option("--seed", a.run.environment.seed,
+                  "seed of all random numbers: noise, random starts, controllers; 0 to 2^64 - 1")
+      ->check(seedNumber())
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  addTime(command, a.time_s, "simulated time limit; the run ends earlier if all robots have halted");
+  addStep(command, a.run.environment.period_s);
+  addThreads(command, a.run.environment.threads, "number of threads; the run does not depend on it");
+  command.add_option("--speed", a.speed, "simulated seconds per second: max, or 0.001 to 1000000 (1 is real time)")
+      ->type_name("X|max")
+      ->capture_default_str();
+  command.add_option("--controller", a.run.controller, "controller of all robots, instead of those in the world")
+      ->check(CLI::IsMember(controllerNames()));
+  command
+      .add_option("--picture", a.picture, "draw the world from above, with the paths of all robots, to this PNG file")
+      ->type_name("FILE")
+      ->check(fileName());
+  command.add_flag("--json", a.json, "print the summary as one JSON object");
+}
+
+void checkRunArguments(const RunArguments& a) {
+  speedNumber(a.speed);
+  warnOfPartialStep(a.time_s, a.run.environment.period_s);
+  refuseSameFile({{"WORLD", a.world}, {"--record", a.record}, {"--picture", a.picture}});
+}
+
+std::string controllersHelp() {
+  std::string text = "Controllers:\n";
+  Rows rows;
+  for (const auto& type : controllerTypes()) rows.push_back({std::string("  ") + type.name, type.help});
+  return text + listing(rows);
+}
+
+}  // namespace robosim

@@ -1,0 +1,15 @@
+#pragma once
+#include "robosim/cli11_names.h"
+
+namespace robosim {
+
+/// @name The benchmarks, one file each; each function adds a subcommand to the program
+///@{
+void addCameraBenchmark(CLI::App& program);
+void addMapsBenchmark(CLI::App& program);
+void addNetworkBenchmark(CLI::App& program);
+void addSpeedBenchmark(CLI::App& program);
+void addViewBenchmark(CLI::App& program);
+///@}
+
+}  // namespace robosim

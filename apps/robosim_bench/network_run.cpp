@@ -1,0 +1,191 @@
+#include "robosim_bench/network_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <ctime>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/error_list.h"
+#include "base/program_folder.h"
+#include "robosim_bench/rounds.h"
+#include "robosim_bench/workloads.h"
+#include "server/environment_server.h"
+
+namespace robosim {
+namespace {
+
+/// Size of the readings used when the maximum throughput of gRPC was measured: 790 bytes.
+constexpr Workload kLoad{
+    "network", "16 sonars of one ray, and 30 infrared rays of 10 cm",
+    "<sonar model='rays' rays='1' range_max_m='5'><ring count='16' radius_m='0.2' z_m='0.2'/></sonar>"
+    "<infrared range_min_m='0' range_max_m='0.1'><ring count='30' radius_m='0.25' z_m='0.2'/></infrared>",
+    46};
+
+/// Child processes running `robosim robot`; ended with this object.
+class RobotProgram {
+ public:
+  /// @param apart one process per robot
+  RobotProgram(const std::vector<std::string>& names, int port, const std::string& trusted_certificate, bool apart) {
+    std::vector<std::string> arguments{"robosim", "robot"};
+    if (apart) arguments.emplace_back("--apart");
+    arguments.insert(arguments.end(), names.begin(), names.end());
+    arguments.insert(arguments.end(), {"--environment", std::to_string(port), "--controller", "wander"});
+    if (!trusted_certificate.empty()) arguments.insert(arguments.end(), {"--tls-ca", trusted_certificate});
+    std::vector<char*> argv;
+    for (auto& word : arguments) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    posix_spawn_file_actions_t quiet;
+    posix_spawn_file_actions_init(&quiet);
+    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    const auto robosim = programFolder() / "robosim";
+    const int error = posix_spawn(&id_, robosim.c_str(), &quiet, nullptr, argv.data(), environ);
+    posix_spawn_file_actions_destroy(&quiet);
+    if (error != 0) throw std::runtime_error("cannot start a robot process: " + std::string(std::strerror(error)));
+  }
+  ~RobotProgram() {
+    if (hasEnded()) return;
+    kill(id_, SIGKILL);
+    waitpid(id_, nullptr, 0);
+  }
+  RobotProgram(const RobotProgram&) = delete;
+  RobotProgram& operator=(const RobotProgram&) = delete;
+
+  /// Whether the program has ended; it ends by itself only on an error, which it has printed.
+  bool hasEnded() { return has_ended_ = has_ended_ || waitpid(id_, nullptr, WNOHANG) == id_; }
+
+  /// CPU time of all child processes together, once they are connected.
+  double cpuSeconds() {
+    if (processes_.empty()) findProcesses();
+    double sum_s = 0;
+    for (const auto id : processes_) {
+      clockid_t clock{};
+      timespec time{};
+      if (clock_getcpuclockid(id, &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
+      sum_s += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+    }
+    return sum_s;
+  }
+
+ private:
+  void findProcesses() {
+    const std::string id = std::to_string(id_);
+    std::ifstream made("/proc/" + id + "/task/" + id + "/children");
+    processes_.assign(1, id_);
+    for (pid_t child = 0; made >> child;) processes_.push_back(child);
+  }
+
+  pid_t id_ = 0;
+  bool has_ended_ = false;
+  std::vector<pid_t> processes_;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Runs in lockstep at maximum speed; measures several windows after one for warm-up.
+class MeasuredRun final : public ServedRun {
+ public:
+  explicit MeasuredRun(const NetworkBench& bench)
+      : MeasuredRun(bench, makeWorldToRun(kLoad, bench.layout.processes * bench.layout.robots_each, 1)) {}
+
+  /// Connects the robot processes to this environment.
+  void invite(int port) {
+    const bool apart = bench_.layout.processes > 1 && bench_.layout.robots_each == 1 && !bench_.one_by_one;
+    const auto& names = run_info_->robot_names;
+    const auto each = static_cast<std::ptrdiff_t>(apart ? names.size() : bench_.layout.robots_each);
+    for (auto name = names.begin(); name != names.end(); name += each) {
+      programs_.push_back(std::make_unique<RobotProgram>(std::vector(name, name + each), port, bench_.tls_cert, apart));
+    }
+  }
+
+  bool hasLostProgram() const {
+    return std::any_of(programs_.begin(), programs_.end(), [](const auto& program) { return program->hasEnded(); });
+  }
+
+  Environment& environment() override { return environment_; }
+  std::shared_ptr<const RunInfo> runInfo() const override { return run_info_; }
+  void decide() override {
+    if (environment_.time().step == 0) window_start_ = now();
+  }
+  void stepped(std::size_t /*late*/) override {
+    ++steps_;
+    if (Clocks::now().wall_s - window_start_.own.wall_s < bench_.window_s) return;
+    const Times end = now();
+    if (is_warm_) note(end);
+    is_warm_ = true;
+    steps_ = 0;
+    window_start_ = now();
+  }
+  bool isOver() const override { return static_cast<int>(steps_per_s_.size()) == bench_.windows; }
+  void ends(const RunReport&) override {}
+  std::unique_ptr<PreparedRun> prepare(const WorldSource&) const override {
+    throw ConfigError("a benchmark cannot load another world");
+  }
+  void replace(std::unique_ptr<PreparedRun>) override {}
+
+  NetworkFigures figures() const { return {median(steps_per_s_), median(environment_cpu_us_), median(robots_cpu_us_)}; }
+
+ private:
+  struct Times {
+    Clocks own;
+    double robots_cpu_s = 0;
+  };
+
+  MeasuredRun(const NetworkBench& bench, LoadedWorld world)
+      : bench_(bench),
+        environment_(std::move(world.world), std::move(world.fleet), EnvironmentOptions{}),
+        run_info_(std::make_shared<RunInfo>(environment_, WorldSource{}, 1,
+                                            std::vector<std::uint8_t>(environment_.robotCount(), 1))) {}
+
+  Times now() const {
+    Times times{Clocks::now()};
+    for (const auto& program : programs_) times.robots_cpu_s += program->cpuSeconds();
+    return times;
+  }
+
+  void note(const Times& end) {
+    const double us_each = 1e6 / static_cast<double>(steps_ * bench_.layout.processes);
+    steps_per_s_.push_back(static_cast<double>(steps_) / (end.own.wall_s - window_start_.own.wall_s));
+    environment_cpu_us_.push_back((end.own.cpu_s - window_start_.own.cpu_s) * us_each);
+    robots_cpu_us_.push_back((end.robots_cpu_s - window_start_.robots_cpu_s) * us_each);
+  }
+
+  const NetworkBench& bench_;
+  Environment environment_;
+  std::shared_ptr<const RunInfo> run_info_;
+  std::vector<std::unique_ptr<RobotProgram>> programs_;
+  Times window_start_;
+  bool is_warm_ = false;
+  std::uint64_t steps_ = 0;
+  std::vector<double> steps_per_s_, environment_cpu_us_, robots_cpu_us_;
+};
+
+}  // namespace
+
+NetworkFigures measureNetwork(const NetworkBench& bench) {
+  MeasuredRun run(bench);
+  ServerOptions options;
+  options.listen = ListenAddresses::parse("127.0.0.1:0");
+  options.step_deadline = std::chrono::minutes(1);
+  if (!bench.tls_cert.empty()) options.tls = TlsIdentity::read(bench.tls_cert, bench.tls_key);
+  options.log = [](const std::string&) {};
+  EnvironmentServer server(options, run.runInfo());
+  run.invite(server.ports().front());
+  server.serve(run, [&] { return run.hasLostProgram(); });
+  if (!run.isOver()) throw std::runtime_error("a robot process has ended; its error is above");
+  return run.figures();
+}
+
+}  // namespace robosim

@@ -1,0 +1,121 @@
+#include <iostream>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "robosim/arguments.h"
+#include "robosim_bench/benchmarks.h"
+#include "robosim_bench/rounds.h"
+#include "robosim_bench/workloads.h"
+#include "run/local_run.h"
+#include "viewing/view_outputs.h"
+
+namespace robosim {
+namespace {
+
+struct Kind {
+  const char* name;
+  const char* help;
+  bool is_2d, is_3d;
+};
+constexpr Kind kKinds[] = {{"2d", "from above, with sonar fans", true, false},
+                           {"3d", "3D view", false, true},
+                           {"both", "both side by side", true, true}};
+constexpr double kAimFramesPerS = 20;
+
+struct Arguments {
+  std::size_t robots = 1000;
+  double min_s = 2;
+  bool json = false;
+};
+
+constexpr Size kSize{1280, 800};
+
+/// A run in this process with a view updated step by step.
+class RunView final : public ViewSource {
+ public:
+  RunView(LoadedWorld world, std::size_t robots)
+      : title_(withCommas(robots) + " robots"), world_(world), run_(std::move(world), {}) {}
+
+  const LoadedWorld& world() const override { return world_; }
+  const RunSnapshot& snapshot() const override { return snapshot_; }
+  std::string title() const override { return title_; }
+  bool advance(double) override {
+    run_.step();
+    snapshot_ = snapshotOf(run_.environment());
+    return true;
+  }
+  bool isOver() const override { return false; }
+
+ private:
+  std::string title_;
+  LoadedWorld world_;
+  LocalRun run_;
+  RunSnapshot snapshot_;
+};
+
+std::vector<Pane> panesOf(const Kind& kind, const World& world) {
+  std::vector<Pane> panes;
+  if (kind.is_2d) panes.push_back(makePane(false, std::nullopt, world));
+  if (kind.is_3d) panes.push_back(makePane(true, std::nullopt, world));
+  return panes;
+}
+
+void benchView(const Arguments& arguments) {
+  RunView source(makeWorldToRun(workloadNamed("sonar"), arguments.robots, 1), arguments.robots);
+  std::vector<std::unique_ptr<ViewDrawing>> drawings;
+  std::vector<Contender> contenders;
+  for (const Kind& kind : kKinds) {
+    drawings.push_back(std::make_unique<ViewDrawing>(
+        source, [&kind](const LoadedWorld& world, AbsentRobots) { return panesOf(kind, world.world); }));
+    contenders.push_back({.work = [&source, &drawing = *drawings.back()] {
+      source.advance(0);
+      drawing.draw(kSize);
+      return 1.0;
+    }});
+  }
+  std::vector<Cost> costs;
+  {
+    Progress progress;
+    if (progress.due()) progress.show("views of " + withCommas(arguments.robots) + " robots …");
+    costs = measureAlternately(contenders, arguments.min_s);
+  }
+  Rows rows{{"view", "frames/s", "target", "CPU time per frame, ms", ""}};
+  for (std::size_t i = 0; i < std::size(kKinds); ++i) {
+    if (arguments.json) {
+      std::cout << nlohmann::ordered_json{{"view", kKinds[i].name},
+                                          {"robots", arguments.robots},
+                                          {"frames_per_s", 1 / costs[i].wall_s},
+                                          {"cpu_s_per_frame", costs[i].cpu_s}}
+                       .dump()
+                << std::endl;
+    }
+    rows.push_back({kKinds[i].name, fixed(1 / costs[i].wall_s, 1), fixed(kAimFramesPerS, 0),
+                    fixed(1000 * costs[i].cpu_s, 1), kKinds[i].help});
+  }
+  if (!arguments.json) std::cout << table(rows);
+}
+
+}  // namespace
+
+void addViewBenchmark(CLI::App& program) {
+  auto* command = program.add_subcommand("view", "Measure the frame rate of a view of many robots");
+  auto a = std::make_shared<Arguments>();
+  command->add_option("--robots", a->robots, "number of robots, 1 to 1000000")
+      ->check(wholeNumberIn(1, 1000000))
+      ->type_name("NUMBER")
+      ->capture_default_str();
+  command->add_option("--at-least", a->min_s, "minimum measuring time of each view, seconds")
+      ->check(numberIn(1e-6, 3600))
+      ->type_name("SECONDS")
+      ->capture_default_str();
+  command->add_flag("--json", a->json, "print one JSON object per line");
+  command->footer(
+      "The robots run 'wander' with 16 sonars each; a frame has 1280 × 800 pixels and shows the next step. The time\n"
+      "includes the environment's step and drawing, by a software renderer if there is no graphics card.");
+  command->callback([a] { benchView(*a); });
+}
+
+}  // namespace robosim

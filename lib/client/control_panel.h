@@ -1,0 +1,51 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+#include "net/connect.h"
+#include "net/control_panel.grpc.pb.h"
+#include "robots/world_source.h"
+
+namespace robosim {
+
+/// Client of the ControlPanel service. The server executes each call between two steps and returns the status of the
+/// run after it. One call at a time.
+/// @throws ConnectionError when the server does not answer or refuses the call.
+class ControlPanel {
+ public:
+  explicit ControlPanel(const ConnectOptions& connect_options);
+  ControlPanel(const ControlPanel&) = delete;
+  ControlPanel& operator=(const ControlPanel&) = delete;
+
+  wire::RunStatus start();
+  wire::RunStatus pause();
+  wire::RunStatus step(std::uint64_t steps);  ///< takes `steps` steps, then pauses; returns after the last step
+  wire::RunStatus setSpeed(double speed);     ///< simulated seconds per second; 0: unlimited
+  /// Ends the run, and starts another with this world, paused.
+  wire::RunStatus load(const WorldSource& world);
+  wire::RunStatus stop();
+  wire::RunStatus status();
+
+  /// Calls `on_status` with the current status once per `period`, until the run is over.
+  void watch(std::chrono::duration<double> period, const std::function<void(const wire::RunStatus&)>& on_status);
+
+  /// Cancels the call in flight, which throws a ConnectionError, and all later calls. Thread-safe.
+  void leave();
+
+ private:
+  class Call;
+  template <typename Method, typename Request>
+  wire::RunStatus call(Method method, Request request);
+  void check(const grpc::Status& status) const;
+
+  ConnectOptions connect_options_;
+  std::unique_ptr<wire::ControlPanel::Stub> stub_;
+  std::mutex mutex_;                          ///< guards the members below
+  grpc::ClientContext* in_flight_ = nullptr;  ///< of the call in flight; null when there is none
+  bool has_left_ = false;
+};
+
+}  // namespace robosim

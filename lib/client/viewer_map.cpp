@@ -1,0 +1,122 @@
+#include "client/viewer_map.h"
+
+#include <exception>
+#include <utility>
+
+namespace robosim {
+namespace {
+
+/// Delay before reconnecting to the environment after a failure.
+constexpr std::chrono::seconds kPause{1};
+
+std::shared_ptr<const MapWorld> mapOf(const ViewedRun& viewed_run) {
+  auto map = std::make_shared<MapWorld>();
+  const World& world = viewed_run.world.world;
+  map->name = world.name;
+  map->x_min_m = world.bounds.x_min;
+  map->x_max_m = world.bounds.x_max;
+  map->y_min_m = world.bounds.y_min;
+  map->y_max_m = world.bounds.y_max;
+  for (const auto& object : world.objects) {
+    MapWorld::Thing thing;
+    thing.world_from_thing = object.body.world_from_body;
+    if (const auto* cube = std::get_if<Cube>(&object.body.shape)) {
+      thing.length_m = cube->length_m;
+      thing.width_m = cube->width_m;
+    } else {
+      thing.radius_m = object.body.coveringRadius();
+    }
+    thing.color = object.body.color;
+    thing.is_hot = object.body.heat_celsius != 0;
+    map->things.push_back(thing);
+  }
+  for (const auto& robot : viewed_run.world.fleet.robots) {
+    map->robots.push_back({robot.info.name, robot.info.radius_m, robot.body.color});
+  }
+  return map;
+}
+
+}  // namespace
+
+ViewerMap::ViewerMap(ConnectOptions environment) : environment_(std::move(environment)), thread_([this] { work(); }) {}
+
+ViewerMap::~ViewerMap() {
+  {
+    const std::lock_guard lock(mutex_);
+    is_over_ = true;
+    if (viewer_) viewer_->leave();
+  }
+  condition_.notify_all();
+  thread_.join();
+}
+
+void ViewerMap::want(bool wanted) {
+  const std::lock_guard lock(mutex_);
+  is_wanted_ = wanted;
+  if (viewer_ && !wanted) viewer_->leave();
+  condition_.notify_all();
+}
+
+std::shared_ptr<const MapView> ViewerMap::newest() {
+  const std::lock_guard lock(mutex_);
+  return view_;
+}
+
+void ViewerMap::work() {
+  for (;;) {
+    {
+      std::unique_lock lock(mutex_);
+      condition_.wait(lock, [this] { return is_wanted_ || is_over_; });
+      if (is_over_) return;
+    }
+    try {
+      receive();
+    } catch (const std::exception& error) {
+      showProblem(error.what());
+    }
+    std::unique_lock lock(mutex_);
+    condition_.wait_for(lock, kPause, [this] { return is_over_; });
+  }
+}
+
+void ViewerMap::receive() {
+  Viewer viewer(environment_);
+  {
+    const std::lock_guard lock(mutex_);
+    if (!is_wanted_ || is_over_) return;
+    viewer_ = &viewer;
+  }
+  const auto disconnect = [this] {
+    const std::lock_guard lock(mutex_);
+    viewer_ = nullptr;
+  };
+  try {
+    show(viewer.run(), true);
+    while (viewer.waitForFrame()) show(viewer.run(), viewer.isNewWorld());
+  } catch (...) {
+    disconnect();
+    throw;
+  }
+  disconnect();
+}
+
+void ViewerMap::show(const ViewedRun& viewed_run, bool is_other_world) {
+  auto view = std::make_shared<MapView>();
+  view->world = is_other_world ? mapOf(viewed_run) : newest()->world;
+  view->step = viewed_run.snapshot.step;
+  for (const auto& robot : viewed_run.snapshot.robots) {
+    view->world_from_robot.push_back(robot.world_from_robot);
+    view->activity.push_back(robot.activity);
+  }
+  const std::lock_guard lock(mutex_);
+  view_ = std::move(view);
+}
+
+void ViewerMap::showProblem(const std::string& problem) {
+  auto view = std::make_shared<MapView>();
+  view->problem = problem;
+  const std::lock_guard lock(mutex_);
+  view_ = std::move(view);
+}
+
+}  // namespace robosim

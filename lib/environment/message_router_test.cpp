@@ -1,0 +1,121 @@
+#include "environment/message_router.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+struct Fixture {
+  std::vector<mrpt::math::TPose2D> poses{{0, 0, 0}, {3, 4, 0}, {100, 0, 0}};
+  std::vector<Readings> readings = std::vector<Readings>(3);
+  std::vector<Outbox> outboxes = std::vector<Outbox>(3);
+  SimTime time;
+  std::size_t dropped = 0;  ///< in the last step
+  MessageRouter message_router;
+
+  explicit Fixture(const Communication& communication = {}, std::uint64_t seed = 1)
+      : message_router({"a", "b", "c"}, communication, seed) {}
+  void send(std::size_t from, const std::string& to, const std::string& text) {
+    message_router.send(from, to, text, outboxes[from]);
+  }
+  std::size_t step() {
+    ++time.step;
+    for (auto& robot : readings) robot.inbox.clear();
+    const auto delivery = message_router.deliver(time, poses, outboxes, readings);
+    dropped = delivery.dropped;
+    return delivery.delivered;
+  }
+  std::vector<std::string> textsOf(std::size_t robot) const {
+    std::vector<std::string> texts;
+    for (const auto& message : readings[robot].inbox) texts.push_back(message.text);
+    return texts;
+  }
+};
+
+using Texts = std::vector<std::string>;
+
+TEST(MessageRouter, DeliversOnce) {
+  Fixture fixture;
+  fixture.send(0, "b", "GOLD a");
+  EXPECT_EQ(fixture.step(), 1u);
+  EXPECT_EQ(fixture.textsOf(1), Texts{"GOLD a"});
+  EXPECT_EQ(fixture.readings[1].inbox[0].from, "a");
+  EXPECT_TRUE(fixture.textsOf(0).empty());
+  EXPECT_EQ(fixture.step(), 0u);
+  EXPECT_TRUE(fixture.textsOf(1).empty());
+}
+
+TEST(MessageRouter, OrdersBySenderAndTimeOfSending) {
+  Fixture fixture;
+  fixture.send(2, "b", "c1");
+  fixture.send(0, "b", "a1");
+  fixture.send(2, "b", "c2");
+  fixture.send(0, "b", "a2");
+  fixture.step();
+  EXPECT_EQ(fixture.textsOf(1), (Texts{"a1", "a2", "c1", "c2"}));
+}
+
+TEST(MessageRouter, DeliversOnlyWithinTheRange) {
+  Fixture fixture({.range_m = 5, .loss_probability = 0});
+  fixture.send(0, "b", "5 m away");
+  fixture.send(0, "c", "100 m away");
+  EXPECT_EQ(fixture.step(), 1u);
+  EXPECT_TRUE(fixture.textsOf(2).empty());
+  fixture.poses[1].x = 3.001;
+  fixture.send(0, "b", "a millimetre more");
+  EXPECT_EQ(fixture.step(), 0u);
+}
+
+TEST(MessageRouter, LosesTheGivenShareOfMessages) {
+  Fixture fixture({.range_m = {}, .loss_probability = 0.3});
+  std::size_t arrived = 0;
+  for (int i = 0; i < 4000; ++i) {
+    fixture.send(0, "b", "x");
+    arrived += fixture.step();
+  }
+  EXPECT_NEAR(static_cast<double>(arrived), 2800, 4 * std::sqrt(4000 * 0.3 * 0.7));
+}
+
+TEST(MessageRouter, RejectsAnUnknownReceiverAndALongText) {
+  Fixture fixture;
+  EXPECT_THROW(fixture.send(0, "unknown", "x"), std::invalid_argument);
+  EXPECT_THROW(fixture.send(0, "b", std::string(kMaxMessageBytes + 1, 'x')), std::invalid_argument);
+  fixture.send(0, "b", std::string(kMaxMessageBytes, 'x'));
+  EXPECT_EQ(fixture.step(), 1u);
+}
+
+TEST(MessageRouter, DropsAndCountsMessagesBeyondTheSendersLimit) {
+  Fixture fixture;
+  for (std::size_t i = 0; i < kMaxMessagesSent + 7; ++i) fixture.send(0, i % 2 ? "b" : "c", "x");
+  EXPECT_EQ(fixture.step(), kMaxMessagesSent);
+  EXPECT_EQ(fixture.dropped, 7u);
+  fixture.send(0, "b", "y");
+  EXPECT_EQ(fixture.step(), 1u) << "the next step has its own limit";
+  EXPECT_EQ(fixture.dropped, 0u);
+}
+
+TEST(MessageRouter, DropsAndCountsMessagesBeyondTheReceiversLimit) {
+  Fixture fixture;
+  for (std::size_t i = 0; i < InboxLimit::kMaxMessages; ++i) fixture.send(0, "b", "a");
+  fixture.send(2, "b", "c");
+  fixture.send(2, "a", "c");
+  EXPECT_EQ(fixture.step(), InboxLimit::kMaxMessages + 1);
+  EXPECT_EQ(fixture.dropped, 1u);
+  EXPECT_EQ(fixture.readings[1].inbox.back().from, "a");
+  EXPECT_EQ(fixture.textsOf(0), Texts{"c"}) << "another receiver is not affected";
+}
+
+TEST(MessageRouter, DropsAndCountsMessagesBeyondTheReceiversLimitOfBytes) {
+  Fixture fixture;
+  // Each text of 4096 bytes comes with two names of one byte: 63 such messages are 258,174 bytes of the 262,144.
+  const std::string longest(kMaxMessageBytes, 'x');
+  for (int i = 0; i < 100; ++i) fixture.send(0, "b", longest);
+  EXPECT_EQ(fixture.step(), 63u);
+  EXPECT_EQ(fixture.dropped, 37u);
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,98 @@
+#include "environment/move_authorisation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kChunk = 64;
+
+mrpt::math::TPoint2D startOf(const Path& path) { return {path.world_from_start.x, path.world_from_start.y}; }
+
+}  // namespace
+
+MoveAuthorisation::MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface)
+    : movers_(std::move(movers)),
+      surface_(surface),
+      may_have_neighbours_(movers_.size(), 0),
+      stays_(movers_.size(), 0) {
+  for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
+}
+
+void MoveAuthorisation::begin(std::span<const Path> paths) {
+  length_max_m_ = 0;
+  for (const auto& path : paths) length_max_m_ = std::max(length_max_m_, std::abs(path.length_m));
+  // Conservative for the robots that another process clips; judge() then checks.
+  std::fill(may_have_neighbours_.begin(), may_have_neighbours_.end(), 1);
+  std::fill(stays_.begin(), stays_.end(), 0);
+}
+
+void MoveAuthorisation::clip(const Scene& scene, std::span<const NeighbourList> near, const ParallelExecutor& workers,
+                             RobotRange range, std::span<Path> paths) {
+  workers.forEach(range.end - range.begin, kChunk, [&](std::size_t k) {
+    const std::size_t i = range.begin + k;
+    may_have_neighbours_[i] = 0;
+    if (paths[i].length_m != 0) clip(scene, near[i], i, paths);
+  });
+}
+
+// All pairs are judged on the clipped paths of both before any path is shortened further, so the result is
+// order-independent.
+void MoveAuthorisation::judge(const Scene& scene, const ParallelExecutor& workers, RobotRange range,
+                              std::span<const Path> paths) {
+  workers.forEach(range.end - range.begin, kChunk, [&](std::size_t k) {
+    const std::size_t i = range.begin + k;
+    stays_[i] = collidesWithAnother(scene, i, paths) ? 1 : 0;
+  });
+}
+
+void MoveAuthorisation::conclude(const ParallelExecutor& workers, std::span<Path> paths,
+                                 std::span<std::uint8_t> stalled) {
+  workers.forEach(paths.size(), kChunk, [&](std::size_t i) {
+    if (stays_[i]) paths[i].end_fraction = 0;
+    stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
+  });
+}
+
+double MoveAuthorisation::collisionReach(std::size_t robot, const Path& path) const {
+  return movers_[robot].radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
+}
+
+void MoveAuthorisation::clip(const Scene& scene, const NeighbourList& near, std::size_t robot, std::span<Path> paths) {
+  Path& path = paths[robot];
+  const Mover& mover = movers_[robot];
+  const double reach_m = mover.radius_m + std::abs(path.length_m) + kContactGap_m;
+
+  path.end_fraction = firstExit(path, mover.radius_m, surface_);
+  scene.visitStationary(startOf(path), reach_m, near, [&](const Solid& solid) {
+    if (!solid.heights.overlaps(mover.heights)) return;
+    path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, solid.outline));
+  });
+
+  scene.visitMoving(startOf(path), collisionReach(robot, path), [&](BodyId body) {
+    const std::size_t other = scene.movingIndex(body);
+    if (other == robot) return;
+    may_have_neighbours_[robot] = 1;
+    if (!movers_[other].heights.overlaps(mover.heights)) return;
+    const Circle disc{startOf(paths[other]), movers_[other].radius_m};
+    path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, disc));
+  });
+}
+
+bool MoveAuthorisation::collidesWithAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const {
+  const Path& path = paths[robot];
+  // Rule (a) has already clipped the path at robots that stand still, and a robot that stands still stays anyway.
+  if (path.clippedLength() == 0 || !may_have_neighbours_[robot]) return false;
+  const Mover& mover = movers_[robot];
+  bool collides = false;
+  scene.visitMoving(startOf(path), collisionReach(robot, path), [&](BodyId body) {
+    const std::size_t other = scene.movingIndex(body);
+    collides = collides ||
+               (other != robot && paths[other].clippedLength() != 0 && movers_[other].heights.overlaps(mover.heights) &&
+                collide(path, mover.radius_m, paths[other], movers_[other].radius_m));
+  });
+  return collides;
+}
+
+}  // namespace robosim

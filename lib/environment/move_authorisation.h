@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel_executor.h"
+#include "environment/robot_range.h"
+#include "geometry/scene.h"
+#include "geometry/shapes/path.h"
+
+namespace robosim {
+
+/// A robot subject to move authorisation: an upright disc.
+struct Mover {
+  double radius_m = 0;
+  HeightSpan heights;
+};
+
+/// Authorises moves: decides how far each robot may go in a step (the rule is in environment.h). Calls in order:
+/// begin(), clip() for all robots, judge() for all, conclude(). Reuses its working memory between steps. `scene` is
+/// frozen at the robots' current poses, and `paths` holds all robots' paths in each call.
+class MoveAuthorisation {
+ public:
+  MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface);
+
+  /// Starts a step in which no robot is known to stay.
+  void begin(std::span<const Path> paths);
+  /// Rule (a): clips the paths of some robots at their first contact. The result is Path::end_fraction, which may also
+  /// come from another process.
+  /// @param near stationary solids near each robot
+  void clip(const Scene& scene, std::span<const NeighbourList> near, const ParallelExecutor& workers, RobotRange range,
+            std::span<Path> paths);
+  /// Rule (b): decides which of some robots stay where they started.
+  void judge(const Scene& scene, const ParallelExecutor& workers, RobotRange range, std::span<const Path> paths);
+  /// Result of judge(), 1 for a robot that stays. Writable, for results of another process.
+  std::span<std::uint8_t> stays() { return stays_; }
+  /// Sets the end of the path of each robot that stays to 0.
+  /// @param stalled set to 1 for each robot whose path was clipped or that stays
+  void conclude(const ParallelExecutor& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
+
+ private:
+  void clip(const Scene& scene, const NeighbourList& near, std::size_t robot, std::span<Path> paths);
+  /// Distance [m] from a robot within which others could collide with it in this step.
+  double collisionReach(std::size_t robot, const Path& path) const;
+  bool collidesWithAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;
+
+  std::vector<Mover> movers_;
+  Bounds2D surface_;
+  double radius_max_m_ = 0;
+  double length_max_m_ = 0;                        ///< longest path of this step
+  std::vector<std::uint8_t> may_have_neighbours_;  ///< 0: no other robot is within collisionReach()
+  std::vector<std::uint8_t> stays_;
+};
+
+}  // namespace robosim

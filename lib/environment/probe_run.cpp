@@ -1,0 +1,96 @@
+#include "environment/probe_run.h"
+
+#include "base/random.h"
+#include "environment/small_world.h"
+
+namespace robosim {
+namespace {
+
+constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of sensor.">
+  <body radius_m="0.2" height_m="0.3"/>
+  <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" turn_max_degps="100" turn_accel_degps2="200"/>
+  <sensors>
+    <sonar range_max_m="3" beam_width_deg="20">
+      <noise/>
+      <at x_m="0.2" z_m="0.1" angle_deg="0"/>
+      <at y_m="0.2" z_m="0.1" angle_deg="90"/>
+    </sonar>
+    <laser beams="5" field_of_view_deg="180" range_max_m="4" z_m="0.1"><noise/></laser>
+    <heat range_max_m="3"><noise/></heat>
+    <bumper segments="6"/>
+    <odometry><noise/></odometry>
+    <compass><noise/></compass>
+    <battery standing_h="0.01" driving_h="0.001"/>
+    <camera width_px="8" height_px="8" rate_hz="3"/>
+    <blob_finder><color name="gold" rgb="1 0.8 0.1"/></blob_finder>
+  </sensors>
+</robot>)";
+
+/// Makes bytes that depend on the pose in place of a picture.
+class PoseImages : public ImageSource {
+ public:
+  void take(const CameraView&, std::span<const mrpt::math::TPose2D> world_from_robot,
+            std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override {
+    for (std::size_t i = 0; i < robots.size(); ++i) jpegs[i] = std::to_string(world_from_robot[robots[i]].x);
+  }
+};
+
+std::string nameOf(std::uint32_t robot) { return "r" + std::to_string(robot); }
+
+/// Three rows of robots, with walls and gold between the rows.
+World randomWorld(Rng& rng) {
+  World world = emptyWorld(4);
+  world.communication = {.range_m = 5, .loss_probability = 0.2};
+  for (const double y_m : {-1.0, 1.0}) {
+    for (int i = 0; i < 3; ++i) addWall(world, rng.uniform(-3, 3), y_m, rng.uniform(0.1, 1.5), 0.1);
+  }
+  addGold(world, rng.uniform(-3, 3), 1.5, 0.1);
+  for (std::uint32_t i = 0; i < ProbeRun::kRobots; ++i) {
+    RobotPlacement placement;
+    placement.name = nameOf(i);
+    placement.model = "probe";
+    placement.world_from_robot = {2.5 * (i % 3) - 2.5, 2.5 * (i / 3) - 2.5, rng.uniform(-3, 3)};
+    world.robots.push_back(placement);
+  }
+  return world;
+}
+
+}  // namespace
+
+ProbeRun::ProbeRun(std::uint64_t seed) : seed_(seed), images_(std::make_unique<PoseImages>()) {
+  Rng rng(seed);
+  World world = randomWorld(rng);
+  ErrorList errors;
+  Fleet fleet = buildFleet(world, "probe_run.xml", {{"probe", {"probe.xml", kProbe}}}, {}, errors);
+  errors.throwIfAny();
+  environment_ = std::make_unique<Environment>(std::move(world), std::move(fleet),
+                                               EnvironmentOptions{.seed = seed, .period_s = 0.1}, images_.get());
+}
+
+std::unique_ptr<Environment> ProbeRun::another() const {
+  return std::make_unique<Environment>(environment_->model(), initialState(*environment_->model()), 1, images_.get());
+}
+
+void ProbeRun::step(Environment& environment) const {
+  const std::uint64_t step = environment.time().step;
+  for (std::uint32_t i = 0; i < kRobots; ++i) {
+    Rng rng(seed_, RandomPurpose::test, i, 1, step);
+    if (rng.below(4) == 0) {
+      Command command{.speed_mps = rng.uniform(-0.5, 1.5),
+                      .turn_radps = rng.uniform(-2, 2),
+                      .laser_pan_rad = static_cast<float>(rng.uniform(-2, 2))};
+      if (rng.below(100) == 0) command.activity = Activity::halted;
+      command.by_driver = rng.below(2) == 0;
+      environment.setCommand(i, command);
+    }
+    for (std::uint32_t k = rng.below(3); k > 0; --k) {
+      environment.send(i, nameOf(rng.below(kRobots)), "step " + std::to_string(step));
+    }
+    if (rng.below(30) == 0) environment.checkWin(i);
+  }
+  environment.step();
+}
+
+std::uint32_t ProbeRun::random(std::uint32_t n) const { return Rng(seed_, RandomPurpose::test, 0, 2).below(n); }
+
+}  // namespace robosim

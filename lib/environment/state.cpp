@@ -1,0 +1,68 @@
+#include "environment/state.h"
+
+#include <algorithm>
+
+namespace robosim {
+namespace {
+
+/// Calls visit(array) for each array of the state.
+template <typename StateType, typename Visit>
+void forArrays(StateType& state, const Visit& visit) {
+  visit(state.world_from_robot);
+  visit(state.speed_mps);
+  visit(state.turn_radps);
+  visit(state.last_motion);
+  visit(state.driven_m);
+  visit(state.stalled);
+  visit(state.activity);
+  visit(state.laser_pan_rad);
+  visit(state.commands);
+  visit(state.outboxes);
+  visit(state.win_requests);
+  visit(state.readings);
+}
+
+std::size_t sizeOf(const Echoes& echoes) { return echoes.size(); }
+std::size_t sizeOf(const Contacts& contacts) { return contacts.pressed.size(); }
+std::size_t sizeOf(const Blobs& blobs) { return blobs.of_color.size(); }
+template <typename Kind>
+std::size_t sizeOf(const Kind&) {
+  return 1;
+}
+
+std::size_t sizeOf(const Measurement& measurement) {
+  return std::visit([](const auto& of_kind) { return sizeOf(of_kind); }, measurement);
+}
+
+}  // namespace
+
+State initialState(const Model& model) {
+  const std::size_t n = model.fleet.robots.size();
+  State state;
+  state.time = {0, model.period_s};
+  state.digest = RunDigest(n);
+  forArrays(state, [n](auto& array) { array.resize(n); });
+  for (std::size_t i = 0; i < n; ++i) {
+    const FleetRobot& robot = model.fleet.robots[i];
+    state.world_from_robot[i] = robot.world_from_start;
+    for (const auto& sensor : robot.model->sensors) state.readings[i].measurements.push_back(sensor->blank());
+  }
+  return state;
+}
+
+bool haveSameShape(const State& a, const State& b) {
+  std::vector<std::size_t> sizes_a, sizes_b;
+  forArrays(a, [&](const auto& array) { sizes_a.push_back(array.size()); });
+  forArrays(b, [&](const auto& array) { sizes_b.push_back(array.size()); });
+  const auto same_measurement = [](const Measurement& x, const Measurement& y) {
+    return x.index() == y.index() && sizeOf(x) == sizeOf(y);
+  };
+  const auto same_measurements = [&](const Readings& x, const Readings& y) {
+    return std::equal(x.measurements.begin(), x.measurements.end(), y.measurements.begin(), y.measurements.end(),
+                      same_measurement);
+  };
+  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && a.digest.chunkCount() == b.digest.chunkCount() &&
+         std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
+}
+
+}  // namespace robosim

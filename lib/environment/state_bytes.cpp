@@ -1,0 +1,244 @@
+#include "environment/state_bytes.h"
+
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "base/digest.h"
+#include "base/error_list.h"
+#include "environment/state_stream.h"
+#include "hardware/measurement_fields.h"
+
+namespace robosim {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "saved states are little-endian");
+
+/// Line ends and ^Z detect a transfer as text, as in PNG files.
+constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kSizeAt = 20;  ///< after magic and version
+constexpr std::size_t kHeaderBytes = 36;
+constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
+constexpr double kFarthest_m = 1e7;
+
+template <typename T>
+T numberAt(std::string_view bytes, std::size_t place) {
+  T number;
+  std::memcpy(&number, bytes.data() + place, sizeof number);
+  return number;
+}
+
+std::uint64_t checksumOf(std::string_view bytes) {
+  Digest digest;
+  digest.addBytes(bytes.data(), bytes.size());
+  return digest.value();
+}
+
+/// Whether the measurement has a flag that is set in steps in which the sensor measured.
+template <typename M>
+constexpr bool kHasPresenceFlag = requires(M& m) {
+  Description<M>::isPresent(m) = true;
+};
+
+/// Writes a measurement; its kind and size follow from the model.
+struct MeasurementWriter {
+  StateWriter& out;
+
+  template <typename M>
+  void operator()(const M& measurement) const {
+    using D = Description<M>;
+    if constexpr (kHasPresenceFlag<M>) out.addNumber(std::uint8_t{D::isPresent(measurement)});
+    if constexpr (kIsFile<M>) {
+      out.addText(D::file(measurement));
+    } else if constexpr (kIsDense<M>) {
+      const auto records = D::records(measurement);
+      out.addBytes(records.data(), records.size_bytes());
+    } else {
+      forNumbers(measurement, [&](const auto&, const auto& number, std::size_t) { out.addNumber(number); });
+    }
+  }
+};
+
+/// Fills a blank measurement.
+struct MeasurementReader {
+  StateReader& in;
+
+  template <typename M>
+  void operator()(M& measurement) const {
+    using D = Description<M>;
+    if constexpr (kHasPresenceFlag<M>) D::isPresent(measurement) = in.takeFlag();
+    if constexpr (kIsFile<M>) {
+      D::file(measurement) = in.takeText(kPictureBytesMax);
+    } else {
+      forNumbers(measurement, [&](const auto& field, auto& number, std::size_t) {
+        number = in.takeNumber<std::remove_reference_t<decltype(number)>>();
+        requireContents(isPermitted(field, number), "a measurement is impossible");
+      });
+      if constexpr (requires { D::faultOf(*D::records(measurement).begin()); }) {
+        for (const auto& record : D::records(measurement))
+          requireContents(!D::faultOf(record), "a record is impossible");
+      }
+    }
+  }
+};
+
+void writeRobot(const State& state, std::size_t i, StateWriter& out) {
+  out.addPose(state.world_from_robot[i]);
+  for (const double value : {state.speed_mps[i], state.turn_radps[i], state.last_motion[i].length_m,
+                             state.last_motion[i].turn_rad, state.driven_m[i]}) {
+    out.addNumber(value);
+  }
+  out.addNumber(state.stalled[i]);
+  out.addNumber(static_cast<std::uint8_t>(state.activity[i]));
+  out.addNumber(state.laser_pan_rad[i]);
+
+  const Command& command = state.commands[i];
+  out.addNumber(command.speed_mps);
+  out.addNumber(command.turn_radps);
+  out.addNumber(command.laser_pan_rad);
+  out.addNumber(static_cast<std::uint8_t>(command.activity));
+  out.addNumber(std::uint8_t{command.by_driver});
+
+  out.addNumber(state.win_requests[i]);
+  out.addNumber(state.outboxes[i].surplus);
+  out.addNumber(static_cast<std::uint32_t>(state.outboxes[i].messages.size()));
+  for (const PendingMessage& message : state.outboxes[i].messages) {
+    out.addNumber(message.to);
+    out.addText(message.text);
+  }
+
+  // The other members of the readings repeat members of the state.
+  const Readings& readings = state.readings[i];
+  for (const Measurement& measurement : readings.measurements) std::visit(MeasurementWriter{out}, measurement);
+  out.addNumber(std::uint8_t{readings.is_too_far});
+  out.addNumber(static_cast<std::uint32_t>(readings.inbox.size()));
+  for (const RobotMessage& message : readings.inbox) {
+    out.addText(message.from);
+    out.addText(message.text);
+  }
+}
+
+void readRobot(const Model& model, std::size_t i, StateReader& in, State& state) {
+  const RobotInfo& info = model.fleet.robots[i].info;
+  auto& pose = state.world_from_robot[i];
+  pose = in.takePose();
+  requireContents(std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m, "a robot is too far away");
+  state.speed_mps[i] = in.takeFinite();
+  state.turn_radps[i] = in.takeFinite();
+  requireContents(std::abs(state.speed_mps[i]) <= info.limits.speed_max_mps &&
+                      std::abs(state.turn_radps[i]) <= info.limits.turn_max_radps,
+                  "a robot is faster than its limits");
+  state.last_motion[i].length_m = in.takeFinite();
+  state.last_motion[i].turn_rad = in.takeFinite();
+  state.driven_m[i] = in.takeFinite();
+  state.stalled[i] = in.takeFlag() ? 1 : 0;
+  state.activity[i] = in.takeActivity();
+  state.laser_pan_rad[i] = in.takeNumber<float>();
+
+  Command& command = state.commands[i];
+  command.speed_mps = in.takeFinite();
+  command.turn_radps = in.takeFinite();
+  command.laser_pan_rad = in.takeNumber<float>();
+  requireContents(std::isfinite(state.laser_pan_rad[i]) && std::isfinite(command.laser_pan_rad),
+                  "a pan angle is not finite");
+  command.activity = in.takeActivity();
+  command.by_driver = in.takeFlag();
+
+  state.win_requests[i] = in.takeFlag() ? 1 : 0;
+  state.outboxes[i].surplus = in.takeNumber<std::uint64_t>();
+  const auto sent = in.takeNumber<std::uint32_t>();
+  requireContents(sent <= kMaxMessagesSent, "a robot has sent too many messages");
+  for (std::uint32_t k = 0; k < sent; ++k) {
+    PendingMessage& message = state.outboxes[i].messages.emplace_back();
+    message.to = in.takeNumber<std::uint32_t>();
+    requireContents(message.to < model.fleet.robots.size(), "a message has an unknown receiver");
+    message.text = in.takeText(kMaxMessageBytes);
+  }
+
+  Readings& readings = state.readings[i];
+  for (Measurement& measurement : readings.measurements) std::visit(MeasurementReader{in}, measurement);
+  readings.is_too_far = in.takeFlag();
+  const auto received = in.takeNumber<std::uint32_t>();
+  requireContents(received <= InboxLimit::kMaxMessages, "a robot has received too many messages");
+  for (std::uint32_t k = 0; k < received; ++k) {
+    RobotMessage& message = readings.inbox.emplace_back();
+    message.from = in.takeText(InboxLimit::kMaxBytes);
+    message.to = info.name;
+    message.text = in.takeText(kMaxMessageBytes);
+  }
+  readings.time = state.time;
+  readings.stalled = state.stalled[i] != 0;
+  readings.laser_pan_rad = state.laser_pan_rad[i];
+}
+
+State readContents(const Model& model, StateReader in) {
+  State state = initialState(model);
+  const std::size_t robots = model.fleet.robots.size();
+  state.time.step = in.takeNumber<std::uint64_t>();
+  state.stalls = in.takeNumber<std::uint64_t>();
+  state.messages_delivered = in.takeNumber<std::uint64_t>();
+  state.messages_dropped = in.takeNumber<std::uint64_t>();
+  const auto winner = in.takeNumber<std::uint64_t>();
+  requireContents(winner <= robots, "the winner is unknown");
+  for (std::size_t i = 0; i < robots; ++i) readRobot(model, i, in, state);
+  if (winner < robots) {
+    state.winner = static_cast<std::size_t>(winner);
+    for (auto& readings : state.readings) readings.winner = model.fleet.robots[*state.winner].info.name;
+  }
+  requireContents(state.digest.load(in.takeBytes(state.digest.chunkCount() * Digest::kSavedBytes)),
+                  "the run's digest is invalid");
+  requireContents(in.isAtEnd(), "they are too long");
+  return state;
+}
+
+}  // namespace
+
+std::string toBytes(const Model& model, const State& state) {
+  StateWriter out;
+  out.addBytes(kMagic.data(), kMagic.size());
+  out.addNumber(kVersion);
+  out.addNumber(std::uint64_t{0});  // the size, known at the end
+  out.addNumber(digestOf(model));
+  out.addNumber(state.time.step);
+  out.addNumber(state.stalls);
+  out.addNumber(state.messages_delivered);
+  out.addNumber(state.messages_dropped);
+  out.addNumber(std::uint64_t{state.winner.value_or(state.readings.size())});
+  for (std::size_t i = 0; i < state.readings.size(); ++i) writeRobot(state, i, out);
+  state.digest.save(out.bytes);
+  const std::uint64_t size = out.bytes.size() + kChecksumBytes;
+  std::memcpy(out.bytes.data() + kSizeAt, &size, sizeof size);
+  out.addNumber(checksumOf(out.bytes));
+  return std::move(out.bytes);
+}
+
+State stateFromBytes(const Model& model, std::string_view bytes) {
+  if (bytes.substr(0, kMagic.size()) != kMagic.substr(0, bytes.size())) {
+    throw ConfigError("this is no saved state of RoboSim; its first bytes differ; give a state that RoboSim has saved");
+  }
+  const std::uint64_t size =
+      bytes.size() < kHeaderBytes ? kHeaderBytes + kChecksumBytes : numberAt<std::uint64_t>(bytes, kSizeAt);
+  if (bytes.size() < kHeaderBytes + kChecksumBytes || bytes.size() != size) {
+    throw ConfigError("the saved state is incomplete or damaged: it has " + std::to_string(bytes.size()) +
+                      " bytes in place of " + std::to_string(size) + "; copy it again, or save the state again");
+  }
+  const std::string_view checked = bytes.substr(0, bytes.size() - kChecksumBytes);
+  if (numberAt<std::uint64_t>(bytes, checked.size()) != checksumOf(checked)) {
+    throw ConfigError("the saved state is damaged: its checksum differs; copy it again, or save the state again");
+  }
+  if (const auto version = numberAt<std::uint32_t>(bytes, kMagic.size()); version != kVersion) {
+    throw ConfigError("the saved state has version " + std::to_string(version) + " of the format, and this program " +
+                      "reads version " + std::to_string(kVersion) + "; use the version of RoboSim that saved it");
+  }
+  if (numberAt<std::uint64_t>(bytes, kSizeAt + sizeof size) != digestOf(model)) {
+    throw ConfigError(
+        "the saved state belongs to another world, other robots or sensors, or another seed or time step; "
+        "load it with those of the run that saved it");
+  }
+  return readContents(model, StateReader(checked.substr(kHeaderBytes)));
+}
+
+}  // namespace robosim

@@ -1,0 +1,198 @@
+#include "environment/world_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "base/random.h"
+#include "base/xml_element.h"
+#include "environment/free_space.h"
+#include "environment/start_poses.h"
+#include "geometry/shapes/path.h"
+#include "sensors/registry.h"
+#include "world/map_reader.h"
+#include "world/world_file.h"
+
+namespace robosim {
+namespace {
+
+constexpr double kFarthest_m = 1e7;  // maximum coordinate; also the maximum heading in degrees
+
+/// Generates the names Robot1, Robot2, … not used by any object or robot of the world.
+class FreeNames {
+ public:
+  explicit FreeNames(const World& world) {
+    for (const auto& object : world.objects) taken_.insert(object.name);
+    for (const auto& robot : world.robots) taken_.insert(robot.name);
+  }
+  std::string next() {
+    std::string name;
+    do name = "Robot" + std::to_string(++last_);
+    while (!taken_.insert(name).second);
+    return name;
+  }
+
+ private:
+  std::unordered_set<std::string> taken_;
+  int last_ = 0;
+};
+
+RobotPlacement placed(const AddedRobot& robot, std::string name) {
+  RobotPlacement placement;
+  placement.name = std::move(name);
+  placement.model = robot.model;
+  placement.world_from_robot = robot.world_from_robot;
+  return placement;
+}
+
+/// The source's robot types and all others in its folders.
+RobotTypes typesFor(const WorldSource& source) {
+  RobotTypes types = source.robot_types;
+  types.merge(robotTypesIn(robotTypeFolders(source.file)));
+  return types;
+}
+
+Fleet fleetOf(const World& world, const std::string& file, const RobotTypes& types) {
+  ErrorList errors;
+  Fleet fleet = buildFleet(world, file, types, {}, errors);
+  errors.throwIfAny();
+  return fleet;
+}
+
+void addRobots(const WorldSource& source, const RobotTypes& types, const std::vector<AddedRobot>& robots,
+               FreeNames& names, World& world) {
+  if (robots.empty()) return;
+  std::string of_options;
+  for (const auto& robot : robots) {
+    world.robots.push_back(placed(robot, names.next()));
+    of_options += (of_options.empty() ? "" : ", ") + world.robots.back().name;
+  }
+  try {
+    fleetOf(world, source.file, types);
+  } catch (const ConfigError& error) {
+    std::vector<std::string> lines;
+    const std::string no_line = source.file + ":0: ";
+    for (const auto& line : error.errors()) {
+      lines.push_back(line.starts_with(no_line) ? source.file + ": " + line.substr(no_line.size()) : line);
+    }
+    lines.push_back(source.file + ": the robots of --robot are " + of_options + ", in their order");
+    throw ConfigError(lines);
+  }
+}
+
+/// Adds robots at random positions in the largest region that is known to be free, clear of the existing robots.
+void addRandomRobots(const WorldSource& source, const RobotTypes& types, const WorldChanges& changes,
+                     std::uint64_t seed, FreeNames& names, World& world) {
+  if (changes.random_robots == 0) return;
+  const Fleet fleet = fleetOf(world, source.file, types);
+  World alone;  // a world with a single robot of the type, to get its model
+  alone.bounds = {-1e6, 1e6, -1e6, 1e6};
+  alone.robots.push_back(placed({changes.random_model, {}}, "robot"));
+  const FleetRobot type = fleetOf(alone, source.file, types).robots.front();
+  FreeSpace free(world, type.info.radius_m, type.body.heights());
+  free.blockUnknown(world);
+  std::vector<std::size_t> cells = free.largestRegion();
+  std::vector<Circle> taken;
+  for (const auto& robot : fleet.robots) {
+    taken.push_back({{robot.world_from_start.x, robot.world_from_start.y}, robot.info.radius_m});
+  }
+  Rng rng(seed, RandomPurpose::start_pose, 1);
+  int added = 0;
+  while (added < changes.random_robots && !cells.empty()) {
+    const std::size_t draw = rng.below(static_cast<std::uint32_t>(cells.size()));
+    const mrpt::math::TPoint2D place = free.place(cells[draw]);
+    cells[draw] = cells.back();
+    cells.pop_back();
+    const bool is_clear = std::none_of(taken.begin(), taken.end(), [&](const Circle& other) {
+      return (other.center - place).norm() < other.radius_m + type.info.radius_m + kContactGap_m;
+    });
+    if (!is_clear) continue;
+    taken.push_back({place, type.info.radius_m});
+    const mrpt::math::TPose2D start(place.x, place.y, rng.uniform(-M_PI, M_PI));
+    world.robots.push_back(placed({changes.random_model, start}, names.next()));
+    ++added;
+  }
+  if (added == changes.random_robots) return;
+  throw ConfigError("--random-robots " + std::to_string(changes.random_robots) + ": there is room for " +
+                    std::to_string(added) + " robots '" + changes.random_model + "' only in " + source.file +
+                    "; use fewer, or a larger world");
+}
+
+void addNoise(std::vector<XmlElement>& sensors) {
+  for (auto& sensor : sensors) {
+    std::string kind = sensor.name;
+    bool has_noise = false;
+    for (const auto& child : sensor.children) {
+      if (sensor.name == "sensor" && child.name == "type") kind = child.text;
+      has_noise |= child.name == "noise";
+    }
+    for (const auto& [name, value] : sensor.attributes) {
+      if (sensor.name == "sensor" && name == "type") kind = value;
+    }
+    const SensorType* const type = sensorType(kind);
+    if (type && type->has_noise && !has_noise) sensor.add("noise");
+  }
+}
+
+/// The text of a type, with noise added to every sensor that supports it if `has_noise`.
+std::string textOf(const RobotTypeFile& type, bool has_noise) {
+  if (!has_noise) return type.text ? *type.text : readXmlText(type.file);
+  XmlElement root = type.read();
+  for (auto& child : root.children) {
+    if (child.name == "sensors") addNoise(child.children);
+  }
+  return toXml(root);
+}
+
+}  // namespace
+
+AddedRobot AddedRobot::parse(const std::string& text) {
+  const auto error = [&]() -> ConfigError {
+    return ConfigError("--robot " + text +
+                       ": must be TYPE@X,Y or TYPE@X,Y,HEADING, in metres and degrees, as in pioneer3dx@1,2,90");
+  };
+  const std::size_t at = text.find('@');
+  if (at == 0 || at == std::string::npos) throw error();
+  std::vector<double> numbers;
+  for (std::size_t begin = at + 1; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const auto number = parseNumber(text.substr(begin, end - begin));
+    if (!number || !(std::abs(*number) <= kFarthest_m)) throw error();
+    numbers.push_back(*number);
+    begin = end + 1;
+  }
+  if (numbers.size() != 2 && numbers.size() != 3) throw error();
+  return {text.substr(0, at), {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] * M_PI / 180 : 0}};
+}
+
+WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, std::uint64_t seed) {
+  if (changes.isNone()) return source;
+  ErrorList errors;
+  World world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
+  errors.throwIfAny();
+  const RobotTypes types = typesFor(source);
+  if (changes.addsRobots() && isMapFile(source.file)) world.robots.clear();
+  FreeNames names(world);
+  addRobots(source, types, changes.robots, names, world);
+  addRandomRobots(source, types, changes, seed, names, world);
+  if (changes.has_random_starts) {
+    Fleet fleet = fleetOf(world, source.file, types);
+    shuffleStartPoses(world, fleet, seed);
+    for (std::size_t i = 0; i < world.robots.size(); ++i) {
+      world.robots[i].world_from_robot = fleet.robots[i].world_from_start;
+      if (world.robots[i].body) world.robots[i].body->world_from_body = fleet.robots[i].world_from_start;
+    }
+  }
+  WorldSource changed = source;
+  changed.robot_types.clear();
+  for (auto& robot : world.robots) {
+    if (changes.has_noise) addNoise(robot.sensors);
+    const auto type = types.find(robot.model);
+    if (type == types.end() || changed.robot_types.contains(robot.model)) continue;
+    changed.robot_types[robot.model] = {type->second.file, textOf(type->second, changes.has_noise)};
+  }
+  changed.text = toXml(world);
+  return changed;
+}
+
+}  // namespace robosim

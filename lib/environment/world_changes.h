@@ -1,0 +1,38 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "robots/world_source.h"
+
+namespace robosim {
+
+/// A robot to add to a world.
+struct AddedRobot {
+  std::string model;
+  mrpt::math::TPose2D world_from_robot;  ///< start [m, rad]
+
+  /// Parses TYPE@X,Y,HEADING in metres and degrees; HEADING is optional, default 0.
+  /// @throws ConfigError
+  static AddedRobot parse(const std::string& text);
+};
+
+/// Changes that a run makes to a world.
+struct WorldChanges {
+  std::vector<AddedRobot> robots;
+  int random_robots = 0;  ///< number of robots to add at random positions
+  std::string random_model = "pioneer3dx";
+  bool has_random_starts = false;  ///< shuffleStartPoses()
+  bool has_noise = false;          ///< adds the data sheet's noise to every sensor that supports noise and has none
+
+  bool addsRobots() const { return !robots.empty() || random_robots > 0; }
+  bool isNone() const { return !addsRobots() && !has_random_starts && !has_noise; }
+};
+
+/// The world with these changes applied, as text, so that another process can build the same run. Added robots are
+/// named Robot1, Robot2, … as far as these names are free; they replace the robot at the start pose of a bare map.
+/// @param seed determines the random positions
+/// @throws ConfigError for a faulty world, an unknown type, and a robot that overlaps something
+WorldSource withChanges(const WorldSource&, const WorldChanges&, std::uint64_t seed);
+
+}  // namespace robosim

@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+
+/// Selection of code by the width of the processor's vectors. All variants perform the same operations on the same
+/// numbers (-ffp-contract=off), so the results are bit-identical.
+namespace robosim {
+
+/// Instruction sets for which loops are compiled. Platforms other than x86-64 have `sse2` only, compiled for their own
+/// vectors.
+enum class VectorWidth : std::uint8_t {
+  sse2,    ///< 128 bits: every x86-64
+  avx2,    ///< 256 bits: x86-64-v3
+  avx512,  ///< 512 bits: x86-64-v4
+};
+
+/// The widest that this processor supports.
+VectorWidth widestVectors();
+
+/// The width in use: the widest, unless setVectorWidth() was called.
+extern VectorWidth vector_width;
+/// For tests and measurements. Must not be called while other threads cast rays.
+/// @throws std::invalid_argument if the processor does not support the width
+void setVectorWidth(VectorWidth width);
+
+/// @name The variants of withVectors()
+///@{
+#if defined(__x86_64__)
+template <auto kFunction, typename... Arguments>
+[[gnu::target("arch=x86-64-v4")]] auto callAvx512(Arguments... arguments) {
+  return kFunction(arguments...);
+}
+template <auto kFunction, typename... Arguments>
+[[gnu::target("arch=x86-64-v3")]] auto callAvx2(Arguments... arguments) {
+  return kFunction(arguments...);
+}
+#endif
+template <auto kFunction, typename... Arguments>
+auto callBaseline(Arguments... arguments) {
+  return kFunction(arguments...);
+}
+///@}
+
+/// Calls a function compiled for the vector width in use. The function, and all that it calls in loops, must be
+/// [[gnu::always_inline]]. Its arguments are passed by value.
+template <auto kFunction, typename... Arguments>
+auto withVectors(Arguments... arguments) {
+#if defined(__x86_64__)
+  if (vector_width == VectorWidth::avx512) return callAvx512<kFunction>(arguments...);
+  if (vector_width == VectorWidth::avx2) return callAvx2<kFunction>(arguments...);
+#endif
+  return callBaseline<kFunction>(arguments...);
+}
+
+}  // namespace robosim

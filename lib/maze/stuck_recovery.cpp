@@ -1,0 +1,71 @@
+#include "maze/stuck_recovery.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "maze/path_driver.h"
+
+namespace robosim {
+namespace {
+
+constexpr double kTurn = 0.6;                          // fraction of the maximum turn rate
+constexpr double kTurnMin_rad = std::numbers::pi / 6;  // a turn on the spot
+constexpr double kTurnMax_rad = std::numbers::pi;      // in both directions: covers all headings
+constexpr double kDriveMin_s = 1;
+constexpr double kDriveMax_s = 6;
+constexpr double kSpeed = 0.2;  // fraction of the maximum speed
+constexpr double kGap_m = 0.02;
+constexpr std::uint64_t kPauseSteps = 10;
+constexpr std::uint32_t kRandomItem = 1;  // random stream separate from the controller's
+
+std::uint64_t stepsIn(double seconds, const Robot& robot) {
+  return static_cast<std::uint64_t>(std::ceil(seconds / robot.readings().time.period_s));
+}
+
+}  // namespace
+
+bool StuckRecovery::takesOver(Robot& robot) {
+  const std::uint64_t now = robot.stepNumber();
+  const bool was_paused = now > called_step_ + kPauseSteps;
+  called_step_ = now;
+  if (was_paused || hasMoved(robot)) {
+    left_from_ = robot.odometry().odom_from_robot;
+    left_step_ = now;
+    is_active_ = false;
+    return false;
+  }
+  if (!is_active_) {
+    if (now < left_step_ + stepsIn(options_.patience_s, robot)) return false;
+    is_active_ = true;
+    has_drawn_ = true;
+    turn_until_ = drive_until_ = now;
+  }
+  turnOrDrive(robot);
+  return true;
+}
+
+bool StuckRecovery::hasMoved(const Robot& robot) const {
+  if (!robot.sensor(SensorKind::odometry)) return !robot.stalled() && robot.command().speed_mps != 0;
+  const auto& now = robot.odometry().odom_from_robot;
+  const double x = now.x - left_from_.x, y = now.y - left_from_.y;
+  const double disc_m = options_.headway_radii * robot.info().radius_m;
+  return x * x + y * y > disc_m * disc_m;
+}
+
+void StuckRecovery::turnOrDrive(Robot& robot) {
+  const MotionLimits& limits = robot.info().limits;
+  const std::uint64_t now = robot.stepNumber();
+  const bool is_blocked = robot.stalled() || roomInLane(robot, 1) < kGap_m;
+  if (now >= turn_until_ && (is_blocked || now >= drive_until_)) {
+    Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, kRandomItem, now);
+    turn_ = rng.below(2) == 0 ? kTurn : -kTurn;
+    const double angle_rad = rng.uniform(kTurnMin_rad, kTurnMax_rad);
+    turn_until_ = now + stepsIn(angle_rad / (kTurn * limits.turn_max_radps), robot);
+    drive_until_ = turn_until_ + stepsIn(rng.uniform(kDriveMin_s, kDriveMax_s), robot);
+  }
+  const bool turns = now < turn_until_;
+  robot.drive(turns ? 0 : kSpeed * limits.speed_max_mps, turns ? turn_ * limits.turn_max_radps : 0);
+}
+
+}  // namespace robosim

@@ -1,0 +1,81 @@
+#include "maze/stuck_recovery.h"
+
+#include <gtest/gtest.h>
+
+#include "maze/fake_maze.h"
+#include "maze/wall_follower.h"
+#include "maze/wander.h"
+
+namespace robosim {
+namespace {
+
+/// Steps of 0.1 s until the robot is farther than `distance_m` from its start; `most` if it never is.
+template <typename Step>
+int stepsUntilGone(FakeMaze& maze, double distance_m, int most, const Step& step) {
+  Robot robot(maze.hardware);
+  for (int i = 0; i < most; ++i) {
+    step(robot);
+    maze.hardware.advance();
+    if (std::hypot(maze.pose().x, maze.pose().y) > distance_m) return i;
+  }
+  return most;
+}
+
+TEST(StuckRecovery, LeavesARobotThatMovesAlone) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  StuckRecovery recovery({.seed = 1});
+  for (int i = 0; i < 1000; ++i) {
+    ASSERT_FALSE(recovery.takesOver(robot)) << i;
+    robot.drive(0.1, 0);  // 1.5 radii of 0.25 m take it 3.75 s
+    hardware.advance();
+  }
+}
+
+TEST(StuckRecovery, BeginsAfter15SecondsWithoutHeadway) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  StuckRecovery recovery({.seed = 1});
+  for (int i = 0; i < 150; ++i) {
+    ASSERT_FALSE(recovery.takesOver(robot)) << i;
+    hardware.advance();
+  }
+  EXPECT_TRUE(recovery.takesOver(robot));
+}
+
+TEST(StuckRecovery, DrivesOutOfADeadEndThatIsOpenToOneSideOnly) {
+  // A niche 0.6 m wide around a robot of 0.5 m, open at its back.
+  FakeMaze maze({FakeMaze::box(0.45, 0, 0.2, 0.8), FakeMaze::box(-1, 0.4, 3, 0.2), FakeMaze::box(-1, -0.4, 3, 0.2)},
+                {99, 99}, 0);
+  StuckRecovery recovery({.seed = 1});
+  const int steps = stepsUntilGone(maze, 0.4, 6000, [&](Robot& robot) {
+    if (!recovery.takesOver(robot)) robot.stop();
+  });
+  EXPECT_LT(steps, 6000);
+}
+
+TEST(StuckRecovery, BeginsAnewAfterSomethingElseHasDrivenTheRobot) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  StuckRecovery recovery({.seed = 1});
+  EXPECT_FALSE(recovery.takesOver(robot));
+  for (int i = 0; i < 200; ++i) hardware.advance();
+  EXPECT_FALSE(recovery.takesOver(robot));
+}
+
+TEST(StuckRecovery, LetsAWandererOutOfAPlaceTooNarrowForItsUsualBerth) {
+  // Walls 0.1 m from either side of the robot: nearer than it otherwise drives past.
+  FakeMaze maze({FakeMaze::box(0, 0.4, 4, 0.1), FakeMaze::box(0, -0.4, 4, 0.1)}, {99, 99}, 0);
+  Wander wander({.seed = 1});
+  EXPECT_LT(stepsUntilGone(maze, 1, 6000, [&](Robot& robot) { wander.step(robot); }), 6000);
+}
+
+TEST(StuckRecovery, LetsAWallFollowerOutOfAPlaceNarrowerThanItsDistance) {
+  FakeMaze maze({FakeMaze::box(0, 0.4, 4, 0.1), FakeMaze::box(0, -0.4, 4, 0.1), FakeMaze::box(0.6, 0, 0.1, 1)},
+                {99, 99}, 0);
+  WallFollower follower;
+  EXPECT_LT(stepsUntilGone(maze, 1, 6000, [&](Robot& robot) { follower.step(robot); }), 6000);
+}
+
+}  // namespace
+}  // namespace robosim

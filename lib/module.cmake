@@ -1,0 +1,58 @@
+# robosim_module(NAME [PORTABLE] USES module… LINKS target…)
+#
+# Defines the target robosim::NAME from the sources in lib/NAME and its folders, and the program robosim_NAME_test from the
+# *_test.cpp among them. Sources in lib/NAME/testing, such as brute-force references, are the target robosim::NAME_testing,
+# which only the tests of NAME and of the modules that use it are linked to, and benchmarks that need it.
+# USES are the modules that NAME may include, all further down the list in CMakeLists.txt; the test includes.NAME fails on
+# an #include of any other. LINKS are external libraries. PORTABLE: a run's digest depends on what the module
+# computes; the test portable.NAME fails when it calls a function whose results differ between processors or C libraries.
+function(robosim_module name)
+  cmake_parse_arguments(MODULE "PORTABLE" "" "USES;LINKS" ${ARGN})
+  set(folder ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*.cpp ${folder}/*/*.cpp)
+  set(testing ${sources})
+  list(FILTER testing INCLUDE REGEX "/testing/")
+  list(FILTER sources EXCLUDE REGEX "/testing/")
+  set(tests ${sources})
+  list(FILTER sources EXCLUDE REGEX "_test\\.cpp$")
+  list(FILTER tests INCLUDE REGEX "_test\\.cpp$")
+
+  set(target robosim_${name})
+  set(kind PUBLIC)
+  if(sources)
+    add_library(${target} STATIC ${sources})
+  else()
+    add_library(${target} INTERFACE)
+    set(kind INTERFACE)
+  endif()
+  add_library(robosim::${name} ALIAS ${target})
+  target_include_directories(${target} ${kind} ${PROJECT_SOURCE_DIR}/lib)
+  list(TRANSFORM MODULE_USES PREPEND robosim:: OUTPUT_VARIABLE used_modules)
+  target_link_libraries(${target} ${kind} ${used_modules} ${MODULE_LINKS})
+  if(testing)
+    add_library(${target}_testing STATIC ${testing})
+    add_library(robosim::${name}_testing ALIAS ${target}_testing)
+    target_link_libraries(${target}_testing PUBLIC ${target})
+  endif()
+
+  add_test(NAME includes.${name}
+    COMMAND ${CMAKE_COMMAND} -DMODULE=${name} "-DUSES=${MODULE_USES}" -DLIB=${PROJECT_SOURCE_DIR}/lib
+            -P ${PROJECT_SOURCE_DIR}/lib/check_includes.cmake)
+  if(MODULE_PORTABLE)
+    add_test(NAME portable.${name}
+      COMMAND ${CMAKE_COMMAND} -DLIBRARY=$<TARGET_FILE:${target}> -DNM=${CMAKE_NM}
+              -P ${PROJECT_SOURCE_DIR}/lib/check_portable.cmake)
+  endif()
+  if(tests)
+    add_executable(${target}_test ${tests})
+    target_link_libraries(${target}_test PRIVATE ${target} GTest::gtest GTest::gtest_main)
+    foreach(module ${name} ${MODULE_USES})
+      if(TARGET robosim_${module}_testing)
+        target_link_libraries(${target}_test PRIVATE robosim_${module}_testing)
+      endif()
+    endforeach()
+    target_compile_options(${target}_test PRIVATE ${ROBOSIM_TEST_OPTIONS})
+    target_compile_definitions(${target}_test PRIVATE ROBOSIM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    gtest_discover_tests(${target}_test TEST_PREFIX ${name}. DISCOVERY_TIMEOUT 60)
+  endif()
+endfunction()

@@ -1,0 +1,170 @@
+#include "net/connection_listener.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <stdexcept>
+
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/eventfd.h>
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "net/flood_guard.h"
+#include "net/host_port.h"
+#include "net/net_log.h"
+
+namespace robosim {
+namespace {
+
+constexpr int kBacklog = 1024;
+constexpr int kPauseMs = 100;  ///< before accepting is tried again
+
+/// Raises the soft limit of descriptors (often 1,024) to the hard limit.
+/// @return the number of descriptors that connections and everything else may use
+int availableDescriptors() {
+  rlimit files{};
+  if (getrlimit(RLIMIT_NOFILE, &files) != 0) return ConnectionListener::kMaxDescriptors;
+  files.rlim_cur = files.rlim_max;
+  setrlimit(RLIMIT_NOFILE, &files);
+  getrlimit(RLIMIT_NOFILE, &files);
+  return static_cast<int>(std::min<rlim_t>(files.rlim_cur, ConnectionListener::kMaxDescriptors));
+}
+
+void setOption(int socket, int level, int option) {
+  const int on = 1;
+  setsockopt(socket, level, option, &on, sizeof on);
+}
+
+std::uint16_t portOf(int socket) {
+  sockaddr_storage own{};
+  socklen_t size = sizeof own;
+  getsockname(socket, reinterpret_cast<sockaddr*>(&own), &size);
+  return ntohs(own.ss_family == AF_INET6 ? reinterpret_cast<sockaddr_in6&>(own).sin6_port
+                                         : reinterpret_cast<sockaddr_in&>(own).sin_port);
+}
+
+/// @return the socket, or -1 with errno
+int listenAt(const addrinfo& at, int port) {
+  sockaddr_storage address{};
+  std::memcpy(&address, at.ai_addr, at.ai_addrlen);
+  auto& port_field = at.ai_family == AF_INET6 ? reinterpret_cast<sockaddr_in6&>(address).sin6_port
+                                              : reinterpret_cast<sockaddr_in&>(address).sin_port;
+  if (port != 0) port_field = htons(static_cast<std::uint16_t>(port));
+  const int listener = socket(at.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (listener < 0) return -1;
+  setOption(listener, SOL_SOCKET, SO_REUSEADDR);
+  if (bind(listener, reinterpret_cast<const sockaddr*>(&address), at.ai_addrlen) == 0 &&
+      listen(listener, kBacklog) == 0) {
+    return listener;
+  }
+  const int error = errno;
+  close(listener);
+  errno = error;
+  return -1;
+}
+
+struct FreeAddresses {
+  void operator()(addrinfo* all) const { freeaddrinfo(all); }
+};
+
+std::unique_ptr<addrinfo, FreeAddresses> addressesOf(const std::string& address) {
+  const HostPort parts = HostPort::of(address);
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  hints.ai_flags = AI_PASSIVE | AI_NUMERICSERV;
+  addrinfo* found = nullptr;
+  const int error = getaddrinfo(parts.host.c_str(), parts.port.c_str(), &hints, &found);
+  if (error != 0) throw std::runtime_error("cannot listen on " + address + ": " + gai_strerror(error));
+  return std::unique_ptr<addrinfo, FreeAddresses>(found);
+}
+
+}  // namespace
+
+ConnectionListener::ConnectionListener(const std::string& address, const std::string& option) : address_(address) {
+  descriptors_ = availableDescriptors();
+  const auto all = addressesOf(address);
+  int error = 0;
+  for (const addrinfo* at = all.get(); at && error != EADDRINUSE; at = at->ai_next) {
+    const int listener = listenAt(*at, port_);
+    if (listener < 0) {
+      error = errno;
+      continue;
+    }
+    listeners_.push_back(listener);
+    port_ = portOf(listener);
+  }
+  if (!listeners_.empty() && error != EADDRINUSE) {
+    address_ = withPort(address, port_);
+    return;
+  }
+  for (const int listener : listeners_) close(listener);
+  throw std::runtime_error("cannot listen on " + address + ": " +
+                           (error == EADDRINUSE ? "is another program using the port?" : std::strerror(error)) +
+                           " Name another with " + option + ", or :0 for any");
+}
+
+ConnectionListener::~ConnectionListener() {
+  if (thread_.joinable()) {
+    const std::uint64_t one = 1;
+    if (write(end_, &one, sizeof one) == sizeof one) thread_.join();
+    close(end_);
+  }
+  for (const int listener : listeners_) close(listener);
+}
+
+void ConnectionListener::start(std::function<void(int, int)> take) {
+  take_ = std::move(take);
+  end_ = eventfd(0, EFD_CLOEXEC);
+  if (end_ < 0) throw std::runtime_error("cannot listen on " + address_ + ": " + std::strerror(errno));
+  thread_ = std::thread([this] { acceptAll(); });
+}
+
+void ConnectionListener::acceptAll() {
+  std::vector<pollfd> ready{{end_, POLLIN, 0}};
+  for (const int listener : listeners_) ready.push_back({listener, POLLIN, 0});
+  for (;;) {
+    poll(ready.data(), ready.size(), -1);
+    if (ready.front().revents != 0) return;
+    for (std::size_t i = 1; i < ready.size(); ++i) {
+      if (ready[i].revents != 0 && !acceptFrom(ready[i].fd)) poll(ready.data(), 1, kPauseMs);
+    }
+  }
+}
+
+/// @return false when there is a connection that cannot be accepted now
+bool ConnectionListener::acceptFrom(int listener) {
+  const int connection = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+  if (connection < 0) {
+    const bool is_full = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
+    if (is_full) {
+      logFromNet("connections not accepted",
+                 address_ + ": cannot accept a connection now: " + std::strerror(errno) + "; trying again");
+    }
+    return !is_full;
+  }
+  // The system assigns the lowest free number, so a high number implies that nearly as many are in use.
+  if (connection >= descriptors_ - kReservedDescriptors) {
+    close(connection);
+    logFromNet("connections refused", address_ + ": connection refused: the limit of " + std::to_string(descriptors_) +
+                                          " descriptors is reached (ulimit -Hn; at most " +
+                                          std::to_string(kMaxDescriptors) + ")");
+    return true;
+  }
+  if (!flood_guard::admit(connection)) {
+    close(connection);
+    logFromNet("connections refused", address_ + ": connection refused: its address is banned after a flood");
+    return true;
+  }
+  setOption(connection, IPPROTO_TCP, TCP_NODELAY);
+  take_(listener, connection);
+  return true;
+}
+
+}  // namespace robosim

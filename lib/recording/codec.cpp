@@ -1,0 +1,32 @@
+#include "recording/codec.h"
+
+#include "recording/codecs.h"
+#include "recording/recording_error.h"
+
+namespace robosim {
+
+void refuse(const mrpt::obs::CObservation& observation, const SensorInfo& sensor, const std::string& why) {
+  throw RecordingError("recorded observation \"" + observation.sensorLabel + "\" (" +
+                       observation.GetRuntimeClass()->className + ") is not of the " + nameOf(sensor.kind) + " \"" +
+                       sensor.label + "\": " + why + "; give the robots that the recording was made with");
+}
+
+void checkSize(const mrpt::obs::CObservation& observation, const SensorInfo& sensor, std::size_t recorded,
+               std::size_t expected) {
+  if (recorded == expected) return;
+  refuse(observation, sensor,
+         "it holds " + std::to_string(recorded) + " values in place of " + std::to_string(expected));
+}
+
+mrpt::math::TPose3D mountOf(const SensorInfo& sensor) {
+  return sensor.beams.empty() ? mrpt::math::TPose3D::Identity() : sensor.beams[0].robot_from_beam;
+}
+
+const Codec& codecOf(const SensorInfo& sensor) {
+  for (const auto codec : kCodecs) {
+    if (codec().encodes(sensor)) return codec();
+  }
+  throw std::logic_error(std::string("no codec records the kind of sensor ") + nameOf(sensor.kind));
+}
+
+}  // namespace robosim

@@ -1,0 +1,84 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mrpt/obs/CObservation.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
+
+#include "base/label.h"
+#include "hardware/command.h"
+#include "hardware/readings.h"
+#include "hardware/robot_info.h"
+#include "recording/byte_archive.h"
+#include "recording/serialized_template.h"
+
+namespace robosim {
+
+/// Converts the data of a robot that no sensor measures to observations, so that a replay is complete. All are
+/// CObservationRawDAQ, which stock tools preserve:
+///
+///  * STATUS, in each step: analog outputs (double) are the executed command: speed [m/s], turn [rad/s], pan [rad],
+///    activity, and 1 when a person drives; analog inputs (double) are the pan angle of the panning sensors [rad], then
+///    1 for stalled, for a refused CheckWin, and for having won;
+///  * POINTS, for a sensor with echoes off its beams' axes or not at the reported ranges (the nearest point in a wide
+///    sonar cone, an object nearer than the minimum range): analog inputs (float), x y z [m] of each echo, robot frame;
+///  * INBOX, in steps with received messages: digital inputs are bytes: sender and text of each message, each as a
+///    32-bit length (little-endian) and its bytes.
+class RobotStatusRecord {
+ public:
+  explicit RobotStatusRecord(const RobotInfo& robot);
+  RobotStatusRecord(const RobotStatusRecord&) = delete;
+  RobotStatusRecord& operator=(const RobotStatusRecord&) = delete;
+
+  /// The observations of this step. The objects of STATUS and POINTS are reused by the next call.
+  std::vector<mrpt::obs::CObservation::Ptr> of(const Readings&, const Command&);
+  /// Serialises the observations of of().
+  void write(const Readings&, const Command&, ByteArchive& archive);
+
+ private:
+  struct Axis {
+    mrpt::math::TPoint3D origin, direction;
+  };
+  /// A reused observation and the template of its serialised form.
+  struct TemplatedObservation {
+    std::shared_ptr<mrpt::obs::CObservationRawDAQ> observation;
+    std::optional<SerializedTemplate> serialized;
+    void write(ByteArchive& archive);
+  };
+  void fillStatus(const Readings&, const Command&);
+  /// Calls visit(TemplatedObservation) for the POINTS of this step.
+  template <typename Visit>
+  void forPoints(const Readings&, const Visit& visit);
+  mrpt::obs::CObservation::Ptr inboxOf(const Readings&) const;
+  bool isAlongAxes(std::size_t slot, const Echoes& echoes, double pan_rad) const;
+
+  std::string robot_;
+  std::shared_ptr<const std::vector<SensorInfo>> sensors_;
+  std::vector<std::vector<Axis>> axes_;  ///< of the beams, by sensor, for a pan angle of 0
+  TemplatedObservation status_;
+  std::vector<TemplatedObservation> points_;  ///< by sensor
+};
+
+/// Content of STATUS.
+struct RobotStatus {
+  Command command;
+  float laser_pan_rad = 0;
+  bool stalled = false;
+  bool is_too_far = false;
+  bool has_won = false;
+};
+
+/// @name Inverse conversions
+/// @throws RecordingError for an observation that no RobotStatusRecord wrote.
+///@{
+RobotStatus statusFrom(const mrpt::obs::CObservation&);
+/// Replaces the points of echoes.
+void restorePoints(const mrpt::obs::CObservation&, Echoes&);
+/// @param to the receiver of the messages
+std::vector<RobotMessage> inboxFrom(const mrpt::obs::CObservation&, const std::string& to);
+///@}
+
+}  // namespace robosim

@@ -1,0 +1,140 @@
+// The console over real connections: pages with and without a token, and robots of a team behind real remote ports.
+#include "remote/console.h"
+
+#include <atomic>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "remote/testing/test_page.h"
+#include "remote/testing/test_robot.h"
+
+namespace robosim {
+namespace {
+
+const char* const kViewer = "viewer-0123456789abcdef";
+const char* const kOnlyBob = "only-bob-0123456789abcdef";
+const char* const kAnnAndBob = "ann-and-bob-0123456789abcdef";
+const char* const kOperator = "operator-0123456789abcdef";
+const char* const kTokens =
+    "viewer-0123456789abcdef viewer\n"
+    "only-bob-0123456789abcdef robot Bob\n"
+    "ann-and-bob-0123456789abcdef robot Ann Bob\n"
+    "operator-0123456789abcdef operator\n";
+
+/// A map of one robot's true pose.
+class TestMap : public MapSource {
+ public:
+  TestMap() {
+    auto world = std::make_shared<MapWorld>();
+    world->name = "maze";
+    world->robots = {{"Ann", 0.2, {}}};
+    auto view = std::make_shared<MapView>();
+    view->world = world;
+    view->world_from_robot = {{12.25, 3, 0}};
+    view->activity = {Activity::active};
+    view_ = view;
+  }
+  void want(bool wanted) override { is_wanted = wanted; }
+  std::shared_ptr<const MapView> newest() override { return view_; }
+  std::atomic<bool> is_wanted{false};
+
+ private:
+  std::shared_ptr<const MapView> view_;
+};
+
+/// Ann, the primary, Bob and Cid.
+struct ConsoleTest : testing::Test {
+  std::vector<std::unique_ptr<TestRobot>> team;
+  TestMap map;
+  std::unique_ptr<Console> console;
+  std::atomic<bool> is_over{false};
+  std::thread thread;
+  std::vector<std::unique_ptr<TestPage>> pages;
+
+  ConsoleTest() {
+    std::vector<RobotAddress> list;
+    for (const char* name : {"Ann", "Bob", "Cid"}) {
+      team.push_back(std::make_unique<TestRobot>(name));
+      list.push_back({name, "127.0.0.1", static_cast<std::uint16_t>(team.back()->port()), list.empty()});
+    }
+    Console::Options options;
+    options.listen = "127.0.0.1:0";
+    options.access = Access::parse(kTokens, "tokens");
+    options.map = &map;
+    console = std::make_unique<Console>(options, list);
+    thread = std::thread([this] { console->serve([this] { return is_over.load(); }); });
+  }
+  ~ConsoleTest() override {
+    is_over = true;
+    thread.join();
+    console.reset();
+  }
+
+  void wait(const std::function<bool()>& until) {
+    waitUntil(until, [&] {
+      for (auto& robot : team) robot->step();
+      for (auto& page : pages) page->receive();
+    });
+  }
+  /// A page whose hello was accepted, when all robots are up.
+  TestPage& page(const std::string& token) {
+    pages.push_back(std::make_unique<TestPage>(console->port()));
+    TestPage& page = *pages.back();
+    page.hello(token);
+    wait([&] { return page.has(R"("type":"welcome")") && row(page).size() == 3; });
+    return page;
+  }
+  /// The first letters of the robots in the newest team message, the primary first; empty while one of them is down.
+  static std::string row(const TestPage& page) {
+    for (auto text = page.texts.rbegin(); text != page.texts.rend(); ++text) {
+      if (text->find(R"("type":"team")") == std::string::npos) continue;
+      if (text->find(R"("up":false)") != std::string::npos) return "";
+      std::string row;
+      for (auto at = text->find(R"("name":")"); at != std::string::npos; at = text->find(R"("name":")", at + 1)) {
+        row += (*text)[at + 8];
+      }
+      return row.substr(0, 3);
+    }
+    return "";
+  }
+  void take(TestPage& page) {
+    page.send(R"({"type":"take"})");
+    wait([&] { return team[0]->robot.state().driver == "Page"; });
+  }
+};
+
+TEST_F(ConsoleTest, SwitchesOnlyToRobotsThatTheTokenPermits) {
+  TestPage& page = this->page(kAnnAndBob);
+  take(page);
+  page.send(R"({"type":"switch"})");
+  wait([&] { return row(page).front() == 'B'; });
+  EXPECT_EQ(row(page), "BCA");
+  page.send(R"({"type":"switch"})");  // Cid is next in the row, and the token is not for Cid
+  wait([&] { return row(page).front() != 'B'; });
+  EXPECT_EQ(row(page).front(), 'A');
+  page.send(R"({"type":"switch","robot":"Cid"})");
+  wait([&] { return page.has("Your token is not for Cid."); });
+  EXPECT_EQ(row(page).front(), 'A');
+}
+
+TEST_F(ConsoleTest, ShowsTruePosesOnlyToTokensThatMayWatch) {
+  for (const char* token : {kAnnAndBob, kOnlyBob}) {
+    TestPage& page = this->page(token);
+    page.send(R"({"type":"map","on":true})");
+    wait([&] { return page.has("Your token does not permit the map"); });
+    EXPECT_FALSE(map.is_wanted);
+    const std::size_t before = page.updates;
+    wait([&] { return page.updates > before + 3; });
+    EXPECT_FALSE(page.has("12.25")) << "a true pose";
+    EXPECT_FALSE(page.has(R"("type":"map")"));
+  }
+  for (const char* token : {kViewer, kOperator}) {
+    TestPage& page = this->page(token);
+    page.send(R"({"type":"map","on":true})");
+    wait([&] { return page.has("12.25"); });
+  }
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,57 @@
+#pragma once
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "hardware/command.h"
+#include "hardware/robot_info.h"
+#include "net/remote_wire.h"
+
+namespace robosim {
+
+/// Converts a driver's orders into the robot's command for each step. Time is a parameter.
+///
+/// ACCELERATE and DECELERATE change the speed by a tenth of the robot's maximum, and reach 0 exactly; negative speeds
+/// are backwards. TURN_LEFT and TURN_RIGHT turn at half of the maximum for kTurnTime, extended by each repetition.
+/// DRIVE sets speed and turn, clamped to the robot's maximum. The robot's limits on acceleration always apply.
+///
+/// Dead-man timeout: the robot stops when its driver has sent no message for longer than `dead_man`; whyStopped()
+/// returns the reason. It stands until it is steered again; ALIVE does not restart it.
+class DriveCommandFilter {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::chrono::milliseconds kTurnTime{300};
+  static constexpr std::chrono::milliseconds kDeadMan{500};  ///< default
+
+  explicit DriveCommandFilter(const MotionLimits& limits, Clock::duration dead_man = kDeadMan)
+      : limits_(limits), dead_man_(dead_man) {}
+
+  /// A driver takes over: the robot stands until it is steered.
+  void begin(Clock::time_point now);
+  /// Records a message of the driver, for the dead-man timeout.
+  void noteMessage(Clock::time_point when) { last_message_ = std::max(last_message_, when); }
+  /// Applies an order. Orders that do not steer only reset the dead-man timeout.
+  /// @param when time at which the order was received
+  void obey(const RemoteOrder& order, Clock::time_point when);
+  /// Stops the robot because the driver has left, with the reason.
+  void release(const std::string& why);
+
+  /// The command for the next step.
+  /// @param driver name, for the reason of a stop
+  Command command(Clock::time_point now, const std::string& driver);
+  /// Reason why the last order is not executed; empty when it is.
+  const std::string& whyStopped() const { return why_stopped_; }
+
+ private:
+  void stop(const std::string& why);
+
+  MotionLimits limits_;
+  Clock::duration dead_man_;
+  Clock::time_point last_message_, turn_ends_;
+  bool turn_is_short_ = false;  ///< the turn ends at turn_ends_
+  double speed_mps_ = 0, turn_radps_ = 0;
+  float laser_pan_rad_ = 0;
+  std::string why_stopped_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,48 @@
+#pragma once
+#include <array>
+#include <chrono>
+#include <optional>
+
+#include "hardware/robot_info.h"
+#include "net/remote_wire.h"
+#include "remote/joystick.h"
+
+namespace robosim {
+
+/// Converts a joystick's state to orders. The stick sets speed and turn; of the buttons, counted from 1 as in 2005, 1
+/// switches to the next robot, 2 requests CheckWin, 3 accelerates and 4 decelerates. Time is a parameter. The console's
+/// page follows the same rules (page/motion.js).
+///
+/// Motion is latched initially, and by latch() unless all inputs were neutral: no order moves the robot until the stick
+/// is in its dead zone and buttons 3 and 4 are released, all at the same time.
+class JoystickDriver {
+ public:
+  using Clock = std::chrono::steady_clock;
+  static constexpr double kDeadZone = 0.12;                 ///< fraction of the stick's range
+  static constexpr std::chrono::milliseconds kRepeat{250};  ///< of buttons 3 and 4 while held
+
+  struct Output {
+    RemoteOrder order;  ///< to send now: steering, or ALIVE
+    bool checks_win = false;
+    bool switches = false;
+  };
+
+  /// To be called about 20 times per second. Returns the stick's order each time, and its release once.
+  Output convert(const StickState& state, const MotionLimits& limits, Clock::time_point now);
+
+  /// Before another robot is driven.
+  void latch();
+
+  /// Fraction of the robot's maximum for a deflection: 0 in the dead zone, with a low gain near it.
+  static double shaped(double deflection);
+
+ private:
+  bool isPressed(const StickState& state, std::size_t button, bool repeats, Clock::time_point now);
+
+  std::array<std::optional<Clock::time_point>, 5> pressed_;  ///< by button: time of its last order
+  bool steers_speed_ = false, steers_turn_ = false;
+  bool is_neutral_ = false;  ///< at the last call
+  bool is_latched_ = true;
+};
+
+}  // namespace robosim

@@ -1,0 +1,107 @@
+#include "remote/joystick_driver.h"
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A robot with maximum speeds of 2 m/s and 1 rad/s. Time advances by 50 ms per call.
+class JoystickDriverTest : public testing::Test {
+ protected:
+  JoystickDriverTest() { convert(0, 0); }  // not latched
+
+  JoystickDriver::Output convert(double x, double y, std::vector<bool> buttons = {}) {
+    now_ += 50ms;
+    return driver_.convert({x, y, std::move(buttons)}, limits_, now_);
+  }
+
+  JoystickDriver driver_;
+
+ private:
+  static MotionLimits robotLimits() {
+    MotionLimits limits;
+    limits.speed_max_mps = 2;
+    limits.turn_max_radps = 1;
+    return limits;
+  }
+  MotionLimits limits_ = robotLimits();
+  JoystickDriver::Clock::time_point now_{1h};
+};
+
+TEST_F(JoystickDriverTest, TheStickPushedAwayDrivesAndPushedLeftTurnsLeft) {
+  const auto ahead = convert(0, -1).order;
+  EXPECT_EQ(ahead.type, RemoteType::drive);
+  EXPECT_EQ(ahead.speed_mps, 2);
+  EXPECT_EQ(ahead.turn_radps, std::nullopt) << "the turn is unchanged";
+  const auto left = convert(-1, 0).order;
+  EXPECT_EQ(left.speed_mps, 0) << "the stick is centred";
+  EXPECT_EQ(left.turn_radps, 1);
+}
+
+TEST_F(JoystickDriverTest, ReleasingTheStickStopsTheRobotOnceThenSendsAlive) {
+  convert(1, 1);
+  const auto stop = convert(0.1, -0.1).order;
+  EXPECT_EQ(stop.type, RemoteType::drive);
+  EXPECT_EQ(stop.speed_mps, 0);
+  EXPECT_EQ(stop.turn_radps, 0);
+  EXPECT_EQ(convert(0, 0).order.type, RemoteType::alive);
+}
+
+TEST_F(JoystickDriverTest, HasALowGainOutsideTheDeadZone) {
+  EXPECT_EQ(JoystickDriver::shaped(0.12), 0);
+  EXPECT_NEAR(JoystickDriver::shaped(0.56), 0.35, 1e-12) << "half way: 0.4 / 2 + 0.6 / 4";
+  EXPECT_NEAR(JoystickDriver::shaped(-0.56), -0.35, 1e-12);
+  EXPECT_EQ(JoystickDriver::shaped(1), 1);
+}
+
+TEST_F(JoystickDriverTest, Buttons2To4AreThoseOf2005) {
+  EXPECT_TRUE(convert(0, 0, {false, true, false, false}).checks_win);
+  EXPECT_EQ(convert(0, 0, {false, false, true, false}).order.type, RemoteType::accelerate);
+  EXPECT_EQ(convert(0, 0, {false, false, false, true}).order.type, RemoteType::decelerate);
+  EXPECT_TRUE(convert(0, 0, {true}).switches);
+}
+
+TEST_F(JoystickDriverTest, AHeldButtonCausesOneOrderAndSpeedButtonsRepeatFourTimesPerSecond) {
+  int switches = 0;
+  int accelerates = 0;
+  for (int i = 0; i < 20; ++i) {  // a second
+    const auto now = convert(0, 0, {true, false, true});
+    switches += now.switches ? 1 : 0;
+    accelerates += now.order.type == RemoteType::accelerate ? 1 : 0;
+  }
+  EXPECT_EQ(switches, 1);
+  EXPECT_EQ(accelerates, 4);
+}
+
+TEST_F(JoystickDriverTest, DoesNotMoveAnotherRobotBeforeStickAndButtonsAreReleased) {
+  EXPECT_EQ(convert(0, -1).order.type, RemoteType::drive);
+  driver_.latch();
+  EXPECT_EQ(convert(0, -1).order.type, RemoteType::alive);
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order.type, RemoteType::alive) << "button 3 is pressed";
+  EXPECT_EQ(convert(0, 0).order.type, RemoteType::alive);
+  EXPECT_EQ(convert(0, -1).order.speed_mps, 2);
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order.type, RemoteType::accelerate);
+}
+
+TEST_F(JoystickDriverTest, MovesAnotherRobotAtOnceWhenAllInputsWereNeutral) {
+  driver_.latch();
+  EXPECT_EQ(convert(0, -1).order.speed_mps, 2);
+}
+
+TEST_F(JoystickDriverTest, IsLatchedInitially) {
+  driver_ = JoystickDriver();
+  EXPECT_EQ(convert(-1, 0).order.type, RemoteType::alive) << "deflected initially";
+}
+
+TEST_F(JoystickDriverTest, AcceleratesWhileTheStickTurns) {
+  EXPECT_EQ(convert(-1, 0, {false, false, true}).order.type, RemoteType::accelerate);
+  const auto next = convert(-1, 0, {false, false, true}).order;
+  EXPECT_EQ(next.type, RemoteType::drive);
+  EXPECT_EQ(next.turn_radps, 1);
+  EXPECT_EQ(next.speed_mps, std::nullopt) << "unchanged after button 3";
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,95 @@
+#include "remote/response_outbox.h"
+
+#include <algorithm>
+
+namespace robosim {
+
+const std::array<ResponseOutbox::Request, 4> ResponseOutbox::kRequests{{
+    {kHeat, RemoteType::req_heat, SensorKind::heat},
+    {kLaser, RemoteType::req_laser, SensorKind::laser},
+    {kSonar, RemoteType::req_sonar, SensorKind::sonar},
+    {kAll, RemoteType::req_all, {}},
+}};
+
+void PortRobot::keepPictures() {
+  for (std::size_t i = 0; i < pictures_.size(); ++i) {
+    const auto* image = std::get_if<Image>(&readings().measurements[i]);
+    if (image && !image->jpeg.empty()) pictures_[i] = {readings().time.step, image->jpeg};
+  }
+}
+
+ResponseOutbox::ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome)
+    : robot_(robot), welcome_(std::move(welcome)), sent_(robot.pictures().size()), encoded_(sent_) {}
+
+bool ResponseOutbox::request(RemoteType type) {
+  const auto* const found =
+      std::find_if(kRequests.begin(), kRequests.end(), [&](const Request& request) { return request.type == type; });
+  if (found == kRequests.end()) return false;
+  is_requested_[found->topic] = true;
+  return true;
+}
+
+void ResponseOutbox::addState(bool is_driver) {
+  wire::ControlResponse& message = add(kState, RemoteType::init_ack, is_driver);
+  if (welcome_) encode(*welcome_, *message.mutable_welcome());
+}
+
+void ResponseOutbox::addReadings(bool is_driver) {
+  for (const auto& request : kRequests) {
+    if (!is_requested_[request.topic]) continue;
+    if (request.topic == kAll) {
+      addAll(is_driver);
+    } else {
+      addSensor(request, is_driver);
+    }
+  }
+}
+
+bool ResponseOutbox::isEmpty() const { return std::find(is_due_.begin(), is_due_.end(), true) == is_due_.end(); }
+
+void ResponseOutbox::takeNext(wire::ControlResponse& out) {
+  const auto* const next = std::find(is_due_.begin(), is_due_.end(), true);
+  const auto topic = static_cast<std::size_t>(next - is_due_.begin());
+  out.Swap(&due_[topic]);
+  is_due_[topic] = is_requested_[topic] = false;
+  if (topic == kState) welcome_.reset();
+  if (topic == kAll) sent_ = encoded_;
+}
+
+wire::ControlResponse& ResponseOutbox::add(Topic topic, RemoteType type, bool is_driver) {
+  wire::ControlResponse& message = due_[topic];
+  message.Clear();
+  is_due_[topic] = true;
+  message.set_type(static_cast<wire::RemoteType>(type));
+  RemoteState state = robot_.robot().state();
+  state.is_yours = is_driver;
+  encode(state, *message.mutable_state());
+  return message;
+}
+
+void ResponseOutbox::addSensor(const Request& request, bool is_driver) {
+  wire::ControlResponse& message = add(request.topic, request.type, is_driver);
+  message.set_step(robot_.readings().time.step);
+  const auto& sensors = *robot_.info().sensors;
+  const auto found =
+      std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == request.sensor; });
+  if (found == sensors.end()) return;
+  const auto slot = static_cast<std::size_t>(found - sensors.begin());
+  message.set_sensor(static_cast<std::uint32_t>(slot));
+  encode(robot_.readings().measurements[slot], *message.mutable_measurement());
+}
+
+void ResponseOutbox::addAll(bool is_driver) {
+  wire::ControlResponse& message = add(kAll, RemoteType::req_all, is_driver);
+  message.set_step(robot_.readings().time.step);
+  encode(robot_.readings(), *message.mutable_readings());
+  for (std::size_t i = 0; i < robot_.pictures().size(); ++i) {
+    const PortRobot::Picture& picture = robot_.pictures()[i];
+    encoded_[i] = picture.step;
+    if (picture.step <= sent_[i]) continue;
+    message.mutable_readings()->mutable_measurements(static_cast<int>(i))->set_jpeg(picture.jpeg);
+    message.set_picture_step(std::max(message.picture_step(), *picture.step));
+  }
+}
+
+}  // namespace robosim

@@ -1,0 +1,81 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "net/remote.pb.h"
+#include "net/robot_wire.h"
+#include "remote/remote_control_robot.h"
+
+namespace robosim {
+
+/// A robot of a remote port, with the newest picture of each camera, which a remote control that misses steps must not
+/// miss.
+class PortRobot {
+ public:
+  struct Picture {
+    std::optional<std::uint64_t> step;  ///< none before its first picture
+    std::string jpeg;
+  };
+
+  /// @param robot must outlive this
+  explicit PortRobot(RemoteControlRobot& robot) : robot_(&robot), pictures_(robot.hardware().info().sensors->size()) {}
+
+  RemoteControlRobot& robot() const { return *robot_; }
+  const RobotInfo& info() const { return robot_->hardware().info(); }
+  const Readings& readings() const { return robot_->hardware().readings(); }
+  /// By sensor; empty for all but cameras.
+  const std::vector<Picture>& pictures() const { return pictures_; }
+  /// Stores this step's pictures.
+  void keepPictures();
+
+ private:
+  RemoteControlRobot* robot_;
+  std::vector<Picture> pictures_;
+};
+
+/// Messages that wait for one remote control: at most one per topic, the newest, so that a slow remote control receives
+/// fewer. Readings are added only on request. Not thread-safe.
+class ResponseOutbox {
+ public:
+  /// @param robot must outlive this
+  /// @param welcome description, for the first state
+  ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome);
+
+  /// Requests the next step's reading. @return false if the order is not a request
+  bool request(RemoteType type);
+  /// Adds the robot's state.
+  /// @param is_driver whether the remote control is the robot's driver
+  void addState(bool is_driver);
+  /// Adds the requested readings of this step.
+  void addReadings(bool is_driver);
+  bool isEmpty() const;
+  /// Moves the next message to `out`: the state first. @pre not isEmpty()
+  void takeNext(wire::ControlResponse& out);
+
+ private:
+  /// In the order in which messages are sent.
+  enum Topic : std::size_t { kState, kHeat, kLaser, kSonar, kAll, kTopics };
+  struct Request {
+    Topic topic;
+    RemoteType type;
+    SensorKind sensor;  ///< unused for kAll
+  };
+  static const std::array<Request, 4> kRequests;
+
+  wire::ControlResponse& add(Topic topic, RemoteType type, bool is_driver);
+  void addSensor(const Request& request, bool is_driver);
+  void addAll(bool is_driver);
+
+  const PortRobot& robot_;
+  std::optional<RobotsWelcome> welcome_;  ///< until it was taken
+  std::array<bool, kTopics> is_requested_{}, is_due_{};
+  std::array<wire::ControlResponse, kTopics> due_;
+  std::vector<std::optional<std::uint64_t>> sent_, encoded_;  ///< by sensor: the step of the last picture
+};
+
+}  // namespace robosim

@@ -1,0 +1,116 @@
+#include "remote/response_outbox.h"
+
+#include <gtest/gtest.h>
+
+#include "control/fake_hardware.h"
+
+namespace robosim {
+namespace {
+
+class IdleController : public Controller {
+ public:
+  void step(Robot&) override {}
+};
+
+/// A robot with a camera in slot 4, besides odometry, sonar, laser and heat.
+struct ResponseOutboxTest : testing::Test {
+  FakeHardware hardware;
+  RemoteControlRobot robot{withCamera(hardware), std::make_unique<IdleController>(), {}};
+  PortRobot port_robot{robot};
+  ResponseOutbox outbox{port_robot, welcome()};
+
+  static FakeHardware& withCamera(FakeHardware& hardware) {
+    auto sensors = *hardware.info().sensors;
+    sensors.emplace_back();
+    sensors.back().kind = SensorKind::camera;
+    sensors.back().label = "camera";
+    hardware.mutableInfo().sensors = std::make_shared<std::vector<SensorInfo>>(sensors);
+    hardware.mutableReadings().measurements.emplace_back(Image{});
+    return hardware;
+  }
+  static RobotsWelcome welcome() {
+    RobotsWelcome welcome;
+    welcome.world = "maze";
+    return welcome;
+  }
+
+  /// The next message.
+  wire::ControlResponse take() {
+    wire::ControlResponse message;
+    outbox.takeNext(message);
+    return message;
+  }
+  void step(const std::string& jpeg = "") {
+    std::get<Image>(hardware.mutableReadings().measurements[4]).jpeg = jpeg;
+    port_robot.keepPictures();
+    outbox.addReadings(true);
+    hardware.advance();
+  }
+};
+
+TEST_F(ResponseOutboxTest, TheFirstStateContainsTheWelcome) {
+  EXPECT_TRUE(outbox.isEmpty());
+  outbox.addState(true);
+  outbox.addState(false);
+  const auto first = take();
+  EXPECT_EQ(first.welcome().world(), "maze");
+  EXPECT_FALSE(first.state().is_yours()) << "the newest state";
+  EXPECT_TRUE(outbox.isEmpty());
+  outbox.addState(true);
+  EXPECT_FALSE(take().has_welcome());
+}
+
+TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
+  step();
+  EXPECT_TRUE(outbox.isEmpty());
+  EXPECT_TRUE(outbox.request(RemoteType::req_heat));
+  hardware.feelHeat(7);
+  step();
+  const auto message = take();
+  EXPECT_EQ(message.type(), wire::REQ_HEAT);
+  EXPECT_EQ(message.sensor(), 3u);
+  step();
+  EXPECT_TRUE(outbox.isEmpty());
+}
+
+TEST_F(ResponseOutboxTest, ReplacesReadingsThatWereNotSentByNewerOnes) {
+  outbox.request(RemoteType::req_all);
+  for (int i = 0; i < 100; ++i) step();
+  EXPECT_EQ(take().step(), 99u);
+  EXPECT_TRUE(outbox.isEmpty());
+}
+
+TEST_F(ResponseOutboxTest, SendsTheStateFirst) {
+  outbox.request(RemoteType::req_all);
+  outbox.request(RemoteType::req_sonar);
+  step();
+  outbox.addState(true);
+  EXPECT_EQ(take().type(), wire::INIT_ACK);
+  EXPECT_EQ(take().type(), wire::REQ_SONAR);
+  EXPECT_EQ(take().type(), wire::REQ_ALL);
+}
+
+TEST_F(ResponseOutboxTest, SendsEachPictureOnceEvenIfItsStepWasMissed) {
+  const auto picture_in = [](const wire::ControlResponse& message) {
+    return message.readings().measurements(4).jpeg();
+  };
+  step("picture");
+  step();
+  outbox.request(RemoteType::req_all);
+  step();
+  const auto message = take();
+  EXPECT_EQ(picture_in(message), "picture");
+  EXPECT_EQ(message.picture_step(), 0u);
+  outbox.request(RemoteType::req_all);
+  step();
+  EXPECT_EQ(picture_in(take()), "");
+}
+
+TEST_F(ResponseOutboxTest, AcceptsOnlyRequests) {
+  EXPECT_TRUE(outbox.request(RemoteType::req_laser));
+  EXPECT_FALSE(outbox.request(RemoteType::stop));
+  EXPECT_FALSE(outbox.request(RemoteType::drive));
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,35 @@
+#include <iostream>
+
+#include "base/error_list.h"
+#include "base/interrupt.h"
+#include "base/printable_text.h"
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "recording/observation_writer.h"
+#include "recording/rawlog_reader.h"
+#include "replay/replay.h"
+#include "replay/selection.h"
+
+namespace robosim {
+
+void writeSelection(const ReplayArguments& arguments) {
+  const Interrupt interrupt;
+  RawlogReader reader(arguments.rawlog);
+  ObservationWriter writer(arguments.output, reader.pictureFolder());
+  Selection selection(arguments);
+  Progress progress;
+  std::uint64_t observations = 0;
+  while (const auto observation = reader.next()) {
+    if (interrupt.isRequested()) throw Interrupted("interrupted; nothing was written");
+    if (!selection.takes(*observation, reader)) continue;
+    writer.write(*observation);
+    ++observations;
+    if (progress.due()) progress.show(withCommas(observations) + " observations …");
+  }
+  selection.checkFound();
+  writer.commit();
+  std::cout << arguments.output << ": " << withCommas(observations) << " observations\n";
+  if (reader.readError()) std::cerr << printableText(*reader.readError()) << '\n';
+}
+
+}  // namespace robosim

@@ -1,0 +1,236 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+
+#include "base/interrupt.h"
+#include "base/printable_text.h"
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "hardware/measurement_fields.h"
+#include "recording/recorded_step.h"
+#include "replay/replay.h"
+#include "run/local_run.h"
+#include "run/run_note.h"
+
+namespace robosim {
+namespace {
+
+/// A number in a text form that parses to the same value.
+std::string exactly(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.17g", value);
+  return text;
+}
+
+std::string differ(const std::string& what, double recorded, double now) {
+  return what + ": recorded " + exactly(recorded) + ", now " + exactly(now);
+}
+
+/// Position of the first difference between two measurements of a sensor; nullopt if they are equal, and for kinds that
+/// differ between machines.
+std::optional<std::string> differenceOf(const Measurement& recorded_measurement, const Measurement& measurement) {
+  return std::visit(
+      [&]<typename M>(const M& recorded) -> std::optional<std::string> {
+        if constexpr (!kIsReproducible<M>) return std::nullopt;
+        const auto now = Description<M>::records(std::get<M>(measurement));
+        std::optional<std::string> difference;
+        forNumbers(recorded, [&](const auto& field, auto number, std::size_t index) {
+          const auto here = field.get(now[index]);
+          if (difference || number == here) return;
+          const std::string record =
+              kIsSingle<M> ? "" : Description<M>::record_name + (' ' + std::to_string(index) + ' ');
+          const std::string unit = *field.unit.symbol ? std::string(" [") + field.unit.symbol + ']' : "";
+          difference = differ(record + field.name + unit, number, here);
+        });
+        return difference;
+      },
+      recorded_measurement);
+}
+
+std::optional<std::string> differenceOf(const RecordedRobot& recorded, const RobotInfo& robot, const Readings& now,
+                                        const mrpt::math::TPose2D& world_from_robot, bool is_told_of_winner) {
+  if (const auto& truth = recorded.world_from_robot) {
+    // A heading is recorded as a matrix; its angle is equal up to rounding.
+    constexpr double kRounding_rad = 1e-12;
+    if (truth->x != world_from_robot.x) return differ("true x [m]", truth->x, world_from_robot.x);
+    if (truth->y != world_from_robot.y) return differ("true y [m]", truth->y, world_from_robot.y);
+    if (std::abs(std::remainder(truth->phi - world_from_robot.phi, 2 * M_PI)) > kRounding_rad) {
+      return differ("true heading [rad]", truth->phi, world_from_robot.phi);
+    }
+  }
+  for (std::size_t i = 0; i < now.measurements.size(); ++i) {
+    const auto difference = differenceOf(recorded.readings.measurements[i], now.measurements[i]);
+    if (difference) return (*robot.sensors)[i].label + ", " + *difference;
+  }
+  if (recorded.command && recorded.readings.stalled != now.stalled) {
+    return std::string("stalled: recorded ") + (recorded.readings.stalled ? "yes" : "no");
+  }
+  if (recorded.command && is_told_of_winner && recorded.readings.winner != now.winner) {
+    return "winner: recorded \"" + recorded.readings.winner + "\", now \"" + now.winner + '"';
+  }
+  if (recorded.readings.inbox != now.inbox) {
+    return "messages: recorded " + std::to_string(recorded.readings.inbox.size()) + ", now " +
+           std::to_string(now.inbox.size());
+  }
+  return std::nullopt;
+}
+
+class RunAgain {
+ public:
+  RunAgain(const ReplayArguments& arguments, const RunNote& note)
+      : note_(note),
+        source_(readWorldSource(arguments.check)),
+        run_(worldWithControllers(source_, note), options(note), elsewhere(note)),
+        reader_(arguments.rawlog),
+        recorded_(reader_, robots(), note.period_s, Pictures::leave_out) {}
+
+  /// @return whether the run is identical
+  bool check() {
+    if (versionOf(source_) != note_.world_version) {
+      std::cout << "The world has changed since it was recorded (or is another one).\n";
+    }
+    const Interrupt interrupt;
+    Progress progress;
+    auto now = recorded_.next();
+    if (now) checkDriven(*now);
+    std::uint64_t steps = 0;
+    while (now) {
+      if (interrupt.isRequested()) throw Interrupted("interrupted; no result");
+      if (const auto difference = firstDifference(*now)) {
+        const SimTime time = run_.environment().time();
+        std::cout << "Not the same run. It first differs in step " << time.step << " (" << fixed(time.seconds(), 3)
+                  << " s): " << printableText(*difference) << '\n';
+        return false;
+      }
+      if (progress.due()) progress.show("step " + withCommas(steps) + " is the same …");
+      ++steps;
+      now = recorded_.next();
+      if (now) step(*now);
+    }
+    if (steps == 0) {
+      throw ConfigError(reader_.readError().value_or("the recording") + "; it has no complete step to compare");
+    }
+    if (reader_.readError()) {
+      std::cout << printableText(*reader_.readError()) << '\n'
+                << "What there is, " << withCommas(steps) << " steps, is the same.\n";
+      return true;
+    }
+    return sameDigest(steps);
+  }
+
+ private:
+  static RunOptions options(const RunNote& note) {
+    RunOptions options;
+    options.environment.seed = note.seed;
+    options.environment.period_s = note.period_s;
+    return options;
+  }
+  /// The recorded controller of each robot.
+  static LoadedWorld worldWithControllers(const WorldSource& source, const RunNote& note) {
+    LoadedWorld world = loadWorldToRun(source, "");
+    auto& robots = world.fleet.robots;
+    if (note.controllers.size() != robots.size()) {
+      throw ConfigError(source.file + ": has " + std::to_string(robots.size()) + " robots, and the recording " +
+                        std::to_string(note.controllers.size()) + "; give the world that it was made with, " +
+                        note.world.file);
+    }
+    for (std::size_t i = 0; i < robots.size(); ++i) robots[i].controller = note.controllers[i];
+    return world;
+  }
+  /// Robots driven by another process are driven by the recorded commands.
+  static std::vector<std::uint8_t> elsewhere(const RunNote& note) {
+    std::vector<std::uint8_t> elsewhere;
+    for (const auto& controller : note.controllers) elsewhere.push_back(controller.empty() ? 1 : 0);
+    return elsewhere;
+  }
+  /// Controllers recompute their commands; commands and messages from other processes are taken from the recording.
+  void checkDriven(const std::vector<RecordedRobot>& recorded) const {
+    const auto absent = std::find_if(recorded.begin(), recorded.end(), [](const auto& r) { return r.is_absent; });
+    const auto driven = std::find(note_.controllers.begin(), note_.controllers.end(), "");
+    if (absent == recorded.end() || driven == note_.controllers.end()) return;
+    const auto& robots = run_.environment().fleet().robots;
+    throw ConfigError("robot " + robots[static_cast<std::size_t>(driven - note_.controllers.begin())].info.name +
+                      " was driven by another process, and robot " +
+                      robots[static_cast<std::size_t>(absent - recorded.begin())].info.name +
+                      " is not in this recording, so the run cannot be repeated; record with --rawlog-format obs");
+  }
+  /// That a robot has won is known only from its own recording.
+  bool isToldOfWinner(const std::vector<RecordedRobot>& recorded, const std::string& winner) const {
+    const auto& robots = run_.environment().fleet().robots;
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+      if (recorded[i].is_absent && robots[i].info.name == winner) return false;
+    }
+    return true;
+  }
+  std::vector<RobotInfo> robots() const {
+    std::vector<RobotInfo> robots;
+    for (const auto& robot : run_.environment().fleet().robots) robots.push_back(robot.info);
+    return robots;
+  }
+  std::optional<std::string> firstDifference(const std::vector<RecordedRobot>& recorded) const {
+    const Environment& environment = run_.environment();
+    for (std::size_t i = 0; i < recorded.size(); ++i) {
+      if (recorded[i].is_absent) continue;
+      const auto& robot = environment.fleet().robots[i].info;
+      const auto difference =
+          differenceOf(recorded[i], robot, environment.state().readings[i], environment.state().world_from_robot[i],
+                       isToldOfWinner(recorded, environment.state().readings[i].winner));
+      if (difference) return "robot " + robot.name + ", " + *difference;
+    }
+    return std::nullopt;
+  }
+  void step(const std::vector<RecordedRobot>& next) {
+    Environment& environment = run_.environment();
+    const auto& robots = environment.fleet().robots;
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      if (note_.controllers[i].empty() && next[i].command) {
+        environment.setCommand(i, *next[i].command);
+        const Readings& answer = next[i].readings;
+        const bool has_just_won =
+            answer.winner == robots[i].info.name && environment.state().readings[i].winner.empty();
+        if (answer.is_too_far || has_just_won) environment.checkWin(i);
+      }
+      for (const auto& message : next[i].readings.inbox) {
+        const auto sender = static_cast<std::size_t>(
+            std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.info.name == message.from; }) -
+            robots.begin());
+        if (sender < robots.size() && note_.controllers[sender].empty()) {
+          environment.send(sender, message.to, message.text);
+        }
+      }
+    }
+    run_.step();
+  }
+
+  bool sameDigest(std::uint64_t steps) const {
+    const auto note = RunNote::parse(recorded_.note());
+    const std::string recorded = note ? note->outcome.value("digest", "") : "";
+    const std::string now = run_.environment().digest();
+    if (recorded.empty()) {
+      std::cout << "All " << withCommas(steps) << " steps are the same; the recording has no digest.\n";
+      return true;
+    }
+    if (recorded != now) {
+      std::cout << "Every reading is the same, but not the digest: recorded " << recorded << ", now " << now << '\n';
+      return false;
+    }
+    std::cout << "The same run: " << withCommas(steps) << " steps, digest " << now << '\n';
+    return true;
+  }
+
+  const RunNote& note_;
+  WorldSource source_;
+  LocalRun run_;
+  RawlogReader reader_;
+  RecordedSteps recorded_;
+};
+
+}  // namespace
+
+bool checkRun(const ReplayArguments& arguments) {
+  const RunNote note = RunNote::of(arguments.rawlog);
+  return RunAgain(arguments, note).check();
+}
+
+}  // namespace robosim

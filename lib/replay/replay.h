@@ -1,0 +1,47 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace robosim {
+
+/// What to read of a recording, and what to do with it.
+struct ReplayArguments {
+  std::string rawlog;
+  std::vector<std::string> robots;     ///< selected; empty for all
+  std::vector<std::string> sensors;    ///< selected by the second part of the label; empty for all
+  std::optional<double> from_s, to_s;  ///< since the recording's first observation
+  bool print = false;
+  bool csv = false;          ///< print as comma-separated values
+  std::string ground_truth;  ///< output file
+  std::string output;        ///< rawlog of the selected observations
+  double speed = 0;          ///< of printing: recorded seconds per second; 0: unlimited
+  std::string controller;    ///< of the world of the recording; "recorded": each robot's own
+  std::string check;         ///< a world file
+  double tolerance = 1e-9;
+  bool json = false;
+
+  bool selects(const std::string& robot, const std::string& sensor) const;
+};
+
+/// Thrown when a replay is interrupted.
+[[noreturn]] void failInterrupted(double read_s);
+
+/// Summarises a recording made by RoboSim or another program.
+void summarise(const ReplayArguments&);
+/// Prints the observations, one line each, at the requested speed.
+void printObservations(const ReplayArguments&);
+/// Writes a robot's true path as a text file that MRPT's pf-localization and CPose3DInterpolator read: one line "time x
+/// y z yaw pitch roll" per pose, in seconds since 1970, metres and radians.
+/// @throws ConfigError when several robots are selected, or the recording has no ground truth.
+void writeGroundTruth(const ReplayArguments&);
+/// Writes the selected observations to a rawlog.
+/// @throws ConfigError when the selection matches nothing.
+void writeSelection(const ReplayArguments&);
+/// Repeats the run and reports whether it is identical.
+/// @return whether it is
+bool checkRun(const ReplayArguments&);
+/// Feeds the recorded readings to a controller, and reports where its commands differ from the recorded ones.
+void replayToController(const ReplayArguments&);
+
+}  // namespace robosim

@@ -1,0 +1,176 @@
+#include "replay/value_text.h"
+
+#include <cmath>
+#include <variant>
+
+#include <mrpt/obs/CObservationImage.h>
+#include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include "base/printable_text.h"
+#include "base/text_table.h"
+#include "recording/observed_numbers.h"
+#include "recording/rawlog_reader.h"
+#include "recording/recording_error.h"
+#include "recording/robot_status_record.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::obs::CObservation;
+using mrpt::obs::CObservationRawDAQ;
+
+/// The value, "–" for none.
+std::string inWords(const ObservedNumber& number, int digits) {
+  return std::visit(
+      [&]<typename Value>(Value value) -> std::string {
+        if constexpr (std::is_same_v<Value, std::monostate>) {
+          return "–";
+        } else {
+          return fixed(value, digits);
+        }
+      },
+      number.value);
+}
+
+/// "x 1.000 m, heading 90.0°"; of a list of records only the values, "0.52 – 1.20 m".
+std::string inWords(const ObservedNumbers& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    const ObservedNumber& number = numbers[i];
+    const bool is_continued = i + 1 < numbers.size() && number.index && numbers[i + 1].name == number.name;
+    const std::string symbol = number.unit.symbol;
+    const std::string unit = is_continued || symbol.empty() ? "" : " " + symbol;
+    if (number.index) {
+      text += (text.empty() ? "" : " ") + inWords(number, 2) + unit;
+    } else if (symbol == kRadian.symbol && std::holds_alternative<double>(number.value)) {
+      text +=
+          (text.empty() ? "" : ", ") + number.name + " " + fixed(std::get<double>(number.value) * 180 / M_PI, 1) + "°";
+    } else {
+      text += (text.empty() ? "" : ", ") + number.name + " " + inWords(number, 3) + unit;
+    }
+  }
+  return text;
+}
+
+std::string statusInWords(const CObservation& observation) {
+  const RobotStatus status = statusFrom(observation);
+  std::string text = "command " + robosim::inWords(status.command);
+  if (status.command.by_driver) text += ", by a person";
+  if (status.stalled) text += "; stalled";
+  if (status.is_too_far) text += "; too far to win";
+  if (status.has_won) text += "; has won";
+  return text;
+}
+
+std::string inboxInWords(const CObservation& observation) {
+  std::string text;
+  for (const auto& message : inboxFrom(observation, "")) {
+    text += (text.empty() ? "" : "; ") + message.from + ": \"" + message.text + '"';
+  }
+  return text;
+}
+
+/// A blob finder has seven numbers for each colour.
+std::string blobsInWords(const std::vector<double>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i + 7 <= numbers.size(); i += 7) {
+    text += (text.empty() ? "" : "; ") + fixed(numbers[i], 0) + " px";
+    if (numbers[i] > 0) text += " round (" + fixed(numbers[i + 1], 1) + ", " + fixed(numbers[i + 2], 1) + ")";
+  }
+  return text;
+}
+
+template <typename Numbers>
+std::string list(const std::string& name, const Numbers& numbers, int digits) {
+  if (numbers.empty()) return "";
+  std::string text = ", " + name;
+  for (const auto number : numbers) text += " " + fixed(number, digits);
+  return text;
+}
+
+/// "(1.00, 2.00, 0.16) (…) m"
+std::string pointsInWords(const std::vector<float>& numbers) {
+  std::string text;
+  for (std::size_t i = 0; i + 3 <= numbers.size(); i += 3) {
+    text += (text.empty() ? "(" : " (") + fixed(numbers[i], 2) + ", " + fixed(numbers[i + 1], 2) + ", " +
+            fixed(numbers[i + 2], 2) + ")";
+  }
+  return text + " m";
+}
+
+/// Digital inputs are bumper segments in RoboSim's recordings; in others their meaning is unknown.
+std::string inputsInWords(const CObservationRawDAQ& daq) {
+  std::string text;
+  if (!daq.DIN.empty()) {
+    std::string on;
+    for (std::size_t i = 0; i < 8 * daq.DIN.size(); ++i) {
+      if ((daq.DIN[i / 8] >> (i % 8)) & 1U) on += " " + std::to_string(i);
+    }
+    text = ", on" + (on.empty() ? " none" : on);
+  }
+  text += list("inputs", daq.AIN_8bits, 0) + list("inputs", daq.AIN_16bits, 0) + list("inputs", daq.AIN_32bits, 0) +
+          list("inputs", daq.AIN_float, 3) + list("inputs", daq.AIN_double, 3) + list("outputs", daq.AOUT_double, 3);
+  return text.empty() ? classOf(daq) : text.substr(2);
+}
+
+std::string inWords(const CObservationRawDAQ& daq) {
+  const Label label = Label::parse(daq.sensorLabel);
+  const std::string sensor = label.withinRobot();
+  try {
+    if (sensor == kStatus) return statusInWords(daq);
+    if (sensor == kInbox) return inboxInWords(daq);
+  } catch (const RecordingError&) {
+    // Another program's class with the same label.
+  }
+  if (label.part == kPoints) return pointsInWords(daq.AIN_float);
+  const bool is_blobs = daq.DIN.empty() && !daq.AIN_double.empty() && daq.AIN_double.size() % 7 == 0;
+  return is_blobs ? blobsInWords(daq.AIN_double) : inputsInWords(daq);
+}
+
+std::string unsafeWords(const CObservation& observation) {
+  if (const auto numbers = numbersIn(observation)) return numbers->empty() ? "–" : inWords(*numbers);
+  if (const auto* picture = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation)) {
+    if (picture->image.isExternallyStored()) return "picture " + picture->image.getExternalStorageFile();
+    return "picture of " + std::to_string(picture->image.getWidth()) + " × " +
+           std::to_string(picture->image.getHeight()) + " px";
+  }
+  if (const auto* daq = dynamic_cast<const CObservationRawDAQ*>(&observation)) return inWords(*daq);
+  if (const auto pose = poseIn(observation)) {
+    return "x " + fixed(pose->x, 3) + " m, y " + fixed(pose->y, 3) + " m, heading " + fixed(pose->phi * 180 / M_PI, 1) +
+           "°";
+  }
+  return classOf(observation);
+}
+
+}  // namespace
+
+std::string inWords(const Command& command) {
+  std::string text = fixed(command.speed_mps, 3) + " m/s, " + fixed(command.turn_radps, 3) + " rad/s";
+  if (command.laser_pan_rad != 0) text += ", pan " + fixed(command.laser_pan_rad, 3) + " rad";
+  if (command.activity == Activity::halted) text += ", halted";
+  if (command.activity == Activity::found) text += ", found";
+  return text;
+}
+
+std::string inWords(const CObservation& observation) { return printableText(unsafeWords(observation)); }
+
+std::string classOf(const CObservation& observation) {
+  const std::string name = observation.GetRuntimeClass()->className;
+  const auto colon = name.rfind(':');
+  return colon == std::string::npos ? name : name.substr(colon + 1);
+}
+
+std::optional<mrpt::math::TPose2D> poseIn(const CObservation& observation) {
+  if (const auto* truth = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation)) {
+    const auto& pose = truth->pose.mean;
+    return mrpt::math::TPose2D(pose.x(), pose.y(), pose.yaw());
+  }
+  if (const auto* odometry = dynamic_cast<const mrpt::obs::CObservationOdometry*>(&observation)) {
+    return odometry->odometry.asTPose();
+  }
+  return std::nullopt;
+}
+
+}  // namespace robosim

@@ -1,0 +1,156 @@
+#include "run/local_run.h"
+
+#include <algorithm>
+
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include "maze/controllers.h"
+#include "rendering/offscreen_renderer.h"
+
+namespace robosim {
+namespace {
+
+void checkToRun(const LoadedWorld& world, const std::string& file, const std::string& instead) {
+  ErrorList errors;
+  checkControllers(world, file, instead, errors);
+  errors.throwIfAny();
+  if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robots; add at least one");
+}
+
+/// Reading a file takes several times the memory of the resulting world. That memory is free by now but fragmented, and
+/// would stay with the process without malloc_trim().
+void releaseFreeMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);
+#endif
+}
+
+std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world) {
+  if (!hasCamera(world.fleet)) return nullptr;
+  return std::make_unique<OffscreenRenderer>(world.world, world.fleet);
+}
+
+}  // namespace
+
+std::string controllerOf(const std::string& in_world, const std::string& instead) {
+  if (!instead.empty()) return instead;
+  return in_world.empty() ? kDefaultController : in_world;
+}
+
+void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
+                      ErrorList& errors) {
+  const std::size_t count = std::min(world.world.robots.size(), world.fleet.robots.size());
+  for (std::size_t i = 0; i < count; ++i) {
+    const FleetRobot& robot = world.fleet.robots[i];
+    const std::string name = controllerOf(robot.controller, instead);
+    const auto known = controllerNames();
+    if (std::find(known.begin(), known.end(), name) == known.end()) continue;  // reported by buildFleet()
+    for (const SensorKind kind : controllerType(name).needs) {
+      const auto& sensors = *robot.info.sensors;
+      if (std::any_of(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; })) continue;
+      errors.add(world_file, world.world.robots[i].line.number,
+                 "robot '" + robot.info.name + "': its controller " + name + " requires a sensor of kind " +
+                     nameOf(kind) + "; add one, or use another controller");
+    }
+  }
+}
+
+LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
+  LoadedWorld world = loadWorld(file, controllerNames());
+  checkToRun(world, file, instead);
+  // The fleet has copied what it needs. (= {} would keep the memory.)
+  world.world.robots = std::vector<RobotPlacement>();
+  world.world.objects.shrink_to_fit();
+  releaseFreeMemory();
+  return world;
+}
+
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead) {
+  LoadedWorld world = loadWorld(source, controllerNames());
+  checkToRun(world, source.file, instead);
+  releaseFreeMemory();
+  return world;
+}
+
+LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
+    : options_(options),
+      images_(imagesFor(world)),
+      environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
+      workers_(options.environment.threads) {
+  const auto& robots = environment_.fleet().robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (!elsewhere.empty() && elsewhere[i]) continue;
+    const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
+    local_robots_.push_back(std::make_unique<LocalRobot>(
+        environment_, i, makeController(controllerOf(robots[i].controller, options.controller), setup)));
+  }
+}
+
+LocalRun::LocalRun(ForkOf original)
+    : options_(original.run.options_),
+      images_(original.run.images_),
+      environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
+                   images_.get()),
+      workers_(options_.environment.threads),
+      gold_(original.run.gold_) {
+  const auto& robots = environment_.fleet().robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const auto& local = original.run.local_robots_;
+    const std::string& name = robots[i].info.name;
+    if (i >= local.size() || local[i]->robot.name() != name) {
+      throw ConfigError("robot '" + name + "': another process drives it, so that its run cannot be forked; let this " +
+                        "process run its controller");
+    }
+    auto controller = cloneOf(*local[i]->controller, controllerOf(robots[i].controller, options_.controller), name);
+    local_robots_.push_back(
+        std::make_unique<LocalRobot>(environment_, i, std::move(controller), local[i]->robot.command()));
+  }
+}
+
+std::unique_ptr<LocalRun> LocalRun::fork() const { return std::unique_ptr<LocalRun>(new LocalRun(ForkOf{*this})); }
+
+bool LocalRun::dependsOnSeed() const {
+  const auto& robots = environment_.fleet().robots;
+  const auto is_noisy = [](const FleetRobot& robot) {
+    return std::any_of(robot.model->sensors.begin(), robot.model->sensors.end(),
+                       [](const auto& sensor) { return sensor->isNoisy(); });
+  };
+  const bool all_are_here = local_robots_.size() == robots.size();
+  return !all_are_here || environment_.world().communication.loss_probability > 0 ||
+         std::any_of(robots.begin(), robots.end(), is_noisy) ||
+         std::any_of(local_robots_.begin(), local_robots_.end(),
+                     [](const auto& robot) { return robot->controller->hasDrawnRandomNumbers(); });
+}
+
+void LocalRun::step() {
+  decide();
+  environment_.step();
+  noteOutcome();
+}
+
+void LocalRun::decide() {
+  constexpr std::size_t kChunk = 16;
+  workers_.forEach(local_robots_.size(), kChunk,
+                   [&](std::size_t i) { local_robots_[i]->controller->step(local_robots_[i]->robot); });
+}
+
+void LocalRun::noteOutcome() {
+  const State& state = environment_.state();
+  if (!gold_.found_s) {
+    for (std::size_t i = 0; i < state.activity.size(); ++i) {
+      if (state.activity[i] != Activity::found) continue;
+      gold_.found_by = environment_.fleet().robots[i].info.name;
+      gold_.found_s = state.time.seconds();
+      break;
+    }
+  }
+  if (state.winner && !gold_.won_by) {
+    gold_.won_by = environment_.fleet().robots[*state.winner].info.name;
+    gold_.won_s = state.time.seconds();
+  }
+  if (!gold_.all_halted_s && environment_.allHalted()) gold_.all_halted_s = state.time.seconds();
+}
+
+}  // namespace robosim

@@ -1,0 +1,97 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "control/controller.h"
+#include "environment/environment.h"
+#include "environment/local_hardware.h"
+#include "robots/fleet.h"
+#include "robots/world_source.h"
+
+namespace robosim {
+
+struct RunOptions {
+  EnvironmentOptions environment;
+  std::string controller;  ///< for all robots; empty: as given in the world, else kDefaultController
+};
+
+/// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
+constexpr const char* kDefaultController = "gold_finder";
+
+/// Name of a robot's controller.
+/// @param in_world that given in the world; empty for none
+/// @param instead replaces it if not empty
+std::string controllerOf(const std::string& in_world, const std::string& instead);
+
+/// Adds an error for each robot that lacks a sensor required by its controller. `world_file` is the file name in
+/// errors.
+void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
+                      ErrorList& errors);
+
+/// Reads a world to be run: loadWorld() plus checkControllers(); requires at least one robot.
+/// @throws ConfigError with all errors found.
+LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead);
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead);
+
+/// Times when the gold was found, won and all robots had stopped [simulated s], and by which robot.
+struct GoldOutcome {
+  std::optional<std::string> found_by;
+  std::optional<double> found_s;
+  std::optional<std::string> won_by;  ///< robot that reached the gold and reported it (CheckWin)
+  std::optional<double> won_s;
+  std::optional<double> all_halted_s;
+};
+
+/// An environment together with the controllers of its robots in this process.
+class LocalRun {
+ public:
+  /// @param elsewhere by robot: whether it is driven by another process; empty for none
+  /// @throws ConfigError for an unknown controller, and for cameras on a machine without OpenGL.
+  LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
+
+  /// A run that continues from the present state, independently of this one.
+  /// @throws ConfigError naming the robot and its controller when the controller has no Controller::clone(), or when
+  /// another process drives the robot
+  std::unique_ptr<LocalRun> fork() const;
+
+  /// Runs every controller, then takes one time step.
+  void step();
+  /// @name Phases of step(), for callers that step the environment themselves
+  ///@{
+  void decide();
+  void noteOutcome();  ///< after the step
+  ///@}
+
+  Environment& environment() { return environment_; }
+  const Environment& environment() const { return environment_; }
+  const GoldOutcome& gold() const { return gold_; }
+  /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
+  /// random number. Assumed for robots driven by another process.
+  bool dependsOnSeed() const;
+
+ private:
+  struct LocalRobot {
+    LocalHardware hardware;
+    Robot robot;
+    std::unique_ptr<Controller> controller;
+    LocalRobot(Environment& environment, std::size_t i, std::unique_ptr<Controller> c, const Command& last = {})
+        : hardware(environment, i), robot(hardware, last), controller(std::move(c)) {}
+  };
+  struct ForkOf {
+    const LocalRun& run;
+  };
+  explicit LocalRun(ForkOf original);
+
+  RunOptions options_;
+  /// Null without cameras; OpenGL is then not initialised. Shared with forks, because pictures depend on poses only.
+  std::shared_ptr<ImageSource> images_;
+  Environment environment_;
+  ParallelExecutor workers_;
+  std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware
+  GoldOutcome gold_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,118 @@
+#include "run/run_summary.h"
+
+#include <numeric>
+
+#include <nlohmann/json.hpp>
+
+#include "base/printable_text.h"
+#include "base/text_table.h"
+#include "run/run_clients.h"
+
+namespace robosim {
+namespace {
+
+const char* nameOf(EndedBy why) {
+  switch (why) {
+    case EndedBy::all_halted:
+      return "all_halted";
+    case EndedBy::time_limit:
+      return "time_limit";
+    case EndedBy::interrupt:
+      return "interrupted";
+    case EndedBy::control_panel:
+      return "control_panel";
+    case EndedBy::robot_lost:
+      return "robot_lost";
+  }
+  return "";
+}
+
+template <typename T>
+nlohmann::ordered_json orNull(const std::optional<T>& value) {
+  return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
+}
+
+constexpr const char* kSeedHadNoEffect =
+    " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
+
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
+  std::string text = "no gold found";
+  if (gold.won_by) {
+    text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
+  } else if (gold.found_by) {
+    text = "gold found by " + *gold.found_by + " after " + fixed(*gold.found_s, 1) + " s";
+  }
+  if (gold.all_halted_s) text += "; all robots halted after " + fixed(*gold.all_halted_s, 1) + " s";
+  if (why == EndedBy::time_limit) text += "; ended by the time limit";
+  if (why == EndedBy::interrupt) text += "; interrupted";
+  if (why == EndedBy::control_panel) text += "; ended from a control panel";
+  if (why == EndedBy::robot_lost) text += "; ended because a robot was lost";
+  return text;
+}
+
+}  // namespace
+
+RunSummary RunSummary::of(const LocalRun& run) {
+  const Environment& environment = run.environment();
+  const State& state = environment.state();
+  RunSummary summary;
+  summary.robots = environment.robotCount();
+  summary.steps = state.time.step;
+  summary.sim_time_s = state.time.seconds();
+  summary.digest = environment.digest();
+  summary.depends_on_seed = run.dependsOnSeed();
+  summary.gold = run.gold();
+  summary.driven_m = std::accumulate(state.driven_m.begin(), state.driven_m.end(), 0.0);
+  summary.stalls = state.stalls;
+  summary.messages = state.messages_delivered;
+  summary.messages_dropped = state.messages_dropped;
+  return summary;
+}
+
+nlohmann::ordered_json RunSummary::json() const {
+  return {{"world", world},
+          {"seed", seed},
+          {"depends_on_seed", depends_on_seed},
+          {"robots", robots},
+          {"steps", steps},
+          {"sim_time_s", sim_time_s},
+          {"wall_s", wall_s},
+          {"real_time_factor", realTimeFactor()},
+          {"ended_by", nameOf(ended_by)},
+          {"digest", digest},
+          {"gold_found", gold.found_s.has_value()},
+          {"gold_found_by", orNull(gold.found_by)},
+          {"gold_time_s", orNull(gold.found_s)},
+          {"won_by", orNull(gold.won_by)},
+          {"won_time_s", orNull(gold.won_s)},
+          {"all_halted_time_s", orNull(gold.all_halted_s)},
+          {"driven_m", driven_m},
+          {"stalls", stalls},
+          {"messages", messages},
+          {"messages_dropped", messages_dropped},
+          {"late", orNull(late)},
+          {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
+}
+
+std::string RunSummary::text() const {
+  Rows rows{{"robots", std::to_string(robots)},
+            {"simulated", fixed(sim_time_s, 1) + " s in " + withCommas(steps) + " steps"},
+            {"took",
+             fixed(wall_s, 3) + " s, " + withCommas(static_cast<std::uint64_t>(realTimeFactor())) + " times real time"},
+            {"driven", fixed(driven_m, 1) + " m"},
+            {"stalls", withCommas(stalls)},
+            {"messages", withCommas(messages) +
+                             (messages_dropped == 0 ? "" : ", and " + withCommas(messages_dropped) + " dropped")}};
+  if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
+  rows.push_back({"seed", std::to_string(seed) + (depends_on_seed ? "" : kSeedHadNoEffect)});
+  rows.push_back({"digest", digest});
+  std::string sentence = sentenceOn(gold, ended_by);
+  if (report) {
+    addClients(*report, rows);
+    if (!report->hasAllRobots()) sentence += "; INCOMPLETE: steps were taken without some robots, or messages lost";
+    if (!report->isTrusted()) sentence += "; NOT TRUSTED: a geometry worker returned wrong results";
+  }
+  return printableText(world + ": " + sentence) + "\n" + listing(rows);
+}
+
+}  // namespace robosim

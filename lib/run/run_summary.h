@@ -1,0 +1,41 @@
+#pragma once
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "run/local_run.h"
+#include "server/run_report.h"
+
+namespace robosim {
+
+/// Reason why a run ended.
+enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_lost };
+
+/// Result of a run, printed at its end.
+struct RunSummary {
+  std::string world;
+  std::uint64_t seed = 0;
+  bool depends_on_seed = true;  ///< whether another seed would give another run
+  std::size_t robots = 0;
+  std::uint64_t steps = 0;
+  double sim_time_s = 0;
+  double wall_s = 0;
+  EndedBy ended_by = EndedBy::all_halted;
+  std::string digest;
+  GoldOutcome gold;
+  double driven_m = 0;  ///< sum over all robots
+  std::uint64_t stalls = 0;
+  std::uint64_t messages = 0;          ///< delivered
+  std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits on messages in a step
+  std::optional<std::uint64_t> late;   ///< robot-steps whose command came too late; nullopt for a lockstep run
+  std::optional<RunReport> report;     ///< of a served run
+
+  /// Fills the fields derived from the run; the caller sets the rest.
+  static RunSummary of(const LocalRun& run);
+  double realTimeFactor() const { return wall_s > 0 ? sim_time_s / wall_s : 0; }
+  nlohmann::ordered_json json() const;
+  /// Text output of a few lines.
+  std::string text() const;
+};
+
+}  // namespace robosim

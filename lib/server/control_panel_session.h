@@ -1,0 +1,84 @@
+#pragma once
+#include <functional>
+#include <future>
+#include <memory>
+#include <vector>
+
+#include "net/completion_queue_server.h"
+#include "net/control_panel.grpc.pb.h"
+#include "robots/world_source.h"
+#include "server/pending_handshakes.h"
+#include "server/run_control.h"
+#include "server/served_run.h"
+#include "server/serving_state.h"
+
+namespace robosim {
+
+/// Generated service with the method styles that ControlPanelSession uses.
+using ControlPanelService = wire::ControlPanel::WithRawMethod_Load<
+    wire::ControlPanel::WithRawMethod_Watch<wire::ControlPanel::WithAsyncMethod_Start<
+        wire::ControlPanel::WithAsyncMethod_Pause<wire::ControlPanel::WithAsyncMethod_Step<
+            wire::ControlPanel::WithAsyncMethod_SetSpeed<wire::ControlPanel::WithAsyncMethod_Stop<
+                wire::ControlPanel::WithAsyncMethod_Status<wire::ControlPanel::Service>>>>>>>>;
+
+/// Operations on the run that control panels can request.
+struct RunOperations {
+  RunControl run_control;
+  /// Builds the run of another world; called on another thread. @throws ConfigError when the world is invalid.
+  std::function<std::unique_ptr<PreparedRun>(const WorldSource&)> prepare;
+  /// Replaces the run that is served by a prepared one.
+  std::function<void(std::unique_ptr<PreparedRun>)> replace;
+  /// Fills in the status of the run.
+  std::function<void(wire::RunStatus&)> describe = [](wire::RunStatus&) {};
+};
+
+/// Server side of the ControlPanel service. Calls are queued until execute(), which runs between two steps: nothing
+/// changes within a step, and a status is consistent.
+class ControlPanelSession final : public ControlPanelService {
+ public:
+  explicit ControlPanelSession(ServingState& serving);
+  ~ControlPanelSession() override;
+
+  /// Starts to accept calls.
+  void open(const CompletionQueueServer::ServiceQueues& queues);
+  /// Ends the calls whose token has been withdrawn or has expired.
+  void checkAccess();
+  /// Executes the queued calls, answers those whose steps are complete, and sends statuses to watchers. Call it between
+  /// steps.
+  void execute(RunOperations& operations);
+  /// Ends all calls, because the run is over. Idempotent.
+  void endAll(RunOperations& operations);
+
+ private:
+  class Call;
+  template <typename Request>
+  struct Kind;
+  template <typename Request>
+  class PlainCall;
+  class LoadCall;
+  class Watcher;
+  template <typename Request>
+  void awaitCall(const Kind<Request>& kind);
+  void awaitLoad();
+  void awaitWatcher();
+  void queue(const std::shared_ptr<Call>& call);
+  void execute(RunOperations& operations, Call& call);
+  void refuse(Call& call, const std::string& why);
+  bool isLoading() const;
+  void advanceLoad(RunOperations& operations);
+  void beginPreparing(RunOperations& operations);
+  void answerSteppers(RunOperations& operations);
+
+  ServingState& serving_;
+  CompletionQueueServer::ServiceQueues queues_{};
+  std::vector<std::shared_ptr<Call>> calls_;  ///< not yet executed
+  PendingHandshakes<Watcher> pending_watchers_;
+  PendingHandshakes<LoadCall> pending_loads_;
+  std::vector<std::shared_ptr<Watcher>> watchers_;
+  std::vector<std::shared_ptr<Call>> steppers_;  ///< executed; answered after their last step
+  std::shared_ptr<LoadCall> load_;               ///< the call that sends a world, or whose world is being built
+  std::future<std::unique_ptr<PreparedRun>>
+      prepared_;  ///< the run being built for load_; the destructor joins the thread
+};
+
+}  // namespace robosim

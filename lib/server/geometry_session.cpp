@@ -1,0 +1,338 @@
+#include "server/geometry_session.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "net/flood_guard.h"
+#include "net/robot_wire.h"
+#include "server/geometry_seal.h"
+#include "server/geometry_wire.h"
+#include "server/world_wire.h"
+
+namespace robosim {
+
+namespace {
+
+/// Rejected workers after which a run accepts no further ones.
+constexpr std::size_t kRejectionsMax = 3;
+
+}  // namespace
+
+/// Call of one worker.
+class GeometrySession::Stream final : public StreamCall<wire::Sealed, wire::Sealed> {
+ public:
+  explicit Stream(GeometrySession& owner) : StreamCall(*owner.queues_.queue_server), owner_(owner) {}
+
+  enum class State { awaiting_hello, waiting, building, ready, gone };
+  State state = State::awaiting_hello;
+  Identity client;
+  int replicas_owed = 0;  ///< sent, and not yet confirmed
+  bool needs_state = true;
+  bool owes_result = false;
+  RobotRange share;
+  std::size_t next_robot = 0;  ///< of the share: the first without a result
+  std::vector<ResultSamples::Expected> sample;
+  std::uint64_t number = 0;  ///< among all workers
+  flood_guard::Exemption exemption;
+  bool has_contributed = false;  ///< to the current run
+
+  void send(const wire::ToWorker& message) {
+    seal(message, draft());
+    post();
+  }
+
+ private:
+  void called() override { owner_.called(*this); }
+  ReadPolicy received(const wire::Sealed& sealed) override {
+    if (state == State::gone) return ReadPolicy::after_write;
+    unseal(sealed, message_);
+    try {
+      owner_.received(*this, message_);
+    } catch (const WireError& error) {
+      owner_.disconnect(*this, {error.code(), error.what()});
+    }
+    return owes_result || replicas_owed > 0 ? ReadPolicy::immediate : ReadPolicy::after_write;
+  }
+  void refuse(const WireError& error) override {
+    if (state != State::gone) owner_.refuseCorrupted(*this, error);
+  }
+  void ended() override {
+    if (state == State::gone) return;
+    if (state != State::awaiting_hello) owner_.serving_.log("geometry worker " + peer() + ": has left");
+    owner_.leave(*this);
+  }
+
+  GeometrySession& owner_;
+  wire::FromWorker message_;
+};
+
+GeometrySession::GeometrySession(ServingState& serving, const ResultSamples& samples)
+    : serving_(serving), handshakes_(serving), samples_(samples) {}
+GeometrySession::~GeometrySession() = default;
+
+void GeometrySession::open(const CompletionQueueServer::ServiceQueues& queues) {
+  queues_ = queues;
+  awaitWorker();
+}
+
+void GeometrySession::awaitWorker() {
+  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestWork(context, wire, queues_.call_queue, queues_.notification_queue, tag);
+  });
+}
+
+void GeometrySession::called(Stream& stream) {
+  awaitWorker();
+  grpc::Status status = serving_.authorizeCall(stream.context(), Right::work, stream.client);
+  if (status.ok() && report_.rejected_workers.size() >= kRejectionsMax) {
+    status = {grpc::StatusCode::PERMISSION_DENIED,
+              "the results of several geometry workers were wrong, so that this run "
+              "takes no more of them; look at the environment's log"};
+  }
+  if (!status.ok()) {
+    disconnect(stream, status);
+  } else {
+    stream.exemption = flood_guard::Exemption(stream.peer());
+    handshakes_.add(std::static_pointer_cast<Stream>(stream.shared_from_this()));
+  }
+}
+
+void GeometrySession::reset() {
+  for (const auto& stream : streams_) {
+    stream->state = Stream::State::waiting;
+    stream->has_contributed = false;
+  }
+  report_ = {};
+  replica_commands_.assign(serving_.run_info->robot_names.size(), Command{});
+}
+
+void GeometrySession::received(Stream& stream, const wire::FromWorker& message) {
+  const std::string& version = serving_.run_info->world_version;
+  switch (stream.state) {
+    case Stream::State::awaiting_hello:
+      if (!message.has_hello()) throw WireError("the first message of a geometry worker must be its hello");
+      checkGeometryProtocol(message.hello().protocol());
+      if (const auto status = serving_.access.check(stream.client, Right::work); !status.ok()) {
+        disconnect(stream, status);
+        break;
+      }
+      stream.number = ++workers_so_far_;
+      stream.state = Stream::State::waiting;
+      handshakes_.remove(stream);
+      serving_.wake_requested = true;
+      streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
+      break;
+    case Stream::State::waiting:
+    case Stream::State::building:
+      if (stream.replicas_owed == 0) throw WireError("a message of a geometry worker that owes none");
+      if (--stream.replicas_owed > 0 || stream.state == Stream::State::waiting) break;  // for a previous world
+      if (message.world_version() != version) {
+        throw WireError("the worker has built version " + inQuotes(message.world_version()) +
+                        " of the world, and here is version " + version);
+      }
+      stream.state = Stream::State::ready;
+      stream.needs_state = true;
+      serving_.log("geometry worker " + stream.peer() + ": ready" + serving_.tokenSuffix(stream.client));
+      break;
+    case Stream::State::ready:
+      takeResult(stream, message.result());
+      break;
+    case Stream::State::gone:
+      break;
+  }
+}
+
+void GeometrySession::takeResult(Stream& stream, const wire::TaskResult& result) {
+  if (!stream.owes_result || result.step() != environment_->time().step || result.begin() != stream.next_robot ||
+      result.end() <= result.begin() || result.end() > stream.share.end) {
+    throw WireError("a result that was not requested: of step " + std::to_string(result.step()) + ", robots [" +
+                    std::to_string(result.begin()) + ", " + std::to_string(result.end()) + ")");
+  }
+  try {
+    put(result, *environment_);
+  } catch (const WireError& error) {
+    reject(stream, std::string("an impossible result: ") + error.what());
+    return;
+  }
+  stream.next_robot = result.end();
+  stream.owes_result = stream.next_robot < stream.share.end;
+}
+
+/// A message that cannot be parsed, or whose checksum does not match: the worker may connect again.
+void GeometrySession::refuseCorrupted(Stream& stream, const WireError& error) {
+  ++report_.corrupted_messages;
+  disconnect(stream, {grpc::StatusCode::DATA_LOSS, error.what()});
+}
+
+void GeometrySession::reject(Stream& stream, const std::string& reason) {
+  const std::uint64_t step = serving_.run_info->environment.time().step;
+  serving_.log("geometry worker " + stream.peer() + ": rejected at step " + std::to_string(step) + ": " + reason);
+  report_.rejected_workers.push_back({stream.peer(), step, reason});
+  disconnect(stream,
+             {grpc::StatusCode::FAILED_PRECONDITION,
+              reason + "; is this the same version of robosim as the environment's, on a machine without faults?"});
+}
+
+void GeometrySession::leave(Stream& stream) {
+  stream.state = Stream::State::gone;
+  stream.exemption = {};
+  handshakes_.remove(stream);
+  std::erase_if(streams_, [&](const auto& s) { return s.get() == &stream; });
+}
+
+void GeometrySession::disconnect(Stream& stream, const grpc::Status& status) {
+  const auto keep = stream.shared_from_this();  // leave() erases the list's reference
+  const std::string line = "geometry worker " + stream.peer() + ": disconnected: " + status.error_message();
+  if (stream.state == Stream::State::awaiting_hello) {
+    serving_.logRefusal(line, "refused geometry workers");
+  } else {
+    serving_.log(line);
+  }
+  leave(stream);
+  stream.end(status);
+}
+
+void GeometrySession::checkAccess() {
+  const Streams streams = streams_;  // disconnect() modifies the list
+  for (const auto& stream : streams) {
+    if (const auto status = serving_.access.check(stream->client, Right::work); !status.ok())
+      disconnect(*stream, status);
+  }
+}
+
+void GeometrySession::admit() {
+  while (const auto late_call = handshakes_.overdue()) disconnect(*late_call, handshakes_.timeoutStatus());
+  for (const auto& stream : streams_) {
+    if (stream->state != Stream::State::waiting || !stream->isIdle()) continue;
+    const RunInfo& run_info = *serving_.run_info;
+    wire::ToWorker message;
+    auto& replica = *message.mutable_replica();
+    encode(run_info.source, *replica.mutable_world());
+    replica.set_world_version(run_info.world_version);
+    replica.set_seed(run_info.seed);
+    replica.set_period_s(run_info.environment.time().period_s);
+    stream->send(message);
+    stream->state = Stream::State::building;
+    ++stream->replicas_owed;
+  }
+}
+
+GeometrySession::Streams GeometrySession::readyWorkers(std::size_t robots) {
+  Streams workers;
+  for (const auto& stream : streams_) {
+    if (stream->state != Stream::State::ready) continue;
+    if (workers.size() < robots) {
+      workers.push_back(stream);
+    } else {
+      stream->needs_state = true;  // it gets no task in this step, so its replica falls behind
+    }
+  }
+  return workers;
+}
+
+wire::Task GeometrySession::taskOf(Environment& environment) {
+  wire::Task task;
+  task.set_step(environment.time().step);
+  const auto& commands = environment.state().commands;
+  for (std::size_t i = 0; i < commands.size(); ++i) {
+    if (commands[i] == replica_commands_[i]) continue;
+    replica_commands_[i] = commands[i];
+    encode(replica_commands_[i], static_cast<std::uint32_t>(i), *task.add_commands());
+  }
+  encodeOutcome(environment, task);
+  return task;
+}
+
+void GeometrySession::send(Stream& stream, const wire::Task& task, const wire::ReplicaState& state) {
+  wire::ToWorker message;
+  *message.mutable_task() = task;
+  message.mutable_task()->set_begin(static_cast<std::uint32_t>(stream.share.begin));
+  message.mutable_task()->set_end(static_cast<std::uint32_t>(stream.share.end));
+  if (stream.needs_state) *message.mutable_task()->mutable_state() = state;
+  stream.needs_state = false;
+  stream.next_robot = stream.share.begin;
+  stream.owes_result = true;
+  stream.send(message);
+}
+
+void GeometrySession::step(Environment& environment) {
+  const std::size_t n = environment.robotCount();
+  const RobotRange every{0, n};
+  const Streams workers = readyWorkers(n);
+  if (workers.empty()) {
+    environment.step();
+    return;
+  }
+  const std::size_t shares = workers.size() + 1;
+  for (std::size_t k = 0; k < workers.size(); ++k) workers[k]->share = {n * (k + 1) / shares, n * (k + 2) / shares};
+  wire::ReplicaState state;
+  if (std::any_of(workers.begin(), workers.end(), [](const auto& stream) { return stream->needs_state; })) {
+    encode(environment.state(), state);
+  }
+  environment.begin();
+  environment.clip(every);
+  environment.judge(every);
+  const wire::Task task = taskOf(environment);
+  environment_ = &environment;
+  for (const auto& stream : workers) send(*stream, task, state);
+  environment.move();
+  environment.sense({0, n / shares});
+  for (const auto& stream : workers) stream->sample = samples_.compute(environment, stream->share, stream->number);
+  awaitResults(workers);
+  compareSamples(workers, environment);
+  environment_ = nullptr;
+  for (const auto& stream : workers) {
+    if (stream->state == Stream::State::gone) environment.sense(stream->share);
+  }
+  environment.finish();
+}
+
+void GeometrySession::awaitResults(const Streams& workers) {
+  const auto deadline = serving_.now() + serving_.step_deadline;  // the environment's own computation does not count
+  const auto owes = [](const auto& s) { return s->owes_result && s->state != Stream::State::gone; };
+  const auto all_done = [&] { return std::none_of(workers.begin(), workers.end(), owes); };
+  while (!all_done() && serving_.now() < deadline && !serving_.interrupted())
+    serving_.pollUntil(deadline - serving_.now(), all_done);
+  for (const auto& stream : workers) {
+    if (!owes(stream)) continue;
+    disconnect(*stream, serving_.interrupted() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the run was interrupted")
+                                               : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED,
+                                                              "no result within the step deadline; connect again"));
+  }
+}
+
+void GeometrySession::compareSamples(const Streams& workers, Environment& environment) {
+  for (const auto& stream : workers) {
+    if (stream->state == Stream::State::gone) continue;
+    if (!std::exchange(stream->has_contributed, true)) ++report_.geometry_workers;
+    report_.geometry_results += stream->share.end - stream->share.begin;
+    report_.results_checked += stream->sample.size();
+    if (const auto robot = ResultSamples::firstDifference(stream->sample, environment)) {
+      reject(*stream, "its result for robot " + inQuotes(serving_.run_info->robot_names[*robot]) +
+                          " differs from what the environment computes");
+    }
+  }
+}
+
+void GeometrySession::describe(RunReport& report) const {
+  report.geometry_workers = report_.geometry_workers;
+  report.geometry_results = report_.geometry_results;
+  report.results_checked = report_.results_checked;
+  report.corrupted_messages = report_.corrupted_messages;
+  report.rejected_workers = report_.rejected_workers;
+}
+
+void GeometrySession::endAll() {
+  for (const auto& stream : streams_) {
+    stream->state = Stream::State::gone;
+    stream->end(grpc::Status::OK);
+  }
+  streams_.clear();
+}
+
+std::size_t GeometrySession::count() const {
+  return static_cast<std::size_t>(std::count_if(
+      streams_.begin(), streams_.end(), [](const auto& stream) { return stream->state == Stream::State::ready; }));
+}
+
+}  // namespace robosim

@@ -1,0 +1,72 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "environment/environment.h"
+#include "net/geometry.grpc.pb.h"
+#include "net/stream_call.h"
+#include "server/pending_handshakes.h"
+#include "server/result_samples.h"
+#include "server/run_report.h"
+#include "server/serving_state.h"
+
+namespace robosim {
+
+/// Server side of the Geometry service. Each worker keeps a replica of the environment and computes the range
+/// measurements of its share of the robots (environment.h, "A step in parts"). The environment decides all moves, and
+/// computes a share of its own and the shares of workers that leave, are late or are disconnected: the run is the same
+/// with any number of workers. Workers are untrusted: results must be plausible, a random sample is recomputed
+/// (ResultSamples), and a worker with wrong results is disconnected and reported.
+class GeometrySession final : public wire::Geometry::WithRawMethod_Work<wire::Geometry::Service> {
+ public:
+  GeometrySession(ServingState& serving, const ResultSamples& samples);
+  ~GeometrySession() override;
+
+  /// Starts to accept workers.
+  void open(const CompletionQueueServer::ServiceQueues& queues);
+  /// Switches to the current ServingState::run_info: every worker needs a new replica.
+  void reset();
+  /// Disconnects the workers whose token has been withdrawn or has expired.
+  void checkAccess();
+  /// Sends the world to new workers.
+  void admit();
+  /// Takes a time step, distributed over the workers that are ready.
+  void step(Environment& environment);
+  /// Ends all calls, because the run is over.
+  void endAll();
+
+  std::size_t count() const;
+  /// Adds the workers' contributions and rejections.
+  void describe(RunReport& report) const;
+
+ private:
+  class Stream;
+  using Streams = std::vector<std::shared_ptr<Stream>>;
+  void awaitWorker();
+  void called(Stream& stream);
+  void received(Stream& stream, const wire::FromWorker& message);
+  void takeResult(Stream& stream, const wire::TaskResult& result);
+  void refuseCorrupted(Stream& stream, const WireError& error);
+  void reject(Stream& stream, const std::string& reason);
+  void disconnect(Stream& stream, const grpc::Status& status);
+  void leave(Stream& stream);
+  Streams readyWorkers(std::size_t robots);
+  wire::Task taskOf(Environment& environment);
+  void send(Stream& stream, const wire::Task& task, const wire::ReplicaState& state);
+  void awaitResults(const Streams& workers);
+  void compareSamples(const Streams& workers, Environment& environment);
+
+  ServingState& serving_;
+  CompletionQueueServer::ServiceQueues queues_{};
+  PendingHandshakes<Stream> handshakes_;
+  Streams streams_;
+  Environment* environment_ = nullptr;  ///< set while results are accepted
+  ResultSamples samples_;
+  std::uint64_t workers_so_far_ = 0;       ///< for Stream::number
+  RunReport report_;                       ///< of the current run
+  std::vector<Command> replica_commands_;  ///< by robot: the last command sent to the replicas
+};
+
+}  // namespace robosim

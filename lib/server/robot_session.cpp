@@ -1,0 +1,377 @@
+#include "server/robot_session.h"
+
+#include <algorithm>
+
+#include "base/error_list.h"
+#include "net/flood_guard.h"
+#include "server/robot_hello.h"
+
+namespace robosim {
+
+/// Call of one process.
+class RobotSession::Stream final : public StreamCall<wire::DriveRequest, wire::DriveResponse> {
+ public:
+  explicit Stream(RobotSession& owner) : StreamCall(*owner.queues_.queue_server), owner_(owner) {}
+
+  grpc::Status mayDrive(const std::vector<std::string>& robots_named) const {
+    return owner_.serving_.access.check(client, Right::drive, robots_named);
+  }
+  std::string who() const {
+    if (names.empty()) return peer();
+    return (names.size() == 1 ? "robot " : "robots ") + listed(names) + " (" + peer() + ")";
+  }
+
+  enum class State { awaiting_hello, waiting, admitted, gone };
+  State state = State::awaiting_hello;
+  Identity client;
+  std::vector<std::string> names;
+  std::vector<std::size_t> robots;  ///< indices in the world
+  std::string process;              ///< RobotsHello.process
+  bool owes_answer = false;
+  std::uint64_t asked_step = 0;
+  ServingState::Clock::time_point since;  ///< the answer is owed
+  bool has_answer = false;                ///< not yet applied
+  flood_guard::Exemption exemption;
+  RobotsAnswer answer;
+  RobotsAnswer decoded;  ///< message being parsed; becomes `answer` once it is valid
+
+ private:
+  void called() override { owner_.called(*this); }
+  ReadPolicy received(const wire::DriveRequest& message) override {
+    if (state == State::awaiting_hello) {
+      owner_.hello(*this, message);
+    } else if (state != State::gone) {
+      owner_.answer(*this, message);
+    }
+    return ReadPolicy::after_write;
+  }
+  void refuse(const WireError& error) override {
+    if (state != State::gone) owner_.disconnect(*this, {error.code(), error.what()});
+  }
+  void ended() override { owner_.leave(*this, "has left"); }
+
+  RobotSession& owner_;
+};
+
+RobotSession::RobotSession(ServingState& serving) : serving_(serving), handshakes_(serving) {}
+RobotSession::~RobotSession() = default;
+
+void RobotSession::open(const CompletionQueueServer::ServiceQueues& queues) {
+  queues_ = queues;
+  awaitProcess();
+}
+
+void RobotSession::awaitProcess() {
+  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestDrive(context, wire, queues_.call_queue, queues_.notification_queue, tag);
+  });
+}
+
+void RobotSession::called(Stream& stream) {
+  awaitProcess();
+  if (const auto status = serving_.authorizeCall(stream.context(), Right::drive, stream.client); !status.ok()) {
+    disconnect(stream, status);
+  } else {
+    stream.exemption = flood_guard::Exemption(stream.peer());
+    handshakes_.add(std::static_pointer_cast<Stream>(stream.shared_from_this()));
+  }
+}
+
+void RobotSession::reset() {
+  while (!streams_.empty()) {
+    disconnect(*streams_.back(), {grpc::StatusCode::ABORTED, "another world was loaded; connect anew"});
+  }
+  const std::size_t n = serving_.run_info->robot_names.size();
+  driver_of_.assign(n, nullptr);
+  next_answer_.assign(n, 0);
+  attendance_.reset(*serving_.run_info);
+  inboxes_.reset(n);
+  left_.clear();
+  left_answers_.clear();
+  late_ = 0;
+}
+
+bool RobotSession::isSameProcess(const Stream& stream, const wire::RobotsHello& hello) {
+  return hello.process().size() >= kProcessIdBytes && stream.process == hello.process();
+}
+
+void RobotSession::hello(Stream& stream, const wire::DriveRequest& message) {
+  if (!message.has_hello()) throw WireError("the first message of a robot's process must be its hello");
+  const auto& hello = message.hello();
+  checkHello(hello, *serving_.run_info);
+  std::vector<std::string> names(hello.names().begin(), hello.names().end());
+  if (const auto status = stream.mayDrive(names); !status.ok()) {
+    disconnect(stream, status);
+    return;
+  }
+  std::vector<std::size_t> robots = resolveRobots(hello, *serving_.run_info);
+  for (const auto robot : robots) {
+    Stream* const other = driver_of_[robot];
+    if (other && isSameProcess(*other, hello)) {
+      disconnect(*other, {grpc::StatusCode::ABORTED, "its process has connected again"});
+    } else if (other) {
+      throw WireError("robot " + inQuotes(serving_.run_info->robot_names[robot]) +
+                          " is driven by another process already, at " + other->peer(),
+                      grpc::StatusCode::ALREADY_EXISTS);
+    }
+  }
+  for (const auto robot : robots) {
+    driver_of_[robot] = &stream;
+    if (!hello.run().empty()) inboxes_.confirm(robot, hello.last_step());  // the process reconnects
+  }
+  if (!hello.run().empty()) {  // it repeats its answer to the current step
+    std::erase_if(left_answers_, [&](const LeftAnswer& answer) { return driver_of_[answer.robot] == &stream; });
+  }
+  stream.robots = std::move(robots);
+  stream.process = hello.process();
+  stream.names = std::move(names);
+  stream.state = Stream::State::waiting;
+  handshakes_.remove(stream);
+  serving_.wake_requested = true;
+  streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
+}
+
+void RobotSession::answer(Stream& stream, const wire::DriveRequest& message) {
+  decode(message, stream.robots.size(), stream.decoded);
+  if (!stream.owes_answer || stream.decoded.step != stream.asked_step) {
+    const std::string asked =
+        stream.owes_answer ? "step " + std::to_string(stream.asked_step) + " was asked" : "nothing was asked";
+    throw WireError("an answer to step " + std::to_string(stream.decoded.step) + " when " + asked +
+                    "; answer each step once, when its readings have come");
+  }
+  for (const auto& sent : stream.decoded.messages) {
+    if (serving_.run_info->robot_named.contains(sent.to)) continue;
+    throw WireError("a message to " + inQuotes(sent.to) + ", and there is no robot of that name");
+  }
+  std::swap(stream.answer, stream.decoded);
+  for (const auto robot : stream.robots) inboxes_.confirm(robot, stream.answer.step);
+  stream.has_answer = true;
+  stream.owes_answer = false;
+  --missing_;
+}
+
+void RobotSession::leave(Stream& stream, const std::string& why) {
+  const auto state = std::exchange(stream.state, Stream::State::gone);
+  stream.exemption = {};
+  handshakes_.remove(stream);
+  if (state == Stream::State::awaiting_hello || state == Stream::State::gone) return;
+  if (stream.owes_answer) --missing_;
+  stream.owes_answer = false;
+  const auto& activity = serving_.run_info->environment.state().activity;
+  for (std::size_t i = 0; i < stream.robots.size(); ++i) {
+    const std::size_t robot = stream.robots[i];
+    driver_of_[robot] = nullptr;
+    left_.push_back(robot);
+    Activity last = activity[robot];
+    if (stream.has_answer) {
+      left_answers_.push_back(answerOf(stream, i));
+      if (last == Activity::active) last = left_answers_.back().activity;
+    }
+    attendance_.leave(robot, last == Activity::active);
+  }
+  stream.has_answer = false;
+  serving_.log(stream.who() + ": " + why);
+  const auto self = std::find_if(streams_.begin(), streams_.end(), [&](const auto& s) { return s.get() == &stream; });
+  if (self != streams_.end()) streams_.erase(self);
+  serving_.wake_requested = true;
+}
+
+RobotSession::LeftAnswer RobotSession::answerOf(const Stream& stream, std::size_t i) {
+  LeftAnswer kept{stream.robots[i], stream.answer.step};
+  for (const auto& order : stream.answer.orders) {
+    if (order.robot == i) kept.activity = order.command.activity;
+  }
+  for (const auto& message : stream.answer.messages) {
+    if (message.robot == i) kept.messages.push_back(message);
+  }
+  const auto& checks = stream.answer.win_checks;
+  kept.checks_win = std::find(checks.begin(), checks.end(), i) != checks.end();
+  return kept;
+}
+
+void RobotSession::applyLeftAnswers(Environment& environment) {
+  for (const auto& answer : left_answers_) {
+    if (!driver_of_[answer.robot]) environment.setCommand(answer.robot, {.activity = answer.activity});
+    for (const auto& message : answer.messages) environment.send(answer.robot, message.to, message.text);
+    if (answer.checks_win) environment.checkWin(answer.robot);
+    next_answer_[answer.robot] = answer.step + 1;
+  }
+  left_answers_.clear();
+}
+
+void RobotSession::disconnect(Stream& stream, const grpc::Status& status) {
+  const auto keep = stream.shared_from_this();  // leave() erases the list's reference
+  if (stream.state == Stream::State::awaiting_hello) {
+    serving_.logRefusal(stream.who() + ": refused: " + status.error_message(), "refused robots");
+    leave(stream, "");
+  } else {
+    leave(stream, "disconnected: " + status.error_message());
+  }
+  stream.end(status);
+}
+
+void RobotSession::checkAccess() {
+  const auto streams = streams_;  // disconnect() modifies the list
+  for (const auto& stream : streams) {
+    if (const auto status = stream->mayDrive(stream->names); !status.ok()) disconnect(*stream, status);
+  }
+}
+
+void RobotSession::admit() {
+  while (const auto late_call = handshakes_.overdue()) disconnect(*late_call, handshakes_.timeoutStatus());
+  for (const auto& stream : streams_) {
+    if (stream->state != Stream::State::waiting) continue;
+    stream->state = Stream::State::admitted;
+    for (const auto robot : stream->robots) attendance_.join(robot);
+    serving_.log(stream->who() + ": connected" + serving_.tokenSuffix(stream->client));
+    sendWelcome(*stream);
+    expectAnswer(*stream);
+    sendReadings(*stream);
+  }
+}
+
+void RobotSession::expectAnswer(Stream& stream) {
+  ++missing_;
+  stream.owes_answer = true;
+  stream.asked_step = serving_.run_info->environment.time().step;
+  stream.since = serving_.now();
+}
+
+void RobotSession::sendWelcome(Stream& stream) {
+  const RunInfo& run_info = *serving_.run_info;
+  const Environment& environment = run_info.environment;
+  RobotsWelcome welcome;
+  welcome.world = environment.world().name;
+  welcome.world_version = run_info.world_version;
+  welcome.run = run_info.run_id;
+  welcome.seed = run_info.seed;
+  welcome.period_s = environment.time().period_s;
+  for (const auto robot : stream.robots) {
+    const FleetRobot& of_fleet = environment.fleet().robots[robot];
+    welcome.robots.push_back(
+        {of_fleet.info, static_cast<std::uint32_t>(robot), of_fleet.controller, next_answer_[robot]});
+  }
+  welcome.all_robots = run_info.robot_names;
+  encode(welcome, *stream.draft().mutable_welcome());
+  stream.post();
+}
+
+void RobotSession::sendReadings(Stream& stream) {
+  const Environment& environment = serving_.run_info->environment;
+  wire::DriveResponse& message = stream.draft();
+  message.clear_welcome();
+  message.set_step(environment.time().step);
+  message.set_winner(environment.state().winner ? environment.fleet().robots[*environment.state().winner].info.name
+                                                : "");
+  // Fields that are overwritten, not cleared, reuse the memory of the previous step.
+  while (message.robots_size() < static_cast<int>(stream.robots.size())) message.add_robots();
+  for (std::size_t i = 0; i < stream.robots.size(); ++i) {
+    auto& robot = *message.mutable_robots(static_cast<int>(i));
+    encode(environment.state().readings[stream.robots[i]], robot);
+    // The inbox differs from the step's messages when earlier steps are unconfirmed, or this one is confirmed already.
+    if (inboxes_.count(stream.robots[i]) > 0 || robot.inbox_size() > 0) {
+      encodeInbox(inboxes_.unconfirmed(stream.robots[i]), robot);
+    }
+  }
+  stream.post();
+}
+
+void RobotSession::keepInboxes() {
+  const State& state = serving_.run_info->environment.state();
+  for (std::size_t i = 0; i < state.readings.size(); ++i) {
+    if (serving_.run_info->is_networked[i]) inboxes_.add(i, state.time.step, state.readings[i].inbox);
+  }
+}
+
+std::vector<std::string> RobotSession::awaited(OnLostRobot policy) const {
+  std::vector<std::string> names = attendance_.neverJoined();
+  if (policy != OnLostRobot::wait) return names;
+  const std::vector<std::string> lost_names = lost();
+  names.insert(names.end(), lost_names.begin(), lost_names.end());
+  return names;
+}
+
+std::vector<std::string> RobotSession::lost() const {
+  std::vector<std::string> names;
+  for (const auto robot : attendance_.lost(serving_.run_info->environment.state().activity)) {
+    names.push_back(serving_.run_info->robot_names[robot]);
+  }
+  return names;
+}
+
+bool RobotSession::isAnyLost() const {
+  return !attendance_.lost(serving_.run_info->environment.state().activity).empty();
+}
+
+void RobotSession::describe(RunReport& report) const {
+  const auto& activity = serving_.run_info->environment.state().activity;
+  report.lost_robots = attendance_.losses(activity);
+  report.messages_lost = inboxes_.dropped();
+  for (const auto robot : attendance_.lost(activity)) report.messages_lost += inboxes_.count(robot);
+}
+
+void RobotSession::disconnectLate() {
+  const auto is_late = [&](const auto& stream) {
+    return stream->owes_answer && serving_.now() - stream->since >= serving_.step_deadline;
+  };
+  const auto none_late = [&] { return std::none_of(streams_.begin(), streams_.end(), is_late); };
+  if (none_late()) return;
+  // The server itself may have been delayed: read pending messages first.
+  constexpr std::chrono::milliseconds kReadTime(10);
+  serving_.pollUntil(kReadTime, none_late);
+  const auto streams = streams_;  // disconnect() modifies the list
+  for (const auto& stream : streams) {
+    if (!is_late(stream)) continue;
+    const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(serving_.step_deadline).count();
+    disconnect(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED,
+                         "no answer to step " + std::to_string(stream->asked_step) + " within the step deadline of " +
+                             std::to_string(ms) + " ms; connect again to go on"});
+  }
+}
+
+std::size_t RobotSession::applyAnswers(Environment& environment) {
+  std::size_t late_now = 0;
+  attendance_.countStep(environment.state().activity);
+  for (const auto robot : left_) {
+    if (!driver_of_[robot]) environment.setCommand(robot, {});
+  }
+  left_.clear();
+  applyLeftAnswers(environment);
+  for (const auto& stream : streams_) {
+    if (serving_.pace == Pace::realtime && stream->owes_answer) late_now += stream->robots.size();
+    if (!stream->has_answer) continue;
+    stream->has_answer = false;
+    for (const auto& order : stream->answer.orders) {
+      environment.setCommand(stream->robots[order.robot], order.command);
+    }
+    for (const auto& message : stream->answer.messages) {
+      environment.send(stream->robots[message.robot], message.to, message.text);
+    }
+    for (const auto robot : stream->answer.win_checks) environment.checkWin(stream->robots[robot]);
+    for (const auto robot : stream->robots) next_answer_[robot] = stream->answer.step + 1;
+  }
+  late_ += late_now;
+  return late_now;
+}
+
+void RobotSession::publish() {
+  keepInboxes();
+  for (const auto& stream : streams_) {
+    if (stream->state != Stream::State::admitted) continue;
+    // A late process receives the newest step once its answer has been applied: an answer that arrives during a step is
+    // applied in the next.
+    if (stream->owes_answer || stream->has_answer) continue;
+    expectAnswer(*stream);
+    sendReadings(*stream);
+  }
+}
+
+void RobotSession::endAll() {
+  for (const auto& stream : streams_) {
+    stream->state = Stream::State::gone;
+    stream->end(grpc::Status::OK);
+  }
+  streams_.clear();
+}
+
+}  // namespace robosim

@@ -1,0 +1,39 @@
+#pragma once
+#include <cstddef>
+#include <memory>
+
+#include "environment/environment.h"
+#include "robots/world_source.h"
+#include "server/run_info.h"
+#include "server/run_report.h"
+
+namespace robosim {
+
+/// A run that can replace the one that is served.
+class PreparedRun {
+ public:
+  virtual ~PreparedRun() = default;
+};
+
+/// Interface between EnvironmentServer and a run: the environment, and callbacks for each step.
+class ServedRun {
+ public:
+  virtual ~ServedRun() = default;
+  virtual Environment& environment() = 0;
+  /// The part of the run that is served to clients.
+  virtual std::shared_ptr<const RunInfo> runInfo() const = 0;
+  /// Runs the environment's own controllers; called immediately before a step.
+  virtual void decide() = 0;
+  /// Called after each step, for example to record it. @param late number of robots whose commands were too late
+  virtual void stepped(std::size_t late) = 0;
+  virtual bool isOver() const = 0;
+  /// Called when the run ends or is about to be replaced.
+  virtual void ends(const RunReport& report) = 0;
+  /// Builds another run. Called on another thread while this run continues; must not modify this run.
+  /// @throws ConfigError when the world is invalid.
+  virtual std::unique_ptr<PreparedRun> prepare(const WorldSource& world) const = 0;
+  /// Replaces this run by one that prepare() has built. The previous runInfo() stays valid for its holders.
+  virtual void replace(std::unique_ptr<PreparedRun> next) = 0;
+};
+
+}  // namespace robosim

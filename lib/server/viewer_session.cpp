@@ -1,0 +1,181 @@
+#include "server/viewer_session.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "net/wire_error.h"
+#include "server/viewed_run.h"
+#include "server/world_wire.h"
+
+namespace robosim {
+namespace {
+
+RobotSnapshot withoutReadings(const State& state, std::size_t i) {
+  return {state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0, state.activity[i], std::nullopt};
+}
+
+}  // namespace
+
+/// Call of one viewer.
+class ViewerSession::Stream final : public StreamCall<wire::FrameRequest, wire::Frame> {
+ public:
+  explicit Stream(ViewerSession& owner) : StreamCall(*owner.queues_.queue_server), owner_(owner) {}
+
+  void disconnect(const grpc::Status& status) {
+    if (std::exchange(is_gone_, true)) return;
+    owner_.handshakes_.remove(*this);
+    owner_.serving_.logRefusal("viewer " + peer() + ": disconnected: " + status.error_message(), "refused viewers");
+    end(status);
+  }
+
+  /// Whether it has requested a frame that it has not received.
+  bool isWaitingFor(std::uint64_t step_now) const {
+    return has_request && isIdle() && (needs_world || step != step_now || sent_selection != selection);
+  }
+
+  void answered() {
+    has_request = false;
+    if (has_finished_requests_) end(grpc::Status::OK);
+  }
+
+  Identity client;
+  bool has_request = false;  ///< for a frame
+  ReadingsSelection selection;
+  bool needs_world = true;                 ///< the next frame is complete
+  std::uint64_t step = 0;                  ///< of the last frame sent
+  ReadingsSelection sent_selection;        ///< of that frame
+  std::vector<RobotSnapshot> sent_robots;  ///< last state sent, without readings
+  std::map<std::pair<std::size_t, std::size_t>, std::uint64_t>
+      sent_photos;  ///< step of the picture, by robot and sensor
+
+ private:
+  void called() override { owner_.called(*this); }
+  ReadPolicy received(const wire::FrameRequest& message) override {
+    if (!has_handshake_) checkProtocol(message.protocol());
+    if (!std::exchange(has_handshake_, true)) owner_.handshakes_.remove(*this);
+    selection = decode(message, owner_.serving_.run_info->robot_names.size());
+    has_request = has_request || !message.amends();
+    owner_.serving_.wake_requested = true;
+    return ReadPolicy::rate_limited;
+  }
+  /// Ends the call after the frames already requested.
+  void readsDone() override {
+    has_finished_requests_ = true;
+    if (!has_request) end(grpc::Status::OK);
+  }
+  void refuse(const WireError& error) override { disconnect({error.code(), error.what()}); }
+  void ended() override {
+    owner_.handshakes_.remove(*this);
+    std::erase_if(owner_.streams_, [&](const auto& stream) { return stream.get() == this; });
+  }
+
+  ViewerSession& owner_;
+  bool is_gone_ = false;
+  bool has_handshake_ = false;  ///< its protocol version was accepted
+  bool has_finished_requests_ = false;
+};
+
+ViewerSession::ViewerSession(ServingState& serving) : serving_(serving), handshakes_(serving) {}
+ViewerSession::~ViewerSession() = default;
+
+void ViewerSession::open(const CompletionQueueServer::ServiceQueues& queues) {
+  queues_ = queues;
+  awaitViewer();
+}
+
+void ViewerSession::awaitViewer() {
+  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
+    RequestWatch(context, wire, queues_.call_queue, queues_.notification_queue, tag);
+  });
+}
+
+void ViewerSession::called(Stream& stream) {
+  awaitViewer();
+  const grpc::Status status = serving_.authorizeCall(stream.context(), Right::look, stream.client);
+  if (status.ok()) {
+    streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
+    handshakes_.add(streams_.back());
+  } else {
+    stream.disconnect(status);
+  }
+}
+
+void ViewerSession::reset() {
+  camera_frames_.clear();
+  for (const auto& stream : streams_) stream->needs_world = true;
+}
+
+void ViewerSession::checkAccess() {
+  for (const auto& stream : streams_) {
+    if (const auto status = serving_.access.check(stream->client, Right::look); !status.ok())
+      stream->disconnect(status);
+  }
+}
+
+void ViewerSession::publish() {
+  while (const auto late_call = handshakes_.overdue()) late_call->disconnect(handshakes_.timeoutStatus());
+  const State& state = serving_.run_info->environment.state();
+  std::set<std::uint32_t> watched;
+  for (const auto& stream : streams_) watched.insert(stream->selection.of.begin(), stream->selection.of.end());
+  camera_frames_.update(watched, state.readings);
+  for (const auto& stream : streams_) {
+    if (stream->isWaitingFor(state.time.step)) send(*stream);
+  }
+}
+
+void ViewerSession::send(Stream& stream) {
+  const RunInfo& run_info = *serving_.run_info;
+  const State& state = run_info.environment.state();
+  wire::Frame& frame = stream.draft();
+  frame.Clear();
+  if (stream.needs_world) {
+    encode(run_info.source, *frame.mutable_world());
+    frame.set_world_version(run_info.world_version);
+    frame.set_period_s(state.time.period_s);
+    frame.set_may_operate(serving_.access.check(stream.client, Right::operate).ok());
+  }
+  frame.set_step(state.time.step);
+  frame.set_time_s(state.time.seconds());
+  if (state.winner) frame.set_winner(run_info.robot_names[*state.winner]);
+  stream.sent_robots.resize(run_info.robot_names.size());
+  for (std::size_t i = 0; i < stream.sent_robots.size(); ++i) {
+    const RobotSnapshot robot = withoutReadings(state, i);
+    if (robot == stream.sent_robots[i] && !stream.needs_world) continue;
+    stream.sent_robots[i] = robot;
+    encode(robot, i, *frame.add_robots());
+  }
+  if (stream.needs_world || stream.sent_selection != stream.selection) stream.sent_photos.clear();
+  stream.sent_selection = stream.selection;
+  encode(state.readings, stream.sent_selection, frame);
+  addPhotos(stream, frame);
+  stream.needs_world = false;
+  stream.step = state.time.step;
+  stream.post();
+  stream.answered();
+}
+
+/// Adds the newest pictures that the viewer has not received, of the robots that it has selected by index.
+void ViewerSession::addPhotos(Stream& stream, wire::Frame& frame) const {
+  for (auto& view : *frame.mutable_readings()) {
+    if (!std::binary_search(stream.sent_selection.of.begin(), stream.sent_selection.of.end(), view.robot())) continue;
+    for (int slot = 0; slot < view.readings().measurements_size(); ++slot) {
+      const auto* photo = camera_frames_.find(view.robot(), static_cast<std::size_t>(slot));
+      if (!photo) continue;
+      const auto [seen, is_first] = stream.sent_photos.try_emplace({view.robot(), slot}, photo->step);
+      if (!is_first && seen->second == photo->step) continue;
+      seen->second = photo->step;
+      view.mutable_readings()->mutable_measurements(slot)->set_jpeg(photo->jpeg);
+      auto& time = *view.add_picture_times();
+      time.set_sensor(static_cast<std::uint32_t>(slot));
+      time.set_step(photo->step);
+    }
+  }
+}
+
+void ViewerSession::endAll() {
+  for (const auto& stream : streams_) stream->end(grpc::Status::OK);
+}
+
+}  // namespace robosim

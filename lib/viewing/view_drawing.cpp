@@ -1,0 +1,43 @@
+#include <utility>
+
+#include "rendering/offscreen_renderer.h"
+#include "viewing/view_outputs.h"
+
+namespace robosim {
+
+ViewDrawing::ViewDrawing(ViewSource& source, MakePanes make_panes)
+    : source_(source), make_panes_(std::move(make_panes)), world_number_(source.worldNumber()) {
+  make(AbsentRobots::refused);
+}
+
+void ViewDrawing::make(AbsentRobots absent) {
+  const LoadedWorld& world = source_.world();
+  auto panes = make_panes_(world, absent);
+  Panes::Draw3d draw_3d;
+  if (std::any_of(panes.begin(), panes.end(), [](const Pane& pane) { return pane.is_3d; })) {
+    auto renderer = std::make_shared<OffscreenRenderer>(world.world, world.fleet);
+    draw_3d = [renderer](const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
+                         std::span<const mrpt::math::TPose2D> world_from_robot) {
+      return renderer->picture(camera, world_from_camera, world_from_robot);
+    };
+  }
+  panes_ = std::make_unique<Panes>(world.world, world.fleet, std::move(panes), std::move(draw_3d));
+  trails_.clear();
+  has_requested_ = false;
+}
+
+cv::Mat ViewDrawing::draw(Size size) {
+  if (std::exchange(world_number_, source_.worldNumber()) != source_.worldNumber()) {
+    make(AbsentRobots::not_followed);
+  }
+  panes_->resize(size.width_px, size.height_px);
+  trails_.add(source_.snapshot());
+  if (auto requested = panes_->requestedReadings(); !has_requested_ || requested != requested_) {
+    source_.requestReadings(requested);
+    requested_ = std::move(requested);
+    has_requested_ = true;
+  }
+  return panes_->draw(source_.snapshot(), trails_);
+}
+
+}  // namespace robosim

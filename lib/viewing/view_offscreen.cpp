@@ -1,0 +1,140 @@
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <thread>
+
+#include "base/atomic_file.h"
+#include "base/error_list.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "base/printable_text.h"
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "rendering/png_file.h"
+#include "viewing/video_file.h"
+#include "viewing/view_outputs.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Skips gaps of a recording, which a video omits.
+class LeftOut {
+ public:
+  void add(double from_s, double to_s) {
+    if (count_++ == 0) first_s_ = from_s;
+    total_s_ += to_s - from_s;
+  }
+  void print() const {
+    if (count_ == 0) return;
+    std::cerr << "robosim view: nothing was recorded for " << fixed(total_s_, 1) << " s, in "
+              << (count_ == 1 ? "a gap" : withCommas(count_) + " gaps, the first") << " at " << fixed(first_s_, 1)
+              << " s; omitted from the video\n";
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+  double first_s_ = 0, total_s_ = 0;
+};
+
+[[noreturn]] void throwInterrupted() { throw Interrupted("interrupted; nothing was written"); }
+
+/// End of a recording, or of its selected part.
+double endOf(double duration_s, const ViewTimes& times) {
+  return std::min(times.to_s.value_or(duration_s), duration_s);
+}
+
+void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times,
+                  const std::string& file) {
+  if (const auto duration_s = source.duration()) {
+    // Advances through the preceding moments, however far apart, for the trails.
+    const Interrupt interrupt;
+    Progress progress;
+    const double end_s = endOf(*duration_s, times);
+    source.pause(true);
+    source.seek(times.from_s.value_or(0));
+    source.advance(0);
+    while (source.snapshot().time_s < end_s && !source.isOver()) {
+      if (interrupt.isRequested()) throwInterrupted();
+      drawing.updateTrails();
+      if (progress.due()) progress.show(fixed(source.snapshot().time_s, 1) + " of " + fixed(end_s, 1) + " s …");
+      source.step();
+      source.advance(0);
+    }
+    source.seek(end_s);
+  }
+  source.advance(0);
+  writePngFile(file, drawing.draw(size));
+}
+
+void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times, const std::string& file) {
+  const Interrupt interrupt;
+  Progress progress;
+  VideoFile video(file, size.width_px, size.height_px, times.fps);
+  if (const auto duration_s = source.duration()) {
+    const double end_s = endOf(*duration_s, times);
+    const double speed = times.speed.value_or(1);
+    LeftOut left_out;
+    source.pause(true);
+    double begin_s = times.from_s.value_or(0);
+    std::uint64_t frame = 0;  // since then
+    for (double t = begin_s; t <= end_s + 1e-9;) {
+      if (interrupt.isRequested()) throwInterrupted();
+      source.seek(t);
+      source.advance(0);
+      video.add(drawing.draw(size));
+      if (progress.due()) progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s …");
+      t = begin_s + static_cast<double>(++frame) * speed / times.fps;
+      if (const double past_s = source.pastGap(t, speed); past_s > t) {
+        left_out.add(t, std::min(past_s, end_s));
+        t = begin_s = past_s;
+        frame = 0;
+      }
+    }
+    left_out.print();
+  } else {
+    // Live run: draws the latest snapshot whenever a frame is due.
+    using Clock = std::chrono::steady_clock;
+    const auto start = Clock::now();
+    for (std::uint64_t frame = 0;; ++frame) {
+      const std::chrono::duration<double> due(static_cast<double>(frame) / times.fps);
+      std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(due));
+      if (interrupt.isRequested() || (times.for_s && due.count() > *times.for_s)) break;
+      source.advance(1 / times.fps);
+      video.add(drawing.draw(size));
+      if (source.isOver()) break;
+      if (progress.due()) progress.show(fixed(due.count(), 1) + " s …");
+    }
+  }
+  video.commit();
+}
+
+}  // namespace
+
+bool isVideo(const std::string& file) { return fs::path(file).extension() == ".mp4"; }
+
+void checkOffscreenFile(const std::string& file) {
+  if (!isVideo(file) && fs::path(file).extension() != ".png") {
+    throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or .mp4, for a video");
+  }
+  checkWritable(file);
+}
+
+void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
+                    const std::string& file) {
+  if (isVideo(file) && source.isOver() && !source.duration()) {
+    throw ConfigError("--offscreen " + file +
+                      ": nothing moves in a world that does not run; ask for a .png, or record a run");
+  }
+  ViewDrawing drawing(source, make_panes);
+  if (isVideo(file)) {
+    writeVideo(source, drawing, size, times, file);
+  } else {
+    writePicture(source, drawing, size, times, file);
+  }
+  std::cout << printableText(file) << '\n';
+  if (const auto remark = source.remark(); !remark.empty()) logLine("view", remark);
+}
+
+}  // namespace robosim

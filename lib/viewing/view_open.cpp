@@ -1,0 +1,50 @@
+#include <filesystem>
+
+#include "base/error_list.h"
+#include "base/input_file.h"
+#include "base/rereadable_file.h"
+#include "base/xml_element.h"
+#include "viewing/view_source.h"
+#include "world/map_reader.h"
+
+namespace robosim {
+namespace {
+
+void refuseChanges(const std::string& source, const WorldChanges& changes, const char* what) {
+  if (changes.isNone()) return;
+  throw ConfigError(source + ": is " + what + "; --robot and --random-robots add to a world or a map only");
+}
+
+std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes) {
+  if (isMapFile(source)) return viewWorld(source, changes);
+  auto file = std::make_unique<RereadableFile>(source);
+  // XML begins with '<', after white space or a byte order mark; a rawlog is compressed, or begins with a length.
+  char first = 0;
+  InputFile(file->path()).read(&first, 1);
+  const bool is_text =
+      first == '<' || first == '\n' || first == '\r' || first == '\t' || first == ' ' || first == '\xef';
+  if (is_text && !changes.isNone()) return viewWorld(source, changes);
+  if (is_text) return viewWorld(source, readXmlText(file->path()));
+  refuseChanges(source, changes, "a recording");
+  return viewRawlog(source, std::move(file));
+}
+
+}  // namespace
+
+std::unique_ptr<ViewSource> openView(const std::string& source,
+                                     const std::function<ConnectOptions(const std::string& address)>& connect_options,
+                                     const WorldChanges& changes) {
+  std::error_code ignored;  // for broken links
+  if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored))) return viewFile(source, changes);
+  const bool looks_like_file = source.find('/') != std::string::npos || source.ends_with(".xml") ||
+                               source.ends_with(".rawlog") || isMapFile(source);
+  if (looks_like_file)
+    throw ConfigError(source + ": there is no such file; give a world, a map, a rawlog, or HOST:PORT");
+  if (source.find_first_of(":0123456789") == std::string::npos) {
+    throw ConfigError(source + ": is neither a file nor an address; give a world, a map, a rawlog, or HOST:PORT");
+  }
+  refuseChanges(source, changes, "a running environment");
+  return viewEnvironment(connect_options(source));
+}
+
+}  // namespace robosim

@@ -1,0 +1,66 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rendering/panes.h"
+#include "viewing/view_source.h"
+
+namespace robosim {
+
+struct Size {
+  int width_px = 0, height_px = 0;
+};
+
+/// Time range and speed of a view.
+struct ViewTimes {
+  std::optional<double> from_s;
+  std::optional<double> to_s;
+  std::optional<double> for_s;  ///< wall time
+  std::optional<double> speed;
+  double fps = 20;
+};
+
+/// Handling of views that follow a robot which the world does not have.
+enum class AbsentRobots { refused, not_followed };
+
+/// Creates the panes of a world; called again when a run continues with another world.
+using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&, AbsentRobots)>;
+
+/// Opens a window, and returns when it is closed.
+/// @throws ConfigError when there is no display.
+void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times);
+
+bool isVideo(const std::string& file);
+/// @throws ConfigError for a name that ends in neither .png nor .mp4, or a file that cannot be written
+void checkOffscreenFile(const std::string& file);
+/// Writes a picture or a video.
+/// @throws Interrupted, and std::runtime_error when the disk is full; no file is written then. Exception: an
+/// interrupted video of a live run is kept up to the interruption.
+void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
+                    const std::string& file);
+
+/// Draws the panes of a source, and recreates them when its world changes.
+class ViewDrawing {
+ public:
+  ViewDrawing(ViewSource& source, MakePanes make_panes);
+
+  cv::Mat draw(Size size);
+  /// Updates the trails without drawing.
+  void updateTrails() { trails_.add(source_.snapshot()); }
+  Panes& panes() { return *panes_; }
+
+ private:
+  void make(AbsentRobots absent);
+
+  ViewSource& source_;
+  MakePanes make_panes_;
+  int world_number_ = 0;
+  std::unique_ptr<Panes> panes_;
+  Trails trails_;
+  std::vector<std::uint8_t> requested_;
+  bool has_requested_ = false;
+};
+
+}  // namespace robosim

@@ -1,0 +1,86 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/rereadable_file.h"
+#include "environment/environment.h"
+#include "environment/world_changes.h"
+#include "net/connect.h"
+#include "robots/run_snapshot.h"
+#include "robots/world_source.h"
+
+namespace robosim {
+
+/// Source of the snapshots of a view: a world file or a map, a recording, or a served run.
+class ViewSource {
+ public:
+  virtual ~ViewSource() = default;
+
+  /// Changes together with worldNumber().
+  virtual const LoadedWorld& world() const = 0;
+  virtual int worldNumber() const { return 0; }
+  virtual const RunSnapshot& snapshot() const = 0;
+  /// Input files of the source.
+  virtual std::vector<std::filesystem::path> inputs() const { return {}; }
+  /// Title of the window.
+  virtual std::string title() const = 0;
+
+  /// Advances by wall time. @return whether the snapshot has changed
+  /// @throws ConnectionError, RecordingError
+  virtual bool advance(double wall_s) = 0;
+  /// Whether no further snapshots will follow.
+  virtual bool isOver() const = 0;
+  /// Message for the user, or empty: why a recording ends early, that a run is over.
+  virtual std::string remark() const { return ""; }
+
+  /// @name Playback control, if canPlay()
+  ///@{
+  virtual bool canPlay() const { return false; }
+  virtual bool isPaused() const { return false; }
+  virtual void pause(bool) {}
+  /// Pauses, and makes the next advance(0) go to the next moment.
+  virtual void step() {}
+  virtual double speed() const { return 1; }  ///< seconds per second; 0: unlimited
+  virtual void setSpeed(double) {}
+  ///@}
+  /// @name Recordings only, in seconds
+  ///@{
+  virtual std::optional<double> duration() const { return std::nullopt; }
+  virtual void seek(double /*time_s*/) {}
+  /// Returns `time_s`; or, if that has been inside a long gap without observations for a while, the gap's end. A clock
+  /// that was set during recording leaves gaps of years.
+  /// @param speed recorded seconds per second
+  virtual double pastGap(double time_s, double /*speed*/) const { return time_s; }
+  ///@}
+
+  /// Selects the robots whose readings are shown: flags by robot; empty for all.
+  virtual void requestReadings(const std::vector<std::uint8_t>&) {}
+};
+
+/// Snapshot of the latest step of an environment in this process, with all readings.
+RunSnapshot snapshotOf(const Environment& environment);
+
+/// A world in its initial state; a map file stands for a world that consists of this map only.
+/// @param changes of the world; random places use seed 1
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes = {});
+/// The same for the text of a world file.
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text);
+/// A recording made by RoboSim or by another program.
+/// @param name for the title
+std::unique_ptr<ViewSource> viewRawlog(const std::string& name, std::unique_ptr<RereadableFile> file);
+/// A served run; the environment never waits for viewers.
+std::unique_ptr<ViewSource> viewEnvironment(const ConnectOptions& connect_options);
+
+/// Any of these: an address (HOST:PORT), a map by its file name, or a file recognised as a world or a rawlog by its
+/// content.
+/// @param connect_options for the given address; called only for an address
+/// @throws ConfigError when it is none of them, and for changes of anything but a world or a map.
+std::unique_ptr<ViewSource> openView(const std::string& source,
+                                     const std::function<ConnectOptions(const std::string& address)>& connect_options,
+                                     const WorldChanges& changes = {});
+
+}  // namespace robosim

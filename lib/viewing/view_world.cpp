@@ -1,0 +1,56 @@
+#include "maze/controllers.h"
+#include "robots/fleet.h"
+#include "run/output_files.h"
+#include "viewing/view_source.h"
+#include "world/world_file.h"
+
+namespace robosim {
+namespace {
+
+class WorldView final : public ViewSource {
+ public:
+  WorldView(const std::string& file, LoadedWorld world) : title_(file), world_(std::move(world)) {
+    // An environment measures the readings at the start poses.
+    snapshot_ = snapshotOf(Environment(world_.world, world_.fleet, {}));
+  }
+
+  const LoadedWorld& world() const override { return world_; }
+  const RunSnapshot& snapshot() const override { return snapshot_; }
+  std::vector<std::filesystem::path> inputs() const override { return inputFilesOf(title_, world_.world); }
+  std::string title() const override { return title_; }
+  bool advance(double) override { return false; }
+  bool isOver() const override { return true; }
+
+ private:
+  std::string title_;
+  LoadedWorld world_;
+  RunSnapshot snapshot_;
+};
+
+}  // namespace
+
+RunSnapshot snapshotOf(const Environment& environment) {
+  const State& state = environment.state();
+  RunSnapshot snapshot{state.time.step, state.time.seconds(), {}};
+  for (std::size_t i = 0; i < environment.robotCount(); ++i) {
+    snapshot.robots.push_back({state.world_from_robot[i], state.laser_pan_rad[i], state.stalled[i] != 0,
+                               state.activity[i], state.readings[i]});
+  }
+  return snapshot;
+}
+
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes) {
+  return std::make_unique<WorldView>(
+      file, changes.isNone() ? loadWorld(file, controllerNames())
+                             : loadWorld(withChanges(readWorldSource(file), changes, 1), controllerNames()));
+}
+
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text) {
+  ErrorList errors;
+  LoadedWorld loaded{parseWorld(std::move(text), file, filesOnDisk(file), errors), {}};
+  loaded.fleet = buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), controllerNames(), errors);
+  errors.throwIfAny();
+  return std::make_unique<WorldView>(file, std::move(loaded));
+}
+
+}  // namespace robosim

@@ -1,0 +1,155 @@
+// Attacks on a running server over loopback: the run continues, and the server answers afterwards. ROBOSIM_VERIFY=1
+// selects long variants.
+#include <atomic>
+#include <chrono>
+#include <future>
+
+#include <gtest/gtest.h>
+
+#include "net/viewing.pb.h"
+#include "net/wire_error.h"
+#include "tests/scenarios/attacked_run.h"
+#include "tests/scenarios/certificates.h"
+#include "tests/scenarios/http2_peer.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::uint8_t kData = 0, kSettings = 4;
+
+int exitCodeOfStatus(const std::string& address, const std::string& options = "") {
+  return runProgram("control " + address + " status " + options).exit_code;
+}
+
+TEST(Attack, AnswersAfterDescriptorExhaustion) {
+  constexpr std::size_t kConnections = 400;
+  StartedProgram server("/bin/sh", {"-c", "ulimit -n 200; exec '" ROBOSIM_PROGRAM
+                                          "' serve worlds/small_maze.xml --listen :0 --paused --controller wander"});
+  server.waitForError("listening on 127.0.0.1:");
+  const std::string says = server.error();
+  const auto at = says.find("127.0.0.1:");
+  const std::string address = says.substr(at, says.find('\n', at) - at);
+  {
+    std::vector<std::unique_ptr<Http2Peer>> peers;
+    for (std::size_t i = 0; i < kConnections; ++i) peers.push_back(std::make_unique<Http2Peer>(address));
+    for (auto& peer : peers) peer->sendPreface();
+    server.waitForError("connection refused: the limit of 200 descriptors is reached (ulimit -Hn");
+  }
+  // Closed connections may still occupy descriptors for a moment.
+  int exit_code = exitCodeOfStatus(address);
+  for (int i = 0; i < 100 && exit_code != 0; ++i) exit_code = exitCodeOfStatus(address);
+  EXPECT_EQ(exit_code, 0) << server.error();
+}
+
+TEST(Attack, RateLimitsLogLinesForInvalidTls) {
+  using Clock = std::chrono::steady_clock;
+  const std::size_t connections = isVerifying() ? 20'000 : 500;
+  const auto folder = certificates();
+  Serving serving({"--paused", "--tls-cert", folder / "cert.pem", "--tls-key", folder / "key.pem"});
+  const auto begin = Clock::now();
+  for (std::size_t i = 0; i < connections; ++i) {
+    Http2Peer peer(serving.address());
+    if (peer.send("no TLS, but garbage \x1b[2J\n")) peer.waitUntilClosed();
+  }
+  const auto seconds = static_cast<std::size_t>(std::chrono::ceil<std::chrono::seconds>(Clock::now() - begin).count());
+  const std::string log = serving.program().error();
+  const std::size_t lines = countOf("\n", log);
+  std::cout << connections << " connections in " << seconds << " s: " << lines << " lines of log\n";
+  // Each place in gRPC that logs it writes one line per second, and one about suppressed lines.
+  constexpr std::size_t kPlaces = 3, kOwnLines = 10;
+  EXPECT_LE(lines, kOwnLines + kPlaces * 2 * (seconds + 1)) << log;
+  EXPECT_GT(countOf("gRPC (", log), 0u) << "the attack is logged\n" << log;
+  EXPECT_EQ(countOf("\x1b", log), 0u);
+  EXPECT_EQ(exitCodeOfStatus(serving.address(), "--tls-ca " + (folder / "cert.pem").string()), 0);
+}
+
+TEST(Attack, BoundsMemoryForAClientThatNeverReads) {
+  const int requests = isVerifying() ? 200'000 : 2'000;
+  AttackedRun run({"--speed", "20", "--step-deadline", "600"});
+  run.connectRobots();
+  run.waitForSteps(20);
+  const double calm_mib = run.residentMib();
+  Http2Peer slow(run.address());
+  // SETTINGS_INITIAL_WINDOW_SIZE (4) of 0: the server may send no message.
+  ASSERT_TRUE(
+      slow.send("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + http2Frame(kSettings, 0, 0, std::string{0, 4, 0, 0, 0, 0})));
+  wire::FrameRequest request;
+  request.set_protocol(kProtocolVersion);
+  const std::string message = request.SerializeAsString();
+  const std::string grpc_message = std::string{0, 0, 0, 0, static_cast<char>(message.size())} + message;
+  ASSERT_TRUE(slow.send(slow.headersOf("/robosim.wire.Viewing/Watch")));
+  for (int i = 0; i < requests; ++i) {
+    if (!slow.send(http2Frame(kData, 0, 1, grpc_message))) break;
+    if (i * grpc_message.size() > 60'000) break;  // the server's flow control window
+  }
+  run.waitForSteps(isVerifying() ? 2'000 : 100);
+  std::cout << calm_mib << " MiB before, " << run.residentMib() << " MiB after\n";
+#ifndef __SANITIZE_ADDRESS__  // the sanitizer delays freeing of memory
+  EXPECT_LT(run.residentMib() - calm_mib, 50);
+#endif
+  EXPECT_TRUE(run.hasKeptAllRobots()) << run.server().error();
+}
+
+TEST(Attack, SilentConnectionsDoNotDelayOtherClients) {
+  const std::size_t connections = isVerifying() ? 900 : 100;
+  AttackedRun run({"--speed", "20", "--step-deadline", "600"});
+  run.connectRobots();
+  std::vector<std::unique_ptr<Http2Peer>> silent, with_preface, with_call;
+  for (std::size_t i = 0; i < connections / 3; ++i) {
+    silent.push_back(std::make_unique<Http2Peer>(run.address()));
+    with_preface.push_back(std::make_unique<Http2Peer>(run.address()));
+    EXPECT_TRUE(with_preface.back()->sendPreface());
+    with_call.push_back(std::make_unique<Http2Peer>(run.address()));
+    EXPECT_TRUE(with_call.back()->sendPreface());
+    EXPECT_TRUE(with_call.back()->send(with_call.back()->headersOf("/robosim.wire.Viewing/Watch")));
+  }
+  run.waitForSteps(100);
+  EXPECT_TRUE(run.hasKeptAllRobots()) << run.server().error();
+  if (!isVerifying()) return;  // takes 10 s
+  for (auto& peer : silent) peer->waitUntilClosed();
+  for (auto& peer : with_preface) peer->waitUntilClosed();
+  for (auto& peer : with_call) peer->waitUntilClosed();  // first the call, then the connection without a call
+  EXPECT_TRUE(run.hasKeptAllRobots()) << run.server().error();
+}
+
+TEST(Attack, DisconnectsRapidResetAndThrottlesItsAddress) {
+  const std::size_t connections = isVerifying() ? 3 : 1;
+  constexpr std::size_t kResets = 1'000'000;
+  std::vector<std::string> arguments{"--speed", "20"};  // 200 steps a second
+  if (!isVerifying()) arguments.insert(arguments.end(), {"--step-deadline", "600"});
+  AttackedRun run(arguments);
+  run.connectRobots();
+  const double calm_pace = run.paceDuring([&] { run.waitForSteps(200); });
+  const double calm_mib = run.residentMib();
+  std::atomic<std::size_t> resets{0};
+  const double pace = run.paceDuring([&] {
+    std::vector<std::future<void>> attackers;
+    for (std::size_t i = 0; i < connections; ++i) {
+      attackers.push_back(std::async(std::launch::async, [&] {
+        Http2Peer attacker(run.address());
+        if (attacker.sendPreface()) resets += attacker.resetStreams(kResets);
+        EXPECT_TRUE(attacker.isClosed());
+        Http2Peer again(run.address());
+        again.waitUntilClosed();  // the address is throttled
+      }));
+    }
+    for (auto& attacker : attackers) attacker.wait();
+    run.waitForSteps(isVerifying() ? 2'000 : 20);
+  });
+  std::cout << resets << " resets: " << calm_mib << " MiB before, " << run.residentMib() << " MiB after; " << calm_pace
+            << " steps/s before, " << pace << " steps/s\n";
+  EXPECT_LT(resets, connections * kResets);
+  EXPECT_LT(run.residentMib() - calm_mib, 480);
+  EXPECT_TRUE(run.hasKeptAllRobots()) << run.server().error();
+  EXPECT_GT(
+      countOf("it floods the server with HTTP/2 frames; at most one connection from 127.0.0.1 is accepted each 1 s",
+              run.server().error()),
+      0u)
+      << run.server().error();
+  if (isVerifying()) {
+    EXPECT_GT(pace, calm_pace / 2);
+  }
+}
+
+}  // namespace
+}  // namespace robosim

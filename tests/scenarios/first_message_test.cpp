@@ -1,0 +1,97 @@
+// A call without a first message is ended after the deadline, and every refused call is logged.
+#include <array>
+#include <functional>
+
+#include <gtest/gtest.h>
+
+#include "net/control_panel.grpc.pb.h"
+#include "net/geometry.grpc.pb.h"
+#include "net/robots.grpc.pb.h"
+#include "net/viewing.grpc.pb.h"
+#include "tests/scenarios/manual_clock.h"
+#include "tests/scenarios/program.h"
+#include "tests/scenarios/served_world.h"
+
+namespace robosim {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// One streaming call of each kind that sends no message.
+struct SilentCalls {
+  explicit SilentCalls(const ConnectOptions& connect_options) {
+    const auto channel = connect(connect_options);
+    const auto end = [](auto& stream) { return [&stream] { return stream->Finish(); }; };
+    panel_stub = wire::ControlPanel::NewStub(channel);
+    load = panel_stub->Load(&contexts[0]);
+    watch_panel = panel_stub->Watch(&contexts[1]);
+    viewing_stub = wire::Viewing::NewStub(channel);
+    watch = viewing_stub->Watch(&contexts[2]);
+    geometry_stub = wire::Geometry::NewStub(channel);
+    work = geometry_stub->Work(&contexts[3]);
+    robots_stub = wire::Robots::NewStub(channel);
+    drive = robots_stub->Drive(&contexts[4]);
+    finish = {{"ControlPanel.Load", end(load)},
+              {"ControlPanel.Watch", end(watch_panel)},
+              {"Viewing.Watch", end(watch)},
+              {"Geometry.Work", end(work)},
+              {"Robots.Drive", end(drive)}};
+  }
+
+  std::array<grpc::ClientContext, 5> contexts;
+  std::unique_ptr<wire::ControlPanel::Stub> panel_stub;
+  std::unique_ptr<wire::Viewing::Stub> viewing_stub;
+  std::unique_ptr<wire::Geometry::Stub> geometry_stub;
+  std::unique_ptr<wire::Robots::Stub> robots_stub;
+  std::unique_ptr<grpc::ClientReaderWriter<wire::WorldPiece, wire::RunStatus>> load;
+  std::unique_ptr<grpc::ClientReaderWriter<wire::PanelRequest, wire::RunStatus>> watch_panel;
+  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> watch;
+  std::unique_ptr<grpc::ClientReaderWriter<wire::Sealed, wire::Sealed>> work;
+  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> drive;
+  std::vector<std::pair<const char*, std::function<grpc::Status()>>> finish;  ///< waits for the end of each call
+};
+
+TEST(FirstMessage, HasADeadlineOfTenSecondsInEveryKindOfCall) {
+  ManualClock clock;
+  ServedWorld::Options options = paused();
+  options.robots_elsewhere = true;
+  options.server.now = [&clock] { return clock.read(); };
+  ServedWorld world(options);
+  SilentCalls calls(world.connectOptions());
+  // The last call over the same connection is refused: once it has ended, the preceding ones have been received.
+  grpc::ClientContext context;
+  const auto last = calls.robots_stub->Drive(&context);
+  last->Write({});
+  EXPECT_EQ(last->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+
+  clock.advance(10s - 1ns);
+  clock.waitForReads();
+  EXPECT_EQ(countOf("no first message", world.log()), 0u) << world.log();
+  clock.advance(1ns);
+  for (const auto& [kind, finish] : calls.finish) {
+    const grpc::Status status = finish();
+    EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED) << kind;
+    EXPECT_EQ(status.error_message(), "no first message within 10000 ms of the call; send it at once, and call again")
+        << kind;
+  }
+  EXPECT_EQ(countOf("no first message", world.log()), 5u) << world.log();
+}
+
+TEST(RefusedCalls, AreLoggedForEveryKindOfCall) {
+  ServedWorld::Options options = paused();
+  options.server.access = Access::parse("master-0123456789ab operator\n", "tokens");
+  ServedWorld world(options);
+  SilentCalls calls(world.connectOptions());
+  for (const auto& [kind, finish] : calls.finish) {
+    EXPECT_EQ(finish().error_code(), grpc::StatusCode::UNAUTHENTICATED) << kind;
+  }
+  const std::string log = world.log();
+  for (const char* who :
+       {"control panel ipv4:127.0.0.1:", "viewer ipv4:127.0.0.1:", "geometry worker ipv4:127.0.0.1:"}) {
+    EXPECT_GT(countOf(who, log), 0u) << who << "\n" << log;
+  }
+  EXPECT_EQ(countOf("requires a token", log), 5u) << log;
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,161 @@
+// A robot process that ends: effect of --on-lost-robot, and reports in the summary, the exit code and the control
+// panel.
+#include <csignal>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenarios/robot_processes.h"
+#include "tests/scenarios/serving.h"
+
+namespace robosim {
+namespace {
+
+using nlohmann::json;
+
+constexpr int kIncomplete = 3;
+
+/// `robosim serve`, paused, with Pioneer1 and Scout1 in a process each, after ten steps.
+class TwoRobots {
+ public:
+  explicit TwoRobots(std::vector<std::string> options) : serving_(with(std::move(options))) {
+    pioneer_ = startRobots({"Pioneer1"}, serving_.address());
+    scout_ = startRobots({"Scout1"}, serving_.address());
+    serving_.program().waitForError("all robots are here");
+    control("step 10");
+  }
+
+  std::string control(const std::string& what) const {
+    const Ended ended = runProgram("control " + serving_.address() + " " + what);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return ended.out;
+  }
+  void killPioneer() {
+    pioneer_->signal(SIGKILL);
+    serving_.program().waitForError("): has left");
+  }
+  void startPioneerAgain() { pioneer_ = startRobots({"Pioneer1"}, serving_.address()); }
+  StartedProgram& program() { return serving_.program(); }
+  const std::string& address() const { return serving_.address(); }
+
+ private:
+  static std::vector<std::string> with(std::vector<std::string> options) {
+    options.insert(options.end(), {"--wait-for-robots", "--paused", "--step-deadline", "600"});
+    return options;
+  }
+  Serving serving_;
+  std::unique_ptr<StartedProgram> pioneer_, scout_;
+};
+
+json clientsOf(const Ended& ended) { return json::parse(ended.out)["clients"]; }
+
+TEST(LostRobot, IsAwaitedInLockstepAndTheRunIsComplete) {
+  TwoRobots two({"--json"});
+  two.killPioneer();
+  two.program().waitForError("waiting for Pioneer1");
+  StartedProgram steps({"control", two.address(), "step", "5"});
+  const std::string status = two.control("status");
+  EXPECT_NE(status.find("waits for robots at step 10"), std::string::npos) << status;
+  EXPECT_NE(status.find("Pioneer1, 1 times, not back; 0 steps were taken without it (--on-lost-robot wait)"),
+            std::string::npos)
+      << status;
+  two.startPioneerAgain();
+  EXPECT_EQ(steps.wait().exit_code, 0);
+  two.control("stop");
+  const Ended ended = two.program().wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(json::parse(ended.out)["steps"], 15);
+  const json clients = clientsOf(ended);
+  EXPECT_EQ(clients["all_robots"], true);
+  EXPECT_EQ(clients["on_lost_robot"], "wait");
+  EXPECT_EQ(clients["lost_robots"],
+            json::parse(R"([{"name": "Pioneer1", "times": 1, "steps_missed": 0, "is_lost": false}])"));
+}
+
+TEST(LostRobot, MakesTheRunIncompleteIfAbsentAtItsEnd) {
+  TwoRobots two({"--json"});
+  two.killPioneer();
+  two.control("stop");
+  const Ended ended = two.program().wait();
+  EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
+  EXPECT_EQ(clientsOf(ended)["all_robots"], false);
+}
+
+TEST(LostRobot, WithContinueStandsStillAndTheRunIsIncomplete) {
+  TwoRobots two({"--json", "--on-lost-robot", "continue"});
+  two.killPioneer();
+  two.control("step 100");
+  two.control("stop");
+  const Ended ended = two.program().wait();
+  EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
+  const json clients = clientsOf(ended);
+  EXPECT_EQ(clients["all_robots"], false);
+  EXPECT_EQ(clients["lost_robots"],
+            json::parse(R"([{"name": "Pioneer1", "times": 1, "steps_missed": 100, "is_lost": true}])"));
+}
+
+TEST(LostRobot, IsNamedInTheSummaryAndInTheRecording) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  TwoRobots two({"--on-lost-robot", "continue", "--record", rawlog.string()});
+  two.killPioneer();
+  two.control("step 7");
+  two.startPioneerAgain();
+  two.program().waitForError("Pioneer1 (ipv4:");
+  two.control("step 1");
+  two.control("stop");
+  const Ended ended = two.program().wait();
+  EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
+  EXPECT_NE(ended.out.find("INCOMPLETE: steps were taken without some robots"), std::string::npos) << ended.out;
+  EXPECT_NE(ended.out.find("Pioneer1, once, "), std::string::npos) << ended.out;
+  const Ended replay = runProgram("replay '" + rawlog.string() + "'");
+  EXPECT_NE(replay.out.find("INCOMPLETE: without some robots"), std::string::npos) << replay.out;
+}
+
+TEST(LostRobot, WithFailEndsTheRun) {
+  TwoRobots two({"--json", "--on-lost-robot", "fail"});
+  two.killPioneer();
+  const Ended ended = two.program().wait();
+  EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
+  EXPECT_NE(ended.err.find("the run ends, as --on-lost-robot fail wants it: lost Pioneer1"), std::string::npos);
+  const json summary = json::parse(ended.out);
+  EXPECT_EQ(summary["ended_by"], "robot_lost");
+  EXPECT_EQ(summary["steps"], 10) << "no step is taken without it";
+}
+
+TEST(LostRobot, IsNotAwaitedInRealTime) {
+  TwoRobots two({"--json", "--pace", "realtime", "--speed", "50"});
+  two.killPioneer();
+  two.control("step 20");
+  two.control("stop");
+  const Ended ended = two.program().wait();
+  EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
+  EXPECT_EQ(clientsOf(ended)["on_lost_robot"], "continue");
+}
+
+TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) {
+  auto first = std::make_unique<Serving>(std::vector<std::string>{"--wait-for-robots", "--paused"});
+  const std::string address = first->address();
+  const std::vector<std::string> words{"robot",         "Pioneer1", "Scout1",     "--controller", "wander",
+                                       "--environment", address,    "--patience", "600"};
+  StartedProgram stale(words);
+  first->program().waitForError("all robots are here");
+  first.reset();  // killed, as on a restart of its machine
+
+  StartedProgram next(
+      {"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20"});
+  const Ended ended = stale.wait();
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_NE(ended.err.find("the robots come from the run '"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("start their program anew to join it"), std::string::npos) << ended.err;
+  const Ended status = runProgram("control " + address + " status");
+  EXPECT_NE(status.out.find("waits for robots at step 0"), std::string::npos) << status.out << status.err;
+
+  const auto fresh = startRobots({"Pioneer1", "Scout1"}, address);
+  const Ended run = next.wait();
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(json::parse(run.out)["steps"], 200);
+  EXPECT_EQ(clientsOf(run)["lost_robots"], json::array());
+}
+
+}  // namespace
+}  // namespace robosim

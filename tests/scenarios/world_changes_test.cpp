@@ -1,0 +1,163 @@
+// Robots, starts and noise from the command line; output of `check`, `export` and `bench gold` on worlds and maps.
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+json run(const std::string& arguments) {
+  const Ended ended = runProgram("run --json " + arguments);
+  EXPECT_EQ(ended.exit_code, 0) << arguments << "\n" << ended.err;
+  return json::parse(ended.out, nullptr, false);
+}
+
+std::string refusal(const std::string& arguments) {
+  const Ended ended = runProgram(arguments);
+  EXPECT_EQ(ended.exit_code, 1) << arguments;
+  return ended.err;
+}
+
+fs::path write(const std::string& name, const std::string& text) {
+  const fs::path file = emptyFolder() / name;
+  std::ofstream(file) << text;
+  return file;
+}
+
+std::string quoted(const fs::path& file) { return " '" + file.string() + "' "; }
+
+TEST(WorldChanges, AllowRunningAMapWithoutAWorldFile) {
+  const json added = run(
+      "maps/lab.yaml --robot pioneer3dx@2,2,90 --robot scout@4,2 --random-robots 3,scout --controller wander --time 5");
+  EXPECT_EQ(added["robots"], 5);
+  EXPECT_EQ(added["steps"], 50);
+  EXPECT_EQ(run("maps/office.map --controller wander --time 1")["robots"], 1) << "the one at the map's home";
+  EXPECT_EQ(run("maps/office.map --random-robots 2 --controller wander --time 1")["robots"], 2);
+}
+
+TEST(WorldChanges, RejectARobotInsideAWall) {
+  const std::string error = refusal("run maps/lab.yaml --robot scout@0,0");
+  EXPECT_NE(error.find("maps/lab.yaml: robot 'Robot1' at (0, 0) m overlaps an obstacle of the map 'lab.yaml'"),
+            std::string::npos)
+      << error;
+  EXPECT_NE(refusal("run maps/lab.yaml --robot scout").find("must be TYPE@X,Y or TYPE@X,Y,HEADING"), std::string::npos);
+  EXPECT_NE(refusal("run maps/lab.yaml --random-robots many").find("must be a whole number from 1 to 100000"),
+            std::string::npos);
+  EXPECT_NE(refusal("view tests/data/none.rawlog --robot scout@0,0").find("none.rawlog"), std::string::npos);
+}
+
+TEST(WorldChanges, AreStoredInARecording) {
+  const fs::path rawlog = emptyFolder() / "run.rawlog";
+  const json made =
+      run("maps/lab.yaml --random-robots 2 --noise on --controller wander --time 3 --seed 5 --record" + quoted(rawlog));
+  const json replayed = json::parse(runProgram("replay --json" + quoted(rawlog)).out, nullptr, false);
+  EXPECT_EQ(replayed["run"]["outcome"]["digest"], made["digest"]);
+  EXPECT_EQ(runProgram("replay" + quoted(rawlog) + "--controller wander").exit_code, 0)
+      << "its world can be read again";
+}
+
+TEST(Seed, WithoutEffectIsReported) {
+  const json one = run("worlds/maze_20x20.xml --time 20 --seed 1"),
+             other = run("worlds/maze_20x20.xml --time 20 --seed 7");
+  EXPECT_EQ(one["digest"], other["digest"]);
+  EXPECT_EQ(one["depends_on_seed"], false);
+  const Ended text = runProgram("run worlds/maze_20x20.xml --time 20 --seed 7");
+  EXPECT_NE(text.out.find("7 (without effect: nothing in this run was random"), std::string::npos) << text.out;
+}
+
+TEST(Seed, ChangesRunsWithRandomStartsOrNoise) {
+  for (const std::string option : {"--random-starts", "--noise on"}) {
+    const auto seeded = [&](const std::string& seed) {
+      return run("worlds/maze_20x20.xml --time 20 " + option + " --seed " + seed);
+    };
+    EXPECT_NE(seeded("1")["digest"], seeded("7")["digest"]) << option;
+    EXPECT_EQ(seeded("7")["digest"], seeded("7")["digest"]) << option;
+    EXPECT_EQ(seeded("1")["depends_on_seed"], true) << option;
+  }
+}
+
+TEST(Step, WarnsIfItDoesNotDivideTheTime) {
+  const Ended ended = runProgram("run worlds/small_maze.xml --step 0.3 --time 1 --json");
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_EQ(json::parse(ended.out)["steps"], 3);
+  EXPECT_NE(
+      ended.err.find("--time 1 is not a multiple of the time step of 0.3 s: a run ends after 0.9 s at the latest"),
+      std::string::npos)
+      << ended.err;
+  EXPECT_EQ(runProgram("run worlds/small_maze.xml --step 0.3 --time 0.9").err, "");
+}
+
+TEST(Check, ReportsRobotPosesAndWallLength) {
+  const Ended office = runProgram("check maps/office.map");
+  EXPECT_EQ(office.exit_code, 0);
+  EXPECT_NE(office.out.find(" m, heading "), std::string::npos) << office.out;
+  EXPECT_NE(office.out.find("start 1 of "), std::string::npos) << office.out;
+  EXPECT_NE(office.out.find("walls"), std::string::npos) << office.out;
+}
+
+TEST(Check, WarnsOfAnOpenEdgeWithItsLength) {
+  // On 4 m × 4 m a Scout of 0.19 m radius can reach 3.62 m of each side with its centre.
+  const fs::path file = write("open.xml",
+                              "<world><surface><size><xmin>-2</xmin><xmax>2</xmax><ymin>-2</ymin><ymax>2</ymax></size>"
+                              "<object><shape><robot><model>scout</model><name>A</name><x>0</x><y>0</y></robot></shape>"
+                              "</object></surface></world>");
+  const Ended check = runProgram("check" + quoted(file));
+  EXPECT_EQ(check.exit_code, 0) << "a warning is no error";
+  EXPECT_NE(check.out.find("warning: " + file.string() + ": robots can reach "), std::string::npos) << check.out;
+  const json result = json::parse(runProgram("check --json" + quoted(file)).out);
+  EXPECT_NEAR(result["open_edge_m"].get<double>(), 4 * 3.62, 4 * 0.2);
+  EXPECT_EQ(result["warnings"].size(), 1u);
+  EXPECT_EQ(result["ok"], true);
+}
+
+TEST(Check, DoesNotWarnOfEdgesInShippedWorlds) {
+  for (const auto& entry : fs::directory_iterator(ROBOSIM_SOURCE_DIR "/worlds")) {
+    if (entry.path().extension() != ".xml") continue;
+    const json result = json::parse(runProgram("check --json" + quoted(entry.path())).out);
+    EXPECT_EQ(result["warnings"], json::array()) << entry.path();
+  }
+}
+
+TEST(BenchGold, RefusesAWorldWithoutGold) {
+  EXPECT_NE(refusal("bench gold maps/office.map --runs 1").find("maps/office.map: has no gold"), std::string::npos);
+}
+
+TEST(Export, KeepsAMapsUnknownCellsOriginAndResolution) {
+  const fs::path folder = emptyFolder();
+  ASSERT_EQ(
+      runProgram("export maps/lab.yaml" + quoted(folder / "lab.gridmap.gz") + quoted(folder / "lab.YAML")).exit_code,
+      0);
+  ASSERT_EQ(runProgram("export" + quoted(folder / "lab.gridmap.gz") + quoted(folder / "again.yaml")).exit_code, 0);
+  EXPECT_EQ(textOf(folder / "lab.png"), textOf(folder / "again.png"));
+  const std::string yaml = textOf(folder / "lab.YAML");
+  EXPECT_NE(yaml.find("resolution: 0.05\n"), std::string::npos) << yaml;
+  EXPECT_NE(yaml.find("origin: [-0.5, -0.5, 0]\n"), std::string::npos) << yaml;
+}
+
+TEST(Export, AcceptsExtensionsInUpperCase) {
+  const fs::path folder = emptyFolder();
+  EXPECT_EQ(
+      runProgram("export worlds/small_maze.xml" + quoted(folder / "X.SVG") + quoted(folder / "X.GridMap")).exit_code,
+      0);
+  EXPECT_TRUE(fs::exists(folder / "X.SVG"));
+  EXPECT_TRUE(fs::exists(folder / "X.GridMap"));
+}
+
+TEST(Help, NamesRangesAndUnitsInWords) {
+  for (const std::string command : {"run", "serve", "bench gold", "geometry", "export"}) {
+    const std::string help = runProgram(command + " --help").out;
+    EXPECT_EQ(help.find("INT:INT"), std::string::npos) << command;
+  }
+  const std::string help = runProgram("run --help").out;
+  EXPECT_NE(help.find("0.001 to 1,000,000,000 s"), std::string::npos) << help;
+  EXPECT_NE(help.find("0.001 to 1 s"), std::string::npos) << help;
+}
+
+}  // namespace
+}  // namespace robosim
