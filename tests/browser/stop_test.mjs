@@ -120,7 +120,9 @@ test('two pointers on a turn button: the robot stops turning when both are relea
   await pointer('pointerdown', 12);
   await wasSent(['drive']);
   await pointer('pointerup', 12);
+  await forget();
   await pointer('pointerup', 11);
+  await page.waitForFunction(() => sent.some(({ type, turn }) => type === 'drive' && turn === 0));
   await forget();
   await aliveOften(5);
   assert.deepEqual(await page.evaluate((types) => sent.filter(({ type }) => types.includes(type)), MOTION), []);
