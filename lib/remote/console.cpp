@@ -42,6 +42,7 @@ struct Console::Impl final : public WebPageHandler {
 
   void opened(PageId page, const std::string& peer) override { perform(session.pageOpened(page, peer, now())); }
   void received(PageId page, std::string_view text) override { perform(session.pageMessage(page, text, now())); }
+  void receivedInvalid(PageId page, const std::string& why) override { perform(session.pageInvalid(page, why)); }
   void closed(PageId page) override { perform(session.pageClosed(page)); }
   WebMessagePtr next(PageId page) override { return session.nextMessage(page, now()); }
   void tick() override {

@@ -36,10 +36,6 @@ ConsoleActions ConsoleSession::pageClosed(PageId id) {
 ConsoleActions ConsoleSession::pageMessage(PageId id, std::string_view text, Time now) {
   Page* page = find(id);
   if (!page || page->is_leaving) return {};
-  const auto disconnect_invalid = [&](const std::string& why) {
-    act(WriteLog{"invalid messages of pages", "disconnected a page at " + page->peer + ": " + why});
-    disconnect(*page, why);
-  };
   try {
     const PageMessage message = PageMessage::parse(text);
     const Authorization authorization = authorize(access_, page->client, stateOf(*page), message);
@@ -53,12 +49,18 @@ ConsoleActions ConsoleSession::pageMessage(PageId id, std::string_view text, Tim
         deny(*page, message, authorization.why);
         break;
       case Authorization::Result::protocol_error:
-        disconnect_invalid(authorization.why);
+        disconnectInvalid(*page, authorization.why);
         break;
     }
   } catch (const WireError& error) {
-    disconnect_invalid(error.what());
+    disconnectInvalid(*page, error.what());
   }
+  return takeActions();
+}
+
+ConsoleActions ConsoleSession::pageInvalid(PageId id, const std::string& why) {
+  Page* page = find(id);
+  if (page && !page->is_leaving) disconnectInvalid(*page, why);
   return takeActions();
 }
 
@@ -117,6 +119,11 @@ void ConsoleSession::disconnect(Page& page, const std::string& why) {
   release(page, page.name + "'s page was disconnected");
   publishTeam();
   watchMap();
+}
+
+void ConsoleSession::disconnectInvalid(Page& page, const std::string& why) {
+  act(WriteLog{"invalid messages of pages", "disconnected a page at " + page.peer + ": " + why});
+  disconnect(page, why);
 }
 
 void ConsoleSession::disconnectOldestSilent() {
@@ -181,11 +188,13 @@ void ConsoleSession::checkDeadlines(Time now) {
 
 /// @return whether the primary has a new update or description
 bool ConsoleSession::takeRobots(const std::vector<TeamRobot>& robots) {
+  const std::string former_primary = primary();
   robots_ = robots;
   finishSwitch();
   if (robots_.empty()) return false;
   const RobotNews before = std::exchange(feed_.primary, robots_.front().news);
   const RobotNews& now = feed_.primary;
+  if (primary() != former_primary) answers_ = now.answers;  // those that it sent when it was the primary before
   bool is_news = now.update != before.update;
   if (now.info && now.info != before.info) is_news |= feed_.robot.set(robotJson(*now.info, now.period_s));
   return is_news;

@@ -55,6 +55,8 @@ class ConsoleSession {
   ConsoleActions pageOpened(PageId id, const std::string& peer, Time now);
   ConsoleActions pageClosed(PageId id);
   ConsoleActions pageMessage(PageId id, std::string_view text, Time now);
+  /// A page has sent what is not a text message within the limits: it is disconnected.
+  ConsoleActions pageInvalid(PageId id, const std::string& why);
   /// Takes the state of team, map and tokens, and checks deadlines. To be called first, at least 20 times per second,
   /// and when there is news.
   ConsoleActions update(const Inputs& inputs, Time now);
@@ -105,6 +107,7 @@ class ConsoleSession {
   PageState stateOf(const Page& page) const;
   void reject(Page& page, const std::string& why);
   void disconnect(Page& page, const std::string& why);
+  void disconnectInvalid(Page& page, const std::string& why);
   void disconnectOldestSilent();
   void release(Page& page, const std::string& why);
   void reply(Page& page, const std::string& json);
@@ -139,7 +142,7 @@ class ConsoleSession {
   ControlLock lock_;
   std::vector<TeamRobot> robots_;  ///< at the last update(); the primary first
   TeamEvents events_;
-  std::array<std::shared_ptr<const RobotAnswer>, 3> answers_;  ///< already sent
+  std::array<std::shared_ptr<const RobotAnswer>, 3> answers_;  ///< of the primary, already sent
   OrderLimiter orders_;
   std::optional<PendingSwitch> pending_switch_;
   bool is_map_watched_ = false;

@@ -48,6 +48,17 @@ TEST_F(ConsoleSessionTest, ReleasesTheControlLockOfAPageThatDisconnects) {
   EXPECT_EQ(holder(), 0u);
 }
 
+TEST_F(ConsoleSessionTest, ReleasesTheControlLockOfAPageWithAnInvalidFrame) {
+  const PageId ada = driver();
+  console.send(ada, R"({"type":"drive","speed":1})");
+  console.invalidFrame(ada, "a binary message; messages are text");
+  EXPECT_EQ(orders(), "Ann drive speed 1, Ann stop: Ada's page was disconnected");
+  EXPECT_EQ(holder(), 0u);
+  EXPECT_TRUE(console.page(ada).is_leaving);
+  EXPECT_EQ(console.page(ada).why, "a binary message; messages are text");
+  EXPECT_TRUE(console.hasLogged("disconnected a page at 127.0.0.1: a binary message"));
+}
+
 TEST_F(ConsoleSessionTest, TakingControlAgainClaimsTheRobotAndDiscardsOrders) {
   const PageId ada = driver();
   console.send(ada, R"({"type":"accelerate"})");
@@ -302,6 +313,21 @@ TEST_F(ConsoleSessionTest, SendsARequestedReadingToAllPages) {
       EXPECT_TRUE(received(page, std::string(R"({"type":"answer","sensor":")") + sensor)) << sensor;
     }
   }
+}
+
+TEST_F(ConsoleSessionTest, SendsAnAnswerOnceThoughItsRobotBecomesThePrimaryAgain) {
+  const PageId ada = driver();
+  const auto answers = [&] {
+    console.read(ada);
+    return console.page(ada).countOf(R"("type":"answer")");
+  };
+  console.send(ada, R"({"type":"req_heat"})");
+  EXPECT_EQ(answers(), 1u);
+  for (const char* robot : {"Bob", "Ann"}) console.send(ada, std::string(R"({"type":"switch","robot":")") + robot + "\"}");
+  EXPECT_EQ(console.primary(), "Ann");
+  EXPECT_EQ(answers(), 1u);
+  console.send(ada, R"({"type":"req_heat"})");
+  EXPECT_EQ(answers(), 2u);
 }
 
 }  // namespace

@@ -118,6 +118,16 @@ TEST_F(ConsoleTest, SwitchesOnlyToRobotsThatTheTokenPermits) {
   EXPECT_EQ(row(page).front(), 'A');
 }
 
+TEST_F(ConsoleTest, StopsTheRobotOfAPageThatSendsAnInvalidFrame) {
+  TestPage& page = this->page(kAnnAndBob);
+  take(page);
+  page.sendBinary("stop");
+  wait([&] { return team[0]->log().find("Ann stops: ") != std::string::npos; });
+  EXPECT_NE(team[0]->log().find("Ann stops: Page's page was disconnected\n"), std::string::npos) << team[0]->log();
+  wait([&] { return page.is_closed; });
+  EXPECT_EQ(page.why_closed, "a binary message; messages are text");
+}
+
 TEST_F(ConsoleTest, ShowsTruePosesOnlyToTokensThatMayWatch) {
   for (const char* token : {kAnnAndBob, kOnlyBob}) {
     TestPage& page = this->page(token);

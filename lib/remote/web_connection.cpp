@@ -185,8 +185,7 @@ void WebConnection::takeMessage(const Error& error) {
     why = "a message of more than " + std::to_string(kMaxMessageBytes) + " bytes";
   }
   if (!why.empty()) {
-    owner_.logDisconnect(why);
-    disconnect(why);
+    owner_.receivedInvalid(page_, why);
   } else if (!is_disconnecting_ && socket_->is_message_done()) {
     owner_.received(page_, std::exchange(message_, ""));
   }

@@ -30,8 +30,9 @@ class WebConnectionOwner {
   /// A WebSocket is open. @return its page's id; nullopt when there are too many
   virtual std::optional<PageId> opened(WebConnection& connection) = 0;
   virtual void received(PageId page, std::string_view text) = 0;
+  /// The page has sent a frame that is not a text message within the limits, and must be disconnected.
+  virtual void receivedInvalid(PageId page, const std::string& why) = 0;
   virtual WebMessagePtr next(PageId page) = 0;
-  virtual void logDisconnect(const std::string& why) = 0;
   virtual void closed(WebConnection& connection) = 0;
 };
 

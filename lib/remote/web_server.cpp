@@ -118,10 +118,8 @@ struct WebServer::Impl final : public WebConnectionOwner {
   bool mayOpen(const std::string& origin, const std::string& host, const std::string& offered) override;
   std::optional<PageId> opened(WebConnection& connection) override;
   void received(PageId page, std::string_view text) override { handler.received(page, text); }
+  void receivedInvalid(PageId page, const std::string& why) override { handler.receivedInvalid(page, why); }
   WebMessagePtr next(PageId page) override { return handler.next(page); }
-  void logDisconnect(const std::string& why) override {
-    log.write("invalid messages of pages", "disconnected a page: " + why);
-  }
   void closed(WebConnection& connection) override;
   ///@}
 

@@ -26,6 +26,8 @@ class WebPageHandler {
   virtual ~WebPageHandler() = default;
   virtual void opened(PageId page, const std::string& peer) = 0;
   virtual void received(PageId page, std::string_view text) = 0;
+  /// The page has sent a frame that is not a text message within the limits. Must call WebServer::disconnect().
+  virtual void receivedInvalid(PageId page, const std::string& why) = 0;
   virtual void closed(PageId page) = 0;
   /// The next message; null for none. Called after WebServer::wake() and after each message sent, when the connection
   /// accepts another, so that outdated state is never sent.

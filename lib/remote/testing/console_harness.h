@@ -98,6 +98,8 @@ class ConsoleHarness {
     perform(actions);
     require(!must_stop || stops_ > stops, "an authorised stop reaches the robot at once");
   }
+  /// The web server receives a frame that is not a text message.
+  void invalidFrame(PageId id, const std::string& why) { perform(session.pageInvalid(id, why)); }
   void close(PageId id) {
     const auto actions = session.pageClosed(id);
     pages.erase(id);

@@ -40,18 +40,9 @@ class TestPage {
   }
 
   /// Sends a text message of at most 65,535 bytes.
-  void send(const std::string& json) {
-    constexpr unsigned char text = 0x81, masked = 0x80, two_bytes = 126;
-    std::string frame{static_cast<char>(text)};
-    if (json.size() < two_bytes) {
-      frame += static_cast<char>(masked | json.size());
-    } else {
-      frame += static_cast<char>(masked | two_bytes);
-      frame += static_cast<char>(json.size() >> 8);
-      frame += static_cast<char>(json.size());
-    }
-    write(frame + std::string(4, '\0') + json);  // a mask of zeros leaves the text as it is
-  }
+  void send(const std::string& json) { sendFrame(0x81, json); }
+  /// Sends a binary message of at most 65,535 bytes, which the console refuses.
+  void sendBinary(const std::string& bytes) { sendFrame(0x82, bytes); }
 
   /// Reads the messages received by now. Acknowledges updates, of which only the number is kept.
   void receive() {
@@ -91,6 +82,19 @@ class TestPage {
         errno != EPIPE && errno != ECONNRESET) {
       throw std::runtime_error("the console accepts no more data");
     }
+  }
+
+  void sendFrame(unsigned char op, const std::string& bytes) const {
+    constexpr unsigned char masked = 0x80, two_bytes = 126;
+    std::string frame{static_cast<char>(op)};
+    if (bytes.size() < two_bytes) {
+      frame += static_cast<char>(masked | bytes.size());
+    } else {
+      frame += static_cast<char>(masked | two_bytes);
+      frame += static_cast<char>(bytes.size() >> 8);
+      frame += static_cast<char>(bytes.size());
+    }
+    write(frame + std::string(4, '\0') + bytes);  // a mask of zeros leaves the bytes as they are
   }
 
   bool takeFrame() {
