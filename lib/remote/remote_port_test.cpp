@@ -78,6 +78,18 @@ TEST_F(RemotePortTest, ADriverSteersAndEnablesTheController) {
   wait([&] { return anna->news().state.autonomous; });
 }
 
+TEST_F(RemotePortTest, AClaimDiscardsOrdersThatWait) {
+  connect(*anna, "Anna");
+  drive(*anna, 0.25);
+  drive(*anna, 0.5);  // waits until the first is sent
+  anna->claim("Ben", false);
+  wait([&] { return anna->news().state.driver == "Ben"; });
+  anna->send({.type = RemoteType::req_heat});  // sent after all orders that steer
+  wait([&] { return anna->news().answers[0] != nullptr; });
+  robot.step();
+  EXPECT_EQ(commandedSpeed(), 0);
+}
+
 TEST_F(RemotePortTest, StopsTheRobotWhenTheDriverDisconnectsAndLogsTheReason) {
   connect(*anna, "Anna");
   drive(*anna, 0.5);

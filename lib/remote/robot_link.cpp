@@ -282,6 +282,7 @@ void RobotLink::claim(const std::string& driver, bool autonomous) {
       RemoteOrder{.type = RemoteType::init, .robot = shared_->robot, .driver = driver, .autonomous = autonomous};
   shared_->init_is_due = true;
   shared_->switching.reset();
+  shared_->discardSteering();
   if (shared_->call) shared_->call->sendNext();
 }
 

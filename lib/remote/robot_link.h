@@ -25,7 +25,8 @@ class RobotLink {
   void connect();
   /// Whether there is a call, established or not.
   bool isCalling() const;
-  /// Sends the driver's name and claims the robot: now, and after each connect().
+  /// Sends the driver's name and claims the robot: now, and after each connect(). Orders that steer and have not been
+  /// sent yet are discarded.
   void claim(const std::string& driver, bool autonomous);
   /// Sends an order. While disconnected, only INIT_ACK is kept, for the next INIT.
   void send(const RemoteOrder& order);
