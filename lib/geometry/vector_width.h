@@ -1,4 +1,6 @@
 #pragma once
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
 
 /// Selection of code by the width of the processor's vectors. All variants perform the same operations on the same
@@ -13,7 +15,28 @@ enum class VectorWidth : std::uint8_t {
   avx512,  ///< 512 bits: x86-64-v4
 };
 
-/// The widest that this processor supports.
+/// Extensions of the instruction set: those of x86-64-v3, up to movbe, then those of x86-64-v4 (x86-64 psABI 1.0,
+/// section 3.1.1).
+enum class CpuFeature : std::uint8_t {
+  avx,
+  avx2,
+  bmi,
+  bmi2,
+  f16c,
+  fma,
+  lzcnt,
+  movbe,
+  avx512f,
+  avx512bw,
+  avx512cd,
+  avx512dq,
+  avx512vl,
+};
+using CpuFeatures = std::bitset<static_cast<std::size_t>(CpuFeature::avx512vl) + 1>;  ///< by CpuFeature
+
+/// The widest vectors of a processor with these features: code for a width may use all features of its level.
+VectorWidth widestVectors(const CpuFeatures& features);
+/// The widest that this processor, and its operating system, supports.
 VectorWidth widestVectors();
 
 /// The width in use: the widest, unless setVectorWidth() was called.
