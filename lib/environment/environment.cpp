@@ -39,13 +39,14 @@ double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
 /// Robots with the same model.
 struct Group {
   const RobotModel* model;
-  double reach_m;  ///< maximum range of their sensors and of a step, from their centres
+  double reach_m;  ///< maximum range, from their centres, of a step and of the sensors that use neighbours
   std::vector<std::uint32_t> robots;
 };
 
 double reachOf(const RobotModel& model, double period_s) {
   double reach_m = model.radius_m + model.limits.speed_max_mps * period_s;
   for (const auto& sensor : model.sensors) {
+    if (!sensor->usesNeighbours()) continue;
     const SensorInfo& info = sensor->info();
     for (const auto& beam : info.beams) {
       reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));

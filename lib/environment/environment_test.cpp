@@ -7,6 +7,7 @@
 
 #include "environment/local_hardware.h"
 #include "environment/small_world.h"
+#include "sensors/single_robot_scene.h"
 
 namespace robosim {
 namespace {
@@ -212,6 +213,49 @@ TEST(Environment, BrakesARobotThatHasHalted) {
   environment->setCommand(1, {.activity = Activity::halted});
   environment->step();
   EXPECT_TRUE(environment->allHalted());
+}
+
+/// Counts the stationary solids near its robot. Its range is 2 m.
+class NeighbourCounter : public Sensor {
+ public:
+  NeighbourCounter() {
+    info_.kind = SensorKind::heat;
+    info_.label = "neighbours";
+    info_.range_max_m = 2;
+    info_.beams.push_back({{0, 0, 0.1, 0, 0, 0}});
+  }
+  const SensorInfo& info() const override { return info_; }
+  void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
+             std::span<Readings> readings) const override {
+    for (const auto robot : robots) {
+      const auto& pose = now.world_from_robot[robot];
+      double& count = std::get<Scalar>(readings[robot].measurements[slot]).value;
+      count = 0;
+      now.near[robot].visitNear(
+          {pose.x, pose.y}, [] { return 100.0; }, [&](std::uint32_t) { ++count; });
+    }
+  }
+
+ private:
+  SensorInfo info_;
+};
+
+TEST(Environment, ListsNeighboursUpToTheRangeOfTheSensorsThatUseThem) {
+  Scenario s;
+  addWall(s.world, 1, 0, 0.1, 0.1);
+  addWall(s.world, 8, 0, 0.1, 0.1);
+  s.robot("a", {0, 0, 0});
+  for (const auto& [other, neighbours] : {std::pair{"<beacons range_max_m='50'><beacon x_m='9'/></beacons>", 1},
+                                          std::pair{"<laser range_max_m='9'/>", 2}}) {
+    FleetRobot& robot = s.fleet.robots[0];
+    auto model = std::make_shared<RobotModel>(*robot.model);
+    model->sensors = {std::make_shared<NeighbourCounter>(), sensorFrom(other)};
+    model->sensor_infos =
+        std::make_shared<std::vector<SensorInfo>>(std::vector{model->sensors[0]->info(), model->sensors[1]->info()});
+    robot.info.sensors = model->sensor_infos;
+    robot.model = std::move(model);
+    EXPECT_EQ(std::get<Scalar>(s.start()->state().readings[0].measurements[0]).value, neighbours) << other;
+  }
 }
 
 TEST(Environment, ProvidesARobotAsHardware) {

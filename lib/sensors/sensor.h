@@ -72,6 +72,8 @@ class Sensor {
   /// (camera), or is cheaper to compute than to transmit (compass, heat, bumper). Any other sensor measures Echoes,
   /// which a replica may compute.
   virtual bool sensesInHostProcess() const { return false; }
+  /// Whether sense() uses Snapshot::near, which then covers the sensor's beams.
+  virtual bool usesNeighbours() const { return true; }
   /// Replaces readings[r].measurements[slot] for each r of `robots`; the old value is that of the step before, and is
   /// the only memory of a sensor. A sensor with sensesInHostProcess() may read slots before its own, which are already
   /// updated.
