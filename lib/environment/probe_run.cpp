@@ -26,12 +26,14 @@ constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of se
   </sensors>
 </robot>)";
 
-/// Makes bytes that depend on the pose in place of a picture.
+/// Makes bytes that depend on the pose, between the marks of a JPEG file.
 class PoseImages : public ImageSource {
  public:
   void take(const CameraView&, std::span<const mrpt::math::TPose2D> world_from_robot,
             std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override {
-    for (std::size_t i = 0; i < robots.size(); ++i) jpegs[i] = std::to_string(world_from_robot[robots[i]].x);
+    for (std::size_t i = 0; i < robots.size(); ++i) {
+      jpegs[i] = "\xFF\xD8" + std::to_string(world_from_robot[robots[i]].x) + "\xFF\xD9";
+    }
   }
 };
 

@@ -72,6 +72,7 @@ struct MeasurementReader {
     if constexpr (kHasPresenceFlag<M>) D::isPresent(measurement) = in.takeFlag();
     if constexpr (kIsFile<M>) {
       D::file(measurement) = in.takeText(kPictureBytesMax);
+      requireContents(D::fileFaultOf(D::file(measurement)).empty(), "a picture is no JPEG file");
     } else {
       forNumbers(measurement, [&](const auto& field, auto& number, std::size_t) {
         number = in.takeNumber<std::remove_reference_t<decltype(number)>>();

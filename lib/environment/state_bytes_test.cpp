@@ -112,6 +112,23 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
             "with those of the run that saved it");
 }
 
+TEST(StateBytes, RefuseAPictureThatIsNoJpegFile) {
+  ProbeRun run(1);
+  std::string jpeg;
+  while (jpeg.empty()) {
+    run.step();
+    for (const Measurement& measurement : run.environment().state().readings[0].measurements) {
+      if (const auto* image = std::get_if<Image>(&measurement)) jpeg = image->jpeg;
+    }
+  }
+  const Model& model = *run.environment().model();
+  std::string forged = toBytes(model, run.environment().state());
+  ASSERT_NE(forged.find(jpeg), std::string::npos);
+  forged[forged.find(jpeg)] = 'G';
+  EXPECT_EQ(errorOf(model, sealed(forged)),
+            "the contents of a saved state are invalid: a picture is no JPEG file; save the state again");
+}
+
 TEST(StateBytes, OfAnotherModelAreRefused) {
   const Saved saved;
   const auto is_refused_after = [&](const std::function<void(Model&)>& change) {

@@ -54,6 +54,14 @@ std::string faultOf(const char* name, const Unit& unit, double min, double max, 
                      : "; it must be a finite number");
 }
 
+std::string Description<Image>::fileFaultOf(const std::string& jpeg) {
+  if (jpeg.size() > kPictureBytesMax) {
+    return "a picture of " + std::to_string(jpeg.size()) + " bytes; the most is " + std::to_string(kPictureBytesMax);
+  }
+  const bool is_valid = jpeg.empty() || (jpeg.starts_with("\xFF\xD8") && jpeg.ends_with("\xFF\xD9"));
+  return is_valid ? "" : "a picture that is no JPEG file";
+}
+
 const char* Description<Blobs>::faultOf(const Blob& blob) {
   const auto is_inside = [](std::uint32_t from, std::uint32_t size, float middle) {
     return from <= kPictureSideMax_px && size <= kPictureSideMax_px - from && middle >= static_cast<float>(from) &&

@@ -30,7 +30,8 @@ namespace robosim {
 /// Optional members:
 ///  * isPresent(m): whether the sensor measured something in this step, for sensors that do not in every step. May
 ///    return a reference, which is then set when a measurement is decoded;
-///  * file(m): the bytes of a file, for a kind without numbers;
+///  * file(m): the bytes of a file, for a kind without numbers, and fileFaultOf(bytes): why they are impossible; empty
+///    for valid ones;
 ///  * faultOf(record): why a record is impossible, beyond the fields' bounds; null for a valid record;
 ///  * is_reproducible = false: values may differ between machines (doc/decisions/pictures.md), and are neither part of
 ///    the digest nor compared with a recording.
@@ -129,6 +130,7 @@ struct Description<Image> {
   static Image blank(const SensorInfo&) { return {}; }
   static bool isPresent(const Image& image) { return !image.jpeg.empty(); }
   static auto& file(auto& image) { return image.jpeg; }
+  static std::string fileFaultOf(const std::string& jpeg);
 };
 
 /// Largest connected region of one colour. Image coordinates point right and down; (0, 0) is the centre of the upper

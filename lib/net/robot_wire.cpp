@@ -59,15 +59,6 @@ std::size_t numberCount(const M& measurement) {
   return Description<M>::records(measurement).size() * kFieldCount<M>;
 }
 
-void checkJpeg(const std::string& jpeg) {
-  if (jpeg.empty()) return;
-  if (jpeg.size() > kPictureBytesMax) {
-    throw WireError("a picture of " + std::to_string(jpeg.size()) + " bytes; the most is " +
-                    std::to_string(kPictureBytesMax));
-  }
-  if (!jpeg.starts_with("\xFF\xD8") || !jpeg.ends_with("\xFF\xD9")) throw WireError("a picture that is no JPEG file");
-}
-
 /// Decodes the numbers of a kind of measurement; none are a step in which an intermittent sensor measured nothing.
 template <typename M>
 void decodeNumbers(const wire::Measurement& in, M& out) {
@@ -149,7 +140,7 @@ void decode(const wire::Measurement& in, Measurement& out) {
   std::visit(
       [&]<typename M>(M& kind) {
         if constexpr (kIsFile<M>) {
-          checkJpeg(in.jpeg());
+          if (const auto fault = Description<M>::fileFaultOf(in.jpeg()); !fault.empty()) throw WireError(fault);
           Description<M>::file(kind) = in.jpeg();
         } else {
           decodeNumbers(in, kind);
