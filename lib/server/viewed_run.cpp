@@ -40,6 +40,7 @@ void loadWorldFrom(ViewedRun& run, const wire::Frame& frame) {
   run.may_operate = frame.may_operate();
   const auto& robots = run.world.fleet.robots;
   run.snapshot.robots.assign(robots.size(), {});
+  run.spare_readings.assign(robots.size(), {});
   if (static_cast<std::size_t>(frame.robots_size()) != robots.size()) {
     throw WireError("a first frame that does not show every robot");
   }
@@ -54,6 +55,17 @@ void decodePictureTimes(ViewedRun& run, const wire::ReadingsView& of) {
     }
     run.picture_steps[{of.robot(), time.sensor()}] = time.step();
   }
+}
+
+/// Readings to fill for a robot of a frame, which may be listed twice.
+Readings& takeReadings(ViewedRun& run, std::size_t robot) {
+  auto& readings = run.snapshot.robots[robot].readings;
+  auto& spare = run.spare_readings[robot];
+  if (readings) return *readings;
+  if (!spare) return readings.emplace(blankReadings(*run.world.fleet.robots[robot].info.sensors));
+  readings = std::move(spare);
+  spare.reset();
+  return *readings;
 }
 
 void checkRobot(std::uint32_t robot, const ViewedRun& run) {
@@ -107,7 +119,11 @@ bool update(ViewedRun& run, const wire::Frame& frame) {
   RunSnapshot& snapshot = run.snapshot;
   snapshot.step = frame.step();
   snapshot.time_s = frame.time_s();
-  for (auto& robot : snapshot.robots) robot.readings.reset();
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    auto& readings = snapshot.robots[i].readings;
+    if (readings) run.spare_readings[i] = std::move(readings);
+    readings.reset();
+  }
   for (const auto& robot : frame.robots()) {
     checkRobot(robot.robot(), run);
     decodeRobot(robot, snapshot.robots[robot.robot()]);
@@ -116,7 +132,7 @@ bool update(ViewedRun& run, const wire::Frame& frame) {
   for (const auto& of : frame.readings()) {
     checkRobot(of.robot(), run);
     const RobotInfo& robot = run.world.fleet.robots[of.robot()].info;
-    Readings& readings = snapshot.robots[of.robot()].readings.emplace(blankReadings(*robot.sensors));
+    Readings& readings = takeReadings(run, of.robot());
     readings.time = {snapshot.step, run.period_s};
     decode(of.readings(), robot.name, readings);
     decodePictureTimes(run, of);

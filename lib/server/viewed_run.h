@@ -33,6 +33,8 @@ struct ViewedRun {
   RunSnapshot snapshot;
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t> picture_steps;  ///< by robot and sensor, of this frame
 
+  std::vector<std::optional<Readings>> spare_readings;  ///< by robot: of former frames, whose memory is used again
+
   /// A robot's readings at this step; null unless selected.
   const Readings* readingsOf(std::size_t robot) const {
     const auto& readings = snapshot.robots[robot].readings;

@@ -53,6 +53,21 @@ TEST(ViewedRun, HasTheReadingsOfAFrameForThatFrameOnly) {
   EXPECT_EQ(run.readingsOf(1), nullptr);
 }
 
+TEST(ViewedRun, UsesTheMemoryOfFormerReadingsAgain) {
+  const std::vector<Readings> measured = readingsOfTheMaze();
+  ViewedRun run = runAfter(firstFrame());
+  wire::Frame with_readings;
+  encode(measured, ReadingsSelection{.of_all = false, .of = {1}}, with_readings);
+  update(run, with_readings);
+  run.snapshot.robots[1].readings->measurements.reserve(1000);
+  for (const auto& frame : {with_readings, wire::Frame(), with_readings}) update(run, frame);
+  EXPECT_GE(run.readingsOf(1)->measurements.capacity(), 1000u);
+  EXPECT_EQ(run.readingsOf(1)->measurements, measured[1].measurements);
+  update(run, firstFrame());  // another world
+  update(run, with_readings);
+  EXPECT_LT(run.readingsOf(1)->measurements.capacity(), 1000u);
+}
+
 TEST(ViewedRun, OfAllRobotsHasTheReadingsOfEach) {
   const std::vector<Readings> measured = readingsOfTheMaze();
   wire::Frame frame = firstFrame();
