@@ -20,6 +20,7 @@ struct Arguments {
   std::string source;
   ConnectionArguments connection;
   WorldChanges changes;
+  std::uint64_t seed = 1;
   bool is_2d = false, is_3d = false;
   std::vector<std::string> follow;
   std::vector<std::string> views;
@@ -113,7 +114,7 @@ void view(const Arguments& a) {
     connection.environment = address;
     return connection.connectOptions();
   };
-  const auto source = openView(a.source, connect_options, a.changes);
+  const auto source = openView(a.source, connect_options, a.changes, a.seed);
   refuseOverwriting(source->inputs(), {a.offscreen});
   checkTimes(a, *source);
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
@@ -135,6 +136,10 @@ void addView(CLI::App& program) {
       ->type_name("ADDRESS|FILE")
       ->required();
   addRobotOptions(*command, a->changes);
+  command->add_option("--seed", a->seed, "seed of the positions of --random-robots; 0 to 2^64 - 1")
+      ->check(seedNumber())
+      ->type_name("NUMBER")
+      ->capture_default_str();
   command->add_flag("--2d", a->is_2d, "from above, to scale (the default)");
   command->add_flag("--3d", a->is_3d, "in perspective; may be combined with --2d");
   command->add_option("--follow", a->follow, "follow this robot; repeatable, adds a view each")->type_name("ROBOT");

@@ -15,15 +15,15 @@ void refuseChanges(const std::string& source, const WorldChanges& changes, const
   throw ConfigError(source + ": is " + what + "; --robot and --random-robots add to a world or a map only");
 }
 
-std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes) {
-  if (isMapFile(source)) return viewWorld(source, changes);
+std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes, std::uint64_t seed) {
+  if (isMapFile(source)) return viewWorld(source, changes, seed);
   auto file = std::make_unique<RereadableFile>(source);
   // XML begins with '<', after white space or a byte order mark; a rawlog is compressed, or begins with a length.
   char first = 0;
   InputFile(file->path()).read(&first, 1);
   const bool is_text =
       first == '<' || first == '\n' || first == '\r' || first == '\t' || first == ' ' || first == '\xef';
-  if (is_text && !changes.isNone()) return viewWorld(source, changes);
+  if (is_text && !changes.isNone()) return viewWorld(source, changes, seed);
   if (is_text) return viewWorld(source, readXmlText(file->path()));
   refuseChanges(source, changes, "a recording");
   return viewRawlog(source, std::move(file));
@@ -33,9 +33,9 @@ std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChang
 
 std::unique_ptr<ViewSource> openView(const std::string& source,
                                      const std::function<ConnectOptions(const std::string& address)>& connect_options,
-                                     const WorldChanges& changes) {
+                                     const WorldChanges& changes, std::uint64_t seed) {
   std::error_code ignored;  // for broken links
-  if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored))) return viewFile(source, changes);
+  if (std::filesystem::exists(std::filesystem::symlink_status(source, ignored))) return viewFile(source, changes, seed);
   const bool looks_like_file = source.find('/') != std::string::npos || source.ends_with(".xml") ||
                                source.ends_with(".rawlog") || isMapFile(source);
   if (looks_like_file)

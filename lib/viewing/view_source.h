@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -65,8 +66,10 @@ class ViewSource {
 RunSnapshot snapshotOf(const Environment& environment);
 
 /// A world in its initial state; a map file stands for a world that consists of this map only.
-/// @param changes of the world; random places use seed 1
-std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes = {});
+/// @param changes of the world
+/// @param seed of random places and of noise, as in a run
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes = {},
+                                      std::uint64_t seed = 1);
 /// The same for the text of a world file.
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text);
 /// A recording made by RoboSim or by another program.
@@ -78,9 +81,10 @@ std::unique_ptr<ViewSource> viewEnvironment(const ConnectOptions& connect_option
 /// Any of these: an address (HOST:PORT), a map by its file name, or a file recognised as a world or a rawlog by its
 /// content.
 /// @param connect_options for the given address; called only for an address
+/// @param seed of the changes
 /// @throws ConfigError when it is none of them, and for changes of anything but a world or a map.
 std::unique_ptr<ViewSource> openView(const std::string& source,
                                      const std::function<ConnectOptions(const std::string& address)>& connect_options,
-                                     const WorldChanges& changes = {});
+                                     const WorldChanges& changes = {}, std::uint64_t seed = 1);
 
 }  // namespace robosim

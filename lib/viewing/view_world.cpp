@@ -9,9 +9,10 @@ namespace {
 
 class WorldView final : public ViewSource {
  public:
-  WorldView(const std::string& file, LoadedWorld world) : title_(file), world_(std::move(world)) {
+  WorldView(const std::string& file, LoadedWorld world, std::uint64_t seed = 1)
+      : title_(file), world_(std::move(world)) {
     // An environment measures the readings at the start poses.
-    snapshot_ = snapshotOf(Environment(world_.world, world_.fleet, {}));
+    snapshot_ = snapshotOf(Environment(world_.world, world_.fleet, {.seed = seed}));
   }
 
   const LoadedWorld& world() const override { return world_; }
@@ -39,10 +40,12 @@ RunSnapshot snapshotOf(const Environment& environment) {
   return snapshot;
 }
 
-std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes) {
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes, std::uint64_t seed) {
   return std::make_unique<WorldView>(
-      file, changes.isNone() ? loadWorld(file, controllerNames())
-                             : loadWorld(withChanges(readWorldSource(file), changes, 1), controllerNames()));
+      file,
+      changes.isNone() ? loadWorld(file, controllerNames())
+                       : loadWorld(withChanges(readWorldSource(file), changes, seed), controllerNames()),
+      seed);
 }
 
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text) {

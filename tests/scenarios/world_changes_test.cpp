@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/scenarios/program.h"
+#include "viewing/view_source.h"
 
 namespace robosim {
 namespace {
@@ -39,6 +40,22 @@ TEST(WorldChanges, AllowRunningAMapWithoutAWorldFile) {
   EXPECT_EQ(added["steps"], 50);
   EXPECT_EQ(run("maps/office.map --controller wander --time 1")["robots"], 1) << "the one at the map's home";
   EXPECT_EQ(run("maps/office.map --random-robots 2 --controller wander --time 1")["robots"], 2);
+}
+
+TEST(WorldChanges, ShowTheRandomRobotsOfTheSeed) {
+  WorldChanges changes;
+  changes.random_robots = 3;
+  const auto poses_of = [&](std::uint64_t seed) {
+    std::vector<mrpt::math::TPose2D> poses;
+    for (const auto& robot : openView(ROBOSIM_SOURCE_DIR "/maps/lab.yaml", {}, changes, seed)->snapshot().robots) {
+      poses.push_back(robot.world_from_robot);
+    }
+    return poses;
+  };
+  EXPECT_EQ(poses_of(7).size(), 3u);
+  EXPECT_EQ(poses_of(7), poses_of(7));
+  EXPECT_NE(poses_of(7), poses_of(8));
+  EXPECT_NE(runProgram("view --help").out.find("--seed"), std::string::npos);
 }
 
 TEST(WorldChanges, RejectARobotInsideAWall) {
