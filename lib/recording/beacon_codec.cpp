@@ -34,7 +34,7 @@ class BeaconCodec : public CodecOf<mrpt::obs::CObservationBeaconRanges, BeaconRa
   bool append(const Observation& observation, ObservedNumbers& all) const override {
     for (const auto& sensed : observation.sensedData) {
       if (sensed.beaconID < 0) continue;  // unknown to the program that recorded it
-      all.push_back({"range", static_cast<std::size_t>(sensed.beaconID), kMetre, sensed.sensedDistance});
+      all.push_back({"range", static_cast<std::size_t>(sensed.beaconID), kMetre, sensed.sensedDistance, true});
     }
     return true;
   }

@@ -16,6 +16,7 @@ struct ObservedNumber {
   std::optional<std::size_t> index;  ///< in a list of equal records
   Unit unit;
   std::variant<std::monostate, float, double> value;  ///< none: nothing was measured, such as an absent echo
+  bool has_gaps = false;                              ///< the list may lack records, so that texts show the index
 
   /// Name with index and unit, such as "range_3_m".
   std::string fullName() const;

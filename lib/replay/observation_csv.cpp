@@ -69,7 +69,17 @@ void addStatus(const CObservationRawDAQ& daq, Row& row) {
   row.add("has_won", exact(static_cast<int>(status.has_won)));
 }
 
-void add(const CObservationRawDAQ& daq, Row& row) {
+/// @returns whether the observation is of this sensor, a sensor of named quantities
+bool addQuantities(const CObservationRawDAQ& daq, const SensorInfo* sensor, Row& row) {
+  if (!sensor || sensor->quantities.empty() || sensor->quantities.size() != daq.AIN_double.size()) return false;
+  for (std::size_t i = 0; i < daq.AIN_double.size(); ++i) {
+    const auto& [name, unit] = sensor->quantities[i];
+    row.add(field(name + (unit.empty() ? "" : "_" + unit)), exact(daq.AIN_double[i]));
+  }
+  return true;
+}
+
+void add(const CObservationRawDAQ& daq, const SensorInfo* described, Row& row) {
   const Label label = Label::parse(daq.sensorLabel);
   const std::string sensor = label.withinRobot();
   try {
@@ -78,6 +88,7 @@ void add(const CObservationRawDAQ& daq, Row& row) {
     // Another program's class with the same label.
   }
   if (sensor == kInbox) return row.add("messages", field(inWords(daq)));
+  if (addQuantities(daq, described, row)) return;
   for (std::size_t i = 0; i < 8 * daq.DIN.size(); ++i) {
     row.add("din_" + std::to_string(i), (daq.DIN[i / 8] >> (i % 8)) & 1U ? "1" : "0");
   }
@@ -96,7 +107,7 @@ void add(const CObservationRawDAQ& daq, Row& row) {
   row.addAll("aout", daq.AOUT_double);
 }
 
-Row rowOf(const CObservation& observation) {
+Row rowOf(const CObservation& observation, const SensorInfo* sensor) {
   Row row;
   if (const auto numbers = numbersIn(observation)) {
     for (const auto& number : *numbers) row.add(number.fullName(), std::visit(ExactText(), number.value));
@@ -106,7 +117,7 @@ Row rowOf(const CObservation& observation) {
     row.names = {"x_m", "y_m", "z_m"};
     row.add("heading_rad", exact(pose.yaw()));
   } else if (const auto* daq = dynamic_cast<const CObservationRawDAQ*>(&observation)) {
-    add(*daq, row);
+    add(*daq, sensor, row);
   } else {
     row.add("text", field(inWords(observation)));
   }
@@ -121,8 +132,8 @@ std::string joined(const std::vector<std::string>& fields) {
 
 }  // namespace
 
-std::string ObservationCsv::lines(const CObservation& observation, double time_s) {
-  const Row row = rowOf(observation);
+std::string ObservationCsv::lines(const CObservation& observation, double time_s, const SensorInfo* sensor) {
+  const Row row = rowOf(observation, sensor);
   const std::string label = field(observation.sensorLabel);
   std::string text;
   const std::string names = "seconds,label" + joined(row.names);

@@ -4,6 +4,8 @@
 
 #include <mrpt/obs/CObservation.h>
 
+#include "hardware/sensor_info.h"
+
 namespace robosim {
 
 /// Writer of observations as comma-separated values (RFC 4180 with LF line ends). A row is "seconds,label," followed by
@@ -12,7 +14,8 @@ namespace robosim {
 class ObservationCsv {
  public:
   /// The observation's row, preceded by the column names if it is the first of its label.
-  std::string lines(const mrpt::obs::CObservation& observation, double time_s);
+  /// @param sensor its description (RecordedSensors); null if unknown
+  std::string lines(const mrpt::obs::CObservation& observation, double time_s, const SensorInfo* sensor = nullptr);
 
  private:
   std::map<std::string, std::string> names_;  ///< last column names, by label

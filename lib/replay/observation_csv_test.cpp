@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
 
 namespace robosim {
 namespace {
@@ -25,6 +26,21 @@ TEST(ObservationCsv, NamesTheColumnsAgainWheneverTheyChange) {
   EXPECT_EQ(csv.lines(receivedFrom({0, 1}), 1), "1.0000000,Rover/beacons,1,2\n");
   EXPECT_EQ(csv.lines(receivedFrom({1, 2}), 2), "seconds,label,range_1_m,range_2_m\n2.0000000,Rover/beacons,2,3\n");
   EXPECT_EQ(csv.lines(receivedFrom({0, 1}), 3), first + "3.0000000,Rover/beacons,1,2\n");
+}
+
+TEST(ObservationCsv, NamesTheQuantitiesOfADescribedSensor) {
+  mrpt::obs::CObservationRawDAQ observation;
+  observation.sensorLabel = "Rover/air";
+  observation.AIN_double = {412, 0.5};
+  SensorInfo air;
+  air.kind = SensorKind::values;
+  air.quantities = {{"co2", "ppm"}, {"state, total", ""}};
+  EXPECT_EQ(ObservationCsv().lines(observation, 0, &air),
+            "seconds,label,co2_ppm,\"state, total\"\n0.0000000,Rover/air,412,0.5\n");
+  EXPECT_EQ(ObservationCsv().lines(observation, 0), "seconds,label,ain_0,ain_1\n0.0000000,Rover/air,412,0.5\n");
+  air.quantities.pop_back();
+  EXPECT_EQ(ObservationCsv().lines(observation, 0, &air), "seconds,label,ain_0,ain_1\n0.0000000,Rover/air,412,0.5\n")
+      << "another sensor's";
 }
 
 }  // namespace

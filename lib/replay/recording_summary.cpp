@@ -18,6 +18,7 @@
 #include "base/text_table.h"
 #include "recording/rawlog_reader.h"
 #include "replay/observation_csv.h"
+#include "replay/recorded_sensors.h"
 #include "replay/replay.h"
 #include "replay/selection.h"
 #include "replay/value_text.h"
@@ -205,6 +206,7 @@ void printObservations(const ReplayArguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const double speed = arguments.speed;
   const Interrupt interrupt;
+  const RecordedSensors sensors = RecordedSensors::of(arguments.rawlog);
   RawlogReader reader(arguments.rawlog);
   Selection selection(arguments);
   ObservationCsv csv;
@@ -220,13 +222,14 @@ void printObservations(const ReplayArguments& arguments) {
       if (left.count() <= 0) break;
       std::this_thread::sleep_for(std::min(left, std::chrono::duration<double>(0.05)));
     }
+    const SensorInfo* sensor = sensors.find(observation->sensorLabel);
     if (arguments.csv) {
-      std::cout << csv.lines(*observation, time_s);
+      std::cout << csv.lines(*observation, time_s, sensor);
       if (speed > 0) std::cout.flush();
       continue;
     }
-    std::cout << fixed(time_s, 3) << " s  " << printableText(observation->sensorLabel) << "  " << inWords(*observation)
-              << '\n';
+    std::cout << fixed(time_s, 3) << " s  " << printableText(observation->sensorLabel) << "  "
+              << inWords(*observation, sensor) << '\n';
     if (speed > 0) std::cout.flush();
   }
   if (reader.readError()) std::cerr << printableText(*reader.readError()) << '\n';

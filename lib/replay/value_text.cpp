@@ -10,6 +10,7 @@
 
 #include "base/printable_text.h"
 #include "base/text_table.h"
+#include "hardware/measurement_fields.h"
 #include "recording/observed_numbers.h"
 #include "recording/rawlog_reader.h"
 #include "recording/recording_error.h"
@@ -34,7 +35,8 @@ std::string inWords(const ObservedNumber& number, int digits) {
       number.value);
 }
 
-/// "x 1.000 m, heading 90.0°"; of a list of records only the values, "0.52 – 1.20 m".
+/// "x 1.000 m, heading 90.0°"; of a list of records only the values, "0.52 – 1.20 m"; with their indices if records may
+/// be missing, "0: 5.00 2: 7.00 m".
 std::string inWords(const ObservedNumbers& numbers) {
   std::string text;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -43,7 +45,8 @@ std::string inWords(const ObservedNumbers& numbers) {
     const std::string symbol = number.unit.symbol;
     const std::string unit = is_continued || symbol.empty() ? "" : " " + symbol;
     if (number.index) {
-      text += (text.empty() ? "" : " ") + inWords(number, 2) + unit;
+      const std::string index = number.has_gaps ? std::to_string(*number.index) + ": " : "";
+      text += (text.empty() ? "" : " ") + index + inWords(number, 2) + unit;
     } else if (symbol == kRadian.symbol && std::holds_alternative<double>(number.value)) {
       text +=
           (text.empty() ? "" : ", ") + number.name + " " + fixed(std::get<double>(number.value) * 180 / M_PI, 1) + "°";
@@ -72,12 +75,26 @@ std::string inboxInWords(const CObservation& observation) {
   return text;
 }
 
-/// A blob finder has seven numbers for each colour.
-std::string blobsInWords(const std::vector<double>& numbers) {
+/// Numbers of a colour of a blob finder.
+constexpr std::size_t kNumbersPerBlob = kFieldCount<Blobs>;
+
+/// "gold 120 px at (3.5, 4.0); red 0 px"
+std::string blobsInWords(const std::vector<double>& numbers, const std::vector<std::string>& colors) {
   std::string text;
-  for (std::size_t i = 0; i + 7 <= numbers.size(); i += 7) {
-    text += (text.empty() ? "" : "; ") + fixed(numbers[i], 0) + " px";
-    if (numbers[i] > 0) text += " round (" + fixed(numbers[i + 1], 1) + ", " + fixed(numbers[i + 2], 1) + ")";
+  for (std::size_t i = 0; i < colors.size(); ++i) {
+    const double* const blob = &numbers[i * kNumbersPerBlob];
+    text += (text.empty() ? "" : "; ") + colors[i] + " " + fixed(blob[0], 0) + " px";
+    if (blob[0] > 0) text += " at (" + fixed(blob[1], 1) + ", " + fixed(blob[2], 1) + ")";
+  }
+  return text;
+}
+
+/// "co2 412.000 ppm, humidity 0.450"
+std::string valuesInWords(const std::vector<double>& numbers, const std::vector<Quantity>& quantities) {
+  std::string text;
+  for (std::size_t i = 0; i < quantities.size(); ++i) {
+    const auto& [name, unit] = quantities[i];
+    text += (text.empty() ? "" : ", ") + name + " " + fixed(numbers[i], 3) + (unit.empty() ? "" : " " + unit);
   }
   return text;
 }
@@ -115,7 +132,7 @@ std::string inputsInWords(const CObservationRawDAQ& daq) {
   return text.empty() ? classOf(daq) : text.substr(2);
 }
 
-std::string inWords(const CObservationRawDAQ& daq) {
+std::string inWords(const CObservationRawDAQ& daq, const SensorInfo* described) {
   const Label label = Label::parse(daq.sensorLabel);
   const std::string sensor = label.withinRobot();
   try {
@@ -125,18 +142,23 @@ std::string inWords(const CObservationRawDAQ& daq) {
     // Another program's class with the same label.
   }
   if (label.part == kPoints) return pointsInWords(daq.AIN_float);
-  const bool is_blobs = daq.DIN.empty() && !daq.AIN_double.empty() && daq.AIN_double.size() % 7 == 0;
-  return is_blobs ? blobsInWords(daq.AIN_double) : inputsInWords(daq);
+  if (!described) return inputsInWords(daq);
+  const auto& numbers = daq.AIN_double;
+  const auto& colors = described->colors;
+  const auto& quantities = described->quantities;
+  if (!colors.empty() && numbers.size() == colors.size() * kNumbersPerBlob) return blobsInWords(numbers, colors);
+  if (!quantities.empty() && numbers.size() == quantities.size()) return valuesInWords(numbers, quantities);
+  return inputsInWords(daq);
 }
 
-std::string unsafeWords(const CObservation& observation) {
+std::string unsafeWords(const CObservation& observation, const SensorInfo* sensor) {
   if (const auto numbers = numbersIn(observation)) return numbers->empty() ? "–" : inWords(*numbers);
   if (const auto* picture = dynamic_cast<const mrpt::obs::CObservationImage*>(&observation)) {
     if (picture->image.isExternallyStored()) return "picture " + picture->image.getExternalStorageFile();
     return "picture of " + std::to_string(picture->image.getWidth()) + " × " +
            std::to_string(picture->image.getHeight()) + " px";
   }
-  if (const auto* daq = dynamic_cast<const CObservationRawDAQ*>(&observation)) return inWords(*daq);
+  if (const auto* daq = dynamic_cast<const CObservationRawDAQ*>(&observation)) return inWords(*daq, sensor);
   if (const auto pose = poseIn(observation)) {
     return "x " + fixed(pose->x, 3) + " m, y " + fixed(pose->y, 3) + " m, heading " + fixed(pose->phi * 180 / M_PI, 1) +
            "°";
@@ -154,7 +176,9 @@ std::string inWords(const Command& command) {
   return text;
 }
 
-std::string inWords(const CObservation& observation) { return printableText(unsafeWords(observation)); }
+std::string inWords(const CObservation& observation, const SensorInfo* sensor) {
+  return printableText(unsafeWords(observation, sensor));
+}
 
 std::string classOf(const CObservation& observation) {
   const std::string name = observation.GetRuntimeClass()->className;

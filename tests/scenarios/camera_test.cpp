@@ -94,6 +94,8 @@ TEST(Camera, RecordsPicturesAtItsRate) {
     EXPECT_EQ(count[label], 51) << label;
   }
   EXPECT_EQ(count["Ann/sonar"], 101);
+  const std::string printed = runProgram("replay --print --sensor blob_finder " + quoted(rawlog)).out;
+  EXPECT_EQ(countOf("/blob_finder  gold ", printed), 2 * 51) << printed;
 }
 
 TEST(Camera, WritesExternalPicturesThatRawlogEditLists) {

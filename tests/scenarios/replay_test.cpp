@@ -138,6 +138,7 @@ TEST(Replay, PrintsAndRepeatsRangesToBeacons) {
   const std::string csv = runProgram("replay --print --csv --sensor beacons " + rawlog).out;
   EXPECT_EQ(csv.rfind("seconds,label,range_0_m\n0.0000000,R/beacons,", 0), 0U) << csv;
   const std::string text = runProgram("replay --print --sensor beacons " + rawlog).out;
+  EXPECT_EQ(countOf("s  R/beacons  0: ", text), 21U) << text;
   EXPECT_EQ(countOf(" m\n", text), 21U) << text;
 }
 
