@@ -36,9 +36,9 @@ constexpr const char* kSession =
     "and on the other machine, with cert.pem and the token in a file of mode 600:\n"
     "  robosim control sim.example.org:3000 status --tls-ca cert.pem --token-file token\n"
     "The command load of a control panel starts the next run; its output files are numbered: run_2.rawlog.\n"
-    "Exit codes: 0 complete; 3 steps were taken without a robot, or messages were lost; 4 a geometry worker returned "
-    "wrong\n"
-    "results; 1 bad input, 2 run failed. The summary, --json and the recording name robots and workers.\n";
+    "Exit codes: 0 complete, also when a signal (Ctrl-C, SIGTERM, SIGHUP) has ended it; 3 steps were taken without a\n"
+    "robot, or messages were lost; 4 a geometry worker returned wrong results; 1 bad input, 2 run failed. The summary,\n"
+    "--json and the recording name robots and workers.\n";
 
 struct Arguments {
   RunArguments of_run;
