@@ -12,6 +12,7 @@
 #include "base/error_list.h"
 #include "base/log_limiter.h"
 #include "net/audit.h"
+#include "net/flood_guard.h"
 #include "net/open_port.h"
 #include "net/remote.grpc.pb.h"
 #include "net/robot_wire.h"
@@ -163,7 +164,8 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ControlRequest,
 
   std::string peer, name;
   Identity client;
-  DrivenRobot* robot = nullptr;  ///< null before its INIT
+  DrivenRobot* robot = nullptr;        ///< null before its INIT
+  flood_guard::Exemption exemption{};  ///< of a driver, which may send more than it receives
 
  private:
   /// Sends the next message, unless another is being sent.
@@ -245,6 +247,7 @@ void RemotePort::Impl::init(Stream& stream, const RemoteOrder& order) {
     return;
   }
   if (!robot->driver) stream.audit("take " + order.robot + (order.driver.empty() ? "" : " (" + order.driver + ")"));
+  if (robot->driver != &stream) stream.exemption = flood_guard::Exemption(stream.peer);
   robot->driver = &stream;
   robot->robot().take(stream.name.empty() ? stream.peer : stream.name, order.autonomous);
   sendState(*robot);
@@ -269,6 +272,7 @@ void RemotePort::Impl::handle(Stream& stream, const RemoteOrder& order) {
 /// Releases the robot of a driver. No effect for others.
 void RemotePort::Impl::releaseRobot(Stream& stream) {
   if (!stream.isDriver()) return;
+  stream.exemption = flood_guard::Exemption();
   stream.robot->driver = nullptr;
   stream.robot->robot().release("its remote control has disconnected");
   sendState(*stream.robot);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include "net/remote.grpc.pb.h"
 #include "net/viewing.pb.h"
 #include "net/wire_error.h"
 #include "tests/scenarios/attacked_run.h"
@@ -149,6 +150,27 @@ TEST(Attack, DisconnectsRapidResetAndThrottlesItsAddress) {
   if (isVerifying()) {
     EXPECT_GT(pace, calm_pace / 2);
   }
+}
+
+TEST(Attack, DisconnectsRapidResetAtARemotePort) {
+  constexpr std::size_t kResets = 1'000'000;
+  AttackedRun run({"--speed", "20", "--step-deadline", "600"});
+  StartedProgram robots({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", run.address(),
+                         "--remote-port", "127.0.0.1:0"});
+  const std::string announced = "remote control on ";
+  robots.waitForError(announced);
+  const std::string log = robots.error();
+  const auto at = log.find(announced) + announced.size();
+  const std::string address = log.substr(at, log.find('\n', at) - at);
+  run.waitForSteps(20);
+  Http2Peer attacker(address);
+  ASSERT_TRUE(attacker.sendPreface());
+  EXPECT_LT(attacker.resetStreams(kResets, std::string("/") + wire::RemoteControl::service_full_name() + "/Control"),
+            kResets);
+  robots.waitForError("it floods the server with HTTP/2 frames; no connection from 127.0.0.1 is accepted for 30 s");
+  Http2Peer again(address);
+  again.waitUntilClosed();
+  run.waitForSteps(20);
 }
 
 }  // namespace
