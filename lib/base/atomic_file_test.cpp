@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
-#include "base/file_size_limit.h"
 #include "base/input_file.h"
-#include "base/test_folder.h"
+#include "base/testing/file_size_limit.h"
+#include "base/testing/test_folder.h"
 
 namespace robosim {
 namespace {

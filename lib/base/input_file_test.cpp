@@ -13,7 +13,7 @@
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/rereadable_file.h"
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "base/error_list.h"
 #include "base/random.h"
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 #include "base/xml_parser.h"
 
 namespace robosim {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "control/fake_hardware.h"
 #include "control/pioneer_robot.h"
+#include "control/testing/fake_hardware.h"
 
 namespace robosim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/error_list.h"
 #include "control/blocking_controller.h"
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 
 namespace robosim {
 namespace {

@@ -9,10 +9,10 @@
 
 #include "control/blocking_controller.h"
 #include "control/controller.h"
-#include "control/fake_hardware.h"
 #include "control/pioneer_robot.h"
 #include "control/scout_robot.h"
 #include "control/stock_actions.h"
+#include "control/testing/fake_hardware.h"
 
 namespace robosim {
 namespace {

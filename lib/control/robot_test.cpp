@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "control/echo.h"
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 
 namespace robosim {
 namespace {

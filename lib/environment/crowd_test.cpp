@@ -4,7 +4,7 @@
 
 #include "base/random.h"
 #include "environment/environment.h"
-#include "environment/small_world.h"
+#include "environment/testing/small_world.h"
 
 namespace robosim {
 namespace {

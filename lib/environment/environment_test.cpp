@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "environment/local_hardware.h"
-#include "environment/small_world.h"
-#include "sensors/single_robot_scene.h"
+#include "environment/testing/small_world.h"
+#include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {

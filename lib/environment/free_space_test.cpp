@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "environment/small_world.h"
+#include "environment/testing/small_world.h"
 
 namespace robosim {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "base/digest.h"
 #include "base/error_list.h"
-#include "environment/probe_run.h"
-#include "environment/small_world.h"
+#include "environment/testing/probe_run.h"
+#include "environment/testing/small_world.h"
 
 namespace robosim {
 namespace {

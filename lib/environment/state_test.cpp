@@ -8,9 +8,9 @@
 
 #include <gtest/gtest.h>
 
-#include "environment/probe_run.h"
-#include "environment/small_world.h"
 #include "environment/state_bytes.h"
+#include "environment/testing/probe_run.h"
+#include "environment/testing/small_world.h"
 
 namespace robosim {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "environment/local_hardware.h"
-#include "environment/small_world.h"
+#include "environment/testing/small_world.h"
 
 namespace robosim {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 
 namespace robosim {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "maze/controllers.h"
-#include "maze/fake_maze.h"
+#include "maze/testing/fake_maze.h"
 
 namespace {
 std::atomic<long> allocations{0};

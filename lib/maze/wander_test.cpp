@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "maze/fake_maze.h"
+#include "maze/testing/fake_maze.h"
 
 namespace robosim {
 namespace {

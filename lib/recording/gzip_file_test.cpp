@@ -11,9 +11,9 @@
 #include <unistd.h>
 
 #include "base/error_list.h"
-#include "base/file_size_limit.h"
 #include "base/random.h"
-#include "base/test_folder.h"
+#include "base/testing/file_size_limit.h"
+#include "base/testing/test_folder.h"
 #include "recording/recording_error.h"
 #include "recording/unpacked_file.h"
 

@@ -10,12 +10,12 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRawDAQ.h>
 
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 #include "recording/byte_archive.h"
 #include "recording/jpeg_observation.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
-#include "recording/sample_robot.h"
+#include "recording/testing/sample_robot.h"
 
 namespace robosim {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "recording/cone_aperture.h"
 #include "recording/jpeg_observation.h"
-#include "recording/sample_robot.h"
+#include "recording/testing/sample_robot.h"
 
 namespace robosim {
 namespace {

@@ -11,12 +11,12 @@
 #include <mrpt/obs/CRawlog.h>
 
 #include "base/error_list.h"
-#include "base/file_size_limit.h"
-#include "base/test_folder.h"
+#include "base/testing/file_size_limit.h"
+#include "base/testing/test_folder.h"
 #include "recording/measurements.h"
 #include "recording/observations.h"
 #include "recording/recording_error.h"
-#include "recording/sample_robot.h"
+#include "recording/testing/sample_robot.h"
 
 namespace robosim {
 namespace {

@@ -10,13 +10,13 @@
 #include <zlib.h>
 
 #include "base/error_list.h"
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 #include "recording/byte_archive.h"
 #include "recording/memory_bound.h"
 #include "recording/observations.h"
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
-#include "recording/sample_robot.h"
+#include "recording/testing/sample_robot.h"
 
 namespace robosim {
 namespace {

@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 #include "recording/rawlog_writer.h"
-#include "recording/sample_robot.h"
+#include "recording/testing/sample_robot.h"
 
 namespace robosim {
 namespace {

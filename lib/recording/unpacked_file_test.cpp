@@ -9,7 +9,7 @@
 #include <zlib.h>
 
 #include "base/error_list.h"
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 #include "net/robot_wire.h"
 
 namespace robosim {

@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/file_size_limit.h"
-#include "base/test_folder.h"
+#include "base/testing/file_size_limit.h"
+#include "base/testing/test_folder.h"
 
 namespace robosim {
 namespace {

@@ -9,7 +9,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 #include "base/xml_parser.h"
 #include "world/world_file.h"
 

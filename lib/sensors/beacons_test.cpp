@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
-#include "sensors/single_robot_scene.h"
+#include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {

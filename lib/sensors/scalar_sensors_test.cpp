@@ -6,7 +6,7 @@
 #include "sensors/compass.h"
 #include "sensors/heat.h"
 #include "sensors/odometry.h"
-#include "sensors/single_robot_scene.h"
+#include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {

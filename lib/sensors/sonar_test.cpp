@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sensors/single_robot_scene.h"
+#include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {

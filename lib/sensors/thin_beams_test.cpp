@@ -4,7 +4,7 @@
 
 #include "sensors/infrared.h"
 #include "sensors/laser.h"
-#include "sensors/single_robot_scene.h"
+#include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/error_list.h"
 #include "geometry/scene.h"
-#include "world/map_samples.h"
+#include "world/testing/map_samples.h"
 
 namespace robosim {
 namespace {

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "geometry/scene.h"
 #include "geometry/testing/random_scene.h"
-#include "world/random_grid.h"
+#include "world/testing/random_grid.h"
 
 namespace robosim {
 namespace {

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "world/map_samples.h"
+#include "world/testing/map_samples.h"
 
 namespace robosim {
 namespace {

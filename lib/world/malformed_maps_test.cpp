@@ -7,7 +7,7 @@
 #include <isa-l/igzip_lib.h>
 
 #include "base/random.h"
-#include "world/map_samples.h"
+#include "world/testing/map_samples.h"
 
 namespace robosim {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "base/random.h"
 #include "geometry/testing/random_scene.h"
-#include "world/map_samples.h"
-#include "world/random_grid.h"
+#include "world/testing/map_samples.h"
+#include "world/testing/random_grid.h"
 
 namespace robosim {
 namespace {

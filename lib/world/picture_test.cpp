@@ -4,7 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "base/random.h"
-#include "world/map_samples.h"
+#include "world/testing/map_samples.h"
 
 namespace robosim {
 namespace {

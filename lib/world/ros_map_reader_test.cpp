@@ -5,7 +5,7 @@
 
 #include "base/random.h"
 #include "base/temporary_directory.h"
-#include "world/map_samples.h"
+#include "world/testing/map_samples.h"
 
 namespace robosim {
 namespace {

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "base/test_folder.h"
+#include "base/testing/test_folder.h"
 #include "world/map_files.h"
-#include "world/map_samples.h"
+#include "world/testing/map_samples.h"
 #include "world/world_file.h"
 
 namespace robosim {

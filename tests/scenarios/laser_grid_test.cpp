@@ -8,7 +8,7 @@
 
 #include "base/random.h"
 #include "sensors/laser.h"
-#include "sensors/single_robot_scene.h"
+#include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {

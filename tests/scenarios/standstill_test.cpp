@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "environment/small_world.h"
 #include "environment/start_poses.h"
+#include "environment/testing/small_world.h"
 #include "maze/controllers.h"
 #include "run/local_run.h"
 

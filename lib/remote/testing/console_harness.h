@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 #include "net/robot_wire.h"
 #include "remote/console_session.h"
 

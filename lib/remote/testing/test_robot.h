@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 #include "remote/remote_port.h"
 
 /// @file

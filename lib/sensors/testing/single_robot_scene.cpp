@@ -1,4 +1,4 @@
-#include "sensors/single_robot_scene.h"
+#include "sensors/testing/single_robot_scene.h"
 
 #include "base/xml_parser.h"
 

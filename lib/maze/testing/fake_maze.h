@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "control/fake_hardware.h"
+#include "control/testing/fake_hardware.h"
 #include "geometry/shapes/ray.h"
 #include "geometry/shapes/solid.h"
 

@@ -1,4 +1,4 @@
-#include "environment/small_world.h"
+#include "environment/testing/small_world.h"
 
 #include "sensors/odometry.h"
 

@@ -1,7 +1,7 @@
-#include "environment/probe_run.h"
+#include "environment/testing/probe_run.h"
 
 #include "base/random.h"
-#include "environment/small_world.h"
+#include "environment/testing/small_world.h"
 
 namespace robosim {
 namespace {
