@@ -4,11 +4,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
-#include <iostream>
 
 #include <CLI/CLI.hpp>
 
 #include "base/error_list.h"
+#include "base/log.h"
 #include "base/xml_element.h"
 
 namespace robosim {
@@ -86,8 +86,8 @@ void addThreads(CLI::App& command, int& threads, const std::string& help) {
 void warnOfPartialStep(double time_s, double period_s) {
   const double steps = std::max(1.0, std::floor(time_s / period_s + 0.5));
   if (std::abs(steps * period_s - time_s) <= 1e-6 * time_s) return;
-  std::cerr << "robosim: --time " + toText(time_s) + " is not a multiple of the time step of " + toText(period_s) +
-                   " s: a run ends after " + toText(std::round(steps * period_s * 1e6) / 1e6) + " s at the latest\n";
+  logWarning("", "--time " + toText(time_s) + " is not a multiple of the time step of " + toText(period_s) +
+                     " s: a run ends after " + toText(std::round(steps * period_s * 1e6) / 1e6) + " s at the latest");
 }
 
 void addRobotOptions(CLI::App& command, WorldChanges& changes) {

@@ -24,7 +24,7 @@ void work(const Arguments& arguments) {
   worker.connect();
   std::cout << "computing for the world " << printableText(worker.world().name) << std::endl;
   Reconnector reconnector(std::chrono::duration<double>(arguments.patience_s),
-                          [](const std::string& line) { logLine("geometry", line); });
+                          [](const std::string& line) { logInfo("geometry", line); });
   reconnector.run([&] { worker.work(); }, [&] { worker.connect(); });
   std::cout << "the run is over" << std::endl;
 }

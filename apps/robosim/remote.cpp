@@ -40,7 +40,7 @@ struct Arguments {
   std::optional<int> joystick;
 };
 
-void log(const std::string& line) { logLine("remote", line); }
+void log(const std::string& line) { logInfo("remote", line); }
 
 std::vector<RobotAddress> readTeam(const std::string& file) {
   ErrorList errors;

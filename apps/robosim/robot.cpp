@@ -31,7 +31,7 @@ struct Arguments {
   double dead_man_s = 0.5;
 };
 
-void log(const std::string& line) { logLine("robot", line); }
+void log(const std::string& line) { logInfo("robot", line); }
 
 struct DrivenRobot {
   Robot robot;

@@ -37,7 +37,8 @@ constexpr const char* kSession =
     "  robosim control sim.example.org:3000 status --tls-ca cert.pem --token-file token\n"
     "The command load of a control panel starts the next run; its output files are numbered: run_2.rawlog.\n"
     "Exit codes: 0 complete, also when a signal (Ctrl-C, SIGTERM, SIGHUP) has ended it; 3 steps were taken without a\n"
-    "robot, or messages were lost; 4 a geometry worker returned wrong results; 1 bad input, 2 run failed. The summary,\n"
+    "robot, or messages were lost; 4 a geometry worker returned wrong results; 1 bad input, 2 run failed. The "
+    "summary,\n"
     "--json and the recording name robots and workers.\n";
 
 struct Arguments {
@@ -186,7 +187,7 @@ class WorldRun final : public ServedRun {
 
 ServerOptions serverOptions(const Arguments& arguments) {
   ServerOptions options;
-  options.log = [](const std::string& line) { logLine("serve", line); };
+  options.log = [](const std::string& line) { logInfo("serve", line); };
   options.listen = ListenAddresses::parse(arguments.listen);
   options.tls = arguments.listener.identity();
   options.access = arguments.listener.access(options.log);
@@ -210,7 +211,7 @@ void tellPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
     line = "listening";
     for (std::size_t i = 0; i < 4; ++i) line += (i == 0 ? " for " : ", for ") + (clients[i] + (" on " + at(i)));
   }
-  logLine("serve", line);
+  logInfo("serve", line);
 }
 
 void serveWorld(const Arguments& arguments) {

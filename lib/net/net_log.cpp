@@ -1,27 +1,22 @@
 #include "net/net_log.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <mutex>
 
 #include <grpc/support/log.h>
 
+#include "base/log.h"
 #include "base/log_limiter.h"
-#include "base/printable_text.h"
 
 namespace robosim {
 namespace {
 
 constexpr int kLinesPerSecond = 1;
 
-void writeToStandardError(const std::string& line) {
-  const std::string text = "robosim: " + line + "\n";
-  std::fwrite(text.data(), 1, text.size(), stderr);
-}
-
 /// Never destroyed: threads of gRPC may log until the process ends.
 LogLimiter& limiter() {
-  static auto* const the_limiter = new LogLimiter(writeToStandardError, LogLimiter::Clock::now, kLinesPerSecond);
+  static auto* const the_limiter =
+      new LogLimiter([](const std::string& line) { logWarning("", line); }, LogLimiter::Clock::now, kLinesPerSecond);
   return *the_limiter;
 }
 
@@ -40,6 +35,6 @@ void limitGrpcLog() {
   std::call_once(is_done, [] { gpr_set_log_function(logFromGrpc); });
 }
 
-void logFromNet(std::string_view kind, std::string_view line) { limiter().write(kind, printableText(line)); }
+void logFromNet(std::string_view kind, const std::string& line) { limiter().write(kind, line); }
 
 }  // namespace robosim

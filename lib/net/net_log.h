@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 #include <string_view>
 
 namespace robosim {
@@ -7,9 +8,8 @@ namespace robosim {
 /// garbage would otherwise cause about 7,000 lines per second. May be called again.
 void limitGrpcLog();
 
-/// Writes "robosim: LINE" to standard error, rate-limited: one line of each kind a second (LogLimiter). Thread-safe.
-/// @param kind lines of one kind share a limit; must not contain text from a peer
-/// @param line control characters are escaped (printableText)
-void logFromNet(std::string_view kind, std::string_view line);
+/// Logs a warning, rate-limited: one record of each kind a second (LogLimiter). Thread-safe.
+/// @param kind records of one kind share a limit; must not contain text from a peer
+void logFromNet(std::string_view kind, const std::string& line);
 
 }  // namespace robosim

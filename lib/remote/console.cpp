@@ -47,6 +47,7 @@ struct Console::Impl final : public WebPageHandler {
   WebMessagePtr next(PageId page) override { return session.nextMessage(page, now()); }
   void tick() override {
     limited_log.reportSuppressed();
+    audit.reportSuppressed();
     control.tick();
     perform(update());
   }
@@ -87,7 +88,7 @@ struct Console::Impl final : public WebPageHandler {
     return false;
   }
   bool operator()(const WriteAudit& action) {
-    write(action.kind, auditLine(action.client, action.peer, action.action));
+    audit.write(action.client, action.peer, action.action);
     return false;
   }
   ///@}
@@ -118,6 +119,7 @@ struct Console::Impl final : public WebPageHandler {
 
   Options options;
   LogLimiter limited_log{options.log, [this] { return now(); }};  ///< for events that any client can cause
+  AuditLog audit{options.log, [this] { return now(); }};
   ConsoleSession session;
   bool is_map_watched = false;
   WebServer server;

@@ -50,9 +50,8 @@ struct WriteLog {
   std::string_view kind;  ///< empty: not limited. A constant
   std::string line;
 };
-/// Writes a line to the audit log (auditLine()).
+/// Writes a line to the audit log (AuditLog).
 struct WriteAudit {
-  std::string_view kind;  ///< as of WriteLog
   Identity client;
   std::string peer, action;
 };

@@ -24,7 +24,7 @@ ConsoleActions ConsoleSession::pageOpened(PageId id, const std::string& peer, Ti
 
 ConsoleActions ConsoleSession::pageClosed(PageId id) {
   if (Page* page = find(id)) {
-    if (!page->name.empty()) audit(*page, "leave", "pages that have left");
+    if (!page->name.empty()) audit(*page, "leave");
     release(*page, page->name + "'s page has disconnected");
     pages_.erase(id);
     publishTeam();
@@ -268,8 +268,8 @@ void ConsoleSession::wakePages(bool is_news, Time now) {
   }
 }
 
-void ConsoleSession::audit(const Page& page, const std::string& action, std::string_view kind) {
-  act(WriteAudit{kind, page.client, page.peer, action + " (page of " + page.name + ")"});
+void ConsoleSession::audit(const Page& page, const std::string& action) {
+  act(WriteAudit{page.client, page.peer, action + " (page of " + page.name + ")"});
 }
 
 ConsoleActions ConsoleSession::takeActions() { return std::exchange(actions_, {}); }

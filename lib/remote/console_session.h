@@ -133,7 +133,7 @@ class ConsoleSession {
   void act(Action&& action) {
     actions_.emplace_back(std::forward<Action>(action));
   }
-  void audit(const Page& page, const std::string& action, std::string_view kind = {});
+  void audit(const Page& page, const std::string& action);
   ConsoleActions takeActions();
 
   Access access_;

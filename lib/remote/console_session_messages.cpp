@@ -88,7 +88,7 @@ void ConsoleSession::handleHello(Page& page, const PageMessage& message) {
     }
   }
   page.name = message.name.empty() ? "Page " + std::to_string(page.id) : message.name;
-  if (!std::exchange(page.is_admitted, true)) audit(page, "join", "pages that have joined");
+  if (!std::exchange(page.is_admitted, true)) audit(page, "join");
   reply(page, welcomeJson(page.id));
   publishTeam();
 }

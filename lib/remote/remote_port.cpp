@@ -60,6 +60,7 @@ struct RemotePort::Impl final
 
   Options options;
   LogLimiter refusals{[this](const std::string& line) { options.log(line); }};
+  AuditLog audit{[this](const std::string& line) { options.log(line); }};
   Run run;
   std::mutex mutex;
   std::vector<DrivenRobot> robots;
@@ -118,7 +119,7 @@ class RemotePort::Impl::Stream final : public ServerStream<wire::ControlRequest,
   grpc::Status mayWatch(const std::string& robot_name) const {
     return may(Right::look, robot_name).ok() ? grpc::Status::OK : may(Right::drive, robot_name);
   }
-  void audit(const std::string& action) const { port_.options.log(auditLine(client, peer, action)); }
+  void audit(const std::string& action) const { port_.audit.write(client, peer, action); }
 
   /// Ends the call unless the first INIT arrives in time. The alarm may expire after the port was destroyed: it
   /// accesses only the stream, which logs when it ends.
@@ -306,6 +307,8 @@ RobotsWelcome RemotePort::Impl::welcomeOf(const DrivenRobot& robot) const {
 }
 
 void RemotePort::Impl::publish() {
+  refusals.reportSuppressed();
+  audit.reportSuppressed();
   const std::lock_guard lock(mutex);
   checkAccess();
   for (auto& robot : robots) {

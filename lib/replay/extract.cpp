@@ -2,7 +2,7 @@
 
 #include "base/error_list.h"
 #include "base/interrupt.h"
-#include "base/printable_text.h"
+#include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "recording/observation_writer.h"
@@ -29,7 +29,7 @@ void writeSelection(const ReplayArguments& arguments) {
   selection.checkFound();
   writer.commit();
   std::cout << arguments.output << ": " << withCommas(observations) << " observations\n";
-  if (reader.readError()) std::cerr << printableText(*reader.readError()) << '\n';
+  if (reader.readError()) logWarning("replay", *reader.readError());
 }
 
 }  // namespace robosim

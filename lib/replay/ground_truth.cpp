@@ -8,6 +8,7 @@
 #include "base/atomic_file.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
@@ -61,7 +62,7 @@ void writeGroundTruth(const ReplayArguments& arguments) {
   file.commit();
   std::cout << arguments.ground_truth << ": " << withCommas(poses) << " poses of " << printableText(*robots.begin())
             << '\n';
-  if (reader.readError()) std::cerr << printableText(*reader.readError()) << '\n';
+  if (reader.readError()) logWarning("replay", *reader.readError());
 }
 
 }  // namespace robosim

@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
@@ -232,7 +233,7 @@ void printObservations(const ReplayArguments& arguments) {
               << inWords(*observation, sensor) << '\n';
     if (speed > 0) std::cout.flush();
   }
-  if (reader.readError()) std::cerr << printableText(*reader.readError()) << '\n';
+  if (reader.readError()) logWarning("replay", *reader.readError());
   if (!interrupt.isRequested()) selection.checkFound();
 }
 

@@ -374,7 +374,7 @@ void ControlPanelSession::execute(RunOperations& operations, Call& call) {
   }
   try {
     call.execute(operations);
-    if (call.what) serving_.log(auditLine(call.client, call.who(), call.what + call.details()));
+    if (call.what) serving_.audit.write(call.client, call.who(), call.what + call.details());
     if (call.until_step) return;
     wire::RunStatus reply;
     operations.describe(reply);

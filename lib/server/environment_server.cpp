@@ -260,6 +260,7 @@ struct EnvironmentServer::Impl {
       checkAccess();
       executePanelRequests();
       serving.limited_log.reportSuppressed();
+      serving.audit.reportSuppressed();
       if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       admit();

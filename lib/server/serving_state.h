@@ -66,6 +66,7 @@ struct ServingState {
   }
 
   LogLimiter limited_log{[this](const std::string& line) { log(line); }, [this] { return now(); }};
+  AuditLog audit{[this](const std::string& line) { log(line); }, [this] { return now(); }};
 };
 
 }  // namespace robosim

@@ -82,7 +82,7 @@ void RunOperator::work() {
     } catch (const ConnectionError& error) {
       // Viewers detect a lost connection themselves.
       const bool is_refusal = !error.isTransient() && error.code() != grpc::StatusCode::CANCELLED;
-      if (is_asked && is_refusal) logLine("view", error.what());
+      if (is_asked && is_refusal) logError("view", error.what());
     }
     lock.lock();
     if (is_asked) operations_.pop_front();

@@ -28,9 +28,9 @@ class LeftOut {
   }
   void print() const {
     if (count_ == 0) return;
-    std::cerr << "robosim view: nothing was recorded for " << fixed(total_s_, 1) << " s, in "
-              << (count_ == 1 ? "a gap" : withCommas(count_) + " gaps, the first") << " at " << fixed(first_s_, 1)
-              << " s; omitted from the video\n";
+    logWarning("view", "nothing was recorded for " + fixed(total_s_, 1) + " s, in " +
+                           (count_ == 1 ? "a gap" : withCommas(count_) + " gaps, the first") + " at " +
+                           fixed(first_s_, 1) + " s; omitted from the video");
   }
 
  private:
@@ -134,7 +134,7 @@ void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, 
     writePicture(source, drawing, size, times, file);
   }
   std::cout << printableText(file) << '\n';
-  if (const auto remark = source.remark(); !remark.empty()) logLine("view", remark);
+  if (const auto remark = source.remark(); !remark.empty()) logWarning("view", remark);
 }
 
 }  // namespace robosim

@@ -328,7 +328,7 @@ void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, cons
   try {
     const Nanogui nanogui;
     nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times));
-    if (const auto remark = source.remark(); !remark.empty()) logLine("view", remark);
+    if (const auto remark = source.remark(); !remark.empty()) logWarning("view", remark);
     window->drawAll();
     window->setVisible(true);
     constexpr int kPeriod_ms = 40;
