@@ -119,11 +119,26 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes) {
       ->type_name("NUMBER[,TYPE]");
 }
 
-void addPatience(CLI::App& command, double& patience_s) {
-  command.add_option("--patience", patience_s, "how long to reconnect after the connection breaks")
-      ->check(numberIn(0, 1e6))
-      ->type_name("SECONDS")
-      ->capture_default_str();
+void addReconnectTimeout(CLI::App& command, double& reconnect_timeout_s) {
+  auto* option =
+      command
+          .add_option("--reconnect-timeout", reconnect_timeout_s, "how long to reconnect after the connection breaks")
+          ->check(numberIn(0, 1e6))
+          ->type_name("SECONDS")
+          ->capture_default_str();
+  acceptFormerName(command, *option, "--patience");
+}
+
+void acceptFormerName(CLI::App& command, CLI::Option& option, const std::string& name) {
+  const auto set = [&option](const std::vector<std::string>& values) {
+    for (const auto& value : values) option.add_result(value);
+    option.run_callback();
+  };
+  const bool is_flag = option.get_items_expected_max() == 0;
+  CLI::Option* const former = is_flag ? command.add_flag_callback(name, [set] { set({"true"}); })
+                                      : command.add_option_function<std::vector<std::string>>(name, set);
+  if (!is_flag) former->allow_extra_args(false);
+  former->group("");  // hidden
 }
 
 void refuseSameFile(const std::vector<std::pair<std::string, std::filesystem::path>>& files) {

@@ -32,8 +32,11 @@ void warnOfPartialStep(double time_s, double period_s);
 /// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
 void addRobotOptions(CLI::App& command, WorldChanges& changes);
 
-/// Adds `--patience SECONDS`: how long a client reconnects after its connection breaks.
-void addPatience(CLI::App& command, double& patience_s);
+/// Adds `--reconnect-timeout SECONDS`: how long a client reconnects after its connection breaks.
+void addReconnectTimeout(CLI::App& command, double& reconnect_timeout_s);
+
+/// Accepts a former name of an option, which the help omits.
+void acceptFormerName(CLI::App& command, CLI::Option& option, const std::string& name);
 
 /// Rejects arguments of a command that name the same file twice, so that no file is overwritten by another.
 /// @param files role of each file in error texts, and its path; empty paths are ignored

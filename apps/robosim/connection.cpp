@@ -38,11 +38,12 @@ void refuseInsecure(CLI::App& command) {
 
 }  // namespace
 
-ConnectOptions ConnectionArguments::connectOptions(double patience_s) const {
+ConnectOptions ConnectionArguments::connectOptions(double reconnect_timeout_s) const {
   ConnectOptions options = connectOptions();
-  // The connection attempt and the diagnosis of a TLS failure together stay within `patience_s`.
+  // The connection attempt and the diagnosis of a TLS failure together stay within `reconnect_timeout_s`.
   constexpr double kMinMs = 100;
-  const double half_ms = std::clamp(patience_s * 1000 / 2, kMinMs, static_cast<double>(options.connect_limit.count()));
+  const double half_ms =
+      std::clamp(reconnect_timeout_s * 1000 / 2, kMinMs, static_cast<double>(options.connect_limit.count()));
   options.connect_limit = std::chrono::milliseconds(static_cast<std::int64_t>(half_ms));
   return options;
 }

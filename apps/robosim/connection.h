@@ -22,8 +22,9 @@ struct ConnectionArguments {
   /// command line, which `ps` shows to all users.
   /// @throws ConfigError
   ConnectOptions connectOptions() const;
-  /// The same for a client that reconnects for `patience_s` seconds, which also limits the duration of each attempt.
-  ConnectOptions connectOptions(double patience_s) const;
+  /// The same for a client that reconnects for `reconnect_timeout_s` seconds, which also limits the duration of each
+  /// attempt.
+  ConnectOptions connectOptions(double reconnect_timeout_s) const;
 };
 
 /// Adds `--environment ADDRESS` and the options of addSecurityOptions().

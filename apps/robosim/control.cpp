@@ -131,10 +131,11 @@ void addControl(CLI::App& program) {
   add_call("stop", "end the run and the serving program", [](ControlPanel& panel) { return panel.stop(); });
   auto* status = add("status", "show the status of the run", [a] { showStatus(*a); });
   status->add_flag("--watch", a->watch, "print one line per report until the run is over");
-  status->add_option("--every", a->period_s, "with --watch: period of the reports")
-      ->check(numberIn(0.01, 3600))
-      ->type_name("SECONDS")
-      ->capture_default_str();
+  auto* interval = status->add_option("--interval", a->period_s, "with --watch: time between two reports")
+                       ->check(numberIn(0.01, 3600))
+                       ->type_name("SECONDS")
+                       ->capture_default_str();
+  acceptFormerName(*status, *interval, "--every");
 }
 
 }  // namespace robosim

@@ -16,14 +16,14 @@ namespace {
 struct Arguments {
   ConnectionArguments connection;
   int threads = 1;
-  double patience_s = 10;
+  double reconnect_timeout_s = 10;
 };
 
 void work(const Arguments& arguments) {
-  GeometryWorker worker(arguments.connection.connectOptions(arguments.patience_s), arguments.threads);
+  GeometryWorker worker(arguments.connection.connectOptions(arguments.reconnect_timeout_s), arguments.threads);
   worker.connect();
   std::cout << "computing for the world " << printableText(worker.world().name) << std::endl;
-  Reconnector reconnector(std::chrono::duration<double>(arguments.patience_s),
+  Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s),
                           [](const std::string& line) { logInfo("geometry", line); });
   reconnector.run([&] { worker.work(); }, [&] { worker.connect(); });
   std::cout << "the run is over" << std::endl;
@@ -36,7 +36,7 @@ void addGeometry(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
   addConnectionOptions(*command, a->connection);
   addThreads(*command, a->threads, "number of threads; the run does not depend on it");
-  addPatience(*command, a->patience_s);
+  addReconnectTimeout(*command, a->reconnect_timeout_s);
   command->callback([a] { work(*a); });
 }
 

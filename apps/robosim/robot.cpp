@@ -22,10 +22,10 @@ namespace {
 
 struct Arguments {
   std::vector<std::string> names;
-  bool apart = false;
+  bool separate_processes = false;
   ConnectionArguments connection;
   std::string controller;
-  double patience_s = 10;
+  double reconnect_timeout_s = 10;
   std::string remote_port;
   ListenerArguments listener;
   double dead_man_s = 0.5;
@@ -56,7 +56,7 @@ class RobotProcess {
  public:
   explicit RobotProcess(const Arguments& arguments)
       : port_options_(arguments.remote_port.empty() ? RemotePort::Options{} : portOptions(arguments)),
-        robots_(arguments.connection.connectOptions(arguments.patience_s), arguments.names) {
+        robots_(arguments.connection.connectOptions(arguments.reconnect_timeout_s), arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
       auto controller = makeController(controllerOf(robots_.controller(i), arguments.controller), setup);
@@ -109,7 +109,7 @@ class RobotProcess {
 void driveRobots(const Arguments& arguments) {
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   RobotProcess process(arguments);
-  Reconnector reconnector(std::chrono::duration<double>(arguments.patience_s), log);
+  Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s), log);
   try {
     reconnector.run([&] { process.drive(); }, [&] { process.rejoin(); });
   } catch (const ConnectionError&) {
@@ -122,7 +122,7 @@ void driveRobots(const Arguments& arguments) {
 }
 
 /// Runs each robot in a separate process.
-void driveRobotsApart(Arguments arguments) {
+void driveInSeparateProcesses(Arguments arguments) {
   const auto mine = forkProcesses(arguments.names.size());
   if (!mine) return;
   arguments.names = {arguments.names[*mine]};
@@ -135,26 +135,28 @@ void addRobot(CLI::App& program) {
   auto* command = addSubcommand(program, "robot");
   auto a = std::make_shared<Arguments>();
   command->add_option("NAME", a->names, "names of robots in the environment's world")->required();
-  auto* apart = command->add_flag(
-      "--apart", a->apart, "run each robot in a separate process; takes half the time of separately started programs");
+  auto* separate_processes =
+      command->add_flag("--separate-processes", a->separate_processes,
+                        "run each robot in a separate process; takes half the time of separately started programs");
   addConnectionOptions(*command, a->connection);
   command->add_option("--controller", a->controller, "controller of all these robots, instead of those in the world")
       ->check(CLI::IsMember(controllerNames()));
-  addPatience(*command, a->patience_s);
+  acceptFormerName(*command, *separate_processes, "--apart");
+  addReconnectTimeout(*command, a->reconnect_timeout_s);
   command
       ->add_option(
           "--remote-port", a->remote_port,
           "accept remote control of these robots by 'robosim remote' at this address. Until then, their controllers "
           "drive")
       ->type_name("[HOST:]PORT")
-      ->excludes(apart);
+      ->excludes(separate_processes);
   command
       ->add_option("--dead-man", a->dead_man_s, "a remotely driven robot stops when it receives nothing for this time")
       ->check(numberIn(0.05, 60))
       ->type_name("SECONDS")
       ->capture_default_str();
   addListenerOptions(*command, a->listener);
-  command->callback([a] { a->apart ? driveRobotsApart(*a) : driveRobots(*a); });
+  command->callback([a] { a->separate_processes ? driveInSeparateProcesses(*a) : driveRobots(*a); });
 }
 
 }  // namespace robosim

@@ -103,10 +103,11 @@ void addCameraBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("camera", "Measure the frame rate of robot cameras");
   auto a = std::make_shared<Arguments>();
   command->add_option("WORLD", a->world, "world file; default: the shipped opho2_1.xml")->type_name("FILE");
-  command->add_option("--at-least", a->min_s, "minimum measuring time of each size, seconds")
-      ->check(numberIn(1e-6, 3600))
-      ->type_name("SECONDS")
-      ->capture_default_str();
+  auto* min_time = command->add_option("--min-time", a->min_s, "minimum measuring time of each size, seconds")
+                       ->check(numberIn(1e-6, 3600))
+                       ->type_name("SECONDS")
+                       ->capture_default_str();
+  acceptFormerName(*command, *min_time, "--at-least");
   command->add_flag("--json", a->json, "print one JSON object per line");
   command->footer(
       "Each robot of the world takes JPEG pictures in all directions from its start. CPU time is that of all\n"

@@ -34,7 +34,7 @@ LayoutTarget parseLayout(const std::string& word) {
   const auto is_in_reach = [](std::size_t n) { return n >= 1 && n <= 10'000; };
   if (!is_half_read || error_of_robots != std::errc{} || rest != end || !is_in_reach(layout.processes) ||
       !is_in_reach(layout.robots_each)) {
-    throw CLI::ValidationError("--crowd", "'" + word + "': must be PROCESSESxROBOTS_EACH, such as 100x1");
+    throw CLI::ValidationError("--layout", "'" + word + "': must be PROCESSESxROBOTS_EACH, such as 100x1");
   }
   const auto* const known =
       std::find_if(std::begin(kStandardLayouts), std::end(kStandardLayouts), [&](const LayoutTarget& target) {
@@ -100,8 +100,9 @@ void benchNetwork(const Arguments& arguments) {
 void addNetworkBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("network", "Measure steps per second with robots in other processes");
   auto a = std::make_shared<Arguments>();
-  command->add_option("--crowd", a->layouts, "repeatable; default: 1x1, 10x1, 100x1 and 1x1000")
-      ->type_name("PROCESSESxROBOTS_EACH");
+  auto* layout = command->add_option("--layout", a->layouts, "repeatable; default: 1x1, 10x1, 100x1 and 1x1000")
+                     ->type_name("PROCESSESxROBOTS_EACH");
+  acceptFormerName(*command, *layout, "--crowd");
   command
       ->add_option("--windows", a->bench.windows, "number of measurements of each, 1 to 1000; the median is reported")
       ->check(wholeNumberIn(1, 1000))
@@ -111,8 +112,10 @@ void addNetworkBenchmark(CLI::App& program) {
       ->check(numberIn(1e-6, 3600))
       ->type_name("SECONDS")
       ->capture_default_str();
-  command->add_flag("--one-by-one", a->bench.one_by_one,
-                    "start a program per process instead of one 'robosim robot --apart' for all");
+  auto* separate =
+      command->add_flag("--separate-programs", a->bench.separate_programs,
+                        "start a program per process instead of one 'robosim robot --separate-processes' for all");
+  acceptFormerName(*command, *separate, "--one-by-one");
   auto* cert = command->add_option("--tls-cert", a->bench.tls_cert, "measure with TLS: a certificate for 127.0.0.1")
                    ->type_name("FILE")
                    ->check(fileName());

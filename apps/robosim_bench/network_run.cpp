@@ -33,10 +33,11 @@ constexpr Workload kLoad{
 /// Child processes running `robosim robot`; ended with this object.
 class RobotProgram {
  public:
-  /// @param apart one process per robot
-  RobotProgram(const std::vector<std::string>& names, int port, const std::string& trusted_certificate, bool apart) {
+  /// @param separate_processes one process per robot
+  RobotProgram(const std::vector<std::string>& names, int port, const std::string& trusted_certificate,
+               bool separate_processes) {
     std::vector<std::string> arguments{"robosim", "robot"};
-    if (apart) arguments.emplace_back("--apart");
+    if (separate_processes) arguments.emplace_back("--separate-processes");
     arguments.insert(arguments.end(), names.begin(), names.end());
     arguments.insert(arguments.end(), {"--environment", std::to_string(port), "--controller", "wander"});
     if (!trusted_certificate.empty()) arguments.insert(arguments.end(), {"--tls-ca", trusted_certificate});
@@ -102,11 +103,13 @@ class MeasuredRun final : public ServedRun {
 
   /// Connects the robot processes to this environment.
   void invite(int port) {
-    const bool apart = bench_.layout.processes > 1 && bench_.layout.robots_each == 1 && !bench_.one_by_one;
+    const bool separate_processes =
+        bench_.layout.processes > 1 && bench_.layout.robots_each == 1 && !bench_.separate_programs;
     const auto& names = run_info_->robot_names;
-    const auto each = static_cast<std::ptrdiff_t>(apart ? names.size() : bench_.layout.robots_each);
+    const auto each = static_cast<std::ptrdiff_t>(separate_processes ? names.size() : bench_.layout.robots_each);
     for (auto name = names.begin(); name != names.end(); name += each) {
-      programs_.push_back(std::make_unique<RobotProgram>(std::vector(name, name + each), port, bench_.tls_cert, apart));
+      programs_.push_back(
+          std::make_unique<RobotProgram>(std::vector(name, name + each), port, bench_.tls_cert, separate_processes));
     }
   }
 

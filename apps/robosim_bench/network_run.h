@@ -11,9 +11,10 @@ struct ProcessLayout {
 
 struct NetworkBench {
   ProcessLayout layout;
-  int windows = 5;                ///< number of measurements
-  double window_s = 1;            ///< duration of each
-  bool one_by_one = false;        ///< separately started processes; else `robosim robot --apart`, where possible
+  int windows = 5;      ///< number of measurements
+  double window_s = 1;  ///< duration of each
+  bool separate_programs =
+      false;  ///< separately started processes; else `robosim robot --separate-processes`, where possible
   std::string tls_cert, tls_key;  ///< empty: without TLS
 };
 

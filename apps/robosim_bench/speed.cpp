@@ -180,10 +180,11 @@ void addSpeedBenchmark(CLI::App& program) {
   command->add_option("--vectors", a->vectors, "width of RoboSim's vectors: sse2, avx2 or avx512; default: the widest")
       ->check(CLI::IsMember(vectorWidthNames()));
   command->add_option("--seed", a->seed, "seed of the worlds")->check(seedNumber())->capture_default_str();
-  command->add_option("--at-least", a->min_s, "minimum measuring time of each, seconds")
-      ->check(numberIn(1e-6, 3600))
-      ->type_name("SECONDS")
-      ->capture_default_str();
+  auto* min_time = command->add_option("--min-time", a->min_s, "minimum measuring time of each, seconds")
+                       ->check(numberIn(1e-6, 3600))
+                       ->type_name("SECONDS")
+                       ->capture_default_str();
+  acceptFormerName(*command, *min_time, "--at-least");
   command->footer("Workloads:\n" + listing(rows) +
                   "Without --robots, --workload, --threads and --json all figures for the speed targets are measured,\n"
                   "including 100,000 robots and two threads, and the targets are evaluated (doc/performance.md).");

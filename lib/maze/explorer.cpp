@@ -49,7 +49,7 @@ double heatRange(const Robot& robot) {
 Explorer::Explorer(const Robot& robot, const ControllerSetup& setup, double warm)
     : warm_(warm),
       rng_(setup.seed, RandomPurpose::controller, setup.robot),
-      recovery_(setup, {.patience_s = kRecovery_s, .headway_radii = kRecoveryHeadway_radii}),
+      recovery_(setup, {.timeout_s = kRecovery_s, .headway_radii = kRecoveryHeadway_radii}),
       search_(kCell_radii * robot.info().radius_m, heatRange(robot), robot.info().radius_m) {}
 
 void Explorer::step(Robot& robot) {

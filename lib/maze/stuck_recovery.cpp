@@ -36,7 +36,7 @@ bool StuckRecovery::takesOver(Robot& robot) {
     return false;
   }
   if (!is_active_) {
-    if (now < left_step_ + stepsIn(options_.patience_s, robot)) return false;
+    if (now < left_step_ + stepsIn(options_.timeout_s, robot)) return false;
     is_active_ = true;
     has_drawn_ = true;
     turn_until_ = drive_until_ = now;

@@ -7,7 +7,7 @@
 namespace robosim {
 
 struct StuckRecoveryOptions {
-  double patience_s = 15;      ///< time in the disc after which the recovery starts
+  double timeout_s = 15;       ///< time in the disc after which the recovery starts
   double headway_radii = 1.5;  ///< radius of the disc, in robot radii
 };
 

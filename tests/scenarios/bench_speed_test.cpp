@@ -24,7 +24,7 @@ std::vector<ordered_json> jsonLines(const Ended& bench) {
 }
 
 TEST(BenchSpeed, PrintsOneJsonObjectPerLineWithCommonFieldsFirst) {
-  const Ended bench = runBenchmark("speed --robots 5 --robots 20 --at-least 1e-6 --json");
+  const Ended bench = runBenchmark("speed --robots 5 --robots 20 --min-time 1e-6 --json");
   ASSERT_EQ(bench.exit_code, 0) << bench.err;
   const auto lines = jsonLines(bench);
   const bool beside_enki = fs::exists(fs::path(ROBOSIM_BENCH).parent_path() / "robosim_enki");
@@ -56,7 +56,7 @@ TEST(BenchSpeed, IsIdenticalForAnyNumberOfThreads) {
   const auto digests = [](int threads) {
     const Ended bench = runBenchmark(
         "speed --workload sonar --workload sector --workload laser --workload infrared --robots 300 "
-        "--at-least 1e-6 --json --threads " +
+        "--min-time 1e-6 --json --threads " +
         std::to_string(threads));
     EXPECT_EQ(bench.exit_code, 0) << bench.err;
     std::vector<std::string> all;
@@ -75,7 +75,7 @@ TEST(BenchSpeed, IsIdenticalForAnyNumberOfThreads) {
 
 TEST(BenchSpeed, CreatesDifferentWorldsForDifferentSeeds) {
   const auto digest = [](const std::string& seed) {
-    return jsonLines(runBenchmark("speed --workload sonar --robots 20 --at-least 1e-6 --json --seed " + seed))
+    return jsonLines(runBenchmark("speed --workload sonar --robots 20 --min-time 1e-6 --json --seed " + seed))
         .at(0)["digest"];
   };
   EXPECT_EQ(digest("1"), digest("1"));
@@ -83,7 +83,7 @@ TEST(BenchSpeed, CreatesDifferentWorldsForDifferentSeeds) {
 }
 
 TEST(BenchSpeed, PrintsATextTable) {
-  const Ended bench = runBenchmark("speed --workload laser --robots 20 --at-least 1e-6");
+  const Ended bench = runBenchmark("speed --workload laser --robots 20 --min-time 1e-6");
   EXPECT_EQ(bench.exit_code, 0) << bench.err;
   EXPECT_EQ(bench.out.rfind("workload  robots  threads  robot-steps/s", 0), 0) << bench.out;
   EXPECT_NE(bench.out.find("\nlaser         20        1"), std::string::npos) << bench.out;
@@ -93,7 +93,7 @@ TEST(BenchSpeed, PrintsATextTable) {
 
 TEST(BenchSpeed, ComparesRaysWithEmbreeAndReportsIfItIsMissing) {
   const fs::path program = ROBOSIM_BENCH;
-  const std::string arguments = "speed --workload rays --at-least 1e-6";
+  const std::string arguments = "speed --workload rays --min-time 1e-6";
 
   // The module is in the program's folder; a copy of the program elsewhere has none.
   const auto folder = emptyFolder();
@@ -114,7 +114,7 @@ TEST(BenchSpeed, ComparesRaysWithEmbreeAndReportsIfItIsMissing) {
 
 TEST(BenchSpeed, ComparesInfraredRobotsWithEnkiAndReportsIfItIsMissing) {
   const fs::path program = ROBOSIM_BENCH;
-  const std::string arguments = "speed --workload enki --robots 30 --robots 2000 --at-least 1e-6";
+  const std::string arguments = "speed --workload enki --robots 30 --robots 2000 --min-time 1e-6";
   const auto folder = emptyFolder();
   fs::copy_file(program, folder / "robosim");
   const Ended alone = runCommand("'" + (folder / "robosim").string() + "' " + arguments);
@@ -157,8 +157,8 @@ TEST(BenchSpeed, RejectsInvalidArguments) {
       {"--robots -5", "--robots: -5: must be a whole number from 1"},
       {"--robots many", "--robots: many: must be a whole number from 1"},
       {"--threads 0", "--threads: 0: must be a whole number from 1 to 1024"},
-      {"--at-least 0", "--at-least: 0: must be a number in [1e-06, 3600]"},
-      {"--at-least nan", "--at-least: nan: must be a number"},
+      {"--min-time 0", "--min-time: 0: must be a number in [1e-06, 3600]"},
+      {"--min-time nan", "--min-time: nan: must be a number"},
       {"--seed -1", "--seed: -1: must be a whole number"},
       {"sonar", "The following argument was not expected: sonar"},
   };

@@ -15,7 +15,7 @@ namespace {
 using nlohmann::json;
 
 TEST(BenchCamera, ReportsPicturesPerSecondForEachSize) {
-  const Ended bench = runBenchmark("camera worlds/small_maze.xml --at-least 0.01 --json");
+  const Ended bench = runBenchmark("camera worlds/small_maze.xml --min-time 0.01 --json");
   ASSERT_EQ(bench.exit_code, 0) << bench.err;
   std::vector<int> widths;
   std::istringstream lines(bench.out);
@@ -29,7 +29,7 @@ TEST(BenchCamera, ReportsPicturesPerSecondForEachSize) {
 }
 
 TEST(BenchNetwork, ReportsStepsPerSecondOfRobotsInOtherProcesses) {
-  const Ended bench = runBenchmark("network --crowd 2x1 --windows 1 --window 1e-3 --json");
+  const Ended bench = runBenchmark("network --layout 2x1 --windows 1 --window 1e-3 --json");
   ASSERT_EQ(bench.exit_code, 0) << bench.err;
   const json figures = json::parse(bench.out);
   EXPECT_EQ(figures["processes"], 2);
@@ -42,14 +42,14 @@ TEST(BenchNetwork, EndsWhenARobotProcessFails) {
   for (const std::filesystem::path program : {ROBOSIM_PROGRAM, ROBOSIM_BENCH}) {
     std::filesystem::copy_file(program, folder / program.filename());  // but not robosim-net
   }
-  const Ended bench = runCommand("'" + (folder / "robosim_bench").string() + "' network --crowd 1x1");
+  const Ended bench = runCommand("'" + (folder / "robosim_bench").string() + "' network --layout 1x1");
   EXPECT_EQ(bench.exit_code, 2);
   EXPECT_NE(bench.err.find("robosim-net: No such file or directory"), std::string::npos) << bench.err;
   EXPECT_NE(bench.err.find("a robot process has ended"), std::string::npos) << bench.err;
 }
 
 TEST(BenchView, ReportsFramesPerSecondForEachKindOfView) {
-  const Ended bench = runBenchmark("view --robots 20 --at-least 0.01 --json");
+  const Ended bench = runBenchmark("view --robots 20 --min-time 0.01 --json");
   ASSERT_EQ(bench.exit_code, 0) << bench.err;
   std::vector<std::string> views;
   std::istringstream lines(bench.out);

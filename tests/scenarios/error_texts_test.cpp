@@ -70,6 +70,29 @@ TEST_F(ErrorTexts, NameAMissingWorldsFolder) {
       << ended.out;
 }
 
+TEST_F(ErrorTexts, NameAnOptionThatIsGivenByItsFormerName) {
+  struct Renamed {
+    std::string program, former, option;
+  };
+  for (const auto& [program, former, option] :
+       {Renamed{"'" ROBOSIM_PROGRAM "' robot R", "--patience", "--reconnect-timeout"},
+        Renamed{"'" ROBOSIM_PROGRAM "' control status", "--every", "--interval"},
+        Renamed{"'" ROBOSIM_BENCH "' network", "--crowd", "--layout"},
+        Renamed{"'" ROBOSIM_BENCH "' speed", "--at-least", "--min-time"}}) {
+    const Ended by_option = runCommand(program + " " + option + " x");
+    EXPECT_EQ(by_option.exit_code, 1) << option;
+    EXPECT_NE(by_option.err.find(option), std::string::npos) << by_option.err;
+    EXPECT_EQ(runCommand(program + " " + former + " x").err, by_option.err) << former;
+    EXPECT_EQ(runCommand(program + " --help").out.find(former), std::string::npos) << former;
+  }
+}
+
+TEST_F(ErrorTexts, AcceptTheFormerNameOfAFlag) {
+  const std::string program = "'" ROBOSIM_PROGRAM "' robot R --environment 127.0.0.1:1 --reconnect-timeout 0 ";
+  EXPECT_NE(runCommand(program + "--apart").err.find("no environment answers at 127.0.0.1:1"), std::string::npos);
+  EXPECT_NE(runCommand(program + "--apart --remote-port :0").err.find("--separate-processes"), std::string::npos);
+}
+
 TEST_F(ErrorTexts, ListTheKnownSubcommands) {
   const Ended bench = runProgram("bench foo");
   EXPECT_EQ(bench.exit_code, 1);

@@ -362,9 +362,10 @@ TEST(Faults, SigtermOfARecordingEnvironmentLeavesAReadableRawlog) {
   EXPECT_NE(notified.out.find("the run is over after "), std::string::npos);
 }
 
-TEST(Faults, KilledEnvironmentEndsItsRobotsAfterTheirPatience) {
+TEST(Faults, KilledEnvironmentEndsItsRobotsAfterTheirReconnectTimeout) {
   Serving serving({"--wait-for-robots"});
-  StartedProgram robots({"robot", "Pioneer1", "Scout1", "--environment", serving.address(), "--patience", "0.5"});
+  StartedProgram robots(
+      {"robot", "Pioneer1", "Scout1", "--environment", serving.address(), "--reconnect-timeout", "0.5"});
   serving.program().waitForError("all robots are here");
   serving.program().signal(SIGKILL);
   const Ended ended = robots.wait();

@@ -62,7 +62,7 @@ TEST(Lockstep, IsIdenticalForAnyNumberOfProcessesAndGeometryWorkers) {
 TEST(Lockstep, IsIdenticalWithForkedRobotProcesses) {
   const auto in_one = nlohmann::json::parse(runProgram("run worlds/small_maze.xml --json --controller wander").out);
   ServedWorld world(robotsElsewhere("worlds/small_maze.xml", in_one["steps"]));
-  const auto robots = startRobots({"Pioneer1", "Scout1", "--apart"}, world.connectOptions().address);
+  const auto robots = startRobots({"Pioneer1", "Scout1", "--separate-processes"}, world.connectOptions().address);
   EXPECT_EQ(world.wait(), Served::to_its_end);
   EXPECT_EQ(robots->wait().exit_code, 0) << robots->error();
   EXPECT_EQ(world.digest(), in_one["digest"].get<std::string>());
@@ -72,7 +72,7 @@ TEST(Lockstep, IsIdenticalWithForkedRobotProcesses) {
 
 TEST(Lockstep, ReportsFailedChildProcesses) {
   ServedWorld world(robotsElsewhere("worlds/small_maze.xml", 5));
-  const auto robots = startRobots({"Unknown1", "Unknown2", "--apart"}, world.connectOptions().address);
+  const auto robots = startRobots({"Unknown1", "Unknown2", "--separate-processes"}, world.connectOptions().address);
   EXPECT_NE(robots->wait().exit_code, 0);
   EXPECT_NE(robots->error().find("2 of 2 processes failed"), std::string::npos) << robots->error();
 }

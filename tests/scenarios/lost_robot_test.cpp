@@ -135,8 +135,8 @@ TEST(LostRobot, IsNotAwaitedInRealTime) {
 TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) {
   auto first = std::make_unique<Serving>(std::vector<std::string>{"--wait-for-robots", "--paused"});
   const std::string address = first->address();
-  const std::vector<std::string> words{"robot",         "Pioneer1", "Scout1",     "--controller", "wander",
-                                       "--environment", address,    "--patience", "600"};
+  const std::vector<std::string> words{
+      "robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address, "--reconnect-timeout", "600"};
   StartedProgram stale(words);
   first->program().waitForError("all robots are here");
   first.reset();  // killed, as on a restart of its machine

@@ -70,7 +70,7 @@ class FaultInjector {
         noise.wait();
       }
     }
-    // Processes that were disconnected for longer than their --patience have ended, and are replaced.
+    // Processes that were disconnected for longer than their --reconnect-timeout have ended, and are replaced.
     for (std::size_t k = 0; k < kProcesses; ++k) {
       if (!processes_[k]->isRunning()) processes_[k] = startRobots(names_[k], serving_.address());
     }

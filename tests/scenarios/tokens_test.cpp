@@ -29,7 +29,7 @@ struct Tokens : testing::Test {
   }
   std::string fileWith(const std::string& token) const { return write("of_" + token.substr(0, 6), token + "\n"); }
   std::vector<std::string> watching(const Serving& serving, const std::string& token) const {
-    return {"control", serving.address(), "status", "--watch", "--every", "0.05", "--token-file", fileWith(token)};
+    return {"control", serving.address(), "status", "--watch", "--interval", "0.05", "--token-file", fileWith(token)};
   }
 };
 
