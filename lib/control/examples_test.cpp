@@ -138,7 +138,7 @@ TEST(ControllerExamples, LookForGoldHaltsWhereItIsHot) {
   BlockingController controller(lookForGold);
   trial.steps(controller, 20);
   EXPECT_NEAR(trial.hardware.odometry().speed_mps, 0.3, 1e-9);
-  trial.hardware.feelHeat(10.5);
+  trial.hardware.setHeat(10.5);
   trial.steps(controller, 3);
   EXPECT_EQ(trial.robot.activity(), Activity::found);
 }

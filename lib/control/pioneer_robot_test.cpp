@@ -250,7 +250,7 @@ TEST(PioneerRobot, FindsEchoesInSectorsAndBoxes) {
 TEST(PioneerRobot, ReadsLaserAndHeat) {
   Pioneer p;
   p.hardware.setLaserRange(2.5);
-  p.hardware.feelHeat(8.5);
+  p.hardware.setHeat(8.5);
   EXPECT_EQ(p.pioneer.getNumLaser(), 1);
   EXPECT_EQ(p.pioneer.getLaserRange(), 2500);
   EXPECT_EQ(p.pioneer.getLaserRange(1), -1);

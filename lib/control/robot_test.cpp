@@ -12,7 +12,7 @@ TEST(Robot, ReadsTheFirstSensorOfEachKind) {
   FakeHardware hardware;
   hardware.setSonarRange(3, 1.5);
   hardware.setLaserRange(4);
-  hardware.feelHeat(7);
+  hardware.setHeat(7);
   hardware.mutableOdometry().odom_from_robot = {1, 2, 0.5};
   const Robot robot(hardware);
   EXPECT_EQ(robot.sonar().size(), 16u);

@@ -32,7 +32,7 @@ TEST_F(StockActions, AvoidFrontTurnsFromTheNearerSideUntilThePathIsFree) {
   desired = avoid.fire(pioneer, {});
   EXPECT_DOUBLE_EQ(desired.getDeltaHeading(), -15);
   EXPECT_EQ(desired.getVel(), 0);
-  hardware.hearNothing();
+  hardware.clearEchoes();
   EXPECT_EQ(avoid.fire(pioneer, {}).getDeltaHeadingStrength(), ActionDesired::NO_STRENGTH);
   hardware.setSonarRange(14, 0.3);
   EXPECT_DOUBLE_EQ(avoid.fire(pioneer, {}).getDeltaHeading(), 15);
@@ -60,7 +60,7 @@ TEST_F(StockActions, LimiterForwardsSlowsDownInFrontOfAWall) {
   EXPECT_NEAR(limiter.fire(pioneer, {}).getMaxVel(), 100, 1e-3);
   hardware.setSonarRange(0, 0.2);
   EXPECT_EQ(limiter.fire(pioneer, {}).getMaxVel(), 0);
-  hardware.hearNothing();
+  hardware.clearEchoes();
   hardware.setSonarRange(3, 0.2);  // 67.5°, 416 mm to the left: outside the lane
   EXPECT_GT(limiter.fire(pioneer, {}).getMaxVel(), 1e6);
 }
@@ -81,7 +81,7 @@ TEST_F(StockActions, TurnTurnsMoreTheMoreTheSpeedIsLimited) {
   hardware.setSonarRange(2, 0.5);  // room on the right
   current.setMaxVel(150);
   EXPECT_DOUBLE_EQ(turn.fire(pioneer, current).getDeltaHeading(), -7.5);
-  hardware.hearNothing();
+  hardware.clearEchoes();
   hardware.setSonarRange(14, 0.5);  // it keeps the side it began with
   current.setMaxVel(0);
   EXPECT_DOUBLE_EQ(turn.fire(pioneer, current).getDeltaHeading(), -15);

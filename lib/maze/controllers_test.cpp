@@ -10,14 +10,14 @@
 namespace robosim {
 namespace {
 
-TEST(Controllers, AreOnOneList) {
+TEST(Controllers, AreListedWithOneSentenceEach) {
   EXPECT_EQ(controllerNames(), (std::vector<std::string>{"gold_finder", "wander", "wall_follower", "still"}));
   for (const auto& type : controllerTypes()) {
     EXPECT_EQ(std::string(type.help).back(), '.') << type.name;
   }
 }
 
-TEST(Controllers, AreMadeByName) {
+TEST(Controllers, AreCreatedByName) {
   for (const auto& name : controllerNames()) {
     FakeHardware hardware;
     Robot robot(hardware);
@@ -31,7 +31,7 @@ TEST(Controllers, AreMadeByName) {
   }
 }
 
-TEST(Controllers, OfUnknownNameAreRefusedWithThoseThereAre) {
+TEST(Controllers, OfUnknownNamesAreRefusedWithAListOfAll) {
   try {
     makeController("gold_digger", {});
     FAIL();

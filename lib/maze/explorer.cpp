@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kCell_radii = 0.6;
 constexpr int kSearchReach = 1000000;     // cost limit: unlimited in practice
-constexpr int kFollowReach = 400;         // cost: heat is near, but the way to it may lead round some walls
+constexpr int kFollowReach = 400;         // cost: heat is near, but the path to it may lead around walls
 constexpr double kCloser = 3;             // cost of ending a cell farther from the likely source
 constexpr double kNearSource = 0.6;       // of the sensor's range: how near the likely source it looks
 constexpr double kTurn = 4;               // cost of a goal at right angles to the robot's heading
@@ -133,7 +133,7 @@ void Explorer::plan(const Robot& robot) {
   plan_from_ = now + stepsIn(1, robot);
   if (!nothing_left_since_) {
     nothing_left_since_ = now;
-    search_.obstacles.forgetDoubtful();
+    search_.obstacles.removeUncertain();
   } else if (now >= *nothing_left_since_ + stepsIn(kNothingLeft_s, robot)) {
     startOver();
   }
@@ -168,8 +168,8 @@ bool Explorer::planTo(const Cell& start, int cost_max, const Judge& judge) {
     return cell == start || search_.map[cell].blocked() ? -1 : judge(cell);
   });
   if (!goal) return false;
-  wavefront_.wayTo(search_.map, *goal, way_);
-  driver_.follow(way_);
+  wavefront_.pathTo(search_.map, *goal, path_);
+  driver_.follow(path_);
   return true;
 }
 
@@ -220,7 +220,7 @@ void Explorer::drawBack(Robot& robot) {
   driver_.clear();
   has_drawn_ = true;
   back_until_ = robot.stepNumber() + stepsIn(rng_.uniform(0.5, 3), robot);
-  const bool backwards = roomInLane(robot, -1) >= roomInLane(robot, 1);
+  const bool backwards = clearanceInLane(robot, -1) >= clearanceInLane(robot, 1);
   back_speed_ = (backwards ? -1 : 1) * rng_.uniform(0.1, 0.4) * limits.speed_max_mps;
   back_turn_ = rng_.uniform(-0.5, 0.5) * limits.turn_max_radps;
   moved_at_ = back_until_;

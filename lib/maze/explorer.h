@@ -74,7 +74,7 @@ class Explorer {
   SearchMap search_;
   Wavefront wavefront_;
   PathDriver driver_;
-  std::vector<Cell> way_;
+  std::vector<Cell> path_;
   int rounds_ = 0;
 
   // Times are step numbers.

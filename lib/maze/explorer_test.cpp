@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kWarm = 2;
 
-/// Two rooms, 6 m × 4 m together, with a door between them at the far side from the start.
+/// Two rooms, 6 m × 4 m in all, with a door between them at the side opposite to the start.
 std::vector<OrientedBox> twoRooms() {
   auto walls = FakeMaze::room(-1, 5, -1, 3);
   walls.push_back(FakeMaze::box(2, 0.35, 0.1, 2.7));  // leaves 1.25 m at the top
@@ -22,7 +22,7 @@ std::vector<OrientedBox> twoRooms() {
 struct Search {
   Search(std::vector<OrientedBox> walls, mrpt::math::TPoint2D gold, double heat, std::uint64_t seed = 1)
       : maze(std::move(walls), gold, heat), robot(maze.hardware), explorer(robot, {.seed = seed}, kWarm) {}
-  /// Steps until the heat exceeds `heat`; the number of steps taken.
+  /// Steps until the heat exceeds `heat`, at most `most` steps. @return the number of steps
   int stepsTo(double heat, int most) {
     for (int i = 0; i < most; ++i) {
       if (*robot.heat() > heat) return i;
@@ -49,7 +49,8 @@ TEST(Explorer, FindsGoldBehindAWall) {
 
 TEST(Explorer, SearchesTheWholeMapBeforeItRestarts) {
   Search search(twoRooms(), {99, 99}, 0);
-  // Wherever gold could stand, 0.3 m from walls at least, it must have come near enough to feel it (3 m − 2.5 radii).
+  // Every place of gold, at least 0.3 m from walls, must have come within the range of the heat sensor (3 m − 2.5
+  // radii).
   std::vector<mrpt::math::TPoint2D> unsearched;
   for (double x = -0.7; x <= 4.7; x += 0.2) {
     for (double y = -0.7; y <= 2.7; y += 0.2) unsearched.emplace_back(x, y);
@@ -70,8 +71,8 @@ TEST(Explorer, ContinuesAfterTheWholeMapWasSearched) {
   EXPECT_EQ(search.explorer.rounds(), 3);
 }
 
-TEST(Explorer, LooksIntoSomethingWarmAndGoesOn) {
-  // Something too cool to be gold near the start: it is looked into, and then all else is searched nevertheless.
+TEST(Explorer, ExaminesAWarmObjectAndContinuesTheSearch) {
+  // An object near the start that is too cool to be gold: the robot approaches it, then searches the rest of the map.
   Search search(twoRooms(), {0.5, 2.2}, 9);
   double hottest = 0, x_max = 0;
   for (int i = 0; i < 4000 && search.explorer.rounds() == 0; ++i) {
@@ -107,8 +108,8 @@ TEST(Explorer, ReversesAtAnUndetectedObstacle) {
   EXPECT_LT(slowest, -0.05);
 }
 
-TEST(Explorer, PartsFromARobotThatStandsInItsWay) {
-  // A dead end 1 m wide, and something that leaves only after a while.
+TEST(Explorer, ReachesTheGoalAfterAnObstacleInItsPathIsRemoved) {
+  // A dead end 1 m wide, with an obstacle, and the same without it.
   auto walls = FakeMaze::room(-1, 4, -0.5, 0.5);
   walls.push_back(FakeMaze::box(1.5, 0, 0.4, 0.4));
   Search search(walls, {3.5, 0}, 20);

@@ -7,9 +7,9 @@
 namespace robosim {
 namespace {
 
-/// A robot in the open whose neighbour is "next".
+/// A robot without obstacles, whose neighbour is "next".
 struct GoldFinderTest : testing::Test {
-  void hear(std::vector<RobotMessage> messages) { hardware.mutableReadings().inbox = std::move(messages); }
+  void receive(std::vector<RobotMessage> messages) { hardware.mutableReadings().inbox = std::move(messages); }
   void step() {
     finder.step(robot);
     hardware.advance();
@@ -26,17 +26,17 @@ struct GoldFinderTest : testing::Test {
   GoldFinder finder{{.seed = 1}};
 };
 
-TEST_F(GoldFinderTest, TakesHeatAboveItsThresholdForGold) {
-  hardware.feelHeat(10);
+TEST_F(GoldFinderTest, FindsGoldWhereHeatExceedsTheThreshold) {
+  hardware.setHeat(10);
   step();
   EXPECT_EQ(robot.activity(), Activity::active);
-  hardware.feelHeat(10.01);
+  hardware.setHeat(10.01);
   step();
   EXPECT_EQ(robot.activity(), Activity::found);
 }
 
-TEST_F(GoldFinderTest, SendsGoldWithItselfAsSource) {
-  hardware.feelHeat(12);
+TEST_F(GoldFinderTest, SendsGoldWithItsOwnNameAsSource) {
+  hardware.setHeat(12);
   step();
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD fake"});
   step();
@@ -45,7 +45,7 @@ TEST_F(GoldFinderTest, SendsGoldWithItselfAsSource) {
 }
 
 TEST_F(GoldFinderTest, HaltsAndForwardsAReceivedGold) {
-  hear({{"before", "fake", "GOLD Finder7"}});
+  receive({{"before", "fake", "GOLD Finder7"}});
   step();
   EXPECT_EQ(robot.activity(), Activity::halted);
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD Finder7"});
@@ -53,16 +53,16 @@ TEST_F(GoldFinderTest, HaltsAndForwardsAReceivedGold) {
 }
 
 TEST_F(GoldFinderTest, EndsTheRingAtTheSource) {
-  hardware.feelHeat(12);
+  hardware.setHeat(12);
   step();
-  hear({{"before", "fake", "GOLD fake"}});
+  receive({{"before", "fake", "GOLD fake"}});
   step();
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD fake"});
   EXPECT_EQ(robot.activity(), Activity::found);
 }
 
-TEST_F(GoldFinderTest, SendsOneMessageAStep) {
-  hear({{"a", "fake", "GOLD A"}, {"b", "fake", "GOLD B"}, {"c", "fake", "GOLD C"}});
+TEST_F(GoldFinderTest, SendsOneMessagePerStep) {
+  receive({{"a", "fake", "GOLD A"}, {"b", "fake", "GOLD B"}, {"c", "fake", "GOLD C"}});
   step();
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD A"});
   step();
@@ -72,34 +72,34 @@ TEST_F(GoldFinderTest, SendsOneMessageAStep) {
   EXPECT_EQ(sentTexts(), (Texts{"next: GOLD A", "next: GOLD B", "next: GOLD C"}));
 }
 
-TEST_F(GoldFinderTest, PassesOnFromEachSourceOnce) {
+TEST_F(GoldFinderTest, ForwardsTheMessageOfEachSourceOnce) {
   for (int i = 0; i < 5; ++i) {
-    hear({{"before", "fake", "GOLD A"}});
+    receive({{"before", "fake", "GOLD A"}});
     step();
   }
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD A"});
 }
 
-TEST_F(GoldFinderTest, PassesOnAnothersGoldThoughItFoundItsOwn) {
-  hardware.feelHeat(12);
-  hear({{"before", "fake", "GOLD A"}});
+TEST_F(GoldFinderTest, ForwardsTheMessageOfAnotherSourceAfterItHasFoundGold) {
+  hardware.setHeat(12);
+  receive({{"before", "fake", "GOLD A"}});
   step();
   EXPECT_EQ(robot.activity(), Activity::found);
   step();
   EXPECT_EQ(sentTexts(), (Texts{"next: GOLD fake", "next: GOLD A"}));
 }
 
-TEST_F(GoldFinderTest, DoesNotFindGoldOnceItHasHalted) {
-  hear({{"before", "fake", "GOLD A"}});
+TEST_F(GoldFinderTest, DoesNotFindGoldAfterItHasHalted) {
+  receive({{"before", "fake", "GOLD A"}});
   step();
-  hardware.feelHeat(12);
+  hardware.setHeat(12);
   step();
   EXPECT_EQ(robot.activity(), Activity::halted);
   EXPECT_EQ(sentTexts(), Texts{"next: GOLD A"});
 }
 
 TEST_F(GoldFinderTest, IgnoresOtherMessages) {
-  hear({{"before", "fake", "hello"}, {"before", "fake", "GOLD"}});
+  receive({{"before", "fake", "hello"}, {"before", "fake", "GOLD"}});
   step();
   EXPECT_EQ(robot.activity(), Activity::active);
   EXPECT_TRUE(hardware.sent.empty());
@@ -109,17 +109,17 @@ TEST(GoldFinder, WithoutANeighbourHaltsAndSendsNothing) {
   FakeHardware hardware;
   Robot robot(hardware);
   GoldFinder finder({});
-  hardware.feelHeat(12);
+  hardware.setHeat(12);
   finder.step(robot);
   EXPECT_EQ(robot.activity(), Activity::found);
   EXPECT_TRUE(hardware.sent.empty());
 }
 
-TEST(GoldFinder, TakesAnotherThreshold) {
+TEST(GoldFinder, UsesTheThresholdOfItsOptions) {
   FakeHardware hardware;
   Robot robot(hardware);
   GoldFinder finder({}, {.heat_threshold = 5});
-  hardware.feelHeat(6);
+  hardware.setHeat(6);
   finder.step(robot);
   EXPECT_EQ(robot.activity(), Activity::found);
 }

@@ -5,7 +5,7 @@
 namespace robosim {
 namespace {
 
-TEST(Grid, CountsCellsFromTheOriginBothWays) {
+TEST(Grid, NumbersCellsFromTheOriginInBothDirections) {
   const Grid<int> grid(0.5);
   EXPECT_EQ(grid.cellAt({0.1, 0.1}), (Cell{0, 0}));
   EXPECT_EQ(grid.cellAt({-0.1, 0.6}), (Cell{-1, 1}));
@@ -13,7 +13,7 @@ TEST(Grid, CountsCellsFromTheOriginBothWays) {
   EXPECT_EQ(grid.center({-1, 1}).y, 0.75);
 }
 
-TEST(Grid, HasNoCellsUntilItIsAskedToCoverSome) {
+TEST(Grid, HasNoCellsBeforeTheFirstCover) {
   Grid<int> grid(1);
   EXPECT_FALSE(grid.contains({0, 0}));
   grid.cover({-3, -2}, {4, 5});
@@ -23,7 +23,7 @@ TEST(Grid, HasNoCellsUntilItIsAskedToCoverSome) {
   EXPECT_EQ((grid[{4, 5}]), 0);
 }
 
-TEST(Grid, KeepsItsValuesAsItGrows) {
+TEST(Grid, KeepsItsValuesWhenItGrows) {
   Grid<int> grid(1);
   grid.cover({0, 0}, {9, 9});
   for (int y = 0; y < 10; ++y) {
@@ -48,7 +48,7 @@ TEST(Grid, GrowsGeometrically) {
   EXPECT_EQ(grid.size(), size);
 }
 
-TEST(Grid, GrowsNoFartherThanItsLongestSide) {
+TEST(Grid, GrowsUpToItsMaximumSide) {
   Grid<int> grid(1);
   grid.cover({0, 0}, {9, 9});
   for (int i = 0; i < 2000; ++i) grid.cover({i, 0}, {i + 9, 9});
@@ -63,7 +63,7 @@ TEST(Grid, FindsTheCellOfAnIndex) {
   for (std::size_t i = 0; i < grid.size(); ++i) EXPECT_EQ(grid.index(grid.cell(i)), i);
 }
 
-TEST(Grid, KeepsItsCellsWithDefaultValuesOnceReset) {
+TEST(Grid, ResetKeepsTheCellsAndClearsTheirValues) {
   Grid<int> grid(1);
   grid.cover({0, 0}, {9, 9});
   grid[{1, 1}] = 5;
@@ -72,7 +72,7 @@ TEST(Grid, KeepsItsCellsWithDefaultValuesOnceReset) {
   EXPECT_EQ(grid.size(), 100u);
 }
 
-TEST(Grid, BeginsElsewhereOnceResetWhenItWasFull) {
+TEST(Grid, ResetOfAFullGridAllowsAnotherArea) {
   Grid<int> grid(1);
   for (int i = 0; i < 1000; ++i) grid.cover({i, 0}, {i, 0});
   EXPECT_FALSE(grid.contains({999, 0}));

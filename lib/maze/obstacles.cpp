@@ -44,16 +44,16 @@ void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorIn
   for (std::size_t i = 0; i < echoes.size(); i += stride) {
     const auto& mount = sensor.beams[i].robot_from_beam;
     const mrpt::math::TPoint2D from = to_start(mount.x, mount.y);
-    const mrpt::math::TPoint2D way = to_start(echoes[i].point_m.x, echoes[i].point_m.y) - from;
-    const double length = way.norm();
+    const mrpt::math::TPoint2D ray = to_start(echoes[i].point_m.x, echoes[i].point_m.y) - from;
+    const double length = ray.norm();
     if (length <= 0) continue;
-    const mrpt::math::TPoint2D step = way * (cell_m / length);
+    const mrpt::math::TPoint2D step = ray * (cell_m / length);
     const bool hit = heard(sensor, echoes[i]) && length < reach_m;
     const int free_cells = static_cast<int>(std::min(length, reach_m) / cell_m - (hit ? 0.5 : 0));
     mrpt::math::TPoint2D at = from + step * 0.5;
     for (int k = 0; k < free_cells; ++k, at += step) seeFree(map_->cellAt(at));
     // Slightly beyond the surface, so that a surface on the border of two cells always maps to the same cell.
-    if (hit) add(map_->cellAt(from + way + step * 0.2), kHit);
+    if (hit) add(map_->cellAt(from + ray + step * 0.2), kHit);
   }
 }
 
@@ -72,7 +72,7 @@ int Obstacles::reach() const {
   return kReach_cells + 1 + close_.back().y;
 }
 
-void Obstacles::forgetDoubtful() {
+void Obstacles::removeUncertain() {
   for (std::size_t i = 0; i < map_->size(); ++i) {
     if (map_->at(i).evidence > 0 && map_->at(i).evidence < kSure) add(map_->cell(i), -kEvidenceMax);
   }

@@ -33,7 +33,7 @@ class Obstacles {
   void bump(const mrpt::math::TPoint2D& place);
 
   /// Removes obstacles without repeated evidence.
-  void forgetDoubtful();
+  void removeUncertain();
   /// Counter of cells that became occupied or free.
   std::uint64_t changes() const { return changes_; }
 

@@ -25,8 +25,8 @@ struct ObstaclesTest : testing::Test {
   Obstacles obstacles{map, kRadius_m};
 };
 
-TEST_F(ObstaclesTest, StandWhereAnEchoCameFrom) {
-  hardware.setSonarRange(0, 1.0);  // from the edge: 1.25 m ahead
+TEST_F(ObstaclesTest, AreCreatedAtTheEndsOfEchoes) {
+  hardware.setSonarRange(0, 1.0);  // from the robot's edge: 1.25 m ahead of its centre
   look();
   EXPECT_TRUE(occupied(1.27, 0.05));
   EXPECT_FALSE(occupied(1.05, 0.05));
@@ -35,7 +35,7 @@ TEST_F(ObstaclesTest, StandWhereAnEchoCameFrom) {
   EXPECT_TRUE(occupied(1.95, 2.27));
 }
 
-TEST_F(ObstaclesTest, BlockWhereTheRobotWouldTouchThem) {
+TEST_F(ObstaclesTest, BlockCellsWithinTheRobotsRadius) {
   hardware.setSonarRange(0, 1.0);
   look();
   EXPECT_TRUE(blocked(1.27, 0.05));
@@ -50,18 +50,18 @@ TEST_F(ObstaclesTest, AreNotCreatedWithoutEchoes) {
   EXPECT_EQ(obstacles.changes(), 0u);
 }
 
-TEST_F(ObstaclesTest, FadeOnceTheirPlaceIsSeenEmpty) {
+TEST_F(ObstaclesTest, AreRemovedAfterRepeatedMeasurementsOfFreeSpace) {
   hardware.setSonarRange(0, 1.0);
   for (int i = 0; i < 5; ++i) look();
-  hardware.hearNothing();
+  hardware.clearEchoes();
   look();
-  EXPECT_TRUE(occupied(1.27, 0.05));  // seen five times, it does not go at once
+  EXPECT_TRUE(occupied(1.27, 0.05));  // after five detections, one measurement does not remove it
   for (int i = 0; i < 10; ++i) look();
   EXPECT_FALSE(occupied(1.27, 0.05));
   EXPECT_FALSE(blocked(1.27, 0.05));
 }
 
-TEST_F(ObstaclesTest, StayWhileTheyAreSeenNowAndThen) {
+TEST_F(ObstaclesTest, RemainIfDetectedInEveryThirdMeasurement) {
   for (int i = 0; i < 30; ++i) {
     hardware.setSonarRange(0, i % 3 == 0 ? 1.0 : 3.0);
     look();
@@ -69,52 +69,52 @@ TEST_F(ObstaclesTest, StayWhileTheyAreSeenNowAndThen) {
   EXPECT_TRUE(occupied(1.27, 0.05));
 }
 
-TEST_F(ObstaclesTest, ThatAreFarAwayAreLeftOut) {
+TEST_F(ObstaclesTest, BeyondTheMaximumRangeAreIgnored) {
   hardware.setSonarRange(0, 4.5);  // 30 cells
   look();
   EXPECT_EQ(obstacles.changes(), 0u);
 }
 
-TEST_F(ObstaclesTest, TakeInOnlySomeBeamsIfTold) {
+TEST_F(ObstaclesTest, AreCreatedFromEveryNthBeam) {
   hardware.setSonarRange(1, 1.0);
   hardware.setSonarRange(2, 1.0);
   obstacles.look({}, (*hardware.info().sensors)[1], std::get<Echoes>(hardware.readings().measurements[1]), 2);
   EXPECT_EQ(obstacles.changes(), 1u);
 }
 
-TEST_F(ObstaclesTest, CannotBeWhereTheRobotIs) {
+TEST_F(ObstaclesTest, AreRemovedUnderTheRobot) {
   hardware.setSonarRange(0, 1.0);
   look();
   obstacles.clearUnder({1.27, 0.05});
   EXPECT_FALSE(occupied(1.27, 0.05));
 }
 
-TEST_F(ObstaclesTest, FeltButNotSeenBlockToo) {
+TEST_F(ObstaclesTest, OfACollisionBlockCells) {
   obstacles.bump({0.5, 0.5});
   EXPECT_TRUE(blocked(0.5, 0.5));
 }
 
-TEST_F(ObstaclesTest, SeenOnceAreForgottenAndSeenOftenAreNot) {
+TEST_F(ObstaclesTest, DetectedOnceAreRemovedAsUncertain) {
   hardware.setSonarRange(0, 1.0);
   look();
   look();
-  hardware.setSonarRange(8, 1.0);  // straight behind
+  hardware.setSonarRange(8, 1.0);  // straight backwards
   look();
   obstacles.bump({0.5, 0.5});
-  obstacles.forgetDoubtful();
+  obstacles.removeUncertain();
   EXPECT_TRUE(occupied(1.27, 0.05));
   EXPECT_FALSE(occupied(-1.27, 0.05));
   EXPECT_FALSE(blocked(0.5, 0.5));
 }
 
-TEST_F(ObstaclesTest, CountAroundEachCellWhatIsThere) {
+TEST_F(ObstaclesTest, AreCountedAroundEachCell) {
   Rng rng(7);
   for (int i = 0; i < 500; ++i) {
     for (std::size_t beam = 0; beam < 16; ++beam) hardware.setSonarRange(beam, rng.uniform(0.1, 6));
     const mrpt::math::TPose2D pose(rng.uniform(-2, 2), rng.uniform(-2, 2), rng.uniform(-3, 3));
     look(pose);
     obstacles.clearUnder({pose.x, pose.y});
-    if (i % 50 == 0) obstacles.forgetDoubtful();
+    if (i % 50 == 0) obstacles.removeUncertain();
   }
   const int reach = 5;
   const double near = kRadius_m / 0.15, close = 1.5 * kRadius_m / 0.15 + 1;

@@ -41,7 +41,7 @@ bool isRoomy(const MazeMap& map, const Cell& from, const Cell& to) {
 
 }  // namespace
 
-double roomInLane(const Robot& robot, int direction) {
+double clearanceInLane(const Robot& robot, int direction) {
   const double radius = robot.info().radius_m;
   double room = std::numeric_limits<double>::infinity();
   for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared}) {
@@ -55,30 +55,30 @@ double roomInLane(const Robot& robot, int direction) {
   return room;
 }
 
-void PathDriver::follow(const std::vector<Cell>& way) {
-  way_ = way;
+void PathDriver::follow(const std::vector<Cell>& path) {
+  path_ = path;
   next_ = 0;
 }
 
 bool PathDriver::blocked(const MazeMap& map) const {
-  const std::size_t end = std::min(way_.size(), next_ + kWatchAhead);
+  const std::size_t end = std::min(path_.size(), next_ + kWatchAhead);
   // The first cells may be blocked: the robot is about to leave them.
   for (std::size_t i = next_ + 2; i < end; ++i) {
-    if (map.contains(way_[i]) && map[way_[i]].blocked()) return true;
+    if (map.contains(path_[i]) && map[path_[i]].blocked()) return true;
   }
   return false;
 }
 
 void PathDriver::advance(const MazeMap& map, const mrpt::math::TPoint2D& robot) {
-  const auto distance = [&](std::size_t i) { return (map.center(way_[i]) - robot).norm(); };
-  while (next_ + 1 < way_.size() && distance(next_ + 1) <= distance(next_)) ++next_;
+  const auto distance = [&](std::size_t i) { return (map.center(path_[i]) - robot).norm(); };
+  while (next_ + 1 < path_.size() && distance(next_ + 1) <= distance(next_)) ++next_;
 }
 
 Cell PathDriver::aim(const MazeMap& map, const Cell& robot) const {
-  std::size_t i = std::min(next_ + kLookAhead, way_.size() - 1);
-  const std::size_t nearest = std::min(next_ + kLookAheadWhereTight, way_.size() - 1);
-  while (i > nearest && !isRoomy(map, robot, way_[i])) --i;
-  return way_[i];
+  std::size_t i = std::min(next_ + kLookAhead, path_.size() - 1);
+  const std::size_t nearest = std::min(next_ + kLookAheadWhereTight, path_.size() - 1);
+  while (i > nearest && !isRoomy(map, robot, path_[i])) --i;
+  return path_[i];
 }
 
 void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot, const MazeMap& map) {
@@ -89,7 +89,7 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
       mrpt::math::wrapToPi(portable::atan2(aim_point.y - at.y, aim_point.x - at.x) - start_from_robot.phi);
 
   const double to_aim = (aim_point - at).norm();
-  const bool at_end = next_ + 1 == way_.size();
+  const bool at_end = next_ + 1 == path_.size();
   if (at_end && to_aim < map.cellSize() / 2) {
     robot.stop();
     return;
@@ -98,7 +98,7 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
   double speed = 0;
   if (std::abs(off) < kTurnOnSpot_rad) {
     // Slow enough to brake within the clearance, and to reach the target point with kBendSpeed.
-    const double room = std::max(0.0, roomInLane(robot, 1) - kGap_m);
+    const double room = std::max(0.0, clearanceInLane(robot, 1) - kGap_m);
     const double bend_mps = at_end ? 0 : kBendSpeed * limits.speed_max_mps;
     const double on_course = portable::cos(off * M_PI_2 / kTurnOnSpot_rad);
     const double period_s = robot.readings().time.period_s;

@@ -10,17 +10,17 @@ namespace robosim {
 
 /// Clearance [m] between a robot and the nearest echo of its range sensors in its lane, straight ahead (`direction` 1)
 /// or straight back (-1); infinity without an echo.
-double roomInLane(const Robot& robot, int direction);
+double clearanceInLane(const Robot& robot, int direction);
 
 /// Path follower over a MazeMap (pure pursuit): steers towards the farthest point ahead on the path that is reachable
 /// in a straight line. The speed decreases with the heading error and with the distance to obstacles ahead.
 class PathDriver {
  public:
   /// Sets a new path, from near the robot to its goal.
-  void follow(const std::vector<Cell>& way);
-  void clear() { way_.clear(); }
-  bool empty() const { return way_.empty(); }
-  const Cell& goal() const { return way_.back(); }
+  void follow(const std::vector<Cell>& path);
+  void clear() { path_.clear(); }
+  bool empty() const { return path_.empty(); }
+  const Cell& goal() const { return path_.back(); }
 
   /// Whether the path is blocked in the current map.
   bool blocked(const MazeMap& map) const;
@@ -31,7 +31,7 @@ class PathDriver {
   void advance(const MazeMap& map, const mrpt::math::TPoint2D& robot);
   Cell aim(const MazeMap& map, const Cell& robot) const;
 
-  std::vector<Cell> way_;
+  std::vector<Cell> path_;
   std::size_t next_ = 0;  ///< index of the path's cell that the robot has reached
 };
 

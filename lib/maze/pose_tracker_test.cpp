@@ -24,13 +24,13 @@ struct WithCompass {
   FakeHardware hardware;
 };
 
-TEST(PoseTracker, StartsAtZeroWhereverTheOdometryIs) {
+TEST(PoseTracker, StartsAtZeroForAnyOdometry) {
   FakeHardware hardware;
   const Robot robot(hardware);
   hardware.mutableOdometry().odom_from_robot = {3, 4, M_PI / 2};
   PoseTracker tracker;
   EXPECT_NEAR(tracker.update(robot).x, 0, 1e-12);
-  hardware.mutableOdometry().odom_from_robot = {3, 5, M_PI};  // a metre ahead, then a turn to the left
+  hardware.mutableOdometry().odom_from_robot = {3, 5, M_PI};  // 1 m ahead, then 90° to the left
   tracker.update(robot);
   EXPECT_NEAR(tracker.startFromRobot().x, 1, 1e-12);
   EXPECT_NEAR(tracker.startFromRobot().y, 0, 1e-12);
@@ -51,8 +51,8 @@ TEST(PoseTracker, FollowsTheOdometryWithoutACompass) {
   EXPECT_NEAR(tracker.startFromRobot().y, hardware.odometry().odom_from_robot.y, 1e-9);
 }
 
-TEST(PoseTracker, KeepsItsHeadingByTheCompassWhenTheOdometryDrifts) {
-  // The wheels say straight on, but tell 0.001 rad too much in each step; over 1000 steps that would be 57°.
+TEST(PoseTracker, CorrectsDriftOfTheHeadingByTheCompass) {
+  // The odometry adds 0.001 rad in each step to a straight path: 57° over 1000 steps.
   WithCompass w;
   const Robot robot(w.hardware);
   Rng rng(5);
@@ -62,10 +62,10 @@ TEST(PoseTracker, KeepsItsHeadingByTheCompassWhenTheOdometryDrifts) {
     w.point(mrpt::math::wrapToPi(3.1 + (i == 0 ? 0 : 0.03 * rng.gaussian())));
     tracker.update(robot);
   }
-  EXPECT_NEAR(tracker.startFromRobot().phi, 0.05, 0.02);  // it lags by the drift of 1 / 0.02 steps
+  EXPECT_NEAR(tracker.startFromRobot().phi, 0.05, 0.02);  // the filter lags by the drift of 1 / 0.02 steps
 }
 
-TEST(PoseTracker, TurnsThroughSouthWithoutASlip) {
+TEST(PoseTracker, FollowsTheCompassAcrossPi) {
   WithCompass w;
   const Robot robot(w.hardware);
   PoseTracker tracker;

@@ -24,7 +24,7 @@ std::atomic<long> allocations{0};
 namespace robosim {
 namespace {
 
-TEST(Controllers, AllocateNothingOnceTheyKnowTheirSurroundings) {
+TEST(Controllers, AllocateNothingAfterTheMapIsComplete) {
   for (const auto& name : controllerNames()) {
     FakeMaze maze(FakeMaze::room(-2, 2, -2, 2), {99, 99}, 0);
     Robot robot(maze.hardware);

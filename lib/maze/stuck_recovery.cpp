@@ -56,7 +56,7 @@ bool StuckRecovery::hasMoved(const Robot& robot) const {
 void StuckRecovery::turnOrDrive(Robot& robot) {
   const MotionLimits& limits = robot.info().limits;
   const std::uint64_t now = robot.stepNumber();
-  const bool is_blocked = robot.stalled() || roomInLane(robot, 1) < kGap_m;
+  const bool is_blocked = robot.stalled() || clearanceInLane(robot, 1) < kGap_m;
   if (now >= turn_until_ && (is_blocked || now >= drive_until_)) {
     Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, kRandomItem, now);
     turn_ = rng.below(2) == 0 ? kTurn : -kTurn;

@@ -9,9 +9,9 @@
 namespace robosim {
 namespace {
 
-/// Steps of 0.1 s until the robot is farther than `distance_m` from its start; `most` if it never is.
+/// Steps of 0.1 s until the robot is farther than `distance_m` from its start; `most` if that does not happen.
 template <typename Step>
-int stepsUntilGone(FakeMaze& maze, double distance_m, int most, const Step& step) {
+int stepsToLeave(FakeMaze& maze, double distance_m, int most, const Step& step) {
   Robot robot(maze.hardware);
   for (int i = 0; i < most; ++i) {
     step(robot);
@@ -21,18 +21,18 @@ int stepsUntilGone(FakeMaze& maze, double distance_m, int most, const Step& step
   return most;
 }
 
-TEST(StuckRecovery, LeavesARobotThatMovesAlone) {
+TEST(StuckRecovery, DoesNotTakeOverARobotThatMoves) {
   FakeHardware hardware;
   Robot robot(hardware);
   StuckRecovery recovery({.seed = 1});
   for (int i = 0; i < 1000; ++i) {
     ASSERT_FALSE(recovery.takesOver(robot)) << i;
-    robot.drive(0.1, 0);  // 1.5 radii of 0.25 m take it 3.75 s
+    robot.drive(0.1, 0);  // it drives 1.5 radii of 0.25 m in 3.75 s
     hardware.advance();
   }
 }
 
-TEST(StuckRecovery, BeginsAfter15SecondsWithoutHeadway) {
+TEST(StuckRecovery, TakesOverAfter15SecondsWithoutProgress) {
   FakeHardware hardware;
   Robot robot(hardware);
   StuckRecovery recovery({.seed = 1});
@@ -43,18 +43,18 @@ TEST(StuckRecovery, BeginsAfter15SecondsWithoutHeadway) {
   EXPECT_TRUE(recovery.takesOver(robot));
 }
 
-TEST(StuckRecovery, DrivesOutOfADeadEndThatIsOpenToOneSideOnly) {
-  // A niche 0.6 m wide around a robot of 0.5 m, open at its back.
+TEST(StuckRecovery, DrivesOutOfADeadEnd) {
+  // A dead end 0.6 m wide around a robot of 0.5 m, open behind the robot.
   FakeMaze maze({FakeMaze::box(0.45, 0, 0.2, 0.8), FakeMaze::box(-1, 0.4, 3, 0.2), FakeMaze::box(-1, -0.4, 3, 0.2)},
                 {99, 99}, 0);
   StuckRecovery recovery({.seed = 1});
-  const int steps = stepsUntilGone(maze, 0.4, 6000, [&](Robot& robot) {
+  const int steps = stepsToLeave(maze, 0.4, 6000, [&](Robot& robot) {
     if (!recovery.takesOver(robot)) robot.stop();
   });
   EXPECT_LT(steps, 6000);
 }
 
-TEST(StuckRecovery, BeginsAnewAfterSomethingElseHasDrivenTheRobot) {
+TEST(StuckRecovery, RestartsItsTimeoutAfterAnotherControllerHasDriven) {
   FakeHardware hardware;
   Robot robot(hardware);
   StuckRecovery recovery({.seed = 1});
@@ -63,18 +63,18 @@ TEST(StuckRecovery, BeginsAnewAfterSomethingElseHasDrivenTheRobot) {
   EXPECT_FALSE(recovery.takesOver(robot));
 }
 
-TEST(StuckRecovery, LetsAWandererOutOfAPlaceTooNarrowForItsUsualBerth) {
-  // Walls 0.1 m from either side of the robot: nearer than it otherwise drives past.
+TEST(StuckRecovery, FreesWanderFromAPassageNarrowerThanItsClearance) {
+  // Walls 0.1 m from both sides of the robot: nearer than its clearance.
   FakeMaze maze({FakeMaze::box(0, 0.4, 4, 0.1), FakeMaze::box(0, -0.4, 4, 0.1)}, {99, 99}, 0);
   Wander wander({.seed = 1});
-  EXPECT_LT(stepsUntilGone(maze, 1, 6000, [&](Robot& robot) { wander.step(robot); }), 6000);
+  EXPECT_LT(stepsToLeave(maze, 1, 6000, [&](Robot& robot) { wander.step(robot); }), 6000);
 }
 
-TEST(StuckRecovery, LetsAWallFollowerOutOfAPlaceNarrowerThanItsDistance) {
+TEST(StuckRecovery, FreesAWallFollowerFromAPassageNarrowerThanItsDistance) {
   FakeMaze maze({FakeMaze::box(0, 0.4, 4, 0.1), FakeMaze::box(0, -0.4, 4, 0.1), FakeMaze::box(0.6, 0, 0.1, 1)},
                 {99, 99}, 0);
   WallFollower follower;
-  EXPECT_LT(stepsUntilGone(maze, 1, 6000, [&](Robot& robot) { follower.step(robot); }), 6000);
+  EXPECT_LT(stepsToLeave(maze, 1, 6000, [&](Robot& robot) { follower.step(robot); }), 6000);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 namespace robosim {
 namespace {
 
-constexpr double kDistance_m = 1.5 * FakeHardware::kRadius_m;  // from the robot's edge, by default
+constexpr double kDistance_m = 1.5 * FakeHardware::kRadius_m;  // from the robot's edge; the default
 
-TEST(WallFollower, DrivesAheadUntilItMeetsAWall) {
+TEST(WallFollower, DrivesStraightWithoutAWall) {
   FakeHardware hardware;
   Robot robot(hardware);
   WallFollower follower;
@@ -23,7 +23,7 @@ TEST(WallFollower, DrivesAheadUntilItMeetsAWall) {
   EXPECT_EQ(hardware.odometry().odom_from_robot.phi, 0);
 }
 
-TEST(WallFollower, KeepsTheWallOnItsRightAtItsDistance) {
+TEST(WallFollower, KeepsItsDistanceToTheWallOnTheRight) {
   FakeMaze maze({FakeMaze::box(0, -0.8, 100, 0.1)}, {99, 99}, 0);
   Robot robot(maze.hardware);
   WallFollower follower;
@@ -37,7 +37,7 @@ TEST(WallFollower, KeepsTheWallOnItsRightAtItsDistance) {
   EXPECT_GT(maze.pose().x, 5);
 }
 
-TEST(WallFollower, GoesRoundARoomCounterClockwise) {
+TEST(WallFollower, FollowsTheWallsOfARoomCounterClockwise) {
   FakeMaze maze(FakeMaze::room(-2, 2, -2, 2), {99, 99}, 0);
   Robot robot(maze.hardware);
   WallFollower follower;
@@ -53,11 +53,11 @@ TEST(WallFollower, GoesRoundARoomCounterClockwise) {
       last = now;
     }
   }
-  EXPECT_GT(angle, 4 * M_PI);  // twice round at least
+  EXPECT_GT(angle, 4 * M_PI);  // at least two turns
 }
 
-TEST(WallFollower, GoesRoundAnOuterCorner) {
-  // A block of 2 m: it goes round it clockwise, and never far from it.
+TEST(WallFollower, FollowsOuterCorners) {
+  // A block of 2 m: the robot follows it clockwise, at a small distance.
   FakeMaze maze({FakeMaze::box(2.5, 0, 2, 2)}, {99, 99}, 0);
   Robot robot(maze.hardware);
   WallFollower follower;
@@ -76,7 +76,7 @@ TEST(WallFollower, GoesRoundAnOuterCorner) {
   EXPECT_LT(angle, -2 * M_PI);
 }
 
-TEST(WallFollower, KeepsAnotherDistanceIfTold) {
+TEST(WallFollower, KeepsTheDistanceOfItsOptions) {
   FakeMaze maze({FakeMaze::box(0, -0.8, 100, 0.1)}, {99, 99}, 0);
   Robot robot(maze.hardware);
   WallFollower follower({}, {.distance_radii = 1});

@@ -10,7 +10,7 @@
 namespace robosim {
 namespace {
 
-TEST(Wander, DrivesAheadInTheOpen) {
+TEST(Wander, DrivesStraightWithoutObstacles) {
   FakeHardware hardware;
   Robot robot(hardware);
   Wander wander({.seed = 1});
@@ -28,11 +28,11 @@ TEST(Wander, TurnsAwayFromTheNearerSide) {
     hardware.setSonarRange(near, 0.2);
     Wander wander({.seed = 1});
     wander.step(robot);
-    EXPECT_EQ(robot.command().turn_radps < 0, near == 1) << "something near by sonar " << near;
+    EXPECT_EQ(robot.command().turn_radps < 0, near == 1) << "an obstacle at sonar " << near;
   }
 }
 
-TEST(Wander, GetsAboutInARoomAndSeldomStalls) {
+TEST(Wander, VisitsAllPartsOfARoomAndRarelyStalls) {
   FakeMaze maze(FakeMaze::room(-3, 3, -3, 3), {99, 99}, 0);
   Robot robot(maze.hardware);
   Wander wander({.seed = 2});
@@ -51,7 +51,7 @@ TEST(Wander, GetsAboutInARoomAndSeldomStalls) {
   }
 }
 
-TEST(Wander, OfDifferentRobotsGoesDifferentWays) {
+TEST(Wander, OfDifferentRobotsTakesDifferentPaths) {
   FakeMaze one(FakeMaze::room(-3, 3, -3, 3), {99, 99}, 0), other(FakeMaze::room(-3, 3, -3, 3), {99, 99}, 0);
   Robot robot(one.hardware), other_robot(other.hardware);
   Wander wander({.seed = 2, .robot = 0}), other_wander({.seed = 2, .robot = 1});
@@ -64,7 +64,7 @@ TEST(Wander, OfDifferentRobotsGoesDifferentWays) {
   EXPECT_GT(std::hypot(one.pose().x - other.pose().x, one.pose().y - other.pose().y), 0.1);
 }
 
-TEST(Wander, WithoutSonarGoesOnAllTheSame) {
+TEST(Wander, WithoutSonarContinues) {
   FakeHardware hardware(0);
   Robot robot(hardware);
   Wander wander({.seed = 1});

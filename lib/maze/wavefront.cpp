@@ -37,14 +37,14 @@ void Wavefront::spread(const MazeMap& map, const Cell& from, int cost) {
   }
 }
 
-void Wavefront::wayTo(const MazeMap& map, const Cell& goal, std::vector<Cell>& way) const {
-  way.clear();
+void Wavefront::pathTo(const MazeMap& map, const Cell& goal, std::vector<Cell>& path) const {
+  path.clear();
   for (Cell cell = goal; cell != start_;) {
-    way.push_back(cell);
+    path.push_back(cell);
     const Cell& step = kNeighbours[nodes_[map.index(cell)].from].offset;
     cell = {cell.x - step.x, cell.y - step.y};
   }
-  std::reverse(way.begin(), way.end());
+  std::reverse(path.begin(), path.end());
 }
 
 }  // namespace robosim

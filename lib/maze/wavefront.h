@@ -23,7 +23,7 @@ class Wavefront {
   std::optional<Cell> findGoal(const MazeMap& map, const Cell& start, int cost_max, const Judge& judge);
 
   /// Path to a cell reached by the last search: from the cell after the start to `goal`, both included.
-  void wayTo(const MazeMap& map, const Cell& goal, std::vector<Cell>& way) const;
+  void pathTo(const MazeMap& map, const Cell& goal, std::vector<Cell>& path) const;
 
  private:
   struct Node {

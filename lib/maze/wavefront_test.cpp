@@ -9,7 +9,7 @@
 namespace robosim {
 namespace {
 
-/// Cells where the robot cannot be, as text: '#' blocked, ',' crowded.
+/// Cells that the robot cannot enter, as text: '#' blocked, ',' close to a wall.
 MazeMap mapOf(const std::vector<std::string>& rows) {
   MazeMap map(1);
   map.cover({0, 0}, {static_cast<int>(rows[0].size()) - 1, static_cast<int>(rows.size()) - 1});
@@ -28,67 +28,67 @@ auto only(const Cell& goal) {
   return [goal](const Cell& cell) { return cell == goal ? 0 : -1; };
 }
 
-std::vector<Cell> wayBetween(const MazeMap& map, const Cell& start, const Cell& goal) {
+std::vector<Cell> pathBetween(const MazeMap& map, const Cell& start, const Cell& goal) {
   Wavefront wavefront;
-  std::vector<Cell> way;
-  if (wavefront.findGoal(map, start, 100000, only(goal))) wavefront.wayTo(map, goal, way);
-  return way;
+  std::vector<Cell> path;
+  if (wavefront.findGoal(map, start, 100000, only(goal))) wavefront.pathTo(map, goal, path);
+  return path;
 }
 
-TEST(Wavefront, GoesStraightWhereNothingIsInTheWay) {
-  EXPECT_EQ(wayBetween(mapOf({".....", ".....", "....."}), {0, 1}, {3, 1}),
+TEST(Wavefront, FindsAStraightPathThroughFreeSpace) {
+  EXPECT_EQ(pathBetween(mapOf({".....", ".....", "....."}), {0, 1}, {3, 1}),
             (std::vector<Cell>{{1, 1}, {2, 1}, {3, 1}}));
-  EXPECT_EQ(wayBetween(mapOf({".....", ".....", "....."}), {0, 0}, {2, 2}), (std::vector<Cell>{{1, 1}, {2, 2}}));
+  EXPECT_EQ(pathBetween(mapOf({".....", ".....", "....."}), {0, 0}, {2, 2}), (std::vector<Cell>{{1, 1}, {2, 2}}));
 }
 
-TEST(Wavefront, GoesRoundAWall) {
-  const auto way = wayBetween(mapOf({".......",  //
-                                     "...#...",  //
-                                     "...#...",  //
-                                     "...#...",  //
-                                     "...#..."}),
-                              {2, 4}, {4, 4});
-  ASSERT_EQ(way.size(), 8u);
-  EXPECT_EQ(way[3], (Cell{3, 0}));
+TEST(Wavefront, FindsAPathAroundAWall) {
+  const auto path = pathBetween(mapOf({".......",  //
+                                       "...#...",  //
+                                       "...#...",  //
+                                       "...#...",  //
+                                       "...#..."}),
+                                {2, 4}, {4, 4});
+  ASSERT_EQ(path.size(), 8u);
+  EXPECT_EQ(path[3], (Cell{3, 0}));
 }
 
-TEST(Wavefront, FindsNoWayThroughAClosedWall) {
-  EXPECT_TRUE(wayBetween(mapOf({"....#...", "....#...", "....#..."}), {0, 1}, {7, 1}).empty());
+TEST(Wavefront, FindsNoPathThroughAClosedWall) {
+  EXPECT_TRUE(pathBetween(mapOf({"....#...", "....#...", "....#..."}), {0, 1}, {7, 1}).empty());
 }
 
-TEST(Wavefront, TakesADetourToKeepItsBerth) {
-  const auto way = wayBetween(mapOf({".........",  //
-                                     ".........",  //
-                                     "..,,,,,..",  //
-                                     "..,,,,,.."}),
-                              {0, 2}, {8, 2});
-  for (const Cell& cell : way) EXPECT_TRUE(cell.y <= 1 || cell.x < 2 || cell.x > 6);
+TEST(Wavefront, TakesADetourToKeepItsClearance) {
+  const auto path = pathBetween(mapOf({".........",  //
+                                       ".........",  //
+                                       "..,,,,,..",  //
+                                       "..,,,,,.."}),
+                                {0, 2}, {8, 2});
+  for (const Cell& cell : path) EXPECT_TRUE(cell.y <= 1 || cell.x < 2 || cell.x > 6);
 }
 
-TEST(Wavefront, LetsARobotOutFromBesideAWall) {
-  // The start and what is about it is blocked, but nothing stands there.
+TEST(Wavefront, FindsAPathOutOfBlockedCellsAroundTheStart) {
+  // The start and its surroundings are blocked, but not occupied.
   MazeMap map = mapOf({"........", "........", "........"});
   for (int y = 0; y < 3; ++y) {
     map[{0, y}].evidence = 12;
     for (int x = 0; x < 3; ++x) map[{x, y}].walls_near = 1;
   }
-  EXPECT_EQ(wayBetween(map, {1, 1}, {4, 1}), (std::vector<Cell>{{2, 1}, {3, 1}, {4, 1}}));
-  EXPECT_TRUE(wayBetween(map, {7, 1}, {1, 1}).empty());  // and not in there again
+  EXPECT_EQ(pathBetween(map, {1, 1}, {4, 1}), (std::vector<Cell>{{2, 1}, {3, 1}, {4, 1}}));
+  EXPECT_TRUE(pathBetween(map, {7, 1}, {1, 1}).empty());  // no path leads back into it
 }
 
-TEST(Wavefront, PrefersTheGoalThatCostsLeastInAll) {
+TEST(Wavefront, SelectsTheGoalOfLeastTotalCost) {
   const MazeMap map = mapOf({"..........", "..........", ".........."});
   Wavefront wavefront;
   const auto judge = [](const Cell& cell) {
-    if (cell == Cell{3, 1}) return 20;  // 6 away
-    if (cell == Cell{8, 1}) return 3;   // 16 away
+    if (cell == Cell{3, 1}) return 20;  // at a cost of 6
+    if (cell == Cell{8, 1}) return 3;   // at a cost of 16
     return -1;
   };
   EXPECT_EQ(wavefront.findGoal(map, {0, 1}, 1000, judge), (Cell{8, 1}));
   EXPECT_EQ(wavefront.findGoal(map, {0, 1}, 19, judge), std::nullopt);
 }
 
-TEST(Wavefront, FindsTheLeastCostsThatBruteForceFinds) {
+TEST(Wavefront, FindsTheSameCostsAsBellmanFord) {
   Rng rng(11);
   for (int trial = 0; trial < 60; ++trial) {
     std::vector<std::string> rows(15, std::string(18, '.'));
@@ -102,7 +102,7 @@ TEST(Wavefront, FindsTheLeastCostsThatBruteForceFinds) {
     rows[static_cast<std::size_t>(start.y)][static_cast<std::size_t>(start.x)] = '.';
     const MazeMap map = mapOf(rows);
 
-    // Bellman and Ford: relax every step until nothing changes.
+    // Bellman–Ford: relaxes every edge until no cost changes.
     std::vector<int> cost(map.size(), 1000000);
     cost[map.index(start)] = 0;
     for (bool changed = true; changed;) {
@@ -126,7 +126,7 @@ TEST(Wavefront, FindsTheLeastCostsThatBruteForceFinds) {
       if (map.cell(i) == start) continue;
       const auto found = wavefront.findGoal(map, start, 100000, only(map.cell(i)));
       ASSERT_EQ(found.has_value(), cost[i] < 1000000);
-      // Not a step less would do.
+      // A lower limit of the cost must not suffice.
       if (found) {
         ASSERT_FALSE(wavefront.findGoal(map, start, cost[i], only(map.cell(i))));
         ASSERT_TRUE(wavefront.findGoal(map, start, cost[i] + 1, only(map.cell(i))));
@@ -140,11 +140,11 @@ TEST(Wavefront, SearchesAMapThatHasGrown) {
   Wavefront wavefront;
   EXPECT_TRUE(wavefront.findGoal(map, {0, 0}, 1000, only({2, 2})));
   map.cover({-30, 0}, {2, 2});
-  std::vector<Cell> way;
+  std::vector<Cell> path;
   ASSERT_TRUE(wavefront.findGoal(map, {0, 0}, 1000, only({-20, 0})));
-  wavefront.wayTo(map, {-20, 0}, way);
-  EXPECT_EQ(way.size(), 20u);
-  EXPECT_FALSE(wavefront.findGoal(map, {500, 0}, 1000, only({-20, 0})));  // from outside there is no way
+  wavefront.pathTo(map, {-20, 0}, path);
+  EXPECT_EQ(path.size(), 20u);
+  EXPECT_FALSE(wavefront.findGoal(map, {500, 0}, 1000, only({-20, 0})));  // there is no path from outside the map
 }
 
 }  // namespace

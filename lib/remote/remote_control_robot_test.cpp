@@ -251,7 +251,7 @@ TEST_F(RemoteControlRobotTest, ReportsTheWinnerAndHalts) {
 }
 
 TEST_F(RemoteControlRobotTest, ARobotHaltedByItsControllerStaysHalted) {
-  hardware.feelHeat(20);
+  hardware.setHeat(20);
   step();
   robot.take("Anna", false);
   robot.obey(driveAt(0.5, 0));

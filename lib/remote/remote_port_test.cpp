@@ -139,14 +139,14 @@ TEST_F(RemotePortTest, SendsReadingsToSubscribers) {
   connect(*anna, "Anna");
   EXPECT_EQ(anna->news().update, nullptr);
   anna->setLive(true);
-  robot.hardware->feelHeat(7);
+  robot.hardware->setHeat(7);
   for (int i = 0; i < 3; ++i) {
     const auto last = anna->news().update;
     wait([&] { return anna->news().update != last; });
   }
   EXPECT_EQ(std::get<Scalar>(anna->news().update->readings.measurements[3]).value, 7);
   anna->setLive(false);
-  robot.hardware->feelHeat(9);
+  robot.hardware->setHeat(9);
   anna->send({.type = RemoteType::req_heat});  // answered after the requests before it
   wait([&] { return anna->news().answers[0] != nullptr; });
   const auto step = anna->news().update->readings.time.step;
@@ -158,7 +158,7 @@ TEST_F(RemotePortTest, SendsReadingsToSubscribers) {
 
 TEST_F(RemotePortTest, AnswersARequestWithTheNextReading) {
   connect(*anna, "Anna");
-  robot.hardware->feelHeat(3);
+  robot.hardware->setHeat(3);
   robot.hardware->setLaserRange(2);
   for (const auto type : {RemoteType::req_heat, RemoteType::req_laser, RemoteType::req_sonar})
     anna->send({.type = type});

@@ -64,7 +64,7 @@ TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
   step();
   EXPECT_TRUE(outbox.isEmpty());
   EXPECT_TRUE(outbox.request(RemoteType::req_heat));
-  hardware.feelHeat(7);
+  hardware.setHeat(7);
   step();
   const auto message = take();
   EXPECT_EQ(message.type(), wire::REQ_HEAT);

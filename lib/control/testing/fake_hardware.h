@@ -36,7 +36,7 @@ class FakeHardware : public Hardware, public RefereeLink {
         .speed_max_mps = 1, .turn_max_radps = 2, .accel_mps2 = 0.5, .decel_mps2 = 1, .turn_accel_radps2 = 4};
     info_.sensors = std::make_shared<std::vector<SensorInfo>>(std::vector<SensorInfo>{odometry, sonar, laser, heat});
     readings_.measurements = {Odometry{}, Echoes(static_cast<std::size_t>(sonars)), Echoes(1), Scalar{}};
-    hearNothing();
+    clearEchoes();
   }
 
   const RobotInfo& info() const override { return info_; }
@@ -55,19 +55,20 @@ class FakeHardware : public Hardware, public RefereeLink {
   /// Sets the range of the sensor in a slot along its beam; beyond its maximum range: no echo.
   void setRange(std::size_t slot, std::size_t beam, double range_m) {
     const SensorInfo& info = (*info_.sensors)[slot];
-    const double told_m = range_m < info.range_max_m ? range_m : info.no_echo_m;
-    const auto end = info.beams[beam].robot_from_beam.composePoint({told_m, 0, 0});
+    const double reported_m = range_m < info.range_max_m ? range_m : info.no_echo_m;
+    const auto end = info.beams[beam].robot_from_beam.composePoint({reported_m, 0, 0});
     std::get<Echoes>(readings_.measurements[slot])[beam] = {
-        static_cast<float>(told_m), {static_cast<float>(end.x), static_cast<float>(end.y), static_cast<float>(end.z)}};
+        static_cast<float>(reported_m),
+        {static_cast<float>(end.x), static_cast<float>(end.y), static_cast<float>(end.z)}};
   }
   void setSonarRange(std::size_t beam, double range_m) { setRange(1, beam, range_m); }
   void setLaserRange(double range_m) { setRange(2, 0, range_m); }
-  void hearNothing() {
+  void clearEchoes() {
     for (std::size_t slot : {1u, 2u}) {
       for (std::size_t beam = 0; beam < (*info_.sensors)[slot].beams.size(); ++beam) setRange(slot, beam, 1e9);
     }
   }
-  void feelHeat(double heat) { std::get<Scalar>(readings_.measurements[3]).value = heat; }
+  void setHeat(double heat) { std::get<Scalar>(readings_.measurements[3]).value = heat; }
 
   /// One time step: drives by the last command, unless `blocked`; then `sense` may change the readings.
   void advance() {

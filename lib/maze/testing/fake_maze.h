@@ -35,7 +35,7 @@ class FakeMaze {
 
  private:
   void sense() {
-    standStillAgainstWalls();
+    stopAtWalls();
     const auto& sonar = (*hardware.info().sensors)[1];
     for (std::size_t i = 0; i < sonar.beams.size(); ++i) {
       const auto& mount = sonar.beams[i].robot_from_beam;
@@ -48,10 +48,10 @@ class FakeMaze {
       hardware.setSonarRange(i, nearest);
     }
     const double away = std::hypot(pose().x - gold_.x, pose().y - gold_.y);
-    hardware.feelHeat(gold_heat_ * std::max(0.0, 1 - away / (*hardware.info().sensors)[3].range_max_m));
+    hardware.setHeat(gold_heat_ * std::max(0.0, 1 - away / (*hardware.info().sensors)[3].range_max_m));
   }
 
-  void standStillAgainstWalls() {
+  void stopAtWalls() {
     Odometry& odometry = hardware.mutableOdometry();
     mrpt::math::TPose2D& now = odometry.odom_from_robot;
     for (const auto& wall : walls_) {
