@@ -8,7 +8,7 @@
 namespace robosim {
 namespace {
 
-/// Wants the same in every step, and notes what was settled before it.
+/// Requests the same in every step, and stores the result of the actions of higher priority.
 class FixedAction : public Action {
  public:
   FixedAction(std::string name, ActionDesired desired) : Action(std::move(name)), desired_(desired) {}

@@ -235,7 +235,7 @@ double PioneerRobot::nearestEcho(const Accept& accept, double if_none) const {
   double nearest = if_none;
   const auto look = [&](SensorKind kind) {
     for (const Echo& echo : robot_.echoes(kind)) {
-      if (!heard(*robot_.sensor(kind), echo)) continue;
+      if (!isEcho(*robot_.sensor(kind), echo)) continue;
       const double x = echo.point_m.x * kMmPerM, y = echo.point_m.y * kMmPerM;
       const double distance = portable::hypot(x, y);
       if (distance < nearest && accept(x, y)) nearest = distance;

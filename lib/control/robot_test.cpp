@@ -114,11 +114,11 @@ TEST(Robot, IgnoresCheckWinOnHardwareWithoutAReferee) {
 }
 
 TEST(Echo, RequiresARangeBelowTheSensorsMaximum) {
-  // 8.1 has no exact float: the reading of a sensor that hears nothing must not count as an echo through rounding.
+  // 8.1 has no exact float: the reading of a sensor without an echo must not count as an echo through rounding.
   SensorInfo sensor;
   sensor.range_max_m = sensor.no_echo_m = 8.1;
-  EXPECT_FALSE(heard(sensor, {static_cast<float>(8.1), {}}));
-  EXPECT_TRUE(heard(sensor, {8.09f, {}}));
+  EXPECT_FALSE(isEcho(sensor, {static_cast<float>(8.1), {}}));
+  EXPECT_TRUE(isEcho(sensor, {8.09f, {}}));
 }
 
 }  // namespace

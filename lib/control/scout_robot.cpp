@@ -99,8 +99,8 @@ int ScoutRobot::st() {
 
 int ScoutRobot::ws(bool translation, bool rotation, bool, int timeout_s) {
   const double until = robot_.time() + timeout_s;
-  const auto moves = [](bool asked, double to_go, double told, double goes) {
-    return asked && (std::abs(to_go) > 1e-4 || told != 0 || goes != 0);
+  const auto moves = [](bool is_considered, double to_go, double commanded, double measured) {
+    return is_considered && (std::abs(to_go) > 1e-4 || commanded != 0 || measured != 0);
   };
   for (;;) {
     const Odometry& odometry = robot_.odometry();
@@ -170,11 +170,12 @@ mrpt::math::TPose2D ScoutRobot::nomadFromRobot() const {
   return portable::compose(nomad_from_odom_, robot_.odometry().odom_from_robot);
 }
 
-void ScoutRobot::wait(const char* who) {
+void ScoutRobot::wait(const char* function) {
   if (!clock_) {
-    throw std::logic_error(std::string("ScoutRobot::") + who +
-                           ": made without a clock; it can wait only in a BlockingController's program, made with the "
-                           "clock that the program is given");
+    throw std::logic_error(
+        std::string("ScoutRobot::") + function +
+        ": created without a clock; it waits only in a BlockingController's program, created with the "
+        "clock that the program receives");
   }
   clock_->waitForNextStep();
   drive_.update();

@@ -82,7 +82,7 @@ class ScoutRobot {
 
  private:
   mrpt::math::TPose2D nomadFromRobot() const;
-  void wait(const char* who);
+  void wait(const char* function);
 
   Robot& robot_;
   StepClock* clock_ = nullptr;

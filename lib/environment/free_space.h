@@ -24,7 +24,7 @@ class FreeSpace {
   std::vector<std::size_t> reachableFrom(const std::vector<mrpt::math::TPoint2D>& starts) const;
   /// The largest connected set of free cells, in ascending order; of equal ones that with the lowest cell.
   std::vector<std::size_t> largestRegion() const;
-  /// Marks cells that the maps do not know as blocked.
+  /// Marks cells that are unknown in the maps as blocked.
   void blockUnknown(const World& world);
   /// Length [m] of the surface's edge that a disc can touch from the given cells and that is not covered by a
   /// stationary solid on it or within a centimetre behind it.

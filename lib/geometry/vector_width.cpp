@@ -25,7 +25,7 @@ CpuFeatures featuresOfThisProcessor() {
   set(CpuFeature::avx512cd, __builtin_cpu_supports("avx512cd") != 0);
   set(CpuFeature::avx512dq, __builtin_cpu_supports("avx512dq") != 0);
   set(CpuFeature::avx512vl, __builtin_cpu_supports("avx512vl") != 0);
-  // clang 14's __builtin_cpu_supports() does not know these.
+  // Not among the names of clang 14's __builtin_cpu_supports().
   unsigned a = 0, b = 0, c = 0, d = 0;
   if (__get_cpuid(1, &a, &b, &c, &d) != 0) {
     set(CpuFeature::f16c, (c & bit_F16C) != 0);

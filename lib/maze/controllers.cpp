@@ -11,7 +11,7 @@ namespace {
 
 const ControllerType kTypes[] = {
     {"gold_finder",
-     "Searches a maze that it has not seen for gold, tells its neighbour, and halts.",
+     "Searches an unknown maze for gold, sends GOLD to its neighbour, and halts.",
      {SensorKind::odometry, SensorKind::heat},
      [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<GoldFinder>(setup); }},
     {"wander",

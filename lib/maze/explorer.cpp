@@ -214,7 +214,7 @@ bool Explorer::isStuck(const Robot& robot) {
 void Explorer::drawBack(Robot& robot) {
   const auto& pose = tracker_.startFromRobot();
   const MotionLimits& limits = robot.info().limits;
-  // Whatever holds it, the map does not know it: it is just ahead.
+  // The map does not contain the obstacle, which must be directly ahead.
   const double reach = robot.info().radius_m + search_.map.cellSize() / 2;
   search_.obstacles.bump(portable::compose(pose, mrpt::math::TPoint2D(reach, 0)));
   driver_.clear();

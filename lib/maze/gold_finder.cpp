@@ -15,7 +15,7 @@ GoldFinder::GoldFinder(const ControllerSetup& setup, const GoldFinderOptions& op
 void GoldFinder::step(Robot& robot) {
   if (robot.activity() == Activity::active && robot.heat().value_or(0) > options_.heat_threshold) {
     robot.halt(Activity::found);
-    tell(robot.name());
+    sendGold(robot.name());
   }
   listen(robot);
   speak(robot);
@@ -29,11 +29,11 @@ void GoldFinder::listen(Robot& robot) {
     const auto gold = GoldMessage::parse(message.text);
     if (!gold) continue;
     if (robot.activity() == Activity::active) robot.halt();
-    if (gold->source != robot.name()) tell(gold->source);
+    if (gold->source != robot.name()) sendGold(gold->source);
   }
 }
 
-void GoldFinder::tell(const std::string& source) {
+void GoldFinder::sendGold(const std::string& source) {
   if (std::find(forwarded_sources_.begin(), forwarded_sources_.end(), source) != forwarded_sources_.end()) return;
   forwarded_sources_.push_back(source);
   to_send_.push_back({source});

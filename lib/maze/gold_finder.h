@@ -32,7 +32,7 @@ class GoldFinder : public Controller {
  private:
   void listen(Robot& robot);
   void speak(Robot& robot);
-  void tell(const std::string& source);
+  void sendGold(const std::string& source);
 
   ControllerSetup setup_;
   GoldFinderOptions options_;

@@ -48,7 +48,7 @@ void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorIn
     const double length = ray.norm();
     if (length <= 0) continue;
     const mrpt::math::TPoint2D step = ray * (cell_m / length);
-    const bool hit = heard(sensor, echoes[i]) && length < reach_m;
+    const bool hit = isEcho(sensor, echoes[i]) && length < reach_m;
     const int free_cells = static_cast<int>(std::min(length, reach_m) / cell_m - (hit ? 0.5 : 0));
     mrpt::math::TPoint2D at = from + step * 0.5;
     for (int k = 0; k < free_cells; ++k, at += step) seeFree(map_->cellAt(at));

@@ -48,7 +48,7 @@ double clearanceInLane(const Robot& robot, int direction) {
     const SensorInfo* sensor = robot.sensor(kind);
     for (const Echo& echo : robot.echoes(kind)) {
       const double x = direction * echo.point_m.x, y = echo.point_m.y;
-      if (x <= 0 || std::abs(y) >= radius || !heard(*sensor, echo)) continue;
+      if (x <= 0 || std::abs(y) >= radius || !isEcho(*sensor, echo)) continue;
       room = std::min(room, x - std::sqrt(radius * radius - y * y));
     }
   }

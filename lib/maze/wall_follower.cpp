@@ -21,7 +21,7 @@ Nearest nearestBetween(const Robot& robot, double from_rad, double to_rad) {
   const SensorInfo* sonar = robot.sensor(SensorKind::sonar);
   if (!sonar) return nearest;
   for (const Echo& echo : robot.sonar()) {
-    if (!heard(*sonar, echo)) continue;
+    if (!isEcho(*sonar, echo)) continue;
     const double bearing = portable::atan2(echo.point_m.y, echo.point_m.x);
     const double room = portable::hypot(echo.point_m.x, echo.point_m.y) - robot.info().radius_m;
     if (from_rad <= bearing && bearing <= to_rad && room < nearest.room_m) nearest = {room, bearing};

@@ -28,7 +28,7 @@ Room roomInFront(const Robot& robot) {
   for (const Echo& echo : robot.echoes(kind)) {
     const double x = echo.point_m.x, y = echo.point_m.y;
     // Ignores echoes beside the robot's lane.
-    if (x <= 0 || std::abs(y) > 1.5 * radius || !heard(*sensor, echo)) continue;
+    if (x <= 0 || std::abs(y) > 1.5 * radius || !isEcho(*sensor, echo)) continue;
     double& side = y >= 0 ? room.left : room.right;
     side = std::min(side, std::sqrt(x * x + y * y) - radius);
   }

@@ -147,12 +147,12 @@ TEST(Odometry, IntegratesArcsExactly) {
   SingleRobotScene robot({});
   const auto odometry = sensorFrom("<odometry/>");
   robot.motion = {M_PI_2 / 9, M_PI_2 / 9};
-  Odometry told;
-  for (int i = 0; i < 9; ++i) told = std::get<Odometry>(robot.sense(*odometry));
-  EXPECT_NEAR(told.odom_from_robot.x, 1, 1e-12);
-  EXPECT_NEAR(told.odom_from_robot.y, 1, 1e-12);
-  EXPECT_NEAR(told.odom_from_robot.phi, M_PI_2, 1e-12);
-  EXPECT_NEAR(told.speed_mps, M_PI_2 / 9 / 0.1, 1e-12);
+  Odometry measured;
+  for (int i = 0; i < 9; ++i) measured = std::get<Odometry>(robot.sense(*odometry));
+  EXPECT_NEAR(measured.odom_from_robot.x, 1, 1e-12);
+  EXPECT_NEAR(measured.odom_from_robot.y, 1, 1e-12);
+  EXPECT_NEAR(measured.odom_from_robot.phi, M_PI_2, 1e-12);
+  EXPECT_NEAR(measured.speed_mps, M_PI_2 / 9 / 0.1, 1e-12);
 }
 
 TEST(Odometry, DriftDoesNotDependOnTheLengthOfAStep) {
@@ -165,9 +165,9 @@ TEST(Odometry, DriftDoesNotDependOnTheLengthOfAStep) {
       robot.seed = static_cast<std::uint64_t>(i + 1);
       robot.motion = {4.0 / steps, 0};
       const auto odometry = sensorFrom("<odometry><noise drift_std_per_sqrt_m='0'/></odometry>");
-      Odometry told;
-      for (int s = 0; s < steps; ++s) told = std::get<Odometry>(robot.sense(*odometry));
-      squares += std::pow(told.odom_from_robot.x - 4, 2);
+      Odometry measured;
+      for (int s = 0; s < steps; ++s) measured = std::get<Odometry>(robot.sense(*odometry));
+      squares += std::pow(measured.odom_from_robot.x - 4, 2);
     }
     return std::sqrt(squares / n);
   };

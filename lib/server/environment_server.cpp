@@ -265,7 +265,7 @@ struct EnvironmentServer::Impl {
       if (interrupted()) return Served::interrupted;
       admit();
       if (on_lost_robot == OnLostRobot::fail && robots.isAnyLost()) {
-        serving.log("the run ends, as --on-lost-robot fail wants it: lost " + listed(robots.lost()));
+        serving.log("the run ends because of --on-lost-robot fail: lost " + listed(robots.lost()));
         return Served::robot_lost;
       }
       if (!areRobotsConnected() || !run_control.mayStep()) {

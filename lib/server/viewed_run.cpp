@@ -13,7 +13,7 @@ namespace {
 void decodeRobot(const wire::RobotView& in, RobotSnapshot& out) {
   if (!std::isfinite(in.x_m()) || !std::isfinite(in.y_m()) || !std::isfinite(in.phi_rad()) ||
       !std::isfinite(in.laser_pan_rad())) {
-    throw WireError("a frame in which a robot is nowhere: its pose is not finite");
+    throw WireError("a frame with a pose that is not finite");
   }
   if (!wire::Activity_IsValid(in.activity())) {
     throw WireError("a frame with the unknown activity " + std::to_string(in.activity()));

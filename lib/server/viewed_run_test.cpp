@@ -108,7 +108,7 @@ TEST(ViewedRun, RefusesInvalidFrames) {
   EXPECT_EQ(complaint([](wire::Frame& f) { f.mutable_readings(0)->set_robot(2); }),
             "a frame with a robot that the world does not have");
   EXPECT_EQ(complaint([](wire::Frame& f) { f.mutable_robots(0)->set_x_m(NAN); }),
-            "a frame in which a robot is nowhere: its pose is not finite");
+            "a frame with a pose that is not finite");
   EXPECT_EQ(complaint([](wire::Frame& f) { f.mutable_robots(0)->set_activity(static_cast<wire::Activity>(9)); }),
             "a frame with the unknown activity 9");
   EXPECT_EQ(complaint([](wire::Frame& f) { f.mutable_robots()->RemoveLast(); }),

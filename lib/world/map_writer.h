@@ -28,8 +28,8 @@ HeightSpan heightsOfAll(const World&);
 std::optional<MapExtent> extentOfMap(const World&);
 
 /// Occupancy grid of the world, covering the surface and all stationary solids. A cell is occupied if a solid within
-/// the heights overlaps it, however little. Other cells on the surface are free, except those that a map does not know.
-/// All remaining cells are unknown.
+/// the heights overlaps it, however little. Other cells on the surface are free, except those that are unknown in a
+/// map. All remaining cells are unknown.
 /// @throws ConfigError for more than kMaxMapCells cells
 OccupancyGrid rasterOf(const World&, const MapExtent&);
 

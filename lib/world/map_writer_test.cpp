@@ -311,12 +311,12 @@ TEST(OctomapWriter, MergesLargeUniformSpaces) {
 TEST(OctomapWriter, ReportsProgress) {
   World world = emptyWorld({-3, 3, -3, 3});
   for (int i = 0; i < 40; ++i) add(world, {Circle{{i * 0.1 - 2, 0.05 * i - 1}, 0.3}, {0, 1}});
-  std::vector<double> told;
-  toOctomap(world, {0.02, {0, 1}}, OctomapForm::binary, [&](double share) { told.push_back(share); });
-  ASSERT_GT(told.size(), 10u);
-  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
-  EXPECT_LE(told.back(), 1);
-  EXPECT_GT(told.back(), 0.9);
+  std::vector<double> reported;
+  toOctomap(world, {0.02, {0, 1}}, OctomapForm::binary, [&](double share) { reported.push_back(share); });
+  ASSERT_GT(reported.size(), 10u);
+  EXPECT_TRUE(std::is_sorted(reported.begin(), reported.end()));
+  EXPECT_LE(reported.back(), 1);
+  EXPECT_GT(reported.back(), 0.9);
 }
 
 TEST(OctomapWriter, RejectsAWorldBeyondItsExtent) {

@@ -116,7 +116,7 @@ TEST(LostRobot, WithFailEndsTheRun) {
   two.killPioneer();
   const Ended ended = two.program().wait();
   EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
-  EXPECT_NE(ended.err.find("the run ends, as --on-lost-robot fail wants it: lost Pioneer1"), std::string::npos);
+  EXPECT_NE(ended.err.find("the run ends because of --on-lost-robot fail: lost Pioneer1"), std::string::npos);
   const json summary = json::parse(ended.out);
   EXPECT_EQ(summary["ended_by"], "robot_lost");
   EXPECT_EQ(summary["steps"], 10) << "no step is taken without it";

@@ -11,7 +11,7 @@
 
 namespace robosim {
 
-/// Uniform grid of the solids' centres, for small solids that move and are indexed anew in each step. Each solid is
+/// Uniform grid of the solids' centres, for small solids that move and are indexed again in each step. Each solid is
 /// listed once, in the cell of its centre; queries extend their area by the largest solid's radius. The cells of a row
 /// are contiguous in memory, so an area query reads one contiguous range per row. Border cells extend outwards without
 /// limit. build() derives the grid's area and cell size from the solids: about one solid per cell where most of them
