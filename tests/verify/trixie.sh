@@ -17,7 +17,7 @@ fi
 # The chroot gets a copy of the tracked files as they are in the working tree. Only files with other contents are copied,
 # and they get the present time, so that a second call compiles exactly what has changed.
 copy=$root/srv/robosim
-mkdir -p "$copy"
+mkdir -p "$copy/tests/browser"
 (cd "$project" && git ls-files -z && git ls-files -z --others --exclude-standard) | sort -z -u >"$root/srv/files"
 (cd "$copy" && find . -path ./build -prune -o -name node_modules -prune -o -type f -printf '%P\0') | sort -z |
   comm -z -13 "$root/srv/files" - | (cd "$copy" && xargs -0 -r rm -f)
