@@ -21,12 +21,14 @@ mkdir -p "$copy"
 (cd "$project" && git ls-files -z && git ls-files -z --others --exclude-standard) | sort -z -u >"$root/srv/files"
 (cd "$copy" && find . -path ./build -prune -o -name node_modules -prune -o -type f -printf '%P\0') | sort -z |
   comm -z -13 "$root/srv/files" - | (cd "$copy" && xargs -0 -r rm -f)
-# npm may need certificates that only the host has, so the modules fetched on the host are copied.
-cp -a --no-target-directory "$project/tests/browser/node_modules" "$copy/tests/browser/node_modules"
 while IFS= read -r -d '' file; do
   [[ ! -f $project/$file ]] || cmp -s "$project/$file" "$copy/$file" ||
     (cd "$project" && cp --parents --preserve=mode --remove-destination "$file" "$copy")
 done <"$root/srv/files"
+# npm may need certificates that only the host has, so the modules fetched on the host are copied. They must be newer than
+# the list of modules, or else ./dev fetches them again.
+cp -a --no-target-directory "$project/tests/browser/node_modules" "$copy/tests/browser/node_modules"
+touch "$copy/tests/browser/node_modules/.package-lock.json"
 [[ -f /etc/resolv.conf ]] && cp /etc/resolv.conf "$root/etc/resolv.conf"
 
 inside='
