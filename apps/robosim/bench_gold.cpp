@@ -26,7 +26,7 @@
 namespace robosim {
 namespace {
 
-struct Arguments {
+struct BenchGoldArguments {
   std::vector<std::string> worlds;
   WorldChanges changes;
   int runs = 20;
@@ -45,7 +45,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 }
 
 /// @throws ConfigError also for a world without gold
-LoadedWorld worldWithGold(const std::string& file, const Arguments& arguments) {
+LoadedWorld worldWithGold(const std::string& file, const BenchGoldArguments& arguments) {
   LoadedWorld loaded =
       arguments.changes.isNone()
           ? loadWorldToRun(file, arguments.controller)
@@ -57,7 +57,7 @@ LoadedWorld worldWithGold(const std::string& file, const Arguments& arguments) {
 
 /// One run of the benchmark; its seed determines the start poses and all other random values.
 /// @returns nullopt when interrupted
-std::optional<RunSummary> runOnce(const LoadedWorld& world, const Arguments& arguments, std::uint64_t seed,
+std::optional<RunSummary> runOnce(const LoadedWorld& world, const BenchGoldArguments& arguments, std::uint64_t seed,
                                   const Interrupt& interrupt) {
   const auto start = std::chrono::steady_clock::now();
   LoadedWorld shuffled = world;
@@ -140,7 +140,7 @@ std::vector<RunSummary> completedRuns(std::span<const std::optional<RunSummary>>
   return completed;
 }
 
-void benchGold(const Arguments& arguments) {
+void benchGold(const BenchGoldArguments& arguments) {
   std::vector<LoadedWorld> worlds;
   for (const auto& file : arguments.worlds) {
     worlds.push_back(worldWithGold(file, arguments));
@@ -209,7 +209,7 @@ void addBench(CLI::App& program) {
   auto* bench = addSubcommand(program, "bench");
   bench->require_subcommand(1);
   auto* command = bench->add_subcommand("gold", "Measure success rate and time of finding gold, over many seeded runs");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<BenchGoldArguments>();
   command->add_option("WORLD", a->worlds, "world files")->type_name("FILE")->required();
   command->add_option("--runs", a->runs, "runs of each world, with different start poses; 1 to 1000000")
       ->check(wholeNumberIn(1, 1000000))

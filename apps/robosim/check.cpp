@@ -232,13 +232,13 @@ void report(const std::string& file, const Checked& checked, bool as_json) {
 }  // namespace
 
 void addCheck(CLI::App& program) {
-  struct Arguments {
+  struct CheckArguments {
     std::string file;
     Additions additions;
     bool json = false;
   };
   auto* command = addSubcommand(program, "check");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<CheckArguments>();
   command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")->required();
   addRobotOptions(*command, arguments->additions.changes);
   command->add_option("--seed", arguments->additions.seed, "seed of the positions of --random-robots; 0 to 2^64 - 1")

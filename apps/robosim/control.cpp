@@ -14,7 +14,7 @@
 namespace robosim {
 namespace {
 
-struct Arguments {
+struct ControlArguments {
   ConnectionArguments connection;
   std::string world;
   std::uint64_t steps = 1;
@@ -78,7 +78,7 @@ std::string pageOn(const wire::RunStatus& status) {
 
 void showLine(const wire::RunStatus& status) { std::cout << lineOn(status) << std::endl; }
 
-void showStatus(const Arguments& a) {
+void showStatus(const ControlArguments& a) {
   ControlPanel panel(a.connection.connectOptions());
   if (a.watch) {
     panel.watch(std::chrono::duration<double>(a.period_s), showLine);
@@ -91,7 +91,7 @@ void showStatus(const Arguments& a) {
 
 void addControl(CLI::App& program) {
   auto* control = addSubcommand(program, "control");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ControlArguments>();
   control->add_option("ADDRESS", a->connection.environment, "address of 'robosim serve'")
       ->type_name("HOST:PORT")
       ->capture_default_str();

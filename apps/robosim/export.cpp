@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
+struct ExportArguments {
   std::string world;
   std::vector<std::string> outs;
   std::optional<double> resolution_m;  ///< default: that of the map, else of MapExtent
@@ -37,7 +37,7 @@ using Files = std::map<fs::path, std::string>;
 /// Lazily created inputs of the formats.
 class Source {
  public:
-  Source(const Arguments& arguments, Progress& progress)
+  Source(const ExportArguments& arguments, Progress& progress)
       : arguments_(arguments), progress_(progress), loaded_(loadWorld(arguments.world, {})) {}
 
   const LoadedWorld& loaded() const { return loaded_; }
@@ -68,7 +68,7 @@ class Source {
     return robotHeights(robots);
   }
 
-  const Arguments& arguments_;
+  const ExportArguments& arguments_;
   Progress& progress_;
   LoadedWorld loaded_;
   std::optional<OccupancyGrid> grid_;
@@ -148,7 +148,7 @@ std::vector<fs::path> filesOf(const fs::path& out) {
   return {yaml, picture};
 }
 
-void check(const Arguments& arguments) {
+void check(const ExportArguments& arguments) {
   if (!arguments.heights_m.empty() && arguments.heights_m[0] >= arguments.heights_m[1]) {
     throw ConfigError("--heights " + toText(arguments.heights_m[0]) + " " + toText(arguments.heights_m[1]) +
                       ": the first must be below the second");
@@ -165,7 +165,7 @@ void check(const Arguments& arguments) {
   refuseSameFile(all);
 }
 
-void exportWorld(const Arguments& arguments) {
+void exportWorld(const ExportArguments& arguments) {
   check(arguments);
   std::optional<Progress> shown(std::in_place);
   Progress& progress = *shown;
@@ -203,7 +203,7 @@ std::string formatsHelp() {
 
 void addExport(CLI::App& program) {
   auto* command = addSubcommand(program, "export");
-  auto arguments = std::make_shared<Arguments>();
+  auto arguments = std::make_shared<ExportArguments>();
   command->add_option("WORLD", arguments->world, "world file or map file")->type_name("FILE")->required();
   command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")
       ->type_name("FILE")

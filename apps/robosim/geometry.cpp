@@ -13,13 +13,13 @@
 namespace robosim {
 namespace {
 
-struct Arguments {
+struct GeometryArguments {
   ConnectionArguments connection;
   int threads = 1;
   double patience_s = 10;
 };
 
-void work(const Arguments& arguments) {
+void work(const GeometryArguments& arguments) {
   GeometryWorker worker(arguments.connection.connectOptions(arguments.patience_s), arguments.threads);
   worker.connect();
   std::cout << "computing for the world " << printableText(worker.world().name) << std::endl;
@@ -33,7 +33,7 @@ void work(const Arguments& arguments) {
 
 void addGeometry(CLI::App& program) {
   auto* command = addSubcommand(program, "geometry");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<GeometryArguments>();
   addConnectionOptions(*command, a->connection);
   addThreads(*command, a->threads, "number of threads; the run does not depend on it");
   addPatience(*command, a->patience_s);

@@ -20,7 +20,7 @@
 namespace robosim {
 namespace {
 
-constexpr const char* kSession =
+constexpr const char* kRemoteSession =
     "Example: drive through the small maze, in four terminals:\n"
     "  robosim serve worlds/small_maze.xml --wait-for-robots --speed 1 --step 0.02\n"
     "  robosim robot Pioneer1 --remote-port 9001\n"
@@ -32,7 +32,7 @@ constexpr const char* kSession =
     "  robosim remote ROBOTS.xml --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
     "Open https://HOST:8443/#token=TOKEN to drive; a token with the role viewer permits viewing only.\n";
 
-struct Arguments {
+struct RemoteArguments {
   std::string robots;
   std::string listen = "127.0.0.1:8080";
   ListenerArguments listener;
@@ -49,7 +49,7 @@ std::vector<RobotAddress> readTeam(const std::string& file) {
   return team;
 }
 
-void openConsole(const Arguments& arguments) {
+void openConsole(const RemoteArguments& arguments) {
   const Interrupt interrupt;
   const auto team = readTeam(arguments.robots);
   const ConnectOptions connect_options = arguments.connection.connectOptions();
@@ -70,7 +70,7 @@ void openConsole(const Arguments& arguments) {
   console.serve([&] { return interrupt.isRequested(); });
 }
 
-void openJoystick(const Arguments& arguments) {
+void openJoystick(const RemoteArguments& arguments) {
   const Interrupt interrupt;
   RemoteControl::Options options;
   options.driver = "the joystick";
@@ -84,7 +84,7 @@ void openJoystick(const Arguments& arguments) {
 
 void addRemote(CLI::App& program) {
   auto* command = addSubcommand(program, "remote");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<RemoteArguments>();
   command->add_option("ROBOTS", a->robots, "robot list with the address of each robot's program (robot --remote-port)")
       ->type_name("FILE")
       ->required();
@@ -100,7 +100,7 @@ void addRemote(CLI::App& program) {
       ->excludes(listen);
   addListenerOptions(*command, a->listener);
   addConnectionOptions(*command, a->connection);
-  command->footer(kSession);
+  command->footer(kRemoteSession);
   command->callback([a] { a->joystick ? openJoystick(*a) : openConsole(*a); });
 }
 

@@ -20,7 +20,7 @@
 namespace robosim {
 namespace {
 
-struct Arguments {
+struct RobotArguments {
   std::vector<std::string> names;
   bool apart = false;
   ConnectionArguments connection;
@@ -31,7 +31,7 @@ struct Arguments {
   double dead_man_s = 0.5;
 };
 
-void log(const std::string& line) { logLine("robot", line); }
+void logRobot(const std::string& line) { logLine("robot", line); }
 
 struct DrivenRobot {
   Robot robot;
@@ -39,22 +39,22 @@ struct DrivenRobot {
 };
 
 /// Requires explicit protection of remote control. @throws ConfigError
-RemotePort::Options portOptions(const Arguments& arguments) {
+RemotePort::Options portOptions(const RobotArguments& arguments) {
   RemotePort::Options options;
   options.listen = hostAndPort(arguments.remote_port);
   options.tls = arguments.listener.identity();
-  options.access = arguments.listener.access(log);
+  options.access = arguments.listener.access(logRobot);
   if (!arguments.listener.unprotected) {
     checkExposure("--remote-port", options.listen, options.tls.has_value(), !options.access.isOpen());
   }
-  options.log = log;
+  options.log = logRobot;
   return options;
 }
 
 /// The robots of this process with their controllers and, with --remote-port, remote control.
 class RobotProcess {
  public:
-  explicit RobotProcess(const Arguments& arguments)
+  explicit RobotProcess(const RobotArguments& arguments)
       : port_options_(arguments.remote_port.empty() ? RemotePort::Options{} : portOptions(arguments)),
         robots_(arguments.connection.connectOptions(arguments.patience_s), arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
@@ -86,7 +86,7 @@ class RobotProcess {
     RemoteControlRobot::Options options;
     options.dead_man =
         std::chrono::duration_cast<DriveCommandFilter::Clock::duration>(std::chrono::duration<double>(dead_man_s));
-    options.log = log;
+    options.log = logRobot;
     remote_robots_.push_back(std::make_unique<RemoteControlRobot>(hardware, std::move(controller), options));
   }
 
@@ -96,7 +96,7 @@ class RobotProcess {
     port_ = std::make_unique<RemotePort>(
         port_options_, RemotePort::Run{robots_.world(), robots_.seed(), robots_.robot(0).readings().time.period_s},
         robots);
-    log("remote control on " + withPort(port_options_.listen, port_->port()));
+    logRobot("remote control on " + withPort(port_options_.listen, port_->port()));
   }
 
   RemotePort::Options port_options_;
@@ -106,15 +106,15 @@ class RobotProcess {
   std::unique_ptr<RemotePort> port_;
 };
 
-void driveRobots(const Arguments& arguments) {
+void driveRobots(const RobotArguments& arguments) {
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   RobotProcess process(arguments);
-  Reconnector reconnector(std::chrono::duration<double>(arguments.patience_s), log);
+  Reconnector reconnector(std::chrono::duration<double>(arguments.patience_s), logRobot);
   try {
     reconnector.run([&] { process.drive(); }, [&] { process.rejoin(); });
   } catch (const ConnectionError&) {
     if (const std::size_t lost = process.unconfirmedMessages(); lost > 0) {
-      log("the environment has not confirmed the last " + std::to_string(lost) + " messages to other robots");
+      logRobot("the environment has not confirmed the last " + std::to_string(lost) + " messages to other robots");
     }
     throw;
   }
@@ -122,7 +122,7 @@ void driveRobots(const Arguments& arguments) {
 }
 
 /// Runs each robot in a separate process.
-void driveRobotsApart(Arguments arguments) {
+void driveRobotsApart(RobotArguments arguments) {
   const auto mine = forkProcesses(arguments.names.size());
   if (!mine) return;
   arguments.names = {arguments.names[*mine]};
@@ -133,7 +133,7 @@ void driveRobotsApart(Arguments arguments) {
 
 void addRobot(CLI::App& program) {
   auto* command = addSubcommand(program, "robot");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<RobotArguments>();
   command->add_option("NAME", a->names, "names of robots in the environment's world")->required();
   auto* apart = command->add_flag(
       "--apart", a->apart, "run each robot in a separate process; takes half the time of separately started programs");

@@ -23,7 +23,7 @@
 namespace robosim {
 namespace {
 
-constexpr const char* kSession =
+constexpr const char* kServeSession =
     "Example in three terminals:\n"
     "  robosim serve worlds/small_maze.xml --wait-for-robots --speed 10\n"
     "  robosim robot Pioneer1 Scout1\n"
@@ -40,7 +40,7 @@ constexpr const char* kSession =
     "wrong\n"
     "results; 1 bad input, 2 run failed. The summary, --json and the recording name robots and workers.\n";
 
-struct Arguments {
+struct ServeArguments {
   RunArguments of_run;
   bool wait_for_robots = false;
   std::string listen = kDefaultListen;
@@ -53,7 +53,7 @@ struct Arguments {
 };
 
 /// Robots driven by other processes: all, if the environment waits for them; otherwise those without a controller.
-std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const Arguments& arguments) {
+std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const ServeArguments& arguments) {
   std::vector<std::uint8_t> networked;
   for (const auto& robot : fleet.robots) {
     const bool has_controller = !arguments.of_run.run.controller.empty() || !robot.controller.empty();
@@ -71,7 +71,7 @@ std::string numbered(const std::string& file, int number) {
 }
 
 /// Policy for lost robots. By default a lockstep run waits for them, and a real-time run continues.
-OnLostRobot lostRobotPolicy(const Arguments& arguments) {
+OnLostRobot lostRobotPolicy(const ServeArguments& arguments) {
   if (arguments.on_lost_robot.empty()) {
     return arguments.pace == "realtime" ? OnLostRobot::continue_ : OnLostRobot::wait;
   }
@@ -92,7 +92,7 @@ struct WorldRunState {
   std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late; real-time pace only
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
 
-  WorldRunState(LoadedWorld world, const WorldSource& source, const Arguments& a, RunArguments of_this_run)
+  WorldRunState(LoadedWorld world, const WorldSource& source, const ServeArguments& a, RunArguments of_this_run)
       : arguments(std::move(of_this_run)),
         networked(networkedRobots(world.fleet, a)),
         run(std::move(world), arguments.run, networked),
@@ -118,7 +118,7 @@ class PreparedWorldRun final : public PreparedRun {
 /// separate outputs.
 class WorldRun final : public ServedRun {
  public:
-  explicit WorldRun(const Arguments& arguments) : arguments_(arguments) {
+  explicit WorldRun(const ServeArguments& arguments) : arguments_(arguments) {
     state_ = createState(sourceOf(arguments.of_run), 1);
   }
 
@@ -177,14 +177,14 @@ class WorldRun final : public ServedRun {
     return std::make_shared<WorldRunState>(std::move(world), source, arguments_, std::move(of_this_run));
   }
 
-  const Arguments& arguments_;
+  const ServeArguments& arguments_;
   std::shared_ptr<WorldRunState> state_;
   int number_ = 1;
   bool all_robots_ = true;  ///< in all runs so far
   bool is_trusted_ = true;
 };
 
-ServerOptions serverOptions(const Arguments& arguments) {
+ServerOptions serverOptions(const ServeArguments& arguments) {
   ServerOptions options;
   options.log = [](const std::string& line) { logLine("serve", line); };
   options.listen = ListenAddresses::parse(arguments.listen);
@@ -213,7 +213,7 @@ void tellPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
   logLine("serve", line);
 }
 
-void serveWorld(const Arguments& arguments) {
+void serveWorld(const ServeArguments& arguments) {
   const Interrupt interrupt;
   checkRunArguments(arguments.of_run);
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
@@ -238,7 +238,7 @@ void serveWorld(const Arguments& arguments) {
 
 void addServe(CLI::App& program) {
   auto* command = addSubcommand(program, "serve");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ServeArguments>();
   addRunArguments(*command, a->of_run);
   command->add_flag("--wait-for-robots", a->wait_for_robots,
                     "wait for a robot process for every robot, including those with a controller in the world");
@@ -270,7 +270,7 @@ void addServe(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--paused", a->paused, "start paused, until a control panel sends start");
   addListenerOptions(*command, a->listener);
-  command->footer(std::string(kSession) + "\n" + controllersHelp());
+  command->footer(std::string(kServeSession) + "\n" + controllersHelp());
   command->callback([a] { serveWorld(*a); });
 }
 

@@ -16,7 +16,7 @@
 namespace robosim {
 namespace {
 
-struct Arguments {
+struct ViewArguments {
   std::string source;
   ConnectionArguments connection;
   WorldChanges changes;
@@ -52,7 +52,7 @@ Pane paneFrom(const std::string& text, const LoadedWorld& world, AbsentRobots ab
   return makePane(kind == "3d", follow, world.world);
 }
 
-std::vector<Pane> panesFor(const Arguments& a, const LoadedWorld& world, AbsentRobots absent) {
+std::vector<Pane> panesFor(const ViewArguments& a, const LoadedWorld& world, AbsentRobots absent) {
   std::vector<Pane> panes;
   const auto add = [&](bool is_3d) {
     if (a.follow.empty()) panes.push_back(makePane(is_3d, std::nullopt, world.world));
@@ -86,7 +86,7 @@ std::string brief(double number) {
 }
 
 /// @throws ConfigError for options that would have no effect, or show nothing.
-void checkTimes(const Arguments& a, const ViewSource& source) {
+void checkTimes(const ViewArguments& a, const ViewSource& source) {
   const ViewTimes& times = a.times;
   const auto duration_s = source.duration();
   const auto refuse = [](bool is_given, const std::string& option, const std::string& why) {
@@ -103,7 +103,7 @@ void checkTimes(const Arguments& a, const ViewSource& source) {
   refuse(*times.from_s > *duration_s, from, "the recording ends at " + brief(*duration_s) + " s");
 }
 
-void view(const Arguments& a) {
+void view(const ViewArguments& a) {
   const Size size = sizeFrom(a.size);
   if (!a.offscreen.empty()) {
     checkOffscreenFile(a.offscreen);
@@ -128,7 +128,7 @@ void view(const Arguments& a) {
 
 void addView(CLI::App& program) {
   auto* command = addSubcommand(program, "view");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ViewArguments>();
   command
       ->add_option("SOURCE", a->source,
                    "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program")

@@ -23,7 +23,7 @@ struct Size {
 };
 constexpr Size kSizes[] = {{160, 120, 0}, {320, 240, 100}, {640, 480, 0}};
 
-struct Arguments {
+struct CameraArguments {
   std::string world;
   double min_s = 1;
   bool json = false;
@@ -65,7 +65,7 @@ class Photographers {
   double bytes_ = 0, pictures_ = 0;
 };
 
-void benchCamera(const Arguments& arguments) {
+void benchCamera(const CameraArguments& arguments) {
   const LoadedWorld world = loadWorldToRun(arguments.world.empty() ? standardWorld() : arguments.world, "");
   OffscreenRenderer renderer(world.world, world.fleet);
   std::vector<Photographers> photographers;
@@ -101,7 +101,7 @@ void benchCamera(const Arguments& arguments) {
 
 void addCameraBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("camera", "Measure the frame rate of robot cameras");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<CameraArguments>();
   command->add_option("WORLD", a->world, "world file; default: the shipped opho2_1.xml")->type_name("FILE");
   command->add_option("--at-least", a->min_s, "minimum measuring time of each size, seconds")
       ->check(numberIn(1e-6, 3600))

@@ -90,17 +90,17 @@ void meetOne(const Shape& shape, const RTCIntersectFunctionNArguments& a) {
   one.hit.primID = a.primID;
 }
 
-using Arguments = RTCIntersectFunctionNArguments;
+using EmbreeArguments = RTCIntersectFunctionNArguments;
 template <typename Shape>
-void meet16(const Shape& s, const Arguments& a) {
+void meet16(const Shape& s, const EmbreeArguments& a) {
   withVectors<meetLanes<Shape, RTCRayHit16>>(&s, &a);
 }
 template <typename Shape>
-void meet8(const Shape& s, const Arguments& a) {
+void meet8(const Shape& s, const EmbreeArguments& a) {
   withVectors<meetLanes<Shape, RTCRayHit8>>(&s, &a);
 }
 template <typename Shape>
-void meet4(const Shape& s, const Arguments& a) {
+void meet4(const Shape& s, const EmbreeArguments& a) {
   meetLanes<Shape, RTCRayHit4>(&s, &a);
 }
 

@@ -80,12 +80,12 @@ nlohmann::json measure(const std::filesystem::path& world) {
           {"peak_mb", Memory::now().peak_mb}};
 }
 
-struct Arguments {
+struct MapsArguments {
   std::uint32_t side = 2000;
   bool as_json = false;
 };
 
-void benchMaps(const Arguments& arguments) {
+void benchMaps(const MapsArguments& arguments) {
   const Interrupt interrupt;  // ends the measuring process; this one then removes its files
   const TemporaryDirectory scratch;
   Rows rows{{"map", "occupied cells", "boxes", "load, CPU [s]", "wall time [s]", "resident [MB]", "peak [MB]"}};
@@ -119,7 +119,7 @@ void benchMaps(const Arguments& arguments) {
 
 void addMapsBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("maps", "Measure load times and memory of large maps");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<MapsArguments>();
   command->add_option("--side", a->side, "cells along each side of a map, of 0.05 m; 100 to 8000")
       ->check(wholeNumberIn(100, 8000))
       ->type_name("NUMBER")

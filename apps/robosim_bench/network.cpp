@@ -43,7 +43,7 @@ LayoutTarget parseLayout(const std::string& word) {
   return known == std::end(kStandardLayouts) ? LayoutTarget{layout} : *known;
 }
 
-struct Arguments {
+struct NetworkArguments {
   std::vector<std::string> layouts;
   NetworkBench bench;
   bool json = false;
@@ -72,7 +72,7 @@ std::vector<std::string> rowOf(const LayoutTarget& target, const NetworkFigures&
           rounded(figures.robots_cpu_us)};
 }
 
-void benchNetwork(const Arguments& arguments) {
+void benchNetwork(const NetworkArguments& arguments) {
   const OtherLoad other_load;
   Rows rows{{"processes × robots", "steps/s", "target", "environment, µs", "each process, µs"}};
   for (const LayoutTarget& target : selectedLayouts(arguments.layouts)) {
@@ -99,7 +99,7 @@ void benchNetwork(const Arguments& arguments) {
 
 void addNetworkBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("network", "Measure steps per second with robots in other processes");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<NetworkArguments>();
   command->add_option("--crowd", a->layouts, "repeatable; default: 1x1, 10x1, 100x1 and 1x1000")
       ->type_name("PROCESSESxROBOTS_EACH");
   command

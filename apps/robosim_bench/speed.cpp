@@ -38,7 +38,7 @@ VectorWidth vectorWidthNamed(const std::string& name) {
   return found->second;
 }
 
-struct Arguments {
+struct SpeedArguments {
   std::vector<std::size_t> robots;
   std::vector<std::string> workloads;
   int threads = 1;
@@ -49,16 +49,16 @@ struct Arguments {
   bool targets = false;  ///< no selection was given, so everything is measured
 };
 
-bool isSelected(const Arguments& arguments, const std::string& workload) {
+bool isSelected(const SpeedArguments& arguments, const std::string& workload) {
   const auto& names = arguments.workloads;
   return names.empty() || std::find(names.begin(), names.end(), workload) != names.end();
 }
 
-std::vector<std::size_t> sizes(const Arguments& arguments) {
+std::vector<std::size_t> sizes(const SpeedArguments& arguments) {
   return arguments.robots.empty() ? std::vector<std::size_t>{100, 1000, 10000} : arguments.robots;
 }
 
-std::vector<RobotLoad> loadsOf(const Arguments& arguments) {
+std::vector<RobotLoad> loadsOf(const SpeedArguments& arguments) {
   if (arguments.targets) return standardLoads();
   std::vector<RobotLoad> loads;
   for (const auto& workload : workloads()) {
@@ -75,7 +75,7 @@ std::string textOf(const RobotLoad& load) {
 
 class SpeedBench {
  public:
-  explicit SpeedBench(const Arguments& arguments) : arguments_(arguments) {}
+  explicit SpeedBench(const SpeedArguments& arguments) : arguments_(arguments) {}
 
   /// Prints JSON lines as the figures arrive, if requested.
   SpeedFigures measure() {
@@ -125,7 +125,7 @@ class SpeedBench {
     return figures;
   }
 
-  const Arguments& arguments_;
+  const SpeedArguments& arguments_;
   const std::uint64_t seed_ = arguments_.seed;
   const double min_s_ = arguments_.min_s;
   const Interrupt interrupt_;  ///< ends the measuring process; this one then removes its files
@@ -139,7 +139,7 @@ void print(const SpeedFigures& figures, bool with_targets) {
   if (with_targets) std::cout << toTable(targetsOf(figures)) << '\n';
 }
 
-void benchSpeed(const Arguments& arguments) {
+void benchSpeed(const SpeedArguments& arguments) {
   if (!arguments.vectors.empty()) setVectorWidth(vectorWidthNamed(arguments.vectors));
   const OtherLoad other_load;
   const SpeedFigures figures = SpeedBench(arguments).measure();
@@ -153,7 +153,7 @@ void benchSpeed(const Arguments& arguments) {
 
 void addSpeedBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("speed", "Measure robot-steps per second on standard workloads");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<SpeedArguments>();
   std::vector<std::string> names;
   Rows rows;
   for (const auto& workload : workloads()) {

@@ -25,7 +25,7 @@ constexpr Kind kKinds[] = {{"2d", "from above, with sonar fans", true, false},
                            {"both", "both side by side", true, true}};
 constexpr double kAimFramesPerS = 20;
 
-struct Arguments {
+struct ViewArguments {
   std::size_t robots = 1000;
   double min_s = 2;
   bool json = false;
@@ -63,7 +63,7 @@ std::vector<Pane> panesOf(const Kind& kind, const World& world) {
   return panes;
 }
 
-void benchView(const Arguments& arguments) {
+void benchView(const ViewArguments& arguments) {
   RunView source(makeWorldToRun(workloadNamed("sonar"), arguments.robots, 1), arguments.robots);
   std::vector<std::unique_ptr<ViewDrawing>> drawings;
   std::vector<Contender> contenders;
@@ -102,7 +102,7 @@ void benchView(const Arguments& arguments) {
 
 void addViewBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("view", "Measure the frame rate of a view of many robots");
-  auto a = std::make_shared<Arguments>();
+  auto a = std::make_shared<ViewArguments>();
   command->add_option("--robots", a->robots, "number of robots, 1 to 1000000")
       ->check(wholeNumberIn(1, 1000000))
       ->type_name("NUMBER")

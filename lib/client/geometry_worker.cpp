@@ -15,7 +15,7 @@ namespace robosim {
 namespace {
 
 /// Well below gRPC's limit of 4 MiB per message.
-constexpr std::size_t kPieceBytes = 1 << 20;
+constexpr std::size_t kResultPieceBytes = 1 << 20;
 
 std::unique_ptr<Environment> replicaOf(const wire::Replica& replica, int threads) {
   LoadedWorld world = loadWorld(decode(replica.world()), {});
@@ -118,7 +118,7 @@ struct GeometryWorker::Impl {
       result.set_begin(begin);
       result.set_end(begin + 1);
       encode(*replica, result);
-      const auto many = std::max<std::size_t>(1, kPieceBytes / std::max<std::size_t>(1, result.ByteSizeLong()));
+      const auto many = std::max<std::size_t>(1, kResultPieceBytes / std::max<std::size_t>(1, result.ByteSizeLong()));
       result.set_end(static_cast<std::uint32_t>(std::min<std::size_t>(begin + many, in.task().end())));
       encode(*replica, result);
       send();

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,10 @@ class Robot {
   const Readings& readings() const { return hardware_.readings(); }
   std::uint64_t stepNumber() const { return readings().time.step; }
   double time() const { return readings().time.seconds(); }  ///< [s] since the start
+  /// Number of steps that take at least `seconds`.
+  std::uint64_t stepsIn(double seconds) const {
+    return static_cast<std::uint64_t>(std::ceil(seconds / readings().time.period_s));
+  }
 
   /// @name Readings of the first sensor of a kind in this step
   /// For a robot without such a sensor: no echoes, nullopt, identity odometry.

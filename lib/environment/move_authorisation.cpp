@@ -6,7 +6,7 @@
 namespace robosim {
 namespace {
 
-constexpr std::size_t kChunk = 64;
+constexpr std::size_t kPathChunk = 64;
 
 mrpt::math::TPoint2D startOf(const Path& path) { return {path.world_from_start.x, path.world_from_start.y}; }
 
@@ -30,7 +30,7 @@ void MoveAuthorisation::begin(std::span<const Path> paths) {
 
 void MoveAuthorisation::clip(const Scene& scene, std::span<const NeighbourList> near, const ParallelExecutor& workers,
                              RobotRange range, std::span<Path> paths) {
-  workers.forEach(range.end - range.begin, kChunk, [&](std::size_t k) {
+  workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     may_have_neighbours_[i] = 0;
     if (paths[i].length_m != 0) clip(scene, near[i], i, paths);
@@ -41,7 +41,7 @@ void MoveAuthorisation::clip(const Scene& scene, std::span<const NeighbourList> 
 // order-independent.
 void MoveAuthorisation::judge(const Scene& scene, const ParallelExecutor& workers, RobotRange range,
                               std::span<const Path> paths) {
-  workers.forEach(range.end - range.begin, kChunk, [&](std::size_t k) {
+  workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     stays_[i] = collidesWithAnother(scene, i, paths) ? 1 : 0;
   });
@@ -49,7 +49,7 @@ void MoveAuthorisation::judge(const Scene& scene, const ParallelExecutor& worker
 
 void MoveAuthorisation::conclude(const ParallelExecutor& workers, std::span<Path> paths,
                                  std::span<std::uint8_t> stalled) {
-  workers.forEach(paths.size(), kChunk, [&](std::size_t i) {
+  workers.forEach(paths.size(), kPathChunk, [&](std::size_t i) {
     if (stays_[i]) paths[i].end_fraction = 0;
     stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
   });

@@ -6,7 +6,7 @@
 namespace robosim {
 namespace {
 
-constexpr std::size_t kChunk = 256;
+constexpr std::size_t kDigestChunk = 256;
 
 /// Buffer of the bytes of many robots: hashing one long buffer is several times as fast as hashing many short ones.
 class Bytes {
@@ -62,15 +62,15 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
 
 }  // namespace
 
-RunDigest::RunDigest(std::size_t robots) : of_chunk_((robots + kChunk - 1) / kChunk) {}
+RunDigest::RunDigest(std::size_t robots) : of_chunk_((robots + kDigestChunk - 1) / kDigestChunk) {}
 
 void RunDigest::add(const State& state, const ParallelExecutor& workers) {
-  workers.forChunks(state.world_from_robot.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+  workers.forChunks(state.world_from_robot.size(), kDigestChunk, [&](std::size_t begin, std::size_t end) {
     static thread_local Bytes bytes;
     bytes.clear();
     bytes.add(&state.time.step, sizeof state.time.step);
     for (std::size_t i = begin; i < end; ++i) addRobot(bytes, state, i);
-    bytes.addTo(of_chunk_[begin / kChunk]);
+    bytes.addTo(of_chunk_[begin / kDigestChunk]);
   });
 }
 

@@ -22,7 +22,7 @@ constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kSizeAt = 20;  ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
-constexpr double kFarthest_m = 1e7;
+constexpr double kFarthestPose_m = 1e7;
 
 template <typename T>
 T numberAt(std::string_view bytes, std::size_t place) {
@@ -125,7 +125,8 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   const RobotInfo& info = model.fleet.robots[i].info;
   auto& pose = state.world_from_robot[i];
   pose = in.takePose();
-  requireContents(std::abs(pose.x) <= kFarthest_m && std::abs(pose.y) <= kFarthest_m, "a robot is too far away");
+  requireContents(std::abs(pose.x) <= kFarthestPose_m && std::abs(pose.y) <= kFarthestPose_m,
+                  "a robot is too far away");
   state.speed_mps[i] = in.takeFinite();
   state.turn_radps[i] = in.takeFinite();
   requireContents(std::abs(state.speed_mps[i]) <= info.limits.speed_max_mps &&

@@ -18,7 +18,7 @@ constexpr int kSearchReach = 1000000;     // cost limit: unlimited in practice
 constexpr int kFollowReach = 400;         // cost: heat is near, but the way to it may lead round some walls
 constexpr double kCloser = 3;             // cost of ending a cell farther from the likely source
 constexpr double kNearSource = 0.6;       // of the sensor's range: how near the likely source it looks
-constexpr double kTurn = 4;               // cost of a goal at right angles to the robot's heading
+constexpr double kTurnCost = 4;           // cost of a goal at right angles to the robot's heading
 constexpr double kSliver = 0.3;           // share of a neighbourhood that must be unsearched to be worth a trip
 constexpr std::size_t kBeams = 32;        // maximum number of beams used per sensor
 constexpr double kLookTurn_rad = 0.2;     // turn after which the map is updated
@@ -30,10 +30,6 @@ constexpr double kNothingLeft_s = 5;      // then it starts a new map
 constexpr double kStuck_s = 1.5;
 constexpr double kRecovery_s = 60;  // without headway, however often it has drawn back
 constexpr double kRecoveryHeadway_radii = 3;
-
-std::uint64_t stepsIn(double seconds, const Robot& robot) {
-  return static_cast<std::uint64_t>(std::ceil(seconds / robot.readings().time.period_s));
-}
 
 double heatRange(const Robot& robot) {
   for (const auto kind : {SensorKind::heat, SensorKind::odometry}) {
@@ -103,7 +99,7 @@ void Explorer::feel(const Robot& robot) {
   } else if (heat >= warm_ && robot.stepNumber() >= explore_until_) {
     search_.heat.searchFromHere();
     following_ = planToHeat(search_.map.cellAt(place()));
-    follow_until_ = robot.stepNumber() + stepsIn(kFollow_s, robot);
+    follow_until_ = robot.stepNumber() + robot.stepsIn(kFollow_s);
   }
 }
 
@@ -123,18 +119,18 @@ void Explorer::plan(const Robot& robot) {
   if (following_) {
     if (now < follow_until_ && planToHeat(start)) return;
     following_ = false;
-    if (now >= follow_until_) explore_until_ = now + stepsIn(kExplore_s, robot);
+    if (now >= follow_until_) explore_until_ = now + robot.stepsIn(kExplore_s);
   }
   if (planToSearch(start)) {
     nothing_left_since_.reset();
     return;
   }
   // Another robot may block the path temporarily.
-  plan_from_ = now + stepsIn(1, robot);
+  plan_from_ = now + robot.stepsIn(1);
   if (!nothing_left_since_) {
     nothing_left_since_ = now;
     search_.obstacles.forgetDoubtful();
-  } else if (now >= *nothing_left_since_ + stepsIn(kNothingLeft_s, robot)) {
+  } else if (now >= *nothing_left_since_ + robot.stepsIn(kNothingLeft_s)) {
     startOver();
   }
 }
@@ -158,7 +154,7 @@ bool Explorer::planToSearch(const Cell& start) {
   return planTo(start, kSearchReach, [&](const Cell& cell) {
     if (search_.map[cell].searched || isSliver(cell)) return -1;
     const double x = cell.x - start.x, y = cell.y - start.y;
-    return static_cast<int>(kTurn * (1 - (x * ahead.cos + y * ahead.sin) / portable::hypot(x, y)));
+    return static_cast<int>(kTurnCost * (1 - (x * ahead.cos + y * ahead.sin) / portable::hypot(x, y)));
   });
 }
 
@@ -208,7 +204,7 @@ bool Explorer::isStuck(const Robot& robot) {
     moved_from_ = pose;
     moved_at_ = robot.stepNumber();
   }
-  return robot.stepNumber() > moved_at_ + stepsIn(kStuck_s, robot);
+  return robot.stepNumber() > moved_at_ + robot.stepsIn(kStuck_s);
 }
 
 void Explorer::drawBack(Robot& robot) {
@@ -219,7 +215,7 @@ void Explorer::drawBack(Robot& robot) {
   search_.obstacles.bump(portable::compose(pose, mrpt::math::TPoint2D(reach, 0)));
   driver_.clear();
   has_drawn_ = true;
-  back_until_ = robot.stepNumber() + stepsIn(rng_.uniform(0.5, 3), robot);
+  back_until_ = robot.stepNumber() + robot.stepsIn(rng_.uniform(0.5, 3));
   const bool backwards = roomInLane(robot, -1) >= roomInLane(robot, 1);
   back_speed_ = (backwards ? -1 : 1) * rng_.uniform(0.1, 0.4) * limits.speed_max_mps;
   back_turn_ = rng_.uniform(-0.5, 0.5) * limits.turn_max_radps;

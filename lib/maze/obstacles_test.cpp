@@ -10,8 +10,6 @@
 namespace robosim {
 namespace {
 
-constexpr double kRadius_m = FakeHardware::kRadius_m;
-
 struct ObstaclesTest : testing::Test {
   ObstaclesTest() { map.cover({-60, -60}, {60, 60}); }
   void look(const mrpt::math::TPose2D& pose = {}) {
@@ -22,7 +20,7 @@ struct ObstaclesTest : testing::Test {
 
   FakeHardware hardware;
   MazeMap map{0.15};
-  Obstacles obstacles{map, kRadius_m};
+  Obstacles obstacles{map, FakeHardware::kRadius_m};
 };
 
 TEST_F(ObstaclesTest, StandWhereAnEchoCameFrom) {
@@ -117,7 +115,7 @@ TEST_F(ObstaclesTest, CountAroundEachCellWhatIsThere) {
     if (i % 50 == 0) obstacles.forgetDoubtful();
   }
   const int reach = 5;
-  const double near = kRadius_m / 0.15, close = 1.5 * kRadius_m / 0.15 + 1;
+  const double near = FakeHardware::kRadius_m / 0.15, close = 1.5 * FakeHardware::kRadius_m / 0.15 + 1;
   for (int y = -40; y <= 40; ++y) {
     for (int x = -40; x <= 40; ++x) {
       int walls_near = 0, walls_close = 0;

@@ -19,10 +19,6 @@ constexpr double kGap_m = 0.02;
 constexpr std::uint64_t kPauseSteps = 10;
 constexpr std::uint32_t kRandomItem = 1;  // random stream separate from the controller's
 
-std::uint64_t stepsIn(double seconds, const Robot& robot) {
-  return static_cast<std::uint64_t>(std::ceil(seconds / robot.readings().time.period_s));
-}
-
 }  // namespace
 
 bool StuckRecovery::takesOver(Robot& robot) {
@@ -36,7 +32,7 @@ bool StuckRecovery::takesOver(Robot& robot) {
     return false;
   }
   if (!is_active_) {
-    if (now < left_step_ + stepsIn(options_.patience_s, robot)) return false;
+    if (now < left_step_ + robot.stepsIn(options_.patience_s)) return false;
     is_active_ = true;
     has_drawn_ = true;
     turn_until_ = drive_until_ = now;
@@ -61,8 +57,8 @@ void StuckRecovery::turnOrDrive(Robot& robot) {
     Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, kRandomItem, now);
     turn_ = rng.below(2) == 0 ? kTurn : -kTurn;
     const double angle_rad = rng.uniform(kTurnMin_rad, kTurnMax_rad);
-    turn_until_ = now + stepsIn(angle_rad / (kTurn * limits.turn_max_radps), robot);
-    drive_until_ = turn_until_ + stepsIn(rng.uniform(kDriveMin_s, kDriveMax_s), robot);
+    turn_until_ = now + robot.stepsIn(angle_rad / (kTurn * limits.turn_max_radps));
+    drive_until_ = turn_until_ + robot.stepsIn(rng.uniform(kDriveMin_s, kDriveMax_s));
   }
   const bool turns = now < turn_until_;
   robot.drive(turns ? 0 : kSpeed * limits.speed_max_mps, turns ? turn_ * limits.turn_max_radps : 0);

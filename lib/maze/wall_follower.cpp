@@ -30,13 +30,9 @@ Nearest nearestBetween(const Robot& robot, double from_rad, double to_rad) {
 }
 
 constexpr double kDeg = std::numbers::pi / 180;
-constexpr double kTurn = 0.6;                 // fraction of the maximum turn rate, before an obstacle
+constexpr double kTurnFraction = 0.6;         // fraction of the maximum turn rate, before an obstacle
 constexpr double kTouchTurn_rad = 60 * kDeg;  // away from a contact
 constexpr double kTouchAhead_s = 1;
-
-std::uint64_t stepsIn(double seconds, const Robot& robot) {
-  return static_cast<std::uint64_t>(std::ceil(seconds / robot.readings().time.period_s));
-}
 
 }  // namespace
 
@@ -52,13 +48,13 @@ void WallFollower::step(Robot& robot) {
   const double cruise = std::min(0.6 * limits.speed_max_mps, braking);
   const std::uint64_t now = robot.stepNumber();
   if (robot.stalled()) {
-    turn_until_ = now + stepsIn(kTouchTurn_rad / (kTurn * limits.turn_max_radps), robot);
-    ahead_until_ = turn_until_ + stepsIn(kTouchAhead_s, robot);
+    turn_until_ = now + robot.stepsIn(kTouchTurn_rad / (kTurnFraction * limits.turn_max_radps));
+    ahead_until_ = turn_until_ + robot.stepsIn(kTouchAhead_s);
   }
   if (ahead.room_m < distance || now < turn_until_) {
     found_wall_ = true;
     arc_rad_ = 0;
-    robot.drive(0, kTurn * limits.turn_max_radps);
+    robot.drive(0, kTurnFraction * limits.turn_max_radps);
     return;
   }
   if (right.room_m > 3 * distance) {

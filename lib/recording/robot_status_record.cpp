@@ -18,7 +18,7 @@ using mrpt::obs::CObservation;
 using mrpt::obs::CObservationRawDAQ;
 
 /// Indices of the outputs and inputs of STATUS.
-enum Output { kSpeed, kTurn, kPan, kActivity, kByDriver, kOutputs };
+enum OutputColumn { kSpeed, kTurn, kPan, kActivity, kByDriver, kOutputs };
 enum Input { kLaserPan, kStalled, kTooFar, kWon, kInputs };
 
 std::shared_ptr<CObservationRawDAQ> rawDaq(const Label& label) {

@@ -36,13 +36,13 @@ constexpr std::array<MessageRule, PageMessage::kTypes> kRules{{
     {Type::switch_primary, Right::drive_primary_and_target, Page::holds_lock, Primary::settled},
 }};
 
-constexpr bool isInOrder() {
+constexpr bool isRuleAtItsIndex() {
   for (std::size_t i = 0; i < kRules.size(); ++i) {
     if (static_cast<std::size_t>(kRules[i].type) != i) return false;
   }
   return true;
 }
-static_assert(isInOrder(), "a type's rule is at its index");
+static_assert(isRuleAtItsIndex(), "a type's rule is at its index");
 
 /// Why a token lacks a right; empty when it has it.
 std::string denial(const Access& access, const Identity& client, const PageState& state, const PageMessage& message) {

@@ -42,13 +42,13 @@ constexpr std::array<Syntax, PageMessage::kTypes> kSyntax{{
     {Type::switch_primary, "switch", {"robot"}},
 }};
 
-constexpr bool isInOrder() {
+constexpr bool isEntryAtItsIndex() {
   for (std::size_t i = 0; i < kSyntax.size(); ++i) {
     if (static_cast<std::size_t>(kSyntax[i].type) != i) return false;
   }
   return true;
 }
-static_assert(isInOrder(), "a type's entry is at its index");
+static_assert(isEntryAtItsIndex(), "a type's entry is at its index");
 
 bool hasMember(const Syntax& syntax, const std::string& member) {
   return std::any_of(syntax.members.begin(), syntax.members.end(),

@@ -5,14 +5,13 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "rendering/bgr.h"
 #include "rendering/ground_painter.h"
 
 namespace robosim {
 namespace {
 
 constexpr Color kEchoColor{0.86f, 0.20f, 0.25f};
-
-cv::Scalar bgr(const Color& color) { return {color[2] * 255.0, color[1] * 255.0, color[0] * 255.0}; }
 
 /// A pinhole camera with square pixels.
 class Projection {

@@ -5,6 +5,7 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "rendering/bgr.h"
 #include "rendering/outline_text.h"
 
 namespace robosim {
@@ -16,8 +17,6 @@ constexpr int kFiner = 2;  ///< fine pixels per pixel, in each direction
 constexpr int kShift = 4;  ///< fractional bits of OpenCV's coordinates
 constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
 constexpr double kFontHeight_px = 22;  ///< of a capital, at scale 1
-
-cv::Scalar bgr(const Color& color) { return {color[2] * 255.0, color[1] * 255.0, color[0] * 255.0}; }
 
 int fineWidth(double width_px) { return std::max(1, static_cast<int>(std::lround(width_px * kFiner))); }
 int fineRadius(double radius_px) { return static_cast<int>(std::lround(radius_px * kFiner * (1 << kShift))); }

@@ -16,7 +16,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 constexpr double kRadPerDeg = M_PI / 180;
-const std::filesystem::path kTypes = ROBOSIM_SOURCE_DIR "/worlds/robots";
+const std::filesystem::path kTypesFolder = ROBOSIM_SOURCE_DIR "/worlds/robots";
 
 const std::string kBody = "<body radius_m='0.2' height_m='0.4'/>";
 const std::string kLimits =
@@ -24,7 +24,7 @@ const std::string kLimits =
 
 RobotModel shipped(const std::string& name) {
   ErrorList errors;
-  RobotModel model = readRobotModel(kTypes / (name + ".xml"), errors);
+  RobotModel model = readRobotModel(kTypesFolder / (name + ".xml"), errors);
   EXPECT_EQ(errors.errors(), Lines{});
   return model;
 }
@@ -36,7 +36,7 @@ RobotModel parsed(const std::string& inner, const RobotDescription& description 
   return model;
 }
 
-Lines faults(const std::string& text) {
+Lines faultsOf(const std::string& text) {
   ErrorList errors;
   modelOf(parseXml(text, ""), "r.xml", {}, errors);
   return errors.errors();
@@ -138,8 +138,8 @@ TEST(RobotModel, KeepsLabelsGivenInTheFile) {
 }
 
 TEST(RobotModel, RejectsDuplicateSensorLabels) {
-  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
-                   "<sensors>\n<compass label='north'/>\n<heat range_max_m='2' label='north'/>\n</sensors></robot>"),
+  EXPECT_EQ(faultsOf("<robot name='r'>" + kBody + kLimits +
+                     "<sensors>\n<compass label='north'/>\n<heat range_max_m='2' label='north'/>\n</sensors></robot>"),
             Lines{"r.xml:3: <heat label=\"north\">: is taken already, by the sensor in line 2; give each sensor of a "
                   "robot a label of its own"});
 }
@@ -158,8 +158,8 @@ TEST(RobotModel, RejectsDuplicateIdsOf2005Sensors) {
 }
 
 TEST(RobotModel, RejectsALabelThatARecordingCannotHold) {
-  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
-                   "<sensors><compass label='GROUND_TRUTH'/>\n<heat range_max_m='2' label='a/b'/></sensors></robot>"),
+  EXPECT_EQ(faultsOf("<robot name='r'>" + kBody + kLimits +
+                     "<sensors><compass label='GROUND_TRUTH'/>\n<heat range_max_m='2' label='a/b'/></sensors></robot>"),
             (Lines{"r.xml:1: <compass label=\"GROUND_TRUTH\">: is reserved for recordings (GROUND_TRUTH, STATUS, "
                    "INBOX, POINTS); choose another label",
                    "r.xml:2: <heat label=\"a/b\">: must not contain '/', which separates robot and sensor in a "
@@ -230,12 +230,12 @@ TEST(RobotModel, Model2005MovesLikeAPioneerOfItsSize) {
 }
 
 TEST(RobotModel, ReportsAllFaultsAtOnce) {
-  EXPECT_EQ(faults("<world/>"), Lines{"r.xml:1: <world>: is not a robot type; the first element of one is <robot>"});
-  EXPECT_EQ(faults("<robot name='r'/>"),
+  EXPECT_EQ(faultsOf("<world/>"), Lines{"r.xml:1: <world>: is not a robot type; the first element of one is <robot>"});
+  EXPECT_EQ(faultsOf("<robot name='r'/>"),
             (Lines{"r.xml:1: <robot>: <body> is missing; add it", "r.xml:1: <robot>: <limits> is missing; add it"}));
   EXPECT_EQ(
-      faults("<robot name='s'>\n<body radius_m='0' height_m='x'/>\n<limits speed_max_mps='-1' "
-             "accel_mps2='1' decel_mps2='1' turn_max_degps='1'/>\n<sensors>\n<sonar/></sensors></robot>"),
+      faultsOf("<robot name='s'>\n<body radius_m='0' height_m='x'/>\n<limits speed_max_mps='-1' "
+               "accel_mps2='1' decel_mps2='1' turn_max_degps='1'/>\n<sensors>\n<sonar/></sensors></robot>"),
       (Lines{"r.xml:1: <robot name=\"s\">: must be the file's name without .xml; rename one of them",
              "r.xml:2: <body radius_m=\"0\">: must lie in (0, 100] metres; write a number there",
              "r.xml:2: <body height_m=\"x\">: is not a number; write a number there",
@@ -243,26 +243,26 @@ TEST(RobotModel, ReportsAllFaultsAtOnce) {
              "r.xml:3: <limits>: <turn_accel_degps2> is missing; add it",
              "r.xml:5: <sonar>: has no mounting pose; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>"}));
   EXPECT_EQ(
-      faults("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
+      faultsOf("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
       Lines{"r.xml:1: <robot>: unknown attribute hue=\"1\"; accepted here are: body, help, limits, name, sensors"});
 }
 
 TEST(RobotModel, RejectsABodyThatIsBothRoundAndRectangular) {
   EXPECT_EQ(
-      faults("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
+      faultsOf("<robot name='r'><body radius_m='1' length_m='1' height_m='1'/>" + kLimits + "</robot>"),
       Lines{"r.xml:1: <body>: unknown attribute length_m=\"1\"; accepted here are: clearance_m, color, height_m, look, "
             "radius_m"});
 }
 
 TEST(RobotModel, RejectsTheSensorThatExceedsTheRayLimit) {
-  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
-                   "<sensors>\n<sonar model='rays' rays='1000'><ring count='99' radius_m='0.1'/></sonar>"
-                   "\n<laser beams='1000'/>\n<laser beams='1'/></sensors></robot>"),
+  EXPECT_EQ(faultsOf("<robot name='r'>" + kBody + kLimits +
+                     "<sensors>\n<sonar model='rays' rays='1000'><ring count='99' radius_m='0.1'/></sonar>"
+                     "\n<laser beams='1000'/>\n<laser beams='1'/></sensors></robot>"),
             (Lines{"r.xml:4: <laser>: has 1 rays, and the sensors before it 100000; a robot may have 100000 in all, so "
                    "use fewer"}));
-  EXPECT_EQ(faults("<robot name='r'>" + kBody + kLimits +
-                   "<sensors>\n<sonar model='rays' rays='1000'><ring count='1024' radius_m='0.1'/></sonar>"
-                   "</sensors></robot>"),
+  EXPECT_EQ(faultsOf("<robot name='r'>" + kBody + kLimits +
+                     "<sensors>\n<sonar model='rays' rays='1000'><ring count='1024' radius_m='0.1'/></sonar>"
+                     "</sensors></robot>"),
             (Lines{"r.xml:2: <sonar>: has 1024000 rays, and the sensors before it 0; a robot may have 100000 in all, "
                    "so use fewer"}));
 }

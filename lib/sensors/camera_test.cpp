@@ -27,7 +27,7 @@ class FakeImages : public ImageSource {
 
 std::string jpeg(const Measurement& measured) { return std::get<Image>(measured).jpeg; }
 
-std::string errorOf(const std::string& xml) {
+std::string cameraError(const std::string& xml) {
   try {
     sensorFrom(xml);
   } catch (const ConfigError& error) {
@@ -104,20 +104,20 @@ TEST(TakesPicture, TakesOneInEachStepAtRatesAboveTheStepRate) {
 }
 
 TEST(Camera, RejectsInvalidSettings) {
-  EXPECT_EQ(errorOf("<camera width_px='2049'/>"),
+  EXPECT_EQ(cameraError("<camera width_px='2049'/>"),
             "sensor.xml:1: <camera width_px=\"2049\">: must lie in [1, 2048] pixels; drop it for the default, 320");
-  EXPECT_EQ(errorOf("<camera height_px='0'/>"),
+  EXPECT_EQ(cameraError("<camera height_px='0'/>"),
             "sensor.xml:1: <camera height_px=\"0\">: must lie in [1, 2048] pixels; drop it for the default, 240");
-  EXPECT_EQ(errorOf("<camera height_px='9.5'/>"),
+  EXPECT_EQ(cameraError("<camera height_px='9.5'/>"),
             "sensor.xml:1: <camera height_px=\"9.5\">: must be a whole number of pixels");
   EXPECT_EQ(
-      errorOf("<camera field_of_view_deg='180'/>"),
+      cameraError("<camera field_of_view_deg='180'/>"),
       "sensor.xml:1: <camera field_of_view_deg=\"180\">: must lie in [1, 170] degrees; drop it for the default, 60");
-  EXPECT_EQ(errorOf("<camera rate_hz='0'/>"),
+  EXPECT_EQ(cameraError("<camera rate_hz='0'/>"),
             "sensor.xml:1: <camera rate_hz=\"0\">: must lie in (0, 1000] hertz; drop it for the default, 10");
-  EXPECT_EQ(errorOf("<camera tilt_deg='91'/>"),
+  EXPECT_EQ(cameraError("<camera tilt_deg='91'/>"),
             "sensor.xml:1: <camera tilt_deg=\"91\">: must lie in [-90, 90] degrees; drop it for the default, 0");
-  EXPECT_EQ(errorOf("<camera zoom='2'/>"),
+  EXPECT_EQ(cameraError("<camera zoom='2'/>"),
             "sensor.xml:1: <camera>: unknown attribute zoom=\"2\"; accepted here are: angle_deg, field_of_view_deg, "
             "height_px, jpeg_quality, label, rate_hz, tilt_deg, width_px, x_m, y_m, z_m");
 }

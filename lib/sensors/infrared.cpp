@@ -9,7 +9,7 @@ namespace robosim {
 namespace {
 
 /// GP2D12 behind an 8-bit converter: one step is about 2 % of the range in the middle of its curve (data sheet).
-constexpr RangeNoise kDataSheet{.on = true, .std_m = 0, .std_per_m = 0.02, .dropout = 0};
+constexpr RangeNoise kInfraredDataSheet{.on = true, .std_m = 0, .std_per_m = 0.02, .dropout = 0};
 
 }  // namespace
 
@@ -21,7 +21,7 @@ InfraredOptions InfraredOptions::read(XmlReader& reader) {
   o.range_min_m =
       reader.number("range_min_m", Bounds::notNegative(o.range_max_m), std::min(o.range_min_m, o.range_max_m / 8));
   if (auto element = reader.child("noise")) {
-    o.noise = RangeNoise::read(*element, kDataSheet);
+    o.noise = RangeNoise::read(*element, kInfraredDataSheet);
     element->finish();
   }
   return o;

@@ -11,12 +11,12 @@ namespace {
 
 /// SICK LMS 200, ranges up to 8 m: statistical error 5 mm, one standard deviation (Technical Description
 /// LMS200/211/221).
-constexpr RangeNoise kDataSheet{.on = true, .std_m = 0.005, .std_per_m = 0, .dropout = 0};
+constexpr RangeNoise kLaserDataSheet{.on = true, .std_m = 0.005, .std_per_m = 0, .dropout = 0};
 
 RangeNoise readNoise(XmlReader& reader) {
   auto element = reader.child("noise");
   if (!element) return {};
-  const RangeNoise noise = RangeNoise::read(*element, kDataSheet);
+  const RangeNoise noise = RangeNoise::read(*element, kLaserDataSheet);
   element->finish();
   return noise;
 }

@@ -19,7 +19,7 @@ constexpr double kRadPerDeg = M_PI / 180;
 
 /// Polaroid 6500 ranging module with the 600 series transducer, as on Pioneer and Scout: ±1 % of the range (data
 /// sheet).
-constexpr RangeNoise kDataSheet{.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0};
+constexpr RangeNoise kSonarDataSheet{.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0};
 /// Smooth walls reflect the ping away beyond about half the beam width of the transducer (Leonard & Durrant-Whyte,
 /// *Directed Sonar Sensing for Mobile Robot Navigation*, 1992, ch. 2).
 constexpr double kSpecular_deg = 15;
@@ -210,7 +210,7 @@ SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
 SonarNoise readNoise(XmlReader& reader) {
   SonarNoise noise;
   if (auto element = reader.child("noise")) {
-    noise.range = RangeNoise::read(*element, kDataSheet);
+    noise.range = RangeNoise::read(*element, kSonarDataSheet);
     noise.specular_rad = element->angle("specular_deg", {0, 180}, kSpecular_deg * kRadPerDeg);
     noise.crosstalk = element->number("crosstalk", Bounds::notNegative(1), 0);
     element->finish();

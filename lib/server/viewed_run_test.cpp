@@ -11,7 +11,7 @@
 namespace robosim {
 namespace {
 
-const WorldSource& maze() {
+const WorldSource& smallMaze() {
   static const WorldSource source = readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml");
   return source;
 }
@@ -19,7 +19,7 @@ const WorldSource& maze() {
 /// The first frame of the small maze, with a Pioneer and a Scout.
 wire::Frame firstFrame() {
   wire::Frame frame;
-  encode(maze(), *frame.mutable_world());
+  encode(smallMaze(), *frame.mutable_world());
   frame.set_world_version("v");
   frame.set_period_s(0.1);
   for (std::size_t i = 0; i < 2; ++i) encode(RobotSnapshot{}, i, *frame.add_robots());
@@ -33,7 +33,7 @@ ViewedRun runAfter(const wire::Frame& frame) {
 }
 
 std::vector<Readings> readingsOfTheMaze() {
-  LoadedWorld world = loadWorld(maze(), {});
+  LoadedWorld world = loadWorld(smallMaze(), {});
   return Environment(std::move(world.world), std::move(world.fleet), {}).state().readings;
 }
 

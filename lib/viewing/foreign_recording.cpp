@@ -213,7 +213,7 @@ struct Slot {
   Measurement measurement;
 };
 
-struct Robot {
+struct ForeignRobot {
   std::string name;
   std::vector<Slot> slots;
   bool has_truth = false;
@@ -227,7 +227,7 @@ struct Robot {
 };
 
 /// Robots (shown as Pioneers) with the sensors found in the recording.
-LoadedWorld worldOf(const std::string& file, const std::vector<Robot>& robots, const Bounds2D& bounds) {
+LoadedWorld worldOf(const std::string& file, const std::vector<ForeignRobot>& robots, const Bounds2D& bounds) {
   WorldSource source;
   source.file = file;
   source.robot_types = robotTypesIn(robotTypeFolders(file));
@@ -354,7 +354,7 @@ class ForeignRecording final : public RecordedMoments {
     for (const auto& observed : observed_) {
       Source& source = sources_[observed.source];
       if (!std::exchange(is_placed[observed.source], 1)) addSlot(source);
-      Robot& robot = robots_[source.robot_index];
+      ForeignRobot& robot = robots_[source.robot_index];
       if (isPose(source.kind)) {
         robot.has_truth = robot.has_truth || source.kind == Kind::truth;
         // Odometry is ignored for robots with ground truth.
@@ -382,7 +382,7 @@ class ForeignRecording final : public RecordedMoments {
 
   void addSlot(Source& source) {
     auto robot =
-        std::find_if(robots_.begin(), robots_.end(), [&](const Robot& one) { return one.name == source.robot; });
+        std::find_if(robots_.begin(), robots_.end(), [&](const ForeignRobot& one) { return one.name == source.robot; });
     if (robot == robots_.end()) {
       robot = robots_.emplace(robot);
       robot->name = source.robot;
@@ -422,7 +422,7 @@ class ForeignRecording final : public RecordedMoments {
     for (; end_ < end; ++end_) {
       const Observed& observed = observed_[end_];
       const Source& source = sources_[observed.source];
-      Robot& robot = robots_[source.robot_index];
+      ForeignRobot& robot = robots_[source.robot_index];
       robot.is_present = true;
       if (isPose(source.kind)) {
         robot.world_from_robot = poses_[observed.place];
@@ -461,7 +461,7 @@ class ForeignRecording final : public RecordedMoments {
   std::map<std::pair<std::string, Kind>, std::size_t> source_of_label_;
   std::vector<Observed> observed_;  ///< in the order of time
   std::vector<TPose2D> poses_;
-  std::vector<Robot> robots_;  ///< in the order in which they appear
+  std::vector<ForeignRobot> robots_;  ///< in the order in which they appear
   std::vector<double> times_;
   std::vector<std::size_t> ends_;  ///< end index in observed_ of each moment
   std::size_t end_ = 0;            ///< end index in observed_ of the moment applied to robots_

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -142,7 +141,7 @@ TEST(BenchSpeed, EndsOnInterrupt) {
   std::vector<std::string> arguments{"speed", "--json", "--workload", "sonar"};
   for (int i = 0; i < 1000; ++i) arguments.insert(arguments.end(), {"--robots", "10"});
   StartedProgram bench(ROBOSIM_BENCH, arguments);
-  while (bench.output().empty() && bench.isRunning()) std::this_thread::yield();
+  bench.waitForOutput("\n");
   bench.interrupt();
   const Ended ended = bench.wait();
   EXPECT_EQ(ended.exit_code, 130);

@@ -2,7 +2,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -65,16 +64,15 @@ TEST(BenchView, ReportsFramesPerSecondForEachKindOfView) {
 
 TEST(BenchMaps, EndsOnInterruptWithoutLeavingFiles) {
   const auto folder = emptyFolder();
-  const auto is_empty = [&] { return std::filesystem::is_empty(folder); };
   setenv("TMPDIR", folder.c_str(), 1);
   StartedProgram bench(ROBOSIM_BENCH, {"maps", "--side", "4000"});
   unsetenv("TMPDIR");
-  while (is_empty() && bench.isRunning()) std::this_thread::yield();
+  bench.waitForFileIn(folder);
   bench.interrupt();
   const Ended ended = bench.wait();
   EXPECT_EQ(ended.exit_code, 130);
   EXPECT_EQ(ended.err, "robosim_bench: interrupted before all was measured\n");
-  EXPECT_TRUE(is_empty());
+  EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 
 TEST(BenchMaps, ReportsLoadTimesForSeveralKindsOfMaps) {

@@ -26,8 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
-
 /// Ann faces along x; 2 m ahead and 0.3 m to the left of her is the gold, 0.2 m across and 0.3 m high. Bob is behind
 /// her.
 fs::path writeTestWorld(const fs::path& folder) {

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -82,7 +81,7 @@ TEST(BenchGold, PrintsTheCompletedRunsWhenInterrupted) {
   const auto folder = emptyFolder();
   StartedProgram bench({"bench", "gold", "worlds/small_maze.xml", "--runs", "1000000", "--threads", "2", "--csv",
                         (folder / "runs.csv").string()});
-  while (!std::filesystem::exists(folder / "runs.csv.part") && bench.isRunning()) std::this_thread::yield();
+  bench.waitForFile(folder / "runs.csv.part");
   bench.interrupt();
   const Ended ended = bench.wait();
   EXPECT_EQ(ended.exit_code, 130);

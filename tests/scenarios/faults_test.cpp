@@ -144,7 +144,7 @@ TEST(Faults, KilledGeometryWorkerDoesNotChangeTheRun) {
   panel.step(10);
   worker->signal(SIGSTOP);  // ensures that it holds work when it is killed
   auto step = std::async(std::launch::async, [&] { return panel.step(1); });
-  while (!world.isStepping()) std::this_thread::yield();
+  world.waitUntilStepping();
   worker->signal(SIGKILL);
   EXPECT_EQ(step.get().step(), 11u);
   EXPECT_EQ(countOf("geometry worker", world.log()), 2u) << world.log();

@@ -1,9 +1,9 @@
 // Input files of all commands: regular files and pipes are accepted, nothing else, and a signal interrupts every read.
 #include <csignal>
 #include <fstream>
+#include <future>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include <fcntl.h>
@@ -24,20 +24,19 @@ constexpr const char* kYaml =
     "\nresolution: 0.5\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
 constexpr const char* kPgm = "P2 4 4 255  0 0 0 0  0 254 254 0  0 254 254 0  0 0 0 0 ";
 
-std::string quoted(const fs::path& file) { return "'" + file.string() + "'"; }
-
 /// `command | robosim arguments`
 Ended piped(const std::string& command, const std::string& arguments) {
   return runCommand("( " + command + " | '" ROBOSIM_PROGRAM "' " + arguments + " )");
 }
 
-/// Opens a FIFO for writing as soon as the program has opened it for reading; -1 if the program ends before.
-int writerOf(const fs::path& fifo, StartedProgram& program) {
-  while (true) {
-    const int writer = open(fifo.c_str(), O_WRONLY | O_NONBLOCK);
-    if (writer >= 0 || !program.isRunning()) return writer;
-    std::this_thread::yield();
+/// Opens a FIFO for writing as soon as the program has opened it for reading.
+int writerOf(const fs::path& fifo) {
+  auto writer = std::async(std::launch::async, [&] { return open(fifo.c_str(), O_WRONLY); });
+  if (writer.wait_for(kLongestWait) != std::future_status::ready) {
+    ADD_FAILURE() << "the program has not opened " << fifo;
+    close(open(fifo.c_str(), O_RDONLY | O_NONBLOCK));  // ends the wait
   }
+  return writer.get();
 }
 
 class WaitingForAPipe : public testing::TestWithParam<const char*> {};
@@ -60,7 +59,7 @@ TEST_P(WaitingForAPipe, EndsBySignal) {
   const bool is_first = GetParam() == std::string("run FOLDER/fifo.xml");
   for (const int signal : is_first ? std::vector{SIGTERM, SIGINT, SIGHUP} : std::vector{SIGTERM}) {
     StartedProgram program(arguments);
-    const int writer = writerOf(fifo, program);
+    const int writer = writerOf(fifo);
     ASSERT_GE(writer, 0) << program.wait().err;
     program.signal(signal);
     const Ended ended = program.wait();

@@ -7,6 +7,7 @@
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/wait.h"
 
 namespace robosim {
 namespace {
@@ -87,7 +88,8 @@ TEST(Load, IsCancelledWhenItsPanelDisconnects) {
   Panel panel(world);
   EXPECT_EQ(panel.step(3).step(), 3u);
   may_build.set_value();
-  while (codeOfBadLoad(world) == grpc::StatusCode::RESOURCE_EXHAUSTED) std::this_thread::yield();
+  waitUntil("the world of the panel that has left is no longer being loaded",
+            [&] { return codeOfBadLoad(world) != grpc::StatusCode::RESOURCE_EXHAUSTED; });
   EXPECT_EQ(panel.status().world(), "small_maze");
   EXPECT_EQ(panel.status().step(), 3u);
 }
@@ -98,8 +100,8 @@ TEST(Load, StalledLoadIsCancelledAfterAMinute) {
   options.server.now = [&clock] { return clock.read(); };
   ServedWorld world(options);
   HeldLoad held(world);
-  while (codeOfBadLoad(world) != grpc::StatusCode::RESOURCE_EXHAUSTED) {
-  }  // the preceding load has been received by then
+  waitUntil("the preceding load has been received",
+            [&] { return codeOfBadLoad(world) == grpc::StatusCode::RESOURCE_EXHAUSTED; });
   clock.advance(60s);
   const grpc::Status status = held.howItEnds();
   EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);

@@ -1,9 +1,12 @@
 #pragma once
-#include <atomic>
 #include <chrono>
-#include <thread>
+#include <condition_variable>
+#include <mutex>
+
+#include <gtest/gtest.h>
 
 #include "server/serving_state.h"
+#include "tests/scenarios/program.h"
 
 namespace robosim {
 
@@ -13,27 +16,41 @@ class ManualClock {
   using Clock = ServingState::Clock;
 
   Clock::time_point read() {
-    while (is_blocked_) std::this_thread::yield();
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [&] { return !is_blocked_; });
     ++reads_;
-    return Clock::time_point(Clock::duration(time_.load()));
+    changed_.notify_all();
+    return time_;
   }
-  void advance(Clock::duration by) { time_ += by.count(); }
+  void advance(Clock::duration by) {
+    const std::lock_guard lock(mutex_);
+    time_ += by;
+  }
 
   /// Blocks every reader of the clock until release(): the server stops at its next reading.
-  void block() { is_blocked_ = true; }
-  void release() { is_blocked_ = false; }
+  void block() { setBlocked(true); }
+  void release() { setBlocked(false); }
 
   /// Waits until the server has read the clock often enough to have completed a loop with the current time.
   void waitForReads() {
     constexpr long kReads = 20;
+    std::unique_lock lock(mutex_);
     const long until = reads_ + kReads;
-    while (reads_ < until) std::this_thread::yield();
+    EXPECT_TRUE(changed_.wait_for(lock, kLongestWait, [&] { return reads_ >= until; })) << "the server reads no clock";
   }
 
  private:
-  std::atomic<Clock::rep> time_{0};
-  std::atomic<long> reads_{0};
-  std::atomic<bool> is_blocked_{false};
+  void setBlocked(bool is_blocked) {
+    const std::lock_guard lock(mutex_);
+    is_blocked_ = is_blocked;
+    changed_.notify_all();
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  Clock::time_point time_;
+  long reads_ = 0;
+  bool is_blocked_ = false;
 };
 
 }  // namespace robosim

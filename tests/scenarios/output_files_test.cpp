@@ -4,7 +4,6 @@
 #include <fstream>
 #include <map>
 #include <set>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -15,8 +14,6 @@ namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string quoted(const fs::path& file) { return "'" + file.string() + "'"; }
 
 std::set<std::string> namesIn(const fs::path& folder) {
   std::set<std::string> names;
@@ -135,7 +132,7 @@ TEST(OutputFiles, AreCompleteAfterAnInterrupt) {
     fs::remove(rawlog);
     StartedProgram run({"run", "worlds/small_maze.xml", "--speed", "1", "--controller", "wander", "--record",
                         rawlog.string(), "--picture", (folder / "run.png").string()});
-    while (!fs::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
+    run.waitForFile(rawlog.string() + ".part");
     run.signal(signal);
     const Ended ended = run.wait();
     EXPECT_EQ(ended.exit_code, 128 + signal) << ended.err;

@@ -50,8 +50,6 @@ std::filesystem::path written(const std::string& name, const std::string& text) 
   return file;
 }
 
-std::string quoted(const std::filesystem::path& file) { return "'" + file.string() + "'"; }
-
 TEST(PrintedText, EscapesControlCharactersInRobotNames) {
   const auto world = written("world.xml", worldWithRobot("a&#x9b;2J&#10;" + kForged + "&#x202e;"));
   const Ended check = runProgram("check " + quoted(world));

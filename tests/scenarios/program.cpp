@@ -1,14 +1,18 @@
 #include "tests/scenarios/program.h"
 
 #include <algorithm>
+#include <array>
 #include <csignal>
-#include <cstdio>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
-#include <thread>
+#include <stdexcept>
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/inotify.h>
+#include <sys/pidfd.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -66,23 +70,61 @@ std::filesystem::path emptyFolder() {
 StartedProgram::StartedProgram(const std::vector<std::string>& arguments)
     : StartedProgram(ROBOSIM_PROGRAM, arguments) {}
 
-StartedProgram::StartedProgram(const std::string& program, const std::vector<std::string>& arguments)
-    : process_(-1), stem_(outputStem()) {
+StartedProgram::StartedProgram(const std::string& program, const std::vector<std::string>& arguments) {
+  start(program, arguments);
+  reader_ = std::thread([this] { readOutput(); });
+}
+
+void StartedProgram::start(const std::string& program, const std::vector<std::string>& arguments) {
   std::vector<char*> words{const_cast<char*>(program.c_str())};
   for (const auto& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
+  std::array<int, 2> out{}, err{};
+  if (pipe2(out.data(), O_CLOEXEC) != 0 || pipe2(err.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
   process_ = fork();
-  if (process_ != 0) return;
-  const bool ready = chdir(ROBOSIM_SOURCE_DIR) == 0 && std::freopen((stem_ + ".out").c_str(), "w", stdout) &&
-                     std::freopen((stem_ + ".err").c_str(), "w", stderr);
-  if (ready) execv(program.c_str(), words.data());
-  _exit(127);
+  if (process_ == 0) {
+    const bool ready =
+        chdir(ROBOSIM_SOURCE_DIR) == 0 && dup2(out[1], STDOUT_FILENO) >= 0 && dup2(err[1], STDERR_FILENO) >= 0;
+    if (ready) execv(program.c_str(), words.data());
+    _exit(127);
+  }
+  close(out[1]);
+  close(err[1]);
+  out_pipe_ = out[0];
+  err_pipe_ = err[0];
+  for (const int pipe : {out_pipe_, err_pipe_}) fcntl(pipe, F_SETFL, O_NONBLOCK);
+  end_ = pidfd_open(process_, 0);
+  if (end_ < 0) throw std::runtime_error("no descriptor of the started program");
+}
+
+/// Reads until the process has ended, not until the pipes have: a program that it left behind may keep them open.
+void StartedProgram::readOutput() {
+  std::array<pollfd, 3> waits{pollfd{out_pipe_, POLLIN, 0}, pollfd{err_pipe_, POLLIN, 0}, pollfd{end_, POLLIN, 0}};
+  for (bool has_ended = false; !has_ended;) {
+    poll(waits.data(), waits.size(), -1);
+    has_ended = waits[2].revents != 0;
+    for (std::size_t i = 0; i < 2; ++i) {
+      std::array<char, 65536> bytes;
+      ssize_t count = 0;
+      while ((count = read(waits[i].fd, bytes.data(), bytes.size())) > 0) {
+        const std::lock_guard lock(mutex_);
+        (i == 0 ? out_ : err_).append(bytes.data(), static_cast<std::size_t>(count));
+      }
+      if (count == 0) waits[i].fd = -1;  // closed: poll() ignores it from now on
+    }
+    const std::lock_guard lock(mutex_);
+    is_all_read_ = has_ended;
+    has_output_.notify_all();
+  }
 }
 
 StartedProgram::~StartedProgram() {
-  if (!isRunning()) return;
-  kill(process_, SIGKILL);
-  waitpid(process_, &status_, 0);
+  if (isRunning()) {
+    kill(process_, SIGKILL);
+    waitpid(process_, &status_, 0);
+  }
+  reader_.join();
+  for (const int file : {end_, out_pipe_, err_pipe_}) close(file);
 }
 
 bool StartedProgram::isRunning() {
@@ -96,24 +138,58 @@ void StartedProgram::signal(int number) {
   if (isRunning()) kill(process_, number);
 }
 
-std::string StartedProgram::output() const { return textOf(stem_ + ".out"); }
-std::string StartedProgram::error() const { return textOf(stem_ + ".err"); }
+std::string StartedProgram::output() const {
+  const std::lock_guard lock(mutex_);
+  return out_;
+}
+std::string StartedProgram::error() const {
+  const std::lock_guard lock(mutex_);
+  return err_;
+}
 
-void StartedProgram::waitFor(const char* stream, const std::string& text) {
-  const auto is_there = [&] { return textOf(stem_ + stream).find(text) != std::string::npos; };
+void StartedProgram::waitFor(const std::string& stream, const std::string& text) {
+  std::unique_lock lock(mutex_);
+  const auto is_there = [&] { return stream.find(text) != std::string::npos; };
+  const bool is_over = has_output_.wait_for(lock, kLongestWait, [&] { return is_there() || is_all_read_; });
+  if (is_there()) return;
+  ADD_FAILURE() << "the program " << (is_over ? "ended without saying '" : "has not said for 5 minutes '") << text
+                << "'\n"
+                << stream << err_;
+}
+
+void StartedProgram::waitForFiles(const std::filesystem::path& folder, const std::function<bool()>& is_there) {
+  const int events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+  if (inotify_add_watch(events, folder.c_str(), IN_CREATE | IN_MOVED_TO) < 0)
+    throw std::runtime_error("no file events");
+  std::array<pollfd, 2> waits{pollfd{events, POLLIN, 0}, pollfd{end_, POLLIN, 0}};
+  const int longest_ms = static_cast<int>(std::chrono::milliseconds(kLongestWait).count());
   while (!is_there()) {
-    if (!isRunning() && !is_there()) {
-      ADD_FAILURE() << "the program ended without saying '" << text << "'\n" << textOf(stem_ + stream) << error();
-      return;
+    std::array<char, 4096> names;
+    while (read(events, names.data(), names.size()) > 0) {
     }
-    std::this_thread::yield();
+    if (is_there()) break;
+    poll(waits.data(), waits.size(), longest_ms);
+    if (waits[0].revents != 0 || is_there()) continue;
+    ADD_FAILURE() << "the program has not created the expected file in " << folder << "\n" << error();
+    break;
   }
+  close(events);
+}
+
+void StartedProgram::waitForFile(const std::filesystem::path& file) {
+  waitForFiles(file.parent_path(), [&] { return std::filesystem::exists(file); });
+}
+
+void StartedProgram::waitForFileIn(const std::filesystem::path& folder) {
+  waitForFiles(folder, [&] { return !std::filesystem::is_empty(folder); });
 }
 
 Ended StartedProgram::wait() {
   if (!ended_) waitpid(process_, &status_, 0);
   ended_ = true;
-  return ended(status_, stem_);
+  std::unique_lock lock(mutex_);
+  has_output_.wait(lock, [&] { return is_all_read_; });
+  return {WIFEXITED(status_) ? WEXITSTATUS(status_) : -1, out_, err_};
 }
 
 namespace {

@@ -22,8 +22,6 @@ namespace {
 
 using nlohmann::json;
 
-std::string quoted(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
-
 /// Runs and records a world. @return the summary
 json record(const std::string& arguments, const std::filesystem::path& file) {
   const Ended run = runProgram("run " + arguments + " --json --record " + quoted(file));

@@ -1,21 +1,14 @@
 // RunOperator, the control of a served run from a window, without the window.
 #include "viewing/run_operator.h"
 
-#include <thread>
-
 #include <gtest/gtest.h>
 
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/served_world.h"
+#include "tests/scenarios/wait.h"
 
 namespace robosim {
 namespace {
-
-/// Waits without limit until the environment reports this; the time limit of the test applies.
-template <typename Condition>
-void waitUntil(const Condition& holds) {
-  while (!holds()) std::this_thread::yield();
-}
 
 TEST(RunOperator, StartsWithTheRunsStatus) {
   ServedWorld::Options options = paused();
@@ -35,10 +28,10 @@ TEST(RunOperator, ExecutesOperationsInOrderAndReportsTheRequestedState) {
   EXPECT_EQ(run_operator.speed(), 2);
   run_operator.pause(false);
   EXPECT_FALSE(run_operator.isPaused());
-  waitUntil([&] { return panel.status().step() > 5; });
+  waitUntil("the run is beyond step 5", [&] { return panel.status().step() > 5; });
   run_operator.pause(true);
   EXPECT_TRUE(run_operator.isPaused());
-  waitUntil([&] { return panel.status().phase() == wire::PAUSED; });
+  waitUntil("the run is paused", [&] { return panel.status().phase() == wire::PAUSED; });
   EXPECT_EQ(panel.status().speed(), 2);
 }
 
@@ -48,9 +41,13 @@ TEST(RunOperator, ReceivesChangesByOtherPanels) {
   const RunOperator run_operator(world.connectOptions());
   panel.setSpeed(7);
   panel.start();
-  waitUntil([&] { return !run_operator.isPaused() && run_operator.speed() == 7; });
+  const auto seen = [&](bool is_paused) {
+    panel.status();  // a round trip
+    return run_operator.isPaused() == is_paused && run_operator.speed() == 7;
+  };
+  waitUntil("the operator knows of the start", [&] { return seen(false); });
   panel.pause();
-  waitUntil([&] { return run_operator.isPaused(); });
+  waitUntil("the operator knows of the pause", [&] { return seen(true); });
 }
 
 TEST(RunOperator, NeverBlocksOnResponses) {
@@ -77,7 +74,7 @@ TEST(RunOperator, ReportsRefusedOperationsAndContinues) {
   world.waitForLog("step");
   panel.pause();
   run_operator.setSpeed(5);
-  waitUntil([&] { return panel.status().speed() == 5; });
+  waitUntil("the speed is 5", [&] { return panel.status().speed() == 5; });
   const std::string output = testing::internal::GetCapturedStderr();
   EXPECT_NE(output.find("robosim view: "), std::string::npos) << output;
   EXPECT_NE(output.find("another control panel has paused the run"), std::string::npos) << output;

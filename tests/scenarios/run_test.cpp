@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -89,7 +88,7 @@ TEST(Run, LeavesAReadableRawlogWhenInterrupted) {
   // At real time the run would take half an hour. It is interrupted after its recording has been opened.
   StartedProgram run({"run", "worlds/small_maze.xml", "--json", "--speed", "1", "--controller", "wander", "--record",
                       rawlog.string()});
-  while (!std::filesystem::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
+  run.waitForFile(rawlog.string() + ".part");
   run.interrupt();
   const Ended ended = run.wait();
   EXPECT_EQ(ended.exit_code, 130) << ended.err;
@@ -144,7 +143,7 @@ TEST(Run, EndsOnInterruptAtVeryLowSpeed) {
   const auto rawlog = emptyFolder() / "run.rawlog";
   StartedProgram run({"run", "worlds/small_maze.xml", "--json", "--speed", "0.001", "--controller", "wander",
                       "--record", rawlog.string()});
-  while (!std::filesystem::exists(rawlog.string() + ".part") && run.isRunning()) std::this_thread::yield();
+  run.waitForFile(rawlog.string() + ".part");
   run.interrupt();
   EXPECT_EQ(json::parse(run.wait().out)["ended_by"], "interrupted");
 }

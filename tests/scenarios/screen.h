@@ -11,6 +11,8 @@
 
 namespace robosim {
 
+inline bool isBlue(const cv::Vec3b& pixel) { return pixel[0] > 120 && pixel[2] < 80; }
+
 /// A virtual X server (Xvfb), with inspection of its screen. It does not reset when the last client disconnects, which
 /// would reject the next one, and does not repeat keys that are released late on a slow machine.
 class Screen {

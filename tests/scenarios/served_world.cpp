@@ -1,5 +1,7 @@
 #include "tests/scenarios/served_world.h"
 
+#include <gtest/gtest.h>
+
 #include "maze/controllers.h"
 #include "tests/scenarios/program.h"
 
@@ -64,7 +66,20 @@ std::string ServedWorld::log() const {
 
 void ServedWorld::waitForLog(const std::string& text, std::size_t times) {
   std::unique_lock lock(mutex_);
-  condition_.wait(lock, [&] { return countOf(text, log_) >= times; });
+  EXPECT_TRUE(condition_.wait_for(lock, kLongestWait, [&] { return countOf(text, log_) >= times; }))
+      << "waited 5 minutes for '" << text << "' in\n"
+      << log_;
+}
+
+void ServedWorld::setStepping(bool is_stepping) {
+  const std::lock_guard lock(mutex_);
+  is_stepping_ = is_stepping;
+  condition_.notify_all();
+}
+
+void ServedWorld::waitUntilStepping() {
+  std::unique_lock lock(mutex_);
+  EXPECT_TRUE(condition_.wait_for(lock, kLongestWait, [&] { return is_stepping_; })) << "no step has begun";
 }
 
 std::shared_ptr<ServedWorld::Stage> ServedWorld::stageOf(const WorldSource& source) const {

@@ -1,5 +1,4 @@
 #pragma once
-#include <atomic>
 #include <condition_variable>
 #include <functional>
 #include <memory>
@@ -33,7 +32,8 @@ class ServedWorld final : private ServedRun {
   int port() const { return server_->ports().front(); }
 
   /// Whether a step is in progress.
-  bool isStepping() const { return is_stepping_; }
+  /// Waits until a step has begun and not ended.
+  void waitUntilStepping();
 
   /// Ends the run unless it has ended, and waits for its end.
   Served end();
@@ -64,9 +64,10 @@ class ServedWorld final : private ServedRun {
   std::shared_ptr<const RunInfo> runInfo() const override { return {stage_, &stage_->run_info}; }
   void decide() override {
     stage_->run.decide();
-    is_stepping_ = true;
+    setStepping(true);
   }
-  void stepped(std::size_t) override { is_stepping_ = false; }
+  void stepped(std::size_t) override { setStepping(false); }
+  void setStepping(bool is_stepping);
   bool isOver() const override { return stage_->run.environment().time().step >= options_.last_step; }
   void ends(const RunReport& report) override { report_ = report; }
   std::unique_ptr<PreparedRun> prepare(const WorldSource& source) const override;
@@ -77,7 +78,7 @@ class ServedWorld final : private ServedRun {
   std::condition_variable condition_;
   std::string log_;
   bool is_asked_to_end_ = false;
-  std::atomic<bool> is_stepping_{false};
+  bool is_stepping_ = false;
   std::shared_ptr<Stage> stage_;
   RunReport report_;
   std::unique_ptr<EnvironmentServer> server_;

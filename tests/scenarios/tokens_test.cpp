@@ -11,11 +11,11 @@
 namespace robosim {
 namespace {
 
-const std::string kViewer = "viewer-0123456789abcdef";
-const std::string kPioneer = "robots-0123456789abcdef";
-const std::string kOperator = "master-0123456789abcdef";
-const std::string kAll =
-    kViewer + " viewer name=vera\n" + kPioneer + " robot Pioneer1 name=pia\n" + kOperator + " operator name=olga\n";
+const std::string kViewerToken = "viewer-0123456789abcdef";
+const std::string kPioneerToken = "robots-0123456789abcdef";
+const std::string kOperatorToken = "master-0123456789abcdef";
+const std::string kAll = kViewerToken + " viewer name=vera\n" + kPioneerToken + " robot Pioneer1 name=pia\n" +
+                         kOperatorToken + " operator name=olga\n";
 
 struct Tokens : testing::Test {
   const std::filesystem::path folder = emptyFolder();
@@ -35,12 +35,12 @@ struct Tokens : testing::Test {
 
 TEST_F(Tokens, DeletedTokensEndTheirSessionsAtSighup) {
   Serving serving({"--tokens", write("tokens", kAll), "--wait-for-robots"});
-  StartedProgram viewer(watching(serving, kViewer)), master(watching(serving, kOperator));
+  StartedProgram viewer(watching(serving, kViewerToken)), master(watching(serving, kOperatorToken));
   StartedProgram pioneer({"robot", "Pioneer1", "--controller", "still", "--environment", serving.address(),
-                          "--token-file", fileWith(kPioneer)});
+                          "--token-file", fileWith(kPioneerToken)});
   viewer.waitForOutput("waits for robots");
   serving.program().waitForError("connected, with the token pia");
-  write("tokens", kOperator + " operator name=olga\n");
+  write("tokens", kOperatorToken + " operator name=olga\n");
   serving.program().signal(SIGHUP);
   for (StartedProgram* client : {&viewer, &pioneer}) {
     const Ended ended = client->wait();
@@ -54,10 +54,10 @@ TEST_F(Tokens, DeletedTokensEndTheirSessionsAtSighup) {
 
 TEST_F(Tokens, DeletedOrExpiredTokensEndTheirSessions) {
   Serving serving({"--tokens", write("tokens", kAll), "--paused"});
-  StartedProgram viewer(watching(serving, kViewer)), master(watching(serving, kOperator));
+  StartedProgram viewer(watching(serving, kViewerToken)), master(watching(serving, kOperatorToken));
   viewer.waitForOutput("paused");
   master.waitForOutput("paused");
-  write("tokens", kViewer + " viewer name=vera expires=2020-01-31\n");
+  write("tokens", kViewerToken + " viewer name=vera expires=2020-01-31\n");
   const Ended expired = viewer.wait(), withdrawn = master.wait();
   EXPECT_NE(expired.err.find("the token vera has expired"), std::string::npos) << expired.err;
   EXPECT_NE(withdrawn.err.find("the token was withdrawn"), std::string::npos) << withdrawn.err;
@@ -66,21 +66,22 @@ TEST_F(Tokens, DeletedOrExpiredTokensEndTheirSessions) {
 
 TEST_F(Tokens, StayInForceWhenTheNewFileIsInvalid) {
   Serving serving({"--tokens", write("tokens", kAll), "--paused"});
-  StartedProgram viewer(watching(serving, kViewer));
+  StartedProgram viewer(watching(serving, kViewerToken));
   viewer.waitForOutput("paused");
-  write("tokens", kViewer + " king\n");
+  write("tokens", kViewerToken + " king\n");
   serving.program().signal(SIGHUP);
   serving.program().waitForError("stay in force");
   EXPECT_NE(serving.program().error().find("tokens:1: a role must follow the token"), std::string::npos);
   EXPECT_TRUE(viewer.isRunning());
-  EXPECT_EQ(runProgram("control " + serving.address() + " status --token-file " + fileWith(kOperator)).exit_code, 0);
+  EXPECT_EQ(runProgram("control " + serving.address() + " status --token-file " + fileWith(kOperatorToken)).exit_code,
+            0);
 }
 
 TEST_F(Tokens, AreNamedInTheAuditLog) {
   Serving serving({"--tokens", write("tokens", kAll), "--paused"});
   for (const std::string action : {"pause", "speed 2", "step 3", "start", "load worlds/opho2_1.xml", "stop"}) {
     const Ended ended =
-        runProgram("control " + serving.address() + " " + action + " --token-file " + fileWith(kOperator));
+        runProgram("control " + serving.address() + " " + action + " --token-file " + fileWith(kOperatorToken));
     EXPECT_EQ(ended.exit_code, 0) << action << ended.err;
   }
   const std::string log = serving.program().wait().err;
@@ -109,11 +110,11 @@ TEST_F(Tokens, GuessingIsRateLimited) {
       return error.code();
     }
   };
-  EXPECT_EQ(code(kOperator), grpc::StatusCode::OK);
+  EXPECT_EQ(code(kOperatorToken), grpc::StatusCode::OK);
   for (int i = 0; i < 6; ++i) EXPECT_EQ(code("guess-" + std::to_string(i)), grpc::StatusCode::UNAUTHENTICATED);
   EXPECT_EQ(code("guess-6"), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_EQ(code(kViewer), grpc::StatusCode::RESOURCE_EXHAUSTED) << "it might be a guess";
-  EXPECT_EQ(code(kOperator), grpc::StatusCode::OK) << "it was accepted from this address before";
+  EXPECT_EQ(code(kViewerToken), grpc::StatusCode::RESOURCE_EXHAUSTED) << "it might be a guess";
+  EXPECT_EQ(code(kOperatorToken), grpc::StatusCode::OK) << "it was accepted from this address before";
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 
 #include <cstdlib>
 #include <fstream>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <malloc.h>
@@ -15,6 +14,7 @@
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
 #include "tests/scenarios/serving.h"
+#include "tests/scenarios/wait.h"
 #include "viewing/recorded_moments.h"
 
 namespace robosim {
@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
-
-std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
 
 /// 10 m × 10 m: a blue box of 2 m × 2 m in the upper right quarter, a red robot in the middle.
 fs::path writeHall(const fs::path& folder) {
@@ -36,8 +34,6 @@ fs::path writeHall(const fs::path& folder) {
   </surface></world>)";
   return folder / "hall.xml";
 }
-
-bool isBlue(const cv::Vec3b& pixel) { return pixel[0] > 120 && pixel[2] < 80; }
 
 /// With --size 648x648, 10 m are 600 px between margins of 24.
 cv::Vec3b atMetres(const cv::Mat& picture, double x, double y) {
@@ -422,7 +418,7 @@ TEST(View, WritesAVideoOfALiveRun) {
   StartedProgram program(
       {"view", serving.address(), "--size", "320x240", "--fps", "10", "--offscreen", (folder / "run.mp4").string()});
   ControlPanel panel({.address = serving.address()});
-  while (program.isRunning() && panel.status().viewers() == 0) std::this_thread::yield();
+  waitUntil("the viewer is connected", [&] { return !program.isRunning() || panel.status().viewers() > 0; });
   panel.start();
   const Ended view = program.wait();
   ASSERT_EQ(view.exit_code, 0) << view.err;

@@ -14,8 +14,6 @@ namespace {
 namespace fs = std::filesystem;
 using namespace std::string_literals;
 
-bool isBlue(const cv::Vec3b& pixel) { return pixel[0] > 120 && pixel[2] < 80; }
-
 int bluesIn(const cv::Mat& picture) {
   int count = 0;
   for (int y = 0; y < picture.rows; ++y) {
@@ -27,7 +25,7 @@ int bluesIn(const cv::Mat& picture) {
 bool areSame(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF) == 0; }
 
 /// 10 m × 10 m: blue boxes of 2 m × 2 m on the upper and the lower edge, and a robot in the middle.
-fs::path writeHall(const fs::path& folder) {
+fs::path writeHallOfTwoBoxes(const fs::path& folder) {
   std::ofstream out(folder / "hall.xml");
   out << "<world><surface><size><xmin>0</xmin><xmax>10</xmax><ymin>0</ymin><ymax>10</ymax></size>";
   for (const int y : {1, 9}) {
@@ -43,7 +41,8 @@ fs::path writeHall(const fs::path& folder) {
 /// The hall, run for 20 s.
 fs::path recordHall(const fs::path& folder) {
   const auto rawlog = folder / "run.rawlog";
-  const Ended run = runProgram("run '" + writeHall(folder).string() + "' --time 20 --record '" + rawlog.string() + "'");
+  const Ended run =
+      runProgram("run '" + writeHallOfTwoBoxes(folder).string() + "' --time 20 --record '" + rawlog.string() + "'");
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return rawlog;
 }
@@ -168,7 +167,7 @@ TEST(ViewWindow, ClosesWithAnErrorWhenReadingFails) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
   const Ended run =
-      runProgram("run '" + writeHall(folder).string() + "' --time 300 --record '" + rawlog.string() + "'");
+      runProgram("run '" + writeHallOfTwoBoxes(folder).string() + "' --time 300 --record '" + rawlog.string() + "'");
   ASSERT_EQ(run.exit_code, 0) << run.err;
   Window window(folder, viewOf(rawlog, {"--speed", "0.001", "--size", "900x700", "--from", "299"}));
   // The file is truncated, and then its beginning is shown.
@@ -242,7 +241,7 @@ TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
 
 TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
   const auto folder = emptyFolder();
-  const auto hall = writeHall(folder);
+  const auto hall = writeHallOfTwoBoxes(folder);
   const std::vector<std::string> how{"--3d", "--size", "600x500"};
   Window window(folder, viewOf(hall, how));
   const auto file = folder / "air.png";

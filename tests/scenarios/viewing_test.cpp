@@ -1,7 +1,6 @@
 // Viewers that connect, read slowly or not at all, and disconnect.
 #include <algorithm>
 #include <future>
-#include <thread>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -12,6 +11,7 @@
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/served_world.h"
+#include "tests/scenarios/wait.h"
 
 namespace robosim {
 namespace {
@@ -145,7 +145,7 @@ TEST(Viewing, DisconnectsAViewerThatSendsInvalidInputWithoutReading) {
   }
   EXPECT_EQ(panel.status().viewers(), 1u);
   deaf.sendInvalid();
-  while (panel.status().viewers() > 0) std::this_thread::yield();
+  waitUntil("the viewer is disconnected", [&] { return panel.status().viewers() == 0; });
   EXPECT_EQ(countOf("disconnected: a message that is not a valid robosim.wire.FrameRequest", world.log()), 1u);
 }
 

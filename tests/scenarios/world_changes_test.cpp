@@ -30,7 +30,7 @@ fs::path write(const std::string& name, const std::string& text) {
   return file;
 }
 
-std::string quoted(const fs::path& file) { return " '" + file.string() + "' "; }
+std::string quotedBetweenSpaces(const fs::path& file) { return " '" + file.string() + "' "; }
 
 TEST(WorldChanges, AllowRunningAMapWithoutAWorldFile) {
   const json added = run(
@@ -54,11 +54,11 @@ TEST(WorldChanges, RejectARobotInsideAWall) {
 
 TEST(WorldChanges, AreStoredInARecording) {
   const fs::path rawlog = emptyFolder() / "run.rawlog";
-  const json made =
-      run("maps/lab.yaml --random-robots 2 --noise on --controller wander --time 3 --seed 5 --record" + quoted(rawlog));
-  const json replayed = json::parse(runProgram("replay --json" + quoted(rawlog)).out, nullptr, false);
+  const json made = run("maps/lab.yaml --random-robots 2 --noise on --controller wander --time 3 --seed 5 --record" +
+                        quotedBetweenSpaces(rawlog));
+  const json replayed = json::parse(runProgram("replay --json" + quotedBetweenSpaces(rawlog)).out, nullptr, false);
   EXPECT_EQ(replayed["run"]["outcome"]["digest"], made["digest"]);
-  EXPECT_EQ(runProgram("replay" + quoted(rawlog) + "--controller wander").exit_code, 0)
+  EXPECT_EQ(runProgram("replay" + quotedBetweenSpaces(rawlog) + "--controller wander").exit_code, 0)
       << "its world can be read again";
 }
 
@@ -107,10 +107,10 @@ TEST(Check, WarnsOfAnOpenEdgeWithItsLength) {
                               "<world><surface><size><xmin>-2</xmin><xmax>2</xmax><ymin>-2</ymin><ymax>2</ymax></size>"
                               "<object><shape><robot><model>scout</model><name>A</name><x>0</x><y>0</y></robot></shape>"
                               "</object></surface></world>");
-  const Ended check = runProgram("check" + quoted(file));
+  const Ended check = runProgram("check" + quotedBetweenSpaces(file));
   EXPECT_EQ(check.exit_code, 0) << "a warning is no error";
   EXPECT_NE(check.out.find("warning: " + file.string() + ": robots can reach "), std::string::npos) << check.out;
-  const json result = json::parse(runProgram("check --json" + quoted(file)).out);
+  const json result = json::parse(runProgram("check --json" + quotedBetweenSpaces(file)).out);
   EXPECT_NEAR(result["open_edge_m"].get<double>(), 4 * 3.62, 4 * 0.2);
   EXPECT_EQ(result["warnings"].size(), 1u);
   EXPECT_EQ(result["ok"], true);
@@ -119,7 +119,7 @@ TEST(Check, WarnsOfAnOpenEdgeWithItsLength) {
 TEST(Check, DoesNotWarnOfEdgesInShippedWorlds) {
   for (const auto& entry : fs::directory_iterator(ROBOSIM_SOURCE_DIR "/worlds")) {
     if (entry.path().extension() != ".xml") continue;
-    const json result = json::parse(runProgram("check --json" + quoted(entry.path())).out);
+    const json result = json::parse(runProgram("check --json" + quotedBetweenSpaces(entry.path())).out);
     EXPECT_EQ(result["warnings"], json::array()) << entry.path();
   }
 }
@@ -130,10 +130,14 @@ TEST(BenchGold, RefusesAWorldWithoutGold) {
 
 TEST(Export, KeepsAMapsUnknownCellsOriginAndResolution) {
   const fs::path folder = emptyFolder();
+  ASSERT_EQ(runProgram("export maps/lab.yaml" + quotedBetweenSpaces(folder / "lab.gridmap.gz") +
+                       quotedBetweenSpaces(folder / "lab.YAML"))
+                .exit_code,
+            0);
   ASSERT_EQ(
-      runProgram("export maps/lab.yaml" + quoted(folder / "lab.gridmap.gz") + quoted(folder / "lab.YAML")).exit_code,
+      runProgram("export" + quotedBetweenSpaces(folder / "lab.gridmap.gz") + quotedBetweenSpaces(folder / "again.yaml"))
+          .exit_code,
       0);
-  ASSERT_EQ(runProgram("export" + quoted(folder / "lab.gridmap.gz") + quoted(folder / "again.yaml")).exit_code, 0);
   EXPECT_EQ(textOf(folder / "lab.png"), textOf(folder / "again.png"));
   const std::string yaml = textOf(folder / "lab.YAML");
   EXPECT_NE(yaml.find("resolution: 0.05\n"), std::string::npos) << yaml;
@@ -142,9 +146,10 @@ TEST(Export, KeepsAMapsUnknownCellsOriginAndResolution) {
 
 TEST(Export, AcceptsExtensionsInUpperCase) {
   const fs::path folder = emptyFolder();
-  EXPECT_EQ(
-      runProgram("export worlds/small_maze.xml" + quoted(folder / "X.SVG") + quoted(folder / "X.GridMap")).exit_code,
-      0);
+  EXPECT_EQ(runProgram("export worlds/small_maze.xml" + quotedBetweenSpaces(folder / "X.SVG") +
+                       quotedBetweenSpaces(folder / "X.GridMap"))
+                .exit_code,
+            0);
   EXPECT_TRUE(fs::exists(folder / "X.SVG"));
   EXPECT_TRUE(fs::exists(folder / "X.GridMap"));
 }

@@ -4,7 +4,6 @@
 #include <future>
 #include <limits>
 #include <random>
-#include <thread>
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationComment.h>
@@ -22,6 +21,7 @@
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
 #include "tests/scenarios/serving.h"
+#include "tests/scenarios/wait.h"
 #include "tests/stock_tools.h"
 
 namespace robosim {
@@ -262,11 +262,11 @@ TEST(FlippedBits, AreDetectedOnTheWayToAGeometryWorker) {
     random() % 2 ? line.flipBitAfter(static_cast<int>(random() % 100'000))
                  : line.flipReplyBitAfter(static_cast<int>(random() % 5'000));
     panel.step(kStepsEach);
-    while (panel.status().geometry_workers() == 0) {
+    waitUntil("a worker is connected", [&] {
       // A flip that gRPC itself detects ends the call with a status after which a worker does not reconnect.
       if (!worker->isRunning()) worker = startWorker(line.address());
-      std::this_thread::yield();
-    }
+      return panel.status().geometry_workers() > 0;
+    });
   }
   panel.start();
   EXPECT_EQ(world.wait(), Served::to_its_end);

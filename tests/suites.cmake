@@ -1,0 +1,32 @@
+# robosim_add_suites(TARGET PREFIX [EXCEPT suite])
+#
+# Adds a ctest PREFIX.SUITE for each GoogleTest suite of a test program; it runs all tests of the suite in one process,
+# because for most tests to load the shared libraries takes longer than the test. The program is asked for its suites
+# after each build, so this file is also the script that does this.
+if(NOT CMAKE_SCRIPT_MODE_FILE)
+  set(ROBOSIM_SUITES_SCRIPT ${CMAKE_CURRENT_LIST_FILE})
+  function(robosim_add_suites target prefix)
+    cmake_parse_arguments(SUITES "" "EXCEPT" "" ${ARGN})
+    set(list ${CMAKE_CURRENT_BINARY_DIR}/${target}_suites.cmake)
+    add_custom_command(TARGET ${target} POST_BUILD VERBATIM
+      COMMAND ${CMAKE_COMMAND} -DPROGRAM=$<TARGET_FILE:${target}> -DPREFIX=${prefix} -DEXCEPT=${SUITES_EXCEPT} -DLIST=${list}
+              -P ${ROBOSIM_SUITES_SCRIPT})
+    file(WRITE ${list}.include "if(EXISTS [[${list}]])\n  include([[${list}]])\nelse()\n  add_test(${target}_NOT_BUILT ${target}_NOT_BUILT)\nendif()\n")
+    set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${list}.include)
+  endfunction()
+  return()
+endif()
+
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE tests COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "(^|\n)[^ \n]+\\." suites "${tests}")  # tests are indented
+set(script "")
+foreach(suite IN LISTS suites)
+  string(STRIP "${suite}" suite)
+  string(REGEX REPLACE "\\.$" "" suite "${suite}")
+  if(suite STREQUAL EXCEPT)
+    continue()
+  endif()
+  string(APPEND script
+    "add_test([[${PREFIX}.${suite}]] [[${PROGRAM}]] [[--gtest_filter=${suite}.*]] --gtest_brief=1)\n")
+endforeach()
+file(WRITE ${LIST} "${script}")
