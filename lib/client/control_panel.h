@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <mutex>
 
+#include "net/client_call.h"
 #include "net/connect.h"
 #include "net/control_panel.grpc.pb.h"
 #include "robots/world_source.h"
@@ -33,19 +33,16 @@ class ControlPanel {
   void watch(std::chrono::duration<double> period, const std::function<void(const wire::RunStatus&)>& on_status);
 
   /// Cancels the call in flight, which throws a ConnectionError, and all later calls. Thread-safe.
-  void leave();
+  void leave() { cancellation_.cancel(); }
 
  private:
-  class Call;
   template <typename Method, typename Request>
   wire::RunStatus call(Method method, Request request);
   void check(const grpc::Status& status) const;
 
   ConnectOptions connect_options_;
   std::unique_ptr<wire::ControlPanel::Stub> stub_;
-  std::mutex mutex_;                          ///< guards the members below
-  grpc::ClientContext* in_flight_ = nullptr;  ///< of the call in flight; null when there is none
-  bool has_left_ = false;
+  CallCancellation cancellation_;
 };
 
 }  // namespace robosim

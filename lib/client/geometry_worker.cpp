@@ -50,52 +50,43 @@ struct GeometryWorker::Impl {
   ConnectOptions connect_options;
   int threads;
   std::unique_ptr<wire::Geometry::Stub> stub;
-  std::unique_ptr<Stream> stream;  ///< null when there is no connection
+  Stream stream;
   wire::FromWorker out;
   wire::ToWorker in;
   wire::Sealed sealed_out, sealed_in;
   std::unique_ptr<Environment> replica;
 
   Impl(const ConnectOptions& options, int the_threads)
-      : connect_options(options), threads(the_threads), stub(wire::Geometry::NewStub(robosim::connect(options))) {}
+      : connect_options(options),
+        threads(the_threads),
+        stub(wire::Geometry::NewStub(robosim::connect(options))),
+        stream(options, [this](auto... arguments) { return stub->AsyncWork(arguments...); }) {}
 
   void connect() {
-    stream.reset();
-    stream = std::make_unique<Stream>(
-        connect_options, [&](auto* context, auto* queue, void* tag) { return stub->AsyncWork(context, queue, tag); });
+    stream.open();
     out.Clear();
     out.mutable_hello()->set_protocol(kGeometryProtocolVersion);
     send();
-    if (!receive()) {
-      finish();
-      throw ConnectionError({grpc::StatusCode::CANCELLED, "the run is over"}, connect_options);
-    }
+    if (!receive()) stream.fail();
     build();
   }
 
   void send() {
     seal(out, sealed_out);
-    stream->write(sealed_out);
+    stream.write(sealed_out);
   }
 
   /// @return false when the stream has ended
   /// @throws ConnectionError for a message with a wrong checksum; the caller may connect again.
   bool receive() {
-    if (!stream->read(sealed_in)) return false;
+    if (!stream.read(sealed_in)) return false;
     try {
       unseal(sealed_in, in);
     } catch (const WireError& error) {
-      stream.reset();
+      stream.close();
       throw ConnectionError({error.code(), error.what()}, connect_options);
     }
     return true;
-  }
-
-  /// @throws ConnectionError unless the run is over.
-  void finish() {
-    const grpc::Status status = stream->finish();
-    stream.reset();
-    if (!status.ok()) throw ConnectionError(status, connect_options);
   }
 
   void build() {
@@ -116,7 +107,7 @@ struct GeometryWorker::Impl {
         answer();
       }
     }
-    finish();
+    stream.finishOrThrow();
   }
 
   void answer() {

@@ -2,71 +2,80 @@
 
 #include <mutex>
 
+#include "net/client_stream.h"
 #include "net/viewing.grpc.pb.h"
 #include "net/wire_error.h"
 
 namespace robosim {
 
 struct Viewer::Impl {
+  using Stream = ClientStream<wire::FrameRequest, wire::Frame>;
+
   ConnectOptions connect_options;
   std::unique_ptr<wire::Viewing::Stub> stub;
-  grpc::ClientContext context;
+  Stream stream;
   wire::Frame frame;
   ViewedRun run;
   bool is_new_world = false;
 
-  std::mutex mutex;  ///< guards the members below, and all operations on the stream except reads
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream;  ///< null when it has ended
+  std::mutex mutex;  ///< guards the members below, and writes to the stream
   wire::FrameRequest request;
-  bool has_left = false;
+  bool is_frame_due = false, is_selection_due = false;  ///< to be requested
+  bool has_ended = false;
 
   Impl(const ConnectOptions& options, const ReadingsSelection& selection)
-      : connect_options(options), stub(wire::Viewing::NewStub(connect(options))) {
-    attachToken(context, options);
-    stream = stub->Watch(&context);
+      : connect_options(options),
+        stub(wire::Viewing::NewStub(connect(options))),
+        stream(options, [this](auto... arguments) { return stub->AsyncWatch(arguments...); }) {
+    stream.setAdaptivePolling(false);
+    stream.open();
     request.set_protocol(kProtocolVersion);
     encode(selection, request);
     if (!waitForFrame()) throw ConnectionError({grpc::StatusCode::UNAVAILABLE, "the run is over"}, connect_options);
     if (!is_new_world) throw WireError("the environment's first frame has no world");
   }
 
-  ~Impl() {
-    if (!stream) return;
-    context.TryCancel();
-    stream->Finish();
-  }
-
   bool waitForFrame() {
-    if (!stream) return false;
-    ask();
-    if (stream->Read(&frame)) {
-      is_new_world = update(run, frame);
-      return true;
+    if (!stream.isOpen()) return false;
+    {
+      const std::lock_guard lock(mutex);
+      is_frame_due = true;
+      sendNext();
     }
-    const std::lock_guard lock(mutex);
-    const grpc::Status status = stream->Finish();
-    stream.reset();
-    if (!status.ok() && !has_left) throw ConnectionError(status, connect_options);
-    return false;
+    for (;;) {
+      const auto event = stream.next(frame);
+      if (event == Stream::Event::received) break;
+      const std::lock_guard lock(mutex);
+      if (event == Stream::Event::ended) {
+        finish();
+        return false;
+      }
+      sendNext();
+    }
+    is_new_world = update(run, frame);
+    return true;
   }
 
-  void ask() {
-    const std::lock_guard lock(mutex);
-    request.set_amends(false);
-    stream->Write(request);  // for a broken stream, Finish() returns the reason
+  /// @pre holds the mutex
+  void finish() {
+    has_ended = true;
+    const grpc::Status status = stream.finish();
+    if (!status.ok() && !stream.isCancelled()) throw ConnectionError(status, connect_options);
+  }
+
+  /// Writes the next request, unless another is being written. @pre holds the mutex
+  void sendNext() {
+    if (has_ended || stream.isWriting() || !(is_frame_due || is_selection_due)) return;
+    request.set_amends(!is_frame_due);
+    is_frame_due = is_selection_due = false;
+    stream.write(request);  // for a broken stream, finish() returns the reason
   }
 
   void select(const ReadingsSelection& selection) {
     const std::lock_guard lock(mutex);
     encode(selection, request);
-    request.set_amends(true);
-    if (stream) stream->Write(request);
-  }
-
-  void leave() {
-    const std::lock_guard lock(mutex);
-    has_left = true;
-    context.TryCancel();
+    is_selection_due = true;
+    sendNext();
   }
 };
 
@@ -77,6 +86,6 @@ const ViewedRun& Viewer::run() const { return impl_->run; }
 bool Viewer::waitForFrame() { return impl_->waitForFrame(); }
 bool Viewer::isNewWorld() const { return impl_->is_new_world; }
 void Viewer::select(const ReadingsSelection& selection) { impl_->select(selection); }
-void Viewer::leave() { impl_->leave(); }
+void Viewer::leave() { impl_->stream.cancel(); }
 
 }  // namespace robosim

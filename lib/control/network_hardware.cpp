@@ -93,10 +93,10 @@ struct NetworkHardware::Impl {
   std::vector<std::string> names;
   const std::string process = randomProcessId();
   std::unique_ptr<wire::Robots::Stub> stub;
-  std::unique_ptr<Stream> stream;  ///< null when there is no connection
-  wire::DriveRequest out;          ///< the answer to the last step
-  bool is_unconfirmed = false;     ///< `out` was sent, and the next readings have not been received
-  bool repeats = false;            ///< `out` answers the current step, and must be sent again
+  Stream stream;
+  wire::DriveRequest out;       ///< the answer to the last step
+  bool is_unconfirmed = false;  ///< `out` was sent, and the next readings have not been received
+  bool repeats = false;         ///< `out` answers the current step, and must be sent again
   wire::DriveResponse in;
   RobotsWelcome welcome;
   std::unordered_set<std::string> everyone;
@@ -104,7 +104,10 @@ struct NetworkHardware::Impl {
   std::uint64_t step = 0;
 
   Impl(const ConnectOptions& options, const std::vector<std::string>& the_names)
-      : connect_options(options), names(the_names), stub(wire::Robots::NewStub(connect(options))) {
+      : connect_options(options),
+        names(the_names),
+        stub(wire::Robots::NewStub(connect(options))),
+        stream(options, [this](auto... arguments) { return stub->AsyncDrive(arguments...); }) {
     welcome = join();
     everyone.insert(welcome.all_robots.begin(), welcome.all_robots.end());
     for (const auto& seat : welcome.robots) robots.push_back(std::make_unique<ProcessRobot>(seat.info, everyone));
@@ -113,9 +116,7 @@ struct NetworkHardware::Impl {
 
   /// Sends the hello, and receives the welcome.
   RobotsWelcome join() {
-    stream.reset();
-    stream = std::make_unique<Stream>(
-        connect_options, [&](auto* context, auto* queue, void* tag) { return stub->AsyncDrive(context, queue, tag); });
+    stream.open();
     wire::DriveRequest first;
     auto& hello = *first.mutable_hello();
     hello.set_protocol(kProtocolVersion);
@@ -124,8 +125,8 @@ struct NetworkHardware::Impl {
     hello.set_last_step(step);
     hello.set_process(process);
     for (const auto& name : names) hello.add_names(name);
-    stream->write(first);
-    if (!stream->read(in)) fail();
+    stream.write(first);
+    if (!stream.read(in)) stream.fail();
     RobotsWelcome welcomed = decode(in.welcome());
     if (welcomed.robots.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
     return welcomed;
@@ -135,7 +136,9 @@ struct NetworkHardware::Impl {
     const RobotsWelcome again = join();
     readFirstStep();
     if (again.run != welcome.run || step < out.step()) {
-      fail({grpc::StatusCode::ABORTED, "another run has begun there; start the robots' program anew"});
+      stream.close();
+      throw ConnectionError({grpc::StatusCode::ABORTED, "another run has begun there; start the robots' program anew"},
+                            connect_options);
     }
     for (auto& robot : robots) robot->commandAgain();
     if (!is_unconfirmed) return;
@@ -159,7 +162,7 @@ struct NetworkHardware::Impl {
 
   /// @return false when the stream has ended
   bool readStep() {
-    if (!stream->read(in)) return false;
+    if (!stream.read(in)) return false;
     if (static_cast<std::size_t>(in.robots_size()) != robots.size()) {
       throw WireError("readings of " + std::to_string(in.robots_size()) + " robots for " +
                       std::to_string(robots.size()));
@@ -175,23 +178,7 @@ struct NetworkHardware::Impl {
   }
 
   void readFirstStep() {
-    if (!readStep()) fail();
-  }
-
-  grpc::Status finish() {
-    const grpc::Status status = stream->finish();
-    stream.reset();
-    return status;
-  }
-
-  [[noreturn]] void fail(const grpc::Status& status) {
-    stream.reset();
-    throw ConnectionError(status, connect_options);
-  }
-
-  [[noreturn]] void fail() {
-    const grpc::Status status = finish();
-    fail(status.ok() ? grpc::Status(grpc::StatusCode::CANCELLED, "the run is over") : status);
+    if (!readStep()) stream.fail();
   }
 
   bool nextStep() {
@@ -203,13 +190,12 @@ struct NetworkHardware::Impl {
       for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
     }
     is_unconfirmed = true;
-    stream->write(out);
+    stream.write(out);
     if (readStep()) {
       is_unconfirmed = false;
       return true;
     }
-    const grpc::Status status = finish();
-    if (!status.ok()) fail(status);
+    stream.finishOrThrow();
     is_unconfirmed = false;
     return false;
   }

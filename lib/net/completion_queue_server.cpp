@@ -60,8 +60,16 @@ void CompletionQueueServer::waitForEvent(gpr_timespec until) {
     return polls_adaptively_ ? awaitEvent(*queue(), polling_, until, tag, ok)
                              : queue()->AsyncNext(&tag, &ok, until) == grpc::CompletionQueue::GOT_EVENT;
   }();
-  if (has_event) static_cast<CompletionTag*>(tag)->onCompletion(ok);
+  if (has_event) handle(tag, ok);
 }
+
+void CompletionQueueServer::handle(void* tag, bool ok) {
+  std::unique_lock<std::mutex> lock;
+  if (mutex_) lock = std::unique_lock(*mutex_);
+  static_cast<CompletionTag*>(tag)->onCompletion(ok);
+}
+
+void CompletionQueueServer::wake() { wake_alarm_.Set(queue(), std::chrono::system_clock::now(), wake_tag_.tag()); }
 
 bool CompletionQueueServer::handleNext(grpc::ServerCompletionQueue& queue) {
   void* tag = nullptr;
@@ -71,7 +79,7 @@ bool CompletionQueueServer::handleNext(grpc::ServerCompletionQueue& queue) {
     return queue.AsyncNext(&tag, &ok, gpr_time_0(GPR_CLOCK_MONOTONIC)) == grpc::CompletionQueue::GOT_EVENT;
   }();
   if (!has_event) return false;
-  static_cast<CompletionTag*>(tag)->onCompletion(ok);
+  handle(tag, ok);
   return true;
 }
 

@@ -2,9 +2,11 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include <grpcpp/alarm.h>
 #include <grpcpp/grpcpp.h>
 
 #include "net/adaptive_polling.h"
@@ -68,6 +70,10 @@ class CompletionQueueServer {
   void waitUntil(Clock::time_point until, const std::function<bool()>& is_enough);
   /// Whether waitUntil() may poll for events (AdaptivePolling) instead of sleeping.
   void setAdaptivePolling(bool enabled) { polls_adaptively_ = enabled; }
+  /// Locks a mutex while a handler runs, for a server whose calls are also used by another thread.
+  void setMutex(std::mutex* mutex) { mutex_ = mutex; }
+  /// Makes waitUntil() check `is_enough`, from any thread; at most once, and before close() is called.
+  void wake();
 
   /// Accepts no more calls, and waits until the open calls have ended; cancels them after 1 s.
   void close();
@@ -93,7 +99,12 @@ class CompletionQueueServer {
     std::unique_ptr<grpc::ServerCompletionQueue> queue;
     OpenPort port;
   };
+  /// A completion without effect.
+  struct WakeTag final : CompletionTag {
+    void onCompletion(bool) override {}
+  };
   void waitForEvent(gpr_timespec until);
+  void handle(void* tag, bool ok);
   bool handleNext(grpc::ServerCompletionQueue& queue);
   void handleSecondaryEvents();
   void pollAll();
@@ -101,6 +112,9 @@ class CompletionQueueServer {
   std::vector<Endpoint> endpoints_;               ///< the first one's queue is that of all calls
   std::vector<std::size_t> endpoint_of_binding_;  ///< by binding
   std::size_t calls_ = 0;
+  std::mutex* mutex_ = nullptr;
+  WakeTag wake_tag_;
+  grpc::Alarm wake_alarm_;
   bool polls_adaptively_ = true;
   AdaptivePolling polling_;
   Clock::time_point last_poll_;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "net/connect.h"
-#include "net/stream_call.h"
+#include "net/stream_session.h"
 #include "net/viewing.grpc.pb.h"
 
 namespace robosim {
@@ -15,19 +15,19 @@ namespace {
 using Service = wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service>;
 
 /// Counts the messages of its peer.
-class CountingStream final : public StreamCall<wire::FrameRequest, wire::Frame> {
+class CountingStream final : public StreamSession<wire::FrameRequest, wire::Frame> {
  public:
-  CountingStream(CompletionQueueServer& queue_server, ReadPolicy policy) : StreamCall(queue_server), policy_(policy) {}
+  CountingStream(SessionHost& host, ReadPolicy policy)
+      : StreamSession(host, {.right = Right::look, .log_kind = "refused"}), policy_(policy) {}
   int received_count = 0;
 
  private:
-  void called() override {}
+  std::string who() const override { return peer(); }
   ReadPolicy received(const wire::FrameRequest&) override {
+    if (!isEstablished()) establish();
     ++received_count;
     return policy_;
   }
-  void refuse(const WireError&) override {}
-  void ended() override {}
 
   const ReadPolicy policy_;
 };
@@ -57,25 +57,25 @@ class Client {
 TEST(CompletionQueueServer, ServesOtherClientsDuringAFloodOfMessages) {
   Service service;
   CompletionQueueServer queue_server({{"127.0.0.1:0", &service}}, {});
-  const auto queues = queue_server.queuesFor(0);
-  const auto request_stream = [&] {
-    const auto stream = std::make_shared<CountingStream>(queue_server, ReadPolicy::rate_limited);
-    stream->await([&](auto* context, auto* wire, void* tag) {
-      service.RequestWatch(context, wire, queues.call_queue, queues.notification_queue, tag);
-    });
-    return stream;
+  SessionHost host;
+  host.queue_server = &queue_server;
+  std::vector<std::shared_ptr<CountingStream>> streams;  // the last one has no client yet
+  const auto make_stream = [&] {
+    streams.push_back(std::make_shared<CountingStream>(host, ReadPolicy::rate_limited));
+    return streams.back();
   };
+  host.serve(queue_server.queuesFor(0), make_stream, [&](auto... arguments) { service.RequestWatch(arguments...); });
   const auto timeout = std::chrono::minutes(1);
   const auto wait_until = [&](const std::function<bool()>& is_enough) {
     queue_server.waitUntil(CompletionQueueServer::Clock::now() + timeout, is_enough);
     EXPECT_TRUE(is_enough());
   };
   // Calls are assigned to requested streams in order.
-  auto flooding_stream = request_stream();
+  const auto* flooding_stream = streams.back().get();
   Client flooding_client(queue_server.port(0));
   auto flood = std::async(std::launch::async, [&] { flooding_client.send(1'000'000); });
   wait_until([&] { return flooding_stream->received_count > 0; });
-  auto other_stream = request_stream();
+  const auto* other_stream = streams.back().get();
   Client other_client(queue_server.port(0));
   auto first_message = std::async(std::launch::async, [&] { other_client.send(1); });
   wait_until([&] { return other_stream->received_count == 1; });
@@ -89,8 +89,7 @@ TEST(CompletionQueueServer, ServesOtherClientsDuringAFloodOfMessages) {
   }
   flooding_client.cancel();
   other_client.cancel();
-  flooding_stream.reset();
-  other_stream.reset();
+  streams.clear();
   queue_server.close();
   flood.get();
 }

@@ -108,7 +108,7 @@ class Guard {
   void add(Waiter& waiter) {
     const std::lock_guard lock(mutex_);
     waiters_.push_back(&waiter);
-    start();
+    if (!thread_.joinable()) thread_ = std::thread([this] { watch(); });
   }
   void remove(const Waiter& waiter) {
     const std::lock_guard lock(mutex_);
@@ -125,7 +125,6 @@ class Guard {
       ban->second.next_admission = now + kThrottle;
     }
     connections_[connection] = {.peer = *peer};
-    start();
     return true;
   }
   void exempt(const std::string& peer) {
@@ -160,10 +159,6 @@ class Guard {
   bool hasExempt(const std::string& host) const {
     return std::any_of(connections_.begin(), connections_.end(),
                        [&](const auto& it) { return it.second.peer.host == host && it.second.exemptions > 0; });
-  }
-
-  void start() {
-    if (!thread_.joinable()) thread_ = std::thread([this] { watch(); });
   }
 
   [[noreturn]] void watch() {

@@ -9,8 +9,7 @@ namespace robosim {
 /// Disconnects peers that send HTTP/2 frames faster than gRPC 1.51 handles them, such as streams that are opened and
 /// reset at once (HTTP/2 rapid reset, CVE-2023-44487). gRPC does not limit these: the thread that waits for events does
 /// not return from gRPC while they arrive, and each stream uses 13 kB until it does. Messages are limited by HTTP/2's
-/// flow control. A server with gRPC's callback API, such as a robot's remote port, has no such waits of its own: there,
-/// floods are detected by their bytes only.
+/// flow control.
 ///
 /// A thread checks every kPeriod whether a wait in gRPC has taken more than kBusyLimit of processor time. If so, the
 /// connection that has sent the most during that wait is disconnected; one with an Exemption only if it has sent more

@@ -3,9 +3,10 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <thread>
 #include <utility>
 
-#include "net/listen.h"
+#include "net/client_stream.h"
 #include "net/remote.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "net/tls.h"
@@ -31,17 +32,39 @@ std::string problemOf(const grpc::Status& status, const ConnectOptions& connect_
 
 }  // namespace
 
-/// State shared by calls and the link's owner. Guarded by the mutex.
-struct RobotLink::Shared {
-  std::string robot;
-  ConnectOptions connect_options;
-  std::function<void()> on_news;
-  std::unique_ptr<wire::RemoteControl::Stub> stub;
+/// The link's thread makes the calls. The mutex guards the members below it.
+struct RobotLink::Impl {
+  using Stream = ClientStream<wire::ControlRequest, wire::ControlResponse>;
+
+  Impl(std::string the_robot, ConnectOptions options, std::function<void()> news_callback);
+  ~Impl();
+
+  void makeCalls();  ///< on the thread
+  grpc::Status call(std::string& error);
+  /// @name With the mutex locked
+  ///@{
+  void sendNext();  ///< unless a message is being written
+  std::optional<RemoteOrder> next();
+  void discardSteering();
+  void discardOrders();
+  void processMessage();
+  void processUpdate();
+  void processAnswer();
+  ///@}
+
+  const std::string robot;
+  const ConnectOptions connect_options;
+  const std::function<void()> on_news;
+  const std::unique_ptr<wire::RemoteControl::Stub> stub;
+  Stream stream;
+  wire::ControlRequest out;
+  wire::ControlResponse in;
 
   std::mutex mutex;
-  std::condition_variable call_has_ended;
-  Call* call = nullptr;  ///< null when there is none
-  int calls = 0;         ///< number of calls that were started and are not deleted yet
+  std::condition_variable call_requested;
+  bool is_calling = false;    ///< there is a call, or it is requested
+  bool is_connected = false;  ///< messages can be sent
+  bool is_over = false;
   RobotNews news;
   bool is_live = false;
   /// @name Messages to send, in this order
@@ -58,13 +81,32 @@ struct RobotLink::Shared {
   bool alive_is_due = false;
   ///@}
 
-  /// The next message to send; nullopt for none.
-  std::optional<RemoteOrder> next();
-  void discardSteering();
-  void discardOrders();
+  std::thread thread;
 };
 
-std::optional<RemoteOrder> RobotLink::Shared::next() {
+RobotLink::Impl::Impl(std::string the_robot, ConnectOptions options, std::function<void()> news_callback)
+    : robot(std::move(the_robot)),
+      connect_options(std::move(options)),
+      on_news(std::move(news_callback)),
+      stub(wire::RemoteControl::NewStub(robosim::connect(connect_options))),
+      stream(connect_options, [this](auto... arguments) { return stub->AsyncControl(arguments...); }) {
+  stream.setAdaptivePolling(false);
+  news.problem = "not connected yet";
+  thread = std::thread([this] { makeCalls(); });
+}
+
+RobotLink::Impl::~Impl() {
+  {
+    const std::lock_guard lock(mutex);
+    is_over = true;
+  }
+  stream.cancel();
+  call_requested.notify_one();
+  thread.join();
+}
+
+/// The next message to send; nullopt for none.
+std::optional<RemoteOrder> RobotLink::Impl::next() {
   if (init && init_is_due) {
     init_is_due = false;
     return init;
@@ -84,260 +126,209 @@ std::optional<RemoteOrder> RobotLink::Shared::next() {
   return std::nullopt;
 }
 
-void RobotLink::Shared::discardSteering() {
+void RobotLink::Impl::discardSteering() {
   stop.reset();
   driving.reset();
   steering.reset();
 }
 
-void RobotLink::Shared::discardOrders() {
+void RobotLink::Impl::discardOrders() {
   switching.reset();
   discardSteering();
   check_win_is_due = request_all_is_due = alive_is_due = false;
   request_is_due.fill(false);
 }
 
-/// One call. gRPC calls the On…() from its own threads. Deletes itself in OnDone().
-class RobotLink::Call final : public grpc::ClientBidiReactor<wire::ControlRequest, wire::ControlResponse> {
- public:
-  explicit Call(std::shared_ptr<Shared> shared) : shared_(std::move(shared)) {
-    attachToken(context_, shared_->connect_options);
-    shared_->stub->async()->Control(&context_, this);
-    // Writes are also started outside of the On…(), during which the call must not end.
-    AddHold();
-    StartRead(&in_);
-    StartCall();
+void RobotLink::Impl::makeCalls() {
+  for (std::unique_lock lock(mutex);;) {
+    call_requested.wait(lock, [this] { return is_calling || is_over; });
+    if (is_over) return;
+    lock.unlock();
+    std::string problem;
+    const grpc::Status status = call(problem);
+    if (problem.empty()) problem = problemOf(status, connect_options, robot);
+    lock.lock();
+    is_calling = news.is_up = false;
+    news.problem = problem;
+    news.was_refused = status.error_code() == grpc::StatusCode::NOT_FOUND ||
+                       status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
+                       status.error_code() == grpc::StatusCode::PERMISSION_DENIED ||
+                       status.error_code() == grpc::StatusCode::FAILED_PRECONDITION;
+    discardOrders();
+    lock.unlock();
+    on_news();
+    lock.lock();
   }
+}
 
-  /// @pre holds the mutex
-  void sendNext() {
-    if (is_writing_ || has_ended_) return;
-    const auto order = shared_->next();
-    if (!order) return;
-    encode(*order, out_);
-    is_writing_ = true;
-    StartWrite(&out_);
-  }
-  void cancel() { context_.TryCancel(); }
-
- private:
-  void OnWriteDone(bool) override {
-    const std::lock_guard lock(shared_->mutex);
-    is_writing_ = false;
+/// @param error receives why a message was invalid, which ends the call
+grpc::Status RobotLink::Impl::call(std::string& error) {
+  stream.open();
+  std::unique_lock lock(mutex);
+  is_connected = true;
+  while (error.empty()) {
     sendNext();
-  }
-
-  void OnReadDone(bool ok) override {
-    {
-      const std::lock_guard lock(shared_->mutex);
-      if (ok && !receive()) ok = false;
-      if (ok) {
-        StartRead(&in_);
-        sendNext();
-      } else {
-        has_ended_ = true;
-      }
-    }
-    shared_->on_news();
-    if (ok) return;
-    cancel();
-    RemoveHold();
-  }
-
-  void OnDone(const grpc::Status& status) override {
-    const auto shared = shared_;
-    const std::string problem = error_.empty() ? problemOf(status, shared->connect_options, shared->robot) : error_;
-    {
-      const std::lock_guard lock(shared->mutex);
-      shared->call = nullptr;
-      shared->news.is_up = false;
-      shared->news.problem = problem;
-      shared->news.was_refused = status.error_code() == grpc::StatusCode::NOT_FOUND ||
-                                 status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
-                                 status.error_code() == grpc::StatusCode::PERMISSION_DENIED ||
-                                 status.error_code() == grpc::StatusCode::FAILED_PRECONDITION;
-      shared->discardOrders();
-    }
-    delete this;  // no other thread refers to it any more
-    shared->on_news();
-    const std::lock_guard lock(shared->mutex);
-    --shared->calls;
-    shared->call_has_ended.notify_all();
-  }
-
-  /// Processes a message. @return false for an invalid one, which ends the call
-  /// @pre holds the mutex
-  bool receive() {
+    lock.unlock();
+    const auto event = stream.next(in);
+    lock.lock();
+    if (event == Stream::Event::ended) break;
+    if (event == Stream::Event::written) continue;
     try {
       processMessage();
-      return true;
-    } catch (const WireError& error) {
-      error_ = shared_->connect_options.address + " sent an invalid message: " + error.what();
-      return false;
+    } catch (const WireError& invalid) {
+      error = connect_options.address + " sent an invalid message: " + invalid.what();
     }
+    lock.unlock();
+    on_news();
+    lock.lock();
   }
+  is_connected = false;
+  lock.unlock();
+  if (error.empty()) return stream.finish();
+  stream.close();
+  return grpc::Status::CANCELLED;
+}
 
-  void processMessage() {
-    RobotNews& news = shared_->news;
-    if (in_.has_welcome()) {
-      const RobotsWelcome welcome = decode(in_.welcome());
-      if (welcome.robots.size() != 1) throw WireError("a welcome for a number of robots other than one");
-      news.info = std::make_shared<const RobotInfo>(welcome.robots[0].info);
-      news.world = welcome.world;
-      news.period_s = welcome.period_s;
-      news.update.reset();
-      news.picture.reset();
-      news.answers = {};
-      news.is_up = true;
-      news.problem.clear();
-      shared_->request_all_is_due = shared_->is_live;
+void RobotLink::Impl::sendNext() {
+  if (!is_connected || stream.isWriting()) return;
+  const auto order = next();
+  if (!order) return;
+  encode(*order, out);
+  stream.write(out);
+}
+
+void RobotLink::Impl::processMessage() {
+  if (in.has_welcome()) {
+    const RobotsWelcome welcome = decode(in.welcome());
+    if (welcome.robots.size() != 1) throw WireError("a welcome for a number of robots other than one");
+    news.info = std::make_shared<const RobotInfo>(welcome.robots[0].info);
+    news.world = welcome.world;
+    news.period_s = welcome.period_s;
+    news.update.reset();
+    news.picture.reset();
+    news.answers = {};
+    news.is_up = true;
+    news.problem.clear();
+    request_all_is_due = is_live;
+  }
+  if (!news.is_up) throw WireError("the first message is not a welcome");
+  news.state = decode(in.state());
+  if (in.type() == wire::REQ_ALL) processUpdate();
+  if (in.type() >= wire::REQ_HEAT && in.type() <= wire::REQ_SONAR) processAnswer();
+}
+
+void RobotLink::Impl::processUpdate() {
+  auto update = std::make_shared<RobotUpdate>();
+  update->readings = blankReadings(*news.info->sensors);
+  decode(in.readings(), news.info->name, update->readings);
+  update->readings.time = {in.step(), news.period_s};
+  update->readings.winner = news.state.winner;
+  update->state = news.state;
+  bool is_first_camera = true;
+  for (auto& measurement : update->readings.measurements) {
+    auto* image = std::get_if<Image>(&measurement);
+    if (!image) continue;
+    if (std::exchange(is_first_camera, false) && !image->jpeg.empty()) {
+      news.picture = std::make_shared<const RobotPicture>(RobotPicture{in.picture_step(), std::move(image->jpeg)});
     }
-    if (!news.is_up) throw WireError("the first message is not a welcome");
-    news.state = decode(in_.state());
-    if (in_.type() == wire::REQ_ALL) processUpdate();
-    if (in_.type() >= wire::REQ_HEAT && in_.type() <= wire::REQ_SONAR) processAnswer();
+    image->jpeg.clear();
   }
+  news.update = std::move(update);
+  request_all_is_due = is_live;
+}
 
-  void processUpdate() {
-    RobotNews& news = shared_->news;
-    auto update = std::make_shared<RobotUpdate>();
-    update->readings = blankReadings(*news.info->sensors);
-    decode(in_.readings(), news.info->name, update->readings);
-    update->readings.time = {in_.step(), news.period_s};
-    update->readings.winner = news.state.winner;
-    update->state = news.state;
-    bool is_first_camera = true;
-    for (auto& measurement : update->readings.measurements) {
-      auto* image = std::get_if<Image>(&measurement);
-      if (!image) continue;
-      if (std::exchange(is_first_camera, false) && !image->jpeg.empty()) {
-        news.picture = std::make_shared<const RobotPicture>(RobotPicture{in_.picture_step(), std::move(image->jpeg)});
-      }
-      image->jpeg.clear();
-    }
-    news.update = std::move(update);
-    shared_->request_all_is_due = shared_->is_live;
+void RobotLink::Impl::processAnswer() {
+  auto answer = std::make_shared<RobotAnswer>();
+  answer->step = in.step();
+  answer->has_sensor = in.has_sensor();
+  if (in.has_sensor()) {
+    if (in.sensor() >= news.info->sensors->size())
+      throw WireError("a reading of a sensor that the robot does not have");
+    answer->sensor = in.sensor();
+    answer->measurement = blankReadings(*news.info->sensors).measurements[answer->sensor];
+    decode(in.measurement(), answer->measurement);
   }
-
-  void processAnswer() {
-    RobotNews& news = shared_->news;
-    auto answer = std::make_shared<RobotAnswer>();
-    answer->step = in_.step();
-    answer->has_sensor = in_.has_sensor();
-    if (in_.has_sensor()) {
-      if (in_.sensor() >= news.info->sensors->size())
-        throw WireError("a reading of a sensor that the robot does not have");
-      answer->sensor = in_.sensor();
-      answer->measurement = blankReadings(*news.info->sensors).measurements[answer->sensor];
-      decode(in_.measurement(), answer->measurement);
-    }
-    news.answers[static_cast<std::size_t>(in_.type() - wire::REQ_HEAT)] = std::move(answer);
-  }
-
-  std::shared_ptr<Shared> shared_;
-  grpc::ClientContext context_;
-  wire::ControlRequest out_;
-  wire::ControlResponse in_;
-  std::string error_;
-  bool is_writing_ = false;
-  bool has_ended_ = false;
-};
+  news.answers[static_cast<std::size_t>(in.type() - wire::REQ_HEAT)] = std::move(answer);
+}
 
 RobotLink::RobotLink(std::string robot, ConnectOptions connect_options, std::function<void()> on_news)
-    : connect_options_(std::move(connect_options)), shared_(std::make_shared<Shared>()) {
-  shared_->robot = std::move(robot);
-  shared_->connect_options = connect_options_;
-  shared_->on_news = std::move(on_news);
-  shared_->news.problem = "not connected yet";
-  shared_->stub = wire::RemoteControl::NewStub(robosim::connect(connect_options_));
-}
-
-RobotLink::~RobotLink() {
-  std::unique_lock lock(shared_->mutex);
-  if (shared_->call) shared_->call->cancel();
-  shared_->call_has_ended.wait(lock, [&] { return shared_->calls == 0; });
-  // Released here: an ended call may hold the shared state slightly longer, and gRPC's own thread must not close a
-  // connection, since it would wait for itself.
-  const auto stub = std::move(shared_->stub);
-  lock.unlock();
-}
+    : impl_(std::make_unique<Impl>(std::move(robot), std::move(connect_options), std::move(on_news))) {}
+RobotLink::~RobotLink() = default;
 
 void RobotLink::connect() {
-  const std::lock_guard lock(shared_->mutex);
-  if (shared_->call) return;
-  shared_->init_is_due = shared_->init.has_value();
-  shared_->call = new Call(shared_);
-  ++shared_->calls;
-  shared_->call->sendNext();
+  const std::lock_guard lock(impl_->mutex);
+  if (std::exchange(impl_->is_calling, true)) return;
+  impl_->init_is_due = impl_->init.has_value();
+  impl_->call_requested.notify_one();
 }
 
 bool RobotLink::isCalling() const {
-  const std::lock_guard lock(shared_->mutex);
-  return shared_->call != nullptr;
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->is_calling;
 }
 
 void RobotLink::claim(const std::string& driver, bool autonomous) {
-  const std::lock_guard lock(shared_->mutex);
-  shared_->init =
-      RemoteOrder{.type = RemoteType::init, .robot = shared_->robot, .driver = driver, .autonomous = autonomous};
-  shared_->init_is_due = true;
-  shared_->switching.reset();
-  shared_->discardSteering();
-  if (shared_->call) shared_->call->sendNext();
+  const std::lock_guard lock(impl_->mutex);
+  impl_->init =
+      RemoteOrder{.type = RemoteType::init, .robot = impl_->robot, .driver = driver, .autonomous = autonomous};
+  impl_->init_is_due = true;
+  impl_->switching.reset();
+  impl_->discardSteering();
+  impl_->sendNext();
 }
 
 void RobotLink::send(const RemoteOrder& order) {
-  const std::lock_guard lock(shared_->mutex);
+  const std::lock_guard lock(impl_->mutex);
   // A disconnected robot receives the switch with its next INIT.
-  if (order.type == RemoteType::init_ack && shared_->init) shared_->init->autonomous = order.autonomous;
-  if (!shared_->news.is_up || !shared_->call) return;
+  if (order.type == RemoteType::init_ack && impl_->init) impl_->init->autonomous = order.autonomous;
+  if (!impl_->news.is_up) return;
   switch (order.type) {
     case RemoteType::init:
       return;  // sent by claim()
     case RemoteType::init_ack:
-      shared_->switching = order;
-      shared_->discardSteering();
+      impl_->switching = order;
+      impl_->discardSteering();
       break;
     case RemoteType::check_win:
-      shared_->check_win_is_due = true;
+      impl_->check_win_is_due = true;
       break;
     case RemoteType::req_heat:
     case RemoteType::req_laser:
     case RemoteType::req_sonar:
-      shared_->request_is_due[static_cast<std::size_t>(order.type) - static_cast<std::size_t>(RemoteType::req_heat)] =
+      impl_->request_is_due[static_cast<std::size_t>(order.type) - static_cast<std::size_t>(RemoteType::req_heat)] =
           true;
       break;
     case RemoteType::req_all:
-      shared_->request_all_is_due = true;
+      impl_->request_all_is_due = true;
       break;
     case RemoteType::alive:
-      shared_->alive_is_due = true;
+      impl_->alive_is_due = true;
       break;
     case RemoteType::stop:
-      shared_->discardSteering();
-      shared_->stop = order;
+      impl_->discardSteering();
+      impl_->stop = order;
       break;
     case RemoteType::drive:
-      shared_->driving = shared_->driving ? mergeDrive(*shared_->driving, order) : order;
-      shared_->steering.reset();
+      impl_->driving = impl_->driving ? mergeDrive(*impl_->driving, order) : order;
+      impl_->steering.reset();
       break;
     default:
-      shared_->steering = order;
+      impl_->steering = order;
       break;
   }
-  shared_->call->sendNext();
+  impl_->sendNext();
 }
 
 void RobotLink::setLive(bool live) {
-  const std::lock_guard lock(shared_->mutex);
-  if (std::exchange(shared_->is_live, live) == live || !live || !shared_->news.is_up || !shared_->call) return;
-  shared_->request_all_is_due = true;
-  shared_->call->sendNext();
+  const std::lock_guard lock(impl_->mutex);
+  if (std::exchange(impl_->is_live, live) == live || !live || !impl_->news.is_up) return;
+  impl_->request_all_is_due = true;
+  impl_->sendNext();
 }
 
 RobotNews RobotLink::news() const {
-  const std::lock_guard lock(shared_->mutex);
-  return shared_->news;
+  const std::lock_guard lock(impl_->mutex);
+  return impl_->news;
 }
 
 }  // namespace robosim

@@ -36,10 +36,8 @@ class RobotLink {
   RobotNews news() const;
 
  private:
-  class Call;
-  struct Shared;
-  ConnectOptions connect_options_;
-  std::shared_ptr<Shared> shared_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 }  // namespace robosim

@@ -7,7 +7,6 @@
 #include "net/completion_queue_server.h"
 #include "net/control_panel.grpc.pb.h"
 #include "robots/world_source.h"
-#include "server/pending_handshakes.h"
 #include "server/run_control.h"
 #include "server/served_run.h"
 #include "server/serving_state.h"
@@ -41,13 +40,11 @@ class ControlPanelSession final : public ControlPanelService {
 
   /// Starts to accept calls.
   void open(const CompletionQueueServer::ServiceQueues& queues);
-  /// Ends the calls whose token has been withdrawn or has expired.
-  void checkAccess();
   /// Executes the queued calls, answers those whose steps are complete, and sends statuses to watchers. Call it between
   /// steps.
   void execute(RunOperations& operations);
-  /// Ends all calls, because the run is over. Idempotent.
-  void endAll(RunOperations& operations);
+  /// Sends the last status to watchers, before the run's end ends all calls.
+  void publishLast(RunOperations& operations);
 
  private:
   class Call;
@@ -58,9 +55,7 @@ class ControlPanelSession final : public ControlPanelService {
   class LoadCall;
   class Watcher;
   template <typename Request>
-  void awaitCall(const Kind<Request>& kind);
-  void awaitLoad();
-  void awaitWatcher();
+  void serve(const CompletionQueueServer::ServiceQueues& queues, const Kind<Request>& kind);
   void queue(const std::shared_ptr<Call>& call);
   void execute(RunOperations& operations, Call& call);
   void refuse(Call& call, const std::string& why);
@@ -70,10 +65,7 @@ class ControlPanelSession final : public ControlPanelService {
   void answerSteppers(RunOperations& operations);
 
   ServingState& serving_;
-  CompletionQueueServer::ServiceQueues queues_{};
   std::vector<std::shared_ptr<Call>> calls_;  ///< not yet executed
-  PendingHandshakes<Watcher> pending_watchers_;
-  PendingHandshakes<LoadCall> pending_loads_;
   std::vector<std::shared_ptr<Watcher>> watchers_;
   std::vector<std::shared_ptr<Call>> steppers_;  ///< executed; answered after their last step
   std::shared_ptr<LoadCall> load_;               ///< the call that sends a world, or whose world is being built

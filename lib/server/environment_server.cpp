@@ -75,7 +75,6 @@ struct EnvironmentServer::Impl {
   Clock::time_point due;  ///< time of the next step
   StepRate rate;
   std::uint64_t messages_dropped = 0;  ///< already logged
-  std::uint64_t access_version = 0;    ///< at the last checkAccess()
   CompletionQueueServer queue_server;
 
   Impl(const ServerOptions& options, std::shared_ptr<const RunInfo> run_info)
@@ -112,15 +111,6 @@ struct EnvironmentServer::Impl {
     robots.reset();
     viewers.reset();
     geometry.reset();
-  }
-
-  /// Ends the calls of clients whose token was withdrawn or has expired.
-  void checkAccess() {
-    if (std::exchange(access_version, serving.access.refresh()) == access_version) return;
-    robots.checkAccess();
-    viewers.checkAccess();
-    geometry.checkAccess();
-    panels.checkAccess();
   }
 
   /// Admits the clients that have connected since the last call.
@@ -189,10 +179,8 @@ struct EnvironmentServer::Impl {
   /// Ends all calls, and waits until their final status has been sent.
   void close() {
     if (std::exchange(serving.is_over, true)) return;
-    panels.endAll(operations);
-    robots.endAll();
-    viewers.endAll();
-    geometry.endAll();
+    panels.publishLast(operations);
+    serving.endSessions();
     queue_server.close();
   }
 
@@ -257,10 +245,8 @@ struct EnvironmentServer::Impl {
     areRobotsConnected();  // so that a status requested first is correct
     while (!run.isOver()) {
       serving.wake_requested = false;
-      checkAccess();
+      serving.checkSessions();
       executePanelRequests();
-      serving.limited_log.reportSuppressed();
-      serving.audit.reportSuppressed();
       if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       admit();

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "net/flood_guard.h"
 #include "net/robot_wire.h"
 #include "server/geometry_seal.h"
 #include "server/geometry_wire.h"
@@ -18,22 +17,27 @@ constexpr std::size_t kRejectionsMax = 3;
 
 }  // namespace
 
-/// Call of one worker.
-class GeometrySession::Stream final : public StreamCall<wire::Sealed, wire::Sealed> {
+/// Session of one worker.
+class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::Sealed> {
  public:
-  explicit Stream(GeometrySession& owner) : StreamCall(*owner.queues_.queue_server), owner_(owner) {}
+  explicit Stream(GeometrySession& owner)
+      : StreamSession(owner.serving_, {.right = Right::work,
+                                       .log_kind = "refused geometry workers",
+                                       .reports_each = true,
+                                       .may_send_more = true}),
+        owner_(owner) {}
 
-  enum class State { awaiting_hello, waiting, building, ready, gone };
-  State state = State::awaiting_hello;
-  Identity client;
+  std::string who() const override { return "geometry worker " + peer(); }
+
+  enum class Phase { waiting, building, ready };
+  Phase phase = Phase::waiting;
   int replicas_owed = 0;  ///< sent, and not yet confirmed
   bool needs_state = true;
   bool owes_result = false;
   RobotRange share;
   std::size_t next_robot = 0;  ///< of the share: the first without a result
   std::vector<ResultSamples::Expected> sample;
-  std::uint64_t number = 0;  ///< among all workers
-  flood_guard::Exemption exemption;
+  std::uint64_t number = 0;      ///< among all workers
   bool has_contributed = false;  ///< to the current run
 
   void send(const wire::ToWorker& message) {
@@ -42,24 +46,40 @@ class GeometrySession::Stream final : public StreamCall<wire::Sealed, wire::Seal
   }
 
  private:
-  void called() override { owner_.called(*this); }
+  grpc::Status admit() override {
+    if (owner_.report_.rejected_workers.size() < kRejectionsMax) return grpc::Status::OK;
+    return {grpc::StatusCode::PERMISSION_DENIED,
+            "the results of several geometry workers were wrong, so that this run "
+            "takes no more of them; look at the environment's log"};
+  }
   ReadPolicy received(const wire::Sealed& sealed) override {
-    if (state == State::gone) return ReadPolicy::after_write;
     unseal(sealed, message_);
     try {
-      owner_.received(*this, message_);
+      if (isEstablished()) {
+        owner_.received(*this, message_);
+      } else {
+        hello();
+      }
     } catch (const WireError& error) {
-      owner_.disconnect(*this, {error.code(), error.what()});
+      disconnect({error.code(), error.what()});
     }
     return owes_result || replicas_owed > 0 ? ReadPolicy::immediate : ReadPolicy::after_write;
   }
-  void refuse(const WireError& error) override {
-    if (state != State::gone) owner_.refuseCorrupted(*this, error);
+  void hello() {
+    if (!message_.has_hello()) throw WireError("the first message of a geometry worker must be its hello");
+    checkGeometryProtocol(message_.hello().protocol());
+    establish();
+    number = ++owner_.workers_so_far_;
+    owner_.serving_.wake_requested = true;
+    owner_.streams_.push_back(std::static_pointer_cast<Stream>(shared_from_this()));
   }
-  void ended() override {
-    if (state == State::gone) return;
-    if (state != State::awaiting_hello) owner_.serving_.log("geometry worker " + peer() + ": has left");
-    owner_.leave(*this);
+  /// A message that cannot be parsed, or whose checksum does not match: the worker may connect again.
+  void refuse(const WireError& error) override {
+    ++owner_.report_.corrupted_messages;
+    disconnect({grpc::StatusCode::DATA_LOSS, error.what()});
+  }
+  void left() override {
+    std::erase_if(owner_.streams_, [&](const auto& stream) { return stream.get() == this; });
   }
 
   GeometrySession& owner_;
@@ -67,39 +87,18 @@ class GeometrySession::Stream final : public StreamCall<wire::Sealed, wire::Seal
 };
 
 GeometrySession::GeometrySession(ServingState& serving, const ResultSamples& samples)
-    : serving_(serving), handshakes_(serving), samples_(samples) {}
+    : serving_(serving), samples_(samples) {}
 GeometrySession::~GeometrySession() = default;
 
 void GeometrySession::open(const CompletionQueueServer::ServiceQueues& queues) {
-  queues_ = queues;
-  awaitWorker();
-}
-
-void GeometrySession::awaitWorker() {
-  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestWork(context, wire, queues_.call_queue, queues_.notification_queue, tag);
-  });
-}
-
-void GeometrySession::called(Stream& stream) {
-  awaitWorker();
-  grpc::Status status = serving_.authorizeCall(stream.context(), Right::work, stream.client);
-  if (status.ok() && report_.rejected_workers.size() >= kRejectionsMax) {
-    status = {grpc::StatusCode::PERMISSION_DENIED,
-              "the results of several geometry workers were wrong, so that this run "
-              "takes no more of them; look at the environment's log"};
-  }
-  if (!status.ok()) {
-    disconnect(stream, status);
-  } else {
-    stream.exemption = flood_guard::Exemption(stream.peer());
-    handshakes_.add(std::static_pointer_cast<Stream>(stream.shared_from_this()));
-  }
+  serving_.serve(
+      queues, [this] { return std::make_shared<Stream>(*this); },
+      [this](auto... arguments) { RequestWork(arguments...); });
 }
 
 void GeometrySession::reset() {
   for (const auto& stream : streams_) {
-    stream->state = Stream::State::waiting;
+    stream->phase = Stream::Phase::waiting;
     stream->has_contributed = false;
   }
   report_ = {};
@@ -107,39 +106,20 @@ void GeometrySession::reset() {
 }
 
 void GeometrySession::received(Stream& stream, const wire::FromWorker& message) {
-  const std::string& version = serving_.run_info->world_version;
-  switch (stream.state) {
-    case Stream::State::awaiting_hello:
-      if (!message.has_hello()) throw WireError("the first message of a geometry worker must be its hello");
-      checkGeometryProtocol(message.hello().protocol());
-      if (const auto status = serving_.access.check(stream.client, Right::work); !status.ok()) {
-        disconnect(stream, status);
-        break;
-      }
-      stream.number = ++workers_so_far_;
-      stream.state = Stream::State::waiting;
-      handshakes_.remove(stream);
-      serving_.wake_requested = true;
-      streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
-      break;
-    case Stream::State::waiting:
-    case Stream::State::building:
-      if (stream.replicas_owed == 0) throw WireError("a message of a geometry worker that owes none");
-      if (--stream.replicas_owed > 0 || stream.state == Stream::State::waiting) break;  // for a previous world
-      if (message.world_version() != version) {
-        throw WireError("the worker has built version " + inQuotes(message.world_version()) +
-                        " of the world, and here is version " + version);
-      }
-      stream.state = Stream::State::ready;
-      stream.needs_state = true;
-      serving_.log("geometry worker " + stream.peer() + ": ready" + serving_.tokenSuffix(stream.client));
-      break;
-    case Stream::State::ready:
-      takeResult(stream, message.result());
-      break;
-    case Stream::State::gone:
-      break;
+  if (stream.phase == Stream::Phase::ready) {
+    takeResult(stream, message.result());
+    return;
   }
+  if (stream.replicas_owed == 0) throw WireError("a message of a geometry worker that owes none");
+  if (--stream.replicas_owed > 0 || stream.phase == Stream::Phase::waiting) return;  // for a previous world
+  const std::string& version = serving_.run_info->world_version;
+  if (message.world_version() != version) {
+    throw WireError("the worker has built version " + inQuotes(message.world_version()) +
+                    " of the world, and here is version " + version);
+  }
+  stream.phase = Stream::Phase::ready;
+  stream.needs_state = true;
+  serving_.log(stream.who() + ": ready" + serving_.tokenSuffix(stream.client()));
 }
 
 void GeometrySession::takeResult(Stream& stream, const wire::TaskResult& result) {
@@ -158,52 +138,18 @@ void GeometrySession::takeResult(Stream& stream, const wire::TaskResult& result)
   stream.owes_result = stream.next_robot < stream.share.end;
 }
 
-/// A message that cannot be parsed, or whose checksum does not match: the worker may connect again.
-void GeometrySession::refuseCorrupted(Stream& stream, const WireError& error) {
-  ++report_.corrupted_messages;
-  disconnect(stream, {grpc::StatusCode::DATA_LOSS, error.what()});
-}
-
 void GeometrySession::reject(Stream& stream, const std::string& reason) {
   const std::uint64_t step = serving_.run_info->environment.time().step;
-  serving_.log("geometry worker " + stream.peer() + ": rejected at step " + std::to_string(step) + ": " + reason);
+  serving_.log(stream.who() + ": rejected at step " + std::to_string(step) + ": " + reason);
   report_.rejected_workers.push_back({stream.peer(), step, reason});
-  disconnect(stream,
-             {grpc::StatusCode::FAILED_PRECONDITION,
-              reason + "; is this the same version of robosim as the environment's, on a machine without faults?"});
-}
-
-void GeometrySession::leave(Stream& stream) {
-  stream.state = Stream::State::gone;
-  stream.exemption = {};
-  handshakes_.remove(stream);
-  std::erase_if(streams_, [&](const auto& s) { return s.get() == &stream; });
-}
-
-void GeometrySession::disconnect(Stream& stream, const grpc::Status& status) {
-  const auto keep = stream.shared_from_this();  // leave() erases the list's reference
-  const std::string line = "geometry worker " + stream.peer() + ": disconnected: " + status.error_message();
-  if (stream.state == Stream::State::awaiting_hello) {
-    serving_.logRefusal(line, "refused geometry workers");
-  } else {
-    serving_.log(line);
-  }
-  leave(stream);
-  stream.end(status);
-}
-
-void GeometrySession::checkAccess() {
-  const Streams streams = streams_;  // disconnect() modifies the list
-  for (const auto& stream : streams) {
-    if (const auto status = serving_.access.check(stream->client, Right::work); !status.ok())
-      disconnect(*stream, status);
-  }
+  stream.disconnect(
+      {grpc::StatusCode::FAILED_PRECONDITION,
+       reason + "; is this the same version of robosim as the environment's, on a machine without faults?"});
 }
 
 void GeometrySession::admit() {
-  while (const auto late_call = handshakes_.overdue()) disconnect(*late_call, handshakes_.timeoutStatus());
   for (const auto& stream : streams_) {
-    if (stream->state != Stream::State::waiting || !stream->isIdle()) continue;
+    if (stream->phase != Stream::Phase::waiting || !stream->isIdle()) continue;
     const RunInfo& run_info = *serving_.run_info;
     wire::ToWorker message;
     auto& replica = *message.mutable_replica();
@@ -212,7 +158,7 @@ void GeometrySession::admit() {
     replica.set_seed(run_info.seed);
     replica.set_period_s(run_info.environment.time().period_s);
     stream->send(message);
-    stream->state = Stream::State::building;
+    stream->phase = Stream::Phase::building;
     ++stream->replicas_owed;
   }
 }
@@ -220,7 +166,7 @@ void GeometrySession::admit() {
 GeometrySession::Streams GeometrySession::readyWorkers(std::size_t robots) {
   Streams workers;
   for (const auto& stream : streams_) {
-    if (stream->state != Stream::State::ready) continue;
+    if (stream->phase != Stream::Phase::ready) continue;
     if (workers.size() < robots) {
       workers.push_back(stream);
     } else {
@@ -282,28 +228,28 @@ void GeometrySession::step(Environment& environment) {
   compareSamples(workers, environment);
   environment_ = nullptr;
   for (const auto& stream : workers) {
-    if (stream->state == Stream::State::gone) environment.sense(stream->share);
+    if (stream->isGone()) environment.sense(stream->share);
   }
   environment.finish();
 }
 
 void GeometrySession::awaitResults(const Streams& workers) {
   const auto deadline = serving_.now() + serving_.step_deadline;  // the environment's own computation does not count
-  const auto owes = [](const auto& s) { return s->owes_result && s->state != Stream::State::gone; };
+  const auto owes = [](const auto& s) { return s->owes_result && !s->isGone(); };
   const auto all_done = [&] { return std::none_of(workers.begin(), workers.end(), owes); };
   while (!all_done() && serving_.now() < deadline && !serving_.interrupted())
     serving_.pollUntil(deadline - serving_.now(), all_done);
   for (const auto& stream : workers) {
     if (!owes(stream)) continue;
-    disconnect(*stream, serving_.interrupted() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the run was interrupted")
-                                               : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED,
-                                                              "no result within the step deadline; connect again"));
+    stream->disconnect(serving_.interrupted() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the run was interrupted")
+                                              : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED,
+                                                             "no result within the step deadline; connect again"));
   }
 }
 
 void GeometrySession::compareSamples(const Streams& workers, Environment& environment) {
   for (const auto& stream : workers) {
-    if (stream->state == Stream::State::gone) continue;
+    if (stream->isGone()) continue;
     if (!std::exchange(stream->has_contributed, true)) ++report_.geometry_workers;
     report_.geometry_results += stream->share.end - stream->share.begin;
     report_.results_checked += stream->sample.size();
@@ -322,17 +268,9 @@ void GeometrySession::describe(RunReport& report) const {
   report.rejected_workers = report_.rejected_workers;
 }
 
-void GeometrySession::endAll() {
-  for (const auto& stream : streams_) {
-    stream->state = Stream::State::gone;
-    stream->end(grpc::Status::OK);
-  }
-  streams_.clear();
-}
-
 std::size_t GeometrySession::count() const {
   return static_cast<std::size_t>(std::count_if(
-      streams_.begin(), streams_.end(), [](const auto& stream) { return stream->state == Stream::State::ready; }));
+      streams_.begin(), streams_.end(), [](const auto& stream) { return stream->phase == Stream::Phase::ready; }));
 }
 
 }  // namespace robosim

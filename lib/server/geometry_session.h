@@ -6,8 +6,7 @@
 
 #include "environment/environment.h"
 #include "net/geometry.grpc.pb.h"
-#include "net/stream_call.h"
-#include "server/pending_handshakes.h"
+#include "net/stream_session.h"
 #include "server/result_samples.h"
 #include "server/run_report.h"
 #include "server/serving_state.h"
@@ -28,14 +27,10 @@ class GeometrySession final : public wire::Geometry::WithRawMethod_Work<wire::Ge
   void open(const CompletionQueueServer::ServiceQueues& queues);
   /// Switches to the current ServingState::run_info: every worker needs a new replica.
   void reset();
-  /// Disconnects the workers whose token has been withdrawn or has expired.
-  void checkAccess();
   /// Sends the world to new workers.
   void admit();
   /// Takes a time step, distributed over the workers that are ready.
   void step(Environment& environment);
-  /// Ends all calls, because the run is over.
-  void endAll();
 
   std::size_t count() const;
   /// Adds the workers' contributions and rejections.
@@ -44,14 +39,9 @@ class GeometrySession final : public wire::Geometry::WithRawMethod_Work<wire::Ge
  private:
   class Stream;
   using Streams = std::vector<std::shared_ptr<Stream>>;
-  void awaitWorker();
-  void called(Stream& stream);
   void received(Stream& stream, const wire::FromWorker& message);
   void takeResult(Stream& stream, const wire::TaskResult& result);
-  void refuseCorrupted(Stream& stream, const WireError& error);
   void reject(Stream& stream, const std::string& reason);
-  void disconnect(Stream& stream, const grpc::Status& status);
-  void leave(Stream& stream);
   Streams readyWorkers(std::size_t robots);
   wire::Task taskOf(Environment& environment);
   void send(Stream& stream, const wire::Task& task, const wire::ReplicaState& state);
@@ -59,9 +49,7 @@ class GeometrySession final : public wire::Geometry::WithRawMethod_Work<wire::Ge
   void compareSamples(const Streams& workers, Environment& environment);
 
   ServingState& serving_;
-  CompletionQueueServer::ServiceQueues queues_{};
-  PendingHandshakes<Stream> handshakes_;
-  Streams streams_;
+  Streams streams_;                     ///< established
   Environment* environment_ = nullptr;  ///< set while results are accepted
   ResultSamples samples_;
   std::uint64_t workers_so_far_ = 0;       ///< for Stream::number

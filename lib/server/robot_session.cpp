@@ -3,83 +3,70 @@
 #include <algorithm>
 
 #include "base/error_list.h"
-#include "net/flood_guard.h"
 #include "server/robot_hello.h"
 
 namespace robosim {
 
-/// Call of one process.
-class RobotSession::Stream final : public StreamCall<wire::DriveRequest, wire::DriveResponse> {
+/// Session of one process.
+class RobotSession::Stream final : public StreamSession<wire::DriveRequest, wire::DriveResponse> {
  public:
-  explicit Stream(RobotSession& owner) : StreamCall(*owner.queues_.queue_server), owner_(owner) {}
+  explicit Stream(RobotSession& owner)
+      : StreamSession(owner.serving_, {.right = Right::drive,
+                                       .log_kind = "refused robots",
+                                       .refused_word = "refused",
+                                       .reports_each = true,
+                                       .may_send_more = true}),
+        owner_(owner) {}
 
   grpc::Status mayDrive(const std::vector<std::string>& robots_named) const {
-    return owner_.serving_.access.check(client, Right::drive, robots_named);
+    return owner_.serving_.access.check(client(), Right::drive, robots_named);
   }
-  std::string who() const {
+  grpc::Status permission() const override { return mayDrive(names); }
+  std::string who() const override {
     if (names.empty()) return peer();
     return (names.size() == 1 ? "robot " : "robots ") + listed(names) + " (" + peer() + ")";
   }
 
-  enum class State { awaiting_hello, waiting, admitted, gone };
-  State state = State::awaiting_hello;
-  Identity client;
-  std::vector<std::string> names;
+  bool is_admitted = false;         ///< has received the welcome
+  std::vector<std::string> names;   ///< empty before the hello
   std::vector<std::size_t> robots;  ///< indices in the world
   std::string process;              ///< RobotsHello.process
   bool owes_answer = false;
   std::uint64_t asked_step = 0;
   ServingState::Clock::time_point since;  ///< the answer is owed
   bool has_answer = false;                ///< not yet applied
-  flood_guard::Exemption exemption;
   RobotsAnswer answer;
   RobotsAnswer decoded;  ///< message being parsed; becomes `answer` once it is valid
 
+  using StreamSession::establish;
+
  private:
-  void called() override { owner_.called(*this); }
   ReadPolicy received(const wire::DriveRequest& message) override {
-    if (state == State::awaiting_hello) {
-      owner_.hello(*this, message);
-    } else if (state != State::gone) {
+    if (isEstablished()) {
       owner_.answer(*this, message);
+    } else {
+      owner_.hello(*this, message);
     }
     return ReadPolicy::after_write;
   }
-  void refuse(const WireError& error) override {
-    if (state != State::gone) owner_.disconnect(*this, {error.code(), error.what()});
-  }
-  void ended() override { owner_.leave(*this, "has left"); }
+  void left() override { owner_.leave(*this); }
 
   RobotSession& owner_;
 };
 
-RobotSession::RobotSession(ServingState& serving) : serving_(serving), handshakes_(serving) {}
+RobotSession::RobotSession(ServingState& serving) : serving_(serving) {}
 RobotSession::~RobotSession() = default;
 
 void RobotSession::open(const CompletionQueueServer::ServiceQueues& queues) {
-  queues_ = queues;
-  awaitProcess();
-}
-
-void RobotSession::awaitProcess() {
-  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestDrive(context, wire, queues_.call_queue, queues_.notification_queue, tag);
-  });
-}
-
-void RobotSession::called(Stream& stream) {
-  awaitProcess();
-  if (const auto status = serving_.authorizeCall(stream.context(), Right::drive, stream.client); !status.ok()) {
-    disconnect(stream, status);
-  } else {
-    stream.exemption = flood_guard::Exemption(stream.peer());
-    handshakes_.add(std::static_pointer_cast<Stream>(stream.shared_from_this()));
-  }
+  serving_.serve(
+      queues, [this] { return std::make_shared<Stream>(*this); },
+      [this](auto... arguments) { RequestDrive(arguments...); });
 }
 
 void RobotSession::reset() {
   while (!streams_.empty()) {
-    disconnect(*streams_.back(), {grpc::StatusCode::ABORTED, "another world was loaded; connect anew"});
+    streams_.back()->robots.clear();  // their indices are those of the previous world
+    streams_.back()->disconnect({grpc::StatusCode::ABORTED, "another world was loaded; connect anew"});
   }
   const std::size_t n = serving_.run_info->robot_names.size();
   driver_of_.assign(n, nullptr);
@@ -101,14 +88,13 @@ void RobotSession::hello(Stream& stream, const wire::DriveRequest& message) {
   checkHello(hello, *serving_.run_info);
   std::vector<std::string> names(hello.names().begin(), hello.names().end());
   if (const auto status = stream.mayDrive(names); !status.ok()) {
-    disconnect(stream, status);
-    return;
+    throw WireError(status.error_message(), status.error_code());
   }
   std::vector<std::size_t> robots = resolveRobots(hello, *serving_.run_info);
   for (const auto robot : robots) {
     Stream* const other = driver_of_[robot];
     if (other && isSameProcess(*other, hello)) {
-      disconnect(*other, {grpc::StatusCode::ABORTED, "its process has connected again"});
+      other->disconnect({grpc::StatusCode::ABORTED, "its process has connected again"});
     } else if (other) {
       throw WireError("robot " + inQuotes(serving_.run_info->robot_names[robot]) +
                           " is driven by another process already, at " + other->peer(),
@@ -125,8 +111,7 @@ void RobotSession::hello(Stream& stream, const wire::DriveRequest& message) {
   stream.robots = std::move(robots);
   stream.process = hello.process();
   stream.names = std::move(names);
-  stream.state = Stream::State::waiting;
-  handshakes_.remove(stream);
+  stream.establish();
   serving_.wake_requested = true;
   streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
 }
@@ -150,11 +135,10 @@ void RobotSession::answer(Stream& stream, const wire::DriveRequest& message) {
   --missing_;
 }
 
-void RobotSession::leave(Stream& stream, const std::string& why) {
-  const auto state = std::exchange(stream.state, Stream::State::gone);
-  stream.exemption = {};
-  handshakes_.remove(stream);
-  if (state == Stream::State::awaiting_hello || state == Stream::State::gone) return;
+void RobotSession::leave(Stream& stream) {
+  const auto self = std::find_if(streams_.begin(), streams_.end(), [&](const auto& s) { return s.get() == &stream; });
+  streams_.erase(self);
+  if (serving_.is_over) return;
   if (stream.owes_answer) --missing_;
   stream.owes_answer = false;
   const auto& activity = serving_.run_info->environment.state().activity;
@@ -170,9 +154,6 @@ void RobotSession::leave(Stream& stream, const std::string& why) {
     attendance_.leave(robot, last == Activity::active);
   }
   stream.has_answer = false;
-  serving_.log(stream.who() + ": " + why);
-  const auto self = std::find_if(streams_.begin(), streams_.end(), [&](const auto& s) { return s.get() == &stream; });
-  if (self != streams_.end()) streams_.erase(self);
   serving_.wake_requested = true;
 }
 
@@ -199,31 +180,11 @@ void RobotSession::applyLeftAnswers(Environment& environment) {
   left_answers_.clear();
 }
 
-void RobotSession::disconnect(Stream& stream, const grpc::Status& status) {
-  const auto keep = stream.shared_from_this();  // leave() erases the list's reference
-  if (stream.state == Stream::State::awaiting_hello) {
-    serving_.logRefusal(stream.who() + ": refused: " + status.error_message(), "refused robots");
-    leave(stream, "");
-  } else {
-    leave(stream, "disconnected: " + status.error_message());
-  }
-  stream.end(status);
-}
-
-void RobotSession::checkAccess() {
-  const auto streams = streams_;  // disconnect() modifies the list
-  for (const auto& stream : streams) {
-    if (const auto status = stream->mayDrive(stream->names); !status.ok()) disconnect(*stream, status);
-  }
-}
-
 void RobotSession::admit() {
-  while (const auto late_call = handshakes_.overdue()) disconnect(*late_call, handshakes_.timeoutStatus());
   for (const auto& stream : streams_) {
-    if (stream->state != Stream::State::waiting) continue;
-    stream->state = Stream::State::admitted;
+    if (std::exchange(stream->is_admitted, true)) continue;
     for (const auto robot : stream->robots) attendance_.join(robot);
-    serving_.log(stream->who() + ": connected" + serving_.tokenSuffix(stream->client));
+    serving_.log(stream->who() + ": connected" + serving_.tokenSuffix(stream->client()));
     sendWelcome(*stream);
     expectAnswer(*stream);
     sendReadings(*stream);
@@ -323,9 +284,9 @@ void RobotSession::disconnectLate() {
   for (const auto& stream : streams) {
     if (!is_late(stream)) continue;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(serving_.step_deadline).count();
-    disconnect(*stream, {grpc::StatusCode::DEADLINE_EXCEEDED,
-                         "no answer to step " + std::to_string(stream->asked_step) + " within the step deadline of " +
-                             std::to_string(ms) + " ms; connect again to go on"});
+    stream->disconnect({grpc::StatusCode::DEADLINE_EXCEEDED, "no answer to step " + std::to_string(stream->asked_step) +
+                                                                 " within the step deadline of " + std::to_string(ms) +
+                                                                 " ms; connect again to go on"});
   }
 }
 
@@ -357,21 +318,13 @@ std::size_t RobotSession::applyAnswers(Environment& environment) {
 void RobotSession::publish() {
   keepInboxes();
   for (const auto& stream : streams_) {
-    if (stream->state != Stream::State::admitted) continue;
+    if (!stream->is_admitted) continue;
     // A late process receives the newest step once its answer has been applied: an answer that arrives during a step is
     // applied in the next.
     if (stream->owes_answer || stream->has_answer) continue;
     expectAnswer(*stream);
     sendReadings(*stream);
   }
-}
-
-void RobotSession::endAll() {
-  for (const auto& stream : streams_) {
-    stream->state = Stream::State::gone;
-    stream->end(grpc::Status::OK);
-  }
-  streams_.clear();
 }
 
 }  // namespace robosim

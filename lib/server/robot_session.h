@@ -6,8 +6,7 @@
 
 #include "net/robot_wire.h"
 #include "net/robots.grpc.pb.h"
-#include "net/stream_call.h"
-#include "server/pending_handshakes.h"
+#include "net/stream_session.h"
 #include "server/robot_attendance.h"
 #include "server/robot_inboxes.h"
 #include "server/serving_state.h"
@@ -28,8 +27,6 @@ class RobotSession final : public wire::Robots::WithRawMethod_Drive<wire::Robots
   void open(const CompletionQueueServer::ServiceQueues& queues);
   /// Switches to the current ServingState::run_info: disconnects the processes of the previous run.
   void reset();
-  /// Disconnects the processes whose token no longer permits their robots.
-  void checkAccess();
   /// Admits new processes, and sends them the welcome and the readings of the current step.
   void admit();
   /// Robots that a step must wait for: networked robots that have not joined the run, and with the policy `wait` those
@@ -48,8 +45,6 @@ class RobotSession final : public wire::Robots::WithRawMethod_Drive<wire::Robots
   std::size_t applyAnswers(Environment& environment);
   /// Sends the readings of the new step to all processes.
   void publish();
-  /// Ends all calls, because the run is over.
-  void endAll();
 
   std::size_t connected() const { return attendance_.present(); }  ///< robots
   std::size_t processes() const { return streams_.size(); }
@@ -70,13 +65,10 @@ class RobotSession final : public wire::Robots::WithRawMethod_Drive<wire::Robots
     bool checks_win = false;
   };
   static LeftAnswer answerOf(const Stream& stream, std::size_t i);
-  void awaitProcess();
-  void called(Stream& stream);
   static bool isSameProcess(const Stream& stream, const wire::RobotsHello& hello);
   void hello(Stream& stream, const wire::DriveRequest& message);
   void answer(Stream& stream, const wire::DriveRequest& message);
-  void leave(Stream& stream, const std::string& why);
-  void disconnect(Stream& stream, const grpc::Status& status);
+  void leave(Stream& stream);
   void expectAnswer(Stream& stream);  ///< called before readings are sent
   void sendWelcome(Stream& stream);
   void sendReadings(Stream& stream);
@@ -84,9 +76,7 @@ class RobotSession final : public wire::Robots::WithRawMethod_Drive<wire::Robots
   void applyLeftAnswers(Environment& environment);
 
   ServingState& serving_;
-  CompletionQueueServer::ServiceQueues queues_{};
-  PendingHandshakes<Stream> handshakes_;
-  std::vector<std::shared_ptr<Stream>> streams_;  ///< with an accepted hello
+  std::vector<std::shared_ptr<Stream>> streams_;  ///< established
   std::vector<Stream*> driver_of_;                ///< by robot; null for none
   std::vector<std::uint64_t> next_answer_;        ///< by robot: the first step whose answer has not been applied
   RobotAttendance attendance_;

@@ -18,17 +18,13 @@ RobotSnapshot withoutReadings(const State& state, std::size_t i) {
 
 }  // namespace
 
-/// Call of one viewer.
-class ViewerSession::Stream final : public StreamCall<wire::FrameRequest, wire::Frame> {
+/// Session of one viewer.
+class ViewerSession::Stream final : public StreamSession<wire::FrameRequest, wire::Frame> {
  public:
-  explicit Stream(ViewerSession& owner) : StreamCall(*owner.queues_.queue_server), owner_(owner) {}
+  explicit Stream(ViewerSession& owner)
+      : StreamSession(owner.serving_, {.right = Right::look, .log_kind = "refused viewers"}), owner_(owner) {}
 
-  void disconnect(const grpc::Status& status) {
-    if (std::exchange(is_gone_, true)) return;
-    owner_.handshakes_.remove(*this);
-    owner_.serving_.logRefusal("viewer " + peer() + ": disconnected: " + status.error_message(), "refused viewers");
-    end(status);
-  }
+  std::string who() const override { return "viewer " + peer(); }
 
   /// Whether it has requested a frame that it has not received.
   bool isWaitingFor(std::uint64_t step_now) const {
@@ -40,7 +36,6 @@ class ViewerSession::Stream final : public StreamCall<wire::FrameRequest, wire::
     if (has_finished_requests_) end(grpc::Status::OK);
   }
 
-  Identity client;
   bool has_request = false;  ///< for a frame
   ReadingsSelection selection;
   bool needs_world = true;                 ///< the next frame is complete
@@ -51,10 +46,12 @@ class ViewerSession::Stream final : public StreamCall<wire::FrameRequest, wire::
       sent_photos;  ///< step of the picture, by robot and sensor
 
  private:
-  void called() override { owner_.called(*this); }
   ReadPolicy received(const wire::FrameRequest& message) override {
-    if (!has_handshake_) checkProtocol(message.protocol());
-    if (!std::exchange(has_handshake_, true)) owner_.handshakes_.remove(*this);
+    if (!isEstablished()) {
+      checkProtocol(message.protocol());
+      establish();
+      owner_.streams_.push_back(std::static_pointer_cast<Stream>(shared_from_this()));
+    }
     selection = decode(message, owner_.serving_.run_info->robot_names.size());
     has_request = has_request || !message.amends();
     owner_.serving_.wake_requested = true;
@@ -65,41 +62,21 @@ class ViewerSession::Stream final : public StreamCall<wire::FrameRequest, wire::
     has_finished_requests_ = true;
     if (!has_request) end(grpc::Status::OK);
   }
-  void refuse(const WireError& error) override { disconnect({error.code(), error.what()}); }
-  void ended() override {
-    owner_.handshakes_.remove(*this);
+  void left() override {
     std::erase_if(owner_.streams_, [&](const auto& stream) { return stream.get() == this; });
   }
 
   ViewerSession& owner_;
-  bool is_gone_ = false;
-  bool has_handshake_ = false;  ///< its protocol version was accepted
   bool has_finished_requests_ = false;
 };
 
-ViewerSession::ViewerSession(ServingState& serving) : serving_(serving), handshakes_(serving) {}
+ViewerSession::ViewerSession(ServingState& serving) : serving_(serving) {}
 ViewerSession::~ViewerSession() = default;
 
 void ViewerSession::open(const CompletionQueueServer::ServiceQueues& queues) {
-  queues_ = queues;
-  awaitViewer();
-}
-
-void ViewerSession::awaitViewer() {
-  std::make_shared<Stream>(*this)->await([this](auto* context, auto* wire, void* tag) {
-    RequestWatch(context, wire, queues_.call_queue, queues_.notification_queue, tag);
-  });
-}
-
-void ViewerSession::called(Stream& stream) {
-  awaitViewer();
-  const grpc::Status status = serving_.authorizeCall(stream.context(), Right::look, stream.client);
-  if (status.ok()) {
-    streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
-    handshakes_.add(streams_.back());
-  } else {
-    stream.disconnect(status);
-  }
+  serving_.serve(
+      queues, [this] { return std::make_shared<Stream>(*this); },
+      [this](auto... arguments) { RequestWatch(arguments...); });
 }
 
 void ViewerSession::reset() {
@@ -107,15 +84,7 @@ void ViewerSession::reset() {
   for (const auto& stream : streams_) stream->needs_world = true;
 }
 
-void ViewerSession::checkAccess() {
-  for (const auto& stream : streams_) {
-    if (const auto status = serving_.access.check(stream->client, Right::look); !status.ok())
-      stream->disconnect(status);
-  }
-}
-
 void ViewerSession::publish() {
-  while (const auto late_call = handshakes_.overdue()) late_call->disconnect(handshakes_.timeoutStatus());
   const State& state = serving_.run_info->environment.state();
   std::set<std::uint32_t> watched;
   for (const auto& stream : streams_) watched.insert(stream->selection.of.begin(), stream->selection.of.end());
@@ -134,7 +103,7 @@ void ViewerSession::send(Stream& stream) {
     encode(run_info.source, *frame.mutable_world());
     frame.set_world_version(run_info.world_version);
     frame.set_period_s(state.time.period_s);
-    frame.set_may_operate(serving_.access.check(stream.client, Right::operate).ok());
+    frame.set_may_operate(serving_.access.check(stream.client(), Right::operate).ok());
   }
   frame.set_step(state.time.step);
   frame.set_time_s(state.time.seconds());
@@ -172,10 +141,6 @@ void ViewerSession::addPhotos(Stream& stream, wire::Frame& frame) const {
       time.set_step(photo->step);
     }
   }
-}
-
-void ViewerSession::endAll() {
-  for (const auto& stream : streams_) stream->end(grpc::Status::OK);
 }
 
 }  // namespace robosim

@@ -1,7 +1,5 @@
 #pragma once
 #include <chrono>
-#include <memory>
-#include <string>
 #include <utility>
 
 #include <grpcpp/alarm.h>
@@ -9,12 +7,11 @@
 #include <grpcpp/impl/codegen/proto_utils.h>
 #include <grpcpp/support/async_stream.h>
 
-#include "net/completion_queue_server.h"
-#include "net/wire_error.h"
+#include "net/server_session.h"
 
 namespace robosim {
 
-/// When StreamCall reads the next message of a stream.
+/// When StreamSession reads the next message of a stream.
 enum class ReadPolicy {
   immediate,  ///< at once
   /// At once, but at most kMaxMessagesPerPeriod times per kRatePeriod. gRPC does not poll other connections while a
@@ -25,33 +22,24 @@ enum class ReadPolicy {
   after_write,
 };
 
-/// The server side of a bidirectional stream. Meets gRPC's requirements, whose violation would end the process: at most
-/// one read and one write at a time, none after Finish(), and an object that lives until gRPC has completed all
-/// operations. Calls after the end of the stream have no effect.
+/// Session of a bidirectional stream. Meets gRPC's requirements, whose violation would end the process: at most one
+/// read and one write at a time, none after Finish(), and an object that lives until gRPC has completed all operations.
 ///
 /// Messages are received as raw bytes and parsed here: for an unparsable message gRPC would only report the end of the
 /// stream, and the peer would not receive a reason.
 template <typename In, typename Out>
-class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
+class StreamSession : public ServerSession {
  public:
-  using Wire = grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer>;
-
-  explicit StreamCall(CompletionQueueServer& queue_server) : registration_(queue_server) {}
-  StreamCall(const StreamCall&) = delete;
-  StreamCall& operator=(const StreamCall&) = delete;
-
-  /// Requests a client's call. Call once, on an object created by make_shared.
-  /// @param request is called with a ServerContext*, a Wire* and a tag, for a service's RequestX()
+  /// Requests a client's call; called by SessionHost::serve().
   template <typename Request>
-  void await(const Request& request) {
-    self_ = this->shared_from_this();
+  void await(const CompletionQueueServer::ServiceQueues& queues, const Request& request) {
     context_.AsyncNotifyWhenDone(done_.tag());
-    request(&context_, &wire_, called_.tag());
+    request(&context_, &wire_, queues.call_queue, queues.notification_queue, called_.tag());
   }
 
   /// @name Sending
   /// Fill draft(), which keeps its previous content, then call post(). The message is written once the previous write
-  /// has completed. draft() withdraws a posted message that has not been written yet.
+  /// has completed. draft() withdraws a posted message that has not been written yet. No effect after the end.
   ///@{
   Out& draft() {
     posted_ = false;
@@ -66,46 +54,39 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   /// Whether no message is posted or being written.
   bool isIdle() const { return !posted_ && !writing_; }
 
-  /// Ends the stream with a status. With status OK, a posted message is written first. With DEADLINE_EXCEEDED, a
-  /// pending write is cancelled, because the peer may never read it; with any other error the status follows the
-  /// pending write, and the call is cancelled after kStatusTimeout.
-  void end(const grpc::Status& status) {
+ protected:
+  using ServerSession::ServerSession;
+
+  /// Handles a message; the first one calls establish() to accept the client.
+  /// @throws WireError for an invalid message; must not throw anything else.
+  virtual ReadPolicy received(const In&) = 0;
+  /// Called when the peer has sent its last message (half-close).
+  virtual void readsDone() { end(grpc::Status::OK); }
+  /// Called when all posted messages have been written.
+  virtual void drained() {}
+
+  /// Sends the final status. With status OK, a posted message is written first. With DEADLINE_EXCEEDED, a pending write
+  /// is cancelled, because the peer may never read it; with any other error the status follows the pending write, and
+  /// the call is cancelled after kStatusTimeout.
+  void end(const grpc::Status& status) final {
     if (ending_) return;
     ending_ = true;
     status_ = {status.error_code(), truncatedForStatus(status.error_message())};
     if (!status.ok()) {
       posted_ = false;
       has_cancel_timer_ = true;
-      ++pending_;
-      cancel_timer_.Set(registration_.queueServer().queue(), std::chrono::system_clock::now() + kStatusTimeout,
+      startOperation();
+      cancel_timer_.Set(queueServer().queue(), std::chrono::system_clock::now() + kStatusTimeout,
                         cancel_timer_over_.tag());
     }
     if (status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED && writing_) context_.TryCancel();
     writeNext();
   }
 
-  const grpc::ServerContext& context() const { return context_; }
-  const std::string& peer() const { return peer_; }  ///< address of the client; also valid after the end
-  /// Whether the peer has cancelled the call or disconnected.
-  bool isCancelled() const { return is_cancelled_; }
-
- protected:
-  virtual ~StreamCall() = default;
-
-  /// Called when a client has made the call; reading starts afterwards.
-  virtual void called() = 0;
-  /// Handles a message.
-  /// @throws WireError for an invalid message; must not throw anything else.
-  virtual ReadPolicy received(const In&) = 0;
-  /// Called when the peer has sent its last message (half-close).
-  virtual void readsDone() { end(grpc::Status::OK); }
-  /// Disconnects a peer that sent an invalid message.
-  virtual void refuse(const WireError&) = 0;
-  /// Called last, after the end of the stream or the loss of the connection.
-  virtual void ended() = 0;
-
  private:
-  using Tag = MemberCompletionTag<StreamCall>;
+  using Tag = MemberCompletionTag<StreamSession>;
+
+  void begun() final { read(); }
 
   void writeNext() {
     if (writing_ || finished_) return;
@@ -115,31 +96,20 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
       bool owns_bytes = false;
       bytes_written_.Clear();
       grpc::SerializationTraits<Out>::Serialize(draft_, &bytes_written_, &owns_bytes);
-      ++pending_;
+      startOperation();
       wire_.Write(bytes_written_, written_.tag());
       if (std::exchange(is_read_deferred_, false)) read();
     } else if (ending_) {
       finished_ = true;
-      ++pending_;
+      startOperation();
       wire_.Finish(status_, finished_tag_.tag());
     }
   }
 
   void read() {
     if (finished_) return;
-    ++pending_;
+    startOperation();
     wire_.Read(&bytes_read_, read_.tag());
-  }
-
-  void onCalled(bool ok) {
-    if (!ok) {  // the server is shutting down
-      const auto last = std::move(self_);
-      return;
-    }
-    ++pending_;  // for onDone()
-    peer_ = context_.peer();
-    called();
-    read();
   }
 
   void onRead(bool ok) {
@@ -152,6 +122,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
   }
 
   void handleMessage() {
+    if (!mayReceive()) return;
     has_written_since_read_ = false;
     auto policy = ReadPolicy::immediate;
     try {
@@ -163,9 +134,8 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
       refuse(error);
     }
     if (policy == ReadPolicy::rate_limited && isOverRateLimit()) {
-      ++pending_;
-      read_delay_.Set(registration_.queueServer().queue(), std::chrono::system_clock::now() + kRatePeriod,
-                      read_delay_over_.tag());
+      startOperation();
+      read_delay_.Set(queueServer().queue(), std::chrono::system_clock::now() + kRatePeriod, read_delay_over_.tag());
     } else if (policy == ReadPolicy::after_write && !has_written_since_read_) {
       is_read_deferred_ = true;
     } else {
@@ -180,6 +150,7 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
       ending_ = true;
     }
     writeNext();
+    if (!writing_ && !ending_) drained();
     completeOperation();
   }
 
@@ -203,55 +174,33 @@ class StreamCall : public std::enable_shared_from_this<StreamCall<In, Out>> {
     completeOperation();
   }
 
-  /// The stream has ended, the connection was lost, or the peer has cancelled the call.
-  void onDone(bool /*ok*/) {
-    is_cancelled_ = context_.IsCancelled();
-    if (is_cancelled_) end(grpc::Status::CANCELLED);
-    completeOperation();
-  }
-
   void onFinished(bool /*ok*/) {
-    is_over_ = true;
     if (std::exchange(has_cancel_timer_, false)) cancel_timer_.Cancel();
     completeOperation();
-  }
-
-  /// Releases this object when no operation is pending and the stream is finished.
-  void completeOperation() {
-    if (--pending_ > 0 || !is_over_) return;
-    ended();
-    const auto last = std::move(self_);  // may hold the last reference, until this function returns
   }
 
   static constexpr std::chrono::seconds kStatusTimeout{1};
   static constexpr std::chrono::milliseconds kRatePeriod{1};
   static constexpr int kMaxMessagesPerPeriod = 4;
 
-  CompletionQueueServer::CallRegistration registration_;
-  std::shared_ptr<StreamCall> self_;
-  grpc::ServerContext context_;
-  std::string peer_;
-  Wire wire_{&context_};
+  grpc::ServerAsyncReaderWriter<grpc::ByteBuffer, grpc::ByteBuffer> wire_{&context_};
   grpc::Alarm cancel_timer_, read_delay_;
-  Tag called_{*this, &StreamCall::onCalled}, read_{*this, &StreamCall::onRead}, written_{*this, &StreamCall::onWritten},
-      cancel_timer_over_{*this, &StreamCall::onCancelTimerOver}, done_{*this, &StreamCall::onDone},
-      finished_tag_{*this, &StreamCall::onFinished}, read_delay_over_{*this, &StreamCall::onReadDelayOver};
+  Tag read_{*this, &StreamSession::onRead}, written_{*this, &StreamSession::onWritten},
+      cancel_timer_over_{*this, &StreamSession::onCancelTimerOver}, finished_tag_{*this, &StreamSession::onFinished},
+      read_delay_over_{*this, &StreamSession::onReadDelayOver};
   grpc::ByteBuffer bytes_read_;
   In in_;
   Out draft_;
   grpc::ByteBuffer bytes_written_;
   CompletionQueueServer::Clock::time_point period_start_;
   int messages_in_period_ = 0;  ///< messages received since period_start_
-  int pending_ = 0;             ///< operations that gRPC has not completed
   bool posted_ = false;         ///< the draft is to be written next
   bool writing_ = false;
   bool has_written_since_read_ = false;  ///< a write has started since the last message was received
   bool is_read_deferred_ = false;        ///< the next read starts with the next write
   bool ending_ = false;
   bool finished_ = false;  ///< Finish() was called
-  bool is_over_ = false;   ///< Finish() has completed
   bool has_cancel_timer_ = false;
-  bool is_cancelled_ = false;
   grpc::Status status_;
 };
 

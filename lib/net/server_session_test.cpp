@@ -1,0 +1,314 @@
+// Admission, deadline, refusal and shutdown of sessions, over real connections.
+#include "net/server_session.h"
+
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+
+#include <gtest/gtest.h>
+
+#include "net/connect.h"
+#include "net/control_panel.grpc.pb.h"
+#include "net/stream_session.h"
+#include "net/unary_session.h"
+#include "net/viewing.grpc.pb.h"
+
+namespace robosim {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string kViewer = "viewer-0123456789abcdef", kWorker = "worker-0123456789abcdef";
+
+using StreamService = wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service>;
+using UnaryService = wire::ControlPanel::WithAsyncMethod_Step<wire::ControlPanel::Service>;
+
+/// A server that sends each message back, on a thread of its own, with a clock that only the test advances.
+class EchoServer {
+ public:
+  explicit EchoServer(bool has_tokens = true) {
+    host_.log = [this](const std::string& line) { log_ += line + "\n"; };
+    host_.now = [this] { return now_; };
+    host_.queue_server = &queue_server_;
+    Access::Options options;
+    constexpr std::chrono::sys_days kStart(std::chrono::year(2029) / 6 / 1);
+    options.now = [this, kStart] { return kStart + now_.time_since_epoch(); };
+    if (has_tokens) {
+      host_.access =
+          Access::parse(kViewer + " viewer expires=2030-01-01\n" + kWorker + " geometry\n", "tokens", options);
+    }
+    queue_server_.setMutex(&mutex_);
+    host_.serve(
+        queue_server_.queuesFor(0), [this] { return std::make_shared<EchoStream>(*this); },
+        [this](auto... arguments) { streams_.RequestWatch(arguments...); });
+    host_.serve(
+        queue_server_.queuesFor(0), [this] { return std::make_shared<Doubling>(*this); },
+        [this](auto... arguments) { unary_.RequestStep(arguments...); });
+    thread_ = std::thread([this] {
+      queue_server_.waitUntil(CompletionQueueServer::Clock::now() + std::chrono::hours(1), [this] {
+        const std::lock_guard lock(mutex_);
+        return is_closing_;
+      });
+      queue_server_.close();
+    });
+  }
+  ~EchoServer() {
+    {
+      const std::lock_guard lock(mutex_);
+      host_.endSessions();
+      is_closing_ = true;
+      queue_server_.wake();
+    }
+    thread_.join();
+  }
+
+  /// Calls `change` between two events.
+  template <typename Change>
+  void change(const Change& change) {
+    const std::lock_guard lock(mutex_);
+    change(host_);
+  }
+  void advance(SessionHost::Clock::duration by) {
+    const std::lock_guard lock(mutex_);
+    now_ += by;
+    host_.checkSessions();
+  }
+  /// Waits until a number of calls have been admitted, or left.
+  void waitForAdmitted(int count) { wait(admitted_, count); }
+  void waitForLeft(int count) { wait(left_, count); }
+  std::string log() {
+    const std::lock_guard lock(mutex_);
+    return log_;
+  }
+  ConnectOptions connectOptions(const std::string& token) const {
+    return {.address = "127.0.0.1:" + std::to_string(queue_server_.port(0)), .token = token};
+  }
+
+ private:
+  class EchoStream final : public StreamSession<wire::FrameRequest, wire::Frame> {
+   public:
+    explicit EchoStream(EchoServer& owner)
+        : StreamSession(owner.host_, {.right = Right::look, .log_kind = "refused clients", .reports_each = true}),
+          owner_(owner) {}
+
+   private:
+    std::string who() const override { return "client"; }
+    grpc::Status admit() override {
+      owner_.count(owner_.admitted_);
+      return grpc::Status::OK;
+    }
+    ReadPolicy received(const wire::FrameRequest& message) override {
+      if (message.protocol() == 0) throw WireError("protocol 0");
+      if (!isEstablished()) establish();
+      draft().set_step(message.protocol());
+      post();
+      return ReadPolicy::immediate;
+    }
+    void left() override { owner_.count(owner_.left_); }
+
+    EchoServer& owner_;
+  };
+
+  class Doubling final : public UnarySession<wire::StepRequest, wire::RunStatus> {
+   public:
+    explicit Doubling(EchoServer& owner)
+        : UnarySession(owner.host_, {.right = Right::look, .log_kind = "refused clients"}) {}
+
+   private:
+    std::string who() const override { return "unary client"; }
+    void received(const wire::StepRequest& request) override {
+      if (request.steps() == 0) throw WireError("0 steps");
+      establish();
+      wire::RunStatus reply;
+      reply.set_step(2 * request.steps());
+      answer(reply);
+      answer({});  // has no effect
+    }
+  };
+
+  void count(int& number) {
+    ++number;
+    counted_.notify_all();
+  }
+  void wait(const int& number, int expected) {
+    std::unique_lock lock(mutex_);
+    if (!counted_.wait_for(lock, 1min, [&] { return number >= expected; }))
+      throw std::runtime_error("waited for " + std::to_string(expected) + ", and there are " + std::to_string(number));
+  }
+
+  std::mutex mutex_;
+  std::condition_variable counted_;
+  std::string log_;
+  SessionHost::Clock::time_point now_{};
+  int admitted_ = 0, left_ = 0;
+  bool is_closing_ = false;
+  StreamService streams_;
+  UnaryService unary_;
+  SessionHost host_;
+  CompletionQueueServer queue_server_{{{"127.0.0.1:0", &streams_}, {"127.0.0.1:0", &unary_}}, {}};
+  std::thread thread_;
+};
+
+class Client {
+ public:
+  explicit Client(const ConnectOptions& options) : stub_(wire::Viewing::NewStub(connect(options))) {
+    attachToken(context_, options);
+    stream_ = stub_->Watch(&context_);
+  }
+  ~Client() {
+    if (!stream_) return;
+    context_.TryCancel();
+    stream_->Finish();
+  }
+
+  /// Sends a number. @return the server's echo; nullopt when the call has ended
+  std::optional<std::uint64_t> send(std::uint32_t number) {
+    wire::FrameRequest request;
+    request.set_protocol(number);
+    wire::Frame frame;
+    if (!stream_->Write(request) || !stream_->Read(&frame)) return std::nullopt;
+    return frame.step();
+  }
+  /// Waits for the end of the call.
+  grpc::Status finish() {
+    wire::Frame frame;
+    while (stream_->Read(&frame)) {
+    }
+    const grpc::Status status = stream_->Finish();
+    stream_.reset();
+    return status;
+  }
+  void leave() {
+    stream_->WritesDone();
+    EXPECT_TRUE(finish().ok());
+  }
+
+ private:
+  std::unique_ptr<wire::Viewing::Stub> stub_;
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream_;
+};
+
+std::size_t countOf(const std::string& part, const std::string& text) {
+  std::size_t count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(ServerSession, AdmitsClientsWhoseTokenGrantsTheRight) {
+  EchoServer server;
+  Client viewer(server.connectOptions(kViewer));
+  EXPECT_EQ(viewer.send(7), 7u);
+  EXPECT_EQ(Client(server.connectOptions("")).finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(Client(server.connectOptions(kWorker)).finish().error_code(), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(viewer.send(8), 8u);
+  EXPECT_EQ(countOf("client: disconnected: ", server.log()), 2u) << server.log();
+}
+
+TEST(ServerSession, ReportsAnInvalidMessageToItsSenderAndToTheLog) {
+  EchoServer server;
+  Client client(server.connectOptions(kViewer));
+  EXPECT_EQ(client.send(7), 7u);
+  EXPECT_EQ(client.send(0), std::nullopt);
+  const grpc::Status status = client.finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  EXPECT_EQ(status.error_message(), "protocol 0");
+  EXPECT_EQ(server.log(), "client: disconnected: protocol 0\n");
+}
+
+TEST(ServerSession, EndsACallWhoseFirstMessageIsOverdue) {
+  EchoServer server;
+  Client silent(server.connectOptions(kViewer));
+  server.waitForAdmitted(1);
+  Client speaking(server.connectOptions(kViewer));
+  EXPECT_EQ(speaking.send(7), 7u);
+  server.change([](SessionHost& host) { EXPECT_EQ(host.nextDeadline(), host.now() + 10s); });
+  server.advance(10s - 1ns);
+  EXPECT_EQ(server.log(), "");
+  server.advance(1ns);
+  const grpc::Status status = silent.finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
+  EXPECT_EQ(status.error_message(), "no first message within 10000 ms of the call; send it at once, and call again");
+  EXPECT_EQ(speaking.send(8), 8u);
+  server.change([](SessionHost& host) { EXPECT_EQ(host.nextDeadline(), SessionHost::Clock::time_point::max()); });
+}
+
+TEST(ServerSession, ChecksTheTokenAgainAtTheFirstMessage) {
+  EchoServer server;
+  Client client(server.connectOptions(kViewer));
+  server.waitForAdmitted(1);
+  server.change([](SessionHost& host) { host.access = Access::parse(kWorker + " geometry\n", "tokens"); });
+  EXPECT_EQ(client.send(7), std::nullopt);
+  EXPECT_EQ(client.finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+TEST(ServerSession, DisconnectsAClientWhenItsTokenExpires) {
+  EchoServer server;
+  Client client(server.connectOptions(kViewer));
+  EXPECT_EQ(client.send(7), 7u);
+  server.advance(2s);
+  EXPECT_EQ(client.send(8), 8u);
+  server.advance(24h * 366);
+  const grpc::Status status = client.finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_NE(status.error_message().find("has expired"), std::string::npos) << status.error_message();
+  server.waitForLeft(1);
+}
+
+TEST(ServerSession, LimitsTheRateAtWhichRefusalsAreLogged) {
+  EchoServer server;
+  for (int i = 0; i < 15; ++i) Client(server.connectOptions("")).finish();
+  EXPECT_EQ(countOf("client: disconnected: ", server.log()), 10u);
+  server.advance(2s);
+  EXPECT_NE(server.log().find("refused clients: 5 more lines"), std::string::npos) << server.log();
+}
+
+TEST(ServerSession, ReportsAClientThatLeavesOnce) {
+  EchoServer server;
+  Client client(server.connectOptions(kViewer));
+  EXPECT_EQ(client.send(7), 7u);
+  client.leave();
+  server.waitForLeft(1);
+  {
+    Client cancelling(server.connectOptions(kViewer));
+    EXPECT_EQ(cancelling.send(7), 7u);
+  }
+  server.waitForLeft(2);
+  EXPECT_EQ(server.log(), "client: has left\nclient: has left\n");
+}
+
+TEST(ServerSession, EndsAllCallsWithTheRunAndRefusesLaterOnes) {
+  EchoServer server(false);
+  Client established(server.connectOptions("")), silent(server.connectOptions(""));
+  EXPECT_EQ(established.send(7), 7u);
+  server.waitForAdmitted(2);
+  server.change([](SessionHost& host) { host.endSessions(); });
+  EXPECT_TRUE(established.finish().ok());
+  EXPECT_EQ(silent.finish().error_message(), "the run is over");
+  const grpc::Status late = Client(server.connectOptions("")).finish();
+  EXPECT_EQ(late.error_code(), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(late.error_message(), "the run is over");
+  server.waitForLeft(1);
+}
+
+TEST(UnarySession, AnswersOrRefusesLikeAStream) {
+  EchoServer server;
+  const auto call = [&](const std::string& token, std::uint64_t steps, wire::RunStatus& reply) {
+    const ConnectOptions options = server.connectOptions(token);
+    const auto stub = wire::ControlPanel::NewStub(connect(options));
+    grpc::ClientContext context;
+    attachToken(context, options);
+    wire::StepRequest request;
+    request.set_steps(steps);
+    return stub->Step(&context, request, &reply);
+  };
+  wire::RunStatus reply;
+  EXPECT_TRUE(call(kViewer, 4, reply).ok());
+  EXPECT_EQ(reply.step(), 8u);
+  EXPECT_EQ(call(kViewer, 0, reply).error_message(), "0 steps");
+  EXPECT_EQ(call("", 4, reply).error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(countOf("unary client: disconnected: ", server.log()), 2u) << server.log();
+}
+
+}  // namespace
+}  // namespace robosim
