@@ -7,8 +7,8 @@
 namespace robosim {
 namespace {
 
-WebMessagePtr textMessage(const std::string& json) {
-  return std::make_shared<const WebMessage>(WebMessage::text(json));
+WebMessagePtr textMessage(const std::string& text) {
+  return std::make_shared<const WebMessage>(WebMessage::text(text));
 }
 
 }  // namespace
