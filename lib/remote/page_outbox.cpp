@@ -13,9 +13,9 @@ WebMessagePtr textMessage(const std::string& text) {
 
 }  // namespace
 
-bool PageOutbox::reply(const std::string& json) {
+bool PageOutbox::reply(const std::string& text) {
   if (queue_.size() >= kMaxQueued) return false;
-  queue_.push_back(textMessage(json));
+  queue_.push_back(textMessage(text));
   return true;
 }
 
