@@ -18,10 +18,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-const std::string kViewer = "viewer-0123456789abcdef", kWorker = "worker-0123456789abcdef";
+const std::string kViewerToken = "viewer-0123456789abcdef", kWorkerToken = "worker-0123456789abcdef";
 
-using StreamService = wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service>;
-using UnaryService = wire::ControlPanel::WithAsyncMethod_Step<wire::ControlPanel::Service>;
+using EchoStreamService = wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service>;
+using EchoUnaryService = wire::ControlPanel::WithAsyncMethod_Step<wire::ControlPanel::Service>;
 
 /// A server that sends each message back, on a thread of its own, with a clock that only the test advances.
 class EchoServer {
@@ -34,8 +34,8 @@ class EchoServer {
     constexpr std::chrono::sys_days kStart(std::chrono::year(2029) / 6 / 1);
     options.now = [this, kStart] { return kStart + now_.time_since_epoch(); };
     if (has_tokens) {
-      host_.access =
-          Access::parse(kViewer + " viewer expires=2030-01-01\n" + kWorker + " geometry\n", "tokens", options);
+      host_.access = Access::parse(kViewerToken + " viewer expires=2030-01-01\n" + kWorkerToken + " geometry\n",
+                                   "tokens", options);
     }
     queue_server_.setMutex(&mutex_);
     host_.serve(
@@ -142,20 +142,20 @@ class EchoServer {
   SessionHost::Clock::time_point now_{};
   int admitted_ = 0, left_ = 0;
   bool is_closing_ = false;
-  StreamService streams_;
-  UnaryService unary_;
+  EchoStreamService streams_;
+  EchoUnaryService unary_;
   SessionHost host_;
   CompletionQueueServer queue_server_{{{"127.0.0.1:0", &streams_}, {"127.0.0.1:0", &unary_}}, {}};
   std::thread thread_;
 };
 
-class Client {
+class EchoClient {
  public:
-  explicit Client(const ConnectOptions& options) : stub_(wire::Viewing::NewStub(connect(options))) {
+  explicit EchoClient(const ConnectOptions& options) : stub_(wire::Viewing::NewStub(connect(options))) {
     attachToken(context_, options);
     stream_ = stub_->Watch(&context_);
   }
-  ~Client() {
+  ~EchoClient() {
     if (!stream_) return;
     context_.TryCancel();
     stream_->Finish();
@@ -189,7 +189,7 @@ class Client {
   std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream_;
 };
 
-std::size_t countOf(const std::string& part, const std::string& text) {
+std::size_t occurrencesOf(const std::string& part, const std::string& text) {
   std::size_t count = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
@@ -197,17 +197,17 @@ std::size_t countOf(const std::string& part, const std::string& text) {
 
 TEST(ServerSession, AdmitsClientsWhoseTokenGrantsTheRight) {
   EchoServer server;
-  Client viewer(server.connectOptions(kViewer));
+  EchoClient viewer(server.connectOptions(kViewerToken));
   EXPECT_EQ(viewer.send(7), 7u);
-  EXPECT_EQ(Client(server.connectOptions("")).finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  EXPECT_EQ(Client(server.connectOptions(kWorker)).finish().error_code(), grpc::StatusCode::PERMISSION_DENIED);
+  EXPECT_EQ(EchoClient(server.connectOptions("")).finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+  EXPECT_EQ(EchoClient(server.connectOptions(kWorkerToken)).finish().error_code(), grpc::StatusCode::PERMISSION_DENIED);
   EXPECT_EQ(viewer.send(8), 8u);
-  EXPECT_EQ(countOf("client: disconnected: ", server.log()), 2u) << server.log();
+  EXPECT_EQ(occurrencesOf("client: disconnected: ", server.log()), 2u) << server.log();
 }
 
 TEST(ServerSession, ReportsAnInvalidMessageToItsSenderAndToTheLog) {
   EchoServer server;
-  Client client(server.connectOptions(kViewer));
+  EchoClient client(server.connectOptions(kViewerToken));
   EXPECT_EQ(client.send(7), 7u);
   EXPECT_EQ(client.send(0), std::nullopt);
   const grpc::Status status = client.finish();
@@ -218,9 +218,9 @@ TEST(ServerSession, ReportsAnInvalidMessageToItsSenderAndToTheLog) {
 
 TEST(ServerSession, EndsACallWhoseFirstMessageIsOverdue) {
   EchoServer server;
-  Client silent(server.connectOptions(kViewer));
+  EchoClient silent(server.connectOptions(kViewerToken));
   server.waitForAdmitted(1);
-  Client speaking(server.connectOptions(kViewer));
+  EchoClient speaking(server.connectOptions(kViewerToken));
   EXPECT_EQ(speaking.send(7), 7u);
   server.change([](SessionHost& host) { EXPECT_EQ(host.nextDeadline(), host.now() + 10s); });
   server.advance(10s - 1ns);
@@ -235,16 +235,16 @@ TEST(ServerSession, EndsACallWhoseFirstMessageIsOverdue) {
 
 TEST(ServerSession, ChecksTheTokenAgainAtTheFirstMessage) {
   EchoServer server;
-  Client client(server.connectOptions(kViewer));
+  EchoClient client(server.connectOptions(kViewerToken));
   server.waitForAdmitted(1);
-  server.change([](SessionHost& host) { host.access = Access::parse(kWorker + " geometry\n", "tokens"); });
+  server.change([](SessionHost& host) { host.access = Access::parse(kWorkerToken + " geometry\n", "tokens"); });
   EXPECT_EQ(client.send(7), std::nullopt);
   EXPECT_EQ(client.finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
 }
 
 TEST(ServerSession, DisconnectsAClientWhenItsTokenExpires) {
   EchoServer server;
-  Client client(server.connectOptions(kViewer));
+  EchoClient client(server.connectOptions(kViewerToken));
   EXPECT_EQ(client.send(7), 7u);
   server.advance(2s);
   EXPECT_EQ(client.send(8), 8u);
@@ -257,20 +257,20 @@ TEST(ServerSession, DisconnectsAClientWhenItsTokenExpires) {
 
 TEST(ServerSession, LimitsTheRateAtWhichRefusalsAreLogged) {
   EchoServer server;
-  for (int i = 0; i < 15; ++i) Client(server.connectOptions("")).finish();
-  EXPECT_EQ(countOf("client: disconnected: ", server.log()), 10u);
+  for (int i = 0; i < 15; ++i) EchoClient(server.connectOptions("")).finish();
+  EXPECT_EQ(occurrencesOf("client: disconnected: ", server.log()), 10u);
   server.advance(2s);
   EXPECT_NE(server.log().find("refused clients: 5 more lines"), std::string::npos) << server.log();
 }
 
 TEST(ServerSession, ReportsAClientThatLeavesOnce) {
   EchoServer server;
-  Client client(server.connectOptions(kViewer));
+  EchoClient client(server.connectOptions(kViewerToken));
   EXPECT_EQ(client.send(7), 7u);
   client.leave();
   server.waitForLeft(1);
   {
-    Client cancelling(server.connectOptions(kViewer));
+    EchoClient cancelling(server.connectOptions(kViewerToken));
     EXPECT_EQ(cancelling.send(7), 7u);
   }
   server.waitForLeft(2);
@@ -279,13 +279,13 @@ TEST(ServerSession, ReportsAClientThatLeavesOnce) {
 
 TEST(ServerSession, EndsAllCallsWithTheRunAndRefusesLaterOnes) {
   EchoServer server(false);
-  Client established(server.connectOptions("")), silent(server.connectOptions(""));
+  EchoClient established(server.connectOptions("")), silent(server.connectOptions(""));
   EXPECT_EQ(established.send(7), 7u);
   server.waitForAdmitted(2);
   server.change([](SessionHost& host) { host.endSessions(); });
   EXPECT_TRUE(established.finish().ok());
   EXPECT_EQ(silent.finish().error_message(), "the run is over");
-  const grpc::Status late = Client(server.connectOptions("")).finish();
+  const grpc::Status late = EchoClient(server.connectOptions("")).finish();
   EXPECT_EQ(late.error_code(), grpc::StatusCode::UNAVAILABLE);
   EXPECT_EQ(late.error_message(), "the run is over");
   server.waitForLeft(1);
@@ -303,11 +303,11 @@ TEST(UnarySession, AnswersOrRefusesLikeAStream) {
     return stub->Step(&context, request, &reply);
   };
   wire::RunStatus reply;
-  EXPECT_TRUE(call(kViewer, 4, reply).ok());
+  EXPECT_TRUE(call(kViewerToken, 4, reply).ok());
   EXPECT_EQ(reply.step(), 8u);
-  EXPECT_EQ(call(kViewer, 0, reply).error_message(), "0 steps");
+  EXPECT_EQ(call(kViewerToken, 0, reply).error_message(), "0 steps");
   EXPECT_EQ(call("", 4, reply).error_code(), grpc::StatusCode::UNAUTHENTICATED);
-  EXPECT_EQ(countOf("unary client: disconnected: ", server.log()), 2u) << server.log();
+  EXPECT_EQ(occurrencesOf("unary client: disconnected: ", server.log()), 2u) << server.log();
 }
 
 }  // namespace

@@ -7,15 +7,15 @@
 namespace robosim {
 namespace {
 
-WebMessagePtr textMessage(const std::string& json) {
-  return std::make_shared<const WebMessage>(WebMessage::text(json));
+WebMessagePtr textMessage(const std::string& text) {
+  return std::make_shared<const WebMessage>(WebMessage::text(text));
 }
 
 }  // namespace
 
-bool PageOutbox::reply(const std::string& json) {
+bool PageOutbox::reply(const std::string& text) {
   if (queue_.size() >= kMaxQueued) return false;
-  queue_.push_back(textMessage(json));
+  queue_.push_back(textMessage(text));
   return true;
 }
 
