@@ -43,7 +43,7 @@ HeatLaw readLaw(XmlReader& reader) {
   return reader.choice<HeatLaw>("law", {{"linear", HeatLaw::linear}, {"inverse", HeatLaw::inverse}}, HeatLaw::linear);
 }
 
-double readNoise(XmlReader& reader) {
+double readHeatNoise(XmlReader& reader) {
   auto element = reader.child("noise");
   if (!element) return 0;
   const double std = element->number("std", Bounds::notNegative(1000), 0.5);
@@ -58,7 +58,7 @@ HeatOptions HeatOptions::read(XmlReader& reader) {
   o.label = reader.word("label", o.label);
   o.law = readLaw(reader);
   o.range_max_m = reader.number("range_max_m", Bounds::positive(1e6), o.range_max_m);
-  o.noise_std = readNoise(reader);
+  o.noise_std = readHeatNoise(reader);
   return o;
 }
 
@@ -67,7 +67,7 @@ HeatOptions HeatOptions::read2005(XmlReader& reader, const Mount& mount) {
   o.law = readLaw(reader);
   o.range_max_m = Position2005::read(reader, mount).range_m;
   o.unit_m = mount.unit_m;
-  o.noise_std = readNoise(reader);
+  o.noise_std = readHeatNoise(reader);
   return o;
 }
 

@@ -13,7 +13,7 @@ namespace {
 /// LMS200/211/221).
 constexpr RangeNoise kLaserDataSheet{.on = true, .std_m = 0.005, .std_per_m = 0, .dropout = 0};
 
-RangeNoise readNoise(XmlReader& reader) {
+RangeNoise readLaserNoise(XmlReader& reader) {
   auto element = reader.child("noise");
   if (!element) return {};
   const RangeNoise noise = RangeNoise::read(*element, kLaserDataSheet);
@@ -36,7 +36,7 @@ LaserOptions LaserOptions::read(XmlReader& reader) {
   o.range_min_m = reader.number("range_min_m", Bounds::notNegative(o.range_max_m), 0);
   o.no_return_m = reader.number("no_return_m", {o.range_max_m, 10000}, o.range_max_m);
   o.pans = reader.flag("pans", false);
-  o.noise = readNoise(reader);
+  o.noise = readLaserNoise(reader);
   return o;
 }
 
@@ -49,7 +49,7 @@ LaserOptions LaserOptions::read2005(XmlReader& reader, const Mount& mount) {
   o.range_max_m = position.range_m;
   o.no_return_m = position.range_m + mount.unit_m;
   o.pans = true;
-  o.noise = readNoise(reader);
+  o.noise = readLaserNoise(reader);
   return o;
 }
 

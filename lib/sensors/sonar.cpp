@@ -207,7 +207,7 @@ SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
   return reader.choice<SonarModel>("model", {{"sector", SonarModel::sector}, {"rays", SonarModel::rays}}, otherwise);
 }
 
-SonarNoise readNoise(XmlReader& reader) {
+SonarNoise readSonarNoise(XmlReader& reader) {
   SonarNoise noise;
   if (auto element = reader.child("noise")) {
     noise.range = RangeNoise::read(*element, kSonarDataSheet);
@@ -236,7 +236,7 @@ SonarOptions SonarOptions::read(XmlReader& reader) {
   o.range_min_m = reader.number("range_min_m", Bounds::notNegative(o.range_max_m), 0);
   o.no_echo_m = reader.number("no_echo_m", {o.range_max_m, 1000}, o.range_max_m);
   o.beam_width_rad = reader.angle("beam_width_deg", Bounds::positive(120), o.beam_width_rad);
-  o.noise = readNoise(reader);
+  o.noise = readSonarNoise(reader);
   return o;
 }
 
@@ -260,7 +260,7 @@ SonarOptions SonarOptions::read2005(XmlReader& reader, const Mount& mount) {
     const double x_m = faces_sideways ? (i < 8 ? aside_m : -aside_m) : mount.robot_radius_m * cos;
     o.beams.push_back(planarBeam(x_m, mount.robot_radius_m * sin, position.z_m, angle));
   }
-  o.noise = readNoise(reader);
+  o.noise = readSonarNoise(reader);
   return o;
 }
 
