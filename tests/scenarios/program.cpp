@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sys/inotify.h>
-#include <sys/pidfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -93,7 +93,7 @@ void StartedProgram::start(const std::string& program, const std::vector<std::st
   out_pipe_ = out[0];
   err_pipe_ = err[0];
   for (const int pipe : {out_pipe_, err_pipe_}) fcntl(pipe, F_SETFL, O_NONBLOCK);
-  end_ = pidfd_open(process_, 0);
+  end_ = static_cast<int>(syscall(SYS_pidfd_open, process_, 0));  // Debian 12 declares pidfd_open() for C only
   if (end_ < 0) throw std::runtime_error("no descriptor of the started program");
 }
 
