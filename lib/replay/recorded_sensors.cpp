@@ -3,7 +3,6 @@
 #include "base/error_list.h"
 #include "base/label.h"
 #include "robots/world_source.h"
-#include "run/run_note.h"
 
 namespace robosim {
 
@@ -13,14 +12,13 @@ RecordedSensors::RecordedSensors(const std::vector<RobotInfo>& robots) {
   }
 }
 
-RecordedSensors RecordedSensors::of(const std::string& rawlog) {
+RecordedSensors RecordedSensors::of(const RunNote& note) {
   std::vector<RobotInfo> robots;
   try {
-    const RunNote note = RunNote::of(rawlog);
     if (note.world.text.empty()) return RecordedSensors({});  // too large to be recorded
     for (auto& robot : loadWorld(note.world, {}).fleet.robots) robots.push_back(std::move(robot.info));
   } catch (const ConfigError&) {
-    // By another program, or with sensors that this program does not have.
+    // With sensors that this program does not have.
   }
   return RecordedSensors(robots);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hardware/robot_info.h"
+#include "run/run_note.h"
 
 namespace robosim {
 
@@ -12,8 +13,8 @@ namespace robosim {
 class RecordedSensors {
  public:
   explicit RecordedSensors(const std::vector<RobotInfo>& robots);
-  /// Those of the world in a recording; none where there is no world, or one that this program cannot read.
-  static RecordedSensors of(const std::string& rawlog);
+  /// Those of the world of a recorded run; none where there is no world, or one that this program cannot read.
+  static RecordedSensors of(const RunNote& note);
 
   /// null for an unknown label
   const SensorInfo* find(const std::string& label) const;

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -207,14 +208,20 @@ void printObservations(const ReplayArguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const double speed = arguments.speed;
   const Interrupt interrupt;
-  const RecordedSensors sensors = RecordedSensors::of(arguments.rawlog);
+  std::optional<RecordedSensors> sensors;
   RawlogReader reader(arguments.rawlog);
   Selection selection(arguments);
   ObservationCsv csv;
   const auto start = Clock::now();
   while (const auto observation = reader.next()) {
     if (interrupt.isRequested()) break;
-    if (dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) continue;
+    if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
+      // The first entry of a recording, which may be a pipe, so that it cannot be read before.
+      if (!sensors) {
+        if (const auto note = RunNote::parse(comment->text)) sensors = RecordedSensors::of(*note);
+      }
+      continue;
+    }
     if (!selection.takes(*observation, reader)) continue;
     const double time_s = selection.time();
     while (speed > 0 && !interrupt.isRequested()) {
@@ -223,7 +230,7 @@ void printObservations(const ReplayArguments& arguments) {
       if (left.count() <= 0) break;
       std::this_thread::sleep_for(std::min(left, std::chrono::duration<double>(0.05)));
     }
-    const SensorInfo* sensor = sensors.find(observation->sensorLabel);
+    const SensorInfo* sensor = sensors ? sensors->find(observation->sensorLabel) : nullptr;
     if (arguments.csv) {
       std::cout << csv.lines(*observation, time_s, sensor);
       if (speed > 0) std::cout.flush();

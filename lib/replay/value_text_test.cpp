@@ -66,7 +66,7 @@ TEST(RecordedSensors, AreFoundByTheLabelsOfTheirObservations) {
 }
 
 TEST(RecordedSensors, AreThoseOfTheWorldInTheRecording) {
-  const RecordedSensors sensors = RecordedSensors::of(ROBOSIM_SOURCE_DIR "/rawlogs/opho2_1.rawlog");
+  const RecordedSensors sensors = RecordedSensors::of(RunNote::of(ROBOSIM_SOURCE_DIR "/rawlogs/opho2_1.rawlog"));
   ASSERT_NE(sensors.find("Finder1/sonar"), nullptr);
   EXPECT_EQ(sensors.find("Finder1/sonar")->kind, SensorKind::sonar);
 }
