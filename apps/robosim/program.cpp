@@ -93,9 +93,11 @@ int executeRobosim(std::initializer_list<void (*)(CLI::App&)> add, int argc, cha
   program.footer(
       "Try:  robosim run worlds/opho2_1.xml --picture run.png\n"
       "Exit codes: 0 success, 1 bad input, 2 run failed, 128 + N ended by signal N (130 Ctrl-C). serve and remote\n"
-      "      run until a signal, which is then their regular end; of serve: 3 run incomplete (without some of its robots),\n"
+      "      run until a signal, which is then their regular end; of serve: 3 run incomplete (without some of its "
+      "robots),\n"
       "      4 a geometry worker returned wrong results.\n"
-      "Log records on standard error: ROBOSIM_LOG_LEVEL=debug|info|warning|error omits those below a level (default info).");
+      "Log records on standard error: ROBOSIM_LOG_LEVEL=debug|info|warning|error omits those below a level (default "
+      "info).");
   for (const auto add_subcommand : add) add_subcommand(program);
   return execute(program, argc, argv);
 }

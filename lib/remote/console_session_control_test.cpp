@@ -323,7 +323,8 @@ TEST_F(ConsoleSessionTest, SendsAnAnswerOnceThoughItsRobotBecomesThePrimaryAgain
   };
   console.send(ada, R"({"type":"req_heat"})");
   EXPECT_EQ(answers(), 1u);
-  for (const char* robot : {"Bob", "Ann"}) console.send(ada, std::string(R"({"type":"switch","robot":")") + robot + "\"}");
+  for (const char* robot : {"Bob", "Ann"})
+    console.send(ada, std::string(R"({"type":"switch","robot":")") + robot + "\"}");
   EXPECT_EQ(console.primary(), "Ann");
   EXPECT_EQ(answers(), 1u);
   console.send(ada, R"({"type":"req_heat"})");

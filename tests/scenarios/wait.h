@@ -8,8 +8,8 @@
 
 namespace robosim {
 
-/// Asks until a condition holds; fails the test after kLongestWait. For conditions that ask a server, whose answer takes
-/// a round trip; a test waits with a condition variable or a file descriptor for everything else.
+/// Asks until a condition holds; fails the test after kLongestWait. For conditions that ask a server, whose answer
+/// takes a round trip; a test waits with a condition variable or a file descriptor for everything else.
 /// @param what holds then, for the message
 template <typename Condition>
 void waitUntil(std::string_view what, const Condition& holds) {
