@@ -47,9 +47,8 @@ TEST(WorldChanges, ShowTheRandomRobotsOfTheSeed) {
   changes.random_robots = 3;
   const auto poses_of = [&](std::uint64_t seed) {
     std::vector<mrpt::math::TPose2D> poses;
-    for (const auto& robot : openView(ROBOSIM_SOURCE_DIR "/maps/lab.yaml", {}, changes, seed)->snapshot().robots) {
-      poses.push_back(robot.world_from_robot);
-    }
+    const auto view = openView(ROBOSIM_SOURCE_DIR "/maps/lab.yaml", {}, changes, seed);
+    for (const auto& robot : view->snapshot().robots) poses.push_back(robot.world_from_robot);
     return poses;
   };
   EXPECT_EQ(poses_of(7).size(), 3u);
