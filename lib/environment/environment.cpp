@@ -289,6 +289,8 @@ void Environment::send(std::size_t from, const std::string& to, const std::strin
 
 void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot] = 1; }
 
+void Environment::countDroppedMessages(std::uint64_t messages) { impl_->state.messages_dropped += messages; }
+
 void Environment::step() {
   const RobotRange every = impl_->everyRobot();
   begin();

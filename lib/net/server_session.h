@@ -65,7 +65,7 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   /// Whether the call is accepted, apart from the client's rights.
   virtual grpc::Status admit() { return grpc::Status::OK; }
   /// Disconnects a client that sent an invalid message.
-  virtual void refuse(const WireError& error) { disconnect({error.code(), error.what()}); }
+  virtual void refuse(const WireError& error) { disconnect(error.status()); }
   /// Called when an established client has left by itself, before left().
   virtual void hasLeft();
   /// Called once when an established session becomes gone.

@@ -122,7 +122,7 @@ void RemoteControl::claimPrimary() { members_[primaries_.primary()]->link.claim(
 void RemoteControl::send(const RemoteOrder& order) { members_[primaries_.primary()]->link.send(order); }
 
 void RemoteControl::setAutonomous(bool autonomous) {
-  members_[primaries_.primary()]->link.send({.type = RemoteType::init_ack, .autonomous = autonomous});
+  members_[primaries_.primary()]->link.send({.type = RemoteType::set_mode, .autonomous = autonomous});
 }
 
 }  // namespace robosim

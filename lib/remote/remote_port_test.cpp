@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "net/remote.grpc.pb.h"
 #include "remote/robot_link.h"
 #include "remote/testing/test_robot.h"
+#include "robosim/v1/remote_control.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -73,7 +73,7 @@ TEST_F(RemotePortTest, ADriverSteersAndEnablesTheController) {
   connect(*anna, "Anna");
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
-  anna->send({.type = RemoteType::init_ack, .autonomous = true});
+  anna->send({.type = RemoteType::set_mode, .autonomous = true});
   wait([&] { return robot.hardware->lastCommand() == Command{.turn_radps = 1}; });
   wait([&] { return anna->news().state.autonomous; });
 }
@@ -247,14 +247,14 @@ TEST_F(RemotePortTest, ReportsAWrongOrUnreachableRobot) {
 }
 
 /// Sends one message, which RobotLink might never send. @return the status of the call
-grpc::Status statusAfter(const TestRobot& robot, const wire::ControlRequest& message) {
+grpc::Status statusAfter(const TestRobot& robot, const v1::ControlRequest& message) {
   ConnectOptions connect_options;
   connect_options.address = robot.address();
-  const auto stub = wire::RemoteControl::NewStub(connect(connect_options));
+  const auto stub = v1::RemoteControl::NewStub(connect(connect_options));
   grpc::ClientContext context;
   const auto stream = stub->Control(&context);
   stream->Write(message);
-  wire::ControlResponse in;
+  v1::ControlResponse in;
   while (stream->Read(&in)) {
   }
   return stream->Finish();
@@ -262,13 +262,12 @@ grpc::Status statusAfter(const TestRobot& robot, const wire::ControlRequest& mes
 
 TEST_F(RemotePortTest, DisconnectsARemoteControlForAnInvalidMessageAndNoOther) {
   connect(*anna, "Anna");
-  wire::ControlRequest message;
-  message.set_type(wire::DRIVE);
+  v1::ControlRequest message;
+  message.mutable_drive();
   EXPECT_EQ(statusAfter(robot, message).error_message(), "the first message of a remote control must be its INIT");
-  message.set_type(static_cast<wire::RemoteType>(99));
+  message.mutable_steer();  // of an unspecified type
   EXPECT_EQ(statusAfter(robot, message).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  message.set_type(wire::INIT);
-  message.set_protocol(9);
+  message.mutable_init()->set_protocol(9);
   EXPECT_EQ(statusAfter(robot, message).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
@@ -310,7 +309,7 @@ TEST(RemotePortDeadline, EndsACallWithoutAnInit) {
   {
     const RemotePort port(options, {"maze", 7, 0.1}, {&robot});
     grpc::ClientContext context;
-    const auto stub = wire::RemoteControl::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port.port())}));
+    const auto stub = v1::RemoteControl::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port.port())}));
     const grpc::Status status = stub->Control(&context)->Finish();
     EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
     EXPECT_EQ(status.error_message(), "no INIT within 50 ms of the call; send it at once, and call again");

@@ -19,7 +19,7 @@ RobotSnapshot withoutReadings(const State& state, std::size_t i) {
 }  // namespace
 
 /// Session of one viewer.
-class ViewerSession::Stream final : public StreamSession<wire::FrameRequest, wire::Frame> {
+class ViewerSession::Stream final : public StreamSession<v1::FrameRequest, v1::Frame> {
  public:
   explicit Stream(ViewerSession& owner)
       : StreamSession(owner.serving_, {.right = Right::look, .log_kind = "refused viewers"}), owner_(owner) {}
@@ -46,7 +46,7 @@ class ViewerSession::Stream final : public StreamSession<wire::FrameRequest, wir
       sent_photos;  ///< step of the picture, by robot and sensor
 
  private:
-  ReadPolicy received(const wire::FrameRequest& message) override {
+  ReadPolicy received(const v1::FrameRequest& message) override {
     if (!isEstablished()) {
       checkProtocol(message.protocol());
       establish();
@@ -97,13 +97,14 @@ void ViewerSession::publish() {
 void ViewerSession::send(Stream& stream) {
   const RunInfo& run_info = *serving_.run_info;
   const State& state = run_info.environment.state();
-  wire::Frame& frame = stream.draft();
+  v1::Frame& frame = stream.draft();
   frame.Clear();
   if (stream.needs_world) {
-    encode(run_info.source, *frame.mutable_world());
-    frame.set_world_version(run_info.world_version);
-    frame.set_period_s(state.time.period_s);
-    frame.set_may_operate(serving_.access.check(stream.client(), Right::operate).ok());
+    v1::FrameWorld& world = *frame.mutable_world();
+    encode(run_info.source, *world.mutable_source());
+    world.set_world_version(run_info.world_version);
+    world.set_period_s(state.time.period_s);
+    world.set_may_operate(serving_.access.check(stream.client(), Right::operate).ok());
   }
   frame.set_step(state.time.step);
   frame.set_time_s(state.time.seconds());
@@ -126,19 +127,20 @@ void ViewerSession::send(Stream& stream) {
 }
 
 /// Adds the newest pictures that the viewer has not received, of the robots that it has selected by index.
-void ViewerSession::addPhotos(Stream& stream, wire::Frame& frame) const {
+void ViewerSession::addPhotos(Stream& stream, v1::Frame& frame) const {
   for (auto& view : *frame.mutable_readings()) {
-    if (!std::binary_search(stream.sent_selection.of.begin(), stream.sent_selection.of.end(), view.robot())) continue;
+    if (!std::binary_search(stream.sent_selection.of.begin(), stream.sent_selection.of.end(), view.world_robot()))
+      continue;
     for (int slot = 0; slot < view.readings().measurements_size(); ++slot) {
-      const auto* photo = camera_frames_.find(view.robot(), static_cast<std::size_t>(slot));
+      const auto* photo = camera_frames_.find(view.world_robot(), static_cast<std::size_t>(slot));
       if (!photo) continue;
-      const auto [seen, is_first] = stream.sent_photos.try_emplace({view.robot(), slot}, photo->step);
+      const auto [seen, is_first] = stream.sent_photos.try_emplace({view.world_robot(), slot}, photo->step);
       if (!is_first && seen->second == photo->step) continue;
       seen->second = photo->step;
-      view.mutable_readings()->mutable_measurements(slot)->set_jpeg(photo->jpeg);
-      auto& time = *view.add_picture_times();
-      time.set_sensor(static_cast<std::uint32_t>(slot));
-      time.set_step(photo->step);
+      v1::Measurement& measurement = *view.mutable_readings()->mutable_measurements(slot);
+      measurement.set_jpeg(photo->jpeg);
+      measurement.set_step(photo->step);
+      measurement.set_is_new(true);
     }
   }
 }

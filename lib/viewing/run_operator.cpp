@@ -63,8 +63,8 @@ void RunOperator::send(Operation operation) {
   condition_.notify_one();
 }
 
-void RunOperator::store(const wire::RunStatus& status) {
-  is_paused_ = status.phase() == wire::PAUSED;
+void RunOperator::store(const v1::RunStatus& status) {
+  is_paused_ = status.phase() == v1::RUN_PHASE_PAUSED;
   speed_ = status.speed();
 }
 
@@ -76,7 +76,7 @@ void RunOperator::work() {
     const bool is_asked = !operations_.empty();
     const Operation operation = is_asked ? operations_.front() : [](ControlPanel& panel) { return panel.status(); };
     lock.unlock();
-    std::optional<wire::RunStatus> status;
+    std::optional<v1::RunStatus> status;
     try {
       status = operation(panel_);
     } catch (const ConnectionError& error) {

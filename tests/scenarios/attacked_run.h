@@ -51,7 +51,7 @@ class AttackedRun {
   StartedProgram& server() { return serving_.program(); }
   double residentMib() { return robosim::residentMib(server().process()); }
   /// Control panel client whose connection is opened before the attack.
-  wire::RunStatus status() { return panel_->status(); }
+  v1::RunStatus status() { return panel_->status(); }
   std::uint64_t step() { return status().step(); }
   /// Takes a number of steps.
   /// @throws std::runtime_error with the logs of both programs when the run makes no progress for kMaxPolls polls

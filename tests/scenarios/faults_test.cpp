@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "control/network_hardware.h"
-#include "net/robots.grpc.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/robots.grpc.pb.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
@@ -194,30 +194,30 @@ TEST(Faults, SecondClaimOfARobotIsRefused) {
 class RawRobot {
  public:
   explicit RawRobot(const ServedWorld& world)
-      : stub_(wire::Robots::NewStub(connect(world.connectOptions()))), stream_(stub_->Drive(&context_)) {}
+      : stub_(v1::Robots::NewStub(connect(world.connectOptions()))), stream_(stub_->Drive(&context_)) {}
   void hello(const std::string& name, const std::string& world_version = "") {
-    wire::DriveRequest message;
+    v1::DriveRequest message;
     message.mutable_hello()->set_protocol(kProtocolVersion);
     message.mutable_hello()->add_names(name);
     message.mutable_hello()->set_world_version(world_version);
     send(message);
   }
-  void send(const wire::DriveRequest& message) { stream_->Write(message); }
-  wire::DriveResponse receive() {
-    wire::DriveResponse message;
+  void send(const v1::DriveRequest& message) { stream_->Write(message); }
+  v1::DriveResponse receive() {
+    v1::DriveResponse message;
     EXPECT_TRUE(stream_->Read(&message));
     return message;
   }
   grpc::Status finish() {
-    for (wire::DriveResponse message; stream_->Read(&message);) {
+    for (v1::DriveResponse message; stream_->Read(&message);) {
     }
     return stream_->Finish();
   }
 
  private:
-  std::unique_ptr<wire::Robots::Stub> stub_;
+  std::unique_ptr<v1::Robots::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> stream_;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::DriveRequest, v1::DriveResponse>> stream_;
 };
 
 TEST(Faults, CommandForAnotherRobotEndsTheConnection) {
@@ -228,12 +228,13 @@ TEST(Faults, CommandForAnotherRobotEndsTheConnection) {
   pioneer.hello("Pioneer1");
   const auto scout = startRobots({"Scout1"}, world.connectOptions().address);
   pioneer.receive();
-  wire::DriveRequest answer;
-  answer.set_step(pioneer.receive().step());
-  auto& command = *answer.add_commands();
-  command.set_robot(1);  // its process has only robot 0
-  command.set_speed_mps(1);
-  pioneer.send(answer);
+  v1::DriveRequest message;
+  v1::StepAnswer& answer = *message.mutable_answer();
+  answer.set_step(pioneer.receive().readings().step());
+  auto& order = *answer.add_commands();
+  order.set_process_robot(1);  // its process has only robot 0
+  order.mutable_command()->set_speed_mps(1);
+  pioneer.send(message);
   const grpc::Status status = pioneer.finish();
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_NE(status.error_message().find("a command for robot 1 of 1"), std::string::npos) << status.error_message();
@@ -264,8 +265,8 @@ TEST(Faults, AnswerToAnotherStepEndsTheConnection) {
   const auto scout = startRobots({"Scout1"}, world.connectOptions().address);
   pioneer.hello("Pioneer1");
   pioneer.receive();
-  wire::DriveRequest answer;
-  answer.set_step(pioneer.receive().step());
+  v1::DriveRequest answer;
+  answer.mutable_answer()->set_step(pioneer.receive().readings().step());
   pioneer.send(answer);
   pioneer.send(answer);
   Panel(world).step(2);
@@ -288,8 +289,8 @@ TEST(Faults, DelayedEnvironmentDisconnectsNoRobot) {
   }
   clock.waitForReads();
   clock.block();
-  wire::DriveRequest answer;
-  answer.set_step(0);
+  v1::DriveRequest answer;
+  answer.mutable_answer()->set_step(0);
   for (RawRobot* robot : {&pioneer, &scout}) robot->send(answer);
   clock.advance(kStepDeadline);
   std::this_thread::sleep_for(2 * ServingState::kPollInterval);  // longer than its polling period

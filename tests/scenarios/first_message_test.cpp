@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include "net/control_panel.grpc.pb.h"
-#include "net/geometry.grpc.pb.h"
-#include "net/robots.grpc.pb.h"
-#include "net/viewing.grpc.pb.h"
+#include "robosim/internal/geometry.grpc.pb.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
+#include "robosim/v1/robots.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/served_world.h"
@@ -17,37 +17,35 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// One streaming call of each kind that sends no message.
+/// One call of each kind with a stream of requests that sends no message.
 struct SilentCalls {
   explicit SilentCalls(const ConnectOptions& connect_options) {
     const auto channel = connect(connect_options);
     const auto end = [](auto& stream) { return [&stream] { return stream->Finish(); }; };
-    panel_stub = wire::ControlPanel::NewStub(channel);
-    load = panel_stub->Load(&contexts[0]);
-    watch_panel = panel_stub->Watch(&contexts[1]);
-    viewing_stub = wire::Viewing::NewStub(channel);
-    watch = viewing_stub->Watch(&contexts[2]);
-    geometry_stub = wire::Geometry::NewStub(channel);
-    work = geometry_stub->Work(&contexts[3]);
-    robots_stub = wire::Robots::NewStub(channel);
-    drive = robots_stub->Drive(&contexts[4]);
+    panel_stub = v1::ControlPanel::NewStub(channel);
+    load = panel_stub->Load(&contexts[0], &status);
+    viewing_stub = v1::Viewing::NewStub(channel);
+    watch = viewing_stub->Watch(&contexts[1]);
+    geometry_stub = internal::Geometry::NewStub(channel);
+    work = geometry_stub->Work(&contexts[2]);
+    robots_stub = v1::Robots::NewStub(channel);
+    drive = robots_stub->Drive(&contexts[3]);
     finish = {{"ControlPanel.Load", end(load)},
-              {"ControlPanel.Watch", end(watch_panel)},
               {"Viewing.Watch", end(watch)},
               {"Geometry.Work", end(work)},
               {"Robots.Drive", end(drive)}};
   }
 
-  std::array<grpc::ClientContext, 5> contexts;
-  std::unique_ptr<wire::ControlPanel::Stub> panel_stub;
-  std::unique_ptr<wire::Viewing::Stub> viewing_stub;
-  std::unique_ptr<wire::Geometry::Stub> geometry_stub;
-  std::unique_ptr<wire::Robots::Stub> robots_stub;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::WorldPiece, wire::RunStatus>> load;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::PanelRequest, wire::RunStatus>> watch_panel;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> watch;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::Sealed, wire::Sealed>> work;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> drive;
+  std::array<grpc::ClientContext, 4> contexts;
+  std::unique_ptr<v1::ControlPanel::Stub> panel_stub;
+  std::unique_ptr<v1::Viewing::Stub> viewing_stub;
+  std::unique_ptr<internal::Geometry::Stub> geometry_stub;
+  std::unique_ptr<v1::Robots::Stub> robots_stub;
+  v1::RunStatus status;
+  std::unique_ptr<grpc::ClientWriter<v1::LoadRequest>> load;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::FrameRequest, v1::Frame>> watch;
+  std::unique_ptr<grpc::ClientReaderWriter<internal::Sealed, internal::Sealed>> work;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::DriveRequest, v1::DriveResponse>> drive;
   std::vector<std::pair<const char*, std::function<grpc::Status()>>> finish;  ///< waits for the end of each call
 };
 
@@ -74,7 +72,7 @@ TEST(FirstMessage, HasADeadlineOfTenSecondsInEveryKindOfCall) {
     EXPECT_EQ(status.error_message(), "no first message within 10000 ms of the call; send it at once, and call again")
         << kind;
   }
-  EXPECT_EQ(countOf("no first message", world.log()), 5u) << world.log();
+  EXPECT_EQ(countOf("no first message", world.log()), 4u) << world.log();
 }
 
 TEST(RefusedCalls, AreLoggedForEveryKindOfCall) {
@@ -90,7 +88,7 @@ TEST(RefusedCalls, AreLoggedForEveryKindOfCall) {
        {"control panel ipv4:127.0.0.1:", "viewer ipv4:127.0.0.1:", "geometry worker ipv4:127.0.0.1:"}) {
     EXPECT_GT(countOf(who, log), 0u) << who << "\n" << log;
   }
-  EXPECT_EQ(countOf("requires a token", log), 5u) << log;
+  EXPECT_EQ(countOf("requires a token", log), 4u) << log;
 }
 
 }  // namespace

@@ -18,22 +18,19 @@ using namespace std::chrono_literals;
 class HeldLoad {
  public:
   explicit HeldLoad(const ServedWorld& world)
-      : stub_(wire::ControlPanel::NewStub(connect(world.connectOptions()))), stream_(stub_->Load(&context_)) {
-    wire::WorldPiece piece;
+      : stub_(v1::ControlPanel::NewStub(connect(world.connectOptions()))), stream_(stub_->Load(&context_, &status_)) {
+    v1::LoadRequest piece;
     piece.set_protocol(kProtocolVersion);
     piece.set_piece("x");
     stream_->Write(piece);
   }
-  grpc::Status howItEnds() {
-    for (wire::RunStatus status; stream_->Read(&status);) {
-    }
-    return stream_->Finish();
-  }
+  grpc::Status howItEnds() { return stream_->Finish(); }
 
  private:
-  std::unique_ptr<wire::ControlPanel::Stub> stub_;
+  std::unique_ptr<v1::ControlPanel::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::WorldPiece, wire::RunStatus>> stream_;
+  v1::RunStatus status_;
+  std::unique_ptr<grpc::ClientWriter<v1::LoadRequest>> stream_;
 };
 
 /// Status of a load that does not replace the world.

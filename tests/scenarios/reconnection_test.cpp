@@ -7,7 +7,7 @@
 
 #include "control/network_hardware.h"
 #include "net/robot_wire.h"
-#include "net/robots.grpc.pb.h"
+#include "robosim/v1/robots.grpc.pb.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
@@ -120,8 +120,8 @@ TEST(Reconnection, ResendsTheAnswerToTheCurrentStep) {
 /// A connection of a process that drives Scout1.
 struct BareProcess {
   BareProcess(const ServedWorld& world, const std::string& process, const std::string& run)
-      : stub(wire::Robots::NewStub(connect(world.connectOptions()))), stream(stub->Drive(&context)) {
-    wire::DriveRequest first;
+      : stub(v1::Robots::NewStub(connect(world.connectOptions()))), stream(stub->Drive(&context)) {
+    v1::DriveRequest first;
     first.mutable_hello()->set_protocol(kProtocolVersion);
     first.mutable_hello()->add_names("Scout1");
     first.mutable_hello()->set_process(process);
@@ -132,9 +132,9 @@ struct BareProcess {
   ~BareProcess() { context.TryCancel(); }
 
   grpc::ClientContext context;
-  std::unique_ptr<wire::Robots::Stub> stub;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> stream;
-  wire::DriveResponse welcome;
+  std::unique_ptr<v1::Robots::Stub> stub;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::DriveRequest, v1::DriveResponse>> stream;
+  v1::DriveResponse welcome;
   bool is_welcome = false;
 };
 

@@ -255,20 +255,20 @@ TEST(View, PausesAndStepsARunForOperatorsOnly) {
     RunWindow window(world, watcher, screen);
     window.press("space");
     EXPECT_EQ(window.quit().exit_code, 0);
-    EXPECT_EQ(panel.status().phase(), wire::RUNNING);
+    EXPECT_EQ(panel.status().phase(), v1::RUN_PHASE_RUNNING);
   }
   RunWindow window(world, master, screen);
   window.press("space");
-  while (window.isOpen() && panel.status().phase() != wire::PAUSED) {
+  while (window.isOpen() && panel.status().phase() != v1::RUN_PHASE_PAUSED) {
   }
   const auto step = panel.status().step();
   window.press("s");
   while (window.isOpen() && panel.status().step() == step) {
   }
   EXPECT_EQ(panel.status().step(), step + 1);
-  EXPECT_EQ(panel.status().phase(), wire::PAUSED);
+  EXPECT_EQ(panel.status().phase(), v1::RUN_PHASE_PAUSED);
   window.press("space");
-  while (window.isOpen() && panel.status().phase() != wire::RUNNING) {
+  while (window.isOpen() && panel.status().phase() != v1::RUN_PHASE_RUNNING) {
   }
   EXPECT_EQ(window.quit().exit_code, 0);
 }
