@@ -139,7 +139,8 @@ TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) {
       "robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address, "--reconnect-timeout", "600"};
   StartedProgram stale(words);
   first->program().waitForError("all robots are here");
-  first.reset();  // killed, as on a restart of its machine
+  EXPECT_EQ(runProgram("control " + address + " step 2").exit_code, 0);  // the robots have received the welcome
+  first.reset();                                                         // killed, as on a restart of its machine
 
   StartedProgram next(
       {"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20"});
