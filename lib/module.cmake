@@ -43,7 +43,7 @@ function(robosim_module name)
       COMMAND ${CMAKE_COMMAND} -DLIBRARY=$<TARGET_FILE:${target}> -DNM=${CMAKE_NM}
               -P ${PROJECT_SOURCE_DIR}/lib/check_portable.cmake)
   endif()
-  if(tests)
+  if(tests AND (ROBOSIM_RUNS_SANITIZED_TESTS OR name IN_LIST ROBOSIM_MODULES_TESTED_TWICE))
     add_executable(${target}_test ${tests})
     target_link_libraries(${target}_test PRIVATE ${target} GTest::gtest GTest::gtest_main)
     foreach(module ${name} ${MODULE_USES})

@@ -2,14 +2,14 @@
 
     /usr/bin/python3 drive.py HOST:PORT NAME
 
-It requires the modules in `net` described in doc/examples/python_robot/README.md; make.sh generates them.
+It requires the modules in `robosim` described in doc/examples/python_robot/README.md; make.sh generates them.
 """
 import queue
 import sys
 
 import grpc
-from net import robots_pb2 as wire
-from net import robots_pb2_grpc
+from robosim.v1 import robots_pb2 as v1
+from robosim.v1 import robots_pb2_grpc
 
 # Steps of 0.1 s, speed [m/s], turn [rad/s]: past the red crate, north along the east wall, to the gold.
 PLAN = [(10, 0, 0), (75, 0.5, 0), (20, 0, 0.8), (25, 0.4, 0), (15, 0, 0.5), (28, 0.2, 0), (15, 0, 0)]
@@ -18,19 +18,19 @@ PLAN = [(10, 0, 0), (75, 0.5, 0), (20, 0, 0.8), (25, 0.4, 0), (15, 0, 0.5), (28,
 def commands():
     for steps, speed_mps, turn_radps in PLAN:
         for _ in range(steps):
-            yield wire.RobotCommand(robot=0, speed_mps=speed_mps, turn_radps=turn_radps, by_driver=True)
+            yield v1.Command(speed_mps=speed_mps, turn_radps=turn_radps, by_driver=True)
 
 
 def drive(address, name):
-    answers = queue.SimpleQueue()
-    answers.put(wire.DriveRequest(hello=wire.RobotsHello(protocol=1, names=[name])))
+    requests = queue.SimpleQueue()
+    requests.put(v1.DriveRequest(hello=v1.RobotsHello(protocol=1, names=[name])))
     plan = commands()
     with grpc.insecure_channel(address) as channel:
-        stream = robots_pb2_grpc.RobotsStub(channel).Drive(iter(answers.get, None))
+        stream = robots_pb2_grpc.RobotsStub(channel).Drive(iter(requests.get, None))
         next(stream)  # the welcome
-        for message in stream:
-            command = next(plan, wire.RobotCommand(robot=0, by_driver=True))
-            answers.put(wire.DriveRequest(step=message.step, commands=[command]))
+        for response in stream:
+            command = v1.RobotCommand(process_robot=0, command=next(plan, v1.Command(by_driver=True)))
+            requests.put(v1.DriveRequest(answer=v1.StepAnswer(step=response.readings.step, commands=[command])))
 
 
 if __name__ == "__main__":

@@ -91,8 +91,8 @@ void checkEdge(const World& world, const Fleet& fleet, Checked& checked) {
   checked.open_edge_m = free.openEdge(starts.empty() ? free.largestRegion() : free.reachableFrom(starts));
   if (checked.open_edge_m == 0) return;
   checked.warnings.push_back("robots can reach " + fixed(checked.open_edge_m, 1) +
-                             " m of the surface's edge, where no wall stands: the edge stops them, and no sensor but a "
-                             "bumper and a stall notices it; close it with walls if that is not meant");
+                             " m of the surface's edge, where no wall stands: the edge stops them, and only "
+                             "bumpers and stalls report it; close it with walls if that is not intended");
 }
 
 std::string describe(const FloorPlan& plan) {

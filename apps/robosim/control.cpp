@@ -23,28 +23,42 @@ struct ControlArguments {
   double period_s = 1;
 };
 
-const char* wordFor(wire::RunPhase phase) {
+const char* wordFor(v1::RunPhase phase) {
   switch (phase) {
-    case wire::WAITING:
+    case v1::RUN_PHASE_WAITING:
       return "waits for robots";
-    case wire::PAUSED:
+    case v1::RUN_PHASE_PAUSED:
       return "paused";
-    case wire::RUNNING:
+    case v1::RUN_PHASE_RUNNING:
       return "running";
-    case wire::ENDED:
+    case v1::RUN_PHASE_ENDED:
       return "ended";
     default:
       return "unknown state";
   }
 }
 
-std::string lineOn(const wire::RunStatus& status) {
+/// Value of --on-lost-robot.
+const char* wordFor(v1::LostRobotPolicy policy) {
+  switch (policy) {
+    case v1::LOST_ROBOT_POLICY_WAIT:
+      return "wait";
+    case v1::LOST_ROBOT_POLICY_CONTINUE:
+      return "continue";
+    case v1::LOST_ROBOT_POLICY_FAIL:
+      return "fail";
+    default:
+      return "unknown";
+  }
+}
+
+std::string lineOn(const v1::RunStatus& status) {
   return "step " + withCommas(status.step()) + " (" + fixed(status.time_s(), 1) + " s): " + wordFor(status.phase()) +
          ", " + withCommas(static_cast<std::uint64_t>(status.steps_per_s())) + " steps/s, " +
          withCommas(status.robots_active()) + " of " + withCommas(status.robots()) + " robots active";
 }
 
-std::string pageOn(const wire::RunStatus& status) {
+std::string pageOn(const v1::RunStatus& status) {
   std::string robots = withCommas(status.robots()) + ", of which " + withCommas(status.robots_active()) +
                        " are active and " + withCommas(status.robots_connected()) + " in other processes";
   const std::vector<std::string> absent(status.robots_absent().begin(), status.robots_absent().end());
@@ -60,13 +74,15 @@ std::string pageOn(const wire::RunStatus& status) {
   for (const auto& robot : status.lost_robots()) {
     rows.push_back({"lost", robot.name() + ", " + withCommas(robot.times()) + " times, " +
                                 (robot.is_lost() ? "not back" : "back") + "; " + withCommas(robot.steps_missed()) +
-                                " steps were taken without it (--on-lost-robot " + status.on_lost_robot() + ")"});
+                                " steps were taken without it (--on-lost-robot " + wordFor(status.on_lost_robot()) +
+                                ")"});
   }
   if (status.messages_lost() > 0) {
     rows.push_back({"lost", withCommas(status.messages_lost()) + " messages between robots"});
   }
   if (!status.winner().empty()) rows.push_back({"winner", status.winner()});
-  if (status.late() > 0) rows.push_back({"late", withCommas(status.late()) + " commands (robots × steps)"});
+  if (status.late_commands() > 0)
+    rows.push_back({"late", withCommas(status.late_commands()) + " commands (robots × steps)"});
   rows.push_back({"viewers", withCommas(status.viewers())});
   rows.push_back({"geometry", withCommas(status.geometry_workers()) + " workers" +
                                   (status.geometry_workers_rejected() == 0
@@ -76,7 +92,7 @@ std::string pageOn(const wire::RunStatus& status) {
   return listing(rows);
 }
 
-void showLine(const wire::RunStatus& status) { std::cout << lineOn(status) << std::endl; }
+void showLine(const v1::RunStatus& status) { std::cout << lineOn(status) << std::endl; }
 
 void showStatus(const ControlArguments& a) {
   ControlPanel panel(a.connection.connectOptions());
@@ -103,7 +119,7 @@ void addControl(CLI::App& program) {
     command->callback(act);
     return command;
   };
-  using Act = std::function<wire::RunStatus(ControlPanel&)>;
+  using Act = std::function<v1::RunStatus(ControlPanel&)>;
   const auto add_call = [&](const char* name, const char* help, const Act& act) {
     return add(name, help, [a, act] {
       ControlPanel panel(a->connection.connectOptions());

@@ -2,6 +2,7 @@
 // so that --help, --version and errors appear at once.
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -14,13 +15,19 @@
 namespace robosim {
 namespace {
 
-/// Replaces this process by the executable in the folder of this one.
+/// Replaces this process by another executable: beside it in a build tree, in ../libexec/robosim when installed.
 int start(const char* part, char** argv) {
   try {
-    const auto file = programFolder() / part;
+    const auto folder = programFolder();
+    const auto beside = folder / part;
+    const auto installed = folder.parent_path() / "libexec" / "robosim" / part;
+    std::error_code none;
+    const auto file = std::filesystem::exists(beside, none) ? beside : installed;
     execv(file.c_str(), argv);
-    std::cerr << "robosim: cannot start " << file.string() << ": " << std::strerror(errno)
-              << "; install RoboSim again\n";
+    const int error = errno;
+    std::cerr << "robosim: cannot start " << file.string() << ": " << std::strerror(error);
+    if (error == ENOENT) std::cerr << "; there is no " << beside.string() << " either";
+    std::cerr << "; install RoboSim again\n";
   } catch (const std::exception& error) {
     std::cerr << "robosim: " << error.what() << '\n';
   }

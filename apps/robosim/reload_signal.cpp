@@ -5,20 +5,20 @@
 namespace robosim {
 namespace {
 
-volatile std::sig_atomic_t reload_asked = 0;
+volatile std::sig_atomic_t reload_requested = 0;
 
 }  // namespace
 
 void catchReloadSignal() {
   struct sigaction action {};
-  action.sa_handler = [](int) { reload_asked = 1; };
+  action.sa_handler = [](int) { reload_requested = 1; };
   action.sa_flags = SA_RESTART;
   sigaction(SIGHUP, &action, nullptr);
 }
 
 bool isReloadAsked() {
-  if (reload_asked == 0) return false;
-  reload_asked = 0;
+  if (reload_requested == 0) return false;
+  reload_requested = 0;
   return true;
 }
 

@@ -61,7 +61,7 @@ void openConsole(const RemoteArguments& arguments) {
   if (!arguments.listener.unprotected) {
     checkExposure("--listen", options.listen, options.tls.has_value(), !options.access.isOpen());
   }
-  options.control.dial = connect_options;
+  options.control.connect_options = connect_options;
   options.map = &map;
   options.log = log;
   Console console(options, team);
@@ -74,7 +74,7 @@ void openJoystick(const RemoteArguments& arguments) {
   const Interrupt interrupt;
   RemoteControl::Options options;
   options.driver = "the joystick";
-  options.dial = arguments.connection.connectOptions();
+  options.connect_options = arguments.connection.connectOptions();
   RemoteControl control(readTeam(arguments.robots), options);
   driveByJoystick(
       control, *arguments.joystick, [&] { return interrupt.isRequested(); }, log);

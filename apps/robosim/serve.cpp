@@ -50,6 +50,7 @@ struct ServeArguments {
   std::string on_lost_robot;  ///< empty: default according to the pace
   double step_deadline_s = 1;
   bool paused = false;
+  StandardServices standard_services;
   ListenerArguments listener;
 };
 
@@ -198,11 +199,12 @@ ServerOptions serverOptions(const ServeArguments& arguments) {
   options.on_lost_robot = lostRobotPolicy(arguments);
   options.speed = speedNumber(arguments.of_run.speed);
   options.is_paused = arguments.paused;
+  options.standard_services = arguments.standard_services;
   return options;
 }
 
-/// Prints the listening address, for scripts and for ports chosen by the system.
-void tellPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
+/// Logs the listening addresses, for scripts and for ports chosen by the system.
+void logPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
   constexpr const char* clients[] = {"viewers", "robots", "geometry workers", "control panels"};
   const auto addresses = options.listen.all();
   const auto at = [&](std::size_t i) { return withPort(addresses[i], ports[i]); };
@@ -221,7 +223,7 @@ void serveWorld(const ServeArguments& arguments) {
   const ServerOptions options = serverOptions(arguments);
   WorldRun run(arguments);
   EnvironmentServer server(options, run.runInfo());
-  tellPorts(options, server.ports());
+  logPorts(options, server.ports());
   Served how = Served::interrupted;
   try {
     how = server.serve(run, [&] { return interrupt.isRequested(); });
@@ -270,6 +272,10 @@ void addServe(CLI::App& program) {
       ->type_name("FRACTION")
       ->capture_default_str();
   command->add_flag("--paused", a->paused, "start paused, until a control panel sends start");
+  command->add_flag("--health", a->standard_services.health,
+                    "answer gRPC's health checks on every port, for every client, without a token");
+  command->add_flag("--reflection", a->standard_services.reflection,
+                    "describe the protocol to gRPC tools on every port, for every client, without a token");
   addListenerOptions(*command, a->listener);
   command->footer(std::string(kServeSession) + "\n" + controllersHelp());
   command->callback([a] { serveWorld(*a); });

@@ -4,11 +4,12 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "base/data_folders.h"
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "rendering/offscreen_renderer.h"
-#include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
+#include "robosim_bench/min_time.h"
 #include "robosim_bench/rounds.h"
 #include "run/local_run.h"
 
@@ -29,8 +30,7 @@ struct CameraArguments {
   bool json = false;
 };
 
-/// The world's path; the folder of the robot types shipped with RoboSim is next to it.
-std::string standardWorld() { return (robotTypeFolders({}).back().parent_path() / "opho2_1.xml").string(); }
+std::string standardWorld() { return (shareFolder() / "worlds" / "opho2_1.xml").string(); }
 
 /// Per robot: takes a picture, turns slightly, takes another: rendering, readback and compression.
 class Photographers {
@@ -103,11 +103,7 @@ void addCameraBenchmark(CLI::App& program) {
   auto* command = program.add_subcommand("camera", "Measure the frame rate of robot cameras");
   auto a = std::make_shared<CameraArguments>();
   command->add_option("WORLD", a->world, "world file; default: the shipped opho2_1.xml")->type_name("FILE");
-  auto* min_time = command->add_option("--min-time", a->min_s, "minimum measuring time of each size, seconds")
-                       ->check(numberIn(1e-6, 3600))
-                       ->type_name("SECONDS")
-                       ->capture_default_str();
-  acceptFormerName(*command, *min_time, "--at-least");
+  addMinTime(*command, "each size", a->min_s);
   command->add_flag("--json", a->json, "print one JSON object per line");
   command->footer(
       "Each robot of the world takes JPEG pictures in all directions from its start. CPU time is that of all\n"

@@ -10,7 +10,7 @@
 
 #include <embree3/rtcore.h>
 
-#include "geometry/vector_width.h"
+#include "base/vector_width.h"
 #include "robosim_bench/ray_caster.h"
 
 #ifdef __SSE2__

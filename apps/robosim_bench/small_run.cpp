@@ -1,5 +1,6 @@
 #include "robosim_bench/small_run.h"
 
+#include "base/data_folders.h"
 #include "base/temporary_directory.h"
 #include "recording/rawlog_writer.h"
 #include "robosim_bench/process.h"
@@ -8,8 +9,7 @@
 namespace robosim {
 namespace {
 
-/// The world's path; the folder of the robot types shipped with RoboSim is next to it.
-std::filesystem::path worldFile() { return robotTypeFolders({}).back().parent_path() / "opho2_1.xml"; }
+std::filesystem::path worldFile() { return shareFolder() / "worlds" / "opho2_1.xml"; }
 
 /// The run, repeated.
 class SmallRun {

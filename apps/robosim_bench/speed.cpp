@@ -8,9 +8,10 @@
 #include "base/interrupt.h"
 #include "base/progress.h"
 #include "base/text_table.h"
-#include "geometry/vector_width.h"
+#include "base/vector_width.h"
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
+#include "robosim_bench/min_time.h"
 #include "robosim_bench/process.h"
 #include "robosim_bench/tables.h"
 #include "robosim_bench/targets.h"
@@ -180,11 +181,7 @@ void addSpeedBenchmark(CLI::App& program) {
   command->add_option("--vectors", a->vectors, "width of RoboSim's vectors: sse2, avx2 or avx512; default: the widest")
       ->check(CLI::IsMember(vectorWidthNames()));
   command->add_option("--seed", a->seed, "seed of the worlds")->check(seedNumber())->capture_default_str();
-  auto* min_time = command->add_option("--min-time", a->min_s, "minimum measuring time of each, seconds")
-                       ->check(numberIn(1e-6, 3600))
-                       ->type_name("SECONDS")
-                       ->capture_default_str();
-  acceptFormerName(*command, *min_time, "--at-least");
+  addMinTime(*command, "each", a->min_s);
   command->footer("Workloads:\n" + listing(rows) +
                   "Without --robots, --workload, --threads and --json all figures for the speed targets are measured,\n"
                   "including 100,000 robots and two threads, and the targets are evaluated (doc/performance.md).");

@@ -7,6 +7,7 @@
 #include "base/text_table.h"
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
+#include "robosim_bench/min_time.h"
 #include "robosim_bench/rounds.h"
 #include "robosim_bench/workloads.h"
 #include "run/local_run.h"
@@ -107,11 +108,7 @@ void addViewBenchmark(CLI::App& program) {
       ->check(wholeNumberIn(1, 1000000))
       ->type_name("NUMBER")
       ->capture_default_str();
-  auto* min_time = command->add_option("--min-time", a->min_s, "minimum measuring time of each view, seconds")
-                       ->check(numberIn(1e-6, 3600))
-                       ->type_name("SECONDS")
-                       ->capture_default_str();
-  acceptFormerName(*command, *min_time, "--at-least");
+  addMinTime(*command, "each view", a->min_s);
   command->add_flag("--json", a->json, "print one JSON object per line");
   command->footer(
       "The robots run 'wander' with 16 sonars each; a frame has 1280 × 800 pixels and shows the next step. The time\n"

@@ -58,14 +58,13 @@ void write(const std::filesystem::path& file, const std::string& text) {
 /// Random free places for robots (rejection sampling).
 class Places {
  public:
-  Places(const World& world, std::size_t robots, double radius_m)
-      : scene_(solidsOf(world), robots, world.bounds), radius_m_(radius_m) {}
+  Places(const World& world, double radius_m) : scene_(solidsOf(world), 0, world.bounds), radius_m_(radius_m) {}
 
   bool isFree(const mrpt::math::TPoint2D& p) const {
     const double reach_m = 3 * radius_m_;
     const Bounds2D around{p.x - reach_m, p.x + reach_m, p.y - reach_m, p.y + reach_m};
     std::vector<BodyId> near;
-    scene_.stationaryNear(around, near);
+    scene_.findBodies(around, near);
     for (const auto body : near) {
       if (distance(scene_.solid(body).outline, p) < 1.2 * radius_m_) return false;
     }
@@ -110,7 +109,7 @@ World makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed
     if (i % 4 == 0) addObject(world, {.shape = Cube{4 * scale, 0.1 * scale}, .world_from_body = somewhere()});
   }
 
-  const Places places(world, robots, scale * kRadius_m);
+  const Places places(world, scale * kRadius_m);
   // One robot starts in each square of a grid (4 m at scale 1), so that no two robots touch.
   const auto columns = static_cast<std::size_t>(std::ceil(2 * half_m / (4 * scale)));
   const double pitch_m = 2 * half_m / static_cast<double>(columns);

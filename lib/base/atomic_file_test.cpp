@@ -68,6 +68,15 @@ TEST_F(AtomicFileTest, FollowsLinks) {
   EXPECT_EQ(textOf(folder_ / "real.txt"), "after");
 }
 
+TEST_F(AtomicFileTest, DoesNotFollowALinkInPlaceOfItsPart) {
+  const fs::path file = folder_ / "a.txt", other = folder_ / "other.txt";
+  std::ofstream(other) << "kept";
+  fs::create_symlink("other.txt", file.string() + ".part");
+  EXPECT_EQ(errorOf([&] { AtomicFile{file}; }),
+            file.string() + ": cannot be created: Too many levels of symbolic links; choose another file");
+  EXPECT_EQ(textOf(other), "kept");
+}
+
 TEST_F(AtomicFileTest, ReportsWhyAFileCannotBeCreated) {
   const std::string here = folder_.string();
   EXPECT_EQ(errorOf([&] { checkWritable(folder_); }), here + ": is a folder; name a file in it");

@@ -106,6 +106,13 @@ TEST(Rng, StreamsWithDifferentArgumentsAreIndependent) {
   EXPECT_NEAR(correlation(one, drawn(Rng(1, RandomPurpose::sensor_noise, 2, 3, 5))), 0, bound);
 }
 
+TEST(Rng, StreamsOfTwoPurposesDifferForEveryItem) {
+  const auto of_no_item = Rng(1, RandomPurpose::message_loss, 2)();
+  for (int bit = 0; bit < 24; ++bit) {
+    EXPECT_NE(Rng(1, RandomPurpose::sensor_noise, 2, std::uint32_t{1} << bit)(), of_no_item) << bit;
+  }
+}
+
 TEST(Rng, FirstNumbersOfConsecutiveStepsAreIndependent) {
   // As for sensor noise: one number per step.
   constexpr int n = 20000;

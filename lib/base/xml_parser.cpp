@@ -173,9 +173,9 @@ class Document {
       case XML_ERROR_TAG_MISMATCH:
         return withFix("an element is closed by another's tag, or not at all (was the file cut off?)");
       case XML_ERROR_MISPLACED_XML_PI:
-        return "<?xml …?> must be the first there is in the file; take out what stands before it";
+        return "<?xml …?> must be at the start of the file; remove what precedes it";
       case XML_ERROR_UNDEFINED_ENTITY:
-        return quotable(rest.substr(0, rest.find(';'))) + "; stands for nothing; write the letter itself";
+        return quotable(rest.substr(0, rest.find(';'))) + "; stands for nothing; write the character itself";
       case XML_ERROR_UNKNOWN_ENCODING:
       case XML_ERROR_INCORRECT_ENCODING:
         return "the encoding that the file names is not known, or not that of the file; save it as UTF-8";
@@ -190,7 +190,7 @@ class Document {
           return "the control character " + printableText(rest.substr(0, 1)) + " is not allowed in XML; take it out";
         }
         if (!rest.empty() && static_cast<unsigned char>(rest[0]) >= 0x80) {
-          return "a letter is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8";
+          return "a character is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8";
         }
         if (before.ends_with('&') || rest.starts_with('&')) return "an & that is meant as such is written &amp; in XML";
         const auto tag = before.find_last_of("<>");

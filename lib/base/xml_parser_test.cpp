@@ -67,7 +67,7 @@ TEST(XmlParser, RejectsInvalidXmlWithTheLine) {
   EXPECT_EQ(errorOf("<a/>\nhello"),
             "a.xml:2: this is not XML, or the file was cut off; fix the file here or just before");
   EXPECT_EQ(errorOf("\n<?xml version='1.0'?><a/>"),
-            "a.xml:2: <?xml …?> must be the first there is in the file; take out what stands before it");
+            "a.xml:2: <?xml …?> must be at the start of the file; remove what precedes it");
   EXPECT_EQ(errorOf("<a>\n<!-- b"), "a.xml:2: a comment is not closed by -->; fix the file here or just before");
 }
 
@@ -117,7 +117,7 @@ TEST(XmlParser, DecodesTheDeclaredEncoding) {
   EXPECT_EQ(parseXml("<?xml version='1.0' encoding='windows-1250'?><a>Pr\xF9zkumn\xEDk</a>", "").text, "Průzkumník");
   EXPECT_EQ(
       errorOf("<a>\nM\xFCnchen</a>"),
-      "a.xml:2: a letter is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8");
+      "a.xml:2: a character is not in the file's encoding, which is UTF-8 unless it names another; save it as UTF-8");
   for (const char* unknown : {"klingon", "Shift_JIS", "ISO-8859-99"}) {
     EXPECT_EQ(errorOf("<?xml version='1.0' encoding='" + std::string(unknown) + "'?>\n<a/>"),
               "a.xml:1: the encoding that the file names is not known, or not that of the file; save it as UTF-8")
@@ -128,7 +128,7 @@ TEST(XmlParser, DecodesTheDeclaredEncoding) {
 TEST(XmlParser, ExplainsHowToWriteAnAmpersand) {
   EXPECT_EQ(errorOf("<a>\nthis & that</a>"), "a.xml:2: an & that is meant as such is written &amp; in XML");
   EXPECT_EQ(errorOf("<a>\n<b x='this & that'/></a>"), "a.xml:2: an & that is meant as such is written &amp; in XML");
-  EXPECT_EQ(errorOf("<a>\nthis&nbsp;that</a>"), "a.xml:2: &nbsp; stands for nothing; write the letter itself");
+  EXPECT_EQ(errorOf("<a>\nthis&nbsp;that</a>"), "a.xml:2: &nbsp; stands for nothing; write the character itself");
 }
 
 }  // namespace

@@ -1,9 +1,7 @@
 #include "client/control_panel.h"
 
 #include <string>
-#include <thread>
 
-#include "net/client_stream.h"
 #include "net/wire_error.h"
 #include "server/world_wire.h"
 
@@ -16,13 +14,13 @@ constexpr std::size_t kPieceBytes = 1 << 20;
 }  // namespace
 
 ControlPanel::ControlPanel(const ConnectOptions& connect_options)
-    : connect_options_(connect_options), stub_(wire::ControlPanel::NewStub(connect(connect_options))) {}
+    : connect_options_(connect_options), stub_(v1::ControlPanel::NewStub(connect(connect_options))) {}
 
 template <typename Method, typename Request>
-wire::RunStatus ControlPanel::call(Method method, Request request) {
+v1::RunStatus ControlPanel::call(Method method, Request request) {
   ClientCall call(connect_options_, cancellation_);
   request.set_protocol(kProtocolVersion);
-  wire::RunStatus status;
+  v1::RunStatus status;
   check((stub_.get()->*method)(&call.context, request, &status));
   return status;
 }
@@ -31,58 +29,50 @@ void ControlPanel::check(const grpc::Status& status) const {
   if (!status.ok()) throw ConnectionError(status, connect_options_);
 }
 
-wire::RunStatus ControlPanel::start() { return call(&wire::ControlPanel::Stub::Start, wire::PanelRequest()); }
-wire::RunStatus ControlPanel::pause() { return call(&wire::ControlPanel::Stub::Pause, wire::PanelRequest()); }
-wire::RunStatus ControlPanel::stop() { return call(&wire::ControlPanel::Stub::Stop, wire::PanelRequest()); }
-wire::RunStatus ControlPanel::status() { return call(&wire::ControlPanel::Stub::Status, wire::PanelRequest()); }
+v1::RunStatus ControlPanel::start() { return call(&v1::ControlPanel::Stub::Start, v1::StartRequest()); }
+v1::RunStatus ControlPanel::pause() { return call(&v1::ControlPanel::Stub::Pause, v1::PauseRequest()); }
+v1::RunStatus ControlPanel::stop() { return call(&v1::ControlPanel::Stub::Stop, v1::StopRequest()); }
+v1::RunStatus ControlPanel::status() { return call(&v1::ControlPanel::Stub::GetStatus, v1::GetStatusRequest()); }
 
-wire::RunStatus ControlPanel::step(std::uint64_t steps) {
-  wire::StepRequest request;
+v1::RunStatus ControlPanel::step(std::uint64_t steps) {
+  v1::StepRequest request;
   request.set_steps(steps);
-  return call(&wire::ControlPanel::Stub::Step, request);
+  return call(&v1::ControlPanel::Stub::Step, request);
 }
 
-wire::RunStatus ControlPanel::setSpeed(double speed) {
-  wire::SpeedRequest request;
+v1::RunStatus ControlPanel::setSpeed(double speed) {
+  v1::SetSpeedRequest request;
   request.set_speed(speed);
-  return call(&wire::ControlPanel::Stub::SetSpeed, request);
+  return call(&v1::ControlPanel::Stub::SetSpeed, request);
 }
 
-wire::RunStatus ControlPanel::load(const WorldSource& world) {
-  wire::WorldSource message;
+v1::RunStatus ControlPanel::load(const WorldSource& world) {
+  v1::WorldSource message;
   encode(world, message);
   const std::string bytes = message.SerializeAsString();
-  ClientStream<wire::WorldPiece, wire::RunStatus> stream(
-      connect_options_, cancellation_, [this](auto... arguments) { return stub_->AsyncLoad(arguments...); });
-  stream.open();
-  wire::WorldPiece piece;
-  piece.set_protocol(kProtocolVersion);
+  ClientCall call(connect_options_, cancellation_);
+  v1::RunStatus status;
+  const auto stream = stub_->Load(&call.context, &status);
+  v1::LoadRequest request;
+  request.set_protocol(kProtocolVersion);
   for (std::size_t at = 0; at < bytes.size(); at += kPieceBytes) {
-    piece.set_piece(bytes.substr(at, kPieceBytes));
-    if (!stream.write(piece)) break;  // finish() returns the reason
+    request.set_piece(bytes.substr(at, kPieceBytes));
+    if (!stream->Write(request)) break;  // Finish() returns the reason
   }
-  stream.writesDone();
-  wire::RunStatus status;
-  while (stream.read(status)) {
-  }
-  stream.finishOrThrow();
+  stream->WritesDone();
+  check(stream->Finish());
   return status;
 }
 
-void ControlPanel::watch(std::chrono::duration<double> period,
-                         const std::function<void(const wire::RunStatus&)>& on_status) {
-  ClientStream<wire::PanelRequest, wire::RunStatus> stream(
-      connect_options_, cancellation_, [this](auto... arguments) { return stub_->AsyncWatch(arguments...); });
-  stream.open();
-  wire::PanelRequest request;
+void ControlPanel::watch(std::chrono::duration<double> min_interval,
+                         const std::function<void(const v1::RunStatus&)>& on_status) {
+  ClientCall call(connect_options_, cancellation_);
+  v1::WatchRequest request;
   request.set_protocol(kProtocolVersion);
-  wire::RunStatus status;
-  while (stream.write(request) && stream.read(status)) {
-    on_status(status);
-    std::this_thread::sleep_for(period);
-  }
-  while (stream.read(status)) on_status(status);  // the final status
-  stream.finishOrThrow();
+  request.set_min_interval_s(min_interval.count());
+  const auto stream = stub_->Watch(&call.context, request);
+  for (v1::RunStatus status; stream->Read(&status);) on_status(status);
+  check(stream->Finish());
 }
 
 }  // namespace robosim

@@ -6,7 +6,7 @@
 
 #include "net/client_call.h"
 #include "net/connect.h"
-#include "net/control_panel.grpc.pb.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
 #include "robots/world_source.h"
 
 namespace robosim {
@@ -20,28 +20,29 @@ class ControlPanel {
   ControlPanel(const ControlPanel&) = delete;
   ControlPanel& operator=(const ControlPanel&) = delete;
 
-  wire::RunStatus start();
-  wire::RunStatus pause();
-  wire::RunStatus step(std::uint64_t steps);  ///< takes `steps` steps, then pauses; returns after the last step
-  wire::RunStatus setSpeed(double speed);     ///< simulated seconds per second; 0: unlimited
+  v1::RunStatus start();
+  v1::RunStatus pause();
+  v1::RunStatus step(std::uint64_t steps);  ///< takes `steps` steps, then pauses; returns after the last step
+  v1::RunStatus setSpeed(double speed);     ///< simulated seconds per second; 0: unlimited
   /// Ends the run, and starts another with this world, paused.
-  wire::RunStatus load(const WorldSource& world);
-  wire::RunStatus stop();
-  wire::RunStatus status();
+  v1::RunStatus load(const WorldSource& world);
+  v1::RunStatus stop();
+  v1::RunStatus status();
 
-  /// Calls `on_status` with the current status once per `period`, until the run is over.
-  void watch(std::chrono::duration<double> period, const std::function<void(const wire::RunStatus&)>& on_status);
+  /// Calls `on_status` with the current status at once, then repeatedly, at least `min_interval` apart ([0, 3600] s;
+  /// 50 ms if it is less), and with the last status when the run is over.
+  void watch(std::chrono::duration<double> min_interval, const std::function<void(const v1::RunStatus&)>& on_status);
 
   /// Cancels the call in flight, which throws a ConnectionError, and all later calls. Thread-safe.
   void leave() { cancellation_.cancel(); }
 
  private:
   template <typename Method, typename Request>
-  wire::RunStatus call(Method method, Request request);
+  v1::RunStatus call(Method method, Request request);
   void check(const grpc::Status& status) const;
 
   ConnectOptions connect_options_;
-  std::unique_ptr<wire::ControlPanel::Stub> stub_;
+  std::unique_ptr<v1::ControlPanel::Stub> stub_;
   CallCancellation cancellation_;
 };
 

@@ -4,8 +4,8 @@
 
 #include "environment/environment.h"
 #include "net/client_stream.h"
-#include "net/geometry.grpc.pb.h"
 #include "net/robot_wire.h"
+#include "robosim/internal/geometry.grpc.pb.h"
 #include "robots/world_source.h"
 #include "server/geometry_seal.h"
 #include "server/geometry_wire.h"
@@ -17,14 +17,14 @@ namespace {
 /// Well below gRPC's limit of 4 MiB per message.
 constexpr std::size_t kResultPieceBytes = 1 << 20;
 
-std::unique_ptr<Environment> replicaOf(const wire::Replica& replica, int threads) {
+std::unique_ptr<Environment> replicaOf(const internal::Replica& replica, int threads) {
   LoadedWorld world = loadWorld(decode(replica.world()), {});
   return std::make_unique<Environment>(
       std::move(world.world), std::move(world.fleet),
       EnvironmentOptions{.seed = replica.seed(), .period_s = replica.period_s(), .threads = threads});
 }
 
-void doTask(const wire::Task& task, Environment& environment) {
+void doTask(const internal::Task& task, Environment& environment) {
   const RobotRange range{task.begin(), task.end()};
   if (range.begin > range.end || range.end > environment.robotCount()) throw WireError("a task for unknown robots");
   if (task.has_state()) {
@@ -32,9 +32,7 @@ void doTask(const wire::Task& task, Environment& environment) {
     decodeInto(task.state(), state);
     environment.restore(state);
   }
-  for (const auto& command : task.commands()) {
-    environment.setCommand(command.robot(), decode(command, environment.robotCount()));
-  }
+  putCommands(task, environment);
   environment.begin();
   if (environment.time().step != task.step()) throw WireError("a task for another step than the replica's");
   putOutcome(task, environment);
@@ -45,21 +43,21 @@ void doTask(const wire::Task& task, Environment& environment) {
 }  // namespace
 
 struct GeometryWorker::Impl {
-  using Stream = ClientStream<wire::Sealed, wire::Sealed>;
+  using Stream = ClientStream<internal::Sealed, internal::Sealed>;
 
   ConnectOptions connect_options;
   int threads;
-  std::unique_ptr<wire::Geometry::Stub> stub;
+  std::unique_ptr<internal::Geometry::Stub> stub;
   Stream stream;
-  wire::FromWorker out;
-  wire::ToWorker in;
-  wire::Sealed sealed_out, sealed_in;
+  internal::WorkRequest out;
+  internal::WorkResponse in;
+  internal::Sealed sealed_out, sealed_in;
   std::unique_ptr<Environment> replica;
 
   Impl(const ConnectOptions& options, int the_threads)
       : connect_options(options),
         threads(the_threads),
-        stub(wire::Geometry::NewStub(robosim::connect(options))),
+        stub(internal::Geometry::NewStub(robosim::connect(options))),
         stream(options, [this](auto... arguments) { return stub->AsyncWork(arguments...); }) {}
 
   void connect() {
@@ -84,7 +82,7 @@ struct GeometryWorker::Impl {
       unseal(sealed_in, in);
     } catch (const WireError& error) {
       stream.close();
-      throw ConnectionError({error.code(), error.what()}, connect_options);
+      throw ConnectionError(error.status(), connect_options);
     }
     return true;
   }
@@ -93,7 +91,7 @@ struct GeometryWorker::Impl {
     if (!in.has_replica()) throw WireError("the environment gave a task before a world");
     replica = replicaOf(in.replica(), threads);
     out.Clear();
-    out.set_world_version(versionOf(decode(in.replica().world())));
+    out.mutable_ready()->set_world_version(versionOf(decode(in.replica().world())));
     send();
     out.Clear();
   }

@@ -3,29 +3,29 @@
 #include <mutex>
 
 #include "net/client_stream.h"
-#include "net/viewing.grpc.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 
 namespace robosim {
 
 struct Viewer::Impl {
-  using Stream = ClientStream<wire::FrameRequest, wire::Frame>;
+  using Stream = ClientStream<v1::FrameRequest, v1::Frame>;
 
   ConnectOptions connect_options;
-  std::unique_ptr<wire::Viewing::Stub> stub;
+  std::unique_ptr<v1::Viewing::Stub> stub;
   Stream stream;
-  wire::Frame frame;
+  v1::Frame frame;
   ViewedRun run;
   bool is_new_world = false;
 
   std::mutex mutex;  ///< guards the members below, and writes to the stream
-  wire::FrameRequest request;
+  v1::FrameRequest request;
   bool is_frame_due = false, is_selection_due = false;  ///< to be requested
   bool has_ended = false;
 
   Impl(const ConnectOptions& options, const ReadingsSelection& selection)
       : connect_options(options),
-        stub(wire::Viewing::NewStub(connect(options))),
+        stub(v1::Viewing::NewStub(connect(options))),
         stream(options, [this](auto... arguments) { return stub->AsyncWatch(arguments...); }) {
     stream.setAdaptivePolling(false);
     stream.open();

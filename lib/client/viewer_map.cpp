@@ -18,17 +18,17 @@ std::shared_ptr<const MapWorld> mapOf(const ViewedRun& viewed_run) {
   map->y_min_m = world.bounds.y_min;
   map->y_max_m = world.bounds.y_max;
   for (const auto& object : world.objects) {
-    MapWorld::Thing thing;
-    thing.world_from_thing = object.body.world_from_body;
+    MapWorld::Object mapped;
+    mapped.world_from_object = object.body.world_from_body;
     if (const auto* cube = std::get_if<Cube>(&object.body.shape)) {
-      thing.length_m = cube->length_m;
-      thing.width_m = cube->width_m;
+      mapped.length_m = cube->length_m;
+      mapped.width_m = cube->width_m;
     } else {
-      thing.radius_m = object.body.coveringRadius();
+      mapped.radius_m = object.body.coveringRadius();
     }
-    thing.color = object.body.color;
-    thing.is_hot = object.body.heat_celsius != 0;
-    map->things.push_back(thing);
+    mapped.color = object.body.color;
+    mapped.is_hot = object.body.heat_celsius != 0;
+    map->objects.push_back(mapped);
   }
   for (const auto& robot : viewed_run.world.fleet.robots) {
     map->robots.push_back({robot.info.name, robot.info.radius_m, robot.body.color});
@@ -50,10 +50,10 @@ ViewerMap::~ViewerMap() {
   thread_.join();
 }
 
-void ViewerMap::want(bool wanted) {
+void ViewerMap::setWatched(bool is_watched) {
   const std::lock_guard lock(mutex_);
-  is_wanted_ = wanted;
-  if (viewer_ && !wanted) viewer_->leave();
+  is_watched_ = is_watched;
+  if (viewer_ && !is_watched) viewer_->leave();
   condition_.notify_all();
 }
 
@@ -66,7 +66,7 @@ void ViewerMap::work() {
   for (;;) {
     {
       std::unique_lock lock(mutex_);
-      condition_.wait(lock, [this] { return is_wanted_ || is_over_; });
+      condition_.wait(lock, [this] { return is_watched_ || is_over_; });
       if (is_over_) return;
     }
     try {
@@ -83,7 +83,7 @@ void ViewerMap::receive() {
   Viewer viewer(environment_);
   {
     const std::lock_guard lock(mutex_);
-    if (!is_wanted_ || is_over_) return;
+    if (!is_watched_ || is_over_) return;
     viewer_ = &viewer;
   }
   const auto disconnect = [this] {

@@ -16,7 +16,7 @@ class ViewerMap final : public MapSource {
   explicit ViewerMap(ConnectOptions environment);
   ~ViewerMap() override;
 
-  void want(bool wanted) override;
+  void setWatched(bool is_watched) override;
   std::shared_ptr<const MapView> newest() override;
 
  private:
@@ -28,7 +28,7 @@ class ViewerMap final : public MapSource {
   ConnectOptions environment_;
   std::mutex mutex_;
   std::condition_variable condition_;
-  bool is_wanted_ = false;
+  bool is_watched_ = false;
   bool is_over_ = false;
   Viewer* viewer_ = nullptr;  ///< owned by the thread; null while not connected
   std::shared_ptr<const MapView> view_ = std::make_shared<MapView>();

@@ -6,9 +6,12 @@
 #include <unordered_set>
 #include <utility>
 
+#include <google/protobuf/arena.h>
+
+#include "hardware/inbox_limit.h"
 #include "net/client_stream.h"
 #include "net/robot_wire.h"
-#include "net/robots.grpc.pb.h"
+#include "robosim/v1/robots.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -16,8 +19,8 @@ namespace {
 /// One robot of the process. Buffers its command and messages until the next answer.
 class ProcessRobot final : public Hardware, public RefereeLink {
  public:
-  ProcessRobot(RobotInfo info, const std::unordered_set<std::string>& everyone)
-      : info_(std::move(info)), everyone_(everyone), readings_(blankReadings(*info_.sensors)) {}
+  ProcessRobot(RobotInfo info, const std::unordered_set<std::string>& all_robots)
+      : info_(std::move(info)), all_robots_(all_robots), readings_(blankReadings(*info_.sensors)) {}
 
   const RobotInfo& info() const override { return info_; }
   const Readings& readings() const override { return readings_; }
@@ -26,7 +29,7 @@ class ProcessRobot final : public Hardware, public RefereeLink {
     is_command_new_ = was_commanded_ = true;
   }
   void send(const std::string& to, const std::string& text) override {
-    if (!everyone_.contains(to)) {
+    if (!all_robots_.contains(to)) {
       throw std::invalid_argument("a message from '" + info_.name + "' to '" + to +
                                   "': there is no robot of that name");
     }
@@ -53,22 +56,34 @@ class ProcessRobot final : public Hardware, public RefereeLink {
   }
 
   /// Moves the buffered command and messages into an answer.
-  void flush(std::uint32_t index, wire::DriveRequest& out) {
-    if (is_command_new_) encode(command_, index, *out.add_commands());
+  void flush(std::uint32_t index, v1::StepAnswer& out) {
+    if (is_command_new_) {
+      auto& order = *out.add_commands();
+      order.set_process_robot(index);
+      encode(command_, *order.mutable_command());
+    }
     is_command_new_ = false;
+    out.set_messages_dropped(out.messages_dropped() + limitOutbox());
     for (auto& message : outbox_) {
-      auto& sent = *out.add_letters();
-      sent.set_robot(index);
+      auto& sent = *out.add_messages();
+      sent.set_process_robot(index);
       sent.set_to(message.to);
       sent.set_text(std::move(message.text));
     }
     outbox_.clear();
-    if (std::exchange(is_win_check_requested_, false)) out.add_check_win(index);
+    if (std::exchange(is_win_check_requested_, false)) out.add_win_checks(index);
   }
 
  private:
+  /// Removes the last messages beyond the limit of a step. @return their number
+  std::size_t limitOutbox() {
+    const std::size_t surplus = outbox_.size() - std::min(outbox_.size(), kMaxMessagesSent);
+    outbox_.resize(outbox_.size() - surplus);
+    return surplus;
+  }
+
   RobotInfo info_;
-  const std::unordered_set<std::string>& everyone_;
+  const std::unordered_set<std::string>& all_robots_;
   Readings readings_;
   Command command_;
   bool is_command_new_ = false;
@@ -87,37 +102,39 @@ std::string randomProcessId() {
 }  // namespace
 
 struct NetworkHardware::Impl {
-  using Stream = ClientStream<wire::DriveRequest, wire::DriveResponse>;
+  using Stream = ClientStream<v1::DriveRequest, v1::DriveResponse>;
 
   ConnectOptions connect_options;
   std::vector<std::string> names;
   const std::string process = randomProcessId();
-  std::unique_ptr<wire::Robots::Stub> stub;
+  std::unique_ptr<v1::Robots::Stub> stub;
+  google::protobuf::Arena arena;  ///< of `in`: parsing a message allocates its parts
+  v1::DriveResponse* in = nullptr;
   Stream stream;
-  wire::DriveRequest out;       ///< the answer to the last step
-  bool is_unconfirmed = false;  ///< `out` was sent, and the next readings have not been received
-  bool repeats = false;         ///< `out` answers the current step, and must be sent again
-  wire::DriveResponse in;
+  v1::DriveRequest request;
+  v1::StepAnswer& out = *request.mutable_answer();  ///< to the last step
+  bool is_unconfirmed = false;                      ///< `out` was sent, and the next readings have not been received
+  bool repeats = false;                             ///< `out` answers the current step, and must be sent again
   RobotsWelcome welcome;
-  std::unordered_set<std::string> everyone;
+  std::unordered_set<std::string> all_robots;
   std::vector<std::unique_ptr<ProcessRobot>> robots;
   std::uint64_t step = 0;
 
   Impl(const ConnectOptions& options, const std::vector<std::string>& the_names)
       : connect_options(options),
         names(the_names),
-        stub(wire::Robots::NewStub(connect(options))),
+        stub(v1::Robots::NewStub(connect(options))),
         stream(options, [this](auto... arguments) { return stub->AsyncDrive(arguments...); }) {
     welcome = join();
-    everyone.insert(welcome.all_robots.begin(), welcome.all_robots.end());
-    for (const auto& seat : welcome.robots) robots.push_back(std::make_unique<ProcessRobot>(seat.info, everyone));
+    all_robots.insert(welcome.all_robots.begin(), welcome.all_robots.end());
+    for (const auto& robot : welcome.robots) robots.push_back(std::make_unique<ProcessRobot>(robot.info, all_robots));
     readFirstStep();
   }
 
   /// Sends the hello, and receives the welcome.
   RobotsWelcome join() {
     stream.open();
-    wire::DriveRequest first;
+    v1::DriveRequest first;
     auto& hello = *first.mutable_hello();
     hello.set_protocol(kProtocolVersion);
     hello.set_world_version(welcome.world_version);
@@ -126,9 +143,9 @@ struct NetworkHardware::Impl {
     hello.set_process(process);
     for (const auto& name : names) hello.add_names(name);
     stream.write(first);
-    if (!stream.read(in)) stream.fail();
-    RobotsWelcome welcomed = decode(in.welcome());
-    if (welcomed.robots.size() != names.size()) throw WireError("the environment welcomes other robots than asked for");
+    if (!read()) stream.fail();
+    RobotsWelcome welcomed = decode(in->welcome());
+    if (welcomed.robots.size() != names.size()) throw WireError("the welcome describes other robots than requested");
     return welcomed;
   }
 
@@ -137,8 +154,9 @@ struct NetworkHardware::Impl {
     readFirstStep();
     if (again.run != welcome.run || step < out.step()) {
       stream.close();
-      throw ConnectionError({grpc::StatusCode::ABORTED, "another run has begun there; start the robots' program anew"},
-                            connect_options);
+      throw ConnectionError(
+          {grpc::StatusCode::ABORTED, "the environment has begun another run; restart the robots' program"},
+          connect_options);
     }
     for (auto& robot : robots) robot->commandAgain();
     if (!is_unconfirmed) return;
@@ -151,28 +169,36 @@ struct NetworkHardware::Impl {
     is_unconfirmed = false;
     const auto is_taken = [&](std::uint32_t robot) { return out.step() < again.robots[robot].next_answer; };
     std::vector<std::vector<RobotMessage>> messages(robots.size());
-    for (const auto& letter : out.letters()) {
-      if (!is_taken(letter.robot())) messages[letter.robot()].push_back({"", letter.to(), letter.text()});
+    for (const auto& sent : out.messages()) {
+      if (!is_taken(sent.process_robot())) messages[sent.process_robot()].push_back({"", sent.to(), sent.text()});
     }
     for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->sendAgain(std::move(messages[i]));
-    for (const auto robot : out.check_win()) {
+    for (const auto robot : out.win_checks()) {
       if (!is_taken(robot)) robots[robot]->checkWin();
     }
   }
 
   /// @return false when the stream has ended
+  bool read() {
+    arena.Reset();
+    in = google::protobuf::Arena::CreateMessage<v1::DriveResponse>(&arena);
+    return stream.read(*in);
+  }
+
+  /// @return false when the stream has ended
   bool readStep() {
-    if (!stream.read(in)) return false;
-    if (static_cast<std::size_t>(in.robots_size()) != robots.size()) {
-      throw WireError("readings of " + std::to_string(in.robots_size()) + " robots for " +
+    if (!read()) return false;
+    const v1::StepReadings& received = in->readings();
+    if (static_cast<std::size_t>(received.robots_size()) != robots.size()) {
+      throw WireError("readings of " + std::to_string(received.robots_size()) + " robots for " +
                       std::to_string(robots.size()));
     }
-    step = in.step();
+    step = received.step();
     for (std::size_t i = 0; i < robots.size(); ++i) {
       Readings& readings = robots[i]->mutableReadings();
-      readings.time = {in.step(), welcome.period_s};
-      readings.winner = in.winner();
-      decode(in.robots(static_cast<int>(i)), robots[i]->info().name, readings);
+      readings.time = {step, welcome.period_s};
+      readings.winner = received.winner();
+      decode(received.robots(static_cast<int>(i)), robots[i]->info().name, readings);
     }
     return true;
   }
@@ -185,12 +211,13 @@ struct NetworkHardware::Impl {
     if (!std::exchange(repeats, false)) {
       out.set_step(step);
       out.clear_commands();
-      out.clear_letters();
-      out.clear_check_win();
+      out.clear_messages();
+      out.clear_win_checks();
+      out.clear_messages_dropped();
       for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
     }
     is_unconfirmed = true;
-    stream.write(out);
+    stream.write(request);
     if (readStep()) {
       is_unconfirmed = false;
       return true;
@@ -207,13 +234,13 @@ NetworkHardware::NetworkHardware(const ConnectOptions& connect_options, const st
 NetworkHardware::~NetworkHardware() = default;
 
 Hardware& NetworkHardware::robot(std::size_t i) { return *impl_->robots[i]; }
-std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.robots[i].place; }
+std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.robots[i].world_robot; }
 const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.robots[i].controller; }
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
 const std::string& NetworkHardware::world() const { return impl_->welcome.world; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }
 std::size_t NetworkHardware::unconfirmedMessages() const {
-  return impl_->is_unconfirmed ? static_cast<std::size_t>(impl_->out.letters_size()) : 0;
+  return impl_->is_unconfirmed ? static_cast<std::size_t>(impl_->out.messages_size()) : 0;
 }
 bool NetworkHardware::hasAnswered() const { return impl_->repeats; }
 void NetworkHardware::rejoin() { impl_->rejoin(); }

@@ -73,6 +73,14 @@ TEST(Robot, OnceHaltedIgnoresCommands) {
   EXPECT_EQ(robot.activity(), Activity::found);
 }
 
+TEST(Robot, KeepsThePanOfItsLaserWhenItHalts) {
+  FakeHardware hardware;
+  Robot robot(hardware);
+  robot.panLaser(0.5);
+  robot.halt();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.laser_pan_rad = 0.5F, .activity = Activity::halted}));
+}
+
 TEST(Robot, SendsAndReceivesMessages) {
   FakeHardware hardware;
   Robot robot(hardware);

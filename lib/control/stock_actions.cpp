@@ -12,26 +12,26 @@ namespace {
 double wrapDeg(double deg) { return std::remainder(deg, 360); }
 
 /// Clearance [mm] between the robot's edge and the nearest echo between two directions.
-double roomBetween(const PioneerRobot& robot, double from_deg, double to_deg) {
+double clearanceBetween(const PioneerRobot& robot, double from_deg, double to_deg) {
   return robot.checkRangeDevicesCurrentPolar(from_deg, to_deg) - robot.getRobotRadius();
 }
 
 /// The side with more clearance, ignoring echoes straight ahead: 1 left, -1 right.
-int roomierSide(const PioneerRobot& robot) {
-  return roomBetween(robot, 10, 100) >= roomBetween(robot, -100, -10) ? 1 : -1;
+int clearerSide(const PioneerRobot& robot) {
+  return clearanceBetween(robot, 10, 100) >= clearanceBetween(robot, -100, -10) ? 1 : -1;
 }
 
 /// Clearance [mm] between the robot's edge and the nearest echo in its lane; `direction` is 1 ahead, -1 backwards.
-double roomInLane(const PioneerRobot& robot, double direction, double width_ratio) {
+double clearanceInLane(const PioneerRobot& robot, double direction, double width_ratio) {
   const double radius = robot.getRobotRadius();
   const double reach = 30000;
   return robot.checkRangeDevicesCurrentBox(0, -radius * width_ratio, direction * reach, radius * width_ratio) - radius;
 }
 
 /// Speed limit by clearance: 0 up to `stop`, then linear to `slow_speed` at `slow`; 1e9 beyond.
-double speedForRoom(double room, double stop, double slow, double slow_speed) {
-  if (room > slow) return 1e9;
-  return slow_speed * std::clamp((room - stop) / (slow - stop), 0.0, 1.0);
+double speedForClearance(double clearance, double stop, double slow, double slow_speed) {
+  if (clearance > slow) return 1e9;
+  return slow_speed * std::clamp((clearance - stop) / (slow - stop), 0.0, 1.0);
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ ActionAvoidFront::ActionAvoidFront(std::string name, double obstacle_distance, d
       turn_amount_(turn_amount) {}
 
 ActionDesired ActionAvoidFront::fire(PioneerRobot& robot, const ActionDesired&) {
-  const double left = roomBetween(robot, 0, 70), right = roomBetween(robot, -70, 0);
+  const double left = clearanceBetween(robot, 0, 70), right = clearanceBetween(robot, -70, 0);
   ActionDesired desired;
   if (std::min(left, right) > obstacle_distance_) {
     side_ = 0;
@@ -61,8 +61,8 @@ ActionAvoidSide::ActionAvoidSide(std::string name, double obstacle_distance, dou
     : Action(std::move(name)), obstacle_distance_(obstacle_distance), turn_amount_(turn_amount) {}
 
 ActionDesired ActionAvoidSide::fire(PioneerRobot& robot, const ActionDesired&) {
-  const bool left = roomBetween(robot, 60, 120) < obstacle_distance_;
-  const bool right = roomBetween(robot, -120, -60) < obstacle_distance_;
+  const bool left = clearanceBetween(robot, 60, 120) < obstacle_distance_;
+  const bool right = clearanceBetween(robot, -120, -60) < obstacle_distance_;
   ActionDesired desired;
   if (left != right) desired.setDeltaHeading(left ? -turn_amount_ : turn_amount_);
   return desired;
@@ -91,11 +91,11 @@ ActionDesired ActionStallRecover::fire(PioneerRobot& robot, const ActionDesired&
     if (!robot.isLeftMotorStalled() && !robot.isRightMotorStalled()) return desired;
     cycles_left_ = cycles_to_move_;
     // A stalled robot has no speed, so that the nearer side determines the former direction.
-    direction_ = roomInLane(robot, 1, 1) <= roomInLane(robot, -1, 1) ? -1 : 1;
-    heading_ = robot.getTh() + roomierSide(robot) * degrees_to_turn_;
+    direction_ = clearanceInLane(robot, 1, 1) <= clearanceInLane(robot, -1, 1) ? -1 : 1;
+    heading_ = robot.getTh() + clearerSide(robot) * degrees_to_turn_;
   }
   --cycles_left_;
-  desired.setVel(roomInLane(robot, direction_, 1) > obstacle_distance_ ? direction_ * speed_ : 0);
+  desired.setVel(clearanceInLane(robot, direction_, 1) > obstacle_distance_ ? direction_ * speed_ : 0);
   desired.setDeltaHeading(wrapDeg(heading_ - robot.getTh()));
   return desired;
 }
@@ -147,7 +147,8 @@ ActionLimiterForwards::ActionLimiterForwards(std::string name, double stop_dista
 
 ActionDesired ActionLimiterForwards::fire(PioneerRobot& robot, const ActionDesired&) {
   ActionDesired desired;
-  desired.setMaxVel(speedForRoom(roomInLane(robot, 1, width_ratio_), stop_distance_, slow_distance_, slow_speed_));
+  desired.setMaxVel(
+      speedForClearance(clearanceInLane(robot, 1, width_ratio_), stop_distance_, slow_distance_, slow_speed_));
   return desired;
 }
 
@@ -160,8 +161,8 @@ ActionLimiterBackwards::ActionLimiterBackwards(std::string name, double stop_dis
       width_ratio_(width_ratio) {}
 
 ActionDesired ActionLimiterBackwards::fire(PioneerRobot& robot, const ActionDesired&) {
-  const double allowed =
-      speedForRoom(roomInLane(robot, -1, width_ratio_), -stop_distance_, -slow_distance_, -max_backwards_speed_);
+  const double allowed = speedForClearance(clearanceInLane(robot, -1, width_ratio_), -stop_distance_, -slow_distance_,
+                                           -max_backwards_speed_);
   ActionDesired desired;
   desired.setMaxNegVel(-std::min(allowed, -max_backwards_speed_));
   return desired;
@@ -180,7 +181,7 @@ ActionDesired ActionTurn::fire(PioneerRobot& robot, const ActionDesired& current
     side_ = 0;
     return desired;
   }
-  if (side_ == 0) side_ = roomierSide(robot);
+  if (side_ == 0) side_ = clearerSide(robot);
   const double part =
       std::clamp((speed_start_turn_at_ - limit) / (speed_start_turn_at_ - speed_full_turn_at_), 0.0, 1.0);
   desired.setDeltaHeading(side_ * part * turn_amount_);

@@ -93,7 +93,6 @@ struct Environment::Impl {
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< height of each robot's underside
   std::vector<PlanarTransform> frames;   ///< current frames of the robots
-  std::vector<NeighbourList> near;       ///< stationary solids near each robot
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
 
   Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
@@ -108,8 +107,7 @@ struct Environment::Impl {
         referee(model->world),
         groups(groupsOf(fleet, model->period_s)),
         paths(fleet.robots.size()),
-        frames(fleet.robots.size()),
-        near(fleet.robots.size()) {
+        frames(fleet.robots.size()) {
     for (const auto& robot : fleet.robots) base_z_m.push_back(robot.body.heights().z_min_m);
     const auto& objects = model->world.objects;
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -181,7 +179,6 @@ struct Environment::Impl {
                        .heat_sources = heat_sources,
                        .world_from_robot = state.world_from_robot,
                        .frames = frames,
-                       .near = near,
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,
@@ -192,9 +189,7 @@ struct Environment::Impl {
       const auto of_group = within(group, range);
       workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         const auto robots = of_group.subspan(begin, end - begin);
-        for (const auto i : robots) {
-          scene.update(near[i], {state.world_from_robot[i].x, state.world_from_robot[i].y}, group.reach_m);
-        }
+        for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
         for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
           const Sensor& sensor = *group.model->sensors[slot];
           if (sensor.sensesInHostProcess() != (which == SensorGroup::in_host_process)) continue;
@@ -289,6 +284,8 @@ void Environment::send(std::size_t from, const std::string& to, const std::strin
 
 void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot] = 1; }
 
+void Environment::countDroppedMessages(std::uint64_t messages) { impl_->state.messages_dropped += messages; }
+
 void Environment::step() {
   const RobotRange every = impl_->everyRobot();
   begin();
@@ -301,7 +298,7 @@ void Environment::step() {
 
 void Environment::begin() { impl_->begin(); }
 void Environment::clip(RobotRange range) {
-  impl_->move_authorisation.clip(impl_->scene, impl_->near, impl_->workers, range, impl_->paths);
+  impl_->move_authorisation.clip(impl_->scene, impl_->workers, range, impl_->paths);
 }
 void Environment::judge(RobotRange range) {
   impl_->move_authorisation.judge(impl_->scene, impl_->workers, range, impl_->paths);

@@ -81,6 +81,8 @@ class Environment {
   void send(std::size_t from, const std::string& to, const std::string& text);
   /// Makes the next step decide whether a robot has won. Thread-safe like setCommand().
   void checkWin(std::size_t robot);
+  /// Counts messages that a robot's process has not sent because of kMaxMessagesSent.
+  void countDroppedMessages(std::uint64_t messages);
 
   void step();
 

@@ -119,6 +119,20 @@ TEST(Environment, StopsBothRobotsWhosePathsCollide) {
   EXPECT_EQ(environment->state().stalls, 2u);
 }
 
+TEST(Environment, StopsASlowRobotThatAFastReversingRobotWouldHit) {
+  Scenario s;
+  s.robot("a", {0, 0, 0});
+  addDisc(s.world, s.fleet, "b", {2.505, 0, 0}, 0.25, {20, 2, 1e6, 1e6, 1e6});
+  auto environment = s.start();
+  // Alone, b would come to x = 0.505, 5 mm from where a started; a goes 20 mm ahead in the same time.
+  environment->setCommand(0, {.speed_mps = 0.2});
+  environment->setCommand(1, {.speed_mps = -20});
+  environment->step();
+  EXPECT_EQ(environment->state().world_from_robot[0].x, 0);
+  EXPECT_EQ(environment->state().world_from_robot[1].x, 2.505);
+  EXPECT_EQ(environment->state().stalls, 2u);
+}
+
 TEST(Environment, LetsRobotsCrossTheSamePointAtDifferentTimes) {
   Scenario s;
   s.robot("a", {-0.05, 0, 0}, 0.01);
@@ -228,11 +242,7 @@ class NeighbourCounter : public Sensor {
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
-      const auto& pose = now.world_from_robot[robot];
-      double& count = std::get<Scalar>(readings[robot].measurements[slot]).value;
-      count = 0;
-      now.near[robot].visitNear(
-          {pose.x, pose.y}, [] { return 100.0; }, [&](std::uint32_t) { ++count; });
+      std::get<Scalar>(readings[robot].measurements[slot]).value = static_cast<double>(now.scene.neighbourCount(robot));
     }
   }
 
@@ -245,8 +255,9 @@ TEST(Environment, ListsNeighboursUpToTheRangeOfTheSensorsThatUseThem) {
   addWall(s.world, 1, 0, 0.1, 0.1);
   addWall(s.world, 8, 0, 0.1, 0.1);
   s.robot("a", {0, 0, 0});
-  for (const auto& [other, neighbours] : {std::pair{"<beacons range_max_m='50'><beacon x_m='9'/></beacons>", 1},
-                                          std::pair{"<laser range_max_m='9'/>", 2}}) {
+  for (const auto& [other, neighbours] :
+       {std::pair{"<beacons range_max_m='50'><beacon x_m='9'/></beacons>", 1}, std::pair{"<laser range_max_m='9'/>", 2},
+        std::pair{"<laser x_m='1.5' range_max_m='6.5'/>", 2}}) {
     FleetRobot& robot = s.fleet.robots[0];
     auto model = std::make_shared<RobotModel>(*robot.model);
     model->sensors = {std::make_shared<NeighbourCounter>(), sensorFrom(other)};

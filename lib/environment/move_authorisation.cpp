@@ -28,12 +28,12 @@ void MoveAuthorisation::begin(std::span<const Path> paths) {
   std::fill(stays_.begin(), stays_.end(), 0);
 }
 
-void MoveAuthorisation::clip(const Scene& scene, std::span<const NeighbourList> near, const ParallelExecutor& workers,
-                             RobotRange range, std::span<Path> paths) {
+void MoveAuthorisation::clip(const Scene& scene, const ParallelExecutor& workers, RobotRange range,
+                             std::span<Path> paths) {
   workers.forEach(range.end - range.begin, kPathChunk, [&](std::size_t k) {
     const std::size_t i = range.begin + k;
     may_have_neighbours_[i] = 0;
-    if (paths[i].length_m != 0) clip(scene, near[i], i, paths);
+    if (paths[i].length_m != 0) clip(scene, i, paths);
   });
 }
 
@@ -55,29 +55,28 @@ void MoveAuthorisation::conclude(const ParallelExecutor& workers, std::span<Path
   });
 }
 
-double MoveAuthorisation::collisionReach(std::size_t robot, const Path& path) const {
-  return movers_[robot].radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
+std::span<const std::uint32_t> MoveAuthorisation::robotsNear(const Scene& scene, std::size_t robot,
+                                                             const Path& path) const {
+  static thread_local std::vector<std::uint32_t> found;
+  const double reach_m =
+      movers_[robot].radius_m + std::abs(path.length_m) + radius_max_m_ + length_max_m_ + kContactGap_m;
+  scene.findMoving(startOf(path), reach_m, found);
+  return found;
 }
 
-void MoveAuthorisation::clip(const Scene& scene, const NeighbourList& near, std::size_t robot, std::span<Path> paths) {
+void MoveAuthorisation::clip(const Scene& scene, std::size_t robot, std::span<Path> paths) {
   Path& path = paths[robot];
   const Mover& mover = movers_[robot];
-  const double reach_m = mover.radius_m + std::abs(path.length_m) + kContactGap_m;
-
   path.end_fraction = firstExit(path, mover.radius_m, surface_);
-  scene.visitStationary(startOf(path), reach_m, near, [&](const Solid& solid) {
-    if (!solid.heights.overlaps(mover.heights)) return;
-    path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, solid.outline));
-  });
+  scene.clip(path, mover.radius_m, mover.heights, scene.movingBody(robot));
 
-  scene.visitMoving(startOf(path), collisionReach(robot, path), [&](BodyId body) {
-    const std::size_t other = scene.movingIndex(body);
-    if (other == robot) return;
+  for (const auto other : robotsNear(scene, robot, path)) {
+    if (other == robot) continue;
     may_have_neighbours_[robot] = 1;
-    if (!movers_[other].heights.overlaps(mover.heights)) return;
+    if (!movers_[other].heights.overlaps(mover.heights)) continue;
     const Circle disc{startOf(paths[other]), movers_[other].radius_m};
     path.end_fraction = std::min(path.end_fraction, firstContact(path, mover.radius_m, disc));
-  });
+  }
 }
 
 bool MoveAuthorisation::collidesWithAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const {
@@ -85,14 +84,11 @@ bool MoveAuthorisation::collidesWithAnother(const Scene& scene, std::size_t robo
   // Rule (a) has already clipped the path at robots that stand still, and a robot that stands still stays anyway.
   if (path.clippedLength() == 0 || !may_have_neighbours_[robot]) return false;
   const Mover& mover = movers_[robot];
-  bool collides = false;
-  scene.visitMoving(startOf(path), collisionReach(robot, path), [&](BodyId body) {
-    const std::size_t other = scene.movingIndex(body);
-    collides = collides ||
-               (other != robot && paths[other].clippedLength() != 0 && movers_[other].heights.overlaps(mover.heights) &&
-                collide(path, mover.radius_m, paths[other], movers_[other].radius_m));
+  const auto near = robotsNear(scene, robot, path);
+  return std::any_of(near.begin(), near.end(), [&](std::uint32_t other) {
+    return other != robot && paths[other].clippedLength() != 0 && movers_[other].heights.overlaps(mover.heights) &&
+           collide(path, mover.radius_m, paths[other], movers_[other].radius_m);
   });
-  return collides;
 }
 
 }  // namespace robosim

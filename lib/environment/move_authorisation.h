@@ -6,7 +6,6 @@
 #include "base/parallel_executor.h"
 #include "environment/robot_range.h"
 #include "geometry/scene.h"
-#include "geometry/shapes/path.h"
 
 namespace robosim {
 
@@ -27,9 +26,7 @@ class MoveAuthorisation {
   void begin(std::span<const Path> paths);
   /// Rule (a): clips the paths of some robots at their first contact. The result is Path::end_fraction, which may also
   /// come from another process.
-  /// @param near stationary solids near each robot
-  void clip(const Scene& scene, std::span<const NeighbourList> near, const ParallelExecutor& workers, RobotRange range,
-            std::span<Path> paths);
+  void clip(const Scene& scene, const ParallelExecutor& workers, RobotRange range, std::span<Path> paths);
   /// Rule (b): decides which of some robots stay where they started.
   void judge(const Scene& scene, const ParallelExecutor& workers, RobotRange range, std::span<const Path> paths);
   /// Result of judge(), 1 for a robot that stays. Writable, for results of another process.
@@ -39,16 +36,16 @@ class MoveAuthorisation {
   void conclude(const ParallelExecutor& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
 
  private:
-  void clip(const Scene& scene, const NeighbourList& near, std::size_t robot, std::span<Path> paths);
-  /// Distance [m] from a robot within which others could collide with it in this step.
-  double collisionReach(std::size_t robot, const Path& path) const;
+  void clip(const Scene& scene, std::size_t robot, std::span<Path> paths);
+  /// The robots that could collide with a robot in this step, and the robot itself. Valid until the thread's next call.
+  std::span<const std::uint32_t> robotsNear(const Scene& scene, std::size_t robot, const Path& path) const;
   bool collidesWithAnother(const Scene& scene, std::size_t robot, std::span<const Path> paths) const;
 
   std::vector<Mover> movers_;
   Bounds2D surface_;
   double radius_max_m_ = 0;
   double length_max_m_ = 0;                        ///< longest path of this step
-  std::vector<std::uint8_t> may_have_neighbours_;  ///< 0: no other robot is within collisionReach()
+  std::vector<std::uint8_t> may_have_neighbours_;  ///< 0: robotsNear() found no other robot
   std::vector<std::uint8_t> stays_;
 };
 

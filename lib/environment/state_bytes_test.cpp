@@ -129,6 +129,24 @@ TEST(StateBytes, RefuseAPictureThatIsNoJpegFile) {
             "the contents of a saved state are invalid: a picture is no JPEG file; save the state again");
 }
 
+TEST(StateBytes, RefuseSpeedsBeyondTheLimitsInBothDirections) {
+  const Saved saved;
+  const auto error_with = [&](double speed_mps, double turn_radps) {
+    State state = stateFromBytes(*saved.model, saved.bytes);
+    state.speed_mps[1] = speed_mps;
+    state.turn_radps[1] = turn_radps;
+    return errorOf(*saved.model, toBytes(*saved.model, state));
+  };
+  const std::string fault =
+      "the contents of a saved state are invalid: a robot is faster than its limits; save the state again";
+  EXPECT_EQ(error_with(1, 2), "");
+  EXPECT_EQ(error_with(-1, -2), "");
+  EXPECT_EQ(error_with(1.001, 0), fault);
+  EXPECT_EQ(error_with(-1.001, 0), fault);
+  EXPECT_EQ(error_with(0, 2.001), fault);
+  EXPECT_EQ(error_with(0, -2.001), fault);
+}
+
 TEST(StateBytes, OfAnotherModelAreRefused) {
   const Saved saved;
   const auto is_refused_after = [&](const std::function<void(Model&)>& change) {

@@ -1,11 +1,9 @@
-#include "geometry/scene.h"
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
+#include <utility>
 
-#include "base/portable_math.h"
-#include "geometry/casting/closest_hit.h"
+#include "geometry/casting/bearing_cull.h"
+#include "geometry/scene_index.h"
 
 namespace robosim {
 
@@ -14,13 +12,6 @@ namespace {
 using mrpt::math::TPoint2D;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Skin of a neighbour list [m]: several steps of a fast robot, yet small enough that the list stays short.
-constexpr double kSkin_m = 0.7;
-/// Maximum length of a neighbour list. Where more solids lie within reach, the nearest ones occlude most of the others.
-constexpr std::size_t kMaxNeighbours = 64;
-/// Slightly less than 1: the product never increases when rounded to float.
-constexpr double kRoundDown = 1 - 1e-7;
-
 /// Average number of stationary solids per cell, not counting those that extend over its borders: many cells fill most
 /// of a pack, few need a second one.
 constexpr double kStationaryPerCell = 3.5;
@@ -28,21 +19,6 @@ constexpr double kStationaryPerCell = 3.5;
 double cellFor(const Bounds2D& area, std::size_t stationary) {
   const double square_m2 = std::max(1e-6, (area.x_max - area.x_min) * (area.y_max - area.y_min));
   return std::max(0.25, std::sqrt(square_m2 * kStationaryPerCell / static_cast<double>(stationary + 4)));
-}
-
-Bounds2D boundsOf(const Sector& sector, double range_m) {
-  Bounds2D b{sector.apex.x, sector.apex.x, sector.apex.y, sector.apex.y};
-  const auto include = [&](const TPoint2D& direction) {
-    const double x = sector.apex.x + range_m * direction.x;
-    const double y = sector.apex.y + range_m * direction.y;
-    b = {std::min(b.x_min, x), std::max(b.x_max, x), std::min(b.y_min, y), std::max(b.y_max, y)};
-  };
-  include(sector.left);
-  include(sector.right);
-  for (const TPoint2D& extreme : {TPoint2D(1, 0), TPoint2D(0, 1), TPoint2D(-1, 0), TPoint2D(0, -1)}) {
-    if (sector.contains(extreme)) include(extreme);
-  }
-  return b;
 }
 
 /// Extends an area by whole cells so that it contains the solids that end not far beyond it; then most rays cannot hit
@@ -72,16 +48,6 @@ Bounds2D grownFor(const std::vector<Solid>& solids, const Bounds2D& area, double
 GridIndex gridFor(const std::vector<Solid>& stationary, const Bounds2D& area) {
   const double cell_m = cellFor(area, stationary.size());
   return {grownFor(stationary, area, cell_m), cell_m};
-}
-
-/// Distance [m] from a point to a cell; border cells extend outwards without limit.
-double distanceToCell(const GridIndex& grid, int column, int row, const TPoint2D& p) {
-  const auto gap = [&](double at, double low, int cell, int count) {
-    const double begin = cell == 0 ? -kInfinity : low + cell * grid.cellSize();
-    const double end = cell == count - 1 ? kInfinity : low + (cell + 1) * grid.cellSize();
-    return std::max({0.0, begin - at, at - end});
-  };
-  return portable::hypot(gap(p.x, grid.xMin(), column, grid.columns()), gap(p.y, grid.yMin(), row, grid.rows()));
 }
 
 bool intersect(const Bounds2D& a, const Bounds2D& b) {
@@ -127,10 +93,10 @@ void visitOutwards(const GridIndex& grid, const TPoint2D& center, const Reach& r
     const int top = row + ring;
     // The area covered by this ring and those beyond it begins at the border of the square inside it; outside the grid
     // nothing is left.
-    const double to_left = left < 0 ? kInfinity : center.x - (grid.xMin() + (left + 1) * grid.cellSize());
-    const double to_right = right > last_column ? kInfinity : grid.xMin() + right * grid.cellSize() - center.x;
-    const double to_bottom = bottom < 0 ? kInfinity : center.y - (grid.yMin() + (bottom + 1) * grid.cellSize());
-    const double to_top = top > last_row ? kInfinity : grid.yMin() + top * grid.cellSize() - center.y;
+    const double to_left = left < 0 ? kInfinity : center.x - (grid.low().x + (left + 1) * grid.cellSize());
+    const double to_right = right > last_column ? kInfinity : grid.low().x + right * grid.cellSize() - center.x;
+    const double to_bottom = bottom < 0 ? kInfinity : center.y - (grid.low().y + (bottom + 1) * grid.cellSize());
+    const double to_top = top > last_row ? kInfinity : grid.low().y + top * grid.cellSize() - center.y;
     // Finite, so that a side outside the grid is beyond any reach.
     const double far = std::min(reach(), std::numeric_limits<double>::max());
     if (std::min({to_left, to_right, to_bottom, to_top}) > far) return;
@@ -157,138 +123,101 @@ void visitOutwards(const GridIndex& grid, const TPoint2D& center, const Reach& r
 }  // namespace
 
 Scene::Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area)
-    : stationary_index_(gridFor(stationary, area)), moving_index_(moving_count, stationary_index_.middle()) {
-  stationary_index_.build(stationary);
+    : stationary_count_(stationary.size()), moving_count_(moving_count) {
+  GridIndex grid = gridFor(stationary, area);
+  grid.build(stationary);
+  CenterIndex moving(moving_count, grid.middle());
+  index_ = std::make_unique<SceneIndex>(
+      SceneIndex{std::move(grid), std::move(moving), std::vector<NeighbourList>(moving_count)});
   freeze();
 }
 
-Solid Scene::solid(BodyId body) const {
-  const auto i = static_cast<std::size_t>(body);
-  return (i < stationaryCount() ? stationary_index_.items()[stationary_index_.indexOf(i)]
-                                : moving_index_.items()[i - stationaryCount()])
-      .solid();
+Scene::Scene(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+Solid Scene::solid(BodyId body) const { return index_->item(body).solid(); }
+void Scene::place(std::size_t i, const Solid& solid) { index_->moving.set(i, solid); }
+void Scene::freeze() { index_->moving.build(); }
+
+void Scene::updateNeighbours(std::size_t i, double reach_m) {
+  const GridItem& owner = index_->moving.items()[i];
+  index_->neighbours[i].update(index_->stationary, {owner.x, owner.y}, reach_m);
 }
 
-void Scene::cast(BeamBatch& batch, BodyId except, const NeighbourList& near) const {
+std::size_t Scene::neighbourCount(std::size_t i) const { return index_->neighbours[i].size(); }
+
+void Scene::cast(BeamBatch& batch, BodyId owner) const {
   if (batch.size() == 0) return;
+  const GridIndex& grid = index_->stationary;
+  const CenterIndex& moving = index_->moving;
+  const HalfPlaneCull half_plane{batch.center_, batch.facing_, batch.spread_m_};
   Candidates candidates;
   const auto intersect = [&] {
     if (candidates.count > 0) batch.intersect(candidates);
     candidates.count = 0;
   };
-  const auto add_if = [&](bool is_candidate, const GridItem& item, std::uint32_t body) {
-    candidates.addIf(is_candidate & batch.mayHit(item), item, body);
+  const auto add_if = [&](bool is_candidate, const GridItem& item, BodyId body) {
+    candidates.addIf(is_candidate & (body != owner), item, static_cast<std::uint32_t>(body));
     if (candidates.isFull()) intersect();
   };
   const auto add = [&](std::uint32_t i) {
-    const GridItem& item = stationary_index_.items()[i];
-    add_if(BodyId{item.number} != except, item, item.number);
+    add_if(half_plane.mayContain(grid.items()[i]), grid.items()[i], BodyId{grid.numberOf(i)});
   };
   const auto reach = [&] { return batch.reach(); };
-  if (!near.visitNear(batch.center(), reach, add)) {
-    VisitedBodies& visited = VisitedBodies::begin(stationaryCount());
-    const CellHalfPlaneCull ahead(batch.halfPlane(), {stationary_index_.xMin(), stationary_index_.yMin()},
-                                  stationary_index_.cellSize());
-    visitOutwards(stationary_index_, batch.center(), reach, [&](int column, int row) {
-      if (!ahead.mayContain(column, row) && !stationary_index_.isBorderCell(column, row)) return;
-      stationary_index_.visitCell(column, row, [&](std::uint32_t i) {
+  if (!index_->visitNeighbours(owner, batch.center_, reach, add)) {
+    VisitedBodies& visited = VisitedBodies::begin(grid.items().size());
+    const CellHalfPlaneCull ahead(half_plane, grid.low(), grid.cellSize());
+    visitOutwards(grid, batch.center_, reach, [&](int column, int row) {
+      if (!ahead.mayContain(column, row) && !grid.isBorderCell(column, row)) return;
+      grid.visitCell(column, row, [&](std::uint32_t i) {
         if (visited.isFirst(i)) add(i);
       });
     });
   }
-  const RangeCull surroundings(batch.center(), batch.reach(), moving_index_.middle());
-  const auto first = static_cast<std::uint32_t>(stationaryCount());
-  moving_index_.visitNear(surroundings.bounds(), [&](const CenterIndex::Entry& entry) {
-    add_if(surroundings.mayContain(entry.solid) & (BodyId{first + entry.index} != except),
-           moving_index_.items()[entry.index], first + entry.index);
+  const RangeCull surroundings(half_plane, batch.reach(), moving.middle());
+  moving.visitNear(surroundings.bounds(), [&](const CenterIndex::Entry& entry) {
+    add_if(surroundings.mayContain(entry.solid), moving.items()[entry.index], index_->movingBody(entry.index));
   });
   intersect();
 }
 
-void Scene::update(NeighbourList& near, const TPoint2D& at, double reach_m) const {
-  if (near.driftTo(at) <= kSkin_m) return;
-  // Packs distance and index into one integer that sorts by distance: the bits of non-negative floats are ordered like
-  // the floats.
-  static thread_local std::vector<std::uint64_t> found;
-  double covered_m = reach_m + kSkin_m;
-  std::size_t count = 0;
-  forCells({at.x - covered_m, at.x + covered_m, at.y - covered_m, at.y + covered_m}, [&](std::uint32_t i) {
-    const double nearest_m = stationary_index_.items()[i].distanceTo(at);
-    const auto rounded_m = static_cast<float>(nearest_m * kRoundDown);
-    if (count == found.size()) found.resize(2 * count + 64);
-    found[count] = std::uint64_t{std::bit_cast<std::uint32_t>(rounded_m)} << 32 | i;
-    count += nearest_m <= covered_m ? 1 : 0;  // branch-free, because the condition is unpredictable
-  });
-  const auto begin = found.begin();
-  std::sort(begin, begin + static_cast<std::ptrdiff_t>(count));
-  const auto end = std::unique(begin, begin + static_cast<std::ptrdiff_t>(count));
-  const auto distance = [](std::uint64_t key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); };
-  static thread_local std::vector<NeighbourList::Neighbour> nearest_first;
-  nearest_first.clear();
-  for (auto key = begin; key != end; ++key) {
-    if (nearest_first.size() == kMaxNeighbours) {
-      covered_m = distance(*key);
-      break;
-    }
-    nearest_first.push_back({distance(*key), static_cast<std::uint32_t>(*key)});
-  }
-  near.set(at, covered_m, nearest_first);
-}
-
-Hit Scene::senseSector(const Sector& sector, double range_m, BodyId except) const {
-  ClosestHit best{range_m};
-  TPoint2D point;
-  const TPoint2D apex(sector.apex.x, sector.apex.y);
-  const Bounds2D reach = boundsOf(sector, range_m);
-  const auto sense = [&](BodyId body) {
-    if (body == except) return;
-    const auto hit = nearestInSector(sector, solid(body));
-    if (!hit || !best.isWorseThan(hit->distance_m, body)) return;
-    best = {hit->distance_m, body};
-    point = hit->point;
+void Scene::clip(Path& path, double radius_m, const HeightSpan& heights, BodyId owner) const {
+  const TPoint2D start(path.world_from_start.x, path.world_from_start.y);
+  const double reach_m = radius_m + std::abs(path.length_m) + 2 * kContactGap_m;  // more than a contact's, for rounding
+  const GridIndex& grid = index_->stationary;
+  const auto clip_at = [&](std::uint32_t i) {
+    const GridItem& item = grid.items()[i];
+    if (item.distanceTo(start) > reach_m || !item.heights.overlaps(heights)) return;
+    path.end_fraction = std::min(path.end_fraction, firstContact(path, radius_m, item.solid().outline));
   };
-  const GridIndex& grid = stationary_index_;
-  const int right = grid.column(reach.x_max);
-  const int top = grid.row(reach.y_max);
-  for (int row = grid.row(reach.y_min); row <= top; ++row) {
-    for (int column = grid.column(reach.x_min); column <= right; ++column) {
-      if (distanceToCell(grid, column, row, apex) > best.distance_m) continue;
-      grid.visitCell(column, row, [&](std::uint32_t i) { sense(stationaryBody(i)); });
-    }
+  if (index_->visitNeighbours(
+          owner, start, [&] { return reach_m; }, clip_at)) {
+    return;
   }
-  moving_index_.visitNear(reach, [&](const CenterIndex::Entry& entry) { sense(movingBody(entry.index)); });
-  if (best.body == kNoBody) return {};
-  return {best.distance_m, best.body, {point.x, point.y, sector.apex.z}};
+  grid.visitArea({start.x - reach_m, start.x + reach_m, start.y - reach_m, start.y + reach_m}, clip_at);
 }
 
-template <typename Visit>
-void Scene::forCells(const Bounds2D& area, const Visit& visit) const {
-  const GridIndex& grid = stationary_index_;
-  const int right = grid.column(area.x_max);
-  const int top = grid.row(area.y_max);
-  for (int row = grid.row(area.y_min); row <= top; ++row) {
-    for (int column = grid.column(area.x_min); column <= right; ++column) {
-      grid.visitCell(column, row, visit);
-    }
-  }
+void Scene::findMoving(const TPoint2D& at, double reach_m, std::vector<std::uint32_t>& found) const {
+  found.clear();
+  const RangeCull near({at, {}, 0}, reach_m, index_->moving.middle());
+  index_->moving.visitNear(near.bounds(), [&](const CenterIndex::Entry& entry) {
+    if (near.mayContain(entry.solid)) found.push_back(entry.index);
+  });
 }
 
-void Scene::stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const {
+void Scene::findBodies(const Bounds2D& area, std::vector<BodyId>& found) const {
   const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  forCells(area, [&](std::uint32_t i) {
-    const GridItem& item = stationary_index_.items()[i];
-    if (intersect(item.bounds(), area)) found.push_back(BodyId{item.number});
+  const auto add_if_near = [&](const GridItem& item, BodyId body) {
+    if (intersect(item.bounds(), area)) found.push_back(body);
+  };
+  index_->stationary.visitArea(area, [&](std::uint32_t i) {
+    add_if_near(index_->stationary.items()[i], BodyId{index_->stationary.numberOf(i)});
+  });
+  index_->moving.visitNear(area, [&](const CenterIndex::Entry& entry) {
+    add_if_near(index_->moving.items()[entry.index], index_->movingBody(entry.index));
   });
   std::sort(found.begin() + begin, found.end());
   found.erase(std::unique(found.begin() + begin, found.end()), found.end());
-}
-
-void Scene::movingNear(const Bounds2D& area, std::vector<BodyId>& found) const {
-  const auto begin = static_cast<std::ptrdiff_t>(found.size());
-  moving_index_.visitNear(area, [&](const CenterIndex::Entry& entry) {
-    if (intersect(moving_index_.items()[entry.index].bounds(), area)) found.push_back(movingBody(entry.index));
-  });
-  std::sort(found.begin() + begin, found.end());
 }
 
 }  // namespace robosim

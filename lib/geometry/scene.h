@@ -1,18 +1,12 @@
 #pragma once
 #include <cstdint>
 #include <limits>
-#include <optional>
-#include <span>
+#include <memory>
 #include <vector>
 
-#include "geometry/casting/beam_batch.h"
-#include "geometry/index/center_index.h"
-#include "geometry/index/culling.h"
-#include "geometry/index/grid_index.h"
-#include "geometry/index/neighbour_list.h"
+#include "geometry/casting/beams.h"
 #include "geometry/shapes/path.h"
 #include "geometry/shapes/ray.h"
-#include "geometry/shapes/sector.h"
 #include "geometry/shapes/solid.h"
 
 namespace robosim {
@@ -21,7 +15,7 @@ namespace robosim {
 enum class BodyId : std::uint32_t {};
 constexpr BodyId kNoBody{0xffffffffu};
 
-/// Result of a ray or sector query.
+/// Result of a ray query.
 struct Hit {
   double distance_m = std::numeric_limits<double>::infinity();
   BodyId body = kNoBody;
@@ -29,81 +23,53 @@ struct Hit {
   explicit operator bool() const { return body != kNoBody; }
 };
 
-struct ClosestHit;
+struct SceneIndex;  // internal: scene_index.h
 
 /// All solids of a world at one instant, indexed for ray, sector and proximity queries. Stationary solids are indexed
 /// once; freeze() re-indexes the moving ones in linear time without allocating. All queries are const and thread-safe.
-/// A query may exclude one body, such as the robot that owns the sensor.
+///
+/// A query may have an owner, such as the robot that carries the sensor: a body that is excluded. If the owner is a
+/// moving solid and near the query, its list of neighbours saves the search for stationary solids.
 class Scene {
  public:
   /// @param area region that the index covers efficiently; solids beyond it are found too
   Scene(const std::vector<Solid>& stationary, std::size_t moving_count, const Bounds2D& area);
+  Scene(Scene&&) noexcept;
+  ~Scene();
 
-  std::size_t stationaryCount() const { return stationary_index_.items().size(); }
-  std::size_t movingCount() const { return moving_index_.items().size(); }
-  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationaryCount() + i)); }
-  /// @param index as in a NeighbourList
-  BodyId stationaryBody(std::uint32_t index) const { return BodyId{stationary_index_.items()[index].number}; }
-  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationaryCount(); }
+  std::size_t stationaryCount() const { return stationary_count_; }
+  std::size_t movingCount() const { return moving_count_; }
+  BodyId movingBody(std::size_t i) const { return BodyId(static_cast<std::uint32_t>(stationary_count_ + i)); }
+  std::size_t movingIndex(BodyId body) const { return static_cast<std::size_t>(body) - stationary_count_; }
   Solid solid(BodyId body) const;
 
   /// Sets a moving solid. Takes effect for queries with freeze().
-  void place(std::size_t i, const Solid& solid) { moving_index_.set(i, solid); }
-  void freeze() { moving_index_.build(); }
+  void place(std::size_t i, const Solid& solid);
+  void freeze();
+  /// Updates the neighbours of a moving solid, if necessary: the stationary solids within `reach_m` of its centre, or
+  /// the nearest ones if there are very many. May be called for different solids simultaneously.
+  void updateNeighbours(std::size_t i, double reach_m);
+  /// Number of neighbours of a moving solid: those of updateNeighbours(), and some slightly farther away.
+  std::size_t neighbourCount(std::size_t i) const;
 
   /// The nearest hit strictly nearer than `range_m`. Of equally near bodies the lowest BodyId wins.
-  Hit castRay(const Ray&, double range_m, BodyId except = kNoBody) const;
-  /// The nearest point of any solid inside the sector strictly nearer than `range_m`. Of equally near bodies the lowest
-  /// BodyId wins.
-  Hit senseSector(const Sector&, double range_m, BodyId except = kNoBody) const;
+  Hit castRay(const Ray&, double range_m, BodyId owner = kNoBody) const;
+  /// Casts all beams of a batch: finds for each ray the same as castRay(), for each sector the nearest point of any
+  /// solid inside it.
+  void cast(BeamBatch& batch, BodyId owner = kNoBody) const;
 
-  /// Casts all beams of a batch; equivalent to castRay() or senseSector() for each. A non-empty `near` saves the search
-  /// for stationary solids.
-  void cast(BeamBatch& batch, BodyId except = kNoBody, const NeighbourList& near = {}) const;
-
-  /// Updates the list, if necessary, so that it covers the stationary solids within `reach_m` of a point, or the
-  /// nearest ones if there are very many.
-  void update(NeighbourList& near, const mrpt::math::TPoint2D& at, double reach_m) const;
-
-  /// Calls visit(solid) for every stationary solid within `reach_m` of a point, in no particular order. A solid may be
-  /// visited more than once, and solids beyond `reach_m` may be visited.
-  template <typename Visit>
-  void visitStationary(const mrpt::math::TPoint2D& at, double reach_m, const NeighbourList& near,
-                       const Visit& visit) const {
-    const auto reach = [&] { return reach_m; };
-    if (near.visitNear(at, reach, [&](std::uint32_t i) { visit(stationary_index_.items()[i].solid()); })) return;
-    static thread_local std::vector<BodyId> found;
-    found.clear();
-    stationaryNear({at.x - reach_m, at.x + reach_m, at.y - reach_m, at.y + reach_m}, found);
-    for (const BodyId body : found) visit(solid(body));
-  }
-  /// Calls visit(body) once for every moving solid within `reach_m` of a point. Solids beyond may be visited too.
-  template <typename Visit>
-  void visitMoving(const mrpt::math::TPoint2D& at, double reach_m, const Visit& visit) const {
-    const RangeCull near(at, reach_m, moving_index_.middle());
-    moving_index_.visitNear(near.bounds(), [&](const CenterIndex::Entry& entry) {
-      if (near.mayContain(entry.solid)) visit(movingBody(entry.index));
-    });
-  }
-
+  /// Reduces path.end_fraction to the first contact of a disc on the path with a stationary solid whose heights overlap
+  /// the disc's (swept-disc test; see firstContact()).
+  void clip(Path& path, double radius_m, const HeightSpan& heights, BodyId owner = kNoBody) const;
+  /// Replaces `found` by the moving solids within `reach_m` of a point, each once. Solids beyond may be found too.
+  void findMoving(const mrpt::math::TPoint2D& at, double reach_m, std::vector<std::uint32_t>& found) const;
   /// Appends the bodies whose bounding rectangle intersects `area`, in ascending order, each once: a superset of those
   /// that overlap it.
-  void stationaryNear(const Bounds2D& area, std::vector<BodyId>& found) const;
-  void movingNear(const Bounds2D& area, std::vector<BodyId>& found) const;
+  void findBodies(const Bounds2D& area, std::vector<BodyId>& found) const;
 
  private:
-  /// castRay(), compiled for each vector width.
-  struct RayCaster;
-  /// castRay() without restrictions: for rays that are not planar or leave the grid's interior.
-  Hit castAnyRay(const Ray&, double range_m, BodyId except) const;
-  /// The given hit, or a nearer one of a planar ray among the moving solids.
-  Hit castAmongMoving(const Ray& ray, BodyId except, ClosestHit best) const;
-  /// Visits the solids of all cells that intersect an area. A solid listed in several cells is visited several times.
-  template <typename Visit>
-  void forCells(const Bounds2D& area, const Visit& visit) const;
-
-  GridIndex stationary_index_;
-  CenterIndex moving_index_;
+  std::size_t stationary_count_, moving_count_;
+  std::unique_ptr<SceneIndex> index_;
 };
 
 }  // namespace robosim

@@ -7,7 +7,7 @@
 
 #include "base/parallel_executor.h"
 #include "geometry/scene.h"
-#include "geometry/testing/random_scene.h"
+#include "geometry/testing/slow_geometry.h"
 #include "geometry/testing/slow_scene.h"
 
 namespace robosim {
@@ -32,12 +32,11 @@ testing::AssertionResult isExact(const Scene& scene, const Ray& ray, double rang
   return isSame(scene.castRay(ray, range_m, except), castRaySlowly(scene, ray, range_m, except));
 }
 
-/// Whether `found` lists bodies in [first, last) in order, each once: all that overlap the area, and none whose bounds
-/// do not intersect it.
-testing::AssertionResult areNear(const std::vector<BodyId>& found, const Scene& scene, std::size_t first,
-                                 std::size_t last, const Bounds2D& area) {
+/// Whether `found` lists bodies in order, each once: all that overlap the area, and none whose bounds do not intersect
+/// it.
+testing::AssertionResult areNear(const std::vector<BodyId>& found, const Scene& scene, const Bounds2D& area) {
   std::size_t next = 0;
-  for (std::size_t i = first; i < last; ++i) {
+  for (std::size_t i = 0; i < bodyCount(scene); ++i) {
     const Outline& outline = scene.solid(body(i)).outline;
     const Bounds2D b = boundsOf(outline);
     const bool may = b.x_min <= area.x_max && area.x_min <= b.x_max && b.y_min <= area.y_max && area.y_min <= b.y_max;
@@ -48,7 +47,7 @@ testing::AssertionResult areNear(const std::vector<BodyId>& found, const Scene& 
     if (!may && is_found) return testing::AssertionFailure() << "body " << i << " is not near";
   }
   if (next == found.size()) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "a body is listed twice, out of order, or of the other kind";
+  return testing::AssertionFailure() << "a body is listed twice or out of order";
 }
 
 struct Family {
@@ -182,8 +181,7 @@ TEST(Scene, SensesSectorsLikeALoopOverAllSolids) {
       const Sector sector = Sector::towards(ray.origin, std::atan2(ray.direction.y, ray.direction.x), half_width);
       const double range = randomRange(rng);
       const BodyId except = randomBody(rng, scene);
-      ASSERT_TRUE(isSame(scene.senseSector(sector, range, except), senseSectorSlowly(scene, sector, range, except)))
-          << name << ", sector " << i << ", range " << range;
+      ASSERT_EQ(whatDiffers(scene, sector, range, except), "") << name << ", sector " << i << ", range " << range;
     }
   });
 }
@@ -196,16 +194,60 @@ TEST(Scene, ListsTheBodiesNearAnAreaOnceInOrder) {
       const auto [left, right] = std::minmax(a.x, b.x);
       const auto [low, high] = std::minmax(a.y, b.y);
       const Bounds2D asked{left, right, low, high};
-      std::vector<BodyId> found;
-      scene.movingNear(asked, found);
-      ASSERT_TRUE(areNear(found, scene, scene.stationaryCount(), bodyCount(scene), asked)) << name;
       // Appended to existing entries, which must not change.
-      const std::vector<BodyId> moving = found;
-      scene.stationaryNear(asked, found);
-      const auto appended = found.begin() + std::ptrdiff_t(moving.size());
-      ASSERT_EQ(std::vector<BodyId>(found.begin(), appended), moving) << name;
+      const std::vector<BodyId> before{body(rng.below(9)), body(rng.below(9))};
+      std::vector<BodyId> found = before;
+      scene.findBodies(asked, found);
+      const auto appended = found.begin() + std::ptrdiff_t(before.size());
+      ASSERT_EQ(std::vector<BodyId>(found.begin(), appended), before) << name;
       found.erase(found.begin(), appended);
-      ASSERT_TRUE(areNear(found, scene, 0, scene.stationaryCount(), asked)) << name;
+      ASSERT_TRUE(areNear(found, scene, asked)) << name;
+    }
+  });
+}
+
+TEST(Scene, ClipsPathsLikeALoopOverAllSolids) {
+  int clipped = 0;
+  forManyScenes(5, [&](Rng& rng, Scene& scene, const Bounds2D& area, const std::string& name) {
+    for (int i = 0; i < 10; ++i) {
+      Path path = randomPath(rng, wider(area, 0.2));
+      const double radius_m = rng.uniform(0.01, 0.5);
+      const HeightSpan heights{rng.uniform(0, 1), rng.uniform(1, 2)};
+      Path slow = path;
+      for (std::size_t k = 0; k < scene.stationaryCount(); ++k) {
+        const Solid solid = scene.solid(body(k));
+        if (!solid.heights.overlaps(heights)) continue;
+        slow.end_fraction = std::min(slow.end_fraction, firstContact(slow, radius_m, solid.outline));
+      }
+      // Without neighbours, or with those of a moving solid near the start.
+      const bool with_neighbours = scene.movingCount() > 0 && rng.below(2) == 1;
+      if (with_neighbours) {
+        const auto& start = path.world_from_start;
+        scene.place(0, {Circle{{start.x + rng.uniform(0, 0.5), start.y}, 0.1}, {0, 2}});
+        scene.freeze();
+        scene.updateNeighbours(0, rng.uniform(0, 12));
+      }
+      scene.clip(path, radius_m, heights, with_neighbours ? scene.movingBody(0) : kNoBody);
+      ASSERT_EQ(path.end_fraction, slow.end_fraction) << name << ", path " << i;
+      clipped += path.end_fraction < 1 ? 1 : 0;
+    }
+  });
+  EXPECT_GT(clipped, 10000);
+}
+
+TEST(Scene, FindsAllMovingSolidsWithinReachOnce) {
+  forManyScenes(6, [](Rng& rng, const Scene& scene, const Bounds2D& area, const std::string& name) {
+    std::vector<std::uint32_t> found{7};
+    for (int i = 0; i < 10; ++i) {
+      const TPoint2D at = randomPoint(rng, wider(area, 0.5));
+      const double reach_m = randomRange(rng);
+      scene.findMoving(at, reach_m, found);
+      std::sort(found.begin(), found.end());
+      ASSERT_EQ(std::adjacent_find(found.begin(), found.end()), found.end()) << name;
+      for (std::uint32_t k = 0; k < scene.movingCount(); ++k) {
+        if (distance(scene.solid(scene.movingBody(k)).outline, at) > reach_m) continue;
+        ASSERT_TRUE(std::binary_search(found.begin(), found.end(), k)) << name << ", solid " << k;
+      }
     }
   });
 }

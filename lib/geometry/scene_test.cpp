@@ -1,9 +1,29 @@
 #include "geometry/scene.h"
 
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <new>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "geometry/testing/random_scene.h"
+#include "geometry/testing/slow_scene.h"
+
+// Counts the allocations of this program.
+namespace {
+std::atomic<long> allocations{0};
+}  // namespace
+
+// Not inline: g++ 12 would see the free() and warn about a mismatched deallocation.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace robosim {
 namespace {
@@ -36,8 +56,8 @@ TEST(Scene, FindsTheNearestBodyExceptTheExcludedOne) {
   EXPECT_EQ(other.point, TPoint3D(4, 0, 0.5));
   EXPECT_FALSE(scene.castRay({{0, 0, 1.5}, {1, 0, 0}}, 20)) << "above all solids";
   const Sector sector = Sector::towards({0, 0, 0.5}, 0, 0.2);
-  EXPECT_EQ(scene.senseSector(sector, 20, scene.movingBody(0)).distance_m, 4);
-  EXPECT_EQ(scene.senseSector(sector, 20).body, scene.movingBody(0));
+  EXPECT_EQ(senseSector(scene, sector, 20, scene.movingBody(0)).distance_m, 4);
+  EXPECT_EQ(senseSector(scene, sector, 20).body, scene.movingBody(0));
 }
 
 TEST(Scene, FindsSolidsStrictlyNearerThanTheRange) {
@@ -45,11 +65,11 @@ TEST(Scene, FindsSolidsStrictlyNearerThanTheRange) {
   const Ray ray{{1, 0, 0.5}, {1, 0, 0}};
   const Sector sector = Sector::towards(ray.origin, 0, 0.2);
   EXPECT_FALSE(scene.castRay(ray, 3));
-  EXPECT_FALSE(scene.senseSector(sector, 3));
+  EXPECT_FALSE(senseSector(scene, sector, 3));
   EXPECT_EQ(scene.castRay(ray, std::nextafter(3, 4)).distance_m, 3);
-  EXPECT_EQ(scene.senseSector(sector, std::nextafter(3, 4)).distance_m, 3);
+  EXPECT_EQ(senseSector(scene, sector, std::nextafter(3, 4)).distance_m, 3);
   EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {1, 0, 0}}, 0)) << "not even from inside, where nothing is nearer than 0";
-  EXPECT_FALSE(scene.senseSector(Sector::towards({0, 0, 0.5}, 0, 0.2), 0));
+  EXPECT_FALSE(senseSector(scene, Sector::towards({0, 0, 0.5}, 0, 0.2), 0));
   EXPECT_TRUE(scene.castRay({{0, 0, 0.5}, {1, 0, 0}}, 1e-300));
 }
 
@@ -62,8 +82,8 @@ TEST(Scene, PrefersTheLowestOfEquallyNearBodies) {
   const Ray ray{{0, 0, 0.5}, {1, 0, 0}};
   EXPECT_EQ(scene.castRay(ray, 20).body, BodyId{1});
   EXPECT_EQ(scene.castRay(ray, 20, BodyId{1}).body, BodyId{2});
-  EXPECT_EQ(scene.senseSector(Sector::towards(ray.origin, 0, 0.2), 20).body, BodyId{1});
-  EXPECT_EQ(scene.senseSector(Sector::towards({5, 0, 0.5}, 0, 0.2), 20).body, BodyId{1}) << "around the apex";
+  EXPECT_EQ(senseSector(scene, Sector::towards(ray.origin, 0, 0.2), 20).body, BodyId{1});
+  EXPECT_EQ(senseSector(scene, Sector::towards({5, 0, 0.5}, 0, 0.2), 20).body, BodyId{1}) << "around the apex";
 }
 
 TEST(Scene, HitsSolidsTouchedOnCellBorders) {
@@ -141,6 +161,38 @@ TEST(Scene, AppliesMovesWithFreeze) {
     EXPECT_EQ(hit.distance_m, std::abs(x) - 1);
     EXPECT_FALSE(scene.castRay({{0, 0, 0.5}, {x < 0 ? 1.0 : -1.0, 0, 0}}, 1000));
   }
+}
+
+TEST(Scene, DoesNotAllocateInSteadyState) {
+  constexpr std::size_t kMoving = 200;
+  Rng rng(1);
+  const SolidSpread spread{.size_max_m = 1};
+  Scene scene(randomSolids(rng, 100, spread), kMoving, spread.area);
+  std::vector<std::vector<Solid>> moments;
+  for (int moment = 0; moment < 20; ++moment) moments.push_back(randomSolids(rng, kMoving, spread));
+  std::vector<BodyId> near;
+  near.reserve(10000);
+  const std::vector<Sector> sectors(16, Sector::towards({0, 0, 0.5}, 1, 0.2));
+  const BeamFan fan(sectors);
+  BeamBatch batch;
+  const auto live = [&] {
+    for (const auto& moment : moments) {
+      for (std::size_t i = 0; i < kMoving; ++i) scene.place(i, moment[i]);
+      scene.freeze();
+      near.clear();
+      scene.findBodies(spread.area, near);
+      for (int i = 0; i < 50; ++i) {
+        const Ray ray = randomPlanarRay(rng, spread.area, 0, 2);
+        scene.castRay(ray, 5);
+        batch.place(fan, PlanarTransform({ray.origin.x, ray.origin.y, 1}, 0), 5);
+        scene.cast(batch);
+      }
+    }
+  };
+  live();
+  const long before = allocations;
+  live();
+  EXPECT_EQ(allocations, before);
 }
 
 }  // namespace

@@ -197,7 +197,7 @@ struct Description<BeaconRanges> {
   }
 };
 
-/// The generic kind: named numbers, for sensors that are not part of RoboSim.
+/// The generic kind: named numbers, for sensors that are not part of RoboSim. A sensor of an unknown kind has none.
 struct Values {
   std::vector<double> values;  ///< one for each of SensorInfo::quantities, in their order and units
   bool operator==(const Values&) const = default;
@@ -205,11 +205,13 @@ struct Values {
 
 template <>
 struct Description<Values> {
-  static constexpr std::array kinds{SensorKind::values};
+  static constexpr std::array kinds{SensorKind::values, SensorKind::unknown};
   static constexpr const char* record_name = "quantity";
   static constexpr std::tuple fields{Field{"value", kNoUnit, kGet<>}};
   static auto records(auto& values) { return std::span(values.values); }
-  static Values blank(const SensorInfo& sensor) { return {std::vector<double>(sensor.quantities.size())}; }
+  static Values blank(const SensorInfo& sensor) {
+    return {std::vector<double>(sensor.kind == SensorKind::unknown ? 0 : sensor.quantities.size())};
+  }
 };
 
 /// Measurement of one sensor in one step.

@@ -58,6 +58,7 @@ TEST(Measurement, IsInitiallyBlankAndOfTheSensorsSize) {
   EXPECT_EQ(blank(SensorKind::blob_finder), Measurement(Blobs{false, {{"gold"}, {"red"}}}));
   EXPECT_EQ(blank(SensorKind::beacons), Measurement(BeaconRanges{{50, 50, 50}}));
   EXPECT_EQ(blank(SensorKind::values), Measurement(Values{{0}}));
+  EXPECT_EQ(blank(SensorKind::unknown), Measurement(Values{}));
 }
 
 TEST(Measurement, IsAbsentInStepsWithoutAnImageOnly) {
@@ -90,6 +91,22 @@ TEST(Measurement, RejectsNumbersBeyondTheirBounds) {
       << "7 pixels in 2 × 3";
   EXPECT_EQ(faultWith(Blobs{false, {{"red"}}}, {6, 10.5, 11.5, 10, 2049, 2, 3}),
             "blob 0: a top of 2049 px; it must lie in [0, 2048 px]");
+  EXPECT_EQ(faultWith(Blobs{false, {{"red"}}}, {6, 2047.5, 11.5, 2046, 11, 2, 3}), "");
+  EXPECT_EQ(faultWith(Blobs{false, {{"red"}}}, {6, 2047.5, 11.5, 2047, 11, 2, 3}), "a blob outside the image")
+      << "columns 2047 and 2048 of 2048";
+}
+
+TEST(Measurement, RejectsPicturesThatAreTooLargeOrCutOff) {
+  const auto fault_of = [](std::size_t bytes, const std::string& end) {
+    std::string jpeg = "\xFF\xD8";
+    jpeg.resize(bytes - end.size(), 'x');
+    return Description<Image>::fileFaultOf(jpeg + end);
+  };
+  EXPECT_EQ(Description<Image>::fileFaultOf(""), "") << "no picture in this step";
+  EXPECT_EQ(fault_of(100, "\xFF\xD9"), "");
+  EXPECT_EQ(fault_of(100, "x"), "a picture that is no JPEG file");
+  EXPECT_EQ(fault_of(kPictureBytesMax, "\xFF\xD9"), "");
+  EXPECT_EQ(fault_of(kPictureBytesMax + 1, "\xFF\xD9"), "a picture of 16777217 bytes; the most is 16777216");
 }
 
 }  // namespace

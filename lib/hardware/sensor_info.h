@@ -23,12 +23,14 @@ enum class SensorKind : std::uint8_t {
   blob_finder,
   battery,
   beacons,
-  values  ///< any other sensor: named numbers
+  values,  ///< any other sensor: named numbers
+  unknown  ///< of an environment of a newer version: its measurements are not decoded
 };
 
 /// Names of the kinds in files, labels and messages, in the order of SensorKind.
-inline constexpr std::array kSensorKindNames{"sonar",   "laser",  "infrared",    "heat",    "bumper",  "odometry",
-                                             "compass", "camera", "blob_finder", "battery", "beacons", "values"};
+inline constexpr std::array kSensorKindNames{"sonar",    "laser",   "infrared", "heat",        "bumper",
+                                             "odometry", "compass", "camera",   "blob_finder", "battery",
+                                             "beacons",  "values",  "unknown"};
 
 constexpr const char* nameOf(SensorKind kind) { return kSensorKindNames[static_cast<std::size_t>(kind)]; }
 /// The kind of a name; nullopt for none of them.

@@ -18,6 +18,21 @@ TEST(SensorKind, HasAUniqueNameForEveryKind) {
   }
 }
 
+TEST(Beam, TurnsWithThePanAndKeepsItsElevation) {
+  // 30° upwards; MRPT's pitch is positive downwards.
+  const Beam beam{mrpt::math::TPose3D(1, 2, 3, 0, -M_PI / 6, 0)};
+  const double level = std::sqrt(0.75);
+  const auto expect_direction = [&](double pan_rad, double x, double y) {
+    const auto direction = directionOf(beam, pan_rad);
+    EXPECT_NEAR(direction.x, x, 1e-15) << pan_rad;
+    EXPECT_NEAR(direction.y, y, 1e-15) << pan_rad;
+    EXPECT_NEAR(direction.z, 0.5, 1e-15) << pan_rad;
+  };
+  expect_direction(0, level, 0);
+  expect_direction(M_PI / 2, 0, level);
+  expect_direction(-M_PI / 2, 0, -level);
+}
+
 TEST(CameraInfo, HasAFocalLengthOfHalfTheWidthAt90Degrees) {
   EXPECT_NEAR((CameraInfo{320, 240, M_PI / 2, 10}).focalLength(), 160, 1e-12);
 }

@@ -85,6 +85,18 @@ TEST_F(HeatTraceTest, IgnoresASecondMeasurementAtTheSamePlace) {
   EXPECT_TRUE(trace.measure({0.2, 0}, 0));
 }
 
+TEST_F(HeatTraceTest, ForgetsAHotterSourceWithAReset) {
+  const TPoint2D hot(-3, 0.3), warm(3, 0.3);
+  measureAlong({-4, 0}, {-2, 0}, hot, 20);
+  ASSERT_TRUE(trace.source());
+  map.reset();
+  trace.reset();
+  EXPECT_FALSE(trace.source());
+  measureAlong({2, 0}, {3, 0}, warm, 9);
+  ASSERT_TRUE(trace.source());
+  EXPECT_LT((trace.source()->place - warm).norm(), 0.8);
+}
+
 TEST_F(HeatTraceTest, EstimatesTheNextSourceAfterSearchFromHere) {
   const TPoint2D hot(-3, 0.3), warm(3, 0.3);
   measureAlong({-4, 0}, {-2, 0}, hot, 20);

@@ -11,6 +11,7 @@ constexpr int kHit = 4;
 constexpr int kOccupied = 3;          // reached by one echo
 constexpr int kSure = 8;              // requires several echoes
 constexpr int kEvidenceMax = 12;      // maximum: bounds the empty observations that free a cell
+constexpr int kBumpsMax = 3;          // a cell with as many is occupied although range sensors measure free space
 constexpr double kBerth_radii = 0.5;  // clearance beyond the body
 
 std::vector<Cell> offsetsWithin(double distance_cells) {
@@ -61,11 +62,17 @@ void Obstacles::clearUnder(const mrpt::math::TPoint2D& robot) {
   const Cell at = map_->cellAt(robot);
   for (const Cell& offset : near_) {
     const Cell cell{at.x + offset.x, at.y + offset.y};
-    if ((map_->center(cell) - robot).norm() < 0.6 * radius_m_) add(cell, -kEvidenceMax);
+    if ((map_->center(cell) - robot).norm() < 0.6 * radius_m_) clear(cell);
   }
 }
 
-void Obstacles::bump(const mrpt::math::TPoint2D& place) { add(map_->cellAt(place), kSure - 1); }
+void Obstacles::bump(const mrpt::math::TPoint2D& place) {
+  const Cell cell = map_->cellAt(place);
+  add(cell, kSure - 1);
+  if (!map_->contains(cell)) return;
+  MapCell& here = (*map_)[cell];
+  here.bumps = static_cast<std::uint8_t>(std::min(here.bumps + 1, kBumpsMax)) & 3u;
+}
 
 int Obstacles::reach() const {
   // All neighbours must exist when an obstacle is counted, to keep the counts correct when it is removed.
@@ -74,12 +81,20 @@ int Obstacles::reach() const {
 
 void Obstacles::removeUncertain() {
   for (std::size_t i = 0; i < map_->size(); ++i) {
-    if (map_->at(i).evidence > 0 && map_->at(i).evidence < kSure) add(map_->cell(i), -kEvidenceMax);
+    const MapCell& cell = map_->at(i);
+    if (cell.evidence > 0 && (cell.evidence < kSure || cell.bumps == kBumpsMax)) clear(map_->cell(i));
   }
 }
 
 void Obstacles::seeFree(const Cell& cell) {
-  if (map_->contains(cell) && (*map_)[cell].evidence > 0) add(cell, -1);
+  if (!map_->contains(cell)) return;
+  const MapCell& here = (*map_)[cell];
+  if (here.evidence > 0 && here.bumps < kBumpsMax) add(cell, -1);
+}
+
+void Obstacles::clear(const Cell& cell) {
+  add(cell, -kEvidenceMax);
+  if (map_->contains(cell)) (*map_)[cell].bumps = 0;
 }
 
 void Obstacles::add(const Cell& cell, int evidence) {

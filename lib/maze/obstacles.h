@@ -29,10 +29,11 @@ class Obstacles {
             std::size_t stride = 1);
   /// Marks the cells of the robot's own body as free.
   void clearUnder(const mrpt::math::TPoint2D& robot);
-  /// Marks an obstacle that was detected by collision only.
+  /// Marks an obstacle that was detected by collision only. After three collisions in a cell, as with an obstacle that
+  /// is too low for the range sensors, measurements of free space no longer remove it.
   void bump(const mrpt::math::TPoint2D& place);
 
-  /// Removes obstacles without repeated evidence.
+  /// Removes obstacles without repeated evidence from range sensors.
   void removeUncertain();
   /// Counter of cells that became occupied or free.
   std::uint64_t changes() const { return changes_; }
@@ -43,6 +44,7 @@ class Obstacles {
  private:
   void add(const Cell& cell, int evidence);
   void seeFree(const Cell& cell);
+  void clear(const Cell& cell);
   void occupy(const Cell& cell, int by);
 
   MazeMap* map_;

@@ -92,6 +92,35 @@ TEST_F(ObstaclesTest, OfACollisionBlockCells) {
   EXPECT_TRUE(blocked(0.5, 0.5));
 }
 
+TEST_F(ObstaclesTest, TooLowForTheSonarStayAfterThreeCollisions) {
+  const auto bumpAndLook = [&] {
+    obstacles.bump({0.8, 0.05});
+    hardware.setSonarRange(0, 3.0);  // above the obstacle
+    for (int i = 0; i < 20; ++i) look();
+  };
+  bumpAndLook();
+  EXPECT_FALSE(occupied(0.8, 0.05));
+  bumpAndLook();
+  EXPECT_FALSE(occupied(0.8, 0.05));
+  bumpAndLook();
+  EXPECT_TRUE(occupied(0.8, 0.05));
+}
+
+TEST_F(ObstaclesTest, OfThreeCollisionsAreRemovedUnderTheRobotAndAsUncertain) {
+  const auto bump3 = [&] {
+    for (int i = 0; i < 3; ++i) obstacles.bump({0.8, 0.05});
+  };
+  hardware.setSonarRange(0, 3.0);
+  bump3();
+  obstacles.clearUnder({0.8, 0.05});
+  obstacles.bump({0.8, 0.05});  // a first collision again
+  for (int i = 0; i < 20; ++i) look();
+  EXPECT_FALSE(occupied(0.8, 0.05));
+  bump3();
+  obstacles.removeUncertain();
+  EXPECT_FALSE(occupied(0.8, 0.05));
+}
+
 TEST_F(ObstaclesTest, DetectedOnceAreRemovedAsUncertain) {
   hardware.setSonarRange(0, 1.0);
   look();

@@ -20,10 +20,10 @@ constexpr double kTurnOnSpot_rad = 1.0;  // above this heading error it turns on
 constexpr double kBendSpeed = 0.5;       // of its maximum speed, at the end of a straight segment
 constexpr double kGap_m = 0.05;          // distance kept from obstacles in front
 
-/// The highest speed from which a robot can brake to `end_mps` within `room_m`, if it starts one step late.
-double brakingSpeed(double room_m, double end_mps, double decel_mps2, double period_s) {
+/// The highest speed from which a robot can brake to `end_mps` within `clearance_m`, if it starts one step late.
+double brakingSpeed(double clearance_m, double end_mps, double decel_mps2, double period_s) {
   const double loss = decel_mps2 * period_s;
-  return std::sqrt(loss * loss + 2 * decel_mps2 * room_m + end_mps * end_mps) - loss;
+  return std::sqrt(loss * loss + 2 * decel_mps2 * clearance_m + end_mps * end_mps) - loss;
 }
 
 /// Whether a robot can drive straight from one cell to another with clearance: no cell on the line is close to a wall.
@@ -43,16 +43,16 @@ bool isRoomy(const MazeMap& map, const Cell& from, const Cell& to) {
 
 double clearanceInLane(const Robot& robot, int direction) {
   const double radius = robot.info().radius_m;
-  double room = std::numeric_limits<double>::infinity();
+  double clearance = std::numeric_limits<double>::infinity();
   for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared}) {
     const SensorInfo* sensor = robot.sensor(kind);
     for (const Echo& echo : robot.echoes(kind)) {
       const double x = direction * echo.point_m.x, y = echo.point_m.y;
       if (x <= 0 || std::abs(y) >= radius || !isEcho(*sensor, echo)) continue;
-      room = std::min(room, x - std::sqrt(radius * radius - y * y));
+      clearance = std::min(clearance, x - std::sqrt(radius * radius - y * y));
     }
   }
-  return room;
+  return clearance;
 }
 
 void PathDriver::follow(const std::vector<Cell>& path) {
@@ -98,11 +98,11 @@ void PathDriver::drive(Robot& robot, const mrpt::math::TPose2D& start_from_robot
   double speed = 0;
   if (std::abs(off) < kTurnOnSpot_rad) {
     // Slow enough to brake within the clearance, and to reach the target point with kBendSpeed.
-    const double room = std::max(0.0, clearanceInLane(robot, 1) - kGap_m);
+    const double clearance = std::max(0.0, clearanceInLane(robot, 1) - kGap_m);
     const double bend_mps = at_end ? 0 : kBendSpeed * limits.speed_max_mps;
     const double on_course = portable::cos(off * M_PI_2 / kTurnOnSpot_rad);
     const double period_s = robot.readings().time.period_s;
-    speed = std::min({limits.speed_max_mps * on_course, brakingSpeed(room, 0, limits.decel_mps2, period_s),
+    speed = std::min({limits.speed_max_mps * on_course, brakingSpeed(clearance, 0, limits.decel_mps2, period_s),
                       brakingSpeed(to_aim, bend_mps, limits.decel_mps2, period_s)});
   }
   robot.drive(speed, std::clamp(kTurnGain_per_s * off, -limits.turn_max_radps, limits.turn_max_radps));

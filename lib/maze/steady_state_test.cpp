@@ -39,7 +39,7 @@ TEST(Controllers, AllocateNothingAfterTheMapIsComplete) {
       }
       return count;
     };
-    allocations_in(4000);
+    allocations_in(10000);
     EXPECT_EQ(allocations_in(4000), 0) << name;
   }
 }

@@ -1,5 +1,6 @@
 #include "maze/stuck_recovery.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -14,7 +15,11 @@ constexpr double kTurnMin_rad = std::numbers::pi / 6;  // a turn on the spot
 constexpr double kTurnMax_rad = std::numbers::pi;      // in both directions: covers all headings
 constexpr double kDriveMin_s = 1;
 constexpr double kDriveMax_s = 6;
-constexpr double kSpeed = 0.2;  // fraction of the maximum speed
+constexpr double kSpeed = 0.2;                         // fraction of the maximum speed
+constexpr double kRound_s = 60;                        // along a pocket's boundary in one direction
+constexpr double kAwayMin_rad = std::numbers::pi / 9;  // a turn away from a contact
+constexpr double kAwayMax_rad = std::numbers::pi / 3;
+constexpr double kArc_radii = 2;  // radius of the arcs back to the boundary, in robot radii
 constexpr double kGap_m = 0.02;
 constexpr std::uint64_t kPauseSteps = 10;
 constexpr std::uint32_t kRandomItem = 1;  // random stream separate from the controller's
@@ -25,27 +30,35 @@ bool StuckRecovery::takesOver(Robot& robot) {
   const std::uint64_t now = robot.stepNumber();
   const bool was_paused = now > called_step_ + kPauseSteps;
   called_step_ = now;
-  if (was_paused || hasMoved(robot)) {
-    left_from_ = robot.odometry().odom_from_robot;
-    left_step_ = now;
-    is_active_ = false;
-    return false;
+  if (was_paused || hasLeft(stay_, options_.headway_radii, robot)) {
+    const Stay here{robot.odometry().odom_from_robot, now};
+    if (was_paused || hasLeft(pocket_, options_.pocket_radii, robot)) pocket_ = here;
+    stay_ = here;
+    is_in_pocket_ = now >= pocket_.since + robot.stepsIn(options_.pocket_timeout_s);
+    if (!is_in_pocket_) {
+      is_active_ = false;
+      return false;
+    }
   }
   if (!is_active_) {
-    if (now < left_step_ + robot.stepsIn(options_.timeout_s)) return false;
+    if (!is_in_pocket_ && now < stay_.since + robot.stepsIn(options_.timeout_s)) return false;
     is_active_ = true;
     has_drawn_ = true;
     turn_until_ = drive_until_ = now;
   }
-  turnOrDrive(robot);
+  if (is_in_pocket_) {
+    followBoundary(robot);
+  } else {
+    turnOrDrive(robot);
+  }
   return true;
 }
 
-bool StuckRecovery::hasMoved(const Robot& robot) const {
+bool StuckRecovery::hasLeft(const Stay& stay, double radii, const Robot& robot) const {
   if (!robot.sensor(SensorKind::odometry)) return !robot.stalled() && robot.command().speed_mps != 0;
   const auto& now = robot.odometry().odom_from_robot;
-  const double x = now.x - left_from_.x, y = now.y - left_from_.y;
-  const double disc_m = options_.headway_radii * robot.info().radius_m;
+  const double x = now.x - stay.center.x, y = now.y - stay.center.y;
+  const double disc_m = radii * robot.info().radius_m;
   return x * x + y * y > disc_m * disc_m;
 }
 
@@ -62,6 +75,25 @@ void StuckRecovery::turnOrDrive(Robot& robot) {
   }
   const bool turns = now < turn_until_;
   robot.drive(turns ? 0 : kSpeed * limits.speed_max_mps, turns ? turn_ * limits.turn_max_radps : 0);
+}
+
+void StuckRecovery::followBoundary(Robot& robot) {
+  const MotionLimits& limits = robot.info().limits;
+  const std::uint64_t now = robot.stepNumber();
+  const std::uint64_t rounds = (now - pocket_.since) / robot.stepsIn(kRound_s);
+  const double side = rounds % 2 == 0 ? 1 : -1;
+  if (now >= turn_until_ && (robot.stalled() || clearanceInLane(robot, 1) < kGap_m)) {
+    Rng rng(setup_.seed, RandomPurpose::controller, setup_.robot, kRandomItem, now);
+    const double angle_rad = rng.uniform(kAwayMin_rad, kAwayMax_rad);
+    turn_until_ = now + robot.stepsIn(angle_rad / (kTurn * limits.turn_max_radps));
+  }
+  const double speed_mps = kSpeed * limits.speed_max_mps;
+  if (now < turn_until_) {
+    robot.drive(0, side * kTurn * limits.turn_max_radps);
+  } else {
+    const double arc_radps = speed_mps / (kArc_radii * robot.info().radius_m);
+    robot.drive(speed_mps, -side * std::min(arc_radps, limits.turn_max_radps));
+  }
 }
 
 }  // namespace robosim

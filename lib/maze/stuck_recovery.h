@@ -7,15 +7,20 @@
 namespace robosim {
 
 struct StuckRecoveryOptions {
-  double timeout_s = 15;       ///< time in the disc after which the recovery starts
-  double headway_radii = 1.5;  ///< radius of the disc, in robot radii
+  double timeout_s = 15;         ///< time in the disc after which the recovery starts
+  double headway_radii = 1.5;    ///< radius of the disc, in robot radii
+  double pocket_timeout_s = 90;  ///< time in the larger disc after which the robot follows the boundary
+  double pocket_radii = 4;       ///< radius of the larger disc, in robot radii
 };
 
 /// Recovery behaviour for a robot without progress, for example at the edge of the surface, at an undetected obstacle,
 /// in a corner, or at another robot. A robot that has not left a disc in time (StuckRecoveryOptions) turns on the spot
-/// by a random angle, drives slowly ahead while its lane is free, and repeats both until it has left the disc. Keeps no
-/// map and does not allocate. A robot without odometry makes progress in each step in which it drives without a stall.
-/// The recovery restarts after a pause in the calls, in which the robot may have been driven otherwise.
+/// by a random angle, drives slowly ahead while its lane is free, and repeats both until it has left the disc. A pocket
+/// with a narrow exit allows such headway, so a robot that has not left a larger disc in time follows the boundary of
+/// the pocket: it drives in arcs towards it, and turns away at contact, in one direction for a minute, then in the
+/// other. Keeps no map and does not allocate. A robot without odometry makes progress in each step in which it drives
+/// without a stall. The recovery restarts after a pause in the calls, in which the robot may have been driven
+/// otherwise.
 class StuckRecovery {
  public:
   explicit StuckRecovery(const ControllerSetup& setup, const StuckRecoveryOptions& options = {})
@@ -28,14 +33,20 @@ class StuckRecovery {
   bool hasDrawnRandomNumbers() const { return has_drawn_; }
 
  private:
-  bool hasMoved(const Robot& robot) const;
+  /// A place, and the step in which the robot last was farther from it than a disc's radius.
+  struct Stay {
+    mrpt::math::TPose2D center;  ///< odometry frame
+    std::uint64_t since = 0;     ///< step
+  };
+  bool hasLeft(const Stay& stay, double radii, const Robot& robot) const;
   void turnOrDrive(Robot& robot);
+  void followBoundary(Robot& robot);
 
   ControllerSetup setup_;
   StuckRecoveryOptions options_;
-  mrpt::math::TPose2D left_from_;  ///< centre of the disc, odometry frame
-  std::uint64_t left_step_ = 0;    ///< when the robot last left such a disc
+  Stay stay_, pocket_;
   std::uint64_t called_step_ = 0;  ///< of the last call
+  bool is_in_pocket_ = false;
   bool is_active_ = false;
   bool has_drawn_ = false;
   std::uint64_t turn_until_ = 0, drive_until_ = 0;  ///< steps

@@ -43,6 +43,24 @@ TEST(StuckRecovery, TakesOverAfter15SecondsWithoutProgress) {
   EXPECT_TRUE(recovery.takesOver(robot));
 }
 
+TEST(StuckRecovery, RecognisesProgressWithoutOdometryByTheStalls) {
+  for (const bool is_blocked : {false, true}) {
+    FakeHardware hardware;
+    auto sensors = std::make_shared<std::vector<SensorInfo>>(*hardware.info().sensors);
+    (*sensors)[0].kind = SensorKind::values;  // in place of odometry
+    hardware.mutableInfo().sensors = sensors;
+    hardware.blocked = is_blocked;
+    Robot robot(hardware);
+    StuckRecovery recovery({.seed = 1});
+    for (int i = 0; i < 150; ++i) {
+      ASSERT_FALSE(recovery.takesOver(robot)) << i;
+      robot.drive(0.1, 0);
+      hardware.advance();
+    }
+    EXPECT_EQ(recovery.takesOver(robot), is_blocked);
+  }
+}
+
 TEST(StuckRecovery, DrivesOutOfADeadEnd) {
   // A dead end 0.6 m wide around a robot of 0.5 m, open behind the robot.
   FakeMaze maze({FakeMaze::box(0.45, 0, 0.2, 0.8), FakeMaze::box(-1, 0.4, 3, 0.2), FakeMaze::box(-1, -0.4, 3, 0.2)},
@@ -52,6 +70,17 @@ TEST(StuckRecovery, DrivesOutOfADeadEnd) {
     if (!recovery.takesOver(robot)) robot.stop();
   });
   EXPECT_LT(steps, 6000);
+}
+
+TEST(StuckRecovery, FreesWanderFromAPocketWithANarrowExitWithinFiveMinutes) {
+  // 1.2 m × 1.2 m inside, with an exit of 0.6 m for a robot of 0.5 m, which moves farther than the disc of 1.5 radii.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    FakeMaze maze({FakeMaze::box(0, 0.65, 1.4, 0.1), FakeMaze::box(0, -0.65, 1.4, 0.1),
+                   FakeMaze::box(-0.65, 0, 0.1, 1.2), FakeMaze::box(0.65, 0.3, 0.1, 0.6)},
+                  {99, 99}, 0);
+    Wander wander({.seed = seed});
+    EXPECT_LT(stepsToLeave(maze, 1.2, 3000, [&](Robot& robot) { wander.step(robot); }), 3000) << seed;
+  }
 }
 
 TEST(StuckRecovery, RestartsItsTimeoutAfterAnotherControllerHasDriven) {

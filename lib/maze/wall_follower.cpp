@@ -12,7 +12,7 @@ namespace {
 
 /// The nearest echo between two bearings [rad], from the robot's edge.
 struct Nearest {
-  double room_m = 1e9;
+  double clearance_m = 1e9;
   double bearing_rad = 0;
 };
 
@@ -23,8 +23,8 @@ Nearest nearestBetween(const Robot& robot, double from_rad, double to_rad) {
   for (const Echo& echo : robot.sonar()) {
     if (!isEcho(*sonar, echo)) continue;
     const double bearing = portable::atan2(echo.point_m.y, echo.point_m.x);
-    const double room = portable::hypot(echo.point_m.x, echo.point_m.y) - robot.info().radius_m;
-    if (from_rad <= bearing && bearing <= to_rad && room < nearest.room_m) nearest = {room, bearing};
+    const double clearance_m = portable::hypot(echo.point_m.x, echo.point_m.y) - robot.info().radius_m;
+    if (from_rad <= bearing && bearing <= to_rad && clearance_m < nearest.clearance_m) nearest = {clearance_m, bearing};
   }
   return nearest;
 }
@@ -44,20 +44,20 @@ void WallFollower::step(Robot& robot) {
   const Nearest ahead = nearestBetween(robot, -35 * kDeg, 35 * kDeg);
   const Nearest right = nearestBetween(robot, -150 * kDeg, -20 * kDeg);
   // In front of an obstacle it stops at the wall's distance, and turns left on the spot.
-  const double braking = std::sqrt(2 * limits.decel_mps2 * std::max(0.0, ahead.room_m - 0.8 * distance));
+  const double braking = std::sqrt(2 * limits.decel_mps2 * std::max(0.0, ahead.clearance_m - 0.8 * distance));
   const double cruise = std::min(0.6 * limits.speed_max_mps, braking);
   const std::uint64_t now = robot.stepNumber();
   if (robot.stalled()) {
     turn_until_ = now + robot.stepsIn(kTouchTurn_rad / (kTurnFraction * limits.turn_max_radps));
     ahead_until_ = turn_until_ + robot.stepsIn(kTouchAhead_s);
   }
-  if (ahead.room_m < distance || now < turn_until_) {
+  if (ahead.clearance_m < distance || now < turn_until_) {
     found_wall_ = true;
     arc_rad_ = 0;
     robot.drive(0, kTurnFraction * limits.turn_max_radps);
     return;
   }
-  if (right.room_m > 3 * distance) {
+  if (right.clearance_m > 3 * distance) {
     // No wall: drive straight to find one, or around the corner where it ended.
     const bool rounds_corner = found_wall_ && now >= ahead_until_;
     const double turn = rounds_corner ? std::max(-cruise / (distance + radius), -limits.turn_max_radps) : 0;
@@ -70,7 +70,7 @@ void WallFollower::step(Robot& robot) {
   arc_rad_ = 0;
   // Steers so that the wall's nearest point is to the right, at the set distance.
   const double along = right.bearing_rad + std::numbers::pi / 2;
-  const double off = std::clamp((distance - right.room_m) / distance, -1.0, 1.0);
+  const double off = std::clamp((distance - right.clearance_m) / distance, -1.0, 1.0);
   const double turn = std::clamp(1.5 * along + 0.8 * off, -0.8, 0.8);
   robot.drive(cruise * (1 - 0.7 * std::abs(turn)), std::clamp(turn, -limits.turn_max_radps, limits.turn_max_radps));
 }

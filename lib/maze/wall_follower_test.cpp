@@ -76,6 +76,25 @@ TEST(WallFollower, FollowsOuterCorners) {
   EXPECT_LT(angle, -2 * M_PI);
 }
 
+TEST(WallFollower, FollowsAThinWallRoundAndRound) {
+  // Of 8 sonars none detects the wall while the robot turns around its ends, in an arc.
+  const auto wall = FakeMaze::box(1.5, 0, 0.1, 2);
+  FakeMaze maze({wall}, {99, 99}, 0, 8);
+  Robot robot(maze.hardware);
+  WallFollower follower;
+  double angle = 0;
+  mrpt::math::TPoint2D last(-1.5, 0);
+  for (int i = 0; i < 3000 && angle > -6 * M_PI; ++i) {
+    follower.step(robot);
+    maze.hardware.advance();
+    const mrpt::math::TPoint2D now(maze.pose().x - 1.5, maze.pose().y);
+    angle += std::atan2(last.x * now.y - last.y * now.x, last.x * now.x + last.y * now.y);
+    last = now;
+    ASSERT_LT(distance(wall, {maze.pose().x, maze.pose().y}), 1.5) << i;
+  }
+  EXPECT_LE(angle, -6 * M_PI) << "three rounds";
+}
+
 TEST(WallFollower, KeepsTheDistanceOfItsOptions) {
   FakeMaze maze({FakeMaze::box(0, -0.8, 100, 0.1)}, {99, 99}, 0);
   Robot robot(maze.hardware);

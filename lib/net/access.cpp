@@ -19,9 +19,7 @@ using Time = Access::Clock::time_point;
 /// Interval at which the file is checked for changes.
 constexpr auto kPollPeriod = 1s;
 
-grpc::Status refuse(grpc::StatusCode code, const std::string& what) { return {code, what}; }
-
-grpc::Status unauthenticated(const std::string& what) { return refuse(grpc::StatusCode::UNAUTHENTICATED, what); }
+grpc::Status invalidToken(const std::string& what) { return errorStatus(v1::ERROR_REASON_TOKEN_INVALID, what); }
 
 /// Description of a token's role for the text of a refusal.
 std::string purposeOf(const TokenHolder& holder) {
@@ -87,8 +85,9 @@ Access Access::parse(const std::string& text, const std::string& file, const Opt
 Access::Authenticated Access::authenticate(std::optional<std::string_view> token, std::string_view peer) const {
   if (isOpen()) return {};
   if (!token) {
-    return {unauthenticated("requires a token; specify its file with --token-file, or set "
-                            "the environment variable ROBOSIM_TOKEN"),
+    return {errorStatus(v1::ERROR_REASON_TOKEN_REQUIRED,
+                        "requires a token; specify its file with --token-file, or set the environment variable "
+                        "ROBOSIM_TOKEN"),
             {}};
   }
   const TokenHash hash = hashOf(*token);
@@ -96,21 +95,21 @@ Access::Authenticated Access::authenticate(std::optional<std::string_view> token
   const std::lock_guard lock(state_->mutex);
   const Time now = state_->options.now();
   if (const auto wait = state_->guesses.wait(address, hash, now); wait > 0ms) {
-    return {refuse(grpc::StatusCode::RESOURCE_EXHAUSTED,
-                   "too many wrong tokens came from this address; try again in " +
-                       std::to_string(std::chrono::ceil<std::chrono::seconds>(wait).count()) + " s"),
+    return {errorStatus(v1::ERROR_REASON_TOO_MANY_WRONG_TOKENS,
+                        "too many wrong tokens came from this address; try again in " +
+                            std::to_string(std::chrono::ceil<std::chrono::seconds>(wait).count()) + " s"),
             {}};
   }
   const TokenHolder* holder = state_->table.find(hash);
   if (!holder) {
     state_->guesses.noteWrong(address, hash, now);
-    return {unauthenticated(
-                "the token is unknown; request a valid one from the operator of the environment (serve --tokens)"),
-            {}};
+    return {
+        invalidToken("the token is unknown; request a valid one from the operator of the environment (serve --tokens)"),
+        {}};
   }
   if (isExpired(*holder, now)) {
-    return {unauthenticated("the token " + holder->name +
-                            " has expired; request another from the operator of the environment"),
+    return {invalidToken("the token " + holder->name +
+                         " has expired; request another from the operator of the environment"),
             {}};
   }
   state_->guesses.noteRight(address, hash, now);
@@ -134,19 +133,21 @@ grpc::Status Access::check(const Identity& client, Right right, std::span<const 
   if (isOpen()) return grpc::Status::OK;
   const std::lock_guard lock(state_->mutex);
   const TokenHolder* holder = client.token_hash_ ? state_->table.find(*client.token_hash_) : nullptr;
-  if (!holder) return unauthenticated("the token was withdrawn; request another from the operator of the environment");
+  if (!holder) return invalidToken("the token was withdrawn; request another from the operator of the environment");
   if (isExpired(*holder, state_->options.now())) {
-    return unauthenticated("the token " + holder->name +
-                           " has expired; request another from the operator of the environment");
+    return invalidToken("the token " + holder->name +
+                        " has expired; request another from the operator of the environment");
   }
   if (!permits(holder->role, right)) {
-    return refuse(grpc::StatusCode::PERMISSION_DENIED, "the token " + purposeOf(*holder));
+    return errorStatus(v1::ERROR_REASON_PERMISSION_DENIED, "the token " + purposeOf(*holder));
   }
   if (holder->role != Role::robot) return grpc::Status::OK;
   for (const auto& robot : robots) {
     if (std::find(holder->robots.begin(), holder->robots.end(), robot) != holder->robots.end()) continue;
-    return refuse(grpc::StatusCode::PERMISSION_DENIED, "the token is not for robot " + inQuotes(robot) + " but for " +
-                                                           listed(holder->robots) + "; use another");
+    return errorStatus(
+        v1::ERROR_REASON_PERMISSION_DENIED,
+        "the token is not for robot " + inQuotes(robot) + " but for " + listed(holder->robots) + "; use another",
+        robot);
   }
   return grpc::Status::OK;
 }

@@ -90,8 +90,7 @@ class ClientStream {
   /// Ends a stream that should go on. @throws ConnectionError with its status, or that the run is over
   [[noreturn]] void fail() {
     const grpc::Status status = finish();
-    throw ConnectionError(status.ok() ? grpc::Status(grpc::StatusCode::CANCELLED, "the run is over") : status,
-                          options_);
+    throw ConnectionError(status.ok() ? grpc::Status(grpc::StatusCode::ABORTED, "the run is over") : status, options_);
   }
   /// Waits for the end of the stream. @throws ConnectionError unless its status is OK
   void finishOrThrow() {

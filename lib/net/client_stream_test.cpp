@@ -5,20 +5,20 @@
 #include <gtest/gtest.h>
 
 #include "net/open_port.h"
-#include "net/viewing.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 
 namespace robosim {
 namespace {
 
 /// Sends each message back except 1000; ends the stream after the message 0, and with an error after the message 99.
-class EchoService final : public wire::Viewing::Service {
-  grpc::Status Watch(grpc::ServerContext*, grpc::ServerReaderWriter<wire::Frame, wire::FrameRequest>* stream) override {
-    wire::FrameRequest request;
+class EchoService final : public v1::Viewing::Service {
+  grpc::Status Watch(grpc::ServerContext*, grpc::ServerReaderWriter<v1::Frame, v1::FrameRequest>* stream) override {
+    v1::FrameRequest request;
     while (stream->Read(&request)) {
       if (request.protocol() == 0) return grpc::Status::OK;
       if (request.protocol() == 99) return {grpc::StatusCode::INVALID_ARGUMENT, "99"};
       if (request.protocol() == 1000) continue;
-      wire::Frame frame;
+      v1::Frame frame;
       frame.set_step(request.protocol());
       stream->Write(frame);
     }
@@ -27,17 +27,17 @@ class EchoService final : public wire::Viewing::Service {
 };
 
 struct ClientStreamTest : testing::Test {
-  using Stream = ClientStream<wire::FrameRequest, wire::Frame>;
+  using Stream = ClientStream<v1::FrameRequest, v1::Frame>;
 
   EchoService service;
   OpenPort port = openPort("127.0.0.1:0", {.tls = {}, .option = "--listen"}, {&service});
   ConnectOptions options{.address = "127.0.0.1:" + std::to_string(port.number)};
-  std::unique_ptr<wire::Viewing::Stub> stub = wire::Viewing::NewStub(connect(options));
+  std::unique_ptr<v1::Viewing::Stub> stub = v1::Viewing::NewStub(connect(options));
   Stream stream{options, [this](auto... arguments) { return stub->AsyncWatch(arguments...); }};
-  wire::Frame frame;
+  v1::Frame frame;
 
-  static wire::FrameRequest request(std::uint32_t number) {
-    wire::FrameRequest request;
+  static v1::FrameRequest request(std::uint32_t number) {
+    v1::FrameRequest request;
     request.set_protocol(number);
     return request;
   }

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "net/flood_guard.h"
+#include "net/reflection.h"
 
 namespace robosim {
 namespace {
@@ -36,6 +37,7 @@ CompletionQueueServer::CompletionQueueServer(const std::vector<Binding>& binding
       for (std::size_t i = 0; i < bindings.size(); ++i) {
         if (endpoint_of_binding_[i] == d) services.push_back(bindings[i].service);
       }
+      if (options.standard_services.reflection) enableReflection();
       grpc::ServerBuilder builder;
       endpoints_[d].queue = builder.AddCompletionQueue();
       endpoints_[d].port = openPort(endpoints_[d].address, options, services, std::move(builder));

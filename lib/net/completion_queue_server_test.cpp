@@ -7,23 +7,23 @@
 
 #include "net/connect.h"
 #include "net/stream_session.h"
-#include "net/viewing.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 
 namespace robosim {
 namespace {
 
-using Service = wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service>;
+using Service = v1::Viewing::WithRawMethod_Watch<v1::Viewing::Service>;
 
 /// Counts the messages of its peer.
-class CountingStream final : public StreamSession<wire::FrameRequest, wire::Frame> {
+class CountingStream final : public StreamSession<v1::FrameRequest, v1::Frame> {
  public:
   CountingStream(SessionHost& host, ReadPolicy policy)
       : StreamSession(host, {.right = Right::look, .log_kind = "refused"}), policy_(policy) {}
   int received_count = 0;
 
  private:
-  std::string who() const override { return peer(); }
-  ReadPolicy received(const wire::FrameRequest&) override {
+  std::string logName() const override { return peer(); }
+  ReadPolicy received(const v1::FrameRequest&) override {
     if (!isEstablished()) establish();
     ++received_count;
     return policy_;
@@ -35,7 +35,7 @@ class CountingStream final : public StreamSession<wire::FrameRequest, wire::Fram
 class Client {
  public:
   explicit Client(int port)
-      : stub_(wire::Viewing::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port)}))),
+      : stub_(v1::Viewing::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port)}))),
         stream_(stub_->Watch(&context_)) {}
   ~Client() {
     context_.TryCancel();
@@ -49,9 +49,9 @@ class Client {
   void cancel() { context_.TryCancel(); }
 
  private:
-  std::unique_ptr<wire::Viewing::Stub> stub_;
+  std::unique_ptr<v1::Viewing::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream_;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::FrameRequest, v1::Frame>> stream_;
 };
 
 TEST(CompletionQueueServer, ServesOtherClientsDuringAFloodOfMessages) {

@@ -15,12 +15,12 @@ std::string describe(const grpc::Status& status, const ConnectOptions& connect_o
     return "the environment at " + connect_options.address +
            " does not provide this service at this port; check the port (serve --listen viewers=…,robots=…)";
   }
-  // gRPC's default message.
-  if (status.error_code() == grpc::StatusCode::CANCELLED && status.error_message() == "CANCELLED") {
+  const bool is_from_server = detailOf(status).has_value();
+  if (status.error_code() == grpc::StatusCode::CANCELLED && !is_from_server) {
     return "the environment at " + connect_options.address +
            " closed the connection before it responded; its run may have ended";
   }
-  if (status.error_code() != grpc::StatusCode::UNAVAILABLE) {
+  if (is_from_server || status.error_code() != grpc::StatusCode::UNAVAILABLE) {
     return "the environment at " + connect_options.address + ": " + status.error_message();
   }
   const std::string why = connect_options.tls ? diagnoseTls(connect_options.address, connect_options.trusted_pem,
@@ -39,18 +39,15 @@ std::string describe(const grpc::Status& status, const ConnectOptions& connect_o
 }  // namespace
 
 ConnectionError::ConnectionError(const grpc::Status& status, const ConnectOptions& connect_options)
-    : std::runtime_error(describe(status, connect_options)), code_(status.error_code()) {}
-
-bool ConnectionError::isTransient() const {
-  return code_ == grpc::StatusCode::UNAVAILABLE || code_ == grpc::StatusCode::DEADLINE_EXCEEDED ||
-         code_ == grpc::StatusCode::ALREADY_EXISTS || code_ == grpc::StatusCode::DATA_LOSS;
-}
+    : std::runtime_error(describe(status, connect_options)),
+      code_(status.error_code()),
+      reason_(reasonOf(status)),
+      is_transient_(robosim::isTransient(status)) {}
 
 std::shared_ptr<grpc::Channel> connect(const ConnectOptions& options) {
   if (!options.token.empty() && !options.tls && !options.may_send_token_unencrypted && !isLoopback(options.address)) {
-    throw ConfigError(
-        "the token would go to " + options.address +
-        " for anyone on the way to read; add --tls-ca FILE, or --send-token-unencrypted if the network is trusted");
+    throw ConfigError("the token would be sent to " + options.address +
+                      " unencrypted; add --tls-ca FILE, or --send-token-unencrypted if the network is trusted");
   }
   disableDeadlockDetection();
   limitGrpcLog();

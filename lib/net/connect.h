@@ -6,6 +6,8 @@
 
 #include <grpcpp/grpcpp.h>
 
+#include "net/error_status.h"
+
 namespace robosim {
 
 /// HTTP/2 keepalive interval: after this time without data each side sends a ping, and closes the connection when no
@@ -30,12 +32,16 @@ class ConnectionError : public std::runtime_error {
  public:
   ConnectionError(const grpc::Status& status, const ConnectOptions& connect_options);
   grpc::StatusCode code() const { return code_; }
+  /// Reason stated by the server; ERROR_REASON_UNSPECIFIED if the error is of gRPC or of this program.
+  v1::ErrorReason reason() const { return reason_; }
   /// Whether a retry can succeed without other changes: the connection was lost, a message was corrupted in transit,
   /// the caller missed a step's deadline, or its robots are still held by its previous connection.
-  bool isTransient() const;
+  bool isTransient() const { return is_transient_; }
 
  private:
   grpc::StatusCode code_;
+  v1::ErrorReason reason_;
+  bool is_transient_;
 };
 
 /// Creates a channel to the environment; it connects when first used.

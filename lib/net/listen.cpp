@@ -12,9 +12,9 @@ void checkExposure(const std::string& option, const std::string& address, bool h
   if ((has_tls && has_tokens) || isLoopback(address)) return;
   const std::string tls = has_tls ? "" : "--tls-cert FILE and --tls-key FILE, to encrypt connections";
   const std::string tokens = has_tokens ? "" : "--tokens FILE, to authenticate clients";
-  throw ConfigError(
-      option + " " + address + " is open to other machines: add " + tls + (!has_tls && !has_tokens ? ", and " : "") +
-      tokens + "; or --listen-unprotected, to grant every right to everyone on the network; or listen on 127.0.0.1");
+  throw ConfigError(option + " " + address + " is open to other machines: add " + tls +
+                    (!has_tls && !has_tokens ? ", and " : "") + tokens +
+                    "; or --listen-unprotected, to grant every right to all clients; or listen on 127.0.0.1");
 }
 
 void checkExposure(const ListenAddresses& listen, bool has_tls, bool has_tokens) {

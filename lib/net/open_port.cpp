@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <grpcpp/health_check_service_interface.h>
+
 #include "net/deadlock_detection.h"
 #include "net/net_log.h"
 
@@ -20,6 +22,7 @@ OpenPort openPort(const std::string& address, const PortOptions& options, const 
   limitGrpcLog();
   const auto keepalive_ms = static_cast<int>(options.keepalive.count());
   const auto idle_limit_ms = static_cast<int>(options.idle_limit.count());
+  grpc::EnableDefaultHealthCheckService(options.standard_services.health);
   OpenPort open;
   open.listener = std::make_unique<ConnectionListener>(address, options.option);
   open.number = open.listener->port();

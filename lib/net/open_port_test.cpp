@@ -10,7 +10,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "net/viewing.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -44,9 +44,9 @@ class Connection {
 };
 
 /// Reads from a call until the client ends it.
-class PatientService final : public wire::Viewing::Service {
-  grpc::Status Watch(grpc::ServerContext*, grpc::ServerReaderWriter<wire::Frame, wire::FrameRequest>* stream) override {
-    for (wire::FrameRequest request; stream->Read(&request);) {
+class PatientService final : public v1::Viewing::Service {
+  grpc::Status Watch(grpc::ServerContext*, grpc::ServerReaderWriter<v1::Frame, v1::FrameRequest>* stream) override {
+    for (v1::FrameRequest request; stream->Read(&request);) {
     }
     return grpc::Status::OK;
   }
@@ -76,7 +76,7 @@ TEST_F(OpenPortTest, ClosesAConnectionWithoutACall) {
 
 TEST_F(OpenPortTest, KeepsAConnectionWhoseCallIsSilent) {
   grpc::ClientContext context;
-  const auto stub = wire::Viewing::NewStub(connect({.address = "127.0.0.1:" + std::to_string(open.number)}));
+  const auto stub = v1::Viewing::NewStub(connect({.address = "127.0.0.1:" + std::to_string(open.number)}));
   const auto silent = stub->Watch(&context);
   Connection(open.number).waitUntilClosed();  // the idle limit has passed
   context.TryCancel();
@@ -84,7 +84,7 @@ TEST_F(OpenPortTest, KeepsAConnectionWhoseCallIsSilent) {
 }
 
 TEST(OpenPort, ReportsAPortThatIsInUse) {
-  wire::Viewing::Service service;
+  v1::Viewing::Service service;
   const OpenPort first = openPort("127.0.0.1:0", {.tls = {}, .option = "--listen"}, {&service});
   const std::string address = "127.0.0.1:" + std::to_string(first.number);
   try {
@@ -97,14 +97,14 @@ TEST(OpenPort, ReportsAPortThatIsInUse) {
 }
 
 TEST(OpenPort, ListensAtEveryAddressOfAName) {
-  wire::Viewing::Service service;
+  v1::Viewing::Service service;
   const OpenPort open = openPort("localhost:0", {.tls = {}, .option = "--listen", .idle_limit = 100ms}, {&service});
   EXPECT_GT(open.number, 0);
   Connection(open.number).waitUntilClosed();
 }
 
 TEST(OpenPort, RejectsAnAddressOfAnotherMachine) {
-  wire::Viewing::Service service;
+  v1::Viewing::Service service;
   EXPECT_THROW(openPort("192.0.2.1:0", {.tls = {}, .option = "--listen"}, {&service}), std::runtime_error);
 }
 

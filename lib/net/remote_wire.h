@@ -4,18 +4,19 @@
 #include <string>
 
 #include "hardware/command.h"
-#include "net/remote.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/remote_control.pb.h"
 
 namespace robosim {
 
 /// @file
-/// Conversion of the messages between a remote control and a robot (remote.proto) between value types and protobuf.
+/// Conversion of the messages between a remote control and a robot (remote_control.proto) between value types and
+/// protobuf.
 
-/// Message type of the remote control protocol (remote.proto); req_sonar and those before it are named as in 2005.
+/// Type of an order; named as in 2005 where that system has it.
 enum class RemoteType : std::uint8_t {
   init,
-  init_ack,
+  set_mode,  ///< INIT_ACK in 2005
   accelerate,
   decelerate,
   turn_left,
@@ -34,8 +35,8 @@ enum class RemoteType : std::uint8_t {
 struct RemoteOrder {
   RemoteType type = RemoteType::alive;
   std::string robot{}, driver{};         ///< init
-  bool autonomous = false;               ///< init, init_ack
-  bool only_watch = false;               ///< init
+  bool autonomous = false;               ///< init, set_mode
+  bool only_observe = false;             ///< init
   std::optional<double> speed_mps{};     ///< drive: nullopt keeps the current value
   std::optional<double> turn_radps{};    ///< drive; counter-clockwise
   std::optional<float> laser_pan_rad{};  ///< drive
@@ -66,12 +67,17 @@ constexpr std::size_t kMaxWhyBytes = 120;
 /// @throws WireError for a text that is longer than `max_bytes` or has control characters.
 void checkText(const std::string& text, std::size_t max_bytes, const char* what);
 
-void encode(const RemoteOrder& order, wire::ControlRequest& out);
-/// @throws WireError for an unknown type, another protocol version, a number that is not finite, or too long a name.
-RemoteOrder decode(const wire::ControlRequest& in);
+void encode(const RemoteOrder& order, v1::ControlRequest& out);
+/// @throws WireError for an unknown request, another protocol version, a number that is not finite, or too long a name.
+RemoteOrder decode(const v1::ControlRequest& in);
 
-void encode(const RemoteState& state, wire::RemoteState& out);
+/// Name of the requested kind of sensor: "heat", "laser" or "sonar"; null for another type.
+const char* requestedKind(RemoteType type);
+/// Type of a request for a kind of sensor; nullopt for another kind.
+std::optional<RemoteType> requestFor(const std::string& kind);
+
+void encode(const RemoteState& state, v1::RobotState& out);
 /// @throws WireError for numbers that are not finite, or an unknown activity.
-RemoteState decode(const wire::RemoteState& in);
+RemoteState decode(const v1::RobotState& in);
 
 }  // namespace robosim

@@ -3,19 +3,15 @@
 #include <cmath>
 #include <span>
 
+#include "hardware/inbox_limit.h"
 #include "hardware/measurement_fields.h"
 
 namespace robosim {
 namespace {
 
-static_assert(static_cast<int>(Activity::active) == wire::ACTIVE &&
-              static_cast<int>(Activity::halted) == wire::HALTED && static_cast<int>(Activity::found) == wire::FOUND);
-
-void checkRobot(std::uint32_t robot, std::size_t robots, const char* what) {
-  if (robot < robots) return;
-  throw WireError(std::string(what) + " for robot " + std::to_string(robot) + " of " + std::to_string(robots) +
-                  "; a connection may only command the robots of its hello, counted from 0");
-}
+/// Upper limit of StepAnswer.messages_dropped: no process composes that many in a step, and the run's total of 64 bits
+/// cannot overflow.
+constexpr std::uint64_t kMaxMessagesDropped = std::uint64_t{1} << 32;
 
 void checkFinite(double value, const char* name, std::uint32_t robot) {
   if (std::isfinite(value)) return;
@@ -28,9 +24,9 @@ void checkCount(std::size_t count, std::size_t expected) {
   throw WireError("a reading of " + std::to_string(count) + " numbers where " + std::to_string(expected) + " belong");
 }
 
-/// The field of wire::Measurement for the numbers of a kind of measurement, as an array of `count` elements.
+/// The field of v1::Measurement for the numbers of a kind of measurement, as an array of `count` elements.
 template <typename M>
-auto* numbersOf(wire::Measurement& out, std::size_t count) {
+auto* numbersOf(v1::Measurement& out, std::size_t count) {
   if constexpr (kConsistsOf<M, std::uint8_t>) {
     out.mutable_flags()->resize(count);
     return out.mutable_flags()->data();
@@ -38,19 +34,19 @@ auto* numbersOf(wire::Measurement& out, std::size_t count) {
     out.mutable_floats()->Resize(static_cast<int>(count), 0);
     return out.mutable_floats()->mutable_data();
   } else {
-    out.mutable_numbers()->Resize(static_cast<int>(count), 0);
-    return out.mutable_numbers()->mutable_data();
+    out.mutable_doubles()->Resize(static_cast<int>(count), 0);
+    return out.mutable_doubles()->mutable_data();
   }
 }
 
 template <typename M>
-auto numbersOf(const wire::Measurement& in) {
+auto numbersOf(const v1::Measurement& in) {
   if constexpr (kConsistsOf<M, std::uint8_t>) {
     return std::span(reinterpret_cast<const std::uint8_t*>(in.flags().data()), in.flags().size());
   } else if constexpr (kConsistsOf<M, float>) {
     return std::span(in.floats().data(), static_cast<std::size_t>(in.floats_size()));
   } else {
-    return std::span(in.numbers().data(), static_cast<std::size_t>(in.numbers_size()));
+    return std::span(in.doubles().data(), static_cast<std::size_t>(in.doubles_size()));
   }
 }
 
@@ -61,7 +57,10 @@ std::size_t numberCount(const M& measurement) {
 
 /// Decodes the numbers of a kind of measurement; none are a step in which an intermittent sensor measured nothing.
 template <typename M>
-void decodeNumbers(const wire::Measurement& in, M& out) {
+void decodeNumbers(const v1::Measurement& in, M& out) {
+  if constexpr (std::is_same_v<M, Values>) {
+    if (out.values.empty()) return;  // of a sensor of an unknown kind, which may have any numbers or a file
+  }
   const auto numbers = numbersOf<M>(in);
   if constexpr (requires { Description<M>::isPresent(out) = false; }) {
     if (numbers.empty()) {
@@ -75,52 +74,105 @@ void decodeNumbers(const wire::Measurement& in, M& out) {
   if (!fault.empty()) throw WireError(fault);
 }
 
-void encode(const RobotMessage& message, wire::InboxLetter& out) {
+void encode(const RobotMessage& message, v1::InboxMessage& out) {
   out.set_from(message.from);
   out.set_text(message.text);
 }
 
-}  // namespace
-
-void encode(const Command& command, std::uint32_t robot, wire::RobotCommand& out) {
-  out.set_robot(robot);
-  out.set_speed_mps(command.speed_mps);
-  out.set_turn_radps(command.turn_radps);
-  out.set_laser_pan_rad(command.laser_pan_rad);
-  out.set_activity(static_cast<wire::Activity>(command.activity));
-  out.set_by_driver(command.by_driver);
+/// Whether the sensor measured something in this step.
+bool isPresentIn(const Measurement& measurement) {
+  return std::visit([](const auto& kind) { return isPresent(kind); }, measurement);
 }
 
-Command decode(const wire::RobotCommand& in, std::size_t robots) {
-  checkRobot(in.robot(), robots, "a command");
-  checkFinite(in.speed_mps(), "speed_mps", in.robot());
-  checkFinite(in.turn_radps(), "turn_radps", in.robot());
-  checkFinite(in.laser_pan_rad(), "laser_pan_rad", in.robot());
-  if (!wire::Activity_IsValid(in.activity())) {
-    throw WireError("the command for robot " + std::to_string(in.robot()) + " has the activity " +
-                    std::to_string(in.activity()) + "; there are 0 (active), 1 (halted) and 2 (found)");
-  }
-  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), static_cast<Activity>(in.activity()), in.by_driver()};
+ProcessRobotIndex checkedRobot(std::uint32_t robot, std::size_t robots, const char* what) {
+  if (robot < robots) return static_cast<ProcessRobotIndex>(robot);
+  throw WireError(std::string(what) + " for robot " + std::to_string(robot) + " of " + std::to_string(robots) +
+                  "; a connection may only command the robots of its hello, counted from 0");
 }
 
-void decode(const wire::DriveRequest& in, std::size_t robots, RobotsAnswer& out) {
-  out.step = in.step();
-  out.orders.clear();
-  for (const auto& command : in.commands()) out.orders.push_back({command.robot(), decode(command, robots)});
+void decodeMessages(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {
   out.messages.clear();
-  for (const auto& message : in.letters()) {
-    checkRobot(message.robot(), robots, "a message");
+  std::vector<std::size_t> sent(in.messages().empty() ? 0 : robots, 0);
+  for (const auto& message : in.messages()) {
+    const ProcessRobotIndex robot = checkedRobot(message.process_robot(), robots, "a message");
     if (message.text().size() > kMaxMessageBytes) {
       throw WireError("a message of " + std::to_string(message.text().size()) + " bytes; the most is " +
                       std::to_string(kMaxMessageBytes));
     }
-    out.messages.push_back({message.robot(), message.to(), message.text()});
+    if (++sent[indexOf(robot)] > kMaxMessagesSent) {
+      throw WireError("more than " + std::to_string(kMaxMessagesSent) + " messages of a robot in one step",
+                      v1::ERROR_REASON_TOO_MANY_MESSAGES);
+    }
+    out.messages.push_back({robot, message.to(), message.text()});
   }
-  out.win_checks.assign(in.check_win().begin(), in.check_win().end());
-  for (const auto robot : out.win_checks) checkRobot(robot, robots, "a CheckWin request");
+  if (in.messages_dropped() > kMaxMessagesDropped) {
+    throw WireError("messages_dropped is " + std::to_string(in.messages_dropped()) + "; the most is " +
+                    std::to_string(kMaxMessagesDropped));
+  }
+  out.messages_dropped = in.messages_dropped();
 }
 
-void encode(const Measurement& measurement, wire::Measurement& out) {
+}  // namespace
+
+v1::Activity encode(Activity activity) {
+  switch (activity) {
+    case Activity::active:
+      return v1::ACTIVITY_ACTIVE;
+    case Activity::halted:
+      return v1::ACTIVITY_HALTED;
+    case Activity::found:
+      return v1::ACTIVITY_FOUND;
+  }
+  return v1::ACTIVITY_UNSPECIFIED;
+}
+
+std::optional<Activity> decode(v1::Activity activity) {
+  switch (activity) {
+    case v1::ACTIVITY_ACTIVE:
+      return Activity::active;
+    case v1::ACTIVITY_HALTED:
+      return Activity::halted;
+    case v1::ACTIVITY_FOUND:
+      return Activity::found;
+    default:
+      return std::nullopt;
+  }
+}
+
+void encode(const Command& command, v1::Command& out) {
+  out.set_speed_mps(command.speed_mps);
+  out.set_turn_radps(command.turn_radps);
+  out.set_laser_pan_rad(command.laser_pan_rad);
+  out.set_activity(encode(command.activity));
+  out.set_by_driver(command.by_driver);
+}
+
+Command decode(const v1::Command& in, std::uint32_t robot) {
+  checkFinite(in.speed_mps(), "speed_mps", robot);
+  checkFinite(in.turn_radps(), "turn_radps", robot);
+  checkFinite(in.laser_pan_rad(), "laser_pan_rad", robot);
+  const auto activity =
+      in.activity() == v1::ACTIVITY_UNSPECIFIED ? std::optional(Activity::active) : decode(in.activity());
+  if (!activity) {
+    throw WireError("the command for robot " + std::to_string(robot) + " has the activity " +
+                    std::to_string(in.activity()) + "; there are 1 (active), 2 (halted) and 3 (found)");
+  }
+  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), *activity, in.by_driver()};
+}
+
+void decode(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {
+  out.step = in.step();
+  out.orders.clear();
+  for (const auto& order : in.commands()) {
+    const ProcessRobotIndex robot = checkedRobot(order.process_robot(), robots, "a command");
+    out.orders.push_back({robot, decode(order.command(), order.process_robot())});
+  }
+  decodeMessages(in, robots, out);
+  out.win_checks.clear();
+  for (const auto robot : in.win_checks()) out.win_checks.push_back(checkedRobot(robot, robots, "a CheckWin request"));
+}
+
+void encode(const Measurement& measurement, v1::Measurement& out) {
   out.Clear();
   std::visit(
       [&]<typename M>(const M& kind) {
@@ -136,7 +188,7 @@ void encode(const Measurement& measurement, wire::Measurement& out) {
       measurement);
 }
 
-void decode(const wire::Measurement& in, Measurement& out) {
+void decode(const v1::Measurement& in, Measurement& out) {
   std::visit(
       [&]<typename M>(M& kind) {
         if constexpr (kIsFile<M>) {
@@ -149,26 +201,37 @@ void decode(const wire::Measurement& in, Measurement& out) {
       out);
 }
 
-void encode(const Readings& readings, wire::RobotReadings& out) {
+void encode(const Readings& readings, v1::RobotReadings& out, std::optional<std::uint64_t> sent_step) {
   out.Clear();
-  for (const auto& measurement : readings.measurements) encode(measurement, *out.add_measurements());
+  const bool is_new = !sent_step || readings.time.step > *sent_step;
+  for (const auto& measurement : readings.measurements) {
+    v1::Measurement& added = *out.add_measurements();
+    encode(measurement, added);
+    if (!isPresentIn(measurement)) continue;
+    added.set_step(readings.time.step);
+    added.set_is_new(is_new);
+  }
   out.set_stalled(readings.stalled);
   out.set_laser_pan_rad(readings.laser_pan_rad);
   out.set_is_too_far(readings.is_too_far);
   for (const auto& message : readings.inbox) encode(message, *out.add_inbox());
 }
 
-void encodeInbox(const std::vector<RobotMessage>& messages, wire::RobotReadings& out) {
+void encodeInbox(const std::vector<RobotMessage>& messages, v1::RobotReadings& out) {
   out.clear_inbox();
   for (const auto& message : messages) encode(message, *out.add_inbox());
 }
 
-void decode(const wire::RobotReadings& in, const std::string& to, Readings& out) {
+void decode(const v1::RobotReadings& in, const std::string& to, Readings& out) {
   if (static_cast<std::size_t>(in.measurements_size()) != out.measurements.size()) {
     throw WireError("readings of " + std::to_string(in.measurements_size()) + " sensors for a robot that has " +
                     std::to_string(out.measurements.size()));
   }
   for (int i = 0; i < in.measurements_size(); ++i) {
+    if (in.measurements(i).step() > out.time.step) {
+      throw WireError("a measurement of step " + std::to_string(in.measurements(i).step()) + " in step " +
+                      std::to_string(out.time.step));
+    }
     decode(in.measurements(i), out.measurements[static_cast<std::size_t>(i)]);
   }
   out.stalled = in.stalled();

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "hardware/inbox_limit.h"
+
 namespace robosim {
 namespace {
 
@@ -53,7 +55,7 @@ Readings someReadings() {
 }
 
 /// Error text for an invalid message.
-std::string errorOf(const std::function<void()>& read) {
+std::string wireErrorOf(const std::function<void()>& read) {
   try {
     read();
   } catch (const WireError& error) {
@@ -62,14 +64,14 @@ std::string errorOf(const std::function<void()>& read) {
   return "";
 }
 
-std::string errorFor(const wire::DriveRequest& message) {
+std::string errorFor(const v1::StepAnswer& message) {
   RobotsAnswer answer;
-  return errorOf([&] { decode(message, 2, answer); });
+  return wireErrorOf([&] { decode(message, 2, answer); });
 }
 
 TEST(RobotWire, RoundTripsReadingsExactly) {
   const Readings sent = someReadings();
-  wire::RobotReadings wire;
+  v1::RobotReadings wire;
   encode(sent, wire);
   Readings decoded = blankReadings(everySensor());
   decode(wire, "Pioneer1", decoded);
@@ -81,7 +83,7 @@ TEST(RobotWire, RoundTripsReadingsExactly) {
 }
 
 TEST(RobotWire, RoundTripsAStepWithoutAnImage) {
-  wire::RobotReadings wire;
+  v1::RobotReadings wire;
   encode(blankReadings(everySensor()), wire);
   Readings decoded = someReadings();
   decode(wire, "Pioneer1", decoded);
@@ -90,16 +92,16 @@ TEST(RobotWire, RoundTripsAStepWithoutAnImage) {
 }
 
 TEST(RobotWire, ClearsReusedMessages) {
-  wire::RobotReadings again, anew;
-  encode(someReadings(), again);
+  v1::RobotReadings first, second;
+  encode(someReadings(), first);
   const Readings blank = blankReadings(everySensor());
-  encode(blank, again);
-  encode(blank, anew);
-  EXPECT_EQ(again.SerializeAsString(), anew.SerializeAsString());
+  encode(blank, first);
+  encode(blank, second);
+  EXPECT_EQ(first.SerializeAsString(), second.SerializeAsString());
 }
 
 TEST(RobotWire, ReplacesTheInboxByMessagesOfSeveralSteps) {
-  wire::RobotReadings wire;
+  v1::RobotReadings wire;
   encode(someReadings(), wire);
   encodeInbox({{"A", "Pioneer1", "first"}, {"B", "Pioneer1", "second"}}, wire);
   Readings decoded = blankReadings(everySensor());
@@ -110,67 +112,119 @@ TEST(RobotWire, ReplacesTheInboxByMessagesOfSeveralSteps) {
 
 TEST(RobotWire, DecodesCommandsMessagesAndWinChecks) {
   const Command command{0.5, -0.25, 0.125f, Activity::found, true};
-  wire::DriveRequest message;
+  v1::StepAnswer message;
   message.set_step(7);
-  encode(command, 1, *message.add_commands());
-  message.add_letters()->set_to("Scout1");
-  message.mutable_letters(0)->set_text(std::string(kMaxMessageBytes, '\0'));
-  message.add_check_win(1);
+  message.add_commands()->set_process_robot(1);
+  encode(command, *message.mutable_commands(0)->mutable_command());
+  message.add_messages()->set_to("Scout1");
+  message.mutable_messages(0)->set_text(std::string(kMaxMessageBytes, '\0'));
+  message.add_win_checks(1);
+  message.set_messages_dropped(3);
   RobotsAnswer answer;
   decode(message, 2, answer);
-  EXPECT_EQ(answer.win_checks, std::vector<std::uint32_t>{1});
+  EXPECT_EQ(answer.win_checks, std::vector<ProcessRobotIndex>{ProcessRobotIndex{1}});
+  EXPECT_EQ(answer.messages_dropped, 3u);
   EXPECT_EQ(answer.step, 7u);
   ASSERT_EQ(answer.orders.size(), 1u);
-  EXPECT_EQ(answer.orders[0].robot, 1u);
+  EXPECT_EQ(answer.orders[0].robot, ProcessRobotIndex{1});
   EXPECT_EQ(answer.orders[0].command, command);
   ASSERT_EQ(answer.messages.size(), 1u);
   EXPECT_EQ(answer.messages[0].to, "Scout1");
   EXPECT_EQ(answer.messages[0].text.size(), kMaxMessageBytes);
 }
 
+TEST(RobotWire, RejectsAnImplausibleNumberOfDroppedMessages) {
+  v1::StepAnswer message;
+  message.set_messages_dropped(std::uint64_t{1} << 32);
+  EXPECT_EQ(errorFor(message), "");
+  message.set_messages_dropped((std::uint64_t{1} << 32) + 1);
+  EXPECT_EQ(errorFor(message), "messages_dropped is 4294967297; the most is 4294967296");
+}
+
 TEST(RobotWire, RejectsNonFiniteSpeeds) {
   for (const double bad : {kNan, kInf, -kInf}) {
-    wire::DriveRequest message;
-    message.add_commands()->set_speed_mps(bad);
+    v1::StepAnswer message;
+    message.add_commands()->mutable_command()->set_speed_mps(bad);
     EXPECT_NE(errorFor(message).find("has a speed_mps of "), std::string::npos) << errorFor(message);
-    message.mutable_commands(0)->set_speed_mps(0);
-    message.mutable_commands(0)->set_turn_radps(bad);
+    message.mutable_commands(0)->mutable_command()->set_speed_mps(0);
+    message.mutable_commands(0)->mutable_command()->set_turn_radps(bad);
     EXPECT_NE(errorFor(message).find("has a turn_radps of "), std::string::npos);
-    message.mutable_commands(0)->set_turn_radps(0);
-    message.mutable_commands(0)->set_laser_pan_rad(static_cast<float>(bad));
+    message.mutable_commands(0)->mutable_command()->set_turn_radps(0);
+    message.mutable_commands(0)->mutable_command()->set_laser_pan_rad(static_cast<float>(bad));
     EXPECT_NE(errorFor(message).find("has a laser_pan_rad of "), std::string::npos);
   }
 }
 
 TEST(RobotWire, RejectsUnknownActivitiesInvalidRobotsAndLongMessages) {
-  wire::DriveRequest message;
-  message.add_commands()->set_activity(static_cast<wire::Activity>(3));
+  v1::StepAnswer message;
+  message.add_commands()->mutable_command()->set_activity(static_cast<v1::Activity>(4));
   EXPECT_EQ(errorFor(message),
-            "the command for robot 0 has the activity 3; there are 0 (active), 1 (halted) and 2 "
+            "the command for robot 0 has the activity 4; there are 1 (active), 2 (halted) and 3 "
             "(found)");
   message.Clear();
-  message.add_commands()->set_robot(2);
+  message.add_commands()->set_process_robot(2);
   EXPECT_EQ(errorFor(message),
             "a command for robot 2 of 2; a connection may only command the robots of its hello, counted from 0");
   message.Clear();
-  message.add_letters()->set_robot(0xFFFFFFFF);
+  message.add_messages()->set_process_robot(0xFFFFFFFF);
   EXPECT_NE(errorFor(message).find("a message for robot 4294967295 of 2"), std::string::npos);
   message.Clear();
-  message.add_check_win(2);
+  message.add_win_checks(2);
   EXPECT_NE(errorFor(message).find("a CheckWin request for robot 2 of 2"), std::string::npos);
   message.Clear();
-  message.add_letters()->set_text(std::string(kMaxMessageBytes + 1, 'x'));
+  message.add_messages()->set_text(std::string(kMaxMessageBytes + 1, 'x'));
   EXPECT_EQ(errorFor(message), "a message of 4097 bytes; the most is 4096");
 }
 
+TEST(RobotWire, LimitsTheMessagesOfEachRobot) {
+  v1::StepAnswer message;
+  for (std::uint32_t robot : {0, 1}) {
+    for (std::size_t i = 0; i < kMaxMessagesSent; ++i) message.add_messages()->set_process_robot(robot);
+  }
+  EXPECT_EQ(errorFor(message), "");
+  message.add_messages();
+  RobotsAnswer answer;
+  try {
+    decode(message, 2, answer);
+    ADD_FAILURE();
+  } catch (const WireError& error) {
+    EXPECT_STREQ(error.what(), "more than 1024 messages of a robot in one step");
+    EXPECT_EQ(reasonOf(error.status()), v1::ERROR_REASON_TOO_MANY_MESSAGES);
+  }
+}
+
+TEST(RobotWire, TreatsAnUnspecifiedActivityOfACommandAsActive) {
+  EXPECT_EQ(decode(v1::Command(), 0).activity, Activity::active);
+  EXPECT_EQ(decode(v1::ACTIVITY_UNSPECIFIED), std::nullopt) << "elsewhere it is an error";
+}
+
+TEST(RobotWire, StatesWhenEachMeasurementWasTaken) {
+  Readings readings = someReadings();
+  readings.time.step = 7;
+  std::get<Image>(readings.measurements[7]).jpeg.clear();
+  v1::RobotReadings wire;
+  encode(readings, wire);
+  EXPECT_EQ(wire.measurements(0).step(), 7u);
+  EXPECT_TRUE(wire.measurements(0).is_new());
+  EXPECT_FALSE(wire.measurements(7).is_new()) << "a camera without an image in this step";
+  encode(readings, wire, 6);
+  EXPECT_TRUE(wire.measurements(0).is_new());
+  encode(readings, wire, 7);
+  EXPECT_FALSE(wire.measurements(0).is_new()) << "sent before";
+  EXPECT_EQ(wire.measurements(0).step(), 7u);
+  Readings decoded = blankReadings(everySensor());
+  decoded.time.step = 6;
+  EXPECT_EQ(wireErrorOf([&] { decode(wire, "Pioneer1", decoded); }), "a measurement of step 7 in step 6");
+}
+
 TEST(RobotWire, RejectsReadingsOfWrongSizeOrWithNan) {
-  wire::RobotReadings good;
+  v1::RobotReadings good;
   encode(someReadings(), good);
-  const auto error_after = [&](const std::function<void(wire::RobotReadings&)>& modify) {
-    wire::RobotReadings bad = good;
+  const auto error_after = [&](const std::function<void(v1::RobotReadings&)>& modify) {
+    v1::RobotReadings bad = good;
     modify(bad);
     Readings decoded = blankReadings(everySensor());
-    return errorOf([&] { decode(bad, "Pioneer1", decoded); });
+    return wireErrorOf([&] { decode(bad, "Pioneer1", decoded); });
   };
   EXPECT_EQ(error_after([](auto&) {}), "");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements()->RemoveLast(); }),
@@ -179,9 +233,9 @@ TEST(RobotWire, RejectsReadingsOfWrongSizeOrWithNan) {
             "a reading of 9 numbers where 8 belong");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(0)->set_floats(7, std::nanf("")); }),
             "beam 1: a z of nan m; it must be a finite number");
-  EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(3)->clear_numbers(); }),
+  EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(3)->clear_doubles(); }),
             "a reading of 0 numbers where 1 belong");
-  EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(5)->set_numbers(2, kInf); }),
+  EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(5)->set_doubles(2, kInf); }),
             "a heading of inf rad; it must be a finite number");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(4)->set_flags("\1"); }),
             "a reading of 1 numbers where 2 belong");
@@ -189,18 +243,18 @@ TEST(RobotWire, RejectsReadingsOfWrongSizeOrWithNan) {
             "segment 1: a pressed of 2; it must lie in [0, 1]");
   EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(10)->set_floats(1, std::nanf("")); }),
             "beacon 1: a range of nan m; it must be a finite number");
-  EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(9)->add_numbers(1); }),
+  EXPECT_EQ(error_after([](auto& bad) { bad.mutable_measurements(9)->add_doubles(1); }),
             "a reading of 3 numbers where 2 belong");
 }
 
 TEST(RobotWire, RejectsInvalidImagesAndBlobs) {
-  wire::RobotReadings good;
+  v1::RobotReadings good;
   encode(someReadings(), good);
-  const auto error_after = [&](const std::function<void(wire::Measurement&, wire::Measurement&)>& modify) {
-    wire::RobotReadings bad = good;
+  const auto error_after = [&](const std::function<void(v1::Measurement&, v1::Measurement&)>& modify) {
+    v1::RobotReadings bad = good;
     modify(*bad.mutable_measurements(7), *bad.mutable_measurements(8));
     Readings decoded = blankReadings(everySensor());
-    return errorOf([&] { decode(bad, "Pioneer1", decoded); });
+    return wireErrorOf([&] { decode(bad, "Pioneer1", decoded); });
   };
   EXPECT_EQ(error_after([](auto&, auto&) {}), "");
   for (const char* no_jpeg : {"\xFF\xD8", "\xFF\xD9", "GIF89a", "\xFF\xD8 cut off"}) {
@@ -208,10 +262,10 @@ TEST(RobotWire, RejectsInvalidImagesAndBlobs) {
   }
   EXPECT_EQ(error_after([](auto& image, auto&) { image.set_jpeg(std::string(kPictureBytesMax + 1, 'x')); }),
             "a picture of 16777217 bytes; the most is 16777216");
-  EXPECT_EQ(error_after([](auto&, auto& blobs) { blobs.add_numbers(1); }), "a reading of 15 numbers where 14 belong");
+  EXPECT_EQ(error_after([](auto&, auto& blobs) { blobs.add_doubles(1); }), "a reading of 15 numbers where 14 belong");
   // The numbers of a blob are pixels, x, y, left, top, width and height.
   const auto error_with = [&](int number, double value) {
-    return error_after([&](auto&, auto& blobs) { blobs.set_numbers(number, value); });
+    return error_after([&](auto&, auto& blobs) { blobs.set_doubles(number, value); });
   };
   const std::string outside_image = "a blob outside the image";
   EXPECT_EQ(error_with(0, 19), outside_image);
@@ -239,7 +293,7 @@ RobotsWelcome someWelcome() {
 }
 
 TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
-  wire::RobotsWelcome wire;
+  v1::RobotsWelcome wire;
   encode(someWelcome(), wire);
   EXPECT_EQ(wire.sensor_sets_size(), 1);
   const RobotsWelcome decoded = decode(wire);
@@ -255,28 +309,66 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   EXPECT_EQ((*decoded.robots[0].info.sensors)[9].quantities,
             (std::vector<Quantity>{{"co2", "ppm"}, {"humidity", "%"}}));
   EXPECT_EQ(decoded.all_robots, someWelcome().all_robots);
-  wire::RobotsWelcome again;
+  v1::RobotsWelcome again;
   encode(decoded, again);
   EXPECT_EQ(again.SerializeAsString(), wire.SerializeAsString());
 }
 
+TEST(RobotWire, DescribesTheNumbersOfEachSensor) {
+  v1::RobotsWelcome wire;
+  encode(someWelcome(), wire);
+  const auto& sensors = wire.sensor_sets(0).sensors();
+  const auto text_of = [](const v1::SensorDescription& sensor) {
+    std::string text = sensor.record() + ":";
+    for (const auto& field : sensor.fields())
+      text += " " + field.name() + (field.unit().empty() ? "" : "/" + field.unit());
+    return text;
+  };
+  EXPECT_EQ(text_of(sensors[0]), "beam: range/m x/m y/m z/m");
+  EXPECT_EQ(text_of(sensors[4]), "segment: pressed");
+  EXPECT_EQ(text_of(sensors[5]), ": x/m y/m heading/rad speed/m/s turn/rad/s");
+  EXPECT_EQ(text_of(sensors[7]), ":") << "a camera has no numbers";
+}
+
+TEST(RobotWire, KeepsASensorOfAnUnknownKindWithoutDecodingItsMeasurements) {
+  v1::RobotsWelcome wire;
+  encode(someWelcome(), wire);
+  wire.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind("thermometer");
+  wire.mutable_sensor_sets(0)->mutable_sensors(9)->set_kind("spectrometer");
+  const RobotsWelcome decoded = decode(wire);
+  const auto& sensors = *decoded.robots[0].info.sensors;
+  ASSERT_EQ(sensors.size(), everySensor().size());
+  EXPECT_EQ(sensors[0].kind, SensorKind::unknown);
+  EXPECT_EQ(sensors[0].label, "sonar");
+  EXPECT_EQ(sensors[9].kind, SensorKind::unknown);
+
+  v1::RobotReadings sent;
+  encode(someReadings(), sent);
+  Readings readings = blankReadings(sensors);
+  decode(sent, "Pioneer1", readings);
+  EXPECT_EQ(readings.measurements[0], Measurement(Values{})) << "floats";
+  EXPECT_EQ(readings.measurements[9], Measurement(Values{})) << "doubles";
+  EXPECT_EQ(readings.measurements[4], someReadings().measurements[4]) << "the others are decoded";
+  sent.mutable_measurements(0)->set_jpeg("no JPEG file");
+  EXPECT_EQ(wireErrorOf([&] { decode(sent, "Pioneer1", readings); }), "");
+}
+
 TEST(RobotWire, RejectsInvalidWelcomes) {
-  wire::RobotsWelcome good;
+  v1::RobotsWelcome good;
   encode(someWelcome(), good);
-  const auto error_after = [&](const std::function<void(wire::RobotsWelcome&)>& modify) {
-    wire::RobotsWelcome bad = good;
+  const auto error_after = [&](const std::function<void(v1::RobotsWelcome&)>& modify) {
+    v1::RobotsWelcome bad = good;
     modify(bad);
-    return errorOf([&] { decode(bad); });
+    return wireErrorOf([&] { decode(bad); });
   };
   EXPECT_EQ(error_after([](auto&) {}), "");
   EXPECT_NE(error_after([](auto& bad) { bad.set_period_s(kNan); }), "");
   EXPECT_NE(error_after([](auto& bad) { bad.mutable_robots(0)->set_sensor_set(1); }), "");
   EXPECT_NE(error_after([](auto& bad) { bad.mutable_robots(1)->set_radius_m(kInf); }), "");
-  EXPECT_NE(error_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams(1); }), "");
-  EXPECT_NE(error_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_beams(0, kNan); }), "");
-  EXPECT_NE(error_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->set_kind("thermometer"); }),
-            "");
-  const auto camera_after = [&](const std::function<void(wire::CameraDescription&)>& modify) {
+  EXPECT_NE(
+      error_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams()->set_yaw_rad(kNan); }),
+      "");
+  const auto camera_after = [&](const std::function<void(v1::CameraDescription&)>& modify) {
     return error_after([&](auto& bad) { modify(*bad.mutable_sensor_sets(0)->mutable_sensors(7)->mutable_camera()); });
   };
   const std::string invalid_camera = "a camera with invalid parameters";

@@ -52,9 +52,10 @@ void ServerSession::establish() {
 void ServerSession::disconnect(const grpc::Status& status) {
   if (isGone()) return;
   if (isEstablished() && rules_.reports_each) {
-    host_.log(who() + ": disconnected: " + status.error_message());
+    host_.log(logName() + ": disconnected: " + status.error_message());
   } else {
-    host_.logRefusal(rules_.log_kind, who() + ": " + std::string(rules_.refused_word) + ": " + status.error_message());
+    host_.logRefusal(rules_.log_kind,
+                     logName() + ": " + std::string(rules_.refused_word) + ": " + status.error_message());
   }
   close(status);
 }
@@ -66,7 +67,7 @@ void ServerSession::close(const grpc::Status& status) {
 }
 
 void ServerSession::hasLeft() {
-  if (rules_.reports_each) host_.log(who() + ": has left");
+  if (rules_.reports_each) host_.log(logName() + ": has left");
 }
 
 void ServerSession::leave() {

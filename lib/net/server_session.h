@@ -49,7 +49,7 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   const std::string& peer() const { return peer_; }  ///< address of the client
 
   /// Name of the client for log lines.
-  virtual std::string who() const = 0;
+  virtual std::string logName() const = 0;
   /// Whether the client's token currently permits the call; checked at the call, at its first message, and when tokens
   /// change.
   virtual grpc::Status permission() const { return host_.access.check(client_, rules_.right); }
@@ -65,7 +65,7 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   /// Whether the call is accepted, apart from the client's rights.
   virtual grpc::Status admit() { return grpc::Status::OK; }
   /// Disconnects a client that sent an invalid message.
-  virtual void refuse(const WireError& error) { disconnect({error.code(), error.what()}); }
+  virtual void refuse(const WireError& error) { disconnect(error.status()); }
   /// Called when an established client has left by itself, before left().
   virtual void hasLeft();
   /// Called once when an established session becomes gone.

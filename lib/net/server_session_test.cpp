@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "net/connect.h"
-#include "net/control_panel.grpc.pb.h"
 #include "net/stream_session.h"
 #include "net/unary_session.h"
-#include "net/viewing.grpc.pb.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -20,8 +20,8 @@ using namespace std::chrono_literals;
 
 const std::string kViewerToken = "viewer-0123456789abcdef", kWorkerToken = "worker-0123456789abcdef";
 
-using EchoStreamService = wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service>;
-using EchoUnaryService = wire::ControlPanel::WithAsyncMethod_Step<wire::ControlPanel::Service>;
+using EchoStreamService = v1::Viewing::WithRawMethod_Watch<v1::Viewing::Service>;
+using EchoUnaryService = v1::ControlPanel::WithAsyncMethod_Step<v1::ControlPanel::Service>;
 
 /// A server that sends each message back, on a thread of its own, with a clock that only the test advances.
 class EchoServer {
@@ -85,19 +85,19 @@ class EchoServer {
   }
 
  private:
-  class EchoStream final : public StreamSession<wire::FrameRequest, wire::Frame> {
+  class EchoStream final : public StreamSession<v1::FrameRequest, v1::Frame> {
    public:
     explicit EchoStream(EchoServer& owner)
         : StreamSession(owner.host_, {.right = Right::look, .log_kind = "refused clients", .reports_each = true}),
           owner_(owner) {}
 
    private:
-    std::string who() const override { return "client"; }
+    std::string logName() const override { return "client"; }
     grpc::Status admit() override {
       owner_.count(owner_.admitted_);
       return grpc::Status::OK;
     }
-    ReadPolicy received(const wire::FrameRequest& message) override {
+    ReadPolicy received(const v1::FrameRequest& message) override {
       if (message.protocol() == 0) throw WireError("protocol 0");
       if (!isEstablished()) establish();
       draft().set_step(message.protocol());
@@ -109,17 +109,17 @@ class EchoServer {
     EchoServer& owner_;
   };
 
-  class Doubling final : public UnarySession<wire::StepRequest, wire::RunStatus> {
+  class Doubling final : public UnarySession<v1::StepRequest, v1::RunStatus> {
    public:
     explicit Doubling(EchoServer& owner)
         : UnarySession(owner.host_, {.right = Right::look, .log_kind = "refused clients"}) {}
 
    private:
-    std::string who() const override { return "unary client"; }
-    void received(const wire::StepRequest& request) override {
+    std::string logName() const override { return "unary client"; }
+    void received(const v1::StepRequest& request) override {
       if (request.steps() == 0) throw WireError("0 steps");
       establish();
-      wire::RunStatus reply;
+      v1::RunStatus reply;
       reply.set_step(2 * request.steps());
       answer(reply);
       answer({});  // has no effect
@@ -151,7 +151,7 @@ class EchoServer {
 
 class EchoClient {
  public:
-  explicit EchoClient(const ConnectOptions& options) : stub_(wire::Viewing::NewStub(connect(options))) {
+  explicit EchoClient(const ConnectOptions& options) : stub_(v1::Viewing::NewStub(connect(options))) {
     attachToken(context_, options);
     stream_ = stub_->Watch(&context_);
   }
@@ -163,15 +163,15 @@ class EchoClient {
 
   /// Sends a number. @return the server's echo; nullopt when the call has ended
   std::optional<std::uint64_t> send(std::uint32_t number) {
-    wire::FrameRequest request;
+    v1::FrameRequest request;
     request.set_protocol(number);
-    wire::Frame frame;
+    v1::Frame frame;
     if (!stream_->Write(request) || !stream_->Read(&frame)) return std::nullopt;
     return frame.step();
   }
   /// Waits for the end of the call.
   grpc::Status finish() {
-    wire::Frame frame;
+    v1::Frame frame;
     while (stream_->Read(&frame)) {
     }
     const grpc::Status status = stream_->Finish();
@@ -184,9 +184,9 @@ class EchoClient {
   }
 
  private:
-  std::unique_ptr<wire::Viewing::Stub> stub_;
+  std::unique_ptr<v1::Viewing::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream_;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::FrameRequest, v1::Frame>> stream_;
 };
 
 std::size_t occurrencesOf(const std::string& part, const std::string& text) {
@@ -293,16 +293,16 @@ TEST(ServerSession, EndsAllCallsWithTheRunAndRefusesLaterOnes) {
 
 TEST(UnarySession, AnswersOrRefusesLikeAStream) {
   EchoServer server;
-  const auto call = [&](const std::string& token, std::uint64_t steps, wire::RunStatus& reply) {
+  const auto call = [&](const std::string& token, std::uint64_t steps, v1::RunStatus& reply) {
     const ConnectOptions options = server.connectOptions(token);
-    const auto stub = wire::ControlPanel::NewStub(connect(options));
+    const auto stub = v1::ControlPanel::NewStub(connect(options));
     grpc::ClientContext context;
     attachToken(context, options);
-    wire::StepRequest request;
+    v1::StepRequest request;
     request.set_steps(steps);
     return stub->Step(&context, request, &reply);
   };
-  wire::RunStatus reply;
+  v1::RunStatus reply;
   EXPECT_TRUE(call(kViewerToken, 4, reply).ok());
   EXPECT_EQ(reply.step(), 8u);
   EXPECT_EQ(call(kViewerToken, 0, reply).error_message(), "0 steps");

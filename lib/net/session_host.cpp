@@ -30,9 +30,9 @@ void SessionHost::checkSessions() {
   while (!handshakes_.empty() && now() >= nextDeadline()) {
     ServerSession& session = *handshakes_.front();
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(hello_deadline).count();
-    session.disconnect({grpc::StatusCode::DEADLINE_EXCEEDED, "no " + std::string(session.rules_.first_message) +
-                                                                 " within " + std::to_string(ms) +
-                                                                 " ms of the call; send it at once, and call again"});
+    session.disconnect(errorStatus(v1::ERROR_REASON_FIRST_MESSAGE_DEADLINE,
+                                   "no " + std::string(session.rules_.first_message) + " within " + std::to_string(ms) +
+                                       " ms of the call; send it at once, and call again"));
   }
 }
 
@@ -44,6 +44,8 @@ void SessionHost::endSessions() {
   is_over = true;
   for (const auto& session : calls()) session->runEnds();
 }
+
+grpc::Status SessionHost::runIsOver() { return errorStatus(v1::ERROR_REASON_RUN_OVER, "the run is over"); }
 
 std::string SessionHost::tokenSuffix(const Identity& client) const {
   return access.isOpen() ? "" : ", with the token " + client.name();

@@ -57,7 +57,7 @@ class SessionHost {
 
   /// ", with the token NAME" for a log line; empty where no tokens are required.
   std::string tokenSuffix(const Identity& client) const;
-  static grpc::Status runIsOver() { return {grpc::StatusCode::UNAVAILABLE, "the run is over"}; }
+  static grpc::Status runIsOver();
   /// Logs the refusal of a client, rate-limited, since a client may reconnect repeatedly.
   /// @param kind category that shares a rate limit
   void logRefusal(std::string_view kind, const std::string& line) { limited_log.write(kind, line); }

@@ -71,7 +71,7 @@ class StreamSession : public ServerSession {
   void end(const grpc::Status& status) final {
     if (ending_) return;
     ending_ = true;
-    status_ = {status.error_code(), truncatedForStatus(status.error_message())};
+    status_ = status;
     if (!status.ok()) {
       posted_ = false;
       has_cancel_timer_ = true;

@@ -168,9 +168,9 @@ std::string diagnoseTls(const std::string& address, const std::string& trusted_p
   const Owned<BIO> tcp(BIO_new_connect(address.c_str()));
   BIO_set_nbio(tcp.get(), 1);
   while (BIO_do_connect(tcp.get()) != 1) {
-    const bool goes_on = BIO_should_retry(tcp.get()) != 0 && waitFor(tcp.get(), POLLOUT, until);
+    const bool is_writable = BIO_should_retry(tcp.get()) != 0 && waitFor(tcp.get(), POLLOUT, until);
     ERR_clear_error();
-    if (!goes_on) return "";
+    if (!is_writable) return "";
   }
   const Owned<SSL_CTX> context(SSL_CTX_new(TLS_client_method()));
   trust(context.get(), trusted_pem);

@@ -36,7 +36,7 @@ class UnarySession : public ServerSession {
   void end(const grpc::Status& status) final {
     if (std::exchange(is_answered_, true)) return;
     startOperation();
-    wire_.Finish(reply_, {status.error_code(), truncatedForStatus(status.error_message())}, answered_.tag());
+    wire_.Finish(reply_, status, answered_.tag());
   }
 
  private:

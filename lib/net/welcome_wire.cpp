@@ -2,6 +2,7 @@
 #include <cmath>
 #include <map>
 
+#include "hardware/measurement_fields.h"
 #include "net/robot_wire.h"
 
 namespace robosim {
@@ -12,13 +13,39 @@ void checkFinite(std::initializer_list<double> values) {
   throw WireError("the environment's welcome has a number that is not finite");
 }
 
-void encode(const SensorInfo& sensor, wire::SensorDescription& out) {
+void addField(const char* name, const Unit& unit, v1::SensorDescription& out) {
+  auto& field = *out.add_fields();
+  field.set_name(name);
+  field.set_unit(unit.symbol);
+}
+
+/// Adds the names and units of the numbers of a kind of measurement.
+template <typename M>
+void describeRecords(const M&, v1::SensorDescription& out) {
+  out.set_record(Description<M>::record_name);
+  std::apply([&](const auto&... field) { (addField(field.name, field.unit, out), ...); }, Description<M>::fields);
+}
+
+void encode(const Beam& beam, v1::Beam& out) {
+  const auto& pose = beam.robot_from_beam;
+  out.set_x_m(pose.x);
+  out.set_y_m(pose.y);
+  out.set_z_m(pose.z);
+  out.set_yaw_rad(pose.yaw);
+  out.set_pitch_rad(pose.pitch);
+  out.set_roll_rad(pose.roll);
+}
+
+Beam decode(const v1::Beam& in) {
+  checkFinite({in.x_m(), in.y_m(), in.z_m(), in.yaw_rad(), in.pitch_rad(), in.roll_rad()});
+  return {{in.x_m(), in.y_m(), in.z_m(), in.yaw_rad(), in.pitch_rad(), in.roll_rad()}};
+}
+
+void encode(const SensorInfo& sensor, v1::SensorDescription& out) {
   out.set_kind(nameOf(sensor.kind));
   out.set_label(sensor.label);
-  for (const auto& beam : sensor.beams) {
-    const auto& b = beam.robot_from_beam;
-    for (const double number : {b.x, b.y, b.z, b.yaw, b.pitch, b.roll}) out.add_beams(number);
-  }
+  std::visit([&](const auto& kind) { describeRecords(kind, out); }, blankMeasurement(sensor));
+  for (const auto& beam : sensor.beams) encode(beam, *out.add_beams());
   out.set_range_min_m(sensor.range_min_m);
   out.set_range_max_m(sensor.range_max_m);
   out.set_no_echo_m(sensor.no_echo_m);
@@ -40,7 +67,7 @@ void encode(const SensorInfo& sensor, wire::SensorDescription& out) {
   }
 }
 
-CameraInfo decode(const wire::CameraDescription& in) {
+CameraInfo decode(const v1::CameraDescription& in) {
   const auto is_side = [](std::uint32_t px) { return px >= 1 && px <= kPictureSideMax_px; };
   if (!is_side(in.width_px()) || !is_side(in.height_px()) ||
       !(in.field_of_view_rad() > 0 && in.field_of_view_rad() < M_PI) || !(in.rate_hz() > 0)) {
@@ -50,21 +77,12 @@ CameraInfo decode(const wire::CameraDescription& in) {
   return {in.width_px(), in.height_px(), in.field_of_view_rad(), in.rate_hz()};
 }
 
-SensorInfo decode(const wire::SensorDescription& in) {
-  const auto kind = sensorKindNamed(in.kind());
-  if (!kind) {
-    throw WireError("the environment has a sensor of the unknown kind \"" + in.kind() +
-                    "\"; bring this program up to date");
-  }
-  if (in.beams_size() % 6 != 0) throw WireError("a sensor's beams have six numbers each");
+SensorInfo decode(const v1::SensorDescription& in) {
   SensorInfo sensor;
-  sensor.kind = *kind;
+  // Environments of newer versions may have further kinds.
+  sensor.kind = sensorKindNamed(in.kind()).value_or(SensorKind::unknown);
   sensor.label = in.label();
-  for (int i = 0; i < in.beams_size(); i += 6) {
-    const double* b = in.beams().data() + i;
-    checkFinite({b[0], b[1], b[2], b[3], b[4], b[5]});
-    sensor.beams.push_back({{b[0], b[1], b[2], b[3], b[4], b[5]}});
-  }
+  for (const auto& beam : in.beams()) sensor.beams.push_back(decode(beam));
   checkFinite({in.range_min_m(), in.range_max_m(), in.no_echo_m(), in.beam_width_rad(), in.noise_std_m()});
   sensor.range_min_m = in.range_min_m();
   sensor.range_max_m = in.range_max_m();
@@ -72,15 +90,15 @@ SensorInfo decode(const wire::SensorDescription& in) {
   sensor.beam_width_rad = in.beam_width_rad();
   sensor.noise_std_m = in.noise_std_m();
   sensor.pans = in.pans();
-  const bool sees = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
-  if (sees && sensor.beams.size() != 1) throw WireError("a camera has one place on the robot");
-  if (sees) sensor.camera = decode(in.camera());
+  const bool has_camera = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
+  if (has_camera && sensor.beams.size() != 1) throw WireError("a camera has one place on the robot");
+  if (has_camera) sensor.camera = decode(in.camera());
   sensor.colors.assign(in.colors().begin(), in.colors().end());
   for (const auto& quantity : in.quantities()) sensor.quantities.push_back({quantity.name(), quantity.unit()});
   return sensor;
 }
 
-void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, wire::RobotDescription& out) {
+void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::RobotDescription& out) {
   const RobotInfo& info = robot.info;
   out.set_name(info.name);
   out.set_model(info.model);
@@ -93,14 +111,14 @@ void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, wire::R
   out.set_decel_mps2(info.limits.decel_mps2);
   out.set_turn_accel_radps2(info.limits.turn_accel_radps2);
   out.set_sensor_set(sensor_set);
-  out.set_place(robot.place);
+  out.set_world_robot(robot.world_robot);
   out.set_controller(robot.controller);
   out.set_next_answer(robot.next_answer);
 }
 
 using SensorSets = std::vector<std::shared_ptr<const std::vector<SensorInfo>>>;
 
-RobotsWelcome::Robot decode(const wire::RobotDescription& in, const SensorSets& sets) {
+RobotsWelcome::Robot decode(const v1::RobotDescription& in, const SensorSets& sets) {
   if (in.sensor_set() >= sets.size()) throw WireError("a robot refers to a set of sensors that does not exist");
   const MotionLimits limits{.speed_max_mps = in.speed_max_mps(),
                             .turn_max_radps = in.turn_max_radps(),
@@ -110,14 +128,14 @@ RobotsWelcome::Robot decode(const wire::RobotDescription& in, const SensorSets& 
   checkFinite({in.radius_m(), in.height_m(), limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
                limits.decel_mps2, limits.turn_accel_radps2});
   return {{in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()]},
-          in.place(),
+          in.world_robot(),
           in.controller(),
           in.next_answer()};
 }
 
 }  // namespace
 
-void encode(const RobotsWelcome& welcome, wire::RobotsWelcome& out) {
+void encode(const RobotsWelcome& welcome, v1::RobotsWelcome& out) {
   out.Clear();
   out.set_world(welcome.world);
   out.set_world_version(welcome.world_version);
@@ -134,10 +152,10 @@ void encode(const RobotsWelcome& welcome, wire::RobotsWelcome& out) {
     }
     encode(robot, found->second, *out.add_robots());
   }
-  for (const auto& name : welcome.all_robots) out.add_everyone(name);
+  for (const auto& name : welcome.all_robots) out.add_all_robots(name);
 }
 
-RobotsWelcome decode(const wire::RobotsWelcome& in) {
+RobotsWelcome decode(const v1::RobotsWelcome& in) {
   if (!(in.period_s() > 0 && in.period_s() <= 1)) throw WireError("the environment's time step is not in (0, 1] s");
   RobotsWelcome welcome;
   welcome.world = in.world();
@@ -152,7 +170,7 @@ RobotsWelcome decode(const wire::RobotsWelcome& in) {
     sets.push_back(std::move(sensors));
   }
   for (const auto& robot : in.robots()) welcome.robots.push_back(decode(robot, sets));
-  welcome.all_robots.assign(in.everyone().begin(), in.everyone().end());
+  welcome.all_robots.assign(in.all_robots().begin(), in.all_robots().end());
   return welcome;
 }
 

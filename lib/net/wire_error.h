@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include <grpcpp/support/status.h>
+#include "net/error_status.h"
 
 namespace robosim {
 
@@ -15,16 +15,19 @@ constexpr std::uint32_t kProtocolVersion = 1;
 /// clients are not affected.
 class WireError : public std::runtime_error {
  public:
-  explicit WireError(const std::string& what, grpc::StatusCode code = grpc::StatusCode::INVALID_ARGUMENT)
-      : std::runtime_error(what), code_(code) {}
-  grpc::StatusCode code() const { return code_; }
+  /// @param robot name of the robot concerned; empty for none
+  explicit WireError(const std::string& what, v1::ErrorReason reason = v1::ERROR_REASON_INVALID_MESSAGE,
+                     const std::string& robot = "")
+      : std::runtime_error(what), status_(errorStatus(reason, what, robot)) {}
+  /// With another status: the refusal by an access check.
+  explicit WireError(const grpc::Status& status) : std::runtime_error(status.error_message()), status_(status) {}
+
+  /// For the peer.
+  const grpc::Status& status() const { return status_; }
 
  private:
-  grpc::StatusCode code_;
+  grpc::Status status_;
 };
-
-/// A text shortened to 2000 bytes, for the message of a grpc::Status: gRPC replaces longer messages.
-std::string truncatedForStatus(const std::string& text);
 
 /// @throws WireError unless the peer uses kProtocolVersion.
 void checkProtocol(std::uint32_t version);

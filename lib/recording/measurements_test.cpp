@@ -104,6 +104,11 @@ TEST(Measurements, RoundTripRangesWithoutEcho) {
   EXPECT_NEAR(echo.point_m.x, 1.8, 1e-6);
 }
 
+TEST(Measurements, RoundTripARangeEqualToTheMaximum) {
+  const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 1.5, 1.6);
+  EXPECT_EQ(std::get<Echoes>(thereAndBack(sonar, Echoes{{1.5f, {1.5f, 0, 0}}}))[0].range_m, 1.5f);
+}
+
 TEST(Measurements, ReadAnEchoAtTheMaximumRangeAsNoEcho) {
   // As specified in readings.h: only objects nearer than the maximum are reported.
   const auto sonar = rangeSensor(SensorKind::sonar, "sonar", {beamAt(0, 0, 0, 0)}, 1.5, 1.5);

@@ -176,6 +176,13 @@ TEST(Observations, RecordALaserWithIrregularBeamsAsRanges) {
   EXPECT_EQ(recorded<CObservationRange>(apart, Echoes(2)).sensedData.size(), 2u);
 }
 
+TEST(Observations, RecordALaserWithTiltedBeamsAsRanges) {
+  std::vector<Beam> beams;
+  for (const double yaw_rad : {-0.5, 0.0, 0.5}) beams.push_back({mrpt::math::TPose3D(0.1, 0, 0.2, yaw_rad, 0.1, 0)});
+  const auto tilted = rangeSensor(SensorKind::laser, "laser", beams, 8, 8);
+  EXPECT_EQ(recorded<CObservationRange>(tilted, Echoes(3)).sensedData.size(), 3u);
+}
+
 TEST(Observations, RecordAPanningSensorWithItsPose) {
   auto sensor = rangeSensor(SensorKind::laser, "laser", {beamAt(0.3, 0, 0, 0.25)}, 8, 8);
   sensor.pans = true;

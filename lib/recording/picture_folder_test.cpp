@@ -36,6 +36,17 @@ TEST_F(PictureFolderTest, KeepsImagesThatCannotBeMovedAndReportsTheirFolder) {
   EXPECT_TRUE(fs::exists(in("run_Images.part/a.jpg")));
 }
 
+TEST_F(PictureFolderTest, RemovesImagesThatAKilledProgramLeft) {
+  fs::create_directories(in("run_Images.part"));
+  std::ofstream(in("run_Images.part/old.jpg")) << "of a killed program";
+  PictureFolder folder(in("run.rawlog"));
+  folder.write("a.jpg", "a picture");
+  folder.commit();
+  EXPECT_TRUE(fs::exists(in("run_Images/a.jpg")));
+  EXPECT_FALSE(fs::exists(in("run_Images/old.jpg")));
+  EXPECT_FALSE(fs::exists(in("run_Images.part")));
+}
+
 TEST_F(PictureFolderTest, ReportsDeletedImagesAsARecordingError) {
   fs::create_directories(in("run_Images"));
   PictureFolder folder(in("run.rawlog"));

@@ -80,7 +80,7 @@ struct Console::Impl final : public WebPageHandler {
   }
   bool operator()(const WatchMap& action) {
     is_map_watched = action.watched;
-    if (options.map) options.map->want(action.watched);
+    if (options.map) options.map->setWatched(action.watched);
     return false;
   }
   bool operator()(const WriteLog& action) {

@@ -24,12 +24,13 @@ namespace robosim {
 
 /// State machine of the console: admits pages, holds the control lock, converts the pages' messages to orders for the
 /// primary robot, and selects the next message for each page. Events are function calls; outputs are the returned
-/// actions and nextMessage(). It has no socket, no thread and no clock: time is a parameter and must not decrease.
+/// actions and nextMessage(). It has no socket and no thread, and its deadlines depend only on the time passed as a
+/// parameter, which must not decrease; the expiry of tokens depends on the clock of its Access (Access::Options::now).
 ///
 /// Every message of a page is authorised (page_authorization.h) before it is handled. Messages are untrusted: no
 /// function throws because of them, and a page that sends an invalid one is disconnected. What waits for a page is
-/// bounded (PageOutbox). Pages whose hello has not come: at most kMaxSilent, beyond which the oldest is disconnected,
-/// and each for at most kHelloWithin.
+/// bounded (PageOutbox). Pages whose hello has not been received: at most kMaxSilent, beyond which the oldest is
+/// disconnected, and each for at most kHelloWithin.
 ///
 /// After actions that change the team (SetDriver, SetAutonomous, SwitchPrimary) update() must follow before the next
 /// message. Orders that move a robot are ignored while a switch is pending.
@@ -47,7 +48,7 @@ class ConsoleSession {
     std::uint64_t access_version = 0;    ///< of Access::refresh()
   };
 
-  /// @param access rights by token. It has a clock of its own, for the expiry of tokens
+  /// @param access rights by token
   explicit ConsoleSession(Access access) : access_(std::move(access)) {}
 
   /// @param id greater than all previous ones

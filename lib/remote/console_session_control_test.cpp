@@ -143,7 +143,7 @@ TEST_F(ConsoleSessionTest, TheEncodedReasonOfAStopNeverExceedsWhatARobotAccepts)
   for (int i = 0; i < 59; ++i) reason += "é";
   const PageId page = driver(name);
   console.send(page, R"({"type":"stop","why":")" + reason + R"(yz"})");  // 120 bytes
-  wire::ControlRequest message;
+  v1::ControlRequest message;
   encode(console.takeOrders().back().order, message);
   // "'s page " is 8 bytes: of the reason 52 bytes remain, which are 26 letters.
   std::string remaining;

@@ -7,6 +7,7 @@
 
 #include "base/temporary_directory.h"
 #include "remote/testing/console_session_fixture.h"
+#include "remote/testing/one_robot_map.h"
 
 namespace robosim {
 namespace {
@@ -178,14 +179,7 @@ TEST_F(ConsoleSessionTest, StopsTheRobotOfADriverThatIsDisconnectedForAMalformed
 // ---- The map ----
 
 TEST_F(ConsoleSessionTokensTest, ShowsTruePosesOnlyToTokensThatMayWatch) {
-  auto world = std::make_shared<MapWorld>();
-  world->name = "maze";
-  world->robots = {{"Ann", 0.2, {}}};
-  auto view = std::make_shared<MapView>();
-  view->world = world;
-  view->world_from_robot = {{12.25, 3, 0}};
-  view->activity = {Activity::active};
-  console.map = view;
+  console.map = oneRobotMap();
   for (const char* token : {kAnnAndBob, kOnlyBob}) {
     const PageId page = console.join(token);
     console.send(page, R"({"type":"map","on":true})");

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "remote/testing/one_robot_map.h"
 #include "remote/testing/test_page.h"
 #include "remote/testing/test_robot.h"
 
@@ -23,25 +24,14 @@ const char* const kTokens =
     "ann-and-bob-0123456789abcdef robot Ann Bob\n"
     "operator-0123456789abcdef operator\n";
 
-/// A map of one robot's true pose.
 class TestMap : public MapSource {
  public:
-  TestMap() {
-    auto world = std::make_shared<MapWorld>();
-    world->name = "maze";
-    world->robots = {{"Ann", 0.2, {}}};
-    auto view = std::make_shared<MapView>();
-    view->world = world;
-    view->world_from_robot = {{12.25, 3, 0}};
-    view->activity = {Activity::active};
-    view_ = view;
-  }
-  void want(bool wanted) override { is_wanted = wanted; }
+  void setWatched(bool watched) override { is_watched = watched; }
   std::shared_ptr<const MapView> newest() override { return view_; }
-  std::atomic<bool> is_wanted{false};
+  std::atomic<bool> is_watched{false};
 
  private:
-  std::shared_ptr<const MapView> view_;
+  std::shared_ptr<const MapView> view_ = oneRobotMap();
 };
 
 /// Ann, the primary, Bob and Cid.
@@ -83,11 +73,12 @@ struct ConsoleTest : testing::Test {
     console.reset();
   }
 
-  void wait(const std::function<bool()>& until) {
-    waitUntil(until, [&] {
+  void wait(const std::function<bool()>& until, const CallSite& place = CallSite::here()) {
+    const auto step = [&] {
       for (auto& robot : team) robot->step();
       for (auto& page : pages) page->receive();
-    });
+    };
+    waitUntil(until, step, place);
   }
   /// A page whose hello was accepted, when all robots are up.
   TestPage& page(const std::string& token) {
@@ -146,7 +137,7 @@ TEST_F(ConsoleTest, ShowsTruePosesOnlyToTokensThatMayWatch) {
     TestPage& page = this->page(token);
     page.send(R"({"type":"map","on":true})");
     wait([&] { return page.has("Your token does not permit the map"); });
-    EXPECT_FALSE(map.is_wanted);
+    EXPECT_FALSE(map.is_watched);
     const std::size_t before = page.updates;
     wait([&] { return page.updates > before + 3; });
     EXPECT_FALSE(page.has("12.25")) << "a true pose";

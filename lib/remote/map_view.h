@@ -13,8 +13,8 @@ namespace robosim {
 
 /// Ground truth from above for the console's map.
 struct MapWorld {
-  struct Thing {
-    mrpt::math::TPose2D world_from_thing;
+  struct Object {
+    mrpt::math::TPose2D world_from_object;
     double length_m = 0, width_m = 0;  ///< of a box; 0 for a disc
     double radius_m = 0;               ///< of a disc
     std::array<float, 3> color{};      ///< red, green, blue, each in [0, 1]
@@ -27,7 +27,7 @@ struct MapWorld {
   };
   std::string name;
   double x_min_m = 0, x_max_m = 0, y_min_m = 0, y_max_m = 0;
-  std::vector<Thing> things;
+  std::vector<Object> objects;
   std::vector<Robot> robots;
 };
 
@@ -44,7 +44,7 @@ class MapSource {
  public:
   virtual ~MapSource() = default;
   /// Sets whether any page shows the map; initially none does.
-  virtual void want(bool wanted) = 0;
+  virtual void setWatched(bool is_watched) = 0;
   /// The newest; never null.
   virtual std::shared_ptr<const MapView> newest() = 0;
 };

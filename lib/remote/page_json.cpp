@@ -184,14 +184,14 @@ std::string answerJson(const char* sensor, const RobotAnswer& answer) {
 std::string mapJson(const MapView& map) {
   if (!map.world) return textOf({{"type", "map"}, {"problem", map.problem}});
   const MapWorld& world = *map.world;
-  Json things = Json::array();
-  for (const auto& thing : world.things) {
-    things.push_back({{"at", jsonOf(thing.world_from_thing)},
-                      {"length_m", thing.length_m},
-                      {"width_m", thing.width_m},
-                      {"radius_m", thing.radius_m},
-                      {"color", hexOf(thing.color)},
-                      {"hot", thing.is_hot}});
+  Json objects = Json::array();
+  for (const auto& object : world.objects) {
+    objects.push_back({{"at", jsonOf(object.world_from_object)},
+                       {"length_m", object.length_m},
+                       {"width_m", object.width_m},
+                       {"radius_m", object.radius_m},
+                       {"color", hexOf(object.color)},
+                       {"hot", object.is_hot}});
   }
   Json robots = Json::array();
   for (const auto& robot : world.robots) {
@@ -201,7 +201,7 @@ std::string mapJson(const MapView& map) {
                  {"name", world.name},
                  {"x_m", {world.x_min_m, world.x_max_m}},
                  {"y_m", {world.y_min_m, world.y_max_m}},
-                 {"things", things},
+                 {"objects", objects},
                  {"robots", robots}});
 }
 

@@ -34,7 +34,7 @@ struct RemoteControl::TeamMember {
 RemoteControl::RemoteControl(const std::vector<RobotAddress>& list, const Options& options)
     : options_(options), primaries_(list.size(), primaryOf(list)), started_(options.now()) {
   for (const auto& robot : list) {
-    ConnectOptions connect_options = options.dial;
+    ConnectOptions connect_options = options.connect_options;
     connect_options.address = robot.hostname + ":" + std::to_string(robot.port);
     members_.push_back(std::make_unique<TeamMember>(robot.name, connect_options, options.on_news));
   }
@@ -122,7 +122,7 @@ void RemoteControl::claimPrimary() { members_[primaries_.primary()]->link.claim(
 void RemoteControl::send(const RemoteOrder& order) { members_[primaries_.primary()]->link.send(order); }
 
 void RemoteControl::setAutonomous(bool autonomous) {
-  members_[primaries_.primary()]->link.send({.type = RemoteType::init_ack, .autonomous = autonomous});
+  members_[primaries_.primary()]->link.send({.type = RemoteType::set_mode, .autonomous = autonomous});
 }
 
 }  // namespace robosim

@@ -21,7 +21,7 @@ class RemoteControl {
 
   struct Options {
     std::string driver = "the remote control";  ///< name shown to others
-    ConnectOptions dial;                        ///< all but the address
+    ConnectOptions connect_options;             ///< all but the address
     std::function<void()> on_news = [] {};      ///< called from other threads when there is news
     std::function<Clock::time_point()> now = Clock::now;
   };

@@ -87,6 +87,15 @@ TEST_F(RemoteControlRobotTest, ExecutesTheDriversOrdersInsteadOfTheControllers) 
   EXPECT_EQ(robot.state().turn_radps, 1);
 }
 
+TEST_F(RemoteControlRobotTest, DiscardsAPendingOrderWhenADriverTakesIt) {
+  robot.take("Anna", false);
+  step();
+  robot.obey(driveAt(0.5, 1));
+  robot.take("Bert", false);
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
+}
+
 TEST_F(RemoteControlRobotTest, ExecutesTheControllersCommandsAgainWhenSetAutonomous) {
   robot.take("Anna", false);
   robot.obey(driveAt(-0.25, 1));

@@ -26,14 +26,15 @@ struct RemoteControlTest : testing::Test {
     options.now = [this] { return now; };
     return std::make_unique<RemoteControl>(list, options);
   }
-  /// A tenth of a second for everyone.
+  /// A tenth of a second for all robots.
   void step(RemoteControl& control) {
     for (auto& robot : team) robot->step();
     control.tick();
     now += 100ms;
   }
-  void wait(RemoteControl& control, const std::function<bool()>& until) {
-    waitUntil(until, [&] { step(control); });
+  void wait(RemoteControl& control, const std::function<bool()>& until, const CallSite& place = CallSite::here()) {
+    waitUntil(
+        until, [&] { step(control); }, place);
   }
   static bool allUp(const RemoteControl& control) {
     for (const auto& robot : control.robots()) {

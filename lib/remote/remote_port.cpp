@@ -10,10 +10,10 @@
 #include "base/error_list.h"
 #include "net/completion_queue_server.h"
 #include "net/flood_guard.h"
-#include "net/remote.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "net/stream_session.h"
 #include "remote/response_outbox.h"
+#include "robosim/v1/remote_control.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -27,7 +27,7 @@ auto reportedPartOf(const RemoteState& state) {
 
 /// All functions require the mutex, unless stated otherwise. A thread of its own handles the calls, because the thread
 /// that steps the robots waits for the environment.
-struct RemotePort::Impl final : public wire::RemoteControl::WithRawMethod_Control<wire::RemoteControl::Service> {
+struct RemotePort::Impl final : public v1::RemoteControl::WithRawMethod_Control<v1::RemoteControl::Service> {
   class Stream;
 
   /// A robot and its driver.
@@ -62,14 +62,14 @@ struct RemotePort::Impl final : public wire::RemoteControl::WithRawMethod_Contro
 };
 
 /// Session of one remote control with one robot.
-class RemotePort::Impl::Stream final : public StreamSession<wire::ControlRequest, wire::ControlResponse> {
+class RemotePort::Impl::Stream final : public StreamSession<v1::ControlRequest, v1::ControlResponse> {
  public:
   explicit Stream(Impl& port)
       : StreamSession(port.host,
                       {.right = Right::look, .log_kind = "remote controls disconnected", .first_message = "INIT"}),
         port_(port) {}
 
-  std::string who() const override {
+  std::string logName() const override {
     return (name.empty() ? "a remote control" : inQuotes(name)) + " (" + peer() + ")" +
            (robot ? " at robot " + robot->name() : "");
   }
@@ -121,7 +121,7 @@ class RemotePort::Impl::Stream final : public StreamSession<wire::ControlRequest
   flood_guard::Exemption exemption{};  ///< of a driver, which may send more than it receives
 
  private:
-  ReadPolicy received(const wire::ControlRequest& message) override {
+  ReadPolicy received(const v1::ControlRequest& message) override {
     const RemoteOrder order = decode(message);
     if (order.type == RemoteType::init) {
       port_.init(*this, order);
@@ -198,18 +198,18 @@ void RemotePort::Impl::init(Stream& stream, const RemoteOrder& order) {
     for (const auto& other : robots) names.push_back(other.name());
     throw WireError("this port serves no robot " + inQuotes(order.robot) + ", only " + listed(names) +
                         "; correct its port in the robot list",
-                    grpc::StatusCode::NOT_FOUND);
+                    v1::ERROR_REASON_UNKNOWN_ROBOT, order.robot);
   }
   if (stream.robot && stream.robot != &*robot) throw WireError("a second INIT for another robot; connect again for it");
   stream.name = order.driver;
   const bool has_other_driver = robot->driver && robot->driver != &stream;
   const grpc::Status may_drive = stream.may(Right::drive, order.robot);
   if (const auto status = stream.mayWatch(order.robot); !status.ok()) {
-    throw WireError(status.error_message(), status.error_code());
+    throw WireError(status);
   }
   if (!stream.isEstablished()) stream.selectRobot(*robot);
   // A token without the right to drive may observe, as may a client whose robot has another driver.
-  if (order.only_watch || has_other_driver || !may_drive.ok()) {
+  if (order.only_observe || has_other_driver || !may_drive.ok()) {
     releaseRobot(stream);
     stream.sendState();
     return;
@@ -226,9 +226,9 @@ void RemotePort::Impl::handle(Stream& stream, const RemoteOrder& order) {
   if (stream.request(order.type)) return;
   if (!stream.isDriver()) return;  // its state contains the driver's name
   if (const auto status = stream.may(Right::drive, stream.robot->name()); !status.ok()) {
-    throw WireError(status.error_message(), status.error_code());
+    throw WireError(status);
   }
-  if (order.type == RemoteType::init_ack) {
+  if (order.type == RemoteType::set_mode) {
     stream.audit((order.autonomous ? "autonomous on " : "autonomous off ") + stream.robot->name());
     stream.robot->robot().setAutonomous(order.autonomous);
     sendState(*stream.robot);

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
-#include "net/remote.grpc.pb.h"
 #include "remote/robot_link.h"
 #include "remote/testing/test_robot.h"
+#include "robosim/v1/remote_control.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -15,15 +15,16 @@ std::unique_ptr<RobotLink> linkTo(const TestRobot& robot, const std::string& tok
   ConnectOptions connect_options;
   connect_options.address = robot.address();
   connect_options.token = token;
-  return std::make_unique<RobotLink>(name, connect_options, [] {});
+  return std::make_unique<RobotLink>(name, connect_options, [] { testEvents().notify(); });
 }
 
 struct RemotePortTest : testing::Test {
   TestRobot robot{"Pioneer1"};
   std::unique_ptr<RobotLink> anna = linkTo(robot);
 
-  void wait(const std::function<bool()>& until) {
-    waitUntil(until, [&] { robot.step(); });
+  void wait(const std::function<bool()>& until, const CallSite& place = CallSite::here()) {
+    waitUntil(
+        until, [&] { robot.step(); }, place);
   }
   void waitUp(RobotLink& link) {
     wait([&] { return link.news().is_up; });
@@ -73,7 +74,7 @@ TEST_F(RemotePortTest, ADriverSteersAndEnablesTheController) {
   connect(*anna, "Anna");
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
-  anna->send({.type = RemoteType::init_ack, .autonomous = true});
+  anna->send({.type = RemoteType::set_mode, .autonomous = true});
   wait([&] { return robot.hardware->lastCommand() == Command{.turn_radps = 1}; });
   wait([&] { return anna->news().state.autonomous; });
 }
@@ -95,7 +96,7 @@ TEST_F(RemotePortTest, StopsTheRobotWhenTheDriverDisconnectsAndLogsTheReason) {
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
   anna.reset();
-  waitUntil([&] { return robot.log().find("Pioneer1 stops") != std::string::npos; }, [] {});
+  waitUntil([&] { return robot.log().find("Pioneer1 stops") != std::string::npos; });
   robot.step();
   EXPECT_EQ(commandedSpeed(), 0);
   EXPECT_NE(robot.log().find("Pioneer1 stops: its remote control has disconnected"), std::string::npos) << robot.log();
@@ -141,19 +142,18 @@ TEST_F(RemotePortTest, SendsReadingsToSubscribers) {
   anna->setLive(true);
   robot.hardware->setHeat(7);
   for (int i = 0; i < 3; ++i) {
-    const auto last = anna->news().update;
-    wait([&] { return anna->news().update != last; });
+    const auto previous = anna->news().update;
+    wait([&] { return anna->news().update != previous; });
   }
   EXPECT_EQ(std::get<Scalar>(anna->news().update->readings.measurements[3]).value, 7);
+  const auto last = anna->news().update;
   anna->setLive(false);
-  robot.hardware->setHeat(9);
-  anna->send({.type = RemoteType::req_heat});  // answered after the requests before it
-  wait([&] { return anna->news().answers[0] != nullptr; });
-  const auto step = anna->news().update->readings.time.step;
+  wait([&] { return anna->news().update != last; });  // requested when the previous one was received
+  const auto latest = anna->news().update;
   for (int i = 0; i < 10; ++i) robot.step();
   anna->send({.type = RemoteType::req_sonar});
   wait([&] { return anna->news().answers[2] != nullptr; });
-  EXPECT_LE(anna->news().update->readings.time.step, step + 1);
+  EXPECT_EQ(anna->news().update, latest);
 }
 
 TEST_F(RemotePortTest, AnswersARequestWithTheNextReading) {
@@ -195,7 +195,7 @@ TEST_F(RemotePortTest, SendsAPictureToARemoteControlThatMissedItsStep) {
   auto ben = linkTo(seeing, "", "Pioneer2");
   ben->claim("Ben", true);
   ben->connect();
-  waitUntil([&] { return ben->news().is_up; }, [] {});
+  waitUntil([&] { return ben->news().is_up; });
 
   ASSERT_EQ(readings.time.step, 0u) << "the first picture of the run";
   const std::string jpeg = "\xFF\xD8 a picture \xFF\xD9";
@@ -222,7 +222,7 @@ TEST_F(RemotePortTest, ReportsTheWinnerAndTheEndOfTheRunToAll) {
   robot.step();
   robot.endRun();
   for (RobotLink* link : {anna.get(), ben.get()}) {
-    waitUntil([&] { return !link->isCalling(); }, [] {});
+    waitUntil([&] { return !link->isCalling(); });
     EXPECT_EQ(link->news().state.winner, "Pioneer1");
     EXPECT_EQ(link->news().problem, "the run is over");
   }
@@ -232,7 +232,7 @@ TEST_F(RemotePortTest, ReportsAWrongOrUnreachableRobot) {
   const auto wrong = linkTo(robot, "", "Scout1");
   wrong->claim("Anna", false);
   wrong->connect();
-  waitUntil([&] { return !wrong->isCalling(); }, [] {});
+  waitUntil([&] { return !wrong->isCalling(); });
   EXPECT_EQ(wrong->news().problem,
             "this port serves no robot 'Scout1', only Pioneer1; correct its port in the robot list");
   EXPECT_TRUE(wrong->news().was_refused);
@@ -240,21 +240,21 @@ TEST_F(RemotePortTest, ReportsAWrongOrUnreachableRobot) {
   robot.close();
   anna->claim("Anna", false);
   anna->connect();
-  waitUntil([&] { return !anna->isCalling(); }, [] {});
+  waitUntil([&] { return !anna->isCalling(); });
   EXPECT_EQ(anna->news().problem,
             "no robot answers at " + robot.address() + "; is 'robosim robot Pioneer1 --remote-port …' running?");
   EXPECT_FALSE(anna->news().was_refused);
 }
 
 /// Sends one message, which RobotLink might never send. @return the status of the call
-grpc::Status statusAfter(const TestRobot& robot, const wire::ControlRequest& message) {
+grpc::Status statusAfter(const TestRobot& robot, const v1::ControlRequest& message) {
   ConnectOptions connect_options;
   connect_options.address = robot.address();
-  const auto stub = wire::RemoteControl::NewStub(connect(connect_options));
+  const auto stub = v1::RemoteControl::NewStub(connect(connect_options));
   grpc::ClientContext context;
   const auto stream = stub->Control(&context);
   stream->Write(message);
-  wire::ControlResponse in;
+  v1::ControlResponse in;
   while (stream->Read(&in)) {
   }
   return stream->Finish();
@@ -262,13 +262,12 @@ grpc::Status statusAfter(const TestRobot& robot, const wire::ControlRequest& mes
 
 TEST_F(RemotePortTest, DisconnectsARemoteControlForAnInvalidMessageAndNoOther) {
   connect(*anna, "Anna");
-  wire::ControlRequest message;
-  message.set_type(wire::DRIVE);
+  v1::ControlRequest message;
+  message.mutable_drive();
   EXPECT_EQ(statusAfter(robot, message).error_message(), "the first message of a remote control must be its INIT");
-  message.set_type(static_cast<wire::RemoteType>(99));
+  message.mutable_steer();  // of an unspecified type
   EXPECT_EQ(statusAfter(robot, message).error_code(), grpc::StatusCode::INVALID_ARGUMENT);
-  message.set_type(wire::INIT);
-  message.set_protocol(9);
+  message.mutable_init()->set_protocol(9);
   EXPECT_EQ(statusAfter(robot, message).error_code(), grpc::StatusCode::FAILED_PRECONDITION);
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
@@ -287,7 +286,7 @@ TEST(RemotePortAccess, PermitsEachTokenWhatItsRolePermits) {
     return link->news();
   };
   EXPECT_TRUE(news_of(driver).state.is_yours);
-  waitUntil([&] { return robot.robot.state().driver.empty(); }, [] {});
+  waitUntil([&] { return robot.robot.state().driver.empty(); }, [&] { robot.step(); });
   EXPECT_EQ(news_of(viewer).problem, "");
   EXPECT_FALSE(news_of(viewer).state.is_yours) << "may watch only";
   EXPECT_EQ(news_of(other).problem, "the token is not for robot 'Pioneer1' but for X; use another");
@@ -310,7 +309,7 @@ TEST(RemotePortDeadline, EndsACallWithoutAnInit) {
   {
     const RemotePort port(options, {"maze", 7, 0.1}, {&robot});
     grpc::ClientContext context;
-    const auto stub = wire::RemoteControl::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port.port())}));
+    const auto stub = v1::RemoteControl::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port.port())}));
     const grpc::Status status = stub->Control(&context)->Finish();
     EXPECT_EQ(status.error_code(), grpc::StatusCode::DEADLINE_EXCEEDED);
     EXPECT_EQ(status.error_message(), "no INIT within 50 ms of the call; send it at once, and call again");

@@ -19,7 +19,7 @@ void PortRobot::keepPictures() {
 }
 
 ResponseOutbox::ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome)
-    : robot_(robot), welcome_(std::move(welcome)), sent_(robot.pictures().size()), encoded_(sent_) {}
+    : robot_(robot), welcome_(std::move(welcome)), sent_(robot.pictures().size()) {}
 
 bool ResponseOutbox::request(RemoteType type) {
   const auto* const found =
@@ -30,7 +30,7 @@ bool ResponseOutbox::request(RemoteType type) {
 }
 
 void ResponseOutbox::addState(bool is_driver) {
-  wire::ControlResponse& message = add(kState, RemoteType::init_ack, is_driver);
+  v1::ControlResponse& message = add(kState, is_driver);
   if (welcome_) encode(*welcome_, *message.mutable_welcome());
 }
 
@@ -47,20 +47,32 @@ void ResponseOutbox::addReadings(bool is_driver) {
 
 bool ResponseOutbox::isEmpty() const { return std::find(is_due_.begin(), is_due_.end(), true) == is_due_.end(); }
 
-void ResponseOutbox::takeNext(wire::ControlResponse& out) {
+void ResponseOutbox::takeNext(v1::ControlResponse& out) {
   const auto* const next = std::find(is_due_.begin(), is_due_.end(), true);
   const auto topic = static_cast<std::size_t>(next - is_due_.begin());
   out.Swap(&due_[topic]);
   is_due_[topic] = is_requested_[topic] = false;
   if (topic == kState) welcome_.reset();
-  if (topic == kAll) sent_ = encoded_;
+  if (out.has_reading() && out.reading().has_sensor()) {
+    noteSent(*out.mutable_reading()->mutable_measurement(), out.reading().sensor());
+  }
+  if (!out.has_all()) return;
+  auto& measurements = *out.mutable_all()->mutable_readings()->mutable_measurements();
+  for (int i = 0; i < measurements.size(); ++i) noteSent(measurements[i], static_cast<std::size_t>(i));
 }
 
-wire::ControlResponse& ResponseOutbox::add(Topic topic, RemoteType type, bool is_driver) {
-  wire::ControlResponse& message = due_[topic];
+/// Marks a measurement that this remote control has received as not new. Called when a message is taken: only then the
+/// order of the messages is known.
+void ResponseOutbox::noteSent(v1::Measurement& measurement, std::size_t sensor) {
+  if (!measurement.is_new()) return;  // contains nothing
+  measurement.set_is_new(!sent_[sensor] || measurement.step() > *sent_[sensor]);
+  sent_[sensor] = measurement.step();
+}
+
+v1::ControlResponse& ResponseOutbox::add(Topic topic, bool is_driver) {
+  v1::ControlResponse& message = due_[topic];
   message.Clear();
   is_due_[topic] = true;
-  message.set_type(static_cast<wire::RemoteType>(type));
   RemoteState state = robot_.robot().state();
   state.is_yours = is_driver;
   encode(state, *message.mutable_state());
@@ -68,27 +80,31 @@ wire::ControlResponse& ResponseOutbox::add(Topic topic, RemoteType type, bool is
 }
 
 void ResponseOutbox::addSensor(const Request& request, bool is_driver) {
-  wire::ControlResponse& message = add(request.topic, request.type, is_driver);
-  message.set_step(robot_.readings().time.step);
+  v1::ControlResponse::Reading& reading = *add(request.topic, is_driver).mutable_reading();
+  reading.set_kind(requestedKind(request.type));
+  reading.set_step(robot_.readings().time.step);
   const auto& sensors = *robot_.info().sensors;
   const auto found =
       std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == request.sensor; });
   if (found == sensors.end()) return;
   const auto slot = static_cast<std::size_t>(found - sensors.begin());
-  message.set_sensor(static_cast<std::uint32_t>(slot));
-  encode(robot_.readings().measurements[slot], *message.mutable_measurement());
+  reading.set_sensor(static_cast<std::uint32_t>(slot));
+  encode(robot_.readings().measurements[slot], *reading.mutable_measurement());
+  reading.mutable_measurement()->set_step(reading.step());
+  reading.mutable_measurement()->set_is_new(true);
 }
 
 void ResponseOutbox::addAll(bool is_driver) {
-  wire::ControlResponse& message = add(kAll, RemoteType::req_all, is_driver);
-  message.set_step(robot_.readings().time.step);
-  encode(robot_.readings(), *message.mutable_readings());
+  v1::ControlResponse::AllReadings& all = *add(kAll, is_driver).mutable_all();
+  all.set_step(robot_.readings().time.step);
+  encode(robot_.readings(), *all.mutable_readings());
   for (std::size_t i = 0; i < robot_.pictures().size(); ++i) {
     const PortRobot::Picture& picture = robot_.pictures()[i];
-    encoded_[i] = picture.step;
     if (picture.step <= sent_[i]) continue;
-    message.mutable_readings()->mutable_measurements(static_cast<int>(i))->set_jpeg(picture.jpeg);
-    message.set_picture_step(std::max(message.picture_step(), *picture.step));
+    v1::Measurement& measurement = *all.mutable_readings()->mutable_measurements(static_cast<int>(i));
+    measurement.set_jpeg(picture.jpeg);
+    measurement.set_step(*picture.step);
+    measurement.set_is_new(true);
   }
 }
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "net/remote.pb.h"
 #include "net/robot_wire.h"
 #include "remote/remote_control_robot.h"
+#include "robosim/v1/remote_control.pb.h"
 
 namespace robosim {
 
@@ -55,7 +55,7 @@ class ResponseOutbox {
   void addReadings(bool is_driver);
   bool isEmpty() const;
   /// Moves the next message to `out`: the state first. @pre not isEmpty()
-  void takeNext(wire::ControlResponse& out);
+  void takeNext(v1::ControlResponse& out);
 
  private:
   /// In the order in which messages are sent.
@@ -67,15 +67,16 @@ class ResponseOutbox {
   };
   static const std::array<Request, 4> kRequests;
 
-  wire::ControlResponse& add(Topic topic, RemoteType type, bool is_driver);
+  v1::ControlResponse& add(Topic topic, bool is_driver);
   void addSensor(const Request& request, bool is_driver);
   void addAll(bool is_driver);
+  void noteSent(v1::Measurement& measurement, std::size_t sensor);
 
   const PortRobot& robot_;
   std::optional<RobotsWelcome> welcome_;  ///< until it was taken
   std::array<bool, kTopics> is_requested_{}, is_due_{};
-  std::array<wire::ControlResponse, kTopics> due_;
-  std::vector<std::optional<std::uint64_t>> sent_, encoded_;  ///< by sensor: the step of the last picture
+  std::array<v1::ControlResponse, kTopics> due_;
+  std::vector<std::optional<std::uint64_t>> sent_;  ///< by sensor: the step of the last measurement taken
 };
 
 }  // namespace robosim

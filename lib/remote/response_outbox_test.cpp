@@ -35,8 +35,8 @@ struct ResponseOutboxTest : testing::Test {
   }
 
   /// The next message.
-  wire::ControlResponse take() {
-    wire::ControlResponse message;
+  v1::ControlResponse take() {
+    v1::ControlResponse message;
     outbox.takeNext(message);
     return message;
   }
@@ -67,8 +67,9 @@ TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
   hardware.setHeat(7);
   step();
   const auto message = take();
-  EXPECT_EQ(message.type(), wire::REQ_HEAT);
-  EXPECT_EQ(message.sensor(), 3u);
+  EXPECT_EQ(message.reading().kind(), "heat");
+  EXPECT_EQ(message.reading().sensor(), 3u);
+  EXPECT_EQ(message.reading().measurement().step(), message.reading().step());
   step();
   EXPECT_TRUE(outbox.isEmpty());
 }
@@ -76,7 +77,7 @@ TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
 TEST_F(ResponseOutboxTest, ReplacesReadingsThatWereNotSentByNewerOnes) {
   outbox.request(RemoteType::req_all);
   for (int i = 0; i < 100; ++i) step();
-  EXPECT_EQ(take().step(), 99u);
+  EXPECT_EQ(take().all().step(), 99u);
   EXPECT_TRUE(outbox.isEmpty());
 }
 
@@ -85,14 +86,14 @@ TEST_F(ResponseOutboxTest, SendsTheStateFirst) {
   outbox.request(RemoteType::req_sonar);
   step();
   outbox.addState(true);
-  EXPECT_EQ(take().type(), wire::INIT_ACK);
-  EXPECT_EQ(take().type(), wire::REQ_SONAR);
-  EXPECT_EQ(take().type(), wire::REQ_ALL);
+  EXPECT_TRUE(take().has_welcome());
+  EXPECT_EQ(take().reading().kind(), "sonar");
+  EXPECT_TRUE(take().has_all());
 }
 
 TEST_F(ResponseOutboxTest, SendsEachPictureOnceEvenIfItsStepWasMissed) {
-  const auto picture_in = [](const wire::ControlResponse& message) {
-    return message.readings().measurements(4).jpeg();
+  const auto picture_in = [](const v1::ControlResponse& message) {
+    return message.all().readings().measurements(4).jpeg();
   };
   step("picture");
   step();
@@ -100,10 +101,24 @@ TEST_F(ResponseOutboxTest, SendsEachPictureOnceEvenIfItsStepWasMissed) {
   step();
   const auto message = take();
   EXPECT_EQ(picture_in(message), "picture");
-  EXPECT_EQ(message.picture_step(), 0u);
+  EXPECT_EQ(message.all().readings().measurements(4).step(), 0u);
   outbox.request(RemoteType::req_all);
   step();
   EXPECT_EQ(picture_in(take()), "");
+}
+
+TEST_F(ResponseOutboxTest, MarksAMeasurementAsNewInTheFirstOfItsMessages) {
+  outbox.request(RemoteType::req_heat);
+  outbox.request(RemoteType::req_all);
+  step();
+  EXPECT_TRUE(take().reading().measurement().is_new());
+  const auto of_same_step = take();
+  EXPECT_EQ(of_same_step.all().readings().measurements(3).step(), 0u);
+  EXPECT_FALSE(of_same_step.all().readings().measurements(3).is_new()) << "heat, received before";
+  EXPECT_TRUE(of_same_step.all().readings().measurements(0).is_new());
+  outbox.request(RemoteType::req_all);
+  step();
+  EXPECT_TRUE(take().all().readings().measurements(3).is_new()) << "the next step";
 }
 
 TEST_F(ResponseOutboxTest, AcceptsOnlyRequests) {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "net/client_stream.h"
-#include "net/remote.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "net/tls.h"
 #include "remote/drive_order.h"
+#include "robosim/v1/remote_control.grpc.pb.h"
 
 namespace robosim {
 namespace {
@@ -34,7 +34,7 @@ std::string problemOf(const grpc::Status& status, const ConnectOptions& connect_
 
 /// The link's thread makes the calls. The mutex guards the members below it.
 struct RobotLink::Impl {
-  using Stream = ClientStream<wire::ControlRequest, wire::ControlResponse>;
+  using Stream = ClientStream<v1::ControlRequest, v1::ControlResponse>;
 
   Impl(std::string the_robot, ConnectOptions options, std::function<void()> news_callback);
   ~Impl();
@@ -48,17 +48,17 @@ struct RobotLink::Impl {
   void discardSteering();
   void discardOrders();
   void processMessage();
-  void processUpdate();
-  void processAnswer();
+  void processUpdate(const v1::ControlResponse::AllReadings& all);
+  void processAnswer(const v1::ControlResponse::Reading& reading);
   ///@}
 
   const std::string robot;
   const ConnectOptions connect_options;
   const std::function<void()> on_news;
-  const std::unique_ptr<wire::RemoteControl::Stub> stub;
+  const std::unique_ptr<v1::RemoteControl::Stub> stub;
   Stream stream;
-  wire::ControlRequest out;
-  wire::ControlResponse in;
+  v1::ControlRequest out;
+  v1::ControlResponse in;
 
   std::mutex mutex;
   std::condition_variable call_requested;
@@ -71,7 +71,7 @@ struct RobotLink::Impl {
   ///@{
   std::optional<RemoteOrder> init;
   bool init_is_due = false;
-  std::optional<RemoteOrder> switching;  ///< INIT_ACK
+  std::optional<RemoteOrder> switching;  ///< of the mode
   std::optional<RemoteOrder> stop;       ///< never superseded by a later order
   std::optional<RemoteOrder> driving;    ///< DRIVE: the newest speed, turn and pan
   std::optional<RemoteOrder> steering;   ///< the newest other order that steers
@@ -88,7 +88,7 @@ RobotLink::Impl::Impl(std::string the_robot, ConnectOptions options, std::functi
     : robot(std::move(the_robot)),
       connect_options(std::move(options)),
       on_news(std::move(news_callback)),
-      stub(wire::RemoteControl::NewStub(robosim::connect(connect_options))),
+      stub(v1::RemoteControl::NewStub(robosim::connect(connect_options))),
       stream(connect_options, [this](auto... arguments) { return stub->AsyncControl(arguments...); }) {
   stream.setAdaptivePolling(false);
   news.problem = "not connected yet";
@@ -213,23 +213,24 @@ void RobotLink::Impl::processMessage() {
   }
   if (!news.is_up) throw WireError("the first message is not a welcome");
   news.state = decode(in.state());
-  if (in.type() == wire::REQ_ALL) processUpdate();
-  if (in.type() >= wire::REQ_HEAT && in.type() <= wire::REQ_SONAR) processAnswer();
+  if (in.has_all()) processUpdate(in.all());
+  if (in.has_reading()) processAnswer(in.reading());
 }
 
-void RobotLink::Impl::processUpdate() {
+void RobotLink::Impl::processUpdate(const v1::ControlResponse::AllReadings& all) {
   auto update = std::make_shared<RobotUpdate>();
   update->readings = blankReadings(*news.info->sensors);
-  decode(in.readings(), news.info->name, update->readings);
-  update->readings.time = {in.step(), news.period_s};
+  update->readings.time = {all.step(), news.period_s};
+  decode(all.readings(), news.info->name, update->readings);
   update->readings.winner = news.state.winner;
   update->state = news.state;
   bool is_first_camera = true;
-  for (auto& measurement : update->readings.measurements) {
-    auto* image = std::get_if<Image>(&measurement);
+  for (std::size_t i = 0; i < update->readings.measurements.size(); ++i) {
+    auto* image = std::get_if<Image>(&update->readings.measurements[i]);
     if (!image) continue;
     if (std::exchange(is_first_camera, false) && !image->jpeg.empty()) {
-      news.picture = std::make_shared<const RobotPicture>(RobotPicture{in.picture_step(), std::move(image->jpeg)});
+      const std::uint64_t step = all.readings().measurements(static_cast<int>(i)).step();
+      news.picture = std::make_shared<const RobotPicture>(RobotPicture{step, std::move(image->jpeg)});
     }
     image->jpeg.clear();
   }
@@ -237,18 +238,20 @@ void RobotLink::Impl::processUpdate() {
   request_all_is_due = is_live;
 }
 
-void RobotLink::Impl::processAnswer() {
+void RobotLink::Impl::processAnswer(const v1::ControlResponse::Reading& reading) {
+  const auto type = requestFor(reading.kind());
+  if (!type) throw WireError("a reading of the kind " + inQuotes(reading.kind()) + ", which was not requested");
   auto answer = std::make_shared<RobotAnswer>();
-  answer->step = in.step();
-  answer->has_sensor = in.has_sensor();
-  if (in.has_sensor()) {
-    if (in.sensor() >= news.info->sensors->size())
+  answer->step = reading.step();
+  answer->has_sensor = reading.has_sensor();
+  if (reading.has_sensor()) {
+    if (reading.sensor() >= news.info->sensors->size())
       throw WireError("a reading of a sensor that the robot does not have");
-    answer->sensor = in.sensor();
+    answer->sensor = reading.sensor();
     answer->measurement = blankReadings(*news.info->sensors).measurements[answer->sensor];
-    decode(in.measurement(), answer->measurement);
+    decode(reading.measurement(), answer->measurement);
   }
-  news.answers[static_cast<std::size_t>(in.type() - wire::REQ_HEAT)] = std::move(answer);
+  news.answers[static_cast<std::size_t>(*type) - static_cast<std::size_t>(RemoteType::req_heat)] = std::move(answer);
 }
 
 RobotLink::RobotLink(std::string robot, ConnectOptions connect_options, std::function<void()> on_news)
@@ -280,12 +283,12 @@ void RobotLink::claim(const std::string& driver, bool autonomous) {
 void RobotLink::send(const RemoteOrder& order) {
   const std::lock_guard lock(impl_->mutex);
   // A disconnected robot receives the switch with its next INIT.
-  if (order.type == RemoteType::init_ack && impl_->init) impl_->init->autonomous = order.autonomous;
+  if (order.type == RemoteType::set_mode && impl_->init) impl_->init->autonomous = order.autonomous;
   if (!impl_->news.is_up) return;
   switch (order.type) {
     case RemoteType::init:
       return;  // sent by claim()
-    case RemoteType::init_ack:
+    case RemoteType::set_mode:
       impl_->switching = order;
       impl_->discardSteering();
       break;

@@ -28,7 +28,7 @@ class RobotLink {
   /// Sends the driver's name and claims the robot: now, and after each connect(). Orders that steer and have not been
   /// sent yet are discarded.
   void claim(const std::string& driver, bool autonomous);
-  /// Sends an order. While disconnected, only INIT_ACK is kept, for the next INIT.
+  /// Sends an order. While disconnected, only a change of the mode is kept, for the next INIT.
   void send(const RemoteOrder& order);
   /// Subscribes to updates and pictures, or unsubscribes.
   void setLive(bool live);

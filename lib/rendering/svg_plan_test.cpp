@@ -100,6 +100,20 @@ TEST(SvgPlan, DrawsTheCellsOfAMapAsOnePath) {
   EXPECT_EQ(attribute(*cells, "transform"), "translate(3 -1.5) rotate(-90) scale(0.05 -0.05)");
 }
 
+TEST(SvgPlan, WritesTheNameOfARobotAboveIt) {
+  World world;
+  world.bounds = {0, 10, 0, 5};
+  const XmlElement svg = parseXml(toSvg(world, oneRobot()), "plan.svg");
+  int names = 0;
+  for (const auto& text : all(svg, "text")) {
+    if (text.text != "Ann") continue;
+    ++names;
+    EXPECT_EQ(std::stod(attribute(text, "x")), 1);
+    EXPECT_LT(std::stod(attribute(text, "y")), -2.2) << "y is downwards; the robot's rim is at 2.2 m";
+  }
+  EXPECT_EQ(names, 1);
+}
+
 TEST(SvgPlan, IsWellFormedForAnyNames) {
   World world = smallWorld();
   world.name = "caf\xe9";

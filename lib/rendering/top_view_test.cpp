@@ -13,6 +13,7 @@ namespace {
 
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
+using mrpt::math::TPose3D;
 
 /// 10 m × 5 m with a blue box of 2 m × 1 m in its lower left quarter, and two robots of 0.5 m radius.
 struct TopViewTest : testing::Test {
@@ -108,6 +109,35 @@ TEST_F(TopViewTest, TintsTheFreeSectorOfASonarAndMarksItsEcho) {
     const cv::Vec3b pixel = at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {6.53, 2.53});
     return pixel[0] > pixel[2] + 10;
   }());
+}
+
+TEST_F(TopViewTest, TurnsTheFreeSectorOfAPanningSensor) {
+  auto sensors = *fleet.robots[0].info.sensors;
+  sensors[0].pans = true;
+  fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(sensors);
+  Readings readings;
+  readings.measurements = {Echoes{{2, {0.5F, 2, 0.2F}}}};
+  snapshot.robots[0].readings = readings;
+  snapshot.robots[0].laser_pan_rad = static_cast<float>(std::numbers::pi / 2);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const auto is_tinted = [&](const TPoint2D& p) {
+    const cv::Vec3b pixel = at(picture, p);
+    return pixel[0] > pixel[2] + 10;  // bluish
+  };
+  EXPECT_TRUE(is_tinted({5 + 0.53, 2.5 + 1.03})) << "to the left of the robot";
+  EXPECT_FALSE(is_tinted({5 + 0.5 + 1.03, 2.53})) << "ahead";
+}
+
+TEST_F(TopViewTest, DrawsTheWorldWhereItIsAfterTheViewHasMoved) {
+  // From the second picture of a view on, the world is drawn from layers.
+  const auto second_picture_of = [&](TopView& view) {
+    view.draw(snapshot, trails, camera, layers);
+    return view.draw(snapshot, trails, camera, layers);
+  };
+  TopView moved(world, fleet), other(world, fleet);
+  second_picture_of(moved);
+  camera.center.x += 1;
+  EXPECT_EQ(cv::norm(second_picture_of(moved), second_picture_of(other), cv::NORM_INF), 0);
 }
 
 TEST_F(TopViewTest, TintsTheFreeAreaOfAScanAndMarksItsEchoes) {
@@ -274,6 +304,35 @@ TEST_F(TopViewTest, PanesShareThePictureAndFollowSeparateRobots) {
   // The right pane, 402 px wide, has the first robot in its middle; the left one shows the whole hall.
   const cv::Vec3b middle = picture.at<cv::Vec3b>(200, 404 + 200 - 20);
   EXPECT_GT(middle[2], 2 * middle[0]) << "red";
+}
+
+TEST_F(TopViewTest, LastRowOfPanesIsAsWideAsThePicture) {
+  const Pane pane = makePane(false, std::nullopt, world);
+  Panes panes(world, fleet, {pane, pane, pane}, {});
+  panes.resize(804, 804);
+  const cv::Mat picture = panes.draw(snapshot, trails);
+  const auto& between = picture.at<cv::Vec3b>(200, 401);
+  EXPECT_NE(picture.at<cv::Vec3b>(700, 401), between) << "no gap between panes";
+  EXPECT_NE(picture.at<cv::Vec3b>(700, 790), between);
+}
+
+TEST_F(TopViewTest, ClickingARobotTurns3dPanesThatFollowToIt) {
+  TPose3D world_from_camera;
+  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>) {
+    world_from_camera = pose;
+    return cv::Mat(static_cast<int>(info.height_px), static_cast<int>(info.width_px), CV_8UC3);
+  };
+  Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(true, 0, world)}, draw_3d);
+  panes.resize(1004, 500);
+  const auto distance_to = [&](double x, double y) {
+    panes.draw(snapshot, trails);
+    return std::hypot(world_from_camera.x - x, world_from_camera.y - y);
+  };
+  const double behind_m = 4 * std::cos(0.45);  // 4 m away, at the elevation of a pane that follows
+  EXPECT_NEAR(distance_to(5, 2.5), behind_m, 1e-9);
+  const TopViewCamera left = TopViewCamera::showing({0, 10, 0, 5}, 500, 500);
+  panes.click(TopView::groundView(snapshot, left).toPixel({8, 4}), snapshot);
+  EXPECT_NEAR(distance_to(8, 4), behind_m, 1e-9);
 }
 
 TEST_F(TopViewTest, DraggingPansAndClickingFollowsARobot) {

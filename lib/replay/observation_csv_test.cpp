@@ -28,6 +28,13 @@ TEST(ObservationCsv, NamesTheColumnsAgainWheneverTheyChange) {
   EXPECT_EQ(csv.lines(receivedFrom({0, 1}), 3), first + "3.0000000,Rover/beacons,1,2\n");
 }
 
+TEST(ObservationCsv, QuotesCommasAndDoublesQuotationMarks) {
+  mrpt::obs::CObservationRawDAQ observation;
+  observation.sensorLabel = "The \"1\", Rover/air";
+  observation.AIN_double = {2};
+  EXPECT_EQ(ObservationCsv().lines(observation, 0), "seconds,label,ain_0\n0.0000000,\"The \"\"1\"\", Rover/air\",2\n");
+}
+
 TEST(ObservationCsv, NamesTheQuantitiesOfADescribedSensor) {
   mrpt::obs::CObservationRawDAQ observation;
   observation.sensorLabel = "Rover/air";

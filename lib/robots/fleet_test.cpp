@@ -9,8 +9,10 @@
 
 #include <gtest/gtest.h>
 
+#include "base/data_folders.h"
 #include "base/testing/test_folder.h"
 #include "base/xml_parser.h"
+#include "robots/robot_type_folders_text.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -101,6 +103,15 @@ TEST(Fleet, EqualRobotsShareOneModel) {
   EXPECT_NE(robots[5].model, robots[7].model);
 }
 
+TEST(Fleet, RobotsOfBodiesOfDifferentHeightShareNoModel) {
+  std::string taller = of2005("C", 20);
+  taller.replace(taller.find("<height>10"), 10, "<height>11");
+  const Fleet fleet = fleetOf(worldOf({of2005("A", 0), of2005("B", 10), taller}));
+  EXPECT_EQ(fleet.robots[0].model, fleet.robots[1].model);
+  EXPECT_NE(fleet.robots[0].model, fleet.robots[2].model);
+  EXPECT_EQ(fleet.robots[2].info.height_m, 11);
+}
+
 TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
   const Fleet fleet = fleetOf(worldOf({of2005("A", 10, "<sensor><type>heat</type><range>15</range></sensor>")}, "0.1"));
   const FleetRobot& robot = fleet.robots[0];
@@ -114,7 +125,8 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
 }
 
 TEST(Fleet, RejectsUnknownModelsAndControllersAndListsTheKnownOnes) {
-  const std::string known = "known are: pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, scout, scout_driven";
+  const std::string known =
+      "known are: pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, scout, scout_driven; " + robotTypeFoldersText();
   EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
                             placed("../robots/scout", "C", 4)})),
             (Lines{"w.xml:2: robot 'A': there is no robot type 'pionier'; " + known,
@@ -169,12 +181,14 @@ TEST_F(WorldFolder, ReportsAFaultyTypeOnce) {
   }
 }
 
-TEST_F(WorldFolder, UsesTheFolderInTheEnvironmentVariable) {
-  ASSERT_EQ(setenv("ROBOSIM_WORLDS", "/elsewhere", 1), 0);
+TEST_F(WorldFolder, IsSearchedForRobotTypesBeforeOtherFolders) {
+  ASSERT_EQ(setenv("ROBOSIM_PATH", "/elsewhere", 1), 0);
   const auto folders = robotTypeFolders("here/w.xml");
-  unsetenv("ROBOSIM_WORLDS");
-  EXPECT_EQ(folders, (std::vector<std::filesystem::path>{"here/robots", "/elsewhere/robots"}));
-  EXPECT_EQ(robotTypeFolders("w.xml"), (std::vector<std::filesystem::path>{"robots", kWorlds / "robots"}));
+  unsetenv("ROBOSIM_PATH");
+  const auto shipped = shareFolder() / "worlds" / "robots";
+  EXPECT_EQ(folders, (std::vector<std::filesystem::path>{"here/robots", "/elsewhere/robots", shipped}));
+  EXPECT_EQ(robotTypeFolders("w.xml"), (std::vector<std::filesystem::path>{"robots", shipped}));
+  EXPECT_TRUE(std::filesystem::equivalent(shipped, kWorlds / "robots"));
 }
 
 TEST_F(WorldFolder, AHundredThousandRobotsLoadWithOneModel) {

@@ -66,7 +66,7 @@ const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot
     for (const auto& [name, type] : types_) known.push_back(name);
     errors_.add(world_file_, robot.line.number,
                 "robot '" + quotable(robot.name) + "': there is no robot type '" + quotable(robot.model) + "'; " +
-                    (known.empty() ? "none is known: " + robotTypeFoldersText() : "known are: " + listed(known)));
+                    (known.empty() ? "none is known" : "known are: " + listed(known)) + "; " + robotTypeFoldersText());
     return nullptr;
   }
   Type& type = found->second;

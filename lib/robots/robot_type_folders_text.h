@@ -3,8 +3,8 @@
 
 namespace robosim {
 
-/// Describes the folders searched for robot types, for error messages; names the value of ROBOSIM_WORLDS if that is not
-/// a folder.
+/// Describes the folders searched for robot types, for error messages: which do not exist, and which ROBOSIM_PATH
+/// names.
 std::string robotTypeFoldersText();
 
 }  // namespace robosim

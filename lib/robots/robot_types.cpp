@@ -1,30 +1,27 @@
 #include "robots/robot_types.h"
 
-#include <cstdlib>
-
+#include "base/data_folders.h"
 #include "robots/robot_type_folders_text.h"
 
 namespace robosim {
-namespace {
-
-std::filesystem::path worldsFolder() {
-  const char* instead = std::getenv("ROBOSIM_WORLDS");
-  return instead && *instead ? instead : ROBOSIM_WORLDS_DIR;
-}
-
-}  // namespace
 
 std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file) {
-  return {world_file.parent_path() / "robots", worldsFolder() / "robots"};
+  std::vector<std::filesystem::path> folders{world_file.parent_path() / "robots"};
+  for (const auto& folder : worldFolders()) folders.push_back(folder.path / "robots");
+  return folders;
 }
 
 std::string robotTypeFoldersText() {
-  std::string text = "robot types are the *.xml files in robots/ beside the world file and in robots/ of ";
-  const auto worlds = worldsFolder();
-  std::error_code none;
-  const bool is_there = std::filesystem::is_directory(worlds, none);
-  const bool is_given = worlds != std::filesystem::path(ROBOSIM_WORLDS_DIR);
-  return text + worlds.string() + (is_there ? "" : ", which does not exist") + (is_given ? " (ROBOSIM_WORLDS)" : "");
+  std::string text = "robot types are the *.xml files in robots/ beside the world file";
+  const auto folders = worldFolders();
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::filesystem::path path = folders[i].path / "robots";
+    std::error_code none;
+    text += (i + 1 < folders.size() ? ", in " : " and in ") + path.string();
+    if (!std::filesystem::is_directory(path, none)) text += ", which does not exist";
+    if (folders[i].is_from_environment) text += " (ROBOSIM_PATH)";
+  }
+  return text;
 }
 
 RobotTypes robotTypesIn(const std::vector<std::filesystem::path>& folders) {

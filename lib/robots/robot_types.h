@@ -21,8 +21,7 @@ struct RobotTypeFile {
 /// Robot types by name.
 using RobotTypes = std::map<std::string, RobotTypeFile>;
 
-/// Folders searched for robot types: `robots/` beside the world file, then `robots/` in the worlds folder shipped with
-/// RoboSim, or in the folder that the environment variable ROBOSIM_WORLDS names instead.
+/// Folders searched for robot types: `robots/` beside the world file, then `robots/` in each of worldFolders().
 std::vector<std::filesystem::path> robotTypeFolders(const std::filesystem::path& world_file);
 
 /// Robot types in the given folders: every `*.xml`. Of two with the same name, the one in the earlier folder.

@@ -68,7 +68,7 @@ std::vector<std::vector<std::size_t>> solidsNear(const std::vector<RobotStart>& 
   std::vector<BodyId> reached;
   for (std::size_t i = 0; i < solids.size(); ++i) {
     reached.clear();
-    scene.movingNear(boundsOf(solids[i].outline), reached);
+    scene.findBodies(boundsOf(solids[i].outline), reached);
     for (const auto robot : reached) near[scene.movingIndex(robot)].push_back(i);
   }
   return near;

@@ -113,6 +113,16 @@ TEST(CheckStarts, RequiresTheWholeRobotOnTheSurface) {
              "w.xml:22: robot 'C' at (1e+09, 0)" + fault}));
 }
 
+TEST(CheckStarts, RequiresTheWholeRobotWithinEveryEdge) {
+  const auto is_refused = [](double x, double y) { return !faults(surface(10), {robot("A", 20, x, y, 0.5)}).empty(); };
+  for (const double sign : {-1.0, 1.0}) {
+    EXPECT_FALSE(is_refused(sign * 9.5, 0)) << sign;
+    EXPECT_FALSE(is_refused(0, sign * 9.5)) << sign;
+    EXPECT_TRUE(is_refused(sign * 9.51, 0)) << sign;
+    EXPECT_TRUE(is_refused(0, sign * 9.51)) << sign;
+  }
+}
+
 TEST(CheckStarts, AgreesWithTestingEveryPair) {
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Rng rng(seed);

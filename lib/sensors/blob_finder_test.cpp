@@ -127,7 +127,6 @@ class Mounted {
                        .heat_sources = {},
                        .world_from_robot = {&pose, 1},
                        .frames = {},
-                       .near = {},
                        .last_motion = {},
                        .laser_pan_rad = {},
                        .time = {step, 0.1},

@@ -39,7 +39,7 @@ class Bumper : public Sensor {
     for (const auto robot : robots) {
       auto& pressed = std::get<Contacts>(readings[robot].measurements[slot]).pressed;
       batch.place(fan_, now.frames[robot], reach_m);
-      now.scene.cast(batch, now.bodyOf(robot), now.near[robot]);
+      now.scene.cast(batch, now.bodyOf(robot));
       for (std::size_t i = 0; i < pressed.size(); ++i) pressed[i] = batch.body(i) == BeamBatch::kNothing ? 0 : 1;
       if (now.surface) pressAtEdge(*now.surface, now.frames[robot], reach_m, pressed);
     }

@@ -98,6 +98,12 @@ TEST(TakesPicture, KeepsItsRateForAnHourAtAnyStepLength) {
   EXPECT_EQ(picturesUntil(36000, 0.1, 0.001), 1 + 3);
 }
 
+TEST(TakesPicture, TakesOneInEachStepAtTheStepRate) {
+  // In double precision, 29 · 0.01 · 100 is less than 29.
+  EXPECT_EQ(picturesUntil(1000, 0.01, 100), 1001);
+  EXPECT_EQ(picturesUntil(1000, 0.1, 10), 1001);
+}
+
 TEST(TakesPicture, TakesOneInEachStepAtRatesAboveTheStepRate) {
   EXPECT_EQ(picturesUntil(100, 0.1, 30), 101);
   EXPECT_EQ(picturesUntil(100, 0.1, 1000), 101);

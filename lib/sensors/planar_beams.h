@@ -24,7 +24,7 @@ class PlanarBeams {
     bool any = false;
     for (const auto& group : groups_) {
       batch.place(group.fan, now.frames[robot], range_m, pan_rad);
-      now.scene.cast(batch, now.bodyOf(robot), now.near[robot]);
+      now.scene.cast(batch, now.bodyOf(robot));
       if (batch.hasNoCandidates()) continue;
       any = true;
       for (std::size_t k = 0; k < group.beams.size(); ++k) {

@@ -155,6 +155,16 @@ TEST(Odometry, IntegratesArcsExactly) {
   EXPECT_NEAR(measured.speed_mps, M_PI_2 / 9 / 0.1, 1e-12);
 }
 
+TEST(Odometry, MeasuresSpeedsWithTheNoiseOfItsPose) {
+  SingleRobotScene robot({});
+  const auto odometry = sensorFrom("<odometry><noise turn_std_per_sqrt_rad='0' drift_std_per_sqrt_m='0'/></odometry>");
+  robot.motion = {0.1, 0};
+  const auto first = std::get<Odometry>(robot.sense(*odometry));
+  const auto second = std::get<Odometry>(robot.sense(*odometry));
+  EXPECT_NE(second.speed_mps, 1) << "0.1 m in 0.1 s, without the noise";
+  EXPECT_NEAR(second.speed_mps, (second.odom_from_robot.x - first.odom_from_robot.x) / 0.1, 1e-12);
+}
+
 TEST(Odometry, DriftDoesNotDependOnTheLengthOfAStep) {
   // 4 m straight: the error of the distance is 0.02 · √4 = 0.04 m, in 4 steps or in 400.
   const auto spread = [](int steps) {

@@ -10,7 +10,6 @@
 #include "base/random.h"
 #include "base/sim_time.h"
 #include "geometry/scene.h"
-#include "geometry/shapes/planar_transform.h"
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
 #include "sensors/image_source.h"
@@ -38,7 +37,6 @@ struct Snapshot {
   std::span<const HeatSource> heat_sources;
   std::span<const mrpt::math::TPose2D> world_from_robot;
   std::span<const PlanarTransform> frames;  ///< the same poses, at the height of the robots' undersides
-  std::span<const NeighbourList> near;      ///< stationary solids near each robot
   std::span<const Motion> last_motion;
   std::span<const float> laser_pan_rad;
   SimTime time;
@@ -72,7 +70,7 @@ class Sensor {
   /// (camera), or is cheaper to compute than to transmit (compass, heat, bumper). Any other sensor measures Echoes,
   /// which a replica may compute.
   virtual bool sensesInHostProcess() const { return false; }
-  /// Whether sense() uses Snapshot::near, which then covers the sensor's beams.
+  /// Whether sense() casts its beams with the robot as owner, whose neighbours then cover the beams.
   virtual bool usesNeighbours() const { return true; }
   /// Replaces readings[r].measurements[slot] for each r of `robots`; the old value is that of the step before, and is
   /// the only memory of a sensor. A sensor with sensesInHostProcess() may read slots before its own, which are already

@@ -120,7 +120,7 @@ class Sonar : public Sensor {
     static thread_local BeamBatch batch;  // reused for all robots of a thread
     for (const auto& group : groups_) {
       batch.place(group.fan, frame, options_.range_max_m);
-      now.scene.cast(batch, now.bodyOf(robot), now.near[robot]);
+      now.scene.cast(batch, now.bodyOf(robot));
       for (std::size_t k = 0; k < group.sonars.size(); ++k) {
         if (batch.body(k) == BeamBatch::kNothing) continue;
         const std::size_t i = group.sonars[k];

@@ -106,6 +106,15 @@ TEST(Sonar, Format2005MountsARingOfTheRobotsRadiusAndReadsTheRangePlusOneUnitWit
   EXPECT_NEAR(sonar->info().beams[3].robot_from_beam.y, -0.05209, 1e-5);
 }
 
+TEST(Sonar, Format2005IsMountedByThePositionInTheFilesUnit) {
+  // The robot's middle is at 0.15 m; one unit of 0.1 m higher is 0.25 m.
+  const auto sonar =
+      sensorFrom("<sensor><type>sonar</type><position><range>15</range><z-relative>1</z-relative></position></sensor>",
+                 Mount{0.1, 0.3, 0.3});
+  EXPECT_NEAR(sonar->info().beams[3].robot_from_beam.z, 0.25, 1e-12);
+  EXPECT_NEAR(sonar->info().range_max_m, 1.5, 1e-12);
+}
+
 TEST(Sonar, Format2005Mode1HasTheFrontArrayOnly) {
   const auto sonar = sensorFrom("<sensor><type>sonar</type><mode>1</mode><range>15</range></sensor>");
   EXPECT_EQ(sonar->info().beams.size(), 8u);
@@ -141,6 +150,12 @@ TEST(Sonar, SpecularWallReturnsNoEchoBeyondItsAngle) {
   SingleRobotScene robot({block(2.2 + std::sqrt(0.5), 0 - std::sqrt(0.5), 2, 20, M_PI_4)});
   EXPECT_LT(robot.ranges(*sonarAhead("", "<noise std_per_m='0' specular_deg='36'/>"))[0], 5);
   EXPECT_NEAR(robot.ranges(*sonarAhead("", "<noise std_per_m='0' specular_deg='34'/>"))[0], 5, kFloat);
+}
+
+TEST(Sonar, ReflectsByTheHorizontalAngleOnly) {
+  // 2 m ahead of the sonar, at z = 0.1, is a shelf from z = 0.3 on. The rays that hit it rise by 5.7° or more.
+  SingleRobotScene robot({Solid{OrientedBox::from({2.7, 0, 0}, 1, 4), {0.3, 1.0}}});
+  EXPECT_LT(robot.ranges(*sonarAhead("model='rays' rays='400'", "<noise std_per_m='0' specular_deg='5'/>"))[0], 2.1);
 }
 
 TEST(Sonar, CrosstalkTakesANeighboursNearerEcho) {

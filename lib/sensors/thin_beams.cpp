@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/vector_width.h"
+#include "base/vector_width.h"
 #include "sensors/beam_mounts.h"
 #include "sensors/planar_beams.h"
 

@@ -3,8 +3,9 @@
 namespace robosim {
 
 void CameraFrameCache::update(const std::set<std::uint32_t>& watched, const std::vector<Readings>& readings) {
-  std::erase_if(photos_,
-                [&](const auto& photo) { return !watched.contains(static_cast<std::uint32_t>(photo.first.first)); });
+  std::erase_if(pictures_, [&](const auto& picture) {
+    return !watched.contains(static_cast<std::uint32_t>(picture.first.first));
+  });
   for (const auto robot : watched) {
     if (robot < readings.size()) note(robot, readings[robot]);
   }
@@ -14,14 +15,14 @@ void CameraFrameCache::note(std::size_t robot, const Readings& readings) {
   for (std::size_t slot = 0; slot < readings.measurements.size(); ++slot) {
     const auto* image = std::get_if<Image>(&readings.measurements[slot]);
     if (!image || image->jpeg.empty()) continue;
-    Photo& photo = photos_[{robot, slot}];
-    if (photo.jpeg.empty() || photo.step != readings.time.step) photo = {readings.time.step, image->jpeg};
+    Picture& picture = pictures_[{robot, slot}];
+    if (picture.jpeg.empty() || picture.step != readings.time.step) picture = {readings.time.step, image->jpeg};
   }
 }
 
-const CameraFrameCache::Photo* CameraFrameCache::find(std::size_t robot, std::size_t slot) const {
-  const auto found = photos_.find({robot, slot});
-  return found == photos_.end() ? nullptr : &found->second;
+const CameraFrameCache::Picture* CameraFrameCache::find(std::size_t robot, std::size_t slot) const {
+  const auto found = pictures_.find({robot, slot});
+  return found == pictures_.end() ? nullptr : &found->second;
 }
 
 }  // namespace robosim

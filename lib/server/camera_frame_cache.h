@@ -14,7 +14,7 @@ namespace robosim {
 /// picture in some steps only, and a viewer does not receive every step.
 class CameraFrameCache {
  public:
-  struct Photo {
+  struct Picture {
     std::uint64_t step = 0;
     std::string jpeg;
   };
@@ -25,13 +25,13 @@ class CameraFrameCache {
   /// @param readings by robot
   void update(const std::set<std::uint32_t>& watched, const std::vector<Readings>& readings);
   /// Newest picture of a camera, by robot and sensor index; null when there is none.
-  const Photo* find(std::size_t robot, std::size_t slot) const;
-  void clear() { photos_.clear(); }
+  const Picture* find(std::size_t robot, std::size_t slot) const;
+  void clear() { pictures_.clear(); }
 
  private:
   void note(std::size_t robot, const Readings& readings);
 
-  std::map<std::pair<std::size_t, std::size_t>, Photo> photos_;
+  std::map<std::pair<std::size_t, std::size_t>, Picture> pictures_;
 };
 
 }  // namespace robosim

@@ -1,6 +1,6 @@
 #include "server/control_panel_session.h"
 
-#include <cmath>
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -16,7 +16,10 @@ namespace {
 /// Upper limit of a step request; rejects typing errors.
 constexpr std::uint64_t kStepsMax = 1'000'000'000;
 
-grpc::Status badInput(const std::string& what) { return {grpc::StatusCode::INVALID_ARGUMENT, what}; }
+/// Index of a method in the service.
+int indexOf(const char* method) {
+  return v1::RunStatus::descriptor()->file()->FindServiceByName("ControlPanel")->FindMethodByName(method)->index();
+}
 
 SessionRules rulesFor(Right right) {
   return {.right = right, .log_kind = "refused control panels", .refused_word = "refused"};
@@ -29,26 +32,46 @@ void checkSteps(std::uint64_t steps) {
 
 void checkSpeed(double speed, Pace pace) {
   if (speed == 0 && pace == Pace::realtime) {
-    throw WireError("at the pace of real time a run cannot go as fast as it can; give a speed, 1 being real time");
+    throw WireError("with the pace realtime the speed cannot be unlimited; specify a speed, 1 for real time");
   }
   if (speed == 0 || (speed >= 0.001 && speed <= 1e6)) return;
   throw WireError("a speed of " + std::to_string(speed) +
-                  "; must lie in [0.001, 1000000], or be 0 for as fast as it can");
+                  "; must lie in [0.001, 1000000], or be 0 for unlimited speed");
+}
+
+/// Shortest time between two statuses of a watcher: a status takes time proportional to the number of robots, on the
+/// thread that steps the run.
+constexpr std::chrono::milliseconds kIntervalMin(50);
+
+/// Minimum time between two statuses of a watcher.
+ServingState::Clock::duration intervalOf(const v1::WatchRequest& request) {
+  const double s = request.min_interval_s();
+  if (!(s >= 0 && s <= 3600)) {
+    throw WireError("a minimum interval of " + std::to_string(s) + " s; must lie in [0, 3600]");
+  }
+  return std::max<ServingState::Clock::duration>(
+      kIntervalMin, std::chrono::duration_cast<ServingState::Clock::duration>(std::chrono::duration<double>(s)));
 }
 
 /// Parameters of a request for the audit log.
-std::string detailsOf(const wire::PanelRequest&) { return ""; }
-std::string detailsOf(const wire::StepRequest& request) { return " " + std::to_string(request.steps()); }
-std::string detailsOf(const wire::SpeedRequest& request) {
+std::string detailsOf(const google::protobuf::Message&) { return ""; }
+std::string detailsOf(const v1::StepRequest& request) { return " " + std::to_string(request.steps()); }
+std::string detailsOf(const v1::SetSpeedRequest& request) {
   return request.speed() == 0 ? " max" : " " + std::to_string(request.speed());
 }
 
 }  // namespace
 
+WatchAsStream::WatchAsStream() {
+  const int watch = indexOf("Watch");
+  MarkMethodStreamed(watch, nullptr);
+  MarkMethodRaw(watch);
+}
+
 /// A call that changes the run or reports its status, between steps.
 class ControlPanelSession::Call {
  public:
-  explicit Call(const char* what_it_asks) : what(what_it_asks) {}
+  explicit Call(const char* operation) : what(operation) {}
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
   virtual ~Call() = default;
@@ -56,7 +79,7 @@ class ControlPanelSession::Call {
   virtual std::string details() const = 0;  ///< for the audit log
   virtual void execute(RunOperations& operations) = 0;
   /// Answers the call; later calls have no effect.
-  virtual void answer(const wire::RunStatus& reply) = 0;
+  virtual void answer(const v1::RunStatus& reply) = 0;
 
   const char* const what;                   ///< requested operation for the log; null for read-only calls
   std::optional<std::uint64_t> until_step;  ///< the call is answered after this step
@@ -67,24 +90,23 @@ template <typename Request>
 struct ControlPanelSession::Kind {
   const char* what;
   Right right;
-  void (ControlPanelSession::*request)(grpc::ServerContext*, Request*,
-                                       grpc::ServerAsyncResponseWriter<wire::RunStatus>*, grpc::CompletionQueue*,
-                                       grpc::ServerCompletionQueue*, void*);
+  void (ControlPanelSession::*request)(grpc::ServerContext*, Request*, grpc::ServerAsyncResponseWriter<v1::RunStatus>*,
+                                       grpc::CompletionQueue*, grpc::ServerCompletionQueue*, void*);
   std::function<void(RunOperations&, const Request&, Call&)> execute;
 };
 
 template <typename Request>
-class ControlPanelSession::PlainCall final : public UnarySession<Request, wire::RunStatus>, public Call {
+class ControlPanelSession::PlainCall final : public UnarySession<Request, v1::RunStatus>, public Call {
  public:
-  using Unary = UnarySession<Request, wire::RunStatus>;
+  using Unary = UnarySession<Request, v1::RunStatus>;
   PlainCall(ControlPanelSession& owner, const Kind<Request>& kind)
       : Unary(owner.serving_, rulesFor(kind.right)), Call(kind.what), owner_(owner), kind_(kind) {}
 
-  std::string who() const override { return "control panel " + this->peer(); }
+  std::string logName() const override { return "control panel " + this->peer(); }
   ServerSession& session() override { return *this; }
   std::string details() const override { return detailsOf(this->request()); }
   void execute(RunOperations& operations) override { kind_.execute(operations, this->request(), *this); }
-  void answer(const wire::RunStatus& reply) override { Unary::answer(reply); }
+  void answer(const v1::RunStatus& reply) override { Unary::answer(reply); }
 
  private:
   void received(const Request& request) override {
@@ -93,8 +115,8 @@ class ControlPanelSession::PlainCall final : public UnarySession<Request, wire::
     owner_.queue(std::static_pointer_cast<PlainCall>(this->shared_from_this()));
   }
   void runEnds() override {
-    this->close(until_step ? grpc::Status(grpc::StatusCode::ABORTED,
-                                          "the run has ended before step " + std::to_string(*until_step))
+    this->close(until_step ? errorStatus(v1::ERROR_REASON_STEPS_INTERRUPTED,
+                                         "the run has ended before step " + std::to_string(*until_step))
                            : SessionHost::runIsOver());
   }
 
@@ -103,7 +125,7 @@ class ControlPanelSession::PlainCall final : public UnarySession<Request, wire::
 };
 
 /// Receives the pieces of a world. One load at a time is accepted, which bounds the memory used to one world.
-class ControlPanelSession::LoadCall final : public StreamSession<wire::WorldPiece, wire::RunStatus>, public Call {
+class ControlPanelSession::LoadCall final : public StreamSession<v1::LoadRequest, v1::RunStatus>, public Call {
  public:
   explicit LoadCall(ControlPanelSession& owner) : StreamSession(owner.serving_, rules()), Call("load"), owner_(owner) {}
 
@@ -111,18 +133,18 @@ class ControlPanelSession::LoadCall final : public StreamSession<wire::WorldPiec
   ServingState::Clock::time_point since;
   WorldPieces pieces;
 
-  std::string who() const override { return "control panel " + peer() + ": load"; }
+  std::string logName() const override { return "control panel " + peer() + ": load"; }
   ServerSession& session() override { return *this; }
   std::string details() const override { return " " + world_; }
   void execute(RunOperations& operations) override {
     operations.replace(owner_.prepared_.get());
-    wire::RunStatus status;
+    v1::RunStatus status;
     operations.describe(status);
     world_ = status.world();
     operations.run_control.is_paused = true;
     operations.run_control.steps_left = 0;
   }
-  void answer(const wire::RunStatus& reply) override {
+  void answer(const v1::RunStatus& reply) override {
     draft() = reply;
     post();
     close(grpc::Status::OK);
@@ -136,18 +158,18 @@ class ControlPanelSession::LoadCall final : public StreamSession<wire::WorldPiec
   }
   grpc::Status admit() override {
     if (!owner_.isLoading()) return grpc::Status::OK;
-    return {grpc::StatusCode::RESOURCE_EXHAUSTED,
-            "the environment is loading a world for another call; load again when that is done"};
+    return errorStatus(v1::ERROR_REASON_LOAD_IN_PROGRESS,
+                       "the environment is loading a world for another call; load again when that is done");
   }
-  ReadPolicy received(const wire::WorldPiece& piece) override {
+  ReadPolicy received(const v1::LoadRequest& piece) override {
     if (!isEstablished()) begin(piece);
     pieces.add(piece.piece());
     return ReadPolicy::immediate;
   }
   /// Makes this call the active load, on its first piece.
-  void begin(const wire::WorldPiece& piece) {
+  void begin(const v1::LoadRequest& piece) {
     checkProtocol(piece.protocol());
-    if (const auto status = admit(); !status.ok()) throw WireError(status.error_message(), status.error_code());
+    if (const auto status = admit(); !status.ok()) throw WireError(status);
     establish();
     since = owner_.serving_.now();
     owner_.load_ = std::static_pointer_cast<LoadCall>(shared_from_this());
@@ -155,7 +177,8 @@ class ControlPanelSession::LoadCall final : public StreamSession<wire::WorldPiec
   void readsDone() override {
     if (isGone()) return;
     if (pieces.empty()) {
-      disconnect(badInput("no piece of a robosim.wire.WorldSource came; see doc/protocol.md"));
+      disconnect(
+          errorStatus(v1::ERROR_REASON_INVALID_MESSAGE, "no piece of a robosim.v1.WorldSource; see doc/protocol.md"));
       return;
     }
     is_complete = true;
@@ -168,24 +191,30 @@ class ControlPanelSession::LoadCall final : public StreamSession<wire::WorldPiec
 };
 
 /// Stream of statuses to one control panel.
-class ControlPanelSession::Watcher final : public StreamSession<wire::PanelRequest, wire::RunStatus> {
+class ControlPanelSession::Watcher final : public StreamSession<v1::WatchRequest, v1::RunStatus> {
  public:
   explicit Watcher(ControlPanelSession& owner) : StreamSession(owner.serving_, rulesFor(Right::look)), owner_(owner) {}
 
-  std::string who() const override { return "control panel " + peer() + ": watch"; }
+  std::string logName() const override { return "control panel " + peer() + ": watch"; }
 
-  bool has_request = false;  ///< for a status
+  ServingState::Clock::duration interval{};
+  ServingState::Clock::time_point due;  ///< earliest time of the next status
 
  private:
-  ReadPolicy received(const wire::PanelRequest& message) override {
-    checkProtocol(message.protocol());
-    if (!isEstablished()) {
-      establish();
-      owner_.watchers_.push_back(std::static_pointer_cast<Watcher>(shared_from_this()));
-    }
-    has_request = true;
+  ReadPolicy received(const v1::WatchRequest& request) override {
+    if (isEstablished()) throw WireError("a second request in one call");
+    checkProtocol(request.protocol());
+    interval = intervalOf(request);
+    due = owner_.serving_.now();
+    establish();
+    owner_.watchers_.push_back(std::static_pointer_cast<Watcher>(shared_from_this()));
     owner_.serving_.wake_requested = true;
-    return ReadPolicy::rate_limited;
+    return ReadPolicy::immediate;
+  }
+  /// The client has sent its one request.
+  void readsDone() override {
+    if (isEstablished() || isGone()) return;
+    disconnect(errorStatus(v1::ERROR_REASON_INVALID_MESSAGE, "a call without a request; see doc/protocol.md"));
   }
   void left() override {
     std::erase_if(owner_.watchers_, [&](const auto& watcher) { return watcher.get() == this; });
@@ -201,38 +230,40 @@ void ControlPanelSession::open(const CompletionQueueServer::ServiceQueues& queue
   using Self = ControlPanelSession;
   serving_.serve(
       queues, [this] { return std::make_shared<LoadCall>(*this); },
-      [this](auto... arguments) { RequestLoad(arguments...); });
+      [this, load = indexOf("Load")](auto... arguments) {
+        // A client-streaming call is, on the wire, a bidirectional one with one response.
+        RequestAsyncBidiStreaming(load, arguments...);
+      });
   serving_.serve(
       queues, [this] { return std::make_shared<Watcher>(*this); },
-      [this](auto... arguments) { RequestWatch(arguments...); });
+      [this, watch = indexOf("Watch")](auto... arguments) { RequestAsyncBidiStreaming(watch, arguments...); });
   const auto pause = [](bool is_paused) {
-    return [is_paused](RunOperations& operations, const wire::PanelRequest&, Call&) {
+    return [is_paused](RunOperations& operations, const auto&, Call&) {
       operations.run_control.is_paused = is_paused;
       operations.run_control.steps_left = 0;
     };
   };
-  serve<wire::PanelRequest>(queues, {"start", Right::operate, &Self::RequestStart, pause(false)});
-  serve<wire::PanelRequest>(queues, {"pause", Right::operate, &Self::RequestPause, pause(true)});
-  serve<wire::PanelRequest>(queues, {"stop", Right::operate, &Self::RequestStop,
-                                     [](RunOperations& operations, const wire::PanelRequest&, Call&) {
-                                       operations.run_control.stop = true;
-                                     }});
-  serve<wire::PanelRequest>(
-      queues, {nullptr, Right::look, &Self::RequestStatus, [](RunOperations&, const wire::PanelRequest&, Call&) {}});
-  serve<wire::StepRequest>(queues, {"step", Right::operate, &Self::RequestStep,
-                                    [](RunOperations& operations, const wire::StepRequest& request, Call& call) {
-                                      checkSteps(request.steps());
-                                      operations.run_control.is_paused = true;
-                                      operations.run_control.steps_left += request.steps();
-                                      wire::RunStatus status;
-                                      operations.describe(status);
-                                      call.until_step = status.step() + operations.run_control.steps_left;
-                                    }});
-  serve<wire::SpeedRequest>(queues, {"speed", Right::operate, &Self::RequestSetSpeed,
-                                     [this](RunOperations& operations, const wire::SpeedRequest& request, Call&) {
-                                       checkSpeed(request.speed(), serving_.pace);
-                                       operations.run_control.speed = request.speed();
-                                     }});
+  serve<v1::StartRequest>(queues, {"start", Right::operate, &Self::RequestStart, pause(false)});
+  serve<v1::PauseRequest>(queues, {"pause", Right::operate, &Self::RequestPause, pause(true)});
+  serve<v1::StopRequest>(queues,
+                         {"stop", Right::operate, &Self::RequestStop,
+                          [](RunOperations& operations, const auto&, Call&) { operations.run_control.stop = true; }});
+  serve<v1::GetStatusRequest>(
+      queues, {nullptr, Right::look, &Self::RequestGetStatus, [](RunOperations&, const auto&, Call&) {}});
+  serve<v1::StepRequest>(queues, {"step", Right::operate, &Self::RequestStep,
+                                  [](RunOperations& operations, const v1::StepRequest& request, Call& call) {
+                                    checkSteps(request.steps());
+                                    operations.run_control.is_paused = true;
+                                    operations.run_control.steps_left += request.steps();
+                                    v1::RunStatus status;
+                                    operations.describe(status);
+                                    call.until_step = status.step() + operations.run_control.steps_left;
+                                  }});
+  serve<v1::SetSpeedRequest>(queues, {"speed", Right::operate, &Self::RequestSetSpeed,
+                                      [this](RunOperations& operations, const v1::SetSpeedRequest& request, Call&) {
+                                        checkSpeed(request.speed(), serving_.pace);
+                                        operations.run_control.speed = request.speed();
+                                      }});
 }
 
 template <typename Request>
@@ -258,8 +289,9 @@ void ControlPanelSession::advanceLoad(RunOperations& operations) {
       beginPreparing(operations);
     } else if (serving_.now() - load_->since >= serving_.load_deadline) {
       const auto s = std::chrono::duration_cast<std::chrono::seconds>(serving_.load_deadline).count();
-      load_->close({grpc::StatusCode::DEADLINE_EXCEEDED,
-                    "the world has not come within " + std::to_string(s) + " s; load it again over a faster way"});
+      load_->close(errorStatus(
+          v1::ERROR_REASON_LOAD_DEADLINE,
+          "the world was not received within " + std::to_string(s) + " s; load it again over a faster connection"));
     }
     return;
   }
@@ -271,7 +303,7 @@ void ControlPanelSession::advanceLoad(RunOperations& operations) {
 
 void ControlPanelSession::beginPreparing(RunOperations& operations) {
   serving_.log("control panel " + load_->peer() + ": loads a world of " + std::to_string(load_->pieces.bytes()) +
-               " bytes; the run goes on until that is built");
+               " bytes; the current run continues until it is built");
   const auto pieces = std::make_shared<WorldPieces>(std::move(load_->pieces));
   prepared_ = std::async(std::launch::async, [pieces, prepare = operations.prepare] {
     const WorldSource source = pieces->takeSource();
@@ -287,8 +319,8 @@ void ControlPanelSession::execute(RunOperations& operations) {
   }
   answerSteppers(operations);
   for (const auto& watcher : watchers_) {
-    if (!watcher->has_request || !watcher->isIdle()) continue;
-    watcher->has_request = false;
+    if (serving_.now() < watcher->due || !watcher->isIdle()) continue;
+    watcher->due = serving_.now() + watcher->interval;
     operations.describe(watcher->draft());
     watcher->post();
   }
@@ -306,30 +338,30 @@ void ControlPanelSession::execute(RunOperations& operations, Call& call) {
     call.execute(operations);
     if (call.what) serving_.audit.write(session.client(), session.peer(), call.what + call.details());
     if (call.until_step) return;
-    wire::RunStatus reply;
+    v1::RunStatus reply;
     operations.describe(reply);
     call.answer(reply);
   } catch (const WireError& error) {
-    refuse(call, error.what());
+    refuse(call, error.status());
   } catch (const ConfigError& error) {  // in the world
-    refuse(call, error.what());
+    refuse(call, errorStatus(v1::ERROR_REASON_INVALID_WORLD, error.what()));
   } catch (const std::exception& error) {  // an error of the server itself, for example a full disk
-    session.close({grpc::StatusCode::INTERNAL, "the run ends here: " + std::string(error.what())});
+    session.close(errorStatus(v1::ERROR_REASON_INTERNAL, "the run ends here: " + std::string(error.what())));
     throw;
   }
 }
 
-void ControlPanelSession::refuse(Call& call, const std::string& why) {
+void ControlPanelSession::refuse(Call& call, const grpc::Status& status) {
   ServerSession& session = call.session();
   serving_.logRefusal("refused control panels", "control panel " + session.peer() + ": " +
-                                                    (call.what ? call.what : "status") + ": " + why +
+                                                    (call.what ? call.what : "status") + ": " + status.error_message() +
                                                     serving_.tokenSuffix(session.client()));
-  session.close(badInput(why));
+  session.close(status);
 }
 
 void ControlPanelSession::answerSteppers(RunOperations& operations) {
   if (steppers_.empty()) return;
-  wire::RunStatus status;
+  v1::RunStatus status;
   operations.describe(status);
   std::erase_if(steppers_, [&](const auto& call) {
     if (call->session().isGone() || call->session().isCancelled()) return true;
@@ -338,9 +370,10 @@ void ControlPanelSession::answerSteppers(RunOperations& operations) {
       return true;
     }
     if (operations.run_control.mayStep()) return false;
-    call->session().close({grpc::StatusCode::ABORTED, "another control panel has paused the run at step " +
-                                                          std::to_string(status.step()) + ", before step " +
-                                                          std::to_string(*call->until_step)});
+    call->session().close(
+        errorStatus(v1::ERROR_REASON_STEPS_INTERRUPTED, "another control panel has paused the run at step " +
+                                                            std::to_string(status.step()) + ", before step " +
+                                                            std::to_string(*call->until_step)));
     return true;
   });
 }

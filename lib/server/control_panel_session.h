@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "net/completion_queue_server.h"
-#include "net/control_panel.grpc.pb.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
 #include "robots/world_source.h"
 #include "server/run_control.h"
 #include "server/served_run.h"
@@ -13,12 +13,18 @@
 
 namespace robosim {
 
+/// Generated service that serves Watch as a bidirectional stream, which it is on the wire. gRPC delivers a
+/// server-streaming call only with its request, so that a call without one would have no deadline.
+class WatchAsStream : public v1::ControlPanel::Service {
+ public:
+  WatchAsStream();
+};
+
 /// Generated service with the method styles that ControlPanelSession uses.
-using ControlPanelService = wire::ControlPanel::WithRawMethod_Load<
-    wire::ControlPanel::WithRawMethod_Watch<wire::ControlPanel::WithAsyncMethod_Start<
-        wire::ControlPanel::WithAsyncMethod_Pause<wire::ControlPanel::WithAsyncMethod_Step<
-            wire::ControlPanel::WithAsyncMethod_SetSpeed<wire::ControlPanel::WithAsyncMethod_Stop<
-                wire::ControlPanel::WithAsyncMethod_Status<wire::ControlPanel::Service>>>>>>>>;
+using ControlPanelService = v1::ControlPanel::WithRawMethod_Load<
+    v1::ControlPanel::WithAsyncMethod_Start<v1::ControlPanel::WithAsyncMethod_Pause<
+        v1::ControlPanel::WithAsyncMethod_Step<v1::ControlPanel::WithAsyncMethod_SetSpeed<
+            v1::ControlPanel::WithAsyncMethod_Stop<v1::ControlPanel::WithAsyncMethod_GetStatus<WatchAsStream>>>>>>>;
 
 /// Operations on the run that control panels can request.
 struct RunOperations {
@@ -28,7 +34,7 @@ struct RunOperations {
   /// Replaces the run that is served by a prepared one.
   std::function<void(std::unique_ptr<PreparedRun>)> replace;
   /// Fills in the status of the run.
-  std::function<void(wire::RunStatus&)> describe = [](wire::RunStatus&) {};
+  std::function<void(v1::RunStatus&)> describe = [](v1::RunStatus&) {};
 };
 
 /// Server side of the ControlPanel service. Calls are queued until execute(), which runs between two steps: nothing
@@ -58,7 +64,7 @@ class ControlPanelSession final : public ControlPanelService {
   void serve(const CompletionQueueServer::ServiceQueues& queues, const Kind<Request>& kind);
   void queue(const std::shared_ptr<Call>& call);
   void execute(RunOperations& operations, Call& call);
-  void refuse(Call& call, const std::string& why);
+  void refuse(Call& call, const grpc::Status& status);
   bool isLoading() const;
   void advanceLoad(RunOperations& operations);
   void beginPreparing(RunOperations& operations);

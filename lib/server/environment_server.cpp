@@ -35,6 +35,18 @@ std::uint64_t randomSecret() {
   return std::uint64_t{random()} << 32 | random();
 }
 
+v1::LostRobotPolicy encode(OnLostRobot policy) {
+  switch (policy) {
+    case OnLostRobot::wait:
+      return v1::LOST_ROBOT_POLICY_WAIT;
+    case OnLostRobot::continue_:
+      return v1::LOST_ROBOT_POLICY_CONTINUE;
+    case OnLostRobot::fail:
+      return v1::LOST_ROBOT_POLICY_FAIL;
+  }
+  return v1::LOST_ROBOT_POLICY_UNSPECIFIED;
+}
+
 /// Measures the step rate over windows of at least one second.
 class StepRate {
  public:
@@ -84,7 +96,10 @@ struct EnvironmentServer::Impl {
                       {options.listen.robots, &robots},
                       {options.listen.geometry, &geometry},
                       {options.listen.control, &panels}},
-                     {options.tls, "--listen", options.keepalive}) {
+                     {.tls = options.tls,
+                      .option = "--listen",
+                      .keepalive = options.keepalive,
+                      .standard_services = options.standard_services}) {
     serving.log = options.log;
     serving.step_deadline = options.step_deadline;
     serving.hello_deadline = options.hello_deadline;
@@ -137,19 +152,22 @@ struct EnvironmentServer::Impl {
     areRobotsConnected();
   }
 
-  void describe(const ServedRun& run, wire::RunStatus& status) const {
+  void describe(const ServedRun& run, v1::RunStatus& status) const {
     const RunInfo& run_info = *run.runInfo();
     const State& state = run_info.environment.state();
     const bool waits = !waited_for || !waited_for->empty();
-    const bool goes_on = !waits && run_control.mayStep();
+    const bool is_running = !waits && run_control.mayStep();
     status.Clear();
-    status.set_phase(serving.is_over ? wire::ENDED : waits ? wire::WAITING : goes_on ? wire::RUNNING : wire::PAUSED);
+    status.set_phase(serving.is_over ? v1::RUN_PHASE_ENDED
+                     : waits         ? v1::RUN_PHASE_WAITING
+                     : is_running    ? v1::RUN_PHASE_RUNNING
+                                     : v1::RUN_PHASE_PAUSED);
     status.set_world(run_info.environment.world().name);
     status.set_world_version(run_info.world_version);
     status.set_step(state.time.step);
     status.set_time_s(state.time.seconds());
     status.set_speed(run_control.speed);
-    status.set_steps_per_s(goes_on ? rate.stepsPerSecond() : 0);
+    status.set_steps_per_s(is_running ? rate.stepsPerSecond() : 0);
     status.set_robots(static_cast<std::uint32_t>(run_info.robot_names.size()));
     status.set_robots_connected(static_cast<std::uint32_t>(robots.connected()));
     constexpr std::size_t kNamesMax = 100;
@@ -160,9 +178,9 @@ struct EnvironmentServer::Impl {
         static_cast<std::uint32_t>(std::count(state.activity.begin(), state.activity.end(), Activity::active)));
     status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
     status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
-    status.set_late(robots.late());
+    status.set_late_commands(robots.late());
     const RunReport so_far = report();
-    status.set_on_lost_robot(nameOf(on_lost_robot));
+    status.set_on_lost_robot(encode(on_lost_robot));
     for (const LostRobot& robot : so_far.lost_robots) {
       if (static_cast<std::size_t>(status.lost_robots_size()) == kNamesMax) break;
       auto& lost = *status.add_lost_robots();
@@ -191,7 +209,7 @@ struct EnvironmentServer::Impl {
     if (!missing.empty()) {
       serving.log("waiting for " + listed(missing));
     } else if (waited_for) {
-      serving.log("all robots are here");
+      serving.log("all robots are connected");
     }
     waited_for = std::move(missing);
     return waited_for->empty();
@@ -240,7 +258,7 @@ struct EnvironmentServer::Impl {
     operations.prepare = [&run](const WorldSource& source) { return run.prepare(source); };
     operations.replace = [&](std::unique_ptr<PreparedRun> next) { replace(run, std::move(next)); };
     serving.interrupted = interrupted;
-    operations.describe = [&](wire::RunStatus& status) { describe(run, status); };
+    operations.describe = [&](v1::RunStatus& status) { describe(run, status); };
     admit();
     areRobotsConnected();  // so that a status requested first is correct
     while (!run.isOver()) {

@@ -11,6 +11,7 @@
 #include "net/access.h"
 #include "net/connect.h"
 #include "net/listen.h"
+#include "net/open_port.h"
 #include "net/tls.h"
 #include "server/run_report.h"
 #include "server/served_run.h"
@@ -25,6 +26,7 @@ struct ServerOptions {
   std::chrono::milliseconds step_deadline{1000};     ///< maximum time that a step waits for a client
   std::chrono::milliseconds hello_deadline{10'000};  ///< maximum time from a call to its first message
   std::chrono::milliseconds keepalive = kKeepalive;  ///< idle time after which a client is pinged
+  StandardServices standard_services;                ///< of gRPC itself, on every port
   Pace pace = Pace::lockstep;
   OnLostRobot on_lost_robot = OnLostRobot::continue_;
   double check_results = 0.01;  ///< fraction of each geometry worker's results that is recomputed, [0, 1]; at least one

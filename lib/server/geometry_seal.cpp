@@ -16,24 +16,24 @@ std::uint64_t checksumOf(const std::string& bytes) {
 
 void checkGeometryProtocol(std::uint32_t version) {
   if (version == kGeometryProtocolVersion) return;
-  throw WireError("the geometry worker speaks version " + std::to_string(version) +
-                      " of its conversation, the environment version " + std::to_string(kGeometryProtocolVersion) +
+  throw WireError("the geometry worker uses version " + std::to_string(version) +
+                      " of the geometry protocol, the environment version " + std::to_string(kGeometryProtocolVersion) +
                       "; install the same version of robosim at both ends",
-                  grpc::StatusCode::FAILED_PRECONDITION);
+                  v1::ERROR_REASON_PROTOCOL_VERSION);
 }
 
-void seal(const google::protobuf::Message& message, wire::Sealed& out) {
+void seal(const google::protobuf::Message& message, internal::Sealed& out) {
   message.SerializeToString(out.mutable_payload());
   out.set_checksum(checksumOf(out.payload()));
 }
 
-void unseal(const wire::Sealed& in, google::protobuf::Message& message) {
+void unseal(const internal::Sealed& in, google::protobuf::Message& message) {
   if (checksumOf(in.payload()) != in.checksum()) {
-    throw WireError("a message whose checksum does not match: it was corrupted on the way; connect again",
-                    grpc::StatusCode::DATA_LOSS);
+    throw WireError("a message whose checksum does not match: it was corrupted in transit; connect again",
+                    v1::ERROR_REASON_CORRUPTED_MESSAGE);
   }
   if (!message.ParseFromString(in.payload())) {
-    throw WireError("a payload that is no " + message.GetTypeName(), grpc::StatusCode::DATA_LOSS);
+    throw WireError("a payload that is no " + message.GetTypeName(), v1::ERROR_REASON_CORRUPTED_MESSAGE);
   }
 }
 

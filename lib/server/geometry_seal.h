@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
 
-#include "net/geometry.pb.h"
+#include "robosim/internal/geometry.pb.h"
 
 namespace robosim {
 
@@ -10,12 +10,12 @@ namespace robosim {
 /// against the latter.
 
 /// Protocol version that both ends must use.
-constexpr std::uint32_t kGeometryProtocolVersion = 2;
+constexpr std::uint32_t kGeometryProtocolVersion = 3;
 /// @throws WireError unless `version` is kGeometryProtocolVersion.
 void checkGeometryProtocol(std::uint32_t version);
 
-void seal(const google::protobuf::Message& message, wire::Sealed& out);
+void seal(const google::protobuf::Message& message, internal::Sealed& out);
 /// @throws WireError with the code DATA_LOSS when the checksum does not match or the payload has another message type.
-void unseal(const wire::Sealed& in, google::protobuf::Message& message);
+void unseal(const internal::Sealed& in, google::protobuf::Message& message);
 
 }  // namespace robosim

@@ -7,42 +7,42 @@
 namespace robosim {
 namespace {
 
-wire::FromWorker someResult() {
-  wire::FromWorker message;
+internal::WorkRequest someResult() {
+  internal::WorkRequest message;
   message.mutable_result()->set_step(7);
   message.mutable_result()->add_measurements()->add_floats(1.5f);
   return message;
 }
 
 TEST(GeometrySeal, RoundTripsAMessage) {
-  wire::Sealed sealed;
+  internal::Sealed sealed;
   seal(someResult(), sealed);
-  wire::FromWorker received;
+  internal::WorkRequest received;
   unseal(sealed, received);
   EXPECT_EQ(received.SerializeAsString(), someResult().SerializeAsString());
 }
 
 TEST(GeometrySeal, DetectsEveryBitError) {
-  wire::Sealed sealed;
+  internal::Sealed sealed;
   seal(someResult(), sealed);
   const std::string bytes = sealed.SerializeAsString();
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     std::string flipped = bytes;
     flipped[bit / 8] = static_cast<char>(flipped[bit / 8] ^ (1 << bit % 8));
-    wire::Sealed damaged;
+    internal::Sealed damaged;
     if (!damaged.ParseFromString(flipped)) continue;
-    wire::FromWorker received;
+    internal::WorkRequest received;
     EXPECT_THROW(unseal(damaged, received), WireError) << "bit " << bit;
   }
 }
 
 TEST(GeometrySeal, RefusesAPayloadOfAnotherMessageType) {
-  wire::Replica other;
+  internal::Replica other;
   other.set_period_s(0.1);
-  wire::Sealed sealed;
+  internal::Sealed sealed;
   seal(other, sealed);
   sealed.set_payload("\xff");
-  wire::FromWorker received;
+  internal::WorkRequest received;
   EXPECT_THROW(unseal(sealed, received), WireError);
 }
 
@@ -52,10 +52,10 @@ TEST(GeometrySeal, NamesBothProtocolVersions) {
     checkGeometryProtocol(1);
     ADD_FAILURE();
   } catch (const WireError& error) {
-    EXPECT_EQ(error.code(), grpc::StatusCode::FAILED_PRECONDITION);
+    EXPECT_EQ(error.status().error_code(), grpc::StatusCode::FAILED_PRECONDITION);
     EXPECT_STREQ(
         error.what(),
-        "the geometry worker speaks version 1 of its conversation, the environment version 2; install the same "
+        "the geometry worker uses version 1 of the geometry protocol, the environment version 3; install the same "
         "version of robosim at both ends");
   }
 }

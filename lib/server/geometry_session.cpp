@@ -18,7 +18,7 @@ constexpr std::size_t kRejectionsMax = 3;
 }  // namespace
 
 /// Session of one worker.
-class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::Sealed> {
+class GeometrySession::Stream final : public StreamSession<internal::Sealed, internal::Sealed> {
  public:
   explicit Stream(GeometrySession& owner)
       : StreamSession(owner.serving_, {.right = Right::work,
@@ -27,7 +27,7 @@ class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::S
                                        .may_send_more = true}),
         owner_(owner) {}
 
-  std::string who() const override { return "geometry worker " + peer(); }
+  std::string logName() const override { return "geometry worker " + peer(); }
 
   enum class Phase { waiting, building, ready };
   Phase phase = Phase::waiting;
@@ -40,7 +40,7 @@ class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::S
   std::uint64_t number = 0;      ///< among all workers
   bool has_contributed = false;  ///< to the current run
 
-  void send(const wire::ToWorker& message) {
+  void send(const internal::WorkResponse& message) {
     seal(message, draft());
     post();
   }
@@ -48,11 +48,11 @@ class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::S
  private:
   grpc::Status admit() override {
     if (owner_.report_.rejected_workers.size() < kRejectionsMax) return grpc::Status::OK;
-    return {grpc::StatusCode::PERMISSION_DENIED,
-            "the results of several geometry workers were wrong, so that this run "
-            "takes no more of them; look at the environment's log"};
+    return errorStatus(v1::ERROR_REASON_WORKERS_REJECTED,
+                       "the results of several geometry workers were wrong, so that this run takes no more of them; "
+                       "look at the environment's log");
   }
-  ReadPolicy received(const wire::Sealed& sealed) override {
+  ReadPolicy received(const internal::Sealed& sealed) override {
     unseal(sealed, message_);
     try {
       if (isEstablished()) {
@@ -61,7 +61,7 @@ class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::S
         hello();
       }
     } catch (const WireError& error) {
-      disconnect({error.code(), error.what()});
+      disconnect(error.status());
     }
     return owes_result || replicas_owed > 0 ? ReadPolicy::immediate : ReadPolicy::after_write;
   }
@@ -76,14 +76,14 @@ class GeometrySession::Stream final : public StreamSession<wire::Sealed, wire::S
   /// A message that cannot be parsed, or whose checksum does not match: the worker may connect again.
   void refuse(const WireError& error) override {
     ++owner_.report_.corrupted_messages;
-    disconnect({grpc::StatusCode::DATA_LOSS, error.what()});
+    disconnect(errorStatus(v1::ERROR_REASON_CORRUPTED_MESSAGE, error.what()));
   }
   void left() override {
     std::erase_if(owner_.streams_, [&](const auto& stream) { return stream.get() == this; });
   }
 
   GeometrySession& owner_;
-  wire::FromWorker message_;
+  internal::WorkRequest message_;
 };
 
 GeometrySession::GeometrySession(ServingState& serving, const ResultSamples& samples)
@@ -105,7 +105,7 @@ void GeometrySession::reset() {
   replica_commands_.assign(serving_.run_info->robot_names.size(), Command{});
 }
 
-void GeometrySession::received(Stream& stream, const wire::FromWorker& message) {
+void GeometrySession::received(Stream& stream, const internal::WorkRequest& message) {
   if (stream.phase == Stream::Phase::ready) {
     takeResult(stream, message.result());
     return;
@@ -113,16 +113,16 @@ void GeometrySession::received(Stream& stream, const wire::FromWorker& message) 
   if (stream.replicas_owed == 0) throw WireError("a message of a geometry worker that owes none");
   if (--stream.replicas_owed > 0 || stream.phase == Stream::Phase::waiting) return;  // for a previous world
   const std::string& version = serving_.run_info->world_version;
-  if (message.world_version() != version) {
-    throw WireError("the worker has built version " + inQuotes(message.world_version()) +
-                    " of the world, and here is version " + version);
+  if (message.ready().world_version() != version) {
+    throw WireError("the worker has built version " + inQuotes(message.ready().world_version()) +
+                    " of the world, and the environment has version " + version);
   }
   stream.phase = Stream::Phase::ready;
   stream.needs_state = true;
-  serving_.log(stream.who() + ": ready" + serving_.tokenSuffix(stream.client()));
+  serving_.log(stream.logName() + ": ready" + serving_.tokenSuffix(stream.client()));
 }
 
-void GeometrySession::takeResult(Stream& stream, const wire::TaskResult& result) {
+void GeometrySession::takeResult(Stream& stream, const internal::TaskResult& result) {
   if (!stream.owes_result || result.step() != environment_->time().step || result.begin() != stream.next_robot ||
       result.end() <= result.begin() || result.end() > stream.share.end) {
     throw WireError("a result that was not requested: of step " + std::to_string(result.step()) + ", robots [" +
@@ -140,18 +140,18 @@ void GeometrySession::takeResult(Stream& stream, const wire::TaskResult& result)
 
 void GeometrySession::reject(Stream& stream, const std::string& reason) {
   const std::uint64_t step = serving_.run_info->environment.time().step;
-  serving_.log(stream.who() + ": rejected at step " + std::to_string(step) + ": " + reason);
+  serving_.log(stream.logName() + ": rejected at step " + std::to_string(step) + ": " + reason);
   report_.rejected_workers.push_back({stream.peer(), step, reason});
   stream.disconnect(
-      {grpc::StatusCode::FAILED_PRECONDITION,
-       reason + "; is this the same version of robosim as the environment's, on a machine without faults?"});
+      errorStatus(v1::ERROR_REASON_WRONG_RESULT,
+                  reason + "; is this the same version of robosim as the environment's, on a machine without faults?"));
 }
 
 void GeometrySession::admit() {
   for (const auto& stream : streams_) {
     if (stream->phase != Stream::Phase::waiting || !stream->isIdle()) continue;
     const RunInfo& run_info = *serving_.run_info;
-    wire::ToWorker message;
+    internal::WorkResponse message;
     auto& replica = *message.mutable_replica();
     encode(run_info.source, *replica.mutable_world());
     replica.set_world_version(run_info.world_version);
@@ -176,21 +176,21 @@ GeometrySession::Streams GeometrySession::readyWorkers(std::size_t robots) {
   return workers;
 }
 
-wire::Task GeometrySession::taskOf(Environment& environment) {
-  wire::Task task;
+internal::Task GeometrySession::taskOf(Environment& environment) {
+  internal::Task task;
   task.set_step(environment.time().step);
   const auto& commands = environment.state().commands;
   for (std::size_t i = 0; i < commands.size(); ++i) {
     if (commands[i] == replica_commands_[i]) continue;
     replica_commands_[i] = commands[i];
-    encode(replica_commands_[i], static_cast<std::uint32_t>(i), *task.add_commands());
+    addCommand(i, replica_commands_[i], task);
   }
   encodeOutcome(environment, task);
   return task;
 }
 
-void GeometrySession::send(Stream& stream, const wire::Task& task, const wire::ReplicaState& state) {
-  wire::ToWorker message;
+void GeometrySession::send(Stream& stream, const internal::Task& task, const internal::ReplicaState& state) {
+  internal::WorkResponse message;
   *message.mutable_task() = task;
   message.mutable_task()->set_begin(static_cast<std::uint32_t>(stream.share.begin));
   message.mutable_task()->set_end(static_cast<std::uint32_t>(stream.share.end));
@@ -211,14 +211,14 @@ void GeometrySession::step(Environment& environment) {
   }
   const std::size_t shares = workers.size() + 1;
   for (std::size_t k = 0; k < workers.size(); ++k) workers[k]->share = {n * (k + 1) / shares, n * (k + 2) / shares};
-  wire::ReplicaState state;
+  internal::ReplicaState state;
   if (std::any_of(workers.begin(), workers.end(), [](const auto& stream) { return stream->needs_state; })) {
     encode(environment.state(), state);
   }
   environment.begin();
   environment.clip(every);
   environment.judge(every);
-  const wire::Task task = taskOf(environment);
+  const internal::Task task = taskOf(environment);
   environment_ = &environment;
   for (const auto& stream : workers) send(*stream, task, state);
   environment.move();
@@ -241,9 +241,9 @@ void GeometrySession::awaitResults(const Streams& workers) {
     serving_.pollUntil(deadline - serving_.now(), all_done);
   for (const auto& stream : workers) {
     if (!owes(stream)) continue;
-    stream->disconnect(serving_.interrupted() ? grpc::Status(grpc::StatusCode::UNAVAILABLE, "the run was interrupted")
-                                              : grpc::Status(grpc::StatusCode::DEADLINE_EXCEEDED,
-                                                             "no result within the step deadline; connect again"));
+    stream->disconnect(serving_.interrupted() ? errorStatus(v1::ERROR_REASON_RUN_OVER, "the run was interrupted")
+                                              : errorStatus(v1::ERROR_REASON_STEP_DEADLINE,
+                                                            "no result within the step deadline; connect again"));
   }
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "environment/environment.h"
-#include "net/geometry.grpc.pb.h"
 #include "net/stream_session.h"
+#include "robosim/internal/geometry.grpc.pb.h"
 #include "server/result_samples.h"
 #include "server/run_report.h"
 #include "server/serving_state.h"
@@ -18,7 +18,7 @@ namespace robosim {
 /// computes a share of its own and the shares of workers that leave, are late or are disconnected: the run is the same
 /// with any number of workers. Workers are untrusted: results must be plausible, a random sample is recomputed
 /// (ResultSamples), and a worker with wrong results is disconnected and reported.
-class GeometrySession final : public wire::Geometry::WithRawMethod_Work<wire::Geometry::Service> {
+class GeometrySession final : public internal::Geometry::WithRawMethod_Work<internal::Geometry::Service> {
  public:
   GeometrySession(ServingState& serving, const ResultSamples& samples);
   ~GeometrySession() override;
@@ -39,12 +39,12 @@ class GeometrySession final : public wire::Geometry::WithRawMethod_Work<wire::Ge
  private:
   class Stream;
   using Streams = std::vector<std::shared_ptr<Stream>>;
-  void received(Stream& stream, const wire::FromWorker& message);
-  void takeResult(Stream& stream, const wire::TaskResult& result);
+  void received(Stream& stream, const internal::WorkRequest& message);
+  void takeResult(Stream& stream, const internal::TaskResult& result);
   void reject(Stream& stream, const std::string& reason);
   Streams readyWorkers(std::size_t robots);
-  wire::Task taskOf(Environment& environment);
-  void send(Stream& stream, const wire::Task& task, const wire::ReplicaState& state);
+  internal::Task taskOf(Environment& environment);
+  void send(Stream& stream, const internal::Task& task, const internal::ReplicaState& state);
   void awaitResults(const Streams& workers);
   void compareSamples(const Streams& workers, Environment& environment);
 

@@ -39,7 +39,7 @@ void forMeasurements(const Fleet& fleet, ReadingsSpan& readings, RobotRange rang
 
 }  // namespace
 
-void encode(const State& state, wire::ReplicaState& out) {
+void encode(const State& state, internal::ReplicaState& out) {
   out.Clear();
   out.set_step(state.time.step);
   for (std::size_t i = 0; i < state.commands.size(); ++i) {
@@ -49,34 +49,35 @@ void encode(const State& state, wire::ReplicaState& out) {
     robot.set_phi_rad(state.world_from_robot[i].phi);
     robot.set_speed_mps(state.speed_mps[i]);
     robot.set_turn_radps(state.turn_radps[i]);
-    robot.set_activity(static_cast<wire::Activity>(state.activity[i]));
-    encode(state.commands[i], static_cast<std::uint32_t>(i), *robot.mutable_command());
+    robot.set_activity(encode(state.activity[i]));
+    encode(state.commands[i], *robot.mutable_command());
   }
 }
 
-void decodeInto(const wire::ReplicaState& in, State& state) {
+void decodeInto(const internal::ReplicaState& in, State& state) {
   const std::size_t robots = state.commands.size();
   if (static_cast<std::size_t>(in.robots_size()) != robots) throw WireError("a state of another world");
   state.time.step = in.step();
   for (std::size_t i = 0; i < robots; ++i) {
     const auto& robot = in.robots(static_cast<int>(i));
-    if (!wire::Activity_IsValid(robot.activity())) throw WireError("a state with an unknown activity");
+    const auto activity = decode(robot.activity());
+    if (!activity) throw WireError("a state with an unknown activity");
     state.world_from_robot[i] = {checkedFinite(robot.x_m()), checkedFinite(robot.y_m()),
                                  checkedFinite(robot.phi_rad())};
     state.speed_mps[i] = checkedFinite(robot.speed_mps());
     state.turn_radps[i] = checkedFinite(robot.turn_radps());
-    state.activity[i] = static_cast<Activity>(robot.activity());
-    state.commands[i] = decode(robot.command(), robots);
+    state.activity[i] = *activity;
+    state.commands[i] = decode(robot.command(), static_cast<std::uint32_t>(i));
   }
 }
 
-void encode(const Environment& environment, wire::TaskResult& out) {
+void encode(const Environment& environment, internal::TaskResult& out) {
   out.clear_measurements();
   forMeasurements(environment.fleet(), environment.state().readings, {out.begin(), out.end()},
                   [&](const Measurement& m, const SensorInfo&) { encode(m, *out.add_measurements()); });
 }
 
-void put(const wire::TaskResult& in, Environment& environment) {
+void put(const internal::TaskResult& in, Environment& environment) {
   const auto readings = environment.results().readings;
   int next = 0;
   forMeasurements(environment.fleet(), readings, {in.begin(), in.end()}, [&](Measurement& m, const SensorInfo& sensor) {
@@ -88,27 +89,40 @@ void put(const wire::TaskResult& in, Environment& environment) {
   if (next != in.measurements_size()) throw WireError("a result with too many measurements");
 }
 
-void encodeOutcome(Environment& environment, wire::Task& out) {
+void addCommand(std::size_t robot, const Command& command, internal::Task& out) {
+  auto& added = *out.add_commands();
+  added.set_world_robot(static_cast<std::uint32_t>(robot));
+  encode(command, *added.mutable_command());
+}
+
+void putCommands(const internal::Task& in, Environment& environment) {
+  for (const auto& order : in.commands()) {
+    const std::size_t robot = checkedRobot(order.world_robot(), {0, environment.robotCount()});
+    environment.setCommand(robot, decode(order.command(), order.world_robot()));
+  }
+}
+
+void encodeOutcome(Environment& environment, internal::Task& out) {
   const PhaseResults results = environment.results();
   for (std::size_t i = 0; i < environment.robotCount(); ++i) {
     const auto robot = static_cast<std::uint32_t>(i);
     const double fraction = results.paths[i].end_fraction;
     if (fraction < 1) {
-      out.add_clipped(robot);
-      out.add_clipped_fractions(fraction);
+      auto& clipped = *out.add_clipped();
+      clipped.set_world_robot(robot);
+      clipped.set_fraction(fraction);
     }
-    if (results.stays[i]) out.add_stay(robot);
+    if (results.stays[i]) out.add_staying(robot);
   }
 }
 
-void putOutcome(const wire::Task& in, Environment& environment) {
+void putOutcome(const internal::Task& in, Environment& environment) {
   const RobotRange every{0, environment.robotCount()};
   const PhaseResults results = environment.results();
-  if (in.clipped_size() != in.clipped_fractions_size()) throw WireError("clipped robots without their fractions");
-  for (int k = 0; k < in.clipped_size(); ++k) {
-    results.paths[checkedRobot(in.clipped(k), every)].end_fraction = checkedFraction(in.clipped_fractions(k));
+  for (const auto& clipped : in.clipped()) {
+    results.paths[checkedRobot(clipped.world_robot(), every)].end_fraction = checkedFraction(clipped.fraction());
   }
-  for (const auto robot : in.stay()) results.stays[checkedRobot(robot, every)] = 1;
+  for (const auto robot : in.staying()) results.stays[checkedRobot(robot, every)] = 1;
 }
 
 }  // namespace robosim

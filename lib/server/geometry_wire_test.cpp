@@ -19,8 +19,8 @@ std::unique_ptr<Environment> maze() {
   return std::make_unique<Environment>(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
 }
 
-wire::TaskResult emptyResult(std::uint32_t begin, std::uint32_t end) {
-  wire::TaskResult result;
+internal::TaskResult emptyResult(std::uint32_t begin, std::uint32_t end) {
+  internal::TaskResult result;
   result.set_begin(begin);
   result.set_end(end);
   return result;
@@ -40,7 +40,7 @@ TEST(GeometryWire, RoundTripsTheStateOfAReplicaBitForBit) {
   environment->setCommand(0, {0.5, 0.25, 0, Activity::active});
   for (int i = 0; i < 5; ++i) environment->step();
   const State& sent = environment->state();
-  wire::ReplicaState wire;
+  internal::ReplicaState wire;
   encode(sent, wire);
   State received = maze()->state();
   decodeInto(wire, received);
@@ -54,10 +54,10 @@ TEST(GeometryWire, RoundTripsTheStateOfAReplicaBitForBit) {
 
 TEST(GeometryWire, RefusesAStateOfAnotherWorldOrThatIsNotFinite) {
   const auto environment = maze();
-  wire::ReplicaState good;
+  internal::ReplicaState good;
   encode(environment->state(), good);
-  const auto complaint_after = [&](const std::function<void(wire::ReplicaState&)>& spoil) {
-    wire::ReplicaState bad = good;
+  const auto complaint_after = [&](const std::function<void(internal::ReplicaState&)>& spoil) {
+    internal::ReplicaState bad = good;
     spoil(bad);
     State state = environment->state();
     return complaint([&] { decodeInto(bad, state); });
@@ -66,7 +66,7 @@ TEST(GeometryWire, RefusesAStateOfAnotherWorldOrThatIsNotFinite) {
   EXPECT_EQ(complaint_after([](auto& bad) { bad.add_robots(); }), "a state of another world");
   EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(1)->set_phi_rad(kNan); }),
             "a robot's state that is not finite");
-  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(0)->set_activity(static_cast<wire::Activity>(9)); }),
+  EXPECT_EQ(complaint_after([](auto& bad) { bad.mutable_robots(0)->set_activity(static_cast<v1::Activity>(9)); }),
             "a state with an unknown activity");
   EXPECT_NE(complaint_after([](auto& bad) { bad.mutable_robots(0)->mutable_command()->set_speed_mps(kNan); }), "");
 }
@@ -80,7 +80,7 @@ TEST(GeometryWire, RoundTripsMeasurements) {
     environment->move();
   }
   there->sense({0, 2});
-  wire::TaskResult result = emptyResult(1, 2);
+  internal::TaskResult result = emptyResult(1, 2);
   encode(*there, result);
   put(result, *here);
   EXPECT_EQ(here->state().readings[1].measurements, there->state().readings[1].measurements);
@@ -88,34 +88,34 @@ TEST(GeometryWire, RoundTripsMeasurements) {
 
 TEST(GeometryWire, EncodesRangeSensorsOnly) {
   const auto environment = maze();
-  wire::TaskResult result = emptyResult(0, 2);
+  internal::TaskResult result = emptyResult(0, 2);
   encode(*environment, result);
   for (const auto& measurement : result.measurements()) {
     EXPECT_GT(measurement.floats_size(), 0);
-    EXPECT_EQ(measurement.numbers_size(), 0);
+    EXPECT_EQ(measurement.doubles_size(), 0);
     EXPECT_TRUE(measurement.flags().empty());
   }
 }
 
 TEST(GeometryWire, RefusesResultsOfAnotherSizeOrImplausibleOnes) {
   const auto environment = maze();
-  const auto complaint_of = [&](const wire::TaskResult& result) {
+  const auto complaint_of = [&](const internal::TaskResult& result) {
     return complaint([&] { put(result, *environment); });
   };
-  wire::TaskResult sensed = emptyResult(0, 1);
+  internal::TaskResult sensed = emptyResult(0, 1);
   encode(*environment, sensed);
   EXPECT_EQ(complaint_of(sensed), "");
-  wire::TaskResult more = sensed, fewer = sensed;
+  internal::TaskResult more = sensed, fewer = sensed;
   more.add_measurements();
   fewer.mutable_measurements()->RemoveLast();
   EXPECT_EQ(complaint_of(more), "a result with too many measurements");
   EXPECT_EQ(complaint_of(fewer), "a result with too few measurements");
   for (const float bad : {-5.f, 1e30f, std::numeric_limits<float>::infinity()}) {
-    wire::TaskResult wrong = sensed;
+    internal::TaskResult wrong = sensed;
     wrong.mutable_measurements(0)->set_floats(0, bad);
     EXPECT_NE(complaint_of(wrong).find("beam 0: a range of "), std::string::npos) << complaint_of(wrong);
   }
-  wire::TaskResult wrong = sensed;
+  internal::TaskResult wrong = sensed;
   wrong.mutable_measurements(0)->set_floats(0, std::numeric_limits<float>::quiet_NaN());
   EXPECT_EQ(complaint_of(wrong), "beam 0: a range of nan m; it must be a finite number");
 }
@@ -126,7 +126,7 @@ TEST(GeometryWire, RoundTripsTheMotionOfAllRobots) {
   there->begin();
   here->results().paths[0].end_fraction = 0.25;
   here->results().stays[1] = 1;
-  wire::Task task;
+  internal::Task task;
   encodeOutcome(*here, task);
   EXPECT_EQ(task.clipped_size(), 1) << "only the clipped one is sent";
   putOutcome(task, *there);
@@ -135,16 +135,26 @@ TEST(GeometryWire, RoundTripsTheMotionOfAllRobots) {
   EXPECT_EQ(there->results().stays[0], 0);
   EXPECT_EQ(there->results().stays[1], 1);
 
-  wire::Task unknown = task;
-  unknown.add_stay(2);
+  internal::Task unknown = task;
+  unknown.add_staying(2);
   EXPECT_EQ(complaint([&] { putOutcome(unknown, *there); }), "a robot of the number 2 where those of [0, 2) are meant");
-  task.add_clipped(1);
-  EXPECT_EQ(complaint([&] { putOutcome(task, *there); }), "clipped robots without their fractions");
   for (const double bad : {kNan, -0.01, 1.01}) {
-    wire::Task wrong = task;
-    wrong.add_clipped_fractions(bad);
+    internal::Task wrong = task;
+    wrong.add_clipped()->set_fraction(bad);
     EXPECT_EQ(complaint([&] { putOutcome(wrong, *there); }), "a part of a way that is not in [0, 1]");
   }
+}
+
+TEST(GeometryWire, RoundTripsCommands) {
+  const auto environment = maze();
+  internal::Task task;
+  const Command command{0.5, -0.25, 0, Activity::active, true};
+  addCommand(1, command, task);
+  putCommands(task, *environment);
+  EXPECT_EQ(environment->state().commands[1], command);
+  addCommand(2, command, task);
+  EXPECT_EQ(complaint([&] { putCommands(task, *environment); }),
+            "a robot of the number 2 where those of [0, 2) are meant");
 }
 
 }  // namespace

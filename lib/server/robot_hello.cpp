@@ -5,23 +5,23 @@
 
 namespace robosim {
 
-void checkHello(const wire::RobotsHello& hello, const RunInfo& run_info) {
+void checkHello(const v1::RobotsHello& hello, const RunInfo& run_info) {
   checkProtocol(hello.protocol());
   if (!hello.world_version().empty() && hello.world_version() != run_info.world_version) {
-    throw WireError("the robots come from the world version " + inQuotes(hello.world_version()) +
-                        ", and here is version " + run_info.world_version + " of the world " +
-                        inQuotes(run_info.environment.world().name) + "; start their program anew",
-                    grpc::StatusCode::FAILED_PRECONDITION);
+    throw WireError("the robots require the world version " + inQuotes(hello.world_version()) +
+                        ", and the environment has version " + run_info.world_version + " of the world " +
+                        inQuotes(run_info.environment.world().name) + "; restart their program",
+                    v1::ERROR_REASON_WORLD_VERSION);
   }
   if (!hello.run().empty() && hello.run() != run_info.run_id) {
-    throw WireError("the robots come from the run " + inQuotes(hello.run()) + ", and here is the run " +
-                        run_info.run_id + "; start their program anew to join it",
-                    grpc::StatusCode::ABORTED);
+    throw WireError("the robots have joined the run " + inQuotes(hello.run()) + ", and the current run is " +
+                        run_info.run_id + "; restart their program to join it",
+                    v1::ERROR_REASON_OTHER_RUN);
   }
   if (hello.names().empty()) throw WireError("a hello without a robot's name");
 }
 
-std::vector<std::size_t> resolveRobots(const wire::RobotsHello& hello, const RunInfo& run_info) {
+std::vector<std::size_t> resolveRobots(const v1::RobotsHello& hello, const RunInfo& run_info) {
   std::vector<std::size_t> robots;
   std::vector<std::uint8_t> is_named(run_info.robot_names.size(), 0);
   for (const auto& name : hello.names()) {
@@ -29,14 +29,14 @@ std::vector<std::size_t> resolveRobots(const wire::RobotsHello& hello, const Run
     if (found == run_info.robot_named.end()) {
       throw WireError("the world " + inQuotes(run_info.environment.world().name) + " has no robot " + inQuotes(name) +
                           "; it has " + listed(run_info.robot_names),
-                      grpc::StatusCode::NOT_FOUND);
+                      v1::ERROR_REASON_UNKNOWN_ROBOT, name);
     }
     const std::size_t robot = found->second;
     if (!run_info.is_networked[robot]) {
       throw WireError("robot " + inQuotes(name) +
                           " is driven by a controller in the environment; start the environment "
                           "with --wait-for-robots to leave it to a process of its own",
-                      grpc::StatusCode::FAILED_PRECONDITION);
+                      v1::ERROR_REASON_ROBOT_NOT_NETWORKED, name);
     }
     if (is_named[robot]) throw WireError("the hello names robot " + inQuotes(name) + " twice");
     is_named[robot] = 1;

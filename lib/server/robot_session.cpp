@@ -8,7 +8,7 @@
 namespace robosim {
 
 /// Session of one process.
-class RobotSession::Stream final : public StreamSession<wire::DriveRequest, wire::DriveResponse> {
+class RobotSession::Stream final : public StreamSession<v1::DriveRequest, v1::DriveResponse> {
  public:
   explicit Stream(RobotSession& owner)
       : StreamSession(owner.serving_, {.right = Right::drive,
@@ -22,7 +22,7 @@ class RobotSession::Stream final : public StreamSession<wire::DriveRequest, wire
     return owner_.serving_.access.check(client(), Right::drive, robots_named);
   }
   grpc::Status permission() const override { return mayDrive(names); }
-  std::string who() const override {
+  std::string logName() const override {
     if (names.empty()) return peer();
     return (names.size() == 1 ? "robot " : "robots ") + listed(names) + " (" + peer() + ")";
   }
@@ -32,7 +32,7 @@ class RobotSession::Stream final : public StreamSession<wire::DriveRequest, wire
   std::vector<std::size_t> robots;  ///< indices in the world
   std::string process;              ///< RobotsHello.process
   bool owes_answer = false;
-  std::uint64_t asked_step = 0;
+  std::uint64_t awaited_step = 0;
   ServingState::Clock::time_point since;  ///< the answer is owed
   bool has_answer = false;                ///< not yet applied
   RobotsAnswer answer;
@@ -41,7 +41,7 @@ class RobotSession::Stream final : public StreamSession<wire::DriveRequest, wire
   using StreamSession::establish;
 
  private:
-  ReadPolicy received(const wire::DriveRequest& message) override {
+  ReadPolicy received(const v1::DriveRequest& message) override {
     if (isEstablished()) {
       owner_.answer(*this, message);
     } else {
@@ -66,7 +66,8 @@ void RobotSession::open(const CompletionQueueServer::ServiceQueues& queues) {
 void RobotSession::reset() {
   while (!streams_.empty()) {
     streams_.back()->robots.clear();  // their indices are those of the previous world
-    streams_.back()->disconnect({grpc::StatusCode::ABORTED, "another world was loaded; connect anew"});
+    streams_.back()->disconnect(
+        errorStatus(v1::ERROR_REASON_WORLD_REPLACED, "another world was loaded; connect again"));
   }
   const std::size_t n = serving_.run_info->robot_names.size();
   driver_of_.assign(n, nullptr);
@@ -78,27 +79,27 @@ void RobotSession::reset() {
   late_ = 0;
 }
 
-bool RobotSession::isSameProcess(const Stream& stream, const wire::RobotsHello& hello) {
+bool RobotSession::isSameProcess(const Stream& stream, const v1::RobotsHello& hello) {
   return hello.process().size() >= kProcessIdBytes && stream.process == hello.process();
 }
 
-void RobotSession::hello(Stream& stream, const wire::DriveRequest& message) {
+void RobotSession::hello(Stream& stream, const v1::DriveRequest& message) {
   if (!message.has_hello()) throw WireError("the first message of a robot's process must be its hello");
   const auto& hello = message.hello();
   checkHello(hello, *serving_.run_info);
   std::vector<std::string> names(hello.names().begin(), hello.names().end());
   if (const auto status = stream.mayDrive(names); !status.ok()) {
-    throw WireError(status.error_message(), status.error_code());
+    throw WireError(status);
   }
   std::vector<std::size_t> robots = resolveRobots(hello, *serving_.run_info);
   for (const auto robot : robots) {
     Stream* const other = driver_of_[robot];
     if (other && isSameProcess(*other, hello)) {
-      other->disconnect({grpc::StatusCode::ABORTED, "its process has connected again"});
+      other->disconnect(errorStatus(v1::ERROR_REASON_CONNECTION_REPLACED, "its process has connected again"));
     } else if (other) {
       throw WireError("robot " + inQuotes(serving_.run_info->robot_names[robot]) +
                           " is driven by another process already, at " + other->peer(),
-                      grpc::StatusCode::ALREADY_EXISTS);
+                      v1::ERROR_REASON_ROBOT_TAKEN, serving_.run_info->robot_names[robot]);
     }
   }
   for (const auto robot : robots) {
@@ -116,13 +117,13 @@ void RobotSession::hello(Stream& stream, const wire::DriveRequest& message) {
   streams_.push_back(std::static_pointer_cast<Stream>(stream.shared_from_this()));
 }
 
-void RobotSession::answer(Stream& stream, const wire::DriveRequest& message) {
-  decode(message, stream.robots.size(), stream.decoded);
-  if (!stream.owes_answer || stream.decoded.step != stream.asked_step) {
-    const std::string asked =
-        stream.owes_answer ? "step " + std::to_string(stream.asked_step) + " was asked" : "nothing was asked";
-    throw WireError("an answer to step " + std::to_string(stream.decoded.step) + " when " + asked +
-                    "; answer each step once, when its readings have come");
+void RobotSession::answer(Stream& stream, const v1::DriveRequest& message) {
+  if (!message.has_answer()) throw WireError("a message without an answer; only the first one is a hello");
+  decode(message.answer(), stream.robots.size(), stream.decoded);
+  if (!stream.owes_answer || stream.decoded.step != stream.awaited_step) {
+    const std::string awaited = stream.owes_answer ? "that to step " + std::to_string(stream.awaited_step) : "none";
+    throw WireError("an answer to step " + std::to_string(stream.decoded.step) + ", and the environment awaits " +
+                    awaited + "; answer each step once, after receiving its readings");
   }
   for (const auto& sent : stream.decoded.messages) {
     if (serving_.run_info->robot_named.contains(sent.to)) continue;
@@ -160,13 +161,14 @@ void RobotSession::leave(Stream& stream) {
 RobotSession::LeftAnswer RobotSession::answerOf(const Stream& stream, std::size_t i) {
   LeftAnswer kept{stream.robots[i], stream.answer.step};
   for (const auto& order : stream.answer.orders) {
-    if (order.robot == i) kept.activity = order.command.activity;
+    if (indexOf(order.robot) == i) kept.activity = order.command.activity;
   }
   for (const auto& message : stream.answer.messages) {
-    if (message.robot == i) kept.messages.push_back(message);
+    if (indexOf(message.robot) == i) kept.messages.push_back(message);
   }
   const auto& checks = stream.answer.win_checks;
-  kept.checks_win = std::find(checks.begin(), checks.end(), i) != checks.end();
+  kept.checks_win = std::find(checks.begin(), checks.end(), static_cast<ProcessRobotIndex>(i)) != checks.end();
+  if (i == 0) kept.messages_dropped = stream.answer.messages_dropped;
   return kept;
 }
 
@@ -175,6 +177,7 @@ void RobotSession::applyLeftAnswers(Environment& environment) {
     if (!driver_of_[answer.robot]) environment.setCommand(answer.robot, {.activity = answer.activity});
     for (const auto& message : answer.messages) environment.send(answer.robot, message.to, message.text);
     if (answer.checks_win) environment.checkWin(answer.robot);
+    environment.countDroppedMessages(answer.messages_dropped);
     next_answer_[answer.robot] = answer.step + 1;
   }
   left_answers_.clear();
@@ -184,7 +187,7 @@ void RobotSession::admit() {
   for (const auto& stream : streams_) {
     if (std::exchange(stream->is_admitted, true)) continue;
     for (const auto robot : stream->robots) attendance_.join(robot);
-    serving_.log(stream->who() + ": connected" + serving_.tokenSuffix(stream->client()));
+    serving_.log(stream->logName() + ": connected" + serving_.tokenSuffix(stream->client()));
     sendWelcome(*stream);
     expectAnswer(*stream);
     sendReadings(*stream);
@@ -194,7 +197,7 @@ void RobotSession::admit() {
 void RobotSession::expectAnswer(Stream& stream) {
   ++missing_;
   stream.owes_answer = true;
-  stream.asked_step = serving_.run_info->environment.time().step;
+  stream.awaited_step = serving_.run_info->environment.time().step;
   stream.since = serving_.now();
 }
 
@@ -219,8 +222,7 @@ void RobotSession::sendWelcome(Stream& stream) {
 
 void RobotSession::sendReadings(Stream& stream) {
   const Environment& environment = serving_.run_info->environment;
-  wire::DriveResponse& message = stream.draft();
-  message.clear_welcome();
+  v1::StepReadings& message = *stream.draft().mutable_readings();
   message.set_step(environment.time().step);
   message.set_winner(environment.state().winner ? environment.fleet().robots[*environment.state().winner].info.name
                                                 : "");
@@ -284,9 +286,10 @@ void RobotSession::disconnectLate() {
   for (const auto& stream : streams) {
     if (!is_late(stream)) continue;
     const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(serving_.step_deadline).count();
-    stream->disconnect({grpc::StatusCode::DEADLINE_EXCEEDED, "no answer to step " + std::to_string(stream->asked_step) +
-                                                                 " within the step deadline of " + std::to_string(ms) +
-                                                                 " ms; connect again to go on"});
+    stream->disconnect(
+        errorStatus(v1::ERROR_REASON_STEP_DEADLINE, "no answer to step " + std::to_string(stream->awaited_step) +
+                                                        " within the step deadline of " + std::to_string(ms) +
+                                                        " ms; connect again to continue"));
   }
 }
 
@@ -303,12 +306,13 @@ std::size_t RobotSession::applyAnswers(Environment& environment) {
     if (!stream->has_answer) continue;
     stream->has_answer = false;
     for (const auto& order : stream->answer.orders) {
-      environment.setCommand(stream->robots[order.robot], order.command);
+      environment.setCommand(stream->robots[indexOf(order.robot)], order.command);
     }
     for (const auto& message : stream->answer.messages) {
-      environment.send(stream->robots[message.robot], message.to, message.text);
+      environment.send(stream->robots[indexOf(message.robot)], message.to, message.text);
     }
-    for (const auto robot : stream->answer.win_checks) environment.checkWin(stream->robots[robot]);
+    for (const auto robot : stream->answer.win_checks) environment.checkWin(stream->robots[indexOf(robot)]);
+    environment.countDroppedMessages(stream->answer.messages_dropped);
     for (const auto robot : stream->robots) next_answer_[robot] = stream->answer.step + 1;
   }
   late_ += late_now;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "net/robot_wire.h"
-#include "net/robots.grpc.pb.h"
 #include "net/stream_session.h"
+#include "robosim/v1/robots.grpc.pb.h"
 #include "server/robot_attendance.h"
 #include "server/robot_inboxes.h"
 #include "server/serving_state.h"
@@ -18,7 +18,7 @@ namespace robosim {
 /// still; it may reconnect under the same names.
 ///
 /// All functions are called between steps.
-class RobotSession final : public wire::Robots::WithRawMethod_Drive<wire::Robots::Service> {
+class RobotSession final : public v1::Robots::WithRawMethod_Drive<v1::Robots::Service> {
  public:
   explicit RobotSession(ServingState& serving);
   ~RobotSession() override;
@@ -63,11 +63,12 @@ class RobotSession final : public wire::Robots::WithRawMethod_Drive<wire::Robots
     Activity activity = Activity::active;
     std::vector<RobotsAnswer::Message> messages{};
     bool checks_win = false;
+    std::uint64_t messages_dropped = 0;  ///< by the whole process, in the answer of its first robot
   };
   static LeftAnswer answerOf(const Stream& stream, std::size_t i);
-  static bool isSameProcess(const Stream& stream, const wire::RobotsHello& hello);
-  void hello(Stream& stream, const wire::DriveRequest& message);
-  void answer(Stream& stream, const wire::DriveRequest& message);
+  static bool isSameProcess(const Stream& stream, const v1::RobotsHello& hello);
+  void hello(Stream& stream, const v1::DriveRequest& message);
+  void answer(Stream& stream, const v1::DriveRequest& message);
   void leave(Stream& stream);
   void expectAnswer(Stream& stream);  ///< called before readings are sent
   void sendWelcome(Stream& stream);

@@ -10,34 +10,39 @@
 namespace robosim {
 namespace {
 
-void decodeRobot(const wire::RobotView& in, RobotSnapshot& out) {
+void decodeRobot(const v1::RobotView& in, RobotSnapshot& out) {
   if (!std::isfinite(in.x_m()) || !std::isfinite(in.y_m()) || !std::isfinite(in.phi_rad()) ||
       !std::isfinite(in.laser_pan_rad())) {
     throw WireError("a frame with a pose that is not finite");
   }
-  if (!wire::Activity_IsValid(in.activity())) {
+  const auto activity = decode(in.activity());
+  if (!activity) {
     throw WireError("a frame with the unknown activity " + std::to_string(in.activity()));
   }
   out.world_from_robot = {in.x_m(), in.y_m(), in.phi_rad()};
   out.laser_pan_rad = in.laser_pan_rad();
   out.stalled = in.stalled();
-  out.activity = static_cast<Activity>(in.activity());
+  out.activity = *activity;
 }
 
-void add(const Readings& readings, std::size_t robot, wire::Frame& out) {
+void add(const Readings& readings, std::size_t robot, std::optional<std::uint64_t>& sent_step, v1::Frame& out) {
   auto& view = *out.add_readings();
-  view.set_robot(static_cast<std::uint32_t>(robot));
-  encode(readings, *view.mutable_readings());
-  for (auto& measurement : *view.mutable_readings()->mutable_measurements()) measurement.clear_jpeg();
+  view.set_world_robot(static_cast<std::uint32_t>(robot));
+  encode(readings, *view.mutable_readings(), sent_step);
+  sent_step = readings.time.step;
+  for (auto& measurement : *view.mutable_readings()->mutable_measurements()) {
+    if (!measurement.jpeg().empty()) measurement.Clear();
+  }
 }
 
 /// Replaces the world; the state of its robots is reset.
-void loadWorldFrom(ViewedRun& run, const wire::Frame& frame) {
-  if (!(frame.period_s() > 0 && frame.period_s() <= 1)) throw WireError("a frame whose time step is not in (0, 1] s");
-  run.world = loadWorld(decode(frame.world()), {});
-  run.world_version = frame.world_version();
-  run.period_s = frame.period_s();
-  run.may_operate = frame.may_operate();
+void loadWorldFrom(ViewedRun& run, const v1::Frame& frame) {
+  const v1::FrameWorld& world = frame.world();
+  if (!(world.period_s() > 0 && world.period_s() <= 1)) throw WireError("a frame whose time step is not in (0, 1] s");
+  run.world = loadWorld(decode(world.source()), {});
+  run.world_version = world.world_version();
+  run.period_s = world.period_s();
+  run.may_operate = world.may_operate();
   const auto& robots = run.world.fleet.robots;
   run.snapshot.robots.assign(robots.size(), {});
   run.spare_readings.assign(robots.size(), {});
@@ -46,14 +51,12 @@ void loadWorldFrom(ViewedRun& run, const wire::Frame& frame) {
   }
 }
 
-/// Decodes the steps at which a robot's pictures were taken.
-void decodePictureTimes(ViewedRun& run, const wire::ReadingsView& of) {
-  for (const auto& time : of.picture_times()) {
-    if (time.sensor() >= run.readingsOf(of.robot())->measurements.size() || time.step() > run.snapshot.step) {
-      throw WireError("a frame of step " + std::to_string(run.snapshot.step) + " with a picture of sensor " +
-                      std::to_string(time.sensor()) + " at step " + std::to_string(time.step()));
-    }
-    run.picture_steps[{of.robot(), time.sensor()}] = time.step();
+/// Stores the steps at which a robot's pictures were taken.
+void notePictureSteps(ViewedRun& run, const v1::ReadingsView& of) {
+  for (int i = 0; i < of.readings().measurements_size(); ++i) {
+    const auto& measurement = of.readings().measurements(i);
+    if (measurement.jpeg().empty()) continue;
+    run.picture_steps[{of.world_robot(), static_cast<std::size_t>(i)}] = measurement.step();
   }
 }
 
@@ -79,12 +82,12 @@ std::optional<std::uint64_t> ViewedRun::pictureStep(std::size_t robot, std::size
   return found == picture_steps.end() ? std::nullopt : std::optional(found->second);
 }
 
-void encode(const ReadingsSelection& selection, wire::FrameRequest& out) {
+void encode(const ReadingsSelection& selection, v1::FrameRequest& out) {
   out.set_readings_of_all(selection.of_all);
   out.mutable_readings_of()->Assign(selection.of.begin(), selection.of.end());
 }
 
-ReadingsSelection decode(const wire::FrameRequest& in, std::size_t robots) {
+ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots) {
   ReadingsSelection selection{in.readings_of_all(), {}};
   std::copy_if(in.readings_of().begin(), in.readings_of().end(), std::back_inserter(selection.of),
                [robots](std::uint32_t robot) { return robot < robots; });
@@ -93,27 +96,28 @@ ReadingsSelection decode(const wire::FrameRequest& in, std::size_t robots) {
   return selection;
 }
 
-void encode(const RobotSnapshot& snapshot, std::size_t robot, wire::RobotView& out) {
-  out.set_robot(static_cast<std::uint32_t>(robot));
+void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out) {
+  out.set_world_robot(static_cast<std::uint32_t>(robot));
   out.set_x_m(snapshot.world_from_robot.x);
   out.set_y_m(snapshot.world_from_robot.y);
   out.set_phi_rad(snapshot.world_from_robot.phi);
   out.set_laser_pan_rad(snapshot.laser_pan_rad);
   out.set_stalled(snapshot.stalled);
-  out.set_activity(static_cast<wire::Activity>(snapshot.activity));
+  out.set_activity(encode(snapshot.activity));
 }
 
-void encode(const std::vector<Readings>& readings, const ReadingsSelection& selection, wire::Frame& out) {
+void encode(const std::vector<Readings>& readings, const ReadingsSelection& selection, SentSteps& sent_steps,
+            v1::Frame& out) {
   if (selection.of_all) {
-    for (std::size_t i = 0; i < readings.size(); ++i) add(readings[i], i, out);
+    for (std::size_t i = 0; i < readings.size(); ++i) add(readings[i], i, sent_steps[i], out);
     return;
   }
   for (const auto robot : selection.of) {
-    if (robot < readings.size()) add(readings[robot], robot, out);
+    if (robot < readings.size()) add(readings[robot], robot, sent_steps[robot], out);
   }
 }
 
-bool update(ViewedRun& run, const wire::Frame& frame) {
+bool update(ViewedRun& run, const v1::Frame& frame) {
   if (frame.has_world()) loadWorldFrom(run, frame);
   run.winner = frame.winner();
   RunSnapshot& snapshot = run.snapshot;
@@ -125,17 +129,17 @@ bool update(ViewedRun& run, const wire::Frame& frame) {
     readings.reset();
   }
   for (const auto& robot : frame.robots()) {
-    checkRobot(robot.robot(), run);
-    decodeRobot(robot, snapshot.robots[robot.robot()]);
+    checkRobot(robot.world_robot(), run);
+    decodeRobot(robot, snapshot.robots[robot.world_robot()]);
   }
   run.picture_steps.clear();
   for (const auto& of : frame.readings()) {
-    checkRobot(of.robot(), run);
-    const RobotInfo& robot = run.world.fleet.robots[of.robot()].info;
-    Readings& readings = takeReadings(run, of.robot());
+    checkRobot(of.world_robot(), run);
+    const RobotInfo& robot = run.world.fleet.robots[of.world_robot()].info;
+    Readings& readings = takeReadings(run, of.world_robot());
     readings.time = {snapshot.step, run.period_s};
     decode(of.readings(), robot.name, readings);
-    decodePictureTimes(run, of);
+    notePictureSteps(run, of);
   }
   return frame.has_world();
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hardware/readings.h"
-#include "net/viewing.pb.h"
+#include "robosim/v1/viewing.pb.h"
 #include "robots/run_snapshot.h"
 #include "robots/world_source.h"
 
@@ -44,20 +44,25 @@ struct ViewedRun {
   std::optional<std::uint64_t> pictureStep(std::size_t robot, std::size_t sensor) const;
 };
 
-void encode(const ReadingsSelection& selection, wire::FrameRequest& out);
+void encode(const ReadingsSelection& selection, v1::FrameRequest& out);
 /// Decodes a selection: sorted, without duplicates.
 /// @param robots number of robots; higher indices are ignored
-ReadingsSelection decode(const wire::FrameRequest& in, std::size_t robots);
+ReadingsSelection decode(const v1::FrameRequest& in, std::size_t robots);
 
 /// Encodes a robot's state without readings.
-void encode(const RobotSnapshot& snapshot, std::size_t robot, wire::RobotView& out);
+void encode(const RobotSnapshot& snapshot, std::size_t robot, v1::RobotView& out);
+/// Steps of the last readings that a viewer has received, by robot; nullopt for a robot without any.
+using SentSteps = std::vector<std::optional<std::uint64_t>>;
+
 /// Adds the selected readings, without pictures.
 /// @param readings by robot
-void encode(const std::vector<Readings>& readings, const ReadingsSelection& selection, wire::Frame& out);
+/// @param sent_steps to the same viewer, as many as robots; replaced for the selected robots
+void encode(const std::vector<Readings>& readings, const ReadingsSelection& selection, SentSteps& sent_steps,
+            v1::Frame& out);
 
 /// Applies a frame, complete or incremental.
 /// @return whether the frame replaced the world
 /// @throws WireError for an invalid frame, ConfigError for a world that cannot be built.
-bool update(ViewedRun& run, const wire::Frame& frame);
+bool update(ViewedRun& run, const v1::Frame& frame);
 
 }  // namespace robosim

@@ -19,12 +19,12 @@ RobotSnapshot withoutReadings(const State& state, std::size_t i) {
 }  // namespace
 
 /// Session of one viewer.
-class ViewerSession::Stream final : public StreamSession<wire::FrameRequest, wire::Frame> {
+class ViewerSession::Stream final : public StreamSession<v1::FrameRequest, v1::Frame> {
  public:
   explicit Stream(ViewerSession& owner)
       : StreamSession(owner.serving_, {.right = Right::look, .log_kind = "refused viewers"}), owner_(owner) {}
 
-  std::string who() const override { return "viewer " + peer(); }
+  std::string logName() const override { return "viewer " + peer(); }
 
   /// Whether it has requested a frame that it has not received.
   bool isWaitingFor(std::uint64_t step_now) const {
@@ -42,11 +42,12 @@ class ViewerSession::Stream final : public StreamSession<wire::FrameRequest, wir
   std::uint64_t step = 0;                  ///< of the last frame sent
   ReadingsSelection sent_selection;        ///< of that frame
   std::vector<RobotSnapshot> sent_robots;  ///< last state sent, without readings
+  SentSteps sent_steps;
   std::map<std::pair<std::size_t, std::size_t>, std::uint64_t>
-      sent_photos;  ///< step of the picture, by robot and sensor
+      sent_pictures;  ///< step of the picture, by robot and sensor
 
  private:
-  ReadPolicy received(const wire::FrameRequest& message) override {
+  ReadPolicy received(const v1::FrameRequest& message) override {
     if (!isEstablished()) {
       checkProtocol(message.protocol());
       establish();
@@ -97,17 +98,22 @@ void ViewerSession::publish() {
 void ViewerSession::send(Stream& stream) {
   const RunInfo& run_info = *serving_.run_info;
   const State& state = run_info.environment.state();
-  wire::Frame& frame = stream.draft();
+  v1::Frame& frame = stream.draft();
   frame.Clear();
   if (stream.needs_world) {
-    encode(run_info.source, *frame.mutable_world());
-    frame.set_world_version(run_info.world_version);
-    frame.set_period_s(state.time.period_s);
-    frame.set_may_operate(serving_.access.check(stream.client(), Right::operate).ok());
+    v1::FrameWorld& world = *frame.mutable_world();
+    encode(run_info.source, *world.mutable_source());
+    world.set_world_version(run_info.world_version);
+    world.set_period_s(state.time.period_s);
+    world.set_may_operate(serving_.access.check(stream.client(), Right::operate).ok());
   }
   frame.set_step(state.time.step);
   frame.set_time_s(state.time.seconds());
   if (state.winner) frame.set_winner(run_info.robot_names[*state.winner]);
+  if (stream.needs_world) {
+    stream.sent_steps.assign(run_info.robot_names.size(), std::nullopt);
+    stream.sent_pictures.clear();
+  }
   stream.sent_robots.resize(run_info.robot_names.size());
   for (std::size_t i = 0; i < stream.sent_robots.size(); ++i) {
     const RobotSnapshot robot = withoutReadings(state, i);
@@ -115,30 +121,31 @@ void ViewerSession::send(Stream& stream) {
     stream.sent_robots[i] = robot;
     encode(robot, i, *frame.add_robots());
   }
-  if (stream.needs_world || stream.sent_selection != stream.selection) stream.sent_photos.clear();
+  const bool repeats_pictures = stream.sent_selection != stream.selection;
   stream.sent_selection = stream.selection;
-  encode(state.readings, stream.sent_selection, frame);
-  addPhotos(stream, frame);
+  encode(state.readings, stream.sent_selection, stream.sent_steps, frame);
+  addPictures(stream, frame, repeats_pictures);
   stream.needs_world = false;
   stream.step = state.time.step;
   stream.post();
   stream.answered();
 }
 
-/// Adds the newest pictures that the viewer has not received, of the robots that it has selected by index.
-void ViewerSession::addPhotos(Stream& stream, wire::Frame& frame) const {
+void ViewerSession::addPictures(Stream& stream, v1::Frame& frame, bool repeats) const {
   for (auto& view : *frame.mutable_readings()) {
-    if (!std::binary_search(stream.sent_selection.of.begin(), stream.sent_selection.of.end(), view.robot())) continue;
+    if (!std::binary_search(stream.sent_selection.of.begin(), stream.sent_selection.of.end(), view.world_robot()))
+      continue;
     for (int slot = 0; slot < view.readings().measurements_size(); ++slot) {
-      const auto* photo = camera_frames_.find(view.robot(), static_cast<std::size_t>(slot));
-      if (!photo) continue;
-      const auto [seen, is_first] = stream.sent_photos.try_emplace({view.robot(), slot}, photo->step);
-      if (!is_first && seen->second == photo->step) continue;
-      seen->second = photo->step;
-      view.mutable_readings()->mutable_measurements(slot)->set_jpeg(photo->jpeg);
-      auto& time = *view.add_picture_times();
-      time.set_sensor(static_cast<std::uint32_t>(slot));
-      time.set_step(photo->step);
+      const auto* picture = camera_frames_.find(view.world_robot(), static_cast<std::size_t>(slot));
+      if (!picture) continue;
+      const auto [sent, is_first] = stream.sent_pictures.try_emplace({view.world_robot(), slot}, picture->step);
+      const bool is_new = is_first || sent->second != picture->step;
+      if (!is_new && !repeats) continue;
+      sent->second = picture->step;
+      v1::Measurement& measurement = *view.mutable_readings()->mutable_measurements(slot);
+      measurement.set_jpeg(picture->jpeg);
+      measurement.set_step(picture->step);
+      measurement.set_is_new(is_new);
     }
   }
 }

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "net/stream_session.h"
-#include "net/viewing.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 #include "server/camera_frame_cache.h"
 #include "server/serving_state.h"
 
@@ -14,7 +14,7 @@ namespace robosim {
 /// viewers.
 ///
 /// All functions are called between steps.
-class ViewerSession final : public wire::Viewing::WithRawMethod_Watch<wire::Viewing::Service> {
+class ViewerSession final : public v1::Viewing::WithRawMethod_Watch<v1::Viewing::Service> {
  public:
   explicit ViewerSession(ServingState& serving);
   ~ViewerSession() override;
@@ -31,7 +31,9 @@ class ViewerSession final : public wire::Viewing::WithRawMethod_Watch<wire::View
  private:
   class Stream;
   void send(Stream& stream);
-  void addPhotos(Stream& stream, wire::Frame& frame) const;
+  /// Adds the newest pictures of the robots that the viewer has selected by index.
+  /// @param repeats whether to add those that the viewer has received, too
+  void addPictures(Stream& stream, v1::Frame& frame, bool repeats) const;
 
   ServingState& serving_;
   std::vector<std::shared_ptr<Stream>> streams_;  ///< established

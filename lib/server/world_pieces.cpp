@@ -38,9 +38,9 @@ WorldSource WorldPieces::takeSource() {
     streams.push_back(arrays.back().get());
   }
   io::ConcatenatingInputStream all(streams.data(), static_cast<int>(streams.size()));
-  wire::WorldSource message;
+  v1::WorldSource message;
   if (bytes_ == 0 || !message.ParseFromZeroCopyStream(&all)) {
-    throw WireError("the pieces make no robosim.wire.WorldSource; see doc/protocol.md");
+    throw WireError("the pieces do not form a robosim.v1.WorldSource; see doc/protocol.md");
   }
   return decode(std::move(message));
 }

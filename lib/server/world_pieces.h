@@ -7,7 +7,7 @@
 
 namespace robosim {
 
-/// The serialised wire::WorldSource that a control panel sends in pieces (untrusted input).
+/// The serialised v1::WorldSource that a control panel sends in pieces (untrusted input).
 class WorldPieces {
  public:
   /// Maximum total size: a world file, its robot types and its maps.
@@ -18,7 +18,7 @@ class WorldPieces {
   bool empty() const { return bytes_ == 0; }
   std::size_t bytes() const { return bytes_; }
   /// Parses and discards the pieces, so that the world is not held in memory twice.
-  /// @throws WireError when they are not a wire::WorldSource.
+  /// @throws WireError when they are not a v1::WorldSource.
   WorldSource takeSource();
 
  private:

@@ -9,7 +9,7 @@ namespace robosim {
 namespace {
 
 std::string serialised(const WorldSource& source) {
-  wire::WorldSource message;
+  v1::WorldSource message;
   encode(source, message);
   return message.SerializeAsString();
 }

@@ -4,7 +4,7 @@
 
 namespace robosim {
 
-void encode(const WorldSource& source, wire::WorldSource& out) {
+void encode(const WorldSource& source, v1::WorldSource& out) {
   out.Clear();
   out.set_file(source.file);
   out.set_text(source.text);
@@ -21,9 +21,9 @@ void encode(const WorldSource& source, wire::WorldSource& out) {
   }
 }
 
-WorldSource decode(const wire::WorldSource& in) { return decode(wire::WorldSource(in)); }
+WorldSource decode(const v1::WorldSource& in) { return decode(v1::WorldSource(in)); }
 
-WorldSource decode(wire::WorldSource&& in) {
+WorldSource decode(v1::WorldSource&& in) {
   WorldSource source;
   source.file = in.file();
   source.text = std::move(*in.mutable_text());

@@ -1,12 +1,12 @@
 #pragma once
-#include "net/world.pb.h"
+#include "robosim/v1/world.pb.h"
 #include "robots/world_source.h"
 
 namespace robosim {
 
-/// Conversion between WorldSource and wire::WorldSource (world.proto). loadWorld() validates the content.
-void encode(const WorldSource& source, wire::WorldSource& out);
-WorldSource decode(wire::WorldSource&& in);  ///< moves the texts
-WorldSource decode(const wire::WorldSource& in);
+/// Conversion between WorldSource and v1::WorldSource (world.proto). loadWorld() validates the content.
+void encode(const WorldSource& source, v1::WorldSource& out);
+WorldSource decode(v1::WorldSource&& in);  ///< moves the texts
+WorldSource decode(const v1::WorldSource& in);
 
 }  // namespace robosim

@@ -1,200 +1,33 @@
 #include "viewing/foreign_recording.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 #include <utility>
 
-#include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
-#include <mrpt/obs/CObservationGasSensors.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CObservationRange.h>
-#include <mrpt/obs/CObservationRobotPose.h>
 
 #include "base/progress.h"
 #include "base/text_table.h"
-#include "recording/cone_aperture.h"
 #include "recording/observation_times.h"
 #include "recording/rawlog_reader.h"
 #include "recording/recording_error.h"
 #include "robots/world_source.h"
-#include "world/occupancy_grid.h"
+#include "viewing/foreign_observation.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPose2D;
-using mrpt::math::TPose3D;
 using mrpt::obs::CObservation;
-using mrpt::obs::CObservation2DRangeScan;
-using mrpt::obs::CObservationGasSensors;
-using mrpt::obs::CObservationOdometry;
-using mrpt::obs::CObservationRange;
-using mrpt::obs::CObservationRobotPose;
-
-/// Maximum number of points per scan; more would only slow down drawing.
-constexpr std::size_t kMaxBeams = 2000;
-
-Echo echoOf(const TPose3D& robot_from_beam, float range_m) {
-  const auto end = robot_from_beam.composePoint({range_m, 0, 0});
-  return {range_m, {static_cast<float>(end.x), static_cast<float>(end.y), static_cast<float>(end.z)}};
-}
-
-bool isWithinReach(double x_m, double y_m, double angle_rad) {
-  return std::isfinite(angle_rad) && std::abs(x_m) <= kMapReach_m && std::abs(y_m) <= kMapReach_m;
-}
-
-bool isWithinReach(const TPose3D& robot_from_sensor, float range_max_m) {
-  return isWithinReach(robot_from_sensor.x, robot_from_sensor.y, robot_from_sensor.yaw) &&
-         std::isfinite(robot_from_sensor.z) && std::isfinite(robot_from_sensor.pitch) &&
-         std::isfinite(robot_from_sensor.roll) && range_max_m >= 0 && range_max_m <= kMapReach_m;
-}
-
-/// Classification of an observation for drawing.
-enum class Kind : std::uint8_t { ignored, out_of_range, truth, odometry, scan, ranges, heat };
-
-Kind kindOf(const CObservation& observation) {
-  const auto within = [](bool is_within_reach, Kind kind) { return is_within_reach ? kind : Kind::out_of_range; };
-  if (const auto* truth = dynamic_cast<const CObservationRobotPose*>(&observation)) {
-    const auto& pose = truth->pose.mean;
-    return within(isWithinReach(pose.x(), pose.y(), pose.yaw()), Kind::truth);
-  }
-  if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation)) {
-    const auto& pose = odometry->odometry;
-    return within(isWithinReach(pose.x(), pose.y(), pose.phi()), Kind::odometry);
-  }
-  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) {
-    return within(isWithinReach(scan->sensorPose.asTPose(), scan->maxRange) && std::isfinite(scan->aperture),
-                  Kind::scan);
-  }
-  if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
-    return within(
-        std::all_of(range->begin(), range->end(),
-                    [&](const auto& sensed) { return isWithinReach(sensed.sensorPose, range->maxSensorDistance); }),
-        Kind::ranges);
-  }
-  if (const auto* heat = dynamic_cast<const CObservationGasSensors*>(&observation)) {
-    return heat->m_readings.empty() || !heat->m_readings[0].hasTemperature ? Kind::ignored : Kind::heat;
-  }
-  return Kind::ignored;
-}
-
-bool isPose(Kind kind) { return kind == Kind::truth || kind == Kind::odometry; }
-
-TPose2D poseOf(const CObservation& observation) {
-  if (const auto* odometry = dynamic_cast<const CObservationOdometry*>(&observation)) {
-    return odometry->odometry.asTPose();
-  }
-  const auto& pose = dynamic_cast<const CObservationRobotPose&>(observation).pose.mean;
-  return {pose.x(), pose.y(), pose.yaw()};
-}
-
-/// An observation with one echo per beam.
-struct Ranges {
-  std::vector<Beam> beams;
-  Echoes echoes;
-};
-
-std::size_t strideOf(const CObservation2DRangeScan& scan) { return 1 + scan.getScanSize() / kMaxBeams; }
-
-std::size_t beamsIn(const CObservation2DRangeScan& scan) {
-  return (scan.getScanSize() + strideOf(scan) - 1) / strideOf(scan);
-}
-std::size_t beamsIn(const CObservationRange& range) { return range.sensedData.size(); }
-
-Ranges rangesOf(const CObservation2DRangeScan& scan) {
-  Ranges ranges;
-  const std::size_t stride = strideOf(scan);
-  for (std::size_t i = 0; i < scan.getScanSize(); i += stride) {
-    TPose3D beam = scan.sensorPose.asTPose();
-    // MRPT divides the aperture among the beams, and so gives no angle for a single beam.
-    if (scan.getScanSize() > 1) beam.yaw += scan.getScanAngle(i);
-    const bool observed = scan.getScanRangeValidity(i) && scan.getScanRange(i) < scan.maxRange;
-    ranges.beams.push_back({beam});
-    ranges.echoes.push_back(echoOf(beam, observed ? scan.getScanRange(i) : scan.maxRange));
-  }
-  return ranges;
-}
-
-Ranges rangesOf(const CObservationRange& range) {
-  Ranges ranges;
-  for (const auto& sensed : range) {
-    ranges.beams.push_back({sensed.sensorPose});
-    const bool observed = sensed.sensedDistance > 0 && sensed.sensedDistance < range.maxSensorDistance;
-    ranges.echoes.push_back(echoOf(sensed.sensorPose, observed ? sensed.sensedDistance : range.maxSensorDistance));
-  }
-  return ranges;
-}
-
-Measurement measurementOf(const CObservation& observation) {
-  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) return rangesOf(*scan).echoes;
-  if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) return rangesOf(*range).echoes;
-  return Scalar{dynamic_cast<const CObservationGasSensors&>(observation).m_readings.at(0).temperature};
-}
-
-Measurement noEchoes(const SensorInfo& sensor) {
-  return sensor.kind == SensorKind::heat ? Measurement(Scalar{}) : Measurement(Echoes{});
-}
 
 /// All observations of one kind and label.
 struct Source {
   std::string robot, label;
-  Kind kind = Kind::ignored;
+  ObservationKind kind = ObservationKind::ignored;
   SensorInfo sensor;  ///< as described by the observations
   std::size_t robot_index = 0, slot = 0;
 };
-
-/// Updates the description of a sensor from a further observation.
-void learn(SensorInfo& sensor, const CObservation& observation) {
-  const auto learn_ranges = [&](const auto& ranges, double range_max_m) {
-    sensor.range_max_m = sensor.no_echo_m = range_max_m;
-    // One beam per echo of every moment.
-    if (beamsIn(ranges) > sensor.beams.size()) sensor.beams = rangesOf(ranges).beams;
-  };
-  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) {
-    sensor.kind = SensorKind::laser;
-    learn_ranges(*scan, scan->maxRange);
-  } else if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
-    sensor.kind = SensorKind::sonar;
-    sensor.beam_width_rad = coneAperture_rad(*range);
-    learn_ranges(*range, range->maxSensorDistance);
-  } else {
-    sensor.kind = SensorKind::heat;
-  }
-}
-
-/// Bounding box of the nearest 90 % of an observation's echoes, in the robot's frame; a few distant echoes, as through
-/// a window, would enlarge the view too much.
-struct Surroundings {
-  float x_min = 0, x_max = 0, y_min = 0, y_max = 0;
-};
-
-Surroundings surroundingsIn(Ranges ranges, double range_max_m) {
-  constexpr double kQuantile = 0.9;
-  auto& echoes = ranges.echoes;
-  std::erase_if(echoes, [&](const Echo& echo) { return echo.range_m >= range_max_m; });
-  const auto count = static_cast<std::ptrdiff_t>(std::ceil(kQuantile * static_cast<double>(echoes.size())));
-  std::nth_element(echoes.begin(), echoes.begin() + count, echoes.end(),
-                   [](const Echo& a, const Echo& b) { return a.range_m < b.range_m; });
-  Surroundings box;
-  for (auto echo = echoes.begin(); echo != echoes.begin() + count; ++echo) {
-    const auto& at = echo->point_m;
-    box = {std::min(box.x_min, at.x), std::max(box.x_max, at.x), std::min(box.y_min, at.y), std::max(box.y_max, at.y)};
-  }
-  return box;
-}
-
-Surroundings surroundingsIn(const CObservation& observation) {
-  if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) {
-    return surroundingsIn(rangesOf(*scan), scan->maxRange);
-  }
-  if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
-    return surroundingsIn(rangesOf(*range), range->maxSensorDistance);
-  }
-  return {};
-}
 
 /// Location of an observation in the file.
 struct Observed {
@@ -279,7 +112,7 @@ class ForeignRecording final : public RecordedMoments {
       if (!robot.is_present) continue;
       for (const auto& slot : robot.slots) {
         auto& measurements = one.readings ? one.readings->measurements : one.readings.emplace().measurements;
-        measurements.push_back(slot.latest == kNone ? noEchoes(slot.sensor) : slot.measurement);
+        measurements.push_back(slot.latest == kNone ? emptyMeasurement(slot.sensor) : slot.measurement);
       }
       if (!one.readings) one.readings.emplace();
     }
@@ -301,9 +134,9 @@ class ForeignRecording final : public RecordedMoments {
       last_entry = reader_.entries();
       if (dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) continue;
       const double time_s = times.of(*observation, reader_.entries());
-      const Kind kind = kindOf(*observation);
-      if (kind == Kind::out_of_range) ++out_of_range;
-      if (kind != Kind::ignored && kind != Kind::out_of_range)
+      const ObservationKind kind = observationKind(*observation);
+      if (kind == ObservationKind::out_of_range) ++out_of_range;
+      if (kind != ObservationKind::ignored && kind != ObservationKind::out_of_range)
         addObservation(*observation, kind, {time_s, 0, within, 0, {}});
       if (progress.due()) progress.show("reading, " + withCommas(reader_.entries()) + " entries …");
     }
@@ -314,7 +147,7 @@ class ForeignRecording final : public RecordedMoments {
     }
   }
 
-  void addObservation(const CObservation& observation, Kind kind, Observed observed) {
+  void addObservation(const CObservation& observation, ObservationKind kind, Observed observed) {
     const auto [at, is_new] = source_of_label_.try_emplace({observation.sensorLabel, kind}, sources_.size());
     observed.source = static_cast<std::uint32_t>(at->second);
     if (is_new) {
@@ -326,11 +159,11 @@ class ForeignRecording final : public RecordedMoments {
     }
     if (isPose(kind)) {
       observed.place = poses_.size();
-      poses_.push_back(poseOf(observation));
+      poses_.push_back(observedPose(observation));
     } else {
       observed.place = reader_.position();
-      learn(sources_[observed.source].sensor, observation);
-      observed.around = surroundingsIn(observation);
+      updateDescription(sources_[observed.source].sensor, observation);
+      observed.around = observedSurroundings(observation);
     }
     observed_.push_back(observed);
   }
@@ -356,9 +189,9 @@ class ForeignRecording final : public RecordedMoments {
       if (!std::exchange(is_placed[observed.source], 1)) addSlot(source);
       ForeignRobot& robot = robots_[source.robot_index];
       if (isPose(source.kind)) {
-        robot.has_truth = robot.has_truth || source.kind == Kind::truth;
+        robot.has_truth = robot.has_truth || source.kind == ObservationKind::truth;
         // Odometry is ignored for robots with ground truth.
-        const bool is_used = source.kind == Kind::truth || !robot.has_truth;
+        const bool is_used = source.kind == ObservationKind::truth || !robot.has_truth;
         if (is_used) robot.world_from_robot = poses_[observed.place];
         if (is_used && !std::exchange(robot.has_first_pose, true)) robot.first_pose = robot.world_from_robot;
         if (!is_used) continue;
@@ -447,10 +280,10 @@ class ForeignRecording final : public RecordedMoments {
       reader_.seek(observed.place);
       CObservation::Ptr observation;
       for (std::uint32_t i = 0; i <= observed.within; ++i) observation = reader_.next();
-      if (!observation || kindOf(*observation) != sources_[observed.source].kind) {
+      if (!observation || observationKind(*observation) != sources_[observed.source].kind) {
         throw RecordingError(file_ + ": has changed since it was opened; open it again");
       }
-      slot->measurement = measurementOf(*observation);
+      slot->measurement = observedMeasurement(*observation);
       slot->read = slot->latest;
     }
   }
@@ -458,7 +291,7 @@ class ForeignRecording final : public RecordedMoments {
   std::string file_;
   RawlogReader reader_;
   std::vector<Source> sources_;
-  std::map<std::pair<std::string, Kind>, std::size_t> source_of_label_;
+  std::map<std::pair<std::string, ObservationKind>, std::size_t> source_of_label_;
   std::vector<Observed> observed_;  ///< in the order of time
   std::vector<TPose2D> poses_;
   std::vector<ForeignRobot> robots_;  ///< in the order in which they appear

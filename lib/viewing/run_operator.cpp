@@ -63,8 +63,8 @@ void RunOperator::send(Operation operation) {
   condition_.notify_one();
 }
 
-void RunOperator::store(const wire::RunStatus& status) {
-  is_paused_ = status.phase() == wire::PAUSED;
+void RunOperator::store(const v1::RunStatus& status) {
+  is_paused_ = status.phase() == v1::RUN_PHASE_PAUSED;
   speed_ = status.speed();
 }
 
@@ -73,19 +73,19 @@ void RunOperator::work() {
   while (true) {
     condition_.wait_for(lock, kPeriod, [this] { return is_stopping_ || !operations_.empty(); });
     if (is_stopping_) return;
-    const bool is_asked = !operations_.empty();
-    const Operation operation = is_asked ? operations_.front() : [](ControlPanel& panel) { return panel.status(); };
+    const bool is_requested = !operations_.empty();
+    const Operation operation = is_requested ? operations_.front() : [](ControlPanel& panel) { return panel.status(); };
     lock.unlock();
-    std::optional<wire::RunStatus> status;
+    std::optional<v1::RunStatus> status;
     try {
       status = operation(panel_);
     } catch (const ConnectionError& error) {
       // Viewers detect a lost connection themselves.
       const bool is_refusal = !error.isTransient() && error.code() != grpc::StatusCode::CANCELLED;
-      if (is_asked && is_refusal) logError("view", error.what());
+      if (is_requested && is_refusal) logError("view", error.what());
     }
     lock.lock();
-    if (is_asked) operations_.pop_front();
+    if (is_requested) operations_.pop_front();
     if (status && operations_.empty()) store(*status);  // otherwise outdated by a pending request
   }
 }

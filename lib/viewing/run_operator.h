@@ -33,10 +33,10 @@ class RunOperator {
   ///@}
 
  private:
-  using Operation = std::function<wire::RunStatus(ControlPanel&)>;
+  using Operation = std::function<v1::RunStatus(ControlPanel&)>;
   void send(Operation operation);
   void work();
-  void store(const wire::RunStatus& status);
+  void store(const v1::RunStatus& status);
 
   ControlPanel panel_;
   mutable std::mutex mutex_;  ///< guards the members below

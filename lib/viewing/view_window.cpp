@@ -175,11 +175,11 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     std::string text = fixed(source_.snapshot().time_s, 1) + " s";
     if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
     const double speed = source_.speed();
-    text += speed == 0 ? ", as fast as it can" : ", " + fixed(speed, speed < 1 ? 2 : 0) + " x";
+    text += speed == 0 ? ", at full speed" : ", " + fixed(speed, speed < 1 ? 2 : 0) + " x";
     // For a recording the remark is long, and has been printed.
     if (const auto remark = source_.remark(); !remark.empty()) text += "; " + (duration_s ? "not whole" : remark);
     status_->setCaption(text);
-    pause_->setCaption(source_.isPaused() ? "Go on" : "Pause");
+    pause_->setCaption(source_.isPaused() ? "Resume" : "Pause");
     for (auto* part : bar_->children()) part->setEnabled(source_.canPlay());
     if (slider_) slider_->setValue(static_cast<float>(source_.snapshot().time_s / std::max(1e-9, *duration_s)));
   }

@@ -7,6 +7,7 @@
 #include "base/random.h"
 #include "geometry/scene.h"
 #include "geometry/testing/random_scene.h"
+#include "geometry/testing/slow_scene.h"
 #include "world/testing/random_grid.h"
 
 namespace robosim {
@@ -185,7 +186,7 @@ double nearest(const std::vector<Solid>& cells, const Ray& ray) {
 double nearest(const std::vector<Solid>& cells, const Sector& sector) {
   double nearest_m = kInfinity;
   for (const auto& cell : cells) {
-    if (const auto met = nearestInSector(sector, cell)) nearest_m = std::min(nearest_m, met->distance_m);
+    nearest_m = std::min(nearest_m, nearestInSector(sector, cell).value_or(kInfinity));
   }
   return nearest_m;
 }
@@ -242,7 +243,7 @@ TEST(FloorPlanBruteForce, SectorsFindTheNearestCell) {
     for (int i = 0; i < 30; ++i) {
       const TPoint2D from = map.place(rng);
       const Sector sector = Sector::towards({from.x, from.y, 0.5}, map.direction(rng), rng.uniform(0.02, 1.2));
-      const double got_m = scene.senseSector(sector, 1e6).distance_m;
+      const double got_m = senseSector(scene, sector, 1e6).distance_m;
       ASSERT_LE(got_m, nearest(cells, sector)) << "seed " << seed << " sector " << i;
       ASSERT_GE(got_m, nearest(grown, sector) - 1e-6) << "seed " << seed << " sector " << i;
     }
@@ -276,6 +277,18 @@ TEST(FloorPlan, DoesNotBlockRaysAboveItsWalls) {
   const Scene scene(solidsOf(plan, {}, {0, 0.8}), 0, {-1, 1, -1, 1});
   EXPECT_TRUE(scene.castRay(Ray::towards({-1, 0.25, 0.8}, 0), 5));
   EXPECT_FALSE(scene.castRay(Ray::towards({-1, 0.25, 0.81}, 0), 5));
+}
+
+TEST(FloorPlan, NeighbouringCellsOverlapAnywhere) {
+  Rng rng(1, RandomPurpose::test);
+  for (int i = 0; i < 2000; ++i) {
+    OccupancyGrid grid = gridOf({"#", "#"});
+    grid.map_from_grid = {rng.uniform(-1e7, 1e7), rng.uniform(-1e7, 1e7), rng.uniform(-M_PI, M_PI)};
+    FloorPlan plan = floorPlanOf(grid, false);
+    plan.occupied = {{0, 0, 1, 1}, {0, 1, 1, 1}};
+    const auto solids = solidsOf(plan, {});
+    EXPECT_TRUE(overlap(solids[0], solids[1])) << grid.map_from_grid;
+  }
 }
 
 TEST(FloorPlan, HasNoGapsFarFromTheOrigin) {

@@ -21,6 +21,21 @@ TEST(Body, IsADiscForACylinder) {
   EXPECT_EQ(body.coveringRadius(), 0.3);
 }
 
+TEST(UnknownOf, ContainsNeitherWallsNorOccupiedCells) {
+  WorldMap map;
+  map.plan.columns = map.plan.rows = 2;
+  map.plan.cell_m = 1;
+  map.plan.occupied = {{0, 0, 1, 1}};
+  map.plan.unknown = {{1, 1, 1, 1}};
+  map.plan.boxes = {{{5, 5, 0}, 2, 1}};
+  const auto unknown = unknownOf(map);
+  ASSERT_EQ(unknown.size(), 1u);
+  EXPECT_NEAR(std::get<OrientedBox>(unknown[0].outline).center.x, 1.5, 1e-12);
+  World world;
+  world.maps = {map};
+  EXPECT_EQ(stationarySolids(world).size(), 2u);
+}
+
 TEST(Body, IsAnOrientedBoxForACube) {
   Body body;
   body.shape = Cube{4, 3};

@@ -10,9 +10,9 @@ namespace {
 
 /// A viewer that has received a first frame of the small maze.
 ViewedRun mazeRun() {
-  wire::Frame frame;
-  encode(readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml"), *frame.mutable_world());
-  frame.set_period_s(0.1);
+  v1::Frame frame;
+  encode(readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml"), *frame.mutable_world()->mutable_source());
+  frame.mutable_world()->set_period_s(0.1);
   for (std::size_t i = 0; i < smallMaze().robotCount(); ++i) encode(RobotSnapshot{}, i, *frame.add_robots());
   ViewedRun run;
   update(run, frame);
@@ -23,7 +23,7 @@ ViewedRun mazeRun() {
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static const ViewedRun first_frame = mazeRun();
-  return fuzzMessage<wire::Frame>(data, size, [](const wire::Frame& frame) {
+  return fuzzMessage<v1::Frame>(data, size, [](const v1::Frame& frame) {
     ViewedRun run = first_frame;
     update(run, frame);
   });

@@ -8,9 +8,10 @@
 using namespace robosim;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzzMessage<wire::FrameRequest>(data, size, [](const wire::FrameRequest& request) {
-    wire::Frame frame;
-    encode(smallMaze().state().readings, decode(request, smallMaze().robotCount()), frame);
+  return fuzzMessage<v1::FrameRequest>(data, size, [](const v1::FrameRequest& request) {
+    v1::Frame frame;
+    SentSteps sent_steps(smallMaze().robotCount());
+    encode(smallMaze().state().readings, decode(request, smallMaze().robotCount()), sent_steps, frame);
     if (frame.readings_size() > static_cast<int>(smallMaze().robotCount())) std::abort();
   });
 }

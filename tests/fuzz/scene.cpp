@@ -110,8 +110,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const BodyId except = asker < bodyCount(scene) ? body(asker) : kNoBody;
     if (bytes.choice(4) == 0) {
       const Sector sector = Sector::towards(from, std::atan2(towards.y, towards.x), 0.01 + 0.5 * (1 + bytes.share()));
-      demand("senseSector", whatDiffers(scene.senseSector(sector, range_m, except),
-                                        senseSectorSlowly(scene, sector, range_m, except)));
+      demand("sector", whatDiffers(scene, sector, range_m, except));
       continue;
     }
     const double rise = bytes.choice(4) == 0 ? bytes.share() : 0;

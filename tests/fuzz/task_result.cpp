@@ -6,7 +6,7 @@
 using namespace robosim;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzzMessage<wire::TaskResult>(data, size, [](const wire::TaskResult& result) {
+  return fuzzMessage<internal::TaskResult>(data, size, [](const internal::TaskResult& result) {
     Environment& environment = smallMaze();
     // The session checks the range before this call.
     if (result.begin() < result.end() && result.end() <= environment.robotCount()) put(result, environment);

@@ -6,9 +6,9 @@
 
 #include <gtest/gtest.h>
 
-#include "net/remote.grpc.pb.h"
-#include "net/viewing.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/remote_control.grpc.pb.h"
+#include "robosim/v1/viewing.pb.h"
 #include "tests/scenarios/attacked_run.h"
 #include "tests/scenarios/certificates.h"
 #include "tests/scenarios/http2_peer.h"
@@ -74,11 +74,11 @@ TEST(Attack, BoundsMemoryForAClientThatNeverReads) {
   // SETTINGS_INITIAL_WINDOW_SIZE (4) of 0: the server may send no message.
   ASSERT_TRUE(
       slow.send("PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + http2Frame(kSettings, 0, 0, std::string{0, 4, 0, 0, 0, 0})));
-  wire::FrameRequest request;
+  v1::FrameRequest request;
   request.set_protocol(kProtocolVersion);
   const std::string message = request.SerializeAsString();
   const std::string grpc_message = std::string{0, 0, 0, 0, static_cast<char>(message.size())} + message;
-  ASSERT_TRUE(slow.send(slow.headersOf("/robosim.wire.Viewing/Watch")));
+  ASSERT_TRUE(slow.send(slow.headersOf("/robosim.v1.Viewing/Watch")));
   for (int i = 0; i < requests; ++i) {
     if (!slow.send(http2Frame(kData, 0, 1, grpc_message))) break;
     if (i * grpc_message.size() > 60'000) break;  // the server's flow control window
@@ -102,7 +102,7 @@ TEST(Attack, SilentConnectionsDoNotDelayOtherClients) {
     EXPECT_TRUE(with_preface.back()->sendPreface());
     with_call.push_back(std::make_unique<Http2Peer>(run.address()));
     EXPECT_TRUE(with_call.back()->sendPreface());
-    EXPECT_TRUE(with_call.back()->send(with_call.back()->headersOf("/robosim.wire.Viewing/Watch")));
+    EXPECT_TRUE(with_call.back()->send(with_call.back()->headersOf("/robosim.v1.Viewing/Watch")));
   }
   run.waitForSteps(100);
   EXPECT_TRUE(run.hasKeptAllRobots()) << run.server().error();
@@ -165,7 +165,7 @@ TEST(Attack, DisconnectsRapidResetAtARemotePort) {
   run.waitForSteps(20);
   Http2Peer attacker(address);
   ASSERT_TRUE(attacker.sendPreface());
-  EXPECT_LT(attacker.resetStreams(kResets, std::string("/") + wire::RemoteControl::service_full_name() + "/Control"),
+  EXPECT_LT(attacker.resetStreams(kResets, std::string("/") + v1::RemoteControl::service_full_name() + "/Control"),
             kResets);
   robots.waitForError("it floods the server with HTTP/2 frames; no connection from 127.0.0.1 is accepted for 30 s");
   Http2Peer again(address);

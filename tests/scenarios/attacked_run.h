@@ -43,7 +43,7 @@ class AttackedRun {
   void connectRobots(std::vector<std::string> at) {
     at.insert(at.begin(), {"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment"});
     robots_ = std::make_unique<StartedProgram>(at);
-    server().waitForError("all robots are here");
+    server().waitForError("all robots are connected");
   }
   void connectRobots() { connectRobots({address()}); }
 
@@ -51,7 +51,7 @@ class AttackedRun {
   StartedProgram& server() { return serving_.program(); }
   double residentMib() { return robosim::residentMib(server().process()); }
   /// Control panel client whose connection is opened before the attack.
-  wire::RunStatus status() { return panel_->status(); }
+  v1::RunStatus status() { return panel_->status(); }
   std::uint64_t step() { return status().step(); }
   /// Takes a number of steps.
   /// @throws std::runtime_error with the logs of both programs when the run makes no progress for kMaxPolls polls

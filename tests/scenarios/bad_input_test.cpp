@@ -11,10 +11,11 @@
 
 #include "base/random.h"
 #include "control/network_hardware.h"
-#include "net/geometry.grpc.pb.h"
-#include "net/robots.grpc.pb.h"
-#include "net/viewing.grpc.pb.h"
+#include "hardware/inbox_limit.h"
 #include "net/wire_error.h"
+#include "robosim/internal/geometry.grpc.pb.h"
+#include "robosim/v1/robots.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 #include "server/geometry_seal.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/served_world.h"
@@ -39,22 +40,27 @@ class BadInput : public testing::Test {
   }
 
   /// Sends a hello for the other robot, reads the replies, and then sends this. @return status of the stream
-  grpc::Status afterHello(const wire::DriveRequest& message) {
+  grpc::Status afterHello(const v1::StepAnswer& answer) {
+    v1::DriveRequest message;
+    *message.mutable_answer() = answer;
+    return afterHello(message);
+  }
+  grpc::Status afterHello(const v1::DriveRequest& message) {
     return send({"Scout1"}, [&](auto& stream) { stream.Write(message); });
   }
 
   template <typename Send>
   grpc::Status send(const std::vector<std::string>& names, const Send& send_messages) {
     grpc::ClientContext context;
-    const auto stub = wire::Robots::NewStub(connect(world_.connectOptions()));
+    const auto stub = v1::Robots::NewStub(connect(world_.connectOptions()));
     const auto stream = stub->Drive(&context);
-    wire::DriveRequest hello;
+    v1::DriveRequest hello;
     hello.mutable_hello()->set_protocol(kProtocolVersion);
     for (const auto& name : names) hello.mutable_hello()->add_names(name);
     stream->Write(hello);
-    wire::DriveResponse in;
+    v1::DriveResponse in;
     if (stream->Read(&in) && stream->Read(&in)) {
-      asked_step_ = in.step();
+      asked_step_ = in.readings().step();
       send_messages(*stream);
     }
     while (stream->Read(&in)) {
@@ -65,13 +71,13 @@ class BadInput : public testing::Test {
     return status;
   }
 
-  wire::DriveRequest command(double speed, int activity = 0, std::uint32_t robot = 0) const {
-    wire::DriveRequest message;
-    auto& command = *message.add_commands();
-    command.set_robot(robot);
-    command.set_speed_mps(speed);
-    command.set_activity(static_cast<wire::Activity>(activity));
-    return message;
+  v1::StepAnswer command(double speed, int activity = 0, std::uint32_t robot = 0) const {
+    v1::StepAnswer answer;
+    auto& order = *answer.add_commands();
+    order.set_process_robot(robot);
+    order.mutable_command()->set_speed_mps(speed);
+    order.mutable_command()->set_activity(static_cast<v1::Activity>(activity));
+    return answer;
   }
 
   /// Another correct process takes the other robot, and the run continues for both.
@@ -100,11 +106,11 @@ TEST_F(BadInput, RejectsNonFiniteSpeeds) {
   for (const double speed : {kNan, kInfinite, -kInfinite}) {
     expectError(afterHello(command(speed)), grpc::StatusCode::INVALID_ARGUMENT, "must be a finite number");
   }
-  wire::DriveRequest turn = command(0);
-  turn.mutable_commands(0)->set_turn_radps(kNan);
+  v1::StepAnswer turn = command(0);
+  turn.mutable_commands(0)->mutable_command()->set_turn_radps(kNan);
   expectError(afterHello(turn), grpc::StatusCode::INVALID_ARGUMENT, "turn_radps");
-  wire::DriveRequest pan = command(0);
-  pan.mutable_commands(0)->set_laser_pan_rad(std::numeric_limits<float>::infinity());
+  v1::StepAnswer pan = command(0);
+  pan.mutable_commands(0)->mutable_command()->set_laser_pan_rad(std::numeric_limits<float>::infinity());
   expectError(afterHello(pan), grpc::StatusCode::INVALID_ARGUMENT, "laser_pan_rad");
   expectOtherClientsUnaffected();
 }
@@ -117,16 +123,19 @@ TEST_F(BadInput, RejectsUnknownActivitiesAndOtherRobots) {
 
 TEST_F(BadInput, RejectsOversizedNamesAndMessages) {
   expectError(send({kHuge}, [](auto&) {}), grpc::StatusCode::NOT_FOUND, "has no robot 'xxx");
-  wire::DriveRequest to_unknown;
-  to_unknown.add_letters()->set_to(kHuge);
+  v1::StepAnswer to_unknown;
+  to_unknown.add_messages()->set_to(kHuge);
   expectError(afterHello(to_unknown), grpc::StatusCode::INVALID_ARGUMENT, "'xxx");
-  wire::DriveRequest long_letter;
-  long_letter.add_letters()->set_to("Pioneer1");
-  long_letter.mutable_letters(0)->set_text(kHuge);
-  expectError(afterHello(long_letter), grpc::StatusCode::INVALID_ARGUMENT, "a message of 1048576 bytes");
-  wire::DriveRequest huge;
-  for (int i = 0; i < 5; ++i) huge.add_letters()->set_text(kHuge);
+  v1::StepAnswer long_message;
+  long_message.add_messages()->set_to("Pioneer1");
+  long_message.mutable_messages(0)->set_text(kHuge);
+  expectError(afterHello(long_message), grpc::StatusCode::INVALID_ARGUMENT, "a message of 1048576 bytes");
+  v1::StepAnswer huge;
+  for (int i = 0; i < 5; ++i) huge.add_messages()->set_text(kHuge);
   expectError(afterHello(huge), grpc::StatusCode::RESOURCE_EXHAUSTED, "larger than max");
+  v1::StepAnswer many;
+  for (std::size_t i = 0; i <= kMaxMessagesSent; ++i) many.add_messages()->set_to("Pioneer1");
+  expectError(afterHello(many), grpc::StatusCode::INVALID_ARGUMENT, "more than 1024 messages of a robot in one step");
   EXPECT_LT(world_.log().size(), 10'000u) << "nor does the log fill up";
   expectOtherClientsUnaffected();
 }
@@ -134,40 +143,40 @@ TEST_F(BadInput, RejectsOversizedNamesAndMessages) {
 TEST_F(BadInput, RejectsMalformedMessages) {
   // A text field that is not UTF-8, and bytes that are no fields: sent as bytes of another message to bypass the
   // client's checks.
-  wire::DriveRequest no_text;
-  wire::DriveRequest::GetReflection()->MutableUnknownFields(&no_text)->AddLengthDelimited(4, "\x12\x02\xff\xfe");
-  expectError(afterHello(no_text), grpc::StatusCode::INVALID_ARGUMENT, "is not a valid robosim.wire.DriveRequest");
+  v1::DriveRequest no_text;
+  v1::DriveRequest::GetReflection()->MutableUnknownFields(&no_text)->AddLengthDelimited(2, "\x1a\x04\x12\x02\xff\xfe");
+  expectError(afterHello(no_text), grpc::StatusCode::INVALID_ARGUMENT, "is not a valid robosim.v1.DriveRequest");
   expectOtherClientsUnaffected();
 }
 
 TEST_F(BadInput, RejectsOtherProtocolVersions) {
   grpc::ClientContext robots, viewing, geometry, panel;
-  wire::DriveRequest hello;
+  v1::DriveRequest hello;
   hello.mutable_hello()->set_protocol(2);
   const auto channel = connect(world_.connectOptions());
-  const auto robots_stub = wire::Robots::NewStub(channel);
+  const auto robots_stub = v1::Robots::NewStub(channel);
   const auto drive = robots_stub->Drive(&robots);
   drive->Write(hello);
   expectError(drive->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "bring it up to date");
 
-  wire::FrameRequest request;
+  v1::FrameRequest request;
   request.set_protocol(2);
-  const auto viewing_stub = wire::Viewing::NewStub(channel);
+  const auto viewing_stub = v1::Viewing::NewStub(channel);
   const auto watch = viewing_stub->Watch(&viewing);
   watch->Write(request);
   expectError(watch->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "version 2 of the protocol");
 
-  wire::FromWorker worker;
+  internal::WorkRequest worker;
   worker.mutable_hello()->set_protocol(0);
-  const auto geometry_stub = wire::Geometry::NewStub(channel);
+  const auto geometry_stub = internal::Geometry::NewStub(channel);
   const auto work = geometry_stub->Work(&geometry);
-  wire::Sealed sealed;
+  internal::Sealed sealed;
   seal(worker, sealed);
   work->Write(sealed);
-  expectError(work->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "speaks version 0 of its conversation");
+  expectError(work->Finish(), grpc::StatusCode::FAILED_PRECONDITION, "uses version 0 of the geometry protocol");
 
-  wire::RunStatus status;
-  expectError(wire::ControlPanel::NewStub(channel)->Start(&panel, wire::PanelRequest(), &status),
+  v1::RunStatus status;
+  expectError(v1::ControlPanel::NewStub(channel)->Start(&panel, v1::StartRequest(), &status),
               grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the protocol");
   expectOtherClientsUnaffected();
 }
@@ -196,9 +205,9 @@ TEST_F(BadInput, RejectsInvalidControlRequests) {
       },
       "broken.xml:1: ");
   expectError(howLoadEnds(world_.connectOptions(), "nonsense", 3), grpc::StatusCode::INVALID_ARGUMENT,
-              "make no robosim.wire.World");
+              "do not form a robosim.v1.World");
   expectError(howLoadEnds(world_.connectOptions(), "", 3), grpc::StatusCode::INVALID_ARGUMENT,
-              "no piece of a robosim.wire.WorldSource came");
+              "no piece of a robosim.v1.WorldSource");
   expectOtherClientsUnaffected();
 }
 
@@ -216,10 +225,10 @@ grpc::Status howCallEnds(const ConnectOptions& connect_options, const std::strin
 }
 
 TEST_F(BadInput, RejectsMalformedUnaryRequests) {
-  const std::string service = "/robosim.wire.ControlPanel/";
+  const std::string service = "/robosim.v1.ControlPanel/";
   const std::string five_mb(5 << 20, 'x');
   const auto& at = world_.connectOptions();
-  for (const std::string method : {"Start", "Pause", "Step", "SetSpeed", "Stop", "Status"}) {
+  for (const std::string method : {"Start", "Pause", "Step", "SetSpeed", "Stop", "GetStatus"}) {
     EXPECT_FALSE(howCallEnds(at, service + method, "\xff\xff no message").ok()) << method;
     expectError(howCallEnds(at, service + method, ""), grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the");
     expectError(howCallEnds(at, service + method, five_mb), grpc::StatusCode::RESOURCE_EXHAUSTED, "larger than max");

@@ -37,9 +37,9 @@ const std::map<std::string, std::string>& columns() {
 
 /// A map that records whether a page was permitted to request it.
 struct NoMap final : MapSource {
-  void want(bool wanted) override { is_wanted = wanted; }
+  void setWatched(bool watched) override { is_watched = watched; }
   std::shared_ptr<const MapView> newest() override { return view; }
-  std::atomic<bool> is_wanted{false};
+  std::atomic<bool> is_watched{false};
   std::shared_ptr<const MapView> view = std::make_shared<MapView>();
 };
 
@@ -65,11 +65,12 @@ class Team {
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
 
-  void wait(TestPage& page, const std::function<bool()>& until) {
-    waitUntil(until, [&] {
+  void wait(TestPage& page, const std::function<bool()>& until, const CallSite& place = CallSite::here()) {
+    const auto step_and_receive = [&] {
       step();
       page.receive();
-    });
+    };
+    waitUntil(until, step_and_receive, place);
   }
   void step() {
     ann.step();
@@ -127,7 +128,7 @@ const std::map<std::string, Example>& examples() {
       {"hello", {R"({"type":"hello","protocol":1})", [](Team&, TestPage& p) { return p.countOf("welcome") > 1; }}},
       {"ack", {R"({"type":"ack","number":0})", nullptr}},
       {"live", {R"({"type":"live","on":false})", nullptr}},
-      {"map", {R"({"type":"map","on":true})", [](Team& t, TestPage&) { return t.map.is_wanted.load(); }}},
+      {"map", {R"({"type":"map","on":true})", [](Team& t, TestPage&) { return t.map.is_watched.load(); }}},
       {"take", {R"({"type":"take"})", [](Team&, TestPage& p) { return hasControl(p); }}},
       {"release", {R"({"type":"release"})", [](Team&, TestPage& p) { return !hasControl(p); }}},
       {"accelerate", {R"({"type":"accelerate"})", [](Team& t, TestPage&) { return isSpeed(t, 1); }}},
@@ -162,7 +163,7 @@ std::string stateOf(Team& team) {
     text += state.driver + (state.autonomous ? " autonomous " : " driven ") + std::to_string(command.speed_mps) + " " +
             std::to_string(command.turn_radps) + " " + std::to_string(robot->hardware->win_checks) + "\n";
   }
-  return text + (team.map.is_wanted ? "map" : "");
+  return text + (team.map.is_watched ? "map" : "");
 }
 
 /// Waits until preceding messages have reached the primary: an answer follows them.
@@ -189,7 +190,9 @@ TEST(ConsolePermissions, MatchTheTableForEveryMessageAndRole) {
     EXPECT_TRUE(examples().contains(name)) << "give an example of " << name << " here";
   }
   auto shared = std::make_unique<Team>();  // for pages without permission to drive, which do not change it
-  for (const auto& [name, example] : examples()) {
+  for (const auto& entry : examples()) {
+    const std::string& name = entry.first;
+    const auto& example = entry.second;  // clang 14 cannot capture structured bindings
     ASSERT_TRUE(table.contains(name)) << "doc/security.md: add a row for " << name;
     for (const auto& [column, token] : columns()) {
       SCOPED_TRACE(name + ", " + column);

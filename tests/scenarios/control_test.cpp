@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "control/network_hardware.h"
+#include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/served_world.h"
@@ -19,12 +20,12 @@ using namespace std::chrono_literals;
 TEST(ControlPanel, StepsAPausedRunAndWaitsForCompletion) {
   ServedWorld world(paused());
   Panel panel(world);
-  EXPECT_EQ(panel.status().phase(), wire::PAUSED);
+  EXPECT_EQ(panel.status().phase(), v1::RUN_PHASE_PAUSED);
   EXPECT_EQ(panel.step(1).step(), 1u);
-  const wire::RunStatus status = panel.step(30);
+  const v1::RunStatus status = panel.step(30);
   EXPECT_EQ(status.step(), 31u);
   EXPECT_DOUBLE_EQ(status.time_s(), 3.1);
-  EXPECT_EQ(status.phase(), wire::PAUSED);
+  EXPECT_EQ(status.phase(), v1::RUN_PHASE_PAUSED);
   EXPECT_EQ(panel.status().step(), 31u);
 }
 
@@ -43,11 +44,11 @@ TEST(ControlPanel, SteppedRunsEqualContinuousRuns) {
 TEST(ControlPanel, StartsPausesAndStops) {
   ServedWorld world(paused());
   Panel panel(world);
-  EXPECT_EQ(panel.start().phase(), wire::RUNNING);
+  EXPECT_EQ(panel.start().phase(), v1::RUN_PHASE_RUNNING);
   while (panel.status().step() < 10) {
   }
-  const wire::RunStatus still = panel.pause();
-  EXPECT_EQ(still.phase(), wire::PAUSED);
+  const v1::RunStatus still = panel.pause();
+  EXPECT_EQ(still.phase(), v1::RUN_PHASE_PAUSED);
   EXPECT_EQ(panel.status().step(), still.step());
   panel.stop();
   EXPECT_EQ(world.wait(), Served::stopped);
@@ -101,11 +102,11 @@ TEST(ControlPanel, LoadsAnotherWorldPausedAndKeepsTheCurrentOneOnErrors) {
   panel.step(5);
   EXPECT_THROW(panel.load(WorldSource{"x.xml", "<a>", {}, {}}), ConnectionError);
   EXPECT_EQ(panel.status().step(), 5u);
-  const wire::RunStatus status = panel.load("worlds/open_100.xml");
+  const v1::RunStatus status = panel.load("worlds/open_100.xml");
   EXPECT_EQ(status.world(), "open_100");
   EXPECT_EQ(status.robots(), 100u);
   EXPECT_EQ(status.step(), 0u);
-  EXPECT_EQ(status.phase(), wire::PAUSED);
+  EXPECT_EQ(status.phase(), v1::RUN_PHASE_PAUSED);
   EXPECT_EQ(panel.step(2).step(), 2u);
 }
 
@@ -115,8 +116,8 @@ TEST(ControlPanel, ReportsAbsentRobots) {
   ServedWorld world(options);
   Panel panel(world);
   const NetworkHardware robot(world.connectOptions(), {"Scout1"});
-  const wire::RunStatus status = panel.status();
-  EXPECT_EQ(status.phase(), wire::WAITING);
+  const v1::RunStatus status = panel.status();
+  EXPECT_EQ(status.phase(), v1::RUN_PHASE_WAITING);
   EXPECT_EQ(status.robots_connected(), 1u);
   ASSERT_EQ(status.robots_absent_size(), 1);
   EXPECT_EQ(status.robots_absent(0), "Pioneer1");
@@ -125,16 +126,76 @@ TEST(ControlPanel, ReportsAbsentRobots) {
 TEST(ControlPanel, StreamsStatusReportsUntilTheRunIsOver) {
   ServedWorld world(paused());
   Panel panel(world);
-  std::vector<wire::RunStatus> reports;
-  Panel(world).watch(0s, [&](const wire::RunStatus& status) {
+  std::vector<v1::RunStatus> reports;
+  bool is_stopped = false;
+  Panel(world).watch(0s, [&](const v1::RunStatus& status) {
     reports.push_back(status);
     if (reports.size() == 1) panel.step(3);
-    if (reports.size() == 2) panel.stop();
+    if (status.step() == 3 && !std::exchange(is_stopped, true)) panel.stop();
   });
   ASSERT_GE(reports.size(), 3u);
-  EXPECT_EQ(reports[0].step(), 0u);
-  EXPECT_EQ(reports[1].step(), 3u);
-  EXPECT_EQ(reports.back().phase(), wire::ENDED);
+  EXPECT_EQ(reports.front().step(), 0u);
+  EXPECT_EQ(reports.back().step(), 3u);
+  EXPECT_EQ(reports.back().phase(), v1::RUN_PHASE_ENDED);
+}
+
+TEST(ControlPanel, SendsStatusReportsAtTheRequestedInterval) {
+  ManualClock clock;
+  ServedWorld::Options options = paused();
+  options.server.now = [&clock] { return clock.read(); };
+  ServedWorld world(options);
+  Panel panel(world);
+  std::size_t reports = 0;
+  auto watching = std::async(std::launch::async, [&] {
+    Panel(world).watch(10s, [&](const v1::RunStatus& status) {
+      ++reports;
+      if (status.step() == 0) {
+        panel.step(5);
+        clock.advance(10s);
+      } else if (status.phase() != v1::RUN_PHASE_ENDED) {
+        EXPECT_EQ(status.step(), 5u) << "no report before 10 s";
+        panel.stop();
+      }
+    });
+  });
+  watching.get();
+  EXPECT_EQ(reports, 3u);
+}
+
+TEST(ControlPanel, SendsStatusReportsAtMostEvery50ms) {
+  ManualClock clock;
+  ServedWorld::Options options = paused();
+  options.server.now = [&clock] { return clock.read(); };
+  ServedWorld world(options);
+  Panel panel(world);
+  std::vector<std::uint64_t> steps;
+  Panel(world).watch(0s, [&](const v1::RunStatus& status) {
+    steps.push_back(status.step());
+    if (steps.size() > 1) {
+      if (steps.size() == 2) panel.stop();
+      return;
+    }
+    panel.step(5);
+    clock.advance(50ms - 1ns);
+    panel.step(5);
+    clock.advance(1ns);
+  });
+  ASSERT_GE(steps.size(), 2u);
+  EXPECT_EQ(steps[0], 0u);
+  EXPECT_EQ(steps[1], 10u) << "no report of step 5 before 50 ms";
+}
+
+TEST(ControlPanel, RejectsAnInvalidInterval) {
+  ServedWorld world(paused());
+  for (const auto interval : {-1s, 3601s}) {
+    try {
+      Panel(world).watch(interval, [](const v1::RunStatus&) {});
+      ADD_FAILURE();
+    } catch (const ConnectionError& error) {
+      EXPECT_EQ(error.code(), grpc::StatusCode::INVALID_ARGUMENT);
+      EXPECT_EQ(error.reason(), v1::ERROR_REASON_INVALID_MESSAGE);
+    }
+  }
 }
 
 TEST(Control, ControlsARunFromTheCommandLine) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/data_folders.h"
 #include "tests/scenarios/benchmark.h"
 
 namespace robosim {
@@ -56,16 +57,19 @@ TEST_F(ErrorTexts, StateTheMinimumOfNumbersNearZero) {
              "a.xml:1: <world unit_m=\"1e-400\">: must lie in (0, 1000]");
 }
 
-TEST_F(ErrorTexts, NameAMissingWorldsFolder) {
+TEST_F(ErrorTexts, NameTheFoldersSearchedForARobotType) {
   const auto world =
       written("a.xml", R"(<world><surface><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size>
-<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><direction>0</direction></robot></shape></object>
+<object><shape><robot><model>tortoise</model><name>R</name><x>0</x><y>0</y><direction>0</direction></robot></shape></object>
 </surface></world>)");
-  const Ended ended = runCommand("ROBOSIM_WORLDS=/none '" ROBOSIM_PROGRAM "' check '" + world.string() + "'");
+  const Ended ended = runCommand("ROBOSIM_PATH=/none '" ROBOSIM_PROGRAM "' check '" + world.string() + "'");
   EXPECT_EQ(ended.exit_code, 1);
-  EXPECT_NE(ended.out.find("there is no robot type 'pioneer3dx'; none is known: robot types are the *.xml files in "
-                           "robots/ beside the world file and in robots/ of /none, which does not exist "
-                           "(ROBOSIM_WORLDS)"),
+  const std::string shipped = (shareFolder() / "worlds" / "robots").string();
+  EXPECT_NE(ended.out.find("there is no robot type 'tortoise'; known are: pioneer3dx, "), std::string::npos)
+      << ended.out;
+  EXPECT_NE(ended.out.find("robot types are the *.xml files in robots/ beside the world file, in /none/robots, which "
+                           "does not exist (ROBOSIM_PATH) and in " +
+                           shipped),
             std::string::npos)
       << ended.out;
 }

@@ -60,7 +60,7 @@ void expectAgreesWithScene(const COccupancyGridMap2D& grid, const std::string& w
       const double y = std::round(grid.getYMin() / cell_m + row) * cell_m + cell_m / 2;
       const Solid cell{OrientedBox{{x, y}, {1, 0}, cell_m / 2 - 1e-6, cell_m / 2 - 1e-6}, heights};
       near.clear();
-      scene.stationaryNear(boundsOf(cell.outline), near);
+      scene.findBodies(boundsOf(cell.outline), near);
       const bool stands =
           std::any_of(near.begin(), near.end(), [&](BodyId body) { return overlap(cell, scene.solid(body)); });
       const float free = grid.getCell(static_cast<int>(column), static_cast<int>(row));

@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 
 #include "control/network_hardware.h"
-#include "net/robots.grpc.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/robots.grpc.pb.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
@@ -194,30 +194,30 @@ TEST(Faults, SecondClaimOfARobotIsRefused) {
 class RawRobot {
  public:
   explicit RawRobot(const ServedWorld& world)
-      : stub_(wire::Robots::NewStub(connect(world.connectOptions()))), stream_(stub_->Drive(&context_)) {}
+      : stub_(v1::Robots::NewStub(connect(world.connectOptions()))), stream_(stub_->Drive(&context_)) {}
   void hello(const std::string& name, const std::string& world_version = "") {
-    wire::DriveRequest message;
+    v1::DriveRequest message;
     message.mutable_hello()->set_protocol(kProtocolVersion);
     message.mutable_hello()->add_names(name);
     message.mutable_hello()->set_world_version(world_version);
     send(message);
   }
-  void send(const wire::DriveRequest& message) { stream_->Write(message); }
-  wire::DriveResponse receive() {
-    wire::DriveResponse message;
+  void send(const v1::DriveRequest& message) { stream_->Write(message); }
+  v1::DriveResponse receive() {
+    v1::DriveResponse message;
     EXPECT_TRUE(stream_->Read(&message));
     return message;
   }
   grpc::Status finish() {
-    for (wire::DriveResponse message; stream_->Read(&message);) {
+    for (v1::DriveResponse message; stream_->Read(&message);) {
     }
     return stream_->Finish();
   }
 
  private:
-  std::unique_ptr<wire::Robots::Stub> stub_;
+  std::unique_ptr<v1::Robots::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> stream_;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::DriveRequest, v1::DriveResponse>> stream_;
 };
 
 TEST(Faults, CommandForAnotherRobotEndsTheConnection) {
@@ -228,12 +228,13 @@ TEST(Faults, CommandForAnotherRobotEndsTheConnection) {
   pioneer.hello("Pioneer1");
   const auto scout = startRobots({"Scout1"}, world.connectOptions().address);
   pioneer.receive();
-  wire::DriveRequest answer;
-  answer.set_step(pioneer.receive().step());
-  auto& command = *answer.add_commands();
-  command.set_robot(1);  // its process has only robot 0
-  command.set_speed_mps(1);
-  pioneer.send(answer);
+  v1::DriveRequest message;
+  v1::StepAnswer& answer = *message.mutable_answer();
+  answer.set_step(pioneer.receive().readings().step());
+  auto& order = *answer.add_commands();
+  order.set_process_robot(1);  // its process has only robot 0
+  order.mutable_command()->set_speed_mps(1);
+  pioneer.send(message);
   const grpc::Status status = pioneer.finish();
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_NE(status.error_message().find("a command for robot 1 of 1"), std::string::npos) << status.error_message();
@@ -251,10 +252,10 @@ TEST(Faults, RobotsOfAnotherWorldReceiveBothVersions) {
   pioneer.hello("Pioneer1", "0123456789abcdef");
   const grpc::Status status = pioneer.finish();
   EXPECT_EQ(status.error_code(), grpc::StatusCode::FAILED_PRECONDITION);
-  EXPECT_NE(status.error_message().find("the world version '0123456789abcdef', and here is version "),
+  EXPECT_NE(status.error_message().find("the world version '0123456789abcdef', and the environment has version "),
             std::string::npos)
       << status.error_message();
-  world.waitForLog("refused: the robots come from the world version");
+  world.waitForLog("refused: the robots require the world version");
 }
 
 TEST(Faults, AnswerToAnotherStepEndsTheConnection) {
@@ -264,15 +265,16 @@ TEST(Faults, AnswerToAnotherStepEndsTheConnection) {
   const auto scout = startRobots({"Scout1"}, world.connectOptions().address);
   pioneer.hello("Pioneer1");
   pioneer.receive();
-  wire::DriveRequest answer;
-  answer.set_step(pioneer.receive().step());
+  v1::DriveRequest answer;
+  answer.mutable_answer()->set_step(pioneer.receive().readings().step());
   pioneer.send(answer);
   pioneer.send(answer);
   Panel(world).step(2);
   const grpc::Status status = pioneer.finish();
   EXPECT_EQ(status.error_code(), grpc::StatusCode::INVALID_ARGUMENT);
   EXPECT_EQ(status.error_message(),
-            "an answer to step 0 when step 1 was asked; answer each step once, when its readings have come");
+            "an answer to step 0, and the environment awaits that to step 1; answer each step once, after receiving "
+            "its readings");
 }
 
 TEST(Faults, DelayedEnvironmentDisconnectsNoRobot) {
@@ -288,8 +290,8 @@ TEST(Faults, DelayedEnvironmentDisconnectsNoRobot) {
   }
   clock.waitForReads();
   clock.block();
-  wire::DriveRequest answer;
-  answer.set_step(0);
+  v1::DriveRequest answer;
+  answer.mutable_answer()->set_step(0);
   for (RawRobot* robot : {&pioneer, &scout}) robot->send(answer);
   clock.advance(kStepDeadline);
   std::this_thread::sleep_for(2 * ServingState::kPollInterval);  // longer than its polling period
@@ -349,7 +351,7 @@ TEST(Faults, SigtermOfARecordingEnvironmentLeavesAReadableRawlog) {
   const auto rawlog = folder / "run.rawlog";
   Serving serving({"--wait-for-robots", "--json", "--record", rawlog.string(), "--step-deadline", "600"});
   const auto robots = startRobots({"Pioneer1", "Scout1"}, serving.address());
-  serving.program().waitForError("all robots are here");
+  serving.program().waitForError("all robots are connected");
   serving.program().signal(SIGTERM);
   const Ended ended = serving.program().wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -366,7 +368,7 @@ TEST(Faults, KilledEnvironmentEndsItsRobotsAfterTheirReconnectTimeout) {
   Serving serving({"--wait-for-robots"});
   StartedProgram robots(
       {"robot", "Pioneer1", "Scout1", "--environment", serving.address(), "--reconnect-timeout", "0.5"});
-  serving.program().waitForError("all robots are here");
+  serving.program().waitForError("all robots are connected");
   serving.program().signal(SIGKILL);
   const Ended ended = robots.wait();
   EXPECT_EQ(ended.exit_code, 2);
@@ -383,7 +385,7 @@ TEST(Faults, NamesWithInvalidUtf8AreReportedBeforeServing) {
   std::ofstream(folder / "latin_1.xml", std::ios::binary) << text;
   const std::pair<const char*, const char*> faults[] = {
       {"maze_\xE9.xml", "the name of the world 'maze_?' is not UTF-8"},
-      {"latin_1.xml", "latin_1.xml:105: a letter is not in the file's encoding"},
+      {"latin_1.xml", "latin_1.xml:105: a character is not in the file's encoding"},
   };
   for (const auto& [world, fault] : faults) {
     const Ended ended = runProgram("serve '" + (folder / world).string() + "' --listen :0");
@@ -397,7 +399,7 @@ TEST(Realtime, KeepsTheLastCommandOfALateRobotAndCountsLateCommands) {
       {"--wait-for-robots", "--json", "--pace", "realtime", "--speed", "20", "--time", "60", "--step-deadline", "600"});
   const auto pioneer = startRobots({"Pioneer1"}, serving.address());
   const auto scout = startRobots({"Scout1"}, serving.address());
-  serving.program().waitForError("all robots are here");
+  serving.program().waitForError("all robots are connected");
   pioneer->signal(SIGSTOP);
   const auto summary = nlohmann::json::parse(serving.program().wait().out);
   EXPECT_EQ(summary["steps"], 600);

@@ -1,13 +1,15 @@
-// A call without a first message is ended after the deadline, and every refused call is logged.
+// A streaming call without a first message is ended after the deadline, and every refused call is logged.
 #include <array>
 #include <functional>
 
+#include <grpcpp/generic/generic_stub.h>
 #include <gtest/gtest.h>
 
-#include "net/control_panel.grpc.pb.h"
-#include "net/geometry.grpc.pb.h"
-#include "net/robots.grpc.pb.h"
-#include "net/viewing.grpc.pb.h"
+#include "net/wire_error.h"
+#include "robosim/internal/geometry.grpc.pb.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
+#include "robosim/v1/robots.grpc.pb.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/served_world.h"
@@ -17,41 +19,61 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// One streaming call of each kind that sends no message.
+/// One call of each streaming method that sends no message.
 struct SilentCalls {
   explicit SilentCalls(const ConnectOptions& connect_options) {
     const auto channel = connect(connect_options);
     const auto end = [](auto& stream) { return [&stream] { return stream->Finish(); }; };
-    panel_stub = wire::ControlPanel::NewStub(channel);
-    load = panel_stub->Load(&contexts[0]);
-    watch_panel = panel_stub->Watch(&contexts[1]);
-    viewing_stub = wire::Viewing::NewStub(channel);
-    watch = viewing_stub->Watch(&contexts[2]);
-    geometry_stub = wire::Geometry::NewStub(channel);
-    work = geometry_stub->Work(&contexts[3]);
-    robots_stub = wire::Robots::NewStub(channel);
-    drive = robots_stub->Drive(&contexts[4]);
+    panel_stub = v1::ControlPanel::NewStub(channel);
+    load = panel_stub->Load(&contexts[0], &status);
+    viewing_stub = v1::Viewing::NewStub(channel);
+    watch = viewing_stub->Watch(&contexts[1]);
+    geometry_stub = internal::Geometry::NewStub(channel);
+    work = geometry_stub->Work(&contexts[2]);
+    robots_stub = v1::Robots::NewStub(channel);
+    drive = robots_stub->Drive(&contexts[3]);
+    generic_stub = std::make_unique<grpc::GenericStub>(channel);
+    // A generated stub sends the request of a server-streaming call at once.
+    status_watch = generic_stub->PrepareCall(&contexts[4], "/robosim.v1.ControlPanel/Watch", &queue);
+    status_watch->StartCall(nullptr);
+    waitForCompletion();
     finish = {{"ControlPanel.Load", end(load)},
-              {"ControlPanel.Watch", end(watch_panel)},
               {"Viewing.Watch", end(watch)},
               {"Geometry.Work", end(work)},
-              {"Robots.Drive", end(drive)}};
+              {"Robots.Drive", end(drive)},
+              {"ControlPanel.Watch", [this] {
+                 grpc::Status result;
+                 status_watch->Finish(&result, nullptr);
+                 waitForCompletion();
+                 return result;
+               }}};
+  }
+  ~SilentCalls() { queue.Shutdown(); }
+
+  /// Waits for the only operation of the queue.
+  void waitForCompletion() {
+    void* tag = nullptr;
+    bool ok = false;
+    EXPECT_TRUE(queue.Next(&tag, &ok) && ok);
   }
 
+  grpc::CompletionQueue queue;  ///< of status_watch
   std::array<grpc::ClientContext, 5> contexts;
-  std::unique_ptr<wire::ControlPanel::Stub> panel_stub;
-  std::unique_ptr<wire::Viewing::Stub> viewing_stub;
-  std::unique_ptr<wire::Geometry::Stub> geometry_stub;
-  std::unique_ptr<wire::Robots::Stub> robots_stub;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::WorldPiece, wire::RunStatus>> load;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::PanelRequest, wire::RunStatus>> watch_panel;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> watch;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::Sealed, wire::Sealed>> work;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> drive;
+  std::unique_ptr<v1::ControlPanel::Stub> panel_stub;
+  std::unique_ptr<v1::Viewing::Stub> viewing_stub;
+  std::unique_ptr<internal::Geometry::Stub> geometry_stub;
+  std::unique_ptr<v1::Robots::Stub> robots_stub;
+  v1::RunStatus status;
+  std::unique_ptr<grpc::ClientWriter<v1::LoadRequest>> load;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::FrameRequest, v1::Frame>> watch;
+  std::unique_ptr<grpc::ClientReaderWriter<internal::Sealed, internal::Sealed>> work;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::DriveRequest, v1::DriveResponse>> drive;
+  std::unique_ptr<grpc::GenericStub> generic_stub;
+  std::unique_ptr<grpc::GenericClientAsyncReaderWriter> status_watch;
   std::vector<std::pair<const char*, std::function<grpc::Status()>>> finish;  ///< waits for the end of each call
 };
 
-TEST(FirstMessage, HasADeadlineOfTenSecondsInEveryKindOfCall) {
+TEST(FirstMessage, HasADeadlineOfTenSecondsInEveryStreamingMethod) {
   ManualClock clock;
   ServedWorld::Options options = paused();
   options.robots_elsewhere = true;
@@ -74,7 +96,43 @@ TEST(FirstMessage, HasADeadlineOfTenSecondsInEveryKindOfCall) {
     EXPECT_EQ(status.error_message(), "no first message within 10000 ms of the call; send it at once, and call again")
         << kind;
   }
-  EXPECT_EQ(countOf("no first message", world.log()), 5u) << world.log();
+  EXPECT_EQ(countOf("no first message", world.log()), calls.finish.size()) << world.log();
+}
+
+TEST(FirstMessage, OfAWatcherIsItsOnlyOne) {
+  ServedWorld world(paused());
+  const auto status_after = [&](const std::vector<v1::WatchRequest>& requests) {
+    grpc::TemplatedGenericStub<v1::WatchRequest, v1::RunStatus> stub(connect(world.connectOptions()));
+    grpc::ClientContext context;
+    grpc::CompletionQueue queue;
+    const auto wait = [&] {
+      void* tag = nullptr;
+      bool ok = false;
+      EXPECT_TRUE(queue.Next(&tag, &ok));
+      return ok;  // false for an operation after the end of the call
+    };
+    const auto call = stub.PrepareCall(&context, "/robosim.v1.ControlPanel/Watch", &queue);
+    call->StartCall(nullptr);
+    wait();
+    for (const auto& request : requests) {
+      call->Write(request, nullptr);
+      wait();
+    }
+    call->WritesDone(nullptr);
+    wait();
+    v1::RunStatus status;
+    do {
+      call->Read(&status, nullptr);  // gRPC delivers the end of the call after its messages
+    } while (wait());
+    grpc::Status end;
+    call->Finish(&end, nullptr);
+    wait();
+    return end;
+  };
+  v1::WatchRequest request;
+  request.set_protocol(kProtocolVersion);
+  EXPECT_EQ(status_after({}).error_message(), "a call without a request; see doc/protocol.md");
+  EXPECT_EQ(status_after({request, request}).error_message(), "a second request in one call");
 }
 
 TEST(RefusedCalls, AreLoggedForEveryKindOfCall) {
@@ -90,7 +148,7 @@ TEST(RefusedCalls, AreLoggedForEveryKindOfCall) {
        {"control panel ipv4:127.0.0.1:", "viewer ipv4:127.0.0.1:", "geometry worker ipv4:127.0.0.1:"}) {
     EXPECT_GT(countOf(who, log), 0u) << who << "\n" << log;
   }
-  EXPECT_EQ(countOf("requires a token", log), 5u) << log;
+  EXPECT_EQ(countOf("requires a token", log), calls.finish.size()) << log;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "net/control_panel.grpc.pb.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
@@ -19,7 +19,7 @@ namespace {
 /// Requests the status repeatedly, a thousand concurrent calls, until stopped.
 class Flood {
  public:
-  explicit Flood(const ConnectOptions& connect_options) : stub_(wire::ControlPanel::NewStub(connect(connect_options))) {
+  explicit Flood(const ConnectOptions& connect_options) : stub_(v1::ControlPanel::NewStub(connect(connect_options))) {
     for (int i = 0; i < 1000; ++i) ask();
   }
   /// @return number of answered calls
@@ -39,20 +39,20 @@ class Flood {
  private:
   struct Call {
     grpc::ClientContext context;
-    wire::RunStatus reply;
+    v1::RunStatus reply;
     grpc::Status status;
-    std::unique_ptr<grpc::ClientAsyncResponseReader<wire::RunStatus>> reader;
+    std::unique_ptr<grpc::ClientAsyncResponseReader<v1::RunStatus>> reader;
   };
   void ask() {
-    wire::PanelRequest request;
+    v1::GetStatusRequest request;
     request.set_protocol(kProtocolVersion);
     auto* const call = new Call;
-    call->reader = stub_->AsyncStatus(&call->context, request, &queue_);
+    call->reader = stub_->AsyncGetStatus(&call->context, request, &queue_);
     call->reader->Finish(&call->reply, &call->status, call);
     ++waiting_;
   }
 
-  std::unique_ptr<wire::ControlPanel::Stub> stub_;
+  std::unique_ptr<v1::ControlPanel::Stub> stub_;
   grpc::CompletionQueue queue_;
   std::size_t waiting_ = 0;
 };
@@ -99,9 +99,9 @@ TEST(Flood, ConnectionsBeyondTheDescriptorLimitDoNotBlockLaterClients) {
   }
   ConnectOptions connect_options;
   connect_options.address = "127.0.0.1:" + std::to_string(port);
-  EXPECT_EQ(ControlPanel(connect_options).status().phase(), wire::PAUSED);
+  EXPECT_EQ(ControlPanel(connect_options).status().phase(), v1::RUN_PHASE_PAUSED);
   for (const int socket : sockets) close(socket);
-  EXPECT_EQ(ControlPanel(connect_options).status().phase(), wire::PAUSED);
+  EXPECT_EQ(ControlPanel(connect_options).status().phase(), v1::RUN_PHASE_PAUSED);
 }
 
 }  // namespace

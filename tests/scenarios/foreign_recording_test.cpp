@@ -10,7 +10,9 @@
 #include <mrpt/obs/CActionRobotMovement2D.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationOdometry.h>
+#include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/poses/CPose3D.h>
 #include <mrpt/serialization/CArchive.h>
 #include <mrpt/system/datetime.h>
 
@@ -34,6 +36,13 @@ class ForeignRawlog {
     odometry.timestamp = time;
     odometry.odometry = {x_m, y_m, 0};
     archive_ << odometry;
+  }
+  void stand(const std::string& label, mrpt::Clock::time_point time, double x_m) {
+    mrpt::obs::CObservationRobotPose truth;
+    truth.sensorLabel = label;
+    truth.timestamp = time;
+    truth.pose.mean = mrpt::poses::CPose3D(x_m, 0, 0, 0, 0, 0);
+    archive_ << truth;
   }
   void scan(const std::string& label, mrpt::Clock::time_point time, std::size_t beams) {
     mrpt::obs::CObservation2DRangeScan scan;
@@ -121,6 +130,17 @@ TEST(ForeignRecording, SortsMomentsByTimeFromTheEarliest) {
   EXPECT_EQ(timesOf(recording), (std::vector{0.0, 0.5, 1.0, 1.5}));
   EXPECT_EQ(pathOf(recording), (std::vector{0.0, 1.0, 2.0, 3.0}));
   EXPECT_EQ(recording.moments.back().step, 3u);
+}
+
+TEST(ForeignRecording, ShowsGroundTruthInsteadOfOdometryOnceThereIsAny) {
+  ForeignRawlog rawlog;
+  rawlog.drive("odo", ForeignRawlog::at(0), 1);
+  rawlog.stand("truth", ForeignRawlog::at(1), 10);
+  rawlog.drive("odo", ForeignRawlog::at(2), 2);
+  rawlog.stand("truth", ForeignRawlog::at(3), 11);
+  const ForeignRawlog::Recording recording = rawlog.read();
+  EXPECT_EQ(timesOf(recording), (std::vector{0.0, 1.0, 3.0}));
+  EXPECT_EQ(pathOf(recording), (std::vector{1.0, 10.0, 11.0}));
 }
 
 TEST(ForeignRecording, AssignsThePreviousTimeToObservationsWithoutOne) {

@@ -27,7 +27,7 @@ class Http2Peer {
   std::string headersOf(const std::string& path);
   /// HTTP/2 rapid reset (CVE-2023-44487): opens streams and cancels each at once.
   /// @return number of streams until the server closed the connection; `count` if it did not
-  std::size_t resetStreams(std::size_t count, const std::string& path = "/robosim.wire.ControlPanel/Status");
+  std::size_t resetStreams(std::size_t count, const std::string& path = "/robosim.v1.ControlPanel/GetStatus");
   /// Waits until the server closes the connection.
   void waitUntilClosed();
   bool isClosed();

@@ -1,5 +1,7 @@
 // Shared libraries that each subcommand loads: what a subcommand does not use must not delay its start.
 #include <regex>
+#include <set>
+#include <string>
 
 #include <gtest/gtest.h>
 
@@ -33,13 +35,65 @@ TEST(Libraries, OfSubcommandsWithoutNetworkIncludeNeitherGrpcNorWindows) {
   }
 }
 
+TEST(Libraries, OfSubcommandsWithoutNetworkAreTheseOnly) {
+  // MRPT's pictures, which its observations refer to, need OpenCV; OpenGL and fonts are used when a picture is drawn.
+  const std::set<std::string> allowed{"OpenGL",
+                                      "asan",
+                                      "c",
+                                      "crypto",
+                                      "expat",
+                                      "fmt",
+                                      "fontconfig",
+                                      "freetype",
+                                      "gcc_s",
+                                      "isal",
+                                      "m",
+                                      "mrpt-core",
+                                      "mrpt-img",
+                                      "mrpt-io",
+                                      "mrpt-maps",
+                                      "mrpt-math",
+                                      "mrpt-obs",
+                                      "mrpt-opengl",
+                                      "mrpt-poses",
+                                      "mrpt-rtti",
+                                      "mrpt-serialization",
+                                      "mrpt-system",
+                                      "octomap",
+                                      "octomath",
+                                      "opencv_core",
+                                      "opencv_imgcodecs",
+                                      "opencv_imgproc",
+                                      "spdlog",
+                                      "stdc++",
+                                      "tbb",
+                                      "tinyxml2",
+                                      "ubsan",
+                                      "xxhash",
+                                      "yaml-cpp",
+                                      "z"};
+  const auto program = std::filesystem::path(ROBOSIM_PROGRAM).parent_path() / "robosim-run";
+  const Ended readelf = runCommand("readelf --dynamic " + quoted(program));
+  ASSERT_EQ(readelf.exit_code, 0) << readelf.err;
+  const std::regex needed(R"(\(NEEDED\).*\[lib(.*?)\.so)");
+  int count = 0;
+  for (std::sregex_iterator found(readelf.out.begin(), readelf.out.end(), needed), end; found != end;
+       ++found, ++count) {
+    EXPECT_EQ(allowed.count((*found)[1]), 1u) << (*found)[1];
+  }
+  EXPECT_GT(count, 20);
+}
+
 TEST(Libraries, AreReportedWhenASubcommandIsNotInstalled) {
   const auto folder = emptyFolder();
-  std::filesystem::copy_file(ROBOSIM_PROGRAM, folder / "robosim");
-  const Ended ended = runCommand("'" + (folder / "robosim").string() + "' run worlds/small_maze.xml");
+  std::filesystem::create_directory(folder / "bin");
+  std::filesystem::copy_file(ROBOSIM_PROGRAM, folder / "bin" / "robosim");
+  const Ended ended = runCommand(quoted(folder / "bin" / "robosim") + " run worlds/small_maze.xml");
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_EQ(ended.err, "robosim: cannot start " + (folder / "robosim-run").string() +
-                           ": No such file or directory; install RoboSim again\n");
+  EXPECT_EQ(ended.err, "robosim: cannot start " + (folder / "libexec/robosim/robosim-run").string() +
+                           ": No such file or directory; there is no " + (folder / "bin/robosim-run").string() +
+                           " either"
+                           "; install RoboSim again\n");
 }
 
 }  // namespace

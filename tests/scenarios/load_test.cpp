@@ -18,22 +18,37 @@ using namespace std::chrono_literals;
 class HeldLoad {
  public:
   explicit HeldLoad(const ServedWorld& world)
-      : stub_(wire::ControlPanel::NewStub(connect(world.connectOptions()))), stream_(stub_->Load(&context_)) {
-    wire::WorldPiece piece;
+      : stub_(v1::ControlPanel::NewStub(connect(world.connectOptions()))), stream_(stub_->Load(&context_, &status_)) {
+    v1::LoadRequest piece;
     piece.set_protocol(kProtocolVersion);
     piece.set_piece("x");
     stream_->Write(piece);
   }
-  grpc::Status howItEnds() {
-    for (wire::RunStatus status; stream_->Read(&status);) {
-    }
-    return stream_->Finish();
-  }
+  grpc::Status howItEnds() { return stream_->Finish(); }
 
  private:
-  std::unique_ptr<wire::ControlPanel::Stub> stub_;
+  std::unique_ptr<v1::ControlPanel::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::WorldPiece, wire::RunStatus>> stream_;
+  v1::RunStatus status_;
+  std::unique_ptr<grpc::ClientWriter<v1::LoadRequest>> stream_;
+};
+
+/// A paused world in which the first load waits, before it is built, until it may proceed.
+class SlowLoading {
+ public:
+  ServedWorld::Options options() {
+    ServedWorld::Options options = paused();
+    options.before_preparing = [this] {
+      started_.set_value();
+      may_proceed_.get_future().wait();
+    };
+    return options;
+  }
+  void waitUntilStarted() { started_.get_future().wait(); }
+  void proceed() { may_proceed_.set_value(); }
+
+ private:
+  std::promise<void> started_, may_proceed_;
 };
 
 /// Status of a load that does not replace the world.
@@ -51,43 +66,33 @@ grpc::StatusCode codeOfLoad(const ServedWorld& world) {
 }
 
 TEST(Load, IsBuiltConcurrentlyAndRefusesASecondLoad) {
-  std::promise<void> building, may_build;
-  ServedWorld::Options options = paused();
-  options.before_preparing = [&] {
-    building.set_value();
-    may_build.get_future().wait();
-  };
-  ServedWorld world(options);
+  SlowLoading loading;
+  ServedWorld world(loading.options());
   Panel panel(world);
   auto load = std::async(std::launch::async, [&] { return codeOfLoad(world); });
-  building.get_future().wait();
+  loading.waitUntilStarted();
   EXPECT_EQ(panel.step(25).step(), 25u);
   EXPECT_EQ(panel.status().world(), "small_maze");
   EXPECT_EQ(codeOfLoad(world), grpc::StatusCode::RESOURCE_EXHAUSTED);
   world.waitForLog("load: refused: the environment is loading a world for another call");
-  may_build.set_value();
+  loading.proceed();
   EXPECT_EQ(load.get(), grpc::StatusCode::OK);
   EXPECT_EQ(panel.status().world(), "open_100");
   EXPECT_EQ(panel.status().step(), 0u);
 }
 
 TEST(Load, IsCancelledWhenItsPanelDisconnects) {
-  std::promise<void> building, may_build;
-  ServedWorld::Options options = paused();
-  options.before_preparing = [&] {
-    building.set_value();
-    may_build.get_future().wait();
-  };
-  ServedWorld world(options);
+  SlowLoading loading;
+  ServedWorld world(loading.options());
   Panel leaving(world);
   auto load =
       std::async(std::launch::async, [&] { EXPECT_THROW(leaving.load("worlds/open_100.xml"), ConnectionError); });
-  building.get_future().wait();
+  loading.waitUntilStarted();
   leaving.leave();
   load.get();
   Panel panel(world);
   EXPECT_EQ(panel.step(3).step(), 3u);
-  may_build.set_value();
+  loading.proceed();
   waitUntil("the world of the panel that has left is no longer being loaded",
             [&] { return codeOfBadLoad(world) != grpc::StatusCode::RESOURCE_EXHAUSTED; });
   EXPECT_EQ(panel.status().world(), "small_maze");

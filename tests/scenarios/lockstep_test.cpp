@@ -96,7 +96,7 @@ TEST(Lockstep, ReportsAwaitedRobotsAndTakesNoStepBefore) {
   EXPECT_EQ(world.state().time.step, 0u);
   const auto scout = startRobots({"Scout1"}, world.connectOptions().address);
   EXPECT_EQ(world.wait(), Served::to_its_end);
-  EXPECT_EQ(countOf("all robots are here", world.log()), 1u);
+  EXPECT_EQ(countOf("all robots are connected", world.log()), 1u);
 }
 
 }  // namespace

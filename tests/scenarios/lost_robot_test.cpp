@@ -21,7 +21,7 @@ class TwoRobots {
   explicit TwoRobots(std::vector<std::string> options) : serving_(with(std::move(options))) {
     pioneer_ = startRobots({"Pioneer1"}, serving_.address());
     scout_ = startRobots({"Scout1"}, serving_.address());
-    serving_.program().waitForError("all robots are here");
+    serving_.program().waitForError("all robots are connected");
     control("step 10");
   }
 
@@ -138,7 +138,7 @@ TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) {
   const std::vector<std::string> words{
       "robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address, "--reconnect-timeout", "600"};
   StartedProgram stale(words);
-  first->program().waitForError("all robots are here");
+  first->program().waitForError("all robots are connected");
   EXPECT_EQ(runProgram("control " + address + " step 2").exit_code, 0);  // the robots have received the welcome
   first.reset();                                                         // killed, as on a restart of its machine
 
@@ -146,8 +146,8 @@ TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) {
       {"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20"});
   const Ended ended = stale.wait();
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("the robots come from the run '"), std::string::npos) << ended.err;
-  EXPECT_NE(ended.err.find("start their program anew to join it"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("the robots have joined the run '"), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("restart their program to join it"), std::string::npos) << ended.err;
   const Ended status = runProgram("control " + address + " status");
   EXPECT_NE(status.out.find("waits for robots at step 0"), std::string::npos) << status.out << status.err;
 

@@ -88,7 +88,7 @@ TEST(Maps, AreNotReadFromTheServersDiskForAReceivedWorld) {
   ServedWorld::Options options;
   options.server.is_paused = true;
   ServedWorld world(options);
-  wire::WorldSource source;
+  v1::WorldSource source;
   source.set_file("a.xml");
   source.set_text("<world><surface><map file='" ROBOSIM_SOURCE_DIR "/maps/lab.yaml'/></surface></world>");
   const grpc::Status how = howLoadEnds(world.connectOptions(), source.SerializeAsString(), 10'000);

@@ -3,8 +3,8 @@
 
 #include "client/control_panel.h"
 #include "net/connect.h"
-#include "net/control_panel.grpc.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/control_panel.grpc.pb.h"
 #include "tests/scenarios/served_world.h"
 
 namespace robosim {
@@ -16,24 +16,23 @@ class Panel : public ControlPanel {
 
   using ControlPanel::load;
   /// @param file relative to the project's folder
-  wire::RunStatus load(const std::string& file) { return load(readWorldSource(ROBOSIM_SOURCE_DIR "/" + file)); }
+  v1::RunStatus load(const std::string& file) { return load(readWorldSource(ROBOSIM_SOURCE_DIR "/" + file)); }
 };
 
 /// Status of a load of these bytes, sent in pieces.
 inline grpc::Status howLoadEnds(const ConnectOptions& connect_options, const std::string& bytes,
                                 std::size_t piece_bytes) {
   grpc::ClientContext context;
-  const auto stub = wire::ControlPanel::NewStub(connect(connect_options));
-  const auto stream = stub->Load(&context);
+  v1::RunStatus status;
+  const auto stub = v1::ControlPanel::NewStub(connect(connect_options));
+  const auto stream = stub->Load(&context, &status);
   for (std::size_t at = 0; at < bytes.size(); at += piece_bytes) {
-    wire::WorldPiece piece;
+    v1::LoadRequest piece;
     piece.set_protocol(kProtocolVersion);
     piece.set_piece(bytes.substr(at, piece_bytes));
     if (!stream->Write(piece)) break;
   }
   stream->WritesDone();
-  for (wire::RunStatus status; stream->Read(&status);) {
-  }
   return stream->Finish();
 }
 

@@ -7,7 +7,7 @@
 
 #include "control/network_hardware.h"
 #include "net/robot_wire.h"
-#include "net/robots.grpc.pb.h"
+#include "robosim/v1/robots.grpc.pb.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
@@ -38,7 +38,7 @@ TEST(Reconnection, DoesNotChangeTheRunWhereverConnectionsAreCut) {
   FaultProxy pioneer_line(world.port()), scout_line(world.port());
   const auto pioneer = startRobots({"Pioneer1"}, pioneer_line.address(), "gold_finder");
   const auto scout = startRobots({"Scout1"}, scout_line.address(), "gold_finder");
-  world.waitForLog("all robots are here");
+  world.waitForLog("all robots are connected");
   Panel panel(world);
   panel.step(1);  // both programs have connected; they do not retry their first call
   std::mt19937 random(1);
@@ -78,6 +78,7 @@ TEST(Reconnection, ResendsUnconfirmedMessages) {
   scout.robot(0).send("Pioneer1", "GOLD Scout1");
   EXPECT_THROW(scout.nextStep(), ConnectionError);
   EXPECT_EQ(scout.unconfirmedMessages(), 1u);
+  scout.robot(0).send("Pioneer1", "sent since");
   world.waitForLog("): has left");
   Panel panel(world);
   panel.step(3);
@@ -90,7 +91,8 @@ TEST(Reconnection, ResendsUnconfirmedMessages) {
   EXPECT_TRUE(scout.nextStep());
   steps.get();
   panel.stop();
-  EXPECT_EQ(inbox.get(), std::vector<std::string>{"Scout1: GOLD Scout1"}) << "exactly once";
+  EXPECT_EQ(inbox.get(), (std::vector<std::string>{"Scout1: GOLD Scout1", "Scout1: sent since"}))
+      << "exactly once, and in the order in which they were sent";
   world.wait();
   EXPECT_EQ(world.report().messages_lost, 0u);
 }
@@ -117,13 +119,40 @@ TEST(Reconnection, ResendsTheAnswerToTheCurrentStep) {
   EXPECT_EQ(inbox.get(), std::vector<std::string>{"Scout1: GOLD Scout1"}) << "exactly once";
 }
 
-/// A connection of a process that drives Scout1.
+TEST(Reconnection, RepeatsTheLastCommandAfterStepsWithoutTheRobot) {
+  ServedWorld world(robotsElsewhere(OnLostRobot::continue_));
+  FaultProxy line(world.port());
+  NetworkHardware pioneer(world.connectOptions(), {"Pioneer1"});
+  NetworkHardware scout({.address = line.address()}, {"Scout1"});
+  auto inbox = std::async(std::launch::async, [&] { return inboxUntilTheEnd(pioneer); });
+  line.cutAfter(3);
+  scout.robot(0).command({0.25, 0, 0, Activity::active});
+  EXPECT_THROW(scout.nextStep(), ConnectionError);
+  world.waitForLog("): has left");
+  Panel panel(world);
+  panel.step(3);
+  EXPECT_EQ(world.state().driven_m[1], 0) << "it stands still while its process is absent";
+  scout.rejoin();
+  auto steps = std::async(std::launch::async, [&] { return panel.step(2); });
+  EXPECT_TRUE(scout.nextStep());
+  EXPECT_TRUE(scout.nextStep());
+  steps.get();
+  EXPECT_GT(world.state().driven_m[1], 0);
+  panel.stop();
+  inbox.get();
+}
+
+/// A connection of a process that drives Scout1, or the given robots.
 struct BareProcess {
-  BareProcess(const ServedWorld& world, const std::string& process, const std::string& run)
-      : stub(wire::Robots::NewStub(connect(world.connectOptions()))), stream(stub->Drive(&context)) {
-    wire::DriveRequest first;
+  BareProcess(const ServedWorld& world, const std::string& process, const std::string& run,
+              const std::vector<std::string>& robots = {"Scout1"})
+      : BareProcess(v1::Robots::NewStub(connect(world.connectOptions())), process, run, robots) {}
+  BareProcess(std::shared_ptr<v1::Robots::Stub> over, const std::string& process, const std::string& run,
+              const std::vector<std::string>& robots)
+      : stub(std::move(over)), stream(stub->Drive(&context)) {
+    v1::DriveRequest first;
     first.mutable_hello()->set_protocol(kProtocolVersion);
-    first.mutable_hello()->add_names("Scout1");
+    for (const auto& name : robots) first.mutable_hello()->add_names(name);
     first.mutable_hello()->set_process(process);
     first.mutable_hello()->set_run(run);
     stream->Write(first);
@@ -132,9 +161,9 @@ struct BareProcess {
   ~BareProcess() { context.TryCancel(); }
 
   grpc::ClientContext context;
-  std::unique_ptr<wire::Robots::Stub> stub;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::DriveRequest, wire::DriveResponse>> stream;
-  wire::DriveResponse welcome;
+  std::shared_ptr<v1::Robots::Stub> stub;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::DriveRequest, v1::DriveResponse>> stream;
+  v1::DriveResponse welcome;
   bool is_welcome = false;
 };
 
@@ -162,6 +191,30 @@ TEST(Reconnection, DoesNotReplaceTheConnectionOfAProcessWithoutAnId) {
   ASSERT_TRUE(first.is_welcome);
   BareProcess second(world, "", first.welcome.welcome().run());
   EXPECT_EQ(second.stream->Finish().error_code(), grpc::StatusCode::ALREADY_EXISTS);
+}
+
+/// Sends the answer to step 0, with messages that the process has dropped.
+void answerFirstStep(BareProcess& process, std::uint64_t messages_dropped) {
+  v1::DriveResponse readings;
+  ASSERT_TRUE(process.stream->Read(&readings));
+  v1::DriveRequest answer;
+  answer.mutable_answer()->set_step(0);
+  answer.mutable_answer()->set_messages_dropped(messages_dropped);
+  process.stream->Write(answer);
+}
+
+TEST(Reconnection, CountsTheDroppedMessagesOfAProcessThatAnswersAndLeavesOnce) {
+  const std::string process(kProcessIdBytes, 'p');
+  const std::vector<std::string> robots{"Pioneer1", "Scout1"};
+  ServedWorld world(robotsElsewhere(OnLostRobot::continue_));
+  BareProcess first(world, process, "", robots);
+  answerFirstStep(first, 3);
+  // Over the same connection, so that the answer arrives before the hello, which ends the first call.
+  BareProcess second(first.stub, process, "", robots);
+  ASSERT_TRUE(second.is_welcome);
+  answerFirstStep(second, 0);
+  Panel(world).step(1);
+  EXPECT_EQ(world.state().messages_dropped, 3u);
 }
 
 void connectAndLeave(ServedWorld& world, const std::string& robot) {

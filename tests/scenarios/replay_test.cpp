@@ -13,8 +13,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "control/network_hardware.h"
 #include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/robot_processes.h"
+#include "tests/scenarios/serving.h"
 #include "tests/stock_tools.h"
 
 namespace robosim {
@@ -96,6 +99,56 @@ TEST(Replay, RepeatsTheRunIdentically) {
   const Ended check = runProgram("replay --check worlds/opho2_1.xml " + quoted(file));
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
   EXPECT_EQ(check.out, "The same run: 601 steps, digest " + run["digest"].get<std::string>() + "\n");
+}
+
+TEST(Replay, RepeatsTheRunOfARobotThatFacesBackwards) {
+  // A heading of half a turn is recorded as a matrix, whose angle may be π or -π.
+  const auto folder = emptyFolder();
+  std::ofstream(folder / "world.xml")
+      << "<world><surface><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size><object><shape><robot>"
+         "<model>scout</model><name>R</name><x>0</x><y>0</y><direction>3.141592653589793</direction>"
+         "<controller>still</controller></robot></shape></object></surface></world>";
+  record(quoted(folder / "world.xml") + " --time 1", folder / "run.rawlog");
+  const Ended check =
+      runProgram("replay --check " + quoted(folder / "world.xml") + " " + quoted(folder / "run.rawlog"));
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+}
+
+TEST(Replay, RepeatsTheRunOfRobotsInOtherProcesses) {
+  // gold_finder sends messages; wander is not the controller that the world gives.
+  for (const std::string controller : {"gold_finder", "wander"}) {
+    const auto rawlog = emptyFolder() / "run.rawlog";
+    Serving serving({"--wait-for-robots", "--time", "60", "--step-deadline", "600", "--record", rawlog.string()});
+    const auto robots = startRobots({"Pioneer1", "Scout1"}, serving.address(), controller);
+    EXPECT_EQ(serving.program().wait().exit_code, 0);
+    const Ended mail = runProgram("replay --print --sensor INBOX " + quoted(rawlog));
+    EXPECT_EQ(mail.exit_code == 0, controller == "gold_finder") << mail.out;
+    const Ended check = runProgram("replay --check worlds/small_maze.xml " + quoted(rawlog));
+    EXPECT_EQ(check.exit_code, 0) << controller << check.out << check.err;
+    EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;
+  }
+}
+
+TEST(Replay, RepeatsARefusedCheckWinAndComparesThePanOfTheLaser) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  Serving serving({"--wait-for-robots", "--time", "0.5", "--step-deadline", "600", "--record", rawlog.string()});
+  {
+    NetworkHardware robots({.address = serving.address()}, {"Pioneer1", "Scout1"});
+    do {
+      robots.robot(0).command({0, 0, 0.5F, Activity::active});
+      robots.robot(1).command({});
+      if (robots.robot(0).readings().time.step == 2) robots.robot(0).referee()->checkWin();
+    } while (robots.nextStep());
+  }
+  EXPECT_EQ(serving.program().wait().exit_code, 0);
+  const Ended status = runProgram("replay --print --robot Pioneer1 --sensor STATUS " + quoted(rawlog));
+  EXPECT_EQ(countOf("too far to win", status.out), 1U) << status.out;
+  const Ended check = runProgram("replay --check worlds/small_maze.xml " + quoted(rawlog));
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+  const Ended pioneer = runProgram("replay --controller still --robot Pioneer1 " + quoted(rawlog));
+  EXPECT_NE(pioneer.out.find(" commands differ"), std::string::npos) << pioneer.out << pioneer.err;
+  const Ended scout = runProgram("replay --controller still --robot Scout1 " + quoted(rawlog));
+  EXPECT_NE(scout.out.find(" commands are the recorded ones"), std::string::npos) << scout.out << scout.err;
 }
 
 TEST(Replay, ReportsTheFirstDifferenceInAChangedWorld) {

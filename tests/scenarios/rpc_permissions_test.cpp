@@ -55,9 +55,9 @@ const std::map<std::string, std::string>& firstMessages() {
       {"ControlPanel.Step", "protocol: 1 steps: 0"},
       {"ControlPanel.SetSpeed", "protocol: 1 speed: -1"},
       {"ControlPanel.Stop", "protocol: 1"},
-      {"ControlPanel.Status", "protocol: 1"},
+      {"ControlPanel.GetStatus", "protocol: 1"},
       {"ControlPanel.Watch", "protocol: 1"},
-      {"RemoteControl.Control", "type: INIT protocol: 1 robot: 'ROBOT'"},
+      {"RemoteControl.Control", "init { protocol: 1 robot: 'ROBOT' }"},
   };
   return all;
 }
@@ -65,9 +65,11 @@ const std::map<std::string, std::string>& firstMessages() {
 /// "Robots.Drive", by its descriptor.
 std::map<std::string, const MethodDescriptor*> allRpcs() {
   std::map<std::string, const MethodDescriptor*> rpcs;
-  for (const auto& file : std::filesystem::directory_iterator(ROBOSIM_SOURCE_DIR "/lib/net")) {
+  const std::filesystem::path root = ROBOSIM_SOURCE_DIR "/lib/net/proto";
+  for (const auto& file : std::filesystem::recursive_directory_iterator(root)) {
     if (file.path().extension() != ".proto") continue;
-    const auto* proto = DescriptorPool::generated_pool()->FindFileByName("net/" + file.path().filename().string());
+    const std::string name = std::filesystem::relative(file.path(), root);
+    const auto* proto = DescriptorPool::generated_pool()->FindFileByName(name);
     if (!proto) throw std::runtime_error(file.path().string() + " is not part of this program");
     for (int s = 0; s < proto->service_count(); ++s) {
       for (int m = 0; m < proto->service(s)->method_count(); ++m) {

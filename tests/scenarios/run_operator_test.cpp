@@ -31,7 +31,7 @@ TEST(RunOperator, ExecutesOperationsInOrderAndReportsTheRequestedState) {
   waitUntil("the run is beyond step 5", [&] { return panel.status().step() > 5; });
   run_operator.pause(true);
   EXPECT_TRUE(run_operator.isPaused());
-  waitUntil("the run is paused", [&] { return panel.status().phase() == wire::PAUSED; });
+  waitUntil("the run is paused", [&] { return panel.status().phase() == v1::RUN_PHASE_PAUSED; });
   EXPECT_EQ(panel.status().speed(), 2);
 }
 

@@ -186,15 +186,14 @@ TEST(Security, LimitsEachTokenToItsRoleAndNeverPrintsIt) {
 
 TEST(Security, SendsNoTokenUnencryptedToAnotherMachine) {
   setenv("ROBOSIM_TOKEN", kOperator, 1);
-  expectErrorText("control 192.0.2.1:3000 status", kBad,
-                  {"for anyone on the way to read", "--tls-ca", "--send-token-unencrypted"});
+  expectErrorText("control 192.0.2.1:3000 status", kBad, {"unencrypted; add", "--tls-ca", "--send-token-unencrypted"});
   unsetenv("ROBOSIM_TOKEN");
 }
 
 TEST(Security, SeparatesTheFlagsForTheClientsTokenAndForTheListeningPort) {
   setenv("ROBOSIM_TOKEN", kOperator, 1);
   expectErrorText("robot Pioneer1 --environment 192.0.2.1:3000 --listen-unprotected", kBad,
-                  {"for anyone on the way to read", "--send-token-unencrypted"});
+                  {"unencrypted; add", "--send-token-unencrypted"});
   expectErrorText(
       "remote worlds/teams/small_maze.xml --listen 127.0.0.1:0 --environment 192.0.2.1:3000 "
       "--send-token-unencrypted --tls-cert x",

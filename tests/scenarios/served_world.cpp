@@ -16,13 +16,13 @@ RunOptions runOptions(const std::string& controller) {
 
 }  // namespace
 
-ServedWorld::Stage::Stage(LoadedWorld world, const WorldSource& source, const Options& options)
+ServedWorld::LoadedRun::LoadedRun(LoadedWorld world, const WorldSource& source, const Options& options)
     : networked(world.fleet.robots.size(), options.robots_elsewhere ? 1 : 0),
       run(std::move(world), runOptions(options.controller), networked),
       run_info(run.environment(), source, 1, networked) {}
 
 ServedWorld::ServedWorld(const Options& options) : options_(options) {
-  stage_ = stageOf(readWorldSource(ROBOSIM_SOURCE_DIR "/" + options.world));
+  run_ = loadedRunOf(readWorldSource(ROBOSIM_SOURCE_DIR "/" + options.world));
   options_.server.listen = ListenAddresses::parse("127.0.0.1:0");
   options_.server.log = [this](const std::string& line) {
     const std::lock_guard lock(mutex_);
@@ -33,7 +33,7 @@ ServedWorld::ServedWorld(const Options& options) : options_(options) {
   thread_ = std::thread([this] {
     how_ = server_->serve(*this, [this] {
       const std::lock_guard lock(mutex_);
-      return is_asked_to_end_;
+      return must_end_;
     });
   });
 }
@@ -49,7 +49,7 @@ ConnectOptions ServedWorld::connectOptions() const {
 Served ServedWorld::end() {
   {
     const std::lock_guard lock(mutex_);
-    is_asked_to_end_ = true;
+    must_end_ = true;
   }
   return wait();
 }
@@ -82,17 +82,17 @@ void ServedWorld::waitUntilStepping() {
   EXPECT_TRUE(condition_.wait_for(lock, kLongestWait, [&] { return is_stepping_; })) << "no step has begun";
 }
 
-std::shared_ptr<ServedWorld::Stage> ServedWorld::stageOf(const WorldSource& source) const {
-  return std::make_shared<Stage>(loadWorld(source, controllerNames()), source, options_);
+std::shared_ptr<ServedWorld::LoadedRun> ServedWorld::loadedRunOf(const WorldSource& source) const {
+  return std::make_shared<LoadedRun>(loadWorld(source, controllerNames()), source, options_);
 }
 
 std::unique_ptr<PreparedRun> ServedWorld::prepare(const WorldSource& source) const {
   options_.before_preparing();
-  auto prepared = std::make_unique<PreparedStage>();
-  prepared->stage = stageOf(source);
+  auto prepared = std::make_unique<PreparedWorld>();
+  prepared->loaded = loadedRunOf(source);
   return prepared;
 }
 
-void ServedWorld::replace(std::unique_ptr<PreparedRun> next) { stage_ = static_cast<PreparedStage&>(*next).stage; }
+void ServedWorld::replace(std::unique_ptr<PreparedRun> next) { run_ = static_cast<PreparedWorld&>(*next).loaded; }
 
 }  // namespace robosim

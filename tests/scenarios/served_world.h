@@ -28,7 +28,7 @@ class ServedWorld final : private ServedRun {
   ~ServedWorld() override;  ///< ends the run
 
   ConnectOptions connectOptions() const;
-  const std::vector<std::string>& robotNames() const { return stage_->run_info.robot_names; }
+  const std::vector<std::string>& robotNames() const { return run_->run_info.robot_names; }
   int port() const { return server_->ports().front(); }
 
   /// Whether a step is in progress.
@@ -40,8 +40,8 @@ class ServedWorld final : private ServedRun {
   /// Waits until the run ends by itself, or is stopped by a control panel.
   Served wait();
   /// To be called after the end, or while the run is paused.
-  std::string digest() const { return stage_->run.environment().digest(); }
-  const State& state() const { return stage_->run.environment().state(); }
+  std::string digest() const { return run_->run.environment().digest(); }
+  const State& state() const { return run_->run.environment().state(); }
   /// To be called after the end.
   const RunReport& report() const { return report_; }
 
@@ -50,25 +50,25 @@ class ServedWorld final : private ServedRun {
   void waitForLog(const std::string& text, std::size_t times = 1);
 
  private:
-  struct Stage {
+  struct LoadedRun {
     std::vector<std::uint8_t> networked;
     LocalRun run;
     RunInfo run_info;
-    Stage(LoadedWorld world, const WorldSource& source, const Options& options);
+    LoadedRun(LoadedWorld world, const WorldSource& source, const Options& options);
   };
-  struct PreparedStage final : PreparedRun {
-    std::shared_ptr<Stage> stage;
+  struct PreparedWorld final : PreparedRun {
+    std::shared_ptr<LoadedRun> loaded;
   };
-  std::shared_ptr<Stage> stageOf(const WorldSource& source) const;
-  Environment& environment() override { return stage_->run.environment(); }
-  std::shared_ptr<const RunInfo> runInfo() const override { return {stage_, &stage_->run_info}; }
+  std::shared_ptr<LoadedRun> loadedRunOf(const WorldSource& source) const;
+  Environment& environment() override { return run_->run.environment(); }
+  std::shared_ptr<const RunInfo> runInfo() const override { return {run_, &run_->run_info}; }
   void decide() override {
-    stage_->run.decide();
+    run_->run.decide();
     setStepping(true);
   }
   void stepped(std::size_t) override { setStepping(false); }
   void setStepping(bool is_stepping);
-  bool isOver() const override { return stage_->run.environment().time().step >= options_.last_step; }
+  bool isOver() const override { return run_->run.environment().time().step >= options_.last_step; }
   void ends(const RunReport& report) override { report_ = report; }
   std::unique_ptr<PreparedRun> prepare(const WorldSource& source) const override;
   void replace(std::unique_ptr<PreparedRun> next) override;
@@ -77,9 +77,9 @@ class ServedWorld final : private ServedRun {
   mutable std::mutex mutex_;
   std::condition_variable condition_;
   std::string log_;
-  bool is_asked_to_end_ = false;
+  bool must_end_ = false;
   bool is_stepping_ = false;
-  std::shared_ptr<Stage> stage_;
+  std::shared_ptr<LoadedRun> run_;
   RunReport report_;
   std::unique_ptr<EnvironmentServer> server_;
   Served how_ = Served::to_its_end;

@@ -90,6 +90,19 @@ TEST(View, WritesAVideoOfARecording) {
   EXPECT_FALSE(fs::exists(folder / "run.mp4.part.mp4"));
 }
 
+TEST(View, EndsAVideoWithItsRecording) {
+  const auto folder = emptyFolder();
+  const auto hall = writeHall(folder);
+  ASSERT_EQ(runProgram("run " + quoted(hall) + " --time 1 --record " + quoted(folder / "run.rawlog")).exit_code, 0);
+  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
+                                " --size 321x241 --fps 10 --to 100 --offscreen " + quoted(folder / "run.mp4"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  const cv::VideoCapture video((folder / "run.mp4").string());
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 320) << "a video has even sides";
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 240);
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_COUNT), 11) << "10 a second, and the last one";
+}
+
 TEST(View, UsesLittleMemoryForALongRecording) {
   const auto folder = emptyFolder();
   const auto rawlog = folder / "run.rawlog";
@@ -255,20 +268,20 @@ TEST(View, PausesAndStepsARunForOperatorsOnly) {
     RunWindow window(world, watcher, screen);
     window.press("space");
     EXPECT_EQ(window.quit().exit_code, 0);
-    EXPECT_EQ(panel.status().phase(), wire::RUNNING);
+    EXPECT_EQ(panel.status().phase(), v1::RUN_PHASE_RUNNING);
   }
   RunWindow window(world, master, screen);
   window.press("space");
-  while (window.isOpen() && panel.status().phase() != wire::PAUSED) {
+  while (window.isOpen() && panel.status().phase() != v1::RUN_PHASE_PAUSED) {
   }
   const auto step = panel.status().step();
   window.press("s");
   while (window.isOpen() && panel.status().step() == step) {
   }
   EXPECT_EQ(panel.status().step(), step + 1);
-  EXPECT_EQ(panel.status().phase(), wire::PAUSED);
+  EXPECT_EQ(panel.status().phase(), v1::RUN_PHASE_PAUSED);
   window.press("space");
-  while (window.isOpen() && panel.status().phase() != wire::RUNNING) {
+  while (window.isOpen() && panel.status().phase() != v1::RUN_PHASE_RUNNING) {
   }
   EXPECT_EQ(window.quit().exit_code, 0);
 }

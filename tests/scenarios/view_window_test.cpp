@@ -135,7 +135,7 @@ TEST(ViewWindow, SeeksInARecordingWithKeys) {
   const cv::Mat first_step = window.after("s");
   EXPECT_FALSE(areSame(first_step, at_5_s));
   EXPECT_TRUE(areSame(window.after("Left"), paused)) << "no farther back than the beginning";
-  EXPECT_TRUE(areSame(window.after("space"), going)) << "goes on from the beginning";
+  EXPECT_TRUE(areSame(window.after("space"), going)) << "continues from the beginning";
   EXPECT_EQ(window.quit(), 0);
 }
 

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "client/viewer.h"
-#include "net/viewing.grpc.pb.h"
 #include "net/wire_error.h"
+#include "robosim/v1/viewing.grpc.pb.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/served_world.h"
@@ -20,7 +20,7 @@ namespace {
 class RawViewer {
  public:
   explicit RawViewer(const ConnectOptions& options)
-      : stub_(wire::Viewing::NewStub(connect(options))), stream_(stub_->Watch(&context_)) {}
+      : stub_(v1::Viewing::NewStub(connect(options))), stream_(stub_->Watch(&context_)) {}
   ~RawViewer() {
     context_.TryCancel();
     if (stream_) stream_->Finish();
@@ -29,37 +29,37 @@ class RawViewer {
   RawViewer& operator=(const RawViewer&) = delete;
 
   void ask(const ReadingsSelection& wish = {}, bool amends = false) {
-    wire::FrameRequest request;
+    v1::FrameRequest request;
     request.set_protocol(kProtocolVersion);
     encode(wish, request);
     request.set_amends(amends);
     stream_->Write(request);
   }
   void sendInvalid() {
-    wire::FrameRequest request;
-    wire::FrameRequest::GetReflection()->MutableUnknownFields(&request)->AddLengthDelimited(3, "\xff");
+    v1::FrameRequest request;
+    v1::FrameRequest::GetReflection()->MutableUnknownFields(&request)->AddLengthDelimited(3, "\xff");
     stream_->Write(request);
   }
   void sayNothingMore() { stream_->WritesDone(); }
   grpc::Status howItEnds() {
-    for (wire::Frame frame; stream_->Read(&frame);) {
+    for (v1::Frame frame; stream_->Read(&frame);) {
     }
     return std::exchange(stream_, nullptr)->Finish();
   }
-  wire::Frame read() {
-    wire::Frame frame;
+  v1::Frame read() {
+    v1::Frame frame;
     EXPECT_TRUE(stream_->Read(&frame));
     return frame;
   }
-  wire::Frame next() {
+  v1::Frame next() {
     ask();
     return read();
   }
 
  private:
   grpc::ClientContext context_;
-  std::unique_ptr<wire::Viewing::Stub> stub_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::FrameRequest, wire::Frame>> stream_;
+  std::unique_ptr<v1::Viewing::Stub> stub_;
+  std::unique_ptr<grpc::ClientReaderWriter<v1::FrameRequest, v1::Frame>> stream_;
 };
 
 TEST(Viewing, SendsTheFullStateOnceAndThenChanges) {
@@ -67,12 +67,12 @@ TEST(Viewing, SendsTheFullStateOnceAndThenChanges) {
   options.controller = "still";
   ServedWorld world(options);
   RawViewer viewer(world.connectOptions());
-  const wire::Frame first = viewer.next();
+  const v1::Frame first = viewer.next();
   EXPECT_TRUE(first.has_world());
   EXPECT_EQ(first.step(), 0u);
   EXPECT_EQ(first.robots_size(), 2);
   Panel(world).step(3);
-  const wire::Frame second = viewer.next();
+  const v1::Frame second = viewer.next();
   EXPECT_FALSE(second.has_world());
   EXPECT_EQ(second.step(), 3u);
   EXPECT_EQ(second.robots_size(), 0) << "no robot has moved";
@@ -146,7 +146,7 @@ TEST(Viewing, DisconnectsAViewerThatSendsInvalidInputWithoutReading) {
   EXPECT_EQ(panel.status().viewers(), 1u);
   deaf.sendInvalid();
   waitUntil("the viewer is disconnected", [&] { return panel.status().viewers() == 0; });
-  EXPECT_EQ(countOf("disconnected: a message that is not a valid robosim.wire.FrameRequest", world.log()), 1u);
+  EXPECT_EQ(countOf("disconnected: a message that is not a valid robosim.v1.FrameRequest", world.log()), 1u);
 }
 
 TEST(Viewing, AnswersASingleRequestBeforeHalfClose) {
@@ -179,10 +179,10 @@ TEST(Viewing, ResendsAPausedStepWhenTheRequestedReadingsChange) {
   viewer.next();
   viewer.ask();  // nothing has changed, so there is no reply yet
   viewer.ask({.of_all = false, .of = {0}}, true);
-  const wire::Frame frame = viewer.read();
+  const v1::Frame frame = viewer.read();
   EXPECT_EQ(frame.step(), 0u);
   ASSERT_EQ(frame.readings_size(), 1);
-  EXPECT_EQ(frame.readings(0).robot(), 0u);
+  EXPECT_EQ(frame.readings(0).world_robot(), 0u);
   viewer.ask({.of_all = true, .of = {}}, true);  // does not request a frame
   Panel(world).step(1);
   viewer.ask({.of_all = true, .of = {}});

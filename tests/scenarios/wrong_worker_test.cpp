@@ -10,9 +10,9 @@
 #include <mrpt/serialization/CSerializable.h>
 #include <nlohmann/json.hpp>
 
-#include "net/geometry.grpc.pb.h"
 #include "net/robot_wire.h"
 #include "net/wire_error.h"
+#include "robosim/internal/geometry.grpc.pb.h"
 #include "server/geometry_seal.h"
 #include "server/geometry_wire.h"
 #include "server/world_wire.h"
@@ -28,7 +28,7 @@ namespace robosim {
 namespace {
 
 using nlohmann::json;
-using Corruption = std::function<void(wire::TaskResult&)>;
+using Corruption = std::function<void(internal::TaskResult&)>;
 
 constexpr int kUntrusted = 4;
 
@@ -38,9 +38,9 @@ class WrongResultWorker {
   WrongResultWorker(const ConnectOptions& connect_options, Corruption corruption, std::uint64_t from_step = 1)
       : corrupt_(std::move(corruption)),
         from_step_(from_step),
-        stub_(wire::Geometry::NewStub(connect(connect_options))),
+        stub_(internal::Geometry::NewStub(connect(connect_options))),
         stream_(stub_->Work(&context_)) {
-    wire::FromWorker hello;
+    internal::WorkRequest hello;
     hello.mutable_hello()->set_protocol(kGeometryProtocolVersion);
     send(hello);
     EXPECT_TRUE(receive());
@@ -48,8 +48,8 @@ class WrongResultWorker {
     replica_ = std::make_unique<Environment>(
         std::move(world.world), std::move(world.fleet),
         EnvironmentOptions{.seed = in_.replica().seed(), .period_s = in_.replica().period_s()});
-    wire::FromWorker stands;
-    stands.set_world_version(in_.replica().world_version());
+    internal::WorkRequest stands;
+    stands.mutable_ready()->set_world_version(in_.replica().world_version());
     send(stands);
     thread_ = std::async(std::launch::async, [this] { return work(); });
   }
@@ -57,13 +57,13 @@ class WrongResultWorker {
   grpc::Status howItEnds() { return thread_.get(); }
 
  private:
-  void send(const wire::FromWorker& message) {
-    wire::Sealed sealed;
+  void send(const internal::WorkRequest& message) {
+    internal::Sealed sealed;
     seal(message, sealed);
     stream_->Write(sealed);
   }
   bool receive() {
-    wire::Sealed sealed;
+    internal::Sealed sealed;
     if (!stream_->Read(&sealed)) return false;
     unseal(sealed, in_);
     return true;
@@ -72,20 +72,18 @@ class WrongResultWorker {
     while (receive()) answer(in_.task());
     return stream_->Finish();
   }
-  void answer(const wire::Task& task) {
+  void answer(const internal::Task& task) {
     if (task.has_state()) {
       State state = replica_->state();
       decodeInto(task.state(), state);
       replica_->restore(state);
     }
-    for (const auto& command : task.commands()) {
-      replica_->setCommand(command.robot(), decode(command, replica_->robotCount()));
-    }
+    putCommands(task, *replica_);
     replica_->begin();
     putOutcome(task, *replica_);
     replica_->move();
     replica_->sense({task.begin(), task.end()});
-    wire::FromWorker message;
+    internal::WorkRequest message;
     auto& result = *message.mutable_result();
     result.set_step(task.step());
     result.set_begin(task.begin());
@@ -97,25 +95,23 @@ class WrongResultWorker {
 
   Corruption corrupt_;
   std::uint64_t from_step_;
-  std::unique_ptr<wire::Geometry::Stub> stub_;
+  std::unique_ptr<internal::Geometry::Stub> stub_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReaderWriter<wire::Sealed, wire::Sealed>> stream_;
-  wire::ToWorker in_;
+  std::unique_ptr<grpc::ClientReaderWriter<internal::Sealed, internal::Sealed>> stream_;
+  internal::WorkResponse in_;
   std::unique_ptr<Environment> replica_;
   std::future<grpc::Status> thread_;
 };
 
 /// Writes a number into one field of the first beam of the last sensor.
 Corruption echo(int place, float value) {
-  return [=](wire::TaskResult& result) {
+  return [=](internal::TaskResult& result) {
     result.mutable_measurements(result.measurements_size() - 1)->set_floats(place, value);
   };
 }
 
 /// Shifts the point of the first beam by an amount below the single precision of the range: plausible, and wrong.
-void movePoint(wire::Measurement& measurement) {
-  measurement.set_floats(3, std::nextafter(measurement.floats(3), 1e3f));
-}
+void movePoint(v1::Measurement& measurement) { measurement.set_floats(3, std::nextafter(measurement.floats(3), 1e3f)); }
 
 /// All observations of a recording as bytes, except the comments on the run.
 std::vector<std::vector<std::uint8_t>> observationsOf(const std::filesystem::path& rawlog) {

@@ -37,5 +37,5 @@ inside='
   mount -t proc proc "$1/proc"
   mount --rbind /dev "$1/dev"
   exec chroot "$1" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 TERM="${TERM:-dumb}" \
-    ROBOSIM_VERIFY="${ROBOSIM_VERIFY:-}" ROBOSIM_UNITY=ON bash -c "cd /srv/robosim && exec ./dev test \"\$@\"" dev "${@:2}"'
+    ${ROBOSIM_VERIFY:+ROBOSIM_VERIFY=1} ROBOSIM_UNITY=ON bash -c "cd /srv/robosim && exec ./dev test \"\$@\"" dev "${@:2}"'
 exec unshare --mount bash -c "$inside" trixie "$root" "$@"

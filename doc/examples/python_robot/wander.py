@@ -2,22 +2,25 @@
 
     /usr/bin/python3 wander.py HOST:PORT NAME...
 
-A token, if required, is read from ROBOSIM_TOKEN. README.md describes how to generate the modules in `net`.
+A token, if required, is read from ROBOSIM_TOKEN. README.md describes how to generate the modules in `robosim`.
 """
 import os
 import queue
 import sys
 
 import grpc
-from net import robots_pb2 as wire
-from net import robots_pb2_grpc
+from robosim.v1 import robots_pb2 as v1
+from robosim.v1 import robots_pb2_grpc
+
 
 def free_m(readings, sensors):
     """Free distance ahead of the robot's centre within its width, measured by the sonars."""
     distance = float("inf")
     for reading, sensor in zip(readings.measurements, sensors):
         if sensor.kind == "sonar":
-            for x_m, y_m in zip(reading.floats[1::4], reading.floats[2::4]):
+            names = [field.name for field in sensor.fields]
+            xs_m, ys_m = (reading.floats[names.index(name) :: len(names)] for name in ("x", "y"))
+            for x_m, y_m in zip(xs_m, ys_m):
                 if x_m > 0 and abs(y_m) < 0.3:
                     distance = min(distance, x_m)
     return distance
@@ -25,24 +28,25 @@ def free_m(readings, sensors):
 
 def decide(i, readings, sensors):
     if readings.stalled or free_m(readings, sensors) < 0.6:
-        return wire.RobotCommand(robot=i, speed_mps=0, turn_radps=0.8)
-    return wire.RobotCommand(robot=i, speed_mps=0.3)
+        return v1.RobotCommand(process_robot=i, command=v1.Command(speed_mps=0, turn_radps=0.8))
+    return v1.RobotCommand(process_robot=i, command=v1.Command(speed_mps=0.3))
 
 
 def drive(address, names):
-    answers = queue.SimpleQueue()
-    answers.put(wire.DriveRequest(hello=wire.RobotsHello(protocol=1, names=names)))
+    requests = queue.SimpleQueue()
+    requests.put(v1.DriveRequest(hello=v1.RobotsHello(protocol=1, names=names)))
     token = os.environ.get("ROBOSIM_TOKEN")
     metadata = [("authorization", "Bearer " + token)] if token else []
     with grpc.insecure_channel(address) as channel:
-        stream = robots_pb2_grpc.RobotsStub(channel).Drive(iter(answers.get, None), metadata=metadata)
+        stream = robots_pb2_grpc.RobotsStub(channel).Drive(iter(requests.get, None), metadata=metadata)
         welcome = next(stream).welcome
         sensors = [welcome.sensor_sets[robot.sensor_set].sensors for robot in welcome.robots]
         steps = 0
-        for message in stream:
-            commands = [decide(i, readings, sensors[i]) for i, readings in enumerate(message.robots)]
-            answers.put(wire.DriveRequest(step=message.step, commands=commands))
-            steps = message.step
+        for response in stream:
+            step = response.readings
+            commands = [decide(i, readings, sensors[i]) for i, readings in enumerate(step.robots)]
+            requests.put(v1.DriveRequest(answer=v1.StepAnswer(step=step.step, commands=commands)))
+            steps = step.step
         print("the run is over after step", steps)
 
 

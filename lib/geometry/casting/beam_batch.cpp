@@ -1,17 +1,14 @@
-#include "geometry/casting/beam_batch.h"
-
 #include <algorithm>
 #include <limits>
 
+#include "base/vector_width.h"
 #include "geometry/casting/beam_kernels.h"
+#include "geometry/casting/beams.h"
 #include "geometry/casting/bearing_cull.h"
-#include "geometry/vector_width.h"
 
 namespace robosim {
 namespace {
 
-constexpr std::size_t kNarrowBlock = BeamFan::kNarrowBlock;
-constexpr std::size_t kWideBlock = BeamFan::kWideBlock;
 /// Bound [m] of the rounding error of a solid's distance.
 constexpr double kSlack_m = 1e-9;
 
@@ -69,7 +66,8 @@ template <typename Kernel, std::size_t kBlock>
   std::size_t circle_count = 0, box_count = 0;
   for (std::size_t k = 0; k < candidates->count; ++k) {
     const GridItem& item = *candidates->item[k];
-    const std::size_t fits = (item.heights.z_min_m <= z_m) & (z_m <= item.heights.z_max_m);
+    const std::size_t fits = (item.heights.z_min_m <= z_m) & (z_m <= item.heights.z_max_m) &
+                             !(arrays.nearest[k] > frame->reach_m);  // also for NaN
     const std::size_t is_circle = item.isCircle();
     circles[circle_count] = boxes[box_count] = static_cast<std::uint8_t>(k);
     circle_count += fits & is_circle;
@@ -96,10 +94,10 @@ void BeamBatch::place(const BeamFan& fan, const PlanarTransform& world_from_fan,
   world_from_fan_ = world_from_fan;
   panned_ = PlanarTransform(world_from_fan, pan_rad);
   is_initialized_ = false;
-  center_ = world_from_fan.pointToWorld(fan.middle());
-  facing_ = panned_.turnToWorld(fan.facing());
-  z_m_ = world_from_fan.z() + fan.z();
-  spread_m_ = fan.spread() + kSlack_m;
+  center_ = world_from_fan.pointToWorld(fan.middle_);
+  facing_ = panned_.turnToWorld(fan.facing_);
+  z_m_ = world_from_fan.z() + fan.z_m_;
+  spread_m_ = fan.spread_m_ + kSlack_m;
   farthest_m_ = range_m;
 }
 
@@ -119,7 +117,7 @@ void BeamBatch::initialize() {
   };
   turn(fan.origin_, world_from_fan_.x(), world_from_fan_.y(), world_from_fan_, origin_);
   turn(fan.left_, 0, 0, panned_, left_);
-  if (fan.isWide()) turn(fan.right_, 0, 0, panned_, right_);
+  if (fan.is_wide_) turn(fan.right_, 0, 0, panned_, right_);
   distance_.assign(count, farthest_m_);
   body_.assign(count, kNothing);
   // The padding of the last group never hits anything.
@@ -136,7 +134,8 @@ void BeamBatch::intersect(const Candidates& candidates) {
                         static_cast<float>(panned_.cos()),
                         static_cast<float>(panned_.sin()),
                         static_cast<float>(spread_m_ * (1 + kCullRelativeError)),
-                        fan_->half_width_rad_};
+                        fan_->half_width_rad_,
+                        static_cast<float>(farthest_m_)};
   const Blocks blocks{fan_->first_.data(), distance_.size() / fan_->block_};
   const auto intersect = [&](auto kernel) {
     using Kernel = decltype(kernel);
@@ -146,7 +145,7 @@ void BeamBatch::intersect(const Candidates& candidates) {
       withVectors<intersectAll<Kernel, kWideBlock>>(beams, &frame, z_m_, blocks, &candidates);
     }
   };
-  if (fan_->isWide()) {
+  if (fan_->is_wide_) {
     intersect(SectorKernel());
   } else {
     intersect(RayKernel());

@@ -1,11 +1,11 @@
-#include "geometry/casting/beam_fan.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "base/portable_math.h"
+#include "geometry/casting/beam_kernels.h"
+#include "geometry/casting/beams.h"
 #include "geometry/casting/bearing_cull.h"
 
 namespace robosim {

@@ -3,12 +3,19 @@
 #include <cstddef>
 
 #include "geometry/index/grid_item.h"
-#include "geometry/shapes/planar_ray.h"
+#include "geometry/shapes/ray_intersection.h"
 
 /// Intersection of one beam with one solid, free of branches and always inlined, so that the loops over beams are
 /// vectorised. Each keeps the result if it is nearer than the beam's current hit, or equally near with a lower body, so
 /// that the result does not depend on the order of solids.
 namespace robosim {
+
+/// Number of beams that are intersected with a solid together: few keep the beams of a sonar ring apart, many fill the
+/// widest vectors.
+///@{
+constexpr std::size_t kNarrowBlock = 4;
+constexpr std::size_t kWideBlock = 8;
+///@}
 
 /// Beams of a batch as restrict pointers, which the loops below need to be vectorised.
 struct Beams {
@@ -60,7 +67,7 @@ struct Beams {
 /// A ray is stored as a sector with its direction as the left edge.
 struct RayKernel {
   [[gnu::always_inline]] static void circle(const Beams& rays, std::size_t i, const GridItem& s, double body) {
-    keepRay(rays, i, intersectCircle(s.x - rays.x[i], s.y - rays.y[i], rays.left_x[i], rays.left_y[i], s.round_m),
+    keepRay(rays, i, intersectCircle(s.x - rays.x[i], s.y - rays.y[i], rays.left_x[i], rays.left_y[i], s.half_length_m),
             body);
   }
   [[gnu::always_inline]] static void box(const Beams& rays, std::size_t i, const GridItem& s, double body) {
@@ -76,7 +83,7 @@ struct SectorKernel {
   [[gnu::always_inline]] static void circle(const Beams& s, std::size_t i, const GridItem& circle, double body) {
     const double ox = circle.x - s.x[i];
     const double oy = circle.y - s.y[i];
-    const double radius = circle.round_m;
+    const double radius = circle.half_length_m;
     const double far = std::sqrt(ox * ox + oy * oy);
     const bool inside = far <= radius;
     const double near = inside ? 0.0 : far - radius;

@@ -4,12 +4,28 @@
 #include <cmath>
 #include <cstdint>
 
-#include "geometry/casting/candidates.h"
 #include "geometry/index/culling.h"
 
 /// Conservative culling by bearing in single precision: finds the interval of bearings at which a solid lies, without
 /// false negatives. Branch-free and always inlined, so that the loops over solids are vectorised.
 namespace robosim {
+
+/// Solids of a scene that beams of a batch may hit.
+struct Candidates {
+  static constexpr std::size_t kCapacity = 32;
+
+  std::array<const GridItem*, kCapacity> item;
+  std::array<std::uint32_t, kCapacity> body;
+  std::size_t count = 0;
+
+  /// Branch-free, because whether a solid is a candidate is unpredictable.
+  void addIf(bool condition, const GridItem& solid, std::uint32_t number) {
+    item[count] = &solid;
+    body[count] = number;
+    count += condition ? 1 : 0;
+  }
+  bool isFull() const { return count == kCapacity; }
+};
 
 /// Bins of equal width over a full turn from bearing -π: 0.5° each.
 constexpr std::size_t kBearingBins = 720;
@@ -20,6 +36,7 @@ struct CullFrame {
   float x_axis_x, x_axis_y;  ///< direction of bearing 0, world frame
   float spread_m;            ///< farthest origin of a beam from the frame's origin
   float half_width_rad;      ///< of the widest beam
+  float reach_m;             ///< distance beyond which no solid can change the result
 };
 
 /// Candidates in single precision relative to the origin of a CullFrame, so that loops over solids are vectorised, and
@@ -62,9 +79,10 @@ constexpr float kBearingSlack_rad = 5e-4F;
     to.y[k] = static_cast<float>(s.y - frame.y);
     to.axis_x[k] = static_cast<float>(s.axis_x);
     to.axis_y[k] = static_cast<float>(s.axis_y);
-    to.half_length[k] = static_cast<float>(s.half_length_m);
+    const double round_m = s.isCircle() ? s.half_length_m : 0;
+    to.half_length[k] = static_cast<float>(s.half_length_m - round_m);
     to.half_width[k] = static_cast<float>(s.half_width_m);
-    to.round[k] = static_cast<float>(s.round_m);
+    to.round[k] = static_cast<float>(round_m);
   }
 }
 

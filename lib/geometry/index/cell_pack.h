@@ -6,6 +6,10 @@
 
 #include "geometry/index/culling.h"
 
+#ifdef __SSE__
+#include <xmmintrin.h>
+#endif
+
 namespace robosim {
 
 /// Solids of a grid cell, as the discs that cover them: structure of arrays in single precision, so that one vector
@@ -23,7 +27,7 @@ struct alignas(64) CellPack {
     std::fill_n(index, kCapacity, kNoSolid);
   }
 
-  void set(std::size_t i, const CullSolid& solid, double reach_m, std::uint32_t solid_index) {
+  void set(std::size_t i, const CullDisc& solid, double reach_m, std::uint32_t solid_index) {
     x[i] = solid.x;
     y[i] = solid.y;
     negative_reach_m[i] = static_cast<float>(-reach_m);
@@ -58,8 +62,67 @@ struct alignas(64) CellRectangles {
   void set(std::size_t i, const GridItem& item, double margin_m) {
     axis_x[i] = static_cast<float>(item.axis_x);
     axis_y[i] = static_cast<float>(item.axis_y);
-    half_length_m[i] = static_cast<float>(item.half_length_m + item.round_m + margin_m);
-    half_width_m[i] = static_cast<float>(item.half_width_m + item.round_m + margin_m);
+    half_length_m[i] = static_cast<float>(item.half_length_m + margin_m);
+    half_width_m[i] = static_cast<float>((item.isCircle() ? item.half_length_m : item.half_width_m) + margin_m);
+  }
+};
+
+/// Planar ray in single precision for conservative culling, relative to the middle of a grid that contains its origin.
+struct CullRay {
+  float x, y, dx, dy;
+
+  /// Mask of the pack's solids that the ray may intersect nearer than `reach_m`: bit i for solid i. Tests each solid's
+  /// covering disc, or its rectangle where `rectangles` is given. Conservative: no false negatives. Uses the compiler's
+  /// vector types because g++ 12 does not vectorise the loop; in a function of withVectors() they compile to
+  /// each processor's own width. No operation depends on a result that it does not need, which shortens the critical
+  /// path before the branch on the mask.
+  [[gnu::always_inline]] std::uint32_t mayHit(const CellPack& pack, const CellRectangles* rectangles,
+                                              float reach_m) const {
+    const auto& negative_reach = reinterpret_cast<const Floats&>(pack.negative_reach_m);
+    const Floats ox = reinterpret_cast<const Floats&>(pack.x) - x;
+    const Floats oy = reinterpret_cast<const Floats&>(pack.y) - y;
+    const Floats along = dx * ox + dy * oy;
+    Floats across = dx * oy - dy * ox;
+    dropSign(across);
+    // Signed distances to the limits: lateral, behind, ahead. All are negative for a solid that may be hit. Unused
+    // entries never match, whatever the ray's values: `across` lost its sign before anything was added, so infinity or
+    // NaN has a clear sign bit.
+    Floats aside = across + negative_reach;
+    if (rectangles != nullptr) {
+      const auto& axis_x = reinterpret_cast<const Floats&>(rectangles->axis_x);
+      const auto& axis_y = reinterpret_cast<const Floats&>(rectangles->axis_y);
+      Floats slope_a = dx * axis_x + dy * axis_y;
+      Floats slope_b = dy * axis_x - dx * axis_y;
+      dropSign(slope_a);
+      dropSign(slope_b);
+      aside = across - (reinterpret_cast<const Floats&>(rectangles->half_length_m) * slope_b +
+                        reinterpret_cast<const Floats&>(rectangles->half_width_m) * slope_a);
+    }
+    const Floats behind = negative_reach - along;
+    const Floats ahead = along + (negative_reach - reach_m);
+    const Bits signs = asBits(aside) & asBits(behind) & asBits(ahead);
+    return signsOf(signs);
+  }
+
+ private:
+  using Floats [[gnu::vector_size(sizeof(float) * CellPack::kCapacity), gnu::may_alias]] = float;
+  using Bits [[gnu::vector_size(sizeof(float) * CellPack::kCapacity), gnu::may_alias]] = std::int32_t;
+
+  // Passed by reference: g++ warns about functions that take or return vectors.
+  [[gnu::always_inline]] static const Bits& asBits(const Floats& of) { return reinterpret_cast<const Bits&>(of); }
+  [[gnu::always_inline]] static void dropSign(Floats& of) {
+    reinterpret_cast<Bits&>(of) &= std::numeric_limits<std::int32_t>::max();
+  }
+  /// One bit per lane: its sign bit.
+  [[gnu::always_inline]] static std::uint32_t signsOf(const Bits& of) {
+#ifdef __SSE__
+    const auto* halves = reinterpret_cast<const __m128*>(&of);
+    return static_cast<std::uint32_t>(_mm_movemask_ps(halves[0]) | _mm_movemask_ps(halves[1]) << 4);
+#else
+    std::uint32_t signs = 0;
+    for (std::size_t i = 0; i < CellPack::kCapacity; ++i) signs |= static_cast<std::uint32_t>(of[i]) >> 31 << i;
+    return signs;
+#endif
   }
 };
 

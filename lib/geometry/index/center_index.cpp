@@ -24,7 +24,6 @@ CenterIndex::CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle)
     : middle_(middle), items_(solids), cell_(solids), entries_(solids) {
   // Upper bound of the cells that chooseCells() makes: (w / cell + 1)·(h / cell + 1), and the end.
   begin_.reserve(3 * (solids + static_cast<std::size_t>(kExtraCells)) + 2);
-  for (std::size_t i = 0; i < solids; ++i) items_[i].number = static_cast<std::uint32_t>(i);
 }
 
 void CenterIndex::chooseCells() {
@@ -69,7 +68,7 @@ void CenterIndex::build() {
   for (auto& begin : begin_) begin = sum += begin;  // each cell's end until the entries are filled in
   // Filled from the back, so that each cell's end becomes its begin and its solids keep the order given.
   for (std::size_t i = items_.size(); i-- > 0;) {
-    entries_[--begin_[cell_[i]]] = {CullSolid::from(items_[i], middle()), static_cast<std::uint32_t>(i)};
+    entries_[--begin_[cell_[i]]] = {CullDisc::from(items_[i], middle()), static_cast<std::uint32_t>(i)};
   }
 }
 

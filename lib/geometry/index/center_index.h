@@ -20,15 +20,15 @@ class CenterIndex {
  public:
   /// Entry of a cell: all that culling reads, so that culled solids cost no further memory access.
   struct Entry {
-    CullSolid solid;
+    CullDisc solid;
     std::uint32_t index = 0;
   };
 
-  /// @param middle reference point of the entries' CullSolid coordinates, world frame
+  /// @param middle reference point of the entries' CullDisc coordinates, world frame
   explicit CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle = {});
 
   /// Sets a solid. Takes effect with build().
-  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid, static_cast<std::uint32_t>(i)); }
+  void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid); }
   void build();
 
   /// The solids, in the order given.

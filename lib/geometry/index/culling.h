@@ -14,15 +14,18 @@ namespace robosim {
 /// few sums and products of such numbers stay well below this fraction of the largest length involved.
 constexpr double kCullRelativeError = 2e-6;
 
-/// Solid in single precision for conservative culling, relative to the middle of its scene. `round_m` includes the
-/// rounding error, so culling has no false negatives.
-struct CullSolid {
-  float x = 0, y = 0, axis_x = 1, axis_y = 0;
-  float half_length_m = 0, half_width_m = 0, round_m = 0;
+/// Disc that covers a solid, in single precision for conservative culling, relative to the middle of its scene. The
+/// radius includes the rounding error, so culling has no false negatives.
+struct CullDisc {
+  float x = 0, y = 0, radius_m = 0;
 
-  static CullSolid from(const GridItem&, const mrpt::math::TPoint2D& middle);
-  /// Radius [m] of a covering disc about its centre.
-  float reach() const { return half_length_m + half_width_m + round_m; }
+  static CullDisc from(const GridItem& item, const mrpt::math::TPoint2D& middle) {
+    constexpr double kSlack_m = 1e-9;  // more than the rounding error of these lengths in double precision
+    const double x = item.x - middle.x;
+    const double y = item.y - middle.y;
+    const double rounding_m = kCullRelativeError * (std::abs(x) + std::abs(y) + item.reach()) + kSlack_m;
+    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(item.reach() + rounding_m)};
+  }
 };
 
 /// Point in single precision for conservative culling.
@@ -39,36 +42,47 @@ struct CullPoint {
   }
 };
 
-/// Tests solids against a disc in single precision. Conservative: no false negatives.
+/// Half-plane ahead of a point, extended backwards by `margin_m`.
+struct HalfPlaneCull {
+  mrpt::math::TPoint2D origin;
+  mrpt::math::TPoint2D facing;  ///< unit vector; (0, 0) accepts everything
+  double margin_m = 0;
+
+  /// Whether a solid reaches into the half-plane. Conservative: no false negatives.
+  bool mayContain(const GridItem& item) const {
+    const double ahead_m = facing.x * (item.x - origin.x) + facing.y * (item.y - origin.y);
+    return ahead_m >= -(item.half_length_m + item.half_width_m + margin_m);
+  }
+};
+
+/// Tests solids against the part of a disc that lies in a half-plane, in single precision. Conservative: no false
+/// negatives.
 class RangeCull {
  public:
-  /// @param reach_m at least 0
-  RangeCull(const mrpt::math::TPoint2D& place, double reach_m, const mrpt::math::TPoint2D& middle)
-      : at_(place),
+  /// @param half_plane its origin is the disc's centre  @param reach_m at least 0
+  RangeCull(const HalfPlaneCull& half_plane, double reach_m, const mrpt::math::TPoint2D& middle)
+      : at_(half_plane.origin),
         reach_m_(std::min(reach_m, double{std::numeric_limits<float>::max()})),
-        place_(CullPoint::from(place, reach_m_, middle)),
-        far_m_(static_cast<float>(reach_m_) + place_.rounding_m) {}
+        place_(CullPoint::from(at_, reach_m_ + half_plane.margin_m, middle)),
+        far_m_(static_cast<float>(reach_m_) + place_.rounding_m),
+        facing_x_(static_cast<float>(half_plane.facing.x)),
+        facing_y_(static_cast<float>(half_plane.facing.y)),
+        margin_m_(static_cast<float>(half_plane.margin_m) + place_.rounding_m) {}
 
   Bounds2D bounds() const { return {at_.x - reach_m_, at_.x + reach_m_, at_.y - reach_m_, at_.y + reach_m_}; }
-  bool mayContain(const CullSolid& solid) const {
+  bool mayContain(const CullDisc& solid) const {
     const float dx = solid.x - place_.x;
     const float dy = solid.y - place_.y;
-    const float far_m = far_m_ + solid.reach();
-    return dx * dx + dy * dy <= far_m * far_m;
+    const float far_m = far_m_ + solid.radius_m;
+    const float back_m = margin_m_ + solid.radius_m;
+    return (dx * dx + dy * dy <= far_m * far_m) & (facing_x_ * dx + facing_y_ * dy >= -back_m);
   }
 
  private:
   mrpt::math::TPoint2D at_;
   double reach_m_;
   CullPoint place_;
-  float far_m_;
-};
-
-/// Half-plane ahead of a point, extended backwards by `margin_m`.
-struct HalfPlaneCull {
-  mrpt::math::TPoint2D origin;
-  mrpt::math::TPoint2D facing;  ///< unit vector; (0, 0) accepts everything
-  double margin_m = 0;
+  float far_m_, facing_x_, facing_y_, margin_m_;
 };
 
 /// Tests the cells of a grid against a half-plane. Conservative: no false negatives.

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/vector_width.h"
 #include "geometry/casting/bearing_cull.h"
 #include "geometry/testing/random_scene.h"
-#include "geometry/vector_width.h"
 
 namespace robosim {
 namespace {
@@ -34,17 +34,32 @@ struct Tally {
 
 TPoint2D directionOf(double angle_rad) { return {std::cos(angle_rad), std::sin(angle_rad)}; }
 
-TEST(RangeCull, KeepsEverySolidWithinReach) {
+/// How far an outline extends ahead of a point.
+double foremost(const Outline& outline, const HalfPlaneCull& half_plane) {
+  const auto along = [&](const TPoint2D& v) { return half_plane.facing.x * v.x + half_plane.facing.y * v.y; };
+  if (const auto* circle = std::get_if<Circle>(&outline)) {
+    return along(circle->center - half_plane.origin) + circle->radius_m * half_plane.facing.norm();
+  }
+  const auto& box = std::get<OrientedBox>(outline);
+  return along(box.center - half_plane.origin) + box.half_length_m * std::abs(along(box.axis)) +
+         box.half_width_m * std::abs(along({-box.axis.y, box.axis.x}));
+}
+
+TEST(RangeCull, KeepsEverySolidWithinReachAndAhead) {
   Rng rng(1);
   Tally tally;
-  for (int i = 0; i < 20000; ++i) {
+  for (int i = 0; i < 40000; ++i) {
     const double offset_m = kOffsets_m[i % 3];
     const TPoint2D middle(offset_m, -offset_m);
-    const TPoint2D place = randomPoint(rng, {-10, 10, -10, 10});
+    const TPoint2D facing = i % 2 ? directionOf(rng.uniform(-M_PI, M_PI)) : TPoint2D();
+    const HalfPlaneCull half_plane{randomPoint(rng, {-10, 10, -10, 10}), facing, rng.uniform(0, 0.5)};
     const double reach_m = rng.uniform(0, 12);
     const Solid solid = randomSolid(rng, {.area = {-10, 10, -10, 10}});
-    const bool kept = RangeCull(place, reach_m, middle).mayContain(CullSolid::from(GridItem::from(solid, 0), middle));
-    const bool is_relevant = distance(solid.outline, place) <= reach_m;
+    const GridItem item = GridItem::from(solid);
+    const bool is_ahead = foremost(solid.outline, half_plane) >= -half_plane.margin_m;
+    ASSERT_TRUE(half_plane.mayContain(item) || !is_ahead) << "case " << i;
+    const bool kept = RangeCull(half_plane, reach_m, middle).mayContain(CullDisc::from(item, middle));
+    const bool is_relevant = is_ahead && distance(solid.outline, half_plane.origin) <= reach_m;
     ASSERT_TRUE(kept || !is_relevant) << "case " << i;
     tally.add(is_relevant, kept);
   }
@@ -53,8 +68,8 @@ TEST(RangeCull, KeepsEverySolidWithinReach) {
 }
 
 TEST(RangeCull, KeepsAllAtInfiniteReach) {
-  const GridItem far = GridItem::from({Circle{{1e30, -1e30}, 1}, {0, 1}}, 0);
-  EXPECT_TRUE(RangeCull({0, 0}, INFINITY, {0, 0}).mayContain(CullSolid::from(far, {0, 0})));
+  const GridItem far = GridItem::from({Circle{{1e30, -1e30}, 1}, {0, 1}});
+  EXPECT_TRUE(RangeCull({}, INFINITY, {0, 0}).mayContain(CullDisc::from(far, {0, 0})));
 }
 
 TEST(CellHalfPlaneCull, KeepsEveryCellThatReachesIntoTheHalfPlane) {
@@ -114,18 +129,19 @@ void expectBearingsOfEveryHit(double precision) {
     for (std::uint32_t k = 0; k < Candidates::kCapacity; ++k) {
       solids.push_back(randomSolid(rng, {.area = {-10, 10, -10, 10}}));
       solids.back().heights = {0, 2};
-      items.push_back(GridItem::from(solids.back(), k));
+      items.push_back(GridItem::from(solids.back()));
     }
     Candidates candidates;
     candidates.count = 0;
-    for (const auto& item : items) candidates.addIf(true, item, item.number);
+    for (const auto& item : items) candidates.addIf(true, item, 0);
     const double turn_rad = rng.uniform(-M_PI, M_PI), spread_m = rng.below(2) ? 0 : rng.uniform(0, 0.5);
     const CullFrame frame{at.x,
                           at.y,
                           static_cast<float>(std::cos(turn_rad)),
                           static_cast<float>(std::sin(turn_rad)),
                           static_cast<float>(spread_m),
-                          0};
+                          0,
+                          INFINITY};
     findWithAllWidths<kDisc>(frame, candidates, arrays, rng);
     for (int r = 0; r < 20; ++r) {
       const double bearing_rad = rng.uniform(-M_PI, M_PI);

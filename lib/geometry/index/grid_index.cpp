@@ -36,8 +36,8 @@ GridIndex::GridIndex(const Bounds2D& area, double cell_m)
       columns_(cellsIn(area.x_max - area.x_min, cell_m)),
       rows_(cellsIn(area.y_max - area.y_min, cell_m)),
       middle_((area.x_min + area.x_max) / 2, (area.y_min + area.y_max) / 2),
-      low_{area.x_min, area.y_min},
-      cells_{static_cast<double>(columns_), static_cast<double>(rows_)},
+      low_(area.x_min, area.y_min),
+      cells_(columns_, rows_),
       packs_(cellCount()) {}
 
 template <typename Visit>
@@ -61,6 +61,7 @@ void GridIndex::forCells(const GridItem& item, const Visit& visit) const {
 void GridIndex::sort(std::span<const Solid> solids) {
   const std::size_t count = solids.size();
   items_.resize(count);
+  number_of_.resize(count);
   index_of_.resize(count);
   std::vector<std::uint32_t> begin(cellCount());
   for (std::size_t number = 0; number < count; ++number) {
@@ -72,7 +73,8 @@ void GridIndex::sort(std::span<const Solid> solids) {
   std::exclusive_scan(begin.begin(), begin.end(), begin.begin(), 0U);
   for (std::size_t number = 0; number < count; ++number) {
     const std::uint32_t index = begin[index_of_[number]]++;
-    items_[index] = GridItem::from(solids[number], static_cast<std::uint32_t>(number));
+    items_[index] = GridItem::from(solids[number]);
+    number_of_[index] = static_cast<std::uint32_t>(number);
     index_of_[number] = index;
   }
 }
@@ -90,7 +92,7 @@ void GridIndex::build(std::span<const Solid> solids) {
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const double margin_m = roundingError(items_[i]);
     const double reach_m = items_[i].reach() + margin_m;
-    const CullSolid solid = CullSolid::from(items_[i], middle());
+    const CullDisc solid = CullDisc::from(items_[i], middle());
     forCells(items_[i], [&](std::size_t cell) {
       const std::size_t place = filled[cell]++;
       const std::size_t nth = std::min(place / CellPack::kSolidsBeforeLink, CellPack::packCount(counts[cell]) - 1);
@@ -133,7 +135,8 @@ bool GridIndex::containsAll(const GridItem& item) const {
 bool GridIndex::areManyElongated() const {
   constexpr double kLong = 3;  // ratio of length to width
   const auto are_long = std::count_if(items_.begin(), items_.end(), [](const GridItem& item) {
-    return std::max(item.half_length_m, item.half_width_m) > kLong * std::min(item.half_length_m, item.half_width_m);
+    return !item.isCircle() &&
+           std::max(item.half_length_m, item.half_width_m) > kLong * std::min(item.half_length_m, item.half_width_m);
   });
   return 4 * static_cast<std::size_t>(are_long) > items_.size();
 }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "geometry/index/cell_pack.h"
-#include "geometry/index/simd.h"
 #include "geometry/shapes/ray.h"
 
 namespace robosim {
@@ -37,19 +36,23 @@ class GridIndex {
   void build(std::span<const Solid> solids);
 
   /// The solids, sorted by the cell of their centre, so that neighbours in the plane are close in memory: consecutive
-  /// queries often read neighbours. Indices in this class refer to this order; GridItem::number is the order given to
-  /// build().
+  /// queries often read neighbours. Indices in this class refer to this order.
   std::span<const GridItem> items() const { return items_; }
-  /// The index of a solid by its number.
+  /// Position of a solid in the order given to build(), by its index, and the reverse.
+  ///@{
+  std::uint32_t numberOf(std::uint32_t index) const { return number_of_[index]; }
   std::uint32_t indexOf(std::size_t number) const { return index_of_[number]; }
+  ///@}
   /// Reference point of the coordinates in single precision, world frame.
   mrpt::math::TPoint2D middle() const { return middle_; }
 
   double cellSize() const { return cell_m_; }
   int columns() const { return columns_; }
   int rows() const { return rows_; }
-  double xMin() const { return area_.x_min; }
-  double yMin() const { return area_.y_min; }
+  /// The lower left corner.
+  const mrpt::math::TPoint2D& low() const { return low_; }
+  /// Columns and rows, as numbers for arithmetic.
+  const mrpt::math::TPoint2D& cells() const { return cells_; }
   /// Column or row of a coordinate, clamped to the grid.
   int column(double x) const { return cellOf((x - area_.x_min) * per_m_, columns_); }
   int row(double y) const { return cellOf((y - area_.y_min) * per_m_, rows_); }
@@ -57,6 +60,16 @@ class GridIndex {
   template <typename Visit>
   void visitCell(int column, int row, const Visit& visit) const {
     visitCell(cellAt(column, row), visit);
+  }
+  /// Calls visit(index) for each solid in the list of each cell that intersects an area. A solid listed in several
+  /// cells is visited several times.
+  template <typename Visit>
+  void visitArea(const Bounds2D& area, const Visit& visit) const {
+    const int right = column(area.x_max);
+    const int top = row(area.y_max);
+    for (int y = row(area.y_min); y <= top; ++y) {
+      for (int x = column(area.x_min); x <= right; ++x) visitCell(x, y, visit);
+    }
   }
 
   /// The first pack of each cell, row by row from the lower left, followed by the linked packs.
@@ -66,20 +79,11 @@ class GridIndex {
   const CellRectangles* rectanglesOf(const CellPack* pack) const {
     return rectangles_.empty() ? nullptr : &rectangles_[static_cast<std::size_t>(pack - packs_.data())];
   }
-  /// Converts a point to cell units from the lower left corner; and whether such a point lies inside the grid.
-  ///@{
-  [[gnu::always_inline]] DoublePair inCells(const DoublePair& place) const { return (place - low_) * per_m_; }
-  [[gnu::always_inline]] bool contains(const DoublePair& in_cells) const {
-    const Int64Pair is_in = (in_cells >= 0) & (in_cells < cells_);
-    return (is_in[0] & is_in[1]) != 0;
-  }
-  ///@}
   /// Whether every solid lies inside the grid, at least borderMargin() from its border.
   bool containsAll() const { return contains_all_; }
   /// Margin [m] at the border; more than the distance from it at which GridTraversal ends.
   static double borderMargin(double cell_m);
   double perMetre() const { return per_m_; }
-  DoublePair cells() const { return cells_; }
 
   /// Whether a cell is a border cell, which extends outwards without limit.
   bool isBorderCell(int column, int row) const {
@@ -148,10 +152,10 @@ class GridIndex {
   Bounds2D area_;
   double cell_m_, per_m_;
   int columns_, rows_;
-  mrpt::math::TPoint2D middle_;
-  DoublePair low_, cells_;  ///< the lower left corner, and how many cells there are
+  mrpt::math::TPoint2D middle_, low_, cells_;
   bool contains_all_ = true;
   std::vector<GridItem> items_;             ///< one per solid
+  std::vector<std::uint32_t> number_of_;    ///< by index
   std::vector<std::uint32_t> index_of_;     ///< by number
   std::vector<CellPack> packs_;             ///< first pack per cell, then the linked packs
   std::vector<CellRectangles> rectangles_;  ///< one per pack, or empty

@@ -12,7 +12,7 @@ namespace {
 
 std::vector<std::uint32_t> listed(const GridIndex& grid, int column, int row) {
   std::vector<std::uint32_t> numbers;
-  grid.visitCell(column, row, [&](std::uint32_t i) { numbers.push_back(grid.items()[i].number); });
+  grid.visitCell(column, row, [&](std::uint32_t i) { numbers.push_back(grid.numberOf(i)); });
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
@@ -26,10 +26,10 @@ Outline rectangle(const Bounds2D& b) {
 Outline partOf(const GridIndex& grid, int column, int row) {
   constexpr double kFar_m = 1000;
   const double size = grid.cellSize();
-  const double left = column == 0 ? -kFar_m : grid.xMin() + column * size;
-  const double right = column == grid.columns() - 1 ? kFar_m : grid.xMin() + (column + 1) * size;
-  const double low = row == 0 ? -kFar_m : grid.yMin() + row * size;
-  const double high = row == grid.rows() - 1 ? kFar_m : grid.yMin() + (row + 1) * size;
+  const double left = column == 0 ? -kFar_m : grid.low().x + column * size;
+  const double right = column == grid.columns() - 1 ? kFar_m : grid.low().x + (column + 1) * size;
+  const double low = row == 0 ? -kFar_m : grid.low().y + row * size;
+  const double high = row == grid.rows() - 1 ? kFar_m : grid.low().y + (row + 1) * size;
   return rectangle({left, right, low, high});
 }
 
@@ -38,8 +38,8 @@ TEST(GridIndex, CoversItsAreaWithWholeCells) {
   EXPECT_EQ(grid.columns(), 3);
   EXPECT_EQ(grid.rows(), 2);
   EXPECT_EQ(grid.cellSize(), 2);
-  EXPECT_EQ(grid.xMin(), -1);
-  EXPECT_EQ(grid.yMin(), 2);
+  EXPECT_EQ(grid.low().x, -1);
+  EXPECT_EQ(grid.low().y, 2);
   const GridIndex fitting({0, 6, 0, 4}, 2);
   EXPECT_EQ(fitting.columns(), 3);
   EXPECT_EQ(fitting.rows(), 2);
@@ -83,11 +83,11 @@ TEST(GridIndex, SortsSolidsByCellAndFindsThemByNumber) {
                                 {Circle{{3, 3.5}, 0.3}, {0, 1}},
                                 {Circle{{3, 1}, 0.4}, {0, 1}}});
   std::vector<std::uint32_t> numbers;
-  for (const auto& item : grid.items()) numbers.push_back(item.number);
+  for (std::uint32_t i = 0; i < grid.items().size(); ++i) numbers.push_back(grid.numberOf(i));
   EXPECT_EQ(numbers, (std::vector<std::uint32_t>{1, 3, 0, 2}));
   for (std::uint32_t number = 0; number < 4; ++number) {
-    EXPECT_EQ(grid.items()[grid.indexOf(number)].number, number);
-    EXPECT_DOUBLE_EQ(grid.items()[grid.indexOf(number)].round_m, 0.1 * (number + 1));
+    EXPECT_EQ(grid.numberOf(grid.indexOf(number)), number);
+    EXPECT_DOUBLE_EQ(grid.items()[grid.indexOf(number)].half_length_m, 0.1 * (number + 1));
   }
 }
 

@@ -4,14 +4,13 @@
 
 namespace robosim {
 
-GridItem GridItem::from(const Solid& solid, std::uint32_t number) {
+GridItem GridItem::from(const Solid& solid) {
   GridItem item;
-  item.number = number;
   item.heights = solid.heights;
   if (const auto* circle = std::get_if<Circle>(&solid.outline)) {
     item.x = circle->center.x;
     item.y = circle->center.y;
-    item.round_m = circle->radius_m;
+    item.half_length_m = circle->radius_m;
   } else {
     const auto& box = std::get<OrientedBox>(solid.outline);
     item.x = box.center.x;
@@ -25,19 +24,20 @@ GridItem GridItem::from(const Solid& solid, std::uint32_t number) {
 }
 
 Solid GridItem::solid() const {
-  if (isCircle()) return {Circle{{x, y}, round_m}, heights};
+  if (isCircle()) return {Circle{{x, y}, half_length_m}, heights};
   return {OrientedBox{{x, y}, {axis_x, axis_y}, half_length_m, half_width_m}, heights};
 }
 
 double GridItem::reach() const {
-  if (isCircle()) return round_m;
+  if (isCircle()) return half_length_m;
   // Enlarged slightly, so that rounding never makes a ray through a corner miss the disc.
   return portable::hypot(half_length_m, half_width_m) * (1 + 1e-9);
 }
 
 Bounds2D GridItem::bounds() const {
-  const double half_x = half_length_m * std::abs(axis_x) + half_width_m * std::abs(axis_y) + round_m;
-  const double half_y = half_length_m * std::abs(axis_y) + half_width_m * std::abs(axis_x) + round_m;
+  const double across_m = isCircle() ? half_length_m : half_width_m;
+  const double half_x = half_length_m * std::abs(axis_x) + across_m * std::abs(axis_y);
+  const double half_y = half_length_m * std::abs(axis_y) + across_m * std::abs(axis_x);
   return {x - half_x, x + half_x, y - half_y, y + half_y};
 }
 

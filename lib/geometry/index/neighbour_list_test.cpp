@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/scene.h"
 #include "geometry/testing/random_scene.h"
 
 namespace robosim {
@@ -16,19 +15,20 @@ struct Found {
   bool is_complete = false;
 };
 
-Found near(const Scene& scene, const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
+Found near(const GridIndex& grid, const NeighbourList& list, const mrpt::math::TPoint2D& from, double reach_m) {
   Found found;
   found.is_complete = list.visitNear(
-      from, [&] { return reach_m; },
-      [&](std::uint32_t i) { found.solids.push_back(static_cast<std::uint32_t>(scene.stationaryBody(i))); });
+      from, [&] { return reach_m; }, [&](std::uint32_t i) { found.solids.push_back(grid.numberOf(i)); });
   return found;
 }
 
 /// Pillars of radius 0.5 m whose boundaries lie 1, 2, 3 and 20 m ahead of the origin.
-Scene pillarsAhead() {
+GridIndex pillarsAhead() {
   std::vector<Solid> solids;
   for (const double boundary_m : {3.0, 1.0, 20.0, 2.0}) solids.push_back({Circle{{boundary_m + 0.5, 0}, 0.5}, {0, 1}});
-  return Scene(solids, 0, {-30, 30, -30, 30});
+  GridIndex grid({-30, 30, -30, 30}, 4);
+  grid.build(solids);
+  return grid;
 }
 
 TEST(NeighbourList, ReportsThatAnEmptyListCoversNothing) {
@@ -38,25 +38,25 @@ TEST(NeighbourList, ReportsThatAnEmptyListCoversNothing) {
 }
 
 TEST(NeighbourList, VisitsTheNearestFirstUpToTheReach) {
-  const Scene scene = pillarsAhead();
+  const GridIndex grid = pillarsAhead();
   NeighbourList list;
-  scene.update(list, {0, 0}, 5);
-  EXPECT_EQ(near(scene, list, {0, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3}));
-  EXPECT_EQ(near(scene, list, {0, 0}, 5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
-  EXPECT_TRUE(near(scene, list, {0, 0}, 5).is_complete);
-  EXPECT_FALSE(near(scene, list, {0, 0}, 19).is_complete) << "it covers 5 m";
+  list.update(grid, {0, 0}, 5);
+  EXPECT_EQ(near(grid, list, {0, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3}));
+  EXPECT_EQ(near(grid, list, {0, 0}, 5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
+  EXPECT_TRUE(near(grid, list, {0, 0}, 5).is_complete);
+  EXPECT_FALSE(near(grid, list, {0, 0}, 19).is_complete) << "it covers 5 m";
 }
 
 TEST(NeighbourList, IsRebuiltOnlyAfterItsOwnerCrossedTheSkin) {
-  const Scene scene = pillarsAhead();
+  const GridIndex grid = pillarsAhead();
   NeighbourList list;
-  scene.update(list, {0, 0}, 2.5);
-  EXPECT_TRUE(near(scene, list, {0.6, 0}, 2.5).is_complete) << "within the skin";
-  EXPECT_EQ(near(scene, list, {0.6, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
-  EXPECT_FALSE(near(scene, list, {17, 0}, 2.5).is_complete);
-  scene.update(list, {17, 0}, 2.5);
-  EXPECT_TRUE(near(scene, list, {17, 0}, 2.5).is_complete);
-  EXPECT_EQ(near(scene, list, {17, 0}, 3.5).solids, (std::vector<std::uint32_t>{2}));
+  list.update(grid, {0, 0}, 2.5);
+  EXPECT_TRUE(near(grid, list, {0.6, 0}, 2.5).is_complete) << "within the skin";
+  EXPECT_EQ(near(grid, list, {0.6, 0}, 2.5).solids, (std::vector<std::uint32_t>{1, 3, 0}));
+  EXPECT_FALSE(near(grid, list, {17, 0}, 2.5).is_complete);
+  list.update(grid, {17, 0}, 2.5);
+  EXPECT_TRUE(near(grid, list, {17, 0}, 2.5).is_complete);
+  EXPECT_EQ(near(grid, list, {17, 0}, 3.5).solids, (std::vector<std::uint32_t>{2}));
 }
 
 TEST(NeighbourList, ContainsAllSolidsWithinReach) {
@@ -64,14 +64,15 @@ TEST(NeighbourList, ContainsAllSolidsWithinReach) {
     Rng rng(seed);
     const SolidSpread spread{.area = {-20, 20, -20, 20}};
     const auto solids = randomSolids(rng, rng.below(400), spread);
-    const Scene scene(solids, 0, spread.area);
+    GridIndex grid(spread.area, 1.5);
+    grid.build(solids);
     NeighbourList list;
     mrpt::math::TPoint2D at = randomPoint(rng, spread.area);
     const double reach_m = rng.uniform(0, 12);
     for (int step = 0; step < 20; ++step) {
       at += {rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3)};
-      scene.update(list, at, reach_m);
-      const Found found = near(scene, list, at, reach_m);
+      list.update(grid, at, reach_m);
+      const Found found = near(grid, list, at, reach_m);
       if (!found.is_complete) continue;  // too many solids: the list reports that it is incomplete
       const std::set<std::uint32_t> listed(found.solids.begin(), found.solids.end());
       ASSERT_EQ(listed.size(), found.solids.size()) << "each once, seed " << seed;

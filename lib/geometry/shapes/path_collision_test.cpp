@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/shapes/path.h"
-#include "geometry/testing/slow_path.h"
+#include "geometry/testing/slow_geometry.h"
 
 namespace robosim {
 namespace {

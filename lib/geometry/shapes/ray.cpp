@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/portable_math.h"
-#include "geometry/shapes/planar_ray.h"
+#include "geometry/shapes/ray_intersection.h"
 
 namespace robosim {
 namespace {

@@ -1,9 +1,8 @@
 #pragma once
-#include <optional>
-
+#include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPoint3D.h>
 
-#include "geometry/shapes/solid.h"
+#include "base/portable_math.h"
 
 namespace robosim {
 
@@ -15,19 +14,17 @@ struct Sector {
       right{1, 0};  ///< unit vectors along the edges, counter-clockwise and clockwise of `axis`
 
   /// @param axis_rad world frame, CCW from x  @param half_width_rad (0, π/2)
-  static Sector towards(const mrpt::math::TPoint3D& apex, double axis_rad, double half_width_rad);
+  static Sector towards(const mrpt::math::TPoint3D& apex, double axis_rad, double half_width_rad) {
+    const auto unit = [](double angle_rad) {
+      const auto [sin, cos] = portable::sincos(angle_rad);
+      return mrpt::math::TPoint2D(cos, sin);
+    };
+    return {apex, unit(axis_rad), unit(axis_rad + half_width_rad), unit(axis_rad - half_width_rad)};
+  }
   /// Whether the direction `v` (of any length, from the apex) lies in the wedge, edges included.
-  bool contains(const mrpt::math::TPoint2D& v) const;
+  bool contains(const mrpt::math::TPoint2D& v) const {
+    return right.x * v.y - right.y * v.x >= 0 && v.x * left.y - v.y * left.x >= 0;
+  }
 };
-
-/// Nearest point in a sector.
-struct SectorHit {
-  double distance_m = 0;
-  mrpt::math::TPoint2D point;  ///< world frame [m]
-};
-
-/// The exact nearest point to the apex of the solid within the sector; the apex itself when it lies inside the solid;
-/// nullopt when the sector and the solid do not intersect, or the apex's height is outside the solid's heights.
-std::optional<SectorHit> nearestInSector(const Sector&, const Solid&);
 
 }  // namespace robosim

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/shapes/ray.h"
-#include "geometry/testing/random_scene.h"
 #include "geometry/testing/slow_geometry.h"
+#include "geometry/testing/slow_scene.h"
 
 namespace robosim {
 namespace {
@@ -27,18 +26,19 @@ struct View {
   mrpt::math::TPoint3D apex;
   double axis_rad = 0, half_width_rad = 0;
 };
-std::optional<SectorHit> nearestIn(const View& view, const Solid& solid) {
-  return nearestInSector(Sector::towards(view.apex, view.axis_rad, view.half_width_rad), solid);
+Hit nearestIn(const View& view, const Solid& solid) {
+  const Scene scene({solid}, 0, {-8, 8, -8, 8});
+  return senseSector(scene, Sector::towards(view.apex, view.axis_rad, view.half_width_rad), INFINITY);
 }
 /// Sector from the origin along x.
 View ahead(double half_width_rad, double z = 1) { return {{0, 0, z}, 0, half_width_rad}; }
 
 void expectHit(const View& view, const Solid& solid, double distance_m, const TPoint2D& point) {
-  const auto hit = nearestIn(view, solid);
+  const Hit hit = nearestIn(view, solid);
   ASSERT_TRUE(hit);
-  EXPECT_NEAR(hit->distance_m, distance_m, 1e-13);
-  EXPECT_NEAR(hit->point.x, point.x, 1e-13);
-  EXPECT_NEAR(hit->point.y, point.y, 1e-13);
+  EXPECT_NEAR(hit.distance_m, distance_m, 1e-13);
+  EXPECT_NEAR(hit.point.x, point.x, 1e-13);
+  EXPECT_NEAR(hit.point.y, point.y, 1e-13);
 }
 
 /// Angle from `a` to `b`, in [-π, π].
@@ -106,11 +106,11 @@ std::optional<Real> slowNearest(const View& view, const Solid& solid, Real hair)
 /// Whether the result is within 1e-9 m of the reference, or, where a tolerance decides whether the sector's edge hits
 /// the solid, between those for solid and sector grown and shrunk by it; `grazes` counts these.
 testing::AssertionResult isExact(const View& view, const Solid& solid, int& grazes) {
-  const auto fast = nearestIn(view, solid);
+  const Hit fast = nearestIn(view, solid);
   const auto slow = slowNearest(view, solid, 0);
   const Real never = std::numeric_limits<Real>::infinity();
-  const Real got = fast ? Real(fast->distance_m) : never;
-  if (fast.has_value() != slow.has_value() || (fast && std::abs(got - *slow) >= 1e-9L)) {
+  const Real got = fast ? Real(fast.distance_m) : never;
+  if (bool(fast) != slow.has_value() || (fast && std::abs(got - *slow) >= 1e-9L)) {
     ++grazes;
     const Real first = slowNearest(view, solid, kGrain_m).value_or(never);
     const Real last = slowNearest(view, solid, -kGrain_m).value_or(never);
@@ -120,9 +120,10 @@ testing::AssertionResult isExact(const View& view, const Solid& solid, int& graz
     }
   }
   if (!fast) return testing::AssertionSuccess();
-  const RealPoint seen = real(fast->point) - RealPoint{view.apex.x, view.apex.y};
+  const TPoint2D point(fast.point.x, fast.point.y);
+  const RealPoint seen = real(point) - RealPoint{view.apex.x, view.apex.y};
   if (std::abs(norm(seen) - got) > 1e-9L) return testing::AssertionFailure() << "the point is not at the distance";
-  if (signedExcess(solid.outline, real(fast->point)) > 1e-9L) {
+  if (signedExcess(solid.outline, real(point)) > 1e-9L) {
     return testing::AssertionFailure() << "the point is not of the solid";
   }
   const RealPoint axis{std::cos(Real(view.axis_rad)), std::sin(Real(view.axis_rad))};
@@ -170,9 +171,7 @@ TEST(Sector, FindsThePointOnItsEdgeWhenTheNearestPointLiesOutside) {
 TEST(Sector, IsInvariantUnderRotation) {
   for (double turn : {0.3, 1.7, M_PI, -M_PI, -2.5, 3 * M_PI, -7.0}) {
     const TPoint2D at{std::cos(turn) * 5, std::sin(turn) * 5};
-    const auto hit = nearestIn({{0, 0, 1}, turn, k10Deg}, disc(at.x, at.y, 1));
-    ASSERT_TRUE(hit) << turn;
-    EXPECT_NEAR(hit->distance_m, 4, 1e-13) << turn;
+    EXPECT_NEAR(nearestIn({{0, 0, 1}, turn, k10Deg}, disc(at.x, at.y, 1)).distance_m, 4, 1e-13) << turn;
     EXPECT_FALSE(nearestIn({{0, 0, 1}, turn + 0.6, k10Deg}, disc(at.x, at.y, 1))) << turn;
     EXPECT_FALSE(nearestIn({{0, 0, 1}, turn + M_PI, k10Deg}, disc(at.x, at.y, 1))) << turn;
   }
@@ -234,7 +233,7 @@ TEST(Sector, AgreesWithClippingAndBisectionOverRandomSolids) {
       view.axis_rad = std::atan2(p.y - apex.y, p.x - apex.x) + rng.uniform(-1.5, 1.5) * half_width;
     }
     ASSERT_TRUE(isExact(view, solid, grazes)) << "case " << i;
-    hits += nearestIn(view, solid).has_value();
+    hits += nearestIn(view, solid) ? 1 : 0;
   }
   EXPECT_GT(hits, 20000);
   EXPECT_LT(grazes, 10) << "grazing is rare";
@@ -266,12 +265,12 @@ TEST(Sector, IsNoFartherThanAnyRayWithinIt) {
   for (int i = 0; i < 2000; ++i) {
     const Solid solid = randomSolid(rng, {.area = {-5, 5, -5, 5}, .z_min_m = 0.9, .z_max_m = 1.1});
     const View view{{0, 0, solid.heights.z_min_m}, rng.uniform(-M_PI, M_PI), rng.uniform(0.1, 1)};
-    const auto hit = nearestIn(view, solid);
+    const Hit hit = nearestIn(view, solid);
     // Just within the edges: points on an edge may be rounded out of the sector.
     for (int k = 0; k <= 50; ++k) {
       const double turn = view.axis_rad + (k - 25) / 25.0 * (view.half_width_rad - 1e-9);
       const auto along = intersect(Ray::towards(view.apex, turn), solid);
-      ASSERT_TRUE(!along || (hit && hit->distance_m <= *along + 1e-12)) << "case " << i << ", ray " << k;
+      ASSERT_TRUE(!along || (hit && hit.distance_m <= *along + 1e-12)) << "case " << i << ", ray " << k;
     }
   }
 }

@@ -33,7 +33,7 @@ export class Map2D {
     const area = begin(this.canvas);
     if (!area || !this.#map) return;
     const { g, width, height } = area;
-    const { x_m: [left, right], y_m: [bottom, top], things, robots } = this.#map;
+    const { x_m: [left, right], y_m: [bottom, top], objects, robots } = this.#map;
     const unit = Math.min((width - 12) / (right - left), (height - 12) / (top - bottom));
     g.save();
     g.translate(width / 2, height / 2);
@@ -42,7 +42,7 @@ export class Map2D {
     g.strokeStyle = color('line');
     g.lineWidth = 1 / unit;
     g.strokeRect(left, bottom, right - left, top - bottom);
-    for (const thing of things) this.#drawThing(g, thing);
+    for (const object of objects) this.#drawObject(g, object);
     robots.forEach((robot, i) => {
       const pose = this.#poses[i];
       if (!pose) return;
@@ -63,14 +63,14 @@ export class Map2D {
     g.restore();
   }
 
-  #drawThing(g, thing) {
+  #drawObject(g, object) {
     g.save();
-    g.translate(thing.at[0], thing.at[1]);
-    g.rotate(thing.at[2]);
-    g.fillStyle = thing.hot ? color('gold') : color('muted');
+    g.translate(object.at[0], object.at[1]);
+    g.rotate(object.at[2]);
+    g.fillStyle = object.hot ? color('gold') : color('muted');
     g.beginPath();
-    if (thing.radius_m) g.arc(0, 0, thing.radius_m, 0, 2 * Math.PI);
-    else g.rect(-thing.length_m / 2, -thing.width_m / 2, thing.length_m, thing.width_m);
+    if (object.radius_m) g.arc(0, 0, object.radius_m, 0, 2 * Math.PI);
+    else g.rect(-object.length_m / 2, -object.width_m / 2, object.length_m, object.width_m);
     g.fill();
     g.restore();
   }

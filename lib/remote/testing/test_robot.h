@@ -1,19 +1,61 @@
 #pragma once
 #include <chrono>
+#include <condition_variable>
 #include <functional>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
-#include <thread>
 #include <vector>
 
+#include "base/testing/call_site.h"
 #include "control/testing/fake_hardware.h"
 #include "remote/remote_port.h"
 
 /// @file
 /// Robots without a world, with real remote ports.
 namespace robosim {
+
+/// Counts what happens on other threads: log lines of the robots, and news of links whose callback is notify(). A test
+/// waits for the next one instead of polling.
+class TestEvents {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  void notify() {
+    const std::lock_guard lock(mutex_);
+    ++count_;
+    changed_.notify_all();
+  }
+  long count() const {
+    const std::lock_guard lock(mutex_);
+    return count_;
+  }
+  void waitForMoreThan(long count, Clock::time_point until) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_until(lock, until, [&] { return count_ > count; });
+  }
+
+  /// A minute, which only calls that never return need.
+  struct Deadline {
+    const Clock::time_point time = Clock::now() + std::chrono::minutes(1);
+    void check(const CallSite& place) const {
+      if (Clock::now() < time) return;
+      throw std::runtime_error(place.text() + ": the condition did not hold within a minute");
+    }
+  };
+
+ private:
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  long count_ = 0;
+};
+
+/// Of this process.
+inline TestEvents& testEvents() {
+  static TestEvents events;
+  return events;
+}
 
 /// Turns on the spot, which distinguishes its commands from a driver's.
 class Spinner : public Controller {
@@ -62,6 +104,7 @@ class TestRobot {
   void write(const std::string& line) {
     const std::lock_guard lock(mutex_);
     log_ += line + "\n";
+    testEvents().notify();
   }
   RemoteControlRobot::Options robotOptions() {
     return {.now = [this] { return now; }, .log = [this](const std::string& line) { write(line); }};
@@ -82,15 +125,31 @@ class TestRobot {
   int number_ = 0;
 };
 
-/// Calls `meanwhile` until `is_done` returns true.
-/// @throws std::runtime_error after a minute, which is for calls that never return
-inline void waitUntil(const std::function<bool()>& is_done, const std::function<void()>& meanwhile) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (!is_done()) {
-    if (std::chrono::steady_clock::now() > deadline)
-      throw std::runtime_error("the condition did not hold within a minute");
+/// Calls `meanwhile`, a step of the robots, until `is_done` returns true: after each event (TestEvents), and otherwise
+/// once per millisecond, the real time of a step.
+/// @throws std::runtime_error after a minute, with the place of the call
+inline void waitUntil(const std::function<bool()>& is_done, const std::function<void()>& meanwhile,
+                      const CallSite& place = CallSite::here()) {
+  constexpr std::chrono::milliseconds kStepTime(1);
+  const TestEvents::Deadline deadline;
+  for (;;) {
+    const long seen = testEvents().count();
+    if (is_done()) return;
+    deadline.check(place);
     meanwhile();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    testEvents().waitForMoreThan(seen, TestEvents::Clock::now() + kStepTime);
+  }
+}
+
+/// Waits for a condition that changes only with an event.
+/// @throws std::runtime_error after a minute, with the place of the call
+inline void waitUntil(const std::function<bool()>& is_done, const CallSite& place = CallSite::here()) {
+  const TestEvents::Deadline deadline;
+  for (;;) {
+    const long seen = testEvents().count();
+    if (is_done()) return;
+    deadline.check(place);
+    testEvents().waitForMoreThan(seen, deadline.time);
   }
 }
 

@@ -12,14 +12,12 @@ Measurement SingleRobotScene::sense(const Sensor& sensor) {
   scene_.freeze();
   if (readings_[0].measurements.empty()) readings_[0].measurements.push_back(sensor.blank());
   const PlanarTransform frame(world_from_robot, 0);
-  const NeighbourList nothing_known;
   const std::uint32_t robot = 0;
   ++time_.step;
   const Snapshot now{.scene = scene_,
                      .heat_sources = heat_sources,
                      .world_from_robot = {&world_from_robot, 1},
                      .frames = {&frame, 1},
-                     .near = {&nothing_known, 1},
                      .last_motion = {&motion, 1},
                      .laser_pan_rad = {&laser_pan_rad, 1},
                      .time = time_,

@@ -1,0 +1,102 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <mrpt/math/TPoint2D.h>
+
+#include "geometry/shapes/planar_transform.h"
+#include "geometry/shapes/ray.h"
+#include "geometry/shapes/sector.h"
+
+namespace robosim {
+
+struct Candidates;
+
+/// Beams of a sensor at one height with nearby origins, in the frame of their carrier, such as those of a laser or of a
+/// sonar ring. The beams are either all planar rays or all sectors. Precomputes what every BeamBatch of the fan needs.
+class BeamFan {
+ public:
+  BeamFan() = default;
+  /// @param rays planar (direction.z == 0), all with the same origin.z
+  explicit BeamFan(std::span<const Ray> rays);
+  /// @param sectors all with the same apex.z
+  explicit BeamFan(std::span<const Sector> sectors);
+
+  std::size_t size() const { return slot_.size(); }
+
+ private:
+  friend class BeamBatch;
+
+  /// Points or directions by slot, padded to whole blocks with the last one.
+  struct Vectors {
+    std::vector<double> x, y;
+    void add(double to_x, double to_y) {
+      x.push_back(to_x);
+      y.push_back(to_y);
+    }
+  };
+
+  bool is_wide_ = false;  ///< whether the beams are sectors
+  double z_m_ = 0;
+  mrpt::math::TPoint2D middle_;  ///< of the beams' origins
+  double spread_m_ = 0;          ///< from the middle to the farthest origin
+  mrpt::math::TPoint2D facing_;  ///< unit vector within 90° of all directions in the beams; (0, 0) when there is none
+  /// By slot: the beams sorted counter-clockwise. A ray has its direction as both edges.
+  Vectors origin_, left_, right_;
+  std::vector<std::uint32_t> slot_;  ///< by beam
+  std::size_t block_ = 0;            ///< beams that are intersected with a solid together
+  float half_width_rad_ = 0;         ///< of the widest beam
+  /// By bin of BearingArrays, over two turns, and the end: the first slot at or after the bin's begin. The slots of the
+  /// second turn begin at the padded number of beams.
+  std::vector<std::uint32_t> first_;
+};
+
+/// Beams of a fan at one pose in the world, cast together by Scene::cast(). May be reused for many fans and poses.
+class BeamBatch {
+ public:
+  /// Value of body() for a beam without a hit. Lower than any body, so that a hit exactly at the range is not kept.
+  static constexpr std::int64_t kNothing = -1;
+
+  /// Places the beams of a fan at its carrier's pose, all turned about their own origins by `pan_rad` first, without
+  /// any hit. The fan must outlive the use of the batch.
+  void place(const BeamFan& fan, const PlanarTransform& world_from_fan, double range_m, double pan_rad = 0);
+
+  std::size_t size() const { return fan_ ? fan_->size() : 0; }
+  /// Whether Scene::cast() found no solid that the beams may hit.
+  bool hasNoCandidates() const { return !is_initialized_; }
+  /// Distance [m] from the origin of beam `i` to its hit, or the range.
+  double distance(std::size_t i) const { return is_initialized_ ? distance_[fan_->slot_[i]] : farthest_m_; }
+  std::int64_t body(std::size_t i) const {
+    return is_initialized_ ? static_cast<std::int64_t>(body_[fan_->slot_[i]]) : kNothing;
+  }
+  /// Vector from the origin of sector `i` to its nearest point, world frame; undefined without a hit and for rays.
+  mrpt::math::TPoint2D towards(std::size_t i) const { return {towards_.x[fan_->slot_[i]], towards_.y[fan_->slot_[i]]}; }
+
+ private:
+  friend class Scene;
+
+  /// Distance [m] from the centre beyond which no solid can change the result.
+  double reach() const { return farthest_m_ + spread_m_; }
+  /// Intersects solids with all beams that may hit them.
+  void intersect(const Candidates& candidates);
+  /// Computes the beams in the world. Deferred until the first intersect(), because most short-range sensors have no
+  /// candidates.
+  void initialize();
+
+  const BeamFan* fan_ = nullptr;
+  PlanarTransform world_from_fan_;
+  PlanarTransform panned_;  ///< world_from_fan_, turned by the pan angle
+  bool is_initialized_ = false;
+  mrpt::math::TPoint2D center_;  ///< approximate middle of the beams' origins
+  mrpt::math::TPoint2D facing_;  ///< of the fan, world frame
+  double z_m_ = 0;
+  double spread_m_ = 0;    ///< farthest origin from the centre
+  double farthest_m_ = 0;  ///< the largest current distance of all beams
+  // By slot, as in the fan. A body is a double, so that it is compared in the same vectors as distances.
+  BeamFan::Vectors origin_, left_, right_;
+  std::vector<double> distance_, body_;
+  BeamFan::Vectors towards_;
+};
+
+}  // namespace robosim

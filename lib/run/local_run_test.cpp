@@ -1,0 +1,44 @@
+#include "run/local_run.h"
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+/// Two robots of 2005 without a sensor.
+LoadedWorld twoRobots(const std::string& communication) {
+  std::string text = "<world><surface><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size>";
+  for (const char* x : {"-1", "1"}) {
+    text += "<object><shape><robot><cylinder><name>R" + std::string(x) + "</name><x>" + x +
+            "</x><y>0</y><z>0.1</z><radius>0.2</radius><height>0.2</height></cylinder></robot></shape></object>";
+  }
+  WorldSource source;
+  source.file = "w.xml";
+  source.text = text + "</surface>" + communication + "</world>";
+  return loadWorldToRun(source, "still");
+}
+
+TEST(LocalRun, DependsOnTheSeedIfMessagesMayBeLost) {
+  RunOptions options;
+  options.controller = "still";
+  EXPECT_FALSE(LocalRun(twoRobots(""), options).dependsOnSeed());
+  EXPECT_FALSE(LocalRun(twoRobots("<communication range='3'/>"), options).dependsOnSeed());
+  EXPECT_TRUE(LocalRun(twoRobots("<communication loss='0.1'/>"), options).dependsOnSeed());
+}
+
+TEST(LocalRun, KeepsWhenTheGoldWasFoundAlsoInAFork) {
+  LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", ""), {});
+  for (int i = 0; i < 6000 && !run.gold().found_s; ++i) run.step();
+  ASSERT_TRUE(run.gold().found_s);
+  const GoldOutcome first = run.gold();
+  EXPECT_EQ(first.found_s, run.environment().state().time.seconds());
+  const auto fork = run.fork();
+  for (LocalRun* one : {&run, fork.get()}) {
+    for (int i = 0; i < 5; ++i) one->step();
+    EXPECT_EQ(one->gold().found_s, first.found_s);
+    EXPECT_EQ(one->gold().found_by, first.found_by);
+  }
+}
+
+}  // namespace
+}  // namespace robosim
