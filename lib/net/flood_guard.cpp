@@ -124,6 +124,7 @@ class Guard {
       if (!hasExempt(peer->host) || now < ban->second.next_admission) return false;
       ban->second.next_admission = now + kThrottle;
     }
+    std::erase_if(connections_, [&](const auto& it) { return it.second.peer == *peer; });  // closed: its port is reused
     connections_[connection] = {.peer = *peer};
     return true;
   }
@@ -134,16 +135,20 @@ class Guard {
   void endExemption(const std::string& peer) {
     const std::lock_guard lock(mutex_);
     Connection* const connection = connectionOf(peer);
-    if (connection && connection->exemptions > 0) --connection->exemptions;
+    if (!connection || connection->exemptions == 0) return;
+    if (--connection->exemptions == 0) connection->exempt_until = Clock::now() + kExemptionLinger;
   }
 
  private:
   struct Connection {
     Peer peer;
-    std::uint64_t bytes = 0;       ///< received when the wait was first seen
-    Traffic counted{};             ///< at the last count of bytes
-    std::uint64_t unanswered = 0;  ///< bytes
-    int exemptions = 0;            ///< number of Exemption objects
+    std::uint64_t bytes = 0;           ///< received when the wait was first seen
+    Traffic counted{};                 ///< at the last count of bytes
+    std::uint64_t unanswered = 0;      ///< bytes
+    int exemptions = 0;                ///< number of Exemption objects
+    Clock::time_point exempt_until{};  ///< after the last of them
+
+    bool isExempt() const { return exemptions > 0 || Clock::now() < exempt_until; }
   };
   struct Ban {
     Clock::time_point end;
@@ -158,7 +163,7 @@ class Guard {
   }
   bool hasExempt(const std::string& host) const {
     return std::any_of(connections_.begin(), connections_.end(),
-                       [&](const auto& it) { return it.second.peer.host == host && it.second.exemptions > 0; });
+                       [&](const auto& it) { return it.second.peer.host == host && it.second.isExempt(); });
   }
 
   [[noreturn]] void watch() {
@@ -184,9 +189,9 @@ class Guard {
     // Querying every connection is expensive, so it is only done for a long wait.
     if (now - waiter.seen_time > kBusyLimit / 4 && !has_bytes_) recordBytes();
     if (now - waiter.seen_time < kBusyLimit) return;
-    disconnectBusiest();
     waiter.seen_time = now;
-    has_bytes_ = false;
+    // Without a culprit, the bytes of this wait are counted further: a slow machine handles few frames in kBusyLimit.
+    if (disconnectBusiest()) has_bytes_ = false;
   }
 
   void removeClosed() {
@@ -210,22 +215,25 @@ class Guard {
       connection.unanswered += increase(connection.counted.received, now->received);
       connection.unanswered -= std::min(connection.unanswered, increase(connection.counted.sent, now->sent));
       connection.counted = *now;
-      if (connection.exemptions > 0) connection.unanswered = 0;
+      if (connection.isExempt()) connection.unanswered = 0;
       if (connection.unanswered > kMaxUnansweredBytes) ban(here);
     }
   }
 
-  void disconnectBusiest() {
+  /// @return whether a connection has sent enough to be the cause
+  bool disconnectBusiest() {
     auto busiest = connections_.end();
     std::uint64_t max_sent = 0;
     for (auto it = connections_.begin(); it != connections_.end(); ++it) {
       const auto now = trafficOf(it->first);
       const std::uint64_t sent = now ? increase(it->second.bytes, now->received) : 0;
-      if (sent <= max_sent || sent < (it->second.exemptions > 0 ? kMaxExemptBytes : kMinBytes)) continue;
+      if (sent <= max_sent || sent < (it->second.isExempt() ? kMaxExemptBytes : kMinBytes)) continue;
       busiest = it;
       max_sent = sent;
     }
-    if (busiest != connections_.end()) ban(busiest);
+    if (busiest == connections_.end()) return false;
+    ban(busiest);
+    return true;
   }
 
   /// Disconnects, and bans or throttles the address; only removes a connection that has been closed.

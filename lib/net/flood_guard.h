@@ -12,20 +12,22 @@ namespace robosim {
 /// flow control.
 ///
 /// A thread checks every kPeriod whether a wait in gRPC has taken more than kBusyLimit of processor time. If so, the
-/// connection that has sent the most during that wait is disconnected; one with an Exemption only if it has sent more
-/// than kMaxExemptBytes. A flood whose waits end, or that other threads of gRPC handle, is detected by its bytes: a
-/// connection without an exemption is disconnected when it has sent kMaxUnansweredBytes more than it has received. (A
-/// client without an exemption receives more bytes for each request than it sends.) No connection from its address is
-/// accepted for kBan; from an address that also has exempt connections (a proxy, or several programs on one machine)
-/// one per kThrottle. The guard is global, as the descriptors of the process are. Thread-safe.
+/// connection that has sent the most during that wait, and more than kMinBytes, is disconnected; one with an Exemption
+/// only if it has sent more than kMaxExemptBytes. A flood whose waits end, or that other threads of gRPC handle, is
+/// detected by its bytes: a connection without an exemption is disconnected when it has sent kMaxUnansweredBytes more
+/// than it has received. (A client without an exemption receives more bytes for each request than it sends.) No
+/// connection from its address is accepted for kBan; from an address that also has exempt connections (a proxy, or
+/// several programs on one machine) one per kThrottle. The guard is global, as the descriptors of the process are.
+/// Thread-safe.
 namespace flood_guard {
 
 constexpr std::chrono::milliseconds kPeriod{10};
 constexpr std::chrono::milliseconds kBusyLimit{50};
 constexpr std::chrono::seconds kBan{30};
 constexpr std::chrono::seconds kThrottle{1};
-/// A connection that has sent less than this during the wait is not the cause [bytes].
-constexpr std::uint64_t kMinBytes = 32 * 1024;
+/// A connection that has sent less than this during the wait is not the cause [bytes]. A process of 100 robots sends
+/// 40 kB before the first of them is authorized.
+constexpr std::uint64_t kMinBytes = 128 * 1024;
 /// More than a client sends that waits for responses: robots and geometry workers respond to a step once.
 constexpr std::uint64_t kMaxExemptBytes = 16 * 1024 * 1024;
 constexpr std::uint64_t kMaxUnansweredBytes = 512 * 1024;
@@ -35,8 +37,13 @@ constexpr int kPeriodsPerCount = 25;  ///< interval at which the bytes of all co
 /// @return false when it must be closed because its address is banned or throttled
 bool admit(int connection);
 
-/// Marks, for its lifetime, the connection of a client that may send more than it receives: a client that drives
-/// robots, computes geometry, or loads a world, with a valid token if tokens are required.
+/// Responses that are on their way when an exemption ends, such as those of all robots of a process at the end of a
+/// run, are still exempt.
+constexpr std::chrono::seconds kExemptionLinger{5};
+
+/// Marks, for its lifetime and kExemptionLinger after it, the connection of a client that may send more than it
+/// receives: a client that drives robots, computes geometry, or loads a world, with a valid token if tokens are
+/// required.
 class Exemption {
  public:
   Exemption() = default;

@@ -75,7 +75,7 @@ test('CheckWin succeeds at the gold, and all outputs report it', async () => {
   const summary = JSON.parse(session.serve.output);
   assert.equal(summary.won_by, 'Pioneer1');
   assert.equal(summary.ended_by, 'all_halted');
-  assert.match(session.console.error, /Pioneer1 has won/);
+  await session.console.says(/Pioneer1 has won/);
   assert.deepEqual(page.problems, []);
 });
 
