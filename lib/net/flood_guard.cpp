@@ -130,13 +130,14 @@ class Guard {
   }
   void exempt(const std::string& peer) {
     const std::lock_guard lock(mutex_);
-    if (Connection* const connection = connectionOf(peer)) ++connection->exemptions;
+    if (const auto it = find(peer); it != connections_.end()) ++it->second.exemptions;
   }
   void endExemption(const std::string& peer) {
     const std::lock_guard lock(mutex_);
-    Connection* const connection = connectionOf(peer);
-    if (!connection || connection->exemptions == 0) return;
-    if (--connection->exemptions == 0) connection->exempt_until = Clock::now() + kExemptionLinger;
+    const auto it = find(peer);
+    if (it == connections_.end() || it->second.exemptions == 0 || --it->second.exemptions > 0) return;
+    it->second.exempt_until = Clock::now() + kExemptionLinger;
+    it->second.counted = trafficOf(it->first).value_or(it->second.counted);  // all before was exempt
   }
 
  private:
@@ -155,11 +156,12 @@ class Guard {
     Clock::time_point next_admission;  ///< from an address that has exempt connections
   };
 
-  /// @param name gRPC's name of the peer
-  Connection* connectionOf(const std::string& name) {
-    const auto found = std::find_if(connections_.begin(), connections_.end(),
-                                    [&](const auto& it) { return it.second.peer.isNamed(name); });
-    return found == connections_.end() ? nullptr : &found->second;
+  using Connections = std::map<int, Connection>;  ///< by descriptor; may include closed ones
+
+  /// @param peer gRPC's name of it
+  Connections::iterator find(const std::string& peer) {
+    return std::find_if(connections_.begin(), connections_.end(),
+                        [&](const auto& it) { return it.second.peer.isNamed(peer); });
   }
   bool hasExempt(const std::string& host) const {
     return std::any_of(connections_.begin(), connections_.end(),
@@ -237,7 +239,7 @@ class Guard {
   }
 
   /// Disconnects, and bans or throttles the address; only removes a connection that has been closed.
-  void ban(std::map<int, Connection>::iterator it) {
+  void ban(Connections::iterator it) {
     const auto [descriptor, connection] = *it;
     const Peer& peer = connection.peer;
     connections_.erase(it);
@@ -256,9 +258,9 @@ class Guard {
 
   std::mutex mutex_;
   std::vector<Waiter*> waiters_;
-  std::map<int, Connection> connections_;  ///< by descriptor; may include closed ones
-  std::map<std::string, Ban> bans_;        ///< by host
-  bool has_bytes_ = false;                 ///< of the wait under examination
+  Connections connections_;
+  std::map<std::string, Ban> bans_;  ///< by host
+  bool has_bytes_ = false;           ///< of the wait under examination
   std::thread thread_;
 };
 
