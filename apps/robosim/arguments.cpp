@@ -10,6 +10,7 @@
 #include "base/error_list.h"
 #include "base/log.h"
 #include "base/xml_element.h"
+#include "run/local_run.h"
 
 namespace robosim {
 
@@ -117,6 +118,21 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes) {
           },
           "add robots at random free places, as in 5 or 5,scout; 1 to 100000; the default type is pioneer3dx")
       ->type_name("NUMBER[,TYPE]");
+}
+
+CLI::Option* addControllerOption(CLI::App& command, std::string& controller, const std::string& help,
+                                 const std::string& also) {
+  const auto fault = [also](const std::string& choice) -> std::string {
+    try {
+      if (also.empty() || choice != also) checkController(choice);
+      return "";
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+  };
+  return command.add_option("--controller", controller, help + ", as NAME or \"NAME PARAMETER=VALUE …\"")
+      ->check(CLI::Validator(fault, ""))
+      ->type_name("CONTROLLER");
 }
 
 void addReconnectTimeout(CLI::App& command, double& reconnect_timeout_s) {

@@ -32,6 +32,11 @@ void warnOfPartialStep(double time_s, double period_s);
 /// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
 void addRobotOptions(CLI::App& command, WorldChanges& changes);
 
+/// Adds `--controller`, which accepts a ControllerChoice::text().
+/// @param also a further value to accept
+CLI::Option* addControllerOption(CLI::App& command, std::string& controller, const std::string& help,
+                                 const std::string& also = "");
+
 /// Adds `--reconnect-timeout SECONDS`: how long a client reconnects after its connection breaks.
 void addReconnectTimeout(CLI::App& command, double& reconnect_timeout_s);
 

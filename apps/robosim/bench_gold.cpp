@@ -16,7 +16,6 @@
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "environment/start_poses.h"
-#include "maze/controllers.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
@@ -223,8 +222,7 @@ void addBench(CLI::App& program) {
   addTime(*command, a->time_s, "simulated time limit of a run");
   addStep(*command, a->period_s);
   addRobotOptions(*command, a->changes);
-  command->add_option("--controller", a->controller, "controller of all robots, instead of those in the world")
-      ->check(CLI::IsMember(controllerNames()));
+  addControllerOption(*command, a->controller, "controller of all robots, instead of those in the world");
   command->add_option("--csv", a->csv, "also write one line per run to this file")
       ->type_name("FILE")
       ->check(fileName());

@@ -10,7 +10,6 @@
 #include "base/xml_parser.h"
 #include "environment/free_space.h"
 #include "environment/world_changes.h"
-#include "maze/controllers.h"
 #include "remote/robot_list.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
@@ -114,10 +113,9 @@ struct Additions {
 
 void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
   LoadedWorld loaded{std::move(world_in_file), {}};
-  loaded.fleet =
-      buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), controllerNames(), checked.errors);
+  loaded.fleet = buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), checkController, checked.errors);
   if (!additions.changes.isNone() && checked.errors.empty()) {
-    loaded = loadWorld(withChanges(readWorldSource(file), additions.changes, additions.seed), controllerNames());
+    loaded = loadWorld(withChanges(readWorldSource(file), additions.changes, additions.seed), checkController);
   }
   if (checked.errors.empty()) checkControllers(loaded, file, "", checked.errors);
   const World& world = loaded.world;

@@ -5,7 +5,6 @@
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/rereadable_file.h"
-#include "maze/controllers.h"
 #include "robosim/arguments.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
@@ -67,14 +66,11 @@ void addReplay(CLI::App& program) {
       ->default_str("max")
       ->needs(print);
 
-  auto controllers = controllerNames();
-  controllers.emplace_back("recorded");
-  auto* controller = command
-                         ->add_option("--controller", a->controller,
-                                      "feed the recorded readings to this controller, and report where its commands "
-                                      "differ from those recorded; "
-                                      "'recorded' selects each robot's recorded controller")
-                         ->check(CLI::IsMember(controllers));
+  auto* controller = addControllerOption(
+      *command, a->controller,
+      "feed the recorded readings to this controller, and report where its commands differ from those recorded; "
+      "'recorded' selects each robot's recorded controller",
+      "recorded");
   command->add_option("--tolerance", a->tolerance, "commands that differ by at most this are equal [m/s, rad/s, rad]")
       ->check(numberIn(0, 1e6))
       ->capture_default_str()

@@ -59,7 +59,7 @@ class RobotProcess {
         robots_(arguments.connection.connectOptions(arguments.reconnect_timeout_s), arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
-      auto controller = makeController(controllerOf(robots_.controller(i), arguments.controller), setup);
+      auto controller = controllers().make(controllerOf(robots_.controller(i), arguments.controller), setup);
       if (arguments.remote_port.empty()) {
         driven_robots_.push_back({Robot(robots_.robot(i)), std::move(controller)});
       } else {
@@ -139,8 +139,7 @@ void addRobot(CLI::App& program) {
       command->add_flag("--separate-processes", a->separate_processes,
                         "run each robot in a separate process; takes half the time of separately started programs");
   addConnectionOptions(*command, a->connection);
-  command->add_option("--controller", a->controller, "controller of all these robots, instead of those in the world")
-      ->check(CLI::IsMember(controllerNames()));
+  addControllerOption(*command, a->controller, "controller of all these robots, instead of those in the world");
   acceptFormerName(*command, *separate_processes, "--apart");
   addReconnectTimeout(*command, a->reconnect_timeout_s);
   command

@@ -44,8 +44,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
   command.add_option("--speed", a.speed, "simulated seconds per second: max, or 0.001 to 1000000 (1 is real time)")
       ->type_name("X|max")
       ->capture_default_str();
-  command.add_option("--controller", a.run.controller, "controller of all robots, instead of those in the world")
-      ->check(CLI::IsMember(controllerNames()));
+  addControllerOption(command, a.run.controller, "controller of all robots, instead of those in the world");
   command
       .add_option("--picture", a.picture, "draw the world from above, with the paths of all robots, to this PNG file")
       ->type_name("FILE")
@@ -62,8 +61,8 @@ void checkRunArguments(const RunArguments& a) {
 std::string controllersHelp() {
   std::string text = "Controllers:\n";
   Rows rows;
-  for (const auto& type : controllerTypes()) rows.push_back({std::string("  ") + type.name, type.help});
-  return text + listing(rows);
+  for (const auto& type : controllers().types()) rows.push_back({"  " + type.name, type.help});
+  return text + listing(rows) + "Their parameters:  robosim controllers";
 }
 
 }  // namespace robosim

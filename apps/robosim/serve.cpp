@@ -9,7 +9,6 @@
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"
-#include "maze/controllers.h"
 #include "net/host_port.h"
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"

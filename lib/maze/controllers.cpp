@@ -1,6 +1,5 @@
 #include "maze/controllers.h"
 
-#include "base/error_list.h"
 #include "maze/gold_finder.h"
 #include "maze/still.h"
 #include "maze/wall_follower.h"
@@ -9,46 +8,44 @@
 namespace robosim {
 namespace {
 
-const ControllerType kTypes[] = {
-    {"gold_finder",
-     "Searches an unknown maze for gold, sends GOLD to its neighbour, and halts.",
-     {SensorKind::odometry, SensorKind::heat},
-     [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<GoldFinder>(setup); }},
-    {"wander",
-     "Drives about at random and avoids what is near.",
-     {},
-     [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<Wander>(setup); }},
-    {"wall_follower",
-     "Follows the wall on its right.",
-     {SensorKind::sonar},
-     [](const ControllerSetup& setup) -> std::unique_ptr<Controller> { return std::make_unique<WallFollower>(setup); }},
-    {"still",
-     "Does nothing.",
-     {},
-     [](const ControllerSetup&) -> std::unique_ptr<Controller> { return std::make_unique<Still>(); }},
-};
+using Made = std::unique_ptr<Controller>;
+
+ControllerRegistry own() {
+  ControllerRegistry registry;
+  registry.add(
+      {"gold_finder",
+       "Searches an unknown maze for gold, sends GOLD to its neighbour, and halts.",
+       {SensorKind::odometry, SensorKind::heat},
+       {{"heat_threshold_celsius", GoldFinderOptions{}.heat_threshold, 0, 1e6, "°C", "heat above this means gold"}},
+       [](const ControllerSetup& setup, const ControllerParameters& parameters) -> Made {
+         return std::make_unique<GoldFinder>(setup, GoldFinderOptions{parameters["heat_threshold_celsius"]});
+       }});
+  registry.add({"wander",
+                "Drives about at random and avoids what is near.",
+                {},
+                {},
+                [](const ControllerSetup& setup, const ControllerParameters&) -> Made {
+                  return std::make_unique<Wander>(setup);
+                }});
+  registry.add({"wall_follower",
+                "Follows the wall on its right.",
+                {SensorKind::sonar},
+                {{"distance_radii", WallFollowerOptions{}.distance_radii, 0.5, 10, "robot radii",
+                  "distance between the robot's edge and the wall"}},
+                [](const ControllerSetup& setup, const ControllerParameters& parameters) -> Made {
+                  return std::make_unique<WallFollower>(setup, WallFollowerOptions{parameters["distance_radii"]});
+                }});
+  registry.add({"still", "Does nothing.", {}, {}, [](const ControllerSetup&, const ControllerParameters&) -> Made {
+                  return std::make_unique<Still>();
+                }});
+  return registry;
+}
 
 }  // namespace
 
-std::span<const ControllerType> controllerTypes() { return kTypes; }
-
-std::vector<std::string> controllerNames() {
-  std::vector<std::string> names;
-  for (const ControllerType& type : kTypes) names.emplace_back(type.name);
-  return names;
-}
-
-const ControllerType& controllerType(const std::string& name) {
-  std::string known;
-  for (const ControllerType& type : kTypes) {
-    if (name == type.name) return type;
-    known += (known.empty() ? "" : ", ") + std::string(type.name);
-  }
-  throw ConfigError("there is no controller '" + name + "'; take one of " + known);
-}
-
-std::unique_ptr<Controller> makeController(const std::string& name, const ControllerSetup& setup) {
-  return controllerType(name).make(setup);
+ControllerRegistry& controllers() {
+  static ControllerRegistry registry = own();
+  return registry;
 }
 
 }  // namespace robosim

@@ -11,17 +11,17 @@ namespace robosim {
 namespace {
 
 TEST(Controllers, AreListedWithOneSentenceEach) {
-  EXPECT_EQ(controllerNames(), (std::vector<std::string>{"gold_finder", "wander", "wall_follower", "still"}));
-  for (const auto& type : controllerTypes()) {
-    EXPECT_EQ(std::string(type.help).back(), '.') << type.name;
+  EXPECT_EQ(controllers().names(), (std::vector<std::string>{"gold_finder", "wander", "wall_follower", "still"}));
+  for (const auto& type : controllers().types()) {
+    EXPECT_EQ(type.help.back(), '.') << type.name;
   }
 }
 
 TEST(Controllers, AreCreatedByName) {
-  for (const auto& name : controllerNames()) {
+  for (const auto& name : controllers().names()) {
     FakeHardware hardware;
     Robot robot(hardware);
-    const auto controller = makeController(name, {.seed = 1});
+    const auto controller = controllers().make(name, {.seed = 1});
     for (int i = 0; i < 20; ++i) {
       controller->step(robot);
       hardware.advance();
@@ -33,7 +33,7 @@ TEST(Controllers, AreCreatedByName) {
 
 TEST(Controllers, OfUnknownNamesAreRefusedWithAListOfAll) {
   try {
-    makeController("gold_digger", {});
+    controllers().make("gold_digger", {});
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),

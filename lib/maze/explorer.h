@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "base/random.h"
+#include "control/controller_type.h"
 #include "control/robot.h"
-#include "maze/controllers.h"
 #include "maze/heat_trace.h"
 #include "maze/maze_map.h"
 #include "maze/obstacles.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "control/controller.h"
-#include "maze/controllers.h"
+#include "control/controller_type.h"
 #include "maze/explorer.h"
 #include "maze/gold_message.h"
 

@@ -25,10 +25,10 @@ namespace robosim {
 namespace {
 
 TEST(Controllers, AllocateNothingAfterTheMapIsComplete) {
-  for (const auto& name : controllerNames()) {
+  for (const auto& name : controllers().names()) {
     FakeMaze maze(FakeMaze::room(-2, 2, -2, 2), {99, 99}, 0);
     Robot robot(maze.hardware);
-    const auto controller = makeController(name, {.seed = 1});
+    const auto controller = controllers().make(name, {.seed = 1});
     const auto allocations_in = [&](int steps) {
       long count = 0;
       for (int i = 0; i < steps; ++i) {

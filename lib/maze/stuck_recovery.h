@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "control/controller.h"
-#include "maze/controllers.h"
+#include "control/controller_type.h"
 
 namespace robosim {
 

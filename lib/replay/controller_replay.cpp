@@ -64,10 +64,10 @@ void replayToController(const ReplayArguments& arguments) {
     const std::string recorded = i < note.controllers.size() ? note.controllers[i] : "";
     const std::string name = arguments.controller == "recorded" ? recorded : arguments.controller;
     const bool is_selected = arguments.selects(robot.info.name, "") || arguments.robots.empty();
-    robots.push_back(
-        is_selected && !name.empty()
-            ? std::make_unique<Replayed>(robot.info, makeController(name, {note.seed, static_cast<std::uint32_t>(i)}))
-            : nullptr);
+    robots.push_back(is_selected && !name.empty()
+                         ? std::make_unique<Replayed>(
+                               robot.info, controllers().make(name, {note.seed, static_cast<std::uint32_t>(i)}))
+                         : nullptr);
   }
   if (std::all_of(robots.begin(), robots.end(), [](const auto& r) { return !r; })) {
     throw ConfigError(arguments.rawlog +

@@ -38,6 +38,28 @@ class RayBudget {
   std::size_t beams_ = 0, model_rays_ = 0;
 };
 
+/// Checks each controller once, since many robots have the same.
+class ControllerFaults {
+ public:
+  explicit ControllerFaults(const ControllerCheck& check) : check_(check) {}
+  /// @return what is wrong with a controller; empty for a valid one
+  const std::string& of(const std::string& controller) {
+    auto [checked, is_new] = faults_.try_emplace(controller);
+    if (is_new && check_ && !controller.empty()) {
+      try {
+        check_(controller);
+      } catch (const ConfigError& error) {
+        checked->second = error.what();
+      }
+    }
+    return checked->second;
+  }
+
+ private:
+  const ControllerCheck& check_;
+  std::unordered_map<std::string, std::string> faults_;
+};
+
 FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotModel> model) {
   FleetRobot robot;
   robot.info = {.name = placement.name,
@@ -60,21 +82,19 @@ FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotMode
 }  // namespace
 
 Fleet buildFleet(const World& world, const std::string& world_file, const RobotTypes& types,
-                 const std::vector<std::string>& controllers, ErrorList& errors) {
+                 const ControllerCheck& check_controller, ErrorList& errors) {
   // After earlier errors, placeholder poses and sizes may be in use, so overlaps are not checked.
   const bool are_poses_valid = errors.empty();
   RobotModelCache models(world, world_file, types, errors);
+  ControllerFaults faults_of_controllers(check_controller);
   RayBudget budget;
   Fleet fleet;
   std::vector<RobotStart> starts;
   fleet.robots.reserve(world.robots.size());
   starts.reserve(world.robots.size());
   for (const auto& placement : world.robots) {
-    if (!placement.controller.empty() && !controllers.empty() &&
-        std::find(controllers.begin(), controllers.end(), placement.controller) == controllers.end()) {
-      errors.add(world_file, placement.line.number,
-                 "robot '" + placement.name + "': there is no controller '" + placement.controller +
-                     "'; known are: " + listed(controllers));
+    if (const std::string fault = faults_of_controllers.of(placement.controller); !fault.empty()) {
+      errors.add(world_file, placement.controller_line.number, "robot '" + placement.name + "': " + fault);
     }
     auto model = models.modelFor(placement);
     if (!model) continue;
@@ -92,11 +112,12 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
   return fleet;
 }
 
-LoadedWorld loadWorld(const std::filesystem::path& file, const std::vector<std::string>& controllers) {
+LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller) {
   ErrorList errors;
   LoadedWorld loaded;
   loaded.world = readWorld(file, errors);
-  loaded.fleet = buildFleet(loaded.world, file.string(), robotTypesIn(robotTypeFolders(file)), controllers, errors);
+  loaded.fleet =
+      buildFleet(loaded.world, file.string(), robotTypesIn(robotTypeFolders(file)), check_controller, errors);
   errors.throwIfAny();
   return loaded;
 }

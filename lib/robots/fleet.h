@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,7 +18,7 @@ struct FleetRobot {
   std::shared_ptr<const RobotModel> model;
   mrpt::math::TPose2D world_from_start;
   Body body;               ///< at the start; other robots' sensors detect this shape
-  std::string controller;  ///< empty: the program's default
+  std::string controller;  ///< as ControllerChoice::text(); empty: the program's default
 };
 
 /// Robots of a world, in the world's order.
@@ -31,12 +32,15 @@ constexpr std::size_t kWorldBeamsMax = 50'000'000;     ///< beams of all robots'
 constexpr std::size_t kWorldModelRaysMax = 2'000'000;  ///< Sensor::rayCount() of all robot models, each counted once
 ///@}
 
-/// Makes the model of each placed robot and checks its start. Adds to `errors`: unknown models, faulty sensors, unknown
-/// controllers (not in `controllers`; an empty list accepts all), robots outside the bounds, robots that overlap an
+/// Checks a controller of a world file, given as ControllerChoice::text(). @throws ConfigError
+using ControllerCheck = std::function<void(const std::string& controller)>;
+
+/// Makes the model of each placed robot and checks its start. Adds to `errors`: unknown models, faulty sensors,
+/// controllers that `check_controller` rejects (null accepts all), robots outside the bounds, robots that overlap an
 /// object or another robot, and the first robot that exceeds the limit of beams or rays. `world_file` names the file in
 /// errors.
 Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& types,
-                 const std::vector<std::string>& controllers, ErrorList& errors);
+                 const ControllerCheck& check_controller, ErrorList& errors);
 
 /// A world and its robots.
 struct LoadedWorld {
@@ -46,6 +50,6 @@ struct LoadedWorld {
 
 /// Reads a world file and builds its fleet.
 /// @throws ConfigError with every fault found.
-LoadedWorld loadWorld(const std::filesystem::path& file, const std::vector<std::string>& controllers);
+LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller);
 
 }  // namespace robosim

@@ -22,7 +22,11 @@ using Lines = std::vector<std::string>;
 
 const std::filesystem::path kWorlds = ROBOSIM_SOURCE_DIR "/worlds";
 const std::vector<std::filesystem::path> kTypes{kWorlds / "robots"};
-const Lines kControllers{"gold_finder", "still", "wander"};
+
+/// Knows wander only.
+void checkController(const std::string& controller) {
+  if (controller != "wander") throw ConfigError("there is no controller '" + controller + "'");
+}
 
 /// A world of these robots, each on its own line, the first on line 2.
 std::string worldOf(const Lines& robots, const std::string& unit_m = "1") {
@@ -43,7 +47,7 @@ std::string of2005(const std::string& name, double x, const std::string& sensors
 
 Fleet fleetOf(const std::string& text, ErrorList& errors) {
   const World world = parseWorld(text, "w.xml", errors);
-  return buildFleet(world, "w.xml", robotTypesIn(kTypes), kControllers, errors);
+  return buildFleet(world, "w.xml", robotTypesIn(kTypes), checkController, errors);
 }
 
 Fleet fleetOf(const std::string& text) {
@@ -124,13 +128,13 @@ TEST(Fleet, Reads2005RobotsInTheFilesUnit) {
   EXPECT_EQ(robot.info.sensors->at(1).label, "odometry");
 }
 
-TEST(Fleet, RejectsUnknownModelsAndControllersAndListsTheKnownOnes) {
+TEST(Fleet, RejectsUnknownModelsAndControllersThatTheCheckRejects) {
   const std::string known =
       "known are: pioneer3dx, pioneer3dx_camera, pioneer3dx_driven, scout, scout_driven; " + robotTypeFoldersText();
   EXPECT_EQ(faults(worldOf({placed("pionier", "A", 0), placed("scout", "B", 2, "<controller>wonder</controller>"),
                             placed("../robots/scout", "C", 4)})),
             (Lines{"w.xml:2: robot 'A': there is no robot type 'pionier'; " + known,
-                   "w.xml:3: robot 'B': there is no controller 'wonder'; known are: gold_finder, still, wander",
+                   "w.xml:3: robot 'B': there is no controller 'wonder'",
                    "w.xml:4: robot 'C': there is no robot type '../robots/scout'; " + known}));
 }
 

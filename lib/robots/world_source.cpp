@@ -38,11 +38,11 @@ WorldSource readWorldSource(const std::filesystem::path& file) {
   return source;
 }
 
-LoadedWorld loadWorld(const WorldSource& source, const std::vector<std::string>& controllers) {
+LoadedWorld loadWorld(const WorldSource& source, const ControllerCheck& check_controller) {
   ErrorList errors;
   LoadedWorld loaded;
   loaded.world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
-  loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, controllers, errors);
+  loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, check_controller, errors);
   errors.throwIfAny();
   return loaded;
 }

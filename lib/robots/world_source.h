@@ -24,7 +24,7 @@ struct WorldSource {
 WorldSource readWorldSource(const std::filesystem::path& file);
 
 /// Equivalent to loadWorld() of a file.
-LoadedWorld loadWorld(const WorldSource&, const std::vector<std::string>& controllers);
+LoadedWorld loadWorld(const WorldSource&, const ControllerCheck& check_controller);
 
 /// Hash of a source's contents, which does not depend on the names of its files.
 std::string versionOf(const WorldSource&);

@@ -32,7 +32,17 @@ std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world) {
   return std::make_unique<OffscreenRenderer>(world.world, world.fleet);
 }
 
+const ControllerType* typeOrNull(const std::string& controller) {
+  try {
+    return &controllers().typeOf(controller);
+  } catch (const ConfigError&) {
+    return nullptr;
+  }
+}
+
 }  // namespace
+
+void checkController(const std::string& controller) { controllers().parametersOf(controller); }
 
 std::string controllerOf(const std::string& in_world, const std::string& instead) {
   if (!instead.empty()) return instead;
@@ -44,21 +54,20 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
   const std::size_t count = std::min(world.world.robots.size(), world.fleet.robots.size());
   for (std::size_t i = 0; i < count; ++i) {
     const FleetRobot& robot = world.fleet.robots[i];
-    const std::string name = controllerOf(robot.controller, instead);
-    const auto known = controllerNames();
-    if (std::find(known.begin(), known.end(), name) == known.end()) continue;  // reported by buildFleet()
-    for (const SensorKind kind : controllerType(name).needs) {
+    const ControllerType* type = typeOrNull(controllerOf(robot.controller, instead));
+    if (!type) continue;  // reported by buildFleet()
+    for (const SensorKind kind : type->needs) {
       const auto& sensors = *robot.info.sensors;
       if (std::any_of(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; })) continue;
       errors.add(world_file, world.world.robots[i].line.number,
-                 "robot '" + robot.info.name + "': its controller " + name + " requires a sensor of kind " +
+                 "robot '" + robot.info.name + "': its controller " + type->name + " requires a sensor of kind " +
                      nameOf(kind) + "; add one, or use another controller");
     }
   }
 }
 
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
-  LoadedWorld world = loadWorld(file, controllerNames());
+  LoadedWorld world = loadWorld(file, checkController);
   checkToRun(world, file, instead);
   // The fleet has copied what it needs. (= {} would keep the memory.)
   world.world.robots = std::vector<RobotPlacement>();
@@ -68,7 +77,7 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) 
 }
 
 LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead) {
-  LoadedWorld world = loadWorld(source, controllerNames());
+  LoadedWorld world = loadWorld(source, checkController);
   checkToRun(world, source.file, instead);
   releaseFreeMemory();
   return world;
@@ -84,7 +93,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     if (!elsewhere.empty() && elsewhere[i]) continue;
     const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
     local_robots_.push_back(std::make_unique<LocalRobot>(
-        environment_, i, makeController(controllerOf(robots[i].controller, options.controller), setup)));
+        environment_, i, controllers().make(controllerOf(robots[i].controller, options.controller), setup)));
   }
 }
 

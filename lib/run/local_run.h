@@ -15,13 +15,17 @@ namespace robosim {
 
 struct RunOptions {
   EnvironmentOptions environment;
-  std::string controller;  ///< for all robots; empty: as given in the world, else kDefaultController
+  /// For all robots, as ControllerChoice::text(); empty: as given in the world, else kDefaultController.
+  std::string controller;
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
 constexpr const char* kDefaultController = "gold_finder";
 
-/// Name of a robot's controller.
+/// Checks name and parameters of a controller, given as ControllerChoice::text(). @throws ConfigError
+void checkController(const std::string& controller);
+
+/// A robot's controller, as ControllerChoice::text().
 /// @param in_world that given in the world; empty for none
 /// @param instead replaces it if not empty
 std::string controllerOf(const std::string& in_world, const std::string& instead);

@@ -1,5 +1,5 @@
-#include "maze/controllers.h"
 #include "robots/fleet.h"
+#include "run/local_run.h"
 #include "run/output_files.h"
 #include "viewing/view_source.h"
 #include "world/world_file.h"
@@ -43,15 +43,15 @@ RunSnapshot snapshotOf(const Environment& environment) {
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes, std::uint64_t seed) {
   return std::make_unique<WorldView>(
       file,
-      changes.isNone() ? loadWorld(file, controllerNames())
-                       : loadWorld(withChanges(readWorldSource(file), changes, seed), controllerNames()),
+      changes.isNone() ? loadWorld(file, checkController)
+                       : loadWorld(withChanges(readWorldSource(file), changes, seed), checkController),
       seed);
 }
 
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text) {
   ErrorList errors;
   LoadedWorld loaded{parseWorld(std::move(text), file, filesOnDisk(file), errors), {}};
-  loaded.fleet = buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), controllerNames(), errors);
+  loaded.fleet = buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), checkController, errors);
   errors.throwIfAny();
   return std::make_unique<WorldView>(file, std::move(loaded));
 }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/controller_choice.h"
 #include "base/label.h"
 #include "base/portable_pose.h"
 #include "base/xml_parser.h"
@@ -190,11 +191,37 @@ class WorldReader {
       for (const auto& sensor : sensors->all()) placement.sensors.push_back(sensor.element());
       sensors->finish();
     }
-    placement.controller = robot.word("controller", "");
+    readController(robot, placement);
     placement.neighbour = robot.word("neighbour", "");
     if (!placement.neighbour.empty()) neighbours_.emplace_back(robot, world_.robots.size());
     robot.finish();
     world_.robots.push_back(std::move(placement));
+  }
+
+  /// <controller>NAME</controller>, or <controller name="NAME" PARAMETER="VALUE"…/>.
+  void readController(XmlReader& robot, RobotPlacement& placement) {
+    const auto& children = robot.element().children;
+    const auto found = std::find_if(children.begin(), children.end(),
+                                    [](const XmlElement& child) { return child.name == "controller"; });
+    placement.controller_line = found == children.end() ? robot.line() : found->line;
+    if (found == children.end() || found->attributes.empty()) {
+      placement.controller = robot.word("controller", "");
+      try {
+        if (!placement.controller.empty()) ControllerChoice::parse(placement.controller);
+      } catch (const ConfigError& error) {
+        robot.errorAt("controller", error.what());
+      }
+      return;
+    }
+    XmlReader controller = *robot.child("controller");
+    ControllerChoice choice{controller.word("name"), {}};
+    for (const auto& [parameter, value] : found->attributes) {
+      if (parameter == "name") continue;
+      choice.parameters.emplace_back(parameter, controller.word(parameter));
+      if (value.find_first_of(" \t\n") != std::string::npos) controller.errorAt(parameter, "must be a single number");
+    }
+    controller.finish();
+    placement.controller = choice.text();
   }
 
   /// The <cylinder> or <cube> inside; nullopt if there is none.

@@ -2,6 +2,7 @@
 #include <cassert>
 #include <charconv>
 
+#include "base/controller_choice.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -80,8 +81,18 @@ class WorldWriter {
       if (robot.color) element.add("color", colorText(*robot.color));
     }
     addSensors(element, robot.sensors);
-    if (!robot.controller.empty()) element.add("controller", robot.controller);
+    if (!robot.controller.empty()) addController(element, ControllerChoice::parse(robot.controller));
     if (!robot.neighbour.empty()) element.add("neighbour", robot.neighbour);
+  }
+
+  void addController(XmlElement& robot, const ControllerChoice& choice) const {
+    XmlElement& element = robot.add("controller");
+    if (choice.parameters.empty()) {
+      element.text = choice.name;
+      return;
+    }
+    element.attributes = choice.parameters;
+    element.attributes.insert(element.attributes.begin(), {"name", choice.name});
   }
 
   void addSensors(XmlElement& robot, const std::vector<XmlElement>& sensors) const {

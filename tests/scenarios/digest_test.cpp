@@ -1,7 +1,6 @@
 // The same world, seed and controllers give the same run, bit for bit.
 #include <gtest/gtest.h>
 
-#include "maze/controllers.h"
 #include "run/local_run.h"
 
 namespace robosim {
@@ -10,7 +9,7 @@ namespace {
 std::unique_ptr<LocalRun> start(const std::string& world, std::uint64_t seed, int threads) {
   RunOptions options;
   options.environment = {.seed = seed, .period_s = 0.1, .threads = threads};
-  return std::make_unique<LocalRun>(loadWorld(ROBOSIM_SOURCE_DIR "/worlds/" + world, controllerNames()), options);
+  return std::make_unique<LocalRun>(loadWorld(ROBOSIM_SOURCE_DIR "/worlds/" + world, checkController), options);
 }
 
 std::string digestAfter(int steps, const std::string& world, std::uint64_t seed, int threads) {

@@ -1,7 +1,6 @@
 // A fork of a run continues as its original does, including its controllers, and independently of it.
 #include <gtest/gtest.h>
 
-#include "maze/controllers.h"
 #include "run/local_run.h"
 
 namespace robosim {
@@ -18,7 +17,7 @@ class Fork : public testing::TestWithParam<ForkCase> {};
 TEST_P(Fork, ContinuesBitForBit) {
   const auto& [world, controller, steps] = GetParam();
   const std::string file = std::string(ROBOSIM_SOURCE_DIR "/worlds/") + world;
-  LocalRun original(loadWorld(file, controllerNames()), {.environment = {.seed = 3}, .controller = controller});
+  LocalRun original(loadWorld(file, checkController), {.environment = {.seed = 3}, .controller = controller});
   constexpr int kForks = 4;
   std::vector<std::unique_ptr<LocalRun>> forks;
   for (int i = 0; i < steps; ++i) {
@@ -44,7 +43,7 @@ INSTANTIATE_TEST_SUITE_P(Controllers, Fork,
                          [](const auto& test) { return test.param.controller; });
 
 TEST(ForkedRun, IsImpossibleWhileAnotherProcessDrivesARobot) {
-  const LocalRun run(loadWorld(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", controllerNames()), {}, {1, 0});
+  const LocalRun run(loadWorld(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", checkController), {}, {1, 0});
   try {
     run.fork();
     FAIL();

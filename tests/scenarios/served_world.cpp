@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "maze/controllers.h"
 #include "tests/scenarios/program.h"
 
 namespace robosim {
@@ -83,7 +82,7 @@ void ServedWorld::waitUntilStepping() {
 }
 
 std::shared_ptr<ServedWorld::LoadedRun> ServedWorld::loadedRunOf(const WorldSource& source) const {
-  return std::make_shared<LoadedRun>(loadWorld(source, controllerNames()), source, options_);
+  return std::make_shared<LoadedRun>(loadWorld(source, checkController), source, options_);
 }
 
 std::unique_ptr<PreparedRun> ServedWorld::prepare(const WorldSource& source) const {

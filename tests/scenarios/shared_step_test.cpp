@@ -1,7 +1,6 @@
 // A step computed in parts by replicas is identical to that of one environment, bit for bit.
 #include <gtest/gtest.h>
 
-#include "maze/controllers.h"
 #include "run/local_run.h"
 
 namespace robosim {
@@ -10,7 +9,7 @@ namespace {
 const char* const kWorld = ROBOSIM_SOURCE_DIR "/worlds/open_100.xml";
 constexpr int kSteps = 120;
 
-LocalRun startRun() { return {loadWorld(kWorld, controllerNames()), RunOptions{}}; }
+LocalRun startRun() { return {loadWorld(kWorld, checkController), RunOptions{}}; }
 
 std::string digestAlone() {
   LocalRun run = startRun();
@@ -67,7 +66,7 @@ TEST(SharedStep, IsIdenticalForAnyPartition) {
   LocalRun run = startRun();
   Environment& owner = run.environment();
   // The replica receives the state when it joins, during the run.
-  LoadedWorld world = loadWorld(kWorld, controllerNames());
+  LoadedWorld world = loadWorld(kWorld, checkController);
   Environment replica(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
   for (int i = 0; i < kSteps; ++i) {
     run.decide();

@@ -120,7 +120,7 @@ TEST_P(Standstill, NeverLasts) {
 
 /// All controllers except the idle one.
 std::vector<std::string> driving() {
-  std::vector<std::string> names = controllerNames();
+  std::vector<std::string> names = controllers().names();
   std::erase(names, "still");
   return names;
 }
