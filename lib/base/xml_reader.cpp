@@ -30,13 +30,19 @@ std::string unitOf(const std::string& setting) {
   return "";
 }
 
-std::string describe(const Bounds& bounds, const std::string& unit) {
+/// The bounds as a text after `must_lie` ("must lie") or, for an open interval, `must_be` ("must be").
+std::string textOf(const Bounds& bounds, const std::string& unit, const std::string& must_be,
+                   const std::string& must_lie) {
   const bool bounded_below = bounds.min > -Bounds::kLargest;
   const bool bounded_above = bounds.max < Bounds::kLargest;
-  if (!bounded_below && !bounded_above) return "must lie within ±1e9" + unit;
-  if (!bounded_above) return (bounds.min_is_open ? "must be above " : "must be at least ") + toText(bounds.min) + unit;
-  return std::string("must lie in ") + (bounds.min_is_open ? "(" : "[") + toText(bounds.min) + ", " +
-         toText(bounds.max) + "]" + unit;
+  if (!bounded_below && !bounded_above) return must_lie + "within ±1e9" + unit;
+  if (!bounded_above) return must_be + (bounds.min_is_open ? "above " : "at least ") + toText(bounds.min) + unit;
+  return must_lie + "in " + (bounds.min_is_open ? "(" : "[") + toText(bounds.min) + ", " + toText(bounds.max) + "]" +
+         unit;
+}
+
+std::string demand(const Bounds& bounds, const std::string& unit) {
+  return textOf(bounds, unit, "must be ", "must lie ");
 }
 
 }  // namespace
@@ -103,7 +109,7 @@ std::optional<double> XmlReader::checked(const Found& found, const std::string& 
   } else if (!std::isfinite(*value)) {
     fault = "must be a finite number";
   } else if (!bounds.contain(*value)) {
-    fault = describe(bounds, unitOf(setting));
+    fault = demand(bounds, unitOf(setting));
   } else {
     return value;
   }
@@ -111,11 +117,20 @@ std::optional<double> XmlReader::checked(const Found& found, const std::string& 
   return std::nullopt;
 }
 
+void XmlReader::describe(const std::string& setting, const std::string& values, const std::string& default_text) {
+  if (settings_) settings_->push_back({around_ + setting, values, default_text});
+}
+
+void XmlReader::describe(const std::string& setting, const Bounds& bounds, const std::string& default_text) {
+  if (settings_) describe(setting, textOf(bounds, unitOf(setting), "", ""), default_text);
+}
+
 double XmlReader::number(const std::string& setting, Bounds bounds) { return length(setting, bounds, 1); }
 
 double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m) {
   const auto found = find(setting);
   if (!found) {
+    describe(setting, bounds, "");
     error("<" + setting + "> is missing; add it");
   } else if (checked(*found, setting, bounds, [] { return "; write a number there"; })) {
     return toNumber(found->text, unit_m);
@@ -129,14 +144,20 @@ double XmlReader::number(const std::string& setting, Bounds bounds, double defau
 
 double XmlReader::length(const std::string& setting, Bounds bounds, double unit_m, double default_m) {
   const auto found = find(setting);
-  if (!found) return default_m;
+  if (!found) {
+    if (settings_) describe(setting, bounds, toText(default_m, unit_m));
+    return default_m;
+  }
   const auto fix = [&] { return "; drop it for the default, " + toText(default_m, unit_m); };
   return checked(*found, setting, bounds, fix) ? toNumber(found->text, unit_m) : default_m;
 }
 
 double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double default_rad) {
   const auto found = find(setting);
-  if (!found) return default_rad;
+  if (!found) {
+    if (settings_) describe(setting, bounds_deg, toText(default_rad, kRadPerDeg));
+    return default_rad;
+  }
   const auto fix = [&] { return "; drop it for the default, " + toText(default_rad, kRadPerDeg); };
   const auto value_deg = checked(*found, setting, bounds_deg, fix);
   return value_deg ? *value_deg * kRadPerDeg : default_rad;
@@ -145,6 +166,7 @@ double XmlReader::angle(const std::string& setting, Bounds bounds_deg, double de
 std::string XmlReader::word(const std::string& setting) {
   const auto found = find(setting);
   if (!found) {
+    describe(setting, "a word", "");
     error("<" + setting + "> is missing; add it");
   } else if (found->text.empty()) {
     reportError(*found, setting, ": is empty; write a word there");
@@ -157,6 +179,7 @@ std::string XmlReader::word(const std::string& setting) {
 std::string XmlReader::word(const std::string& setting, const std::string& default_value) {
   if (has(setting)) return word(setting);
   markRead(setting);
+  describe(setting, "a word", default_value.empty() ? "none" : default_value);
   return default_value;
 }
 
@@ -167,14 +190,19 @@ bool XmlReader::flag(const std::string& setting, bool default_value) {
 std::vector<double> XmlReader::numbers(const std::string& setting, std::size_t count, Bounds bounds,
                                        const std::vector<double>& default_value) {
   const auto found = find(setting);
-  if (!found) return default_value;
+  if (!found) {
+    std::string default_text;
+    for (const double value : default_value) default_text += (default_text.empty() ? "" : " ") + toText(value);
+    describe(setting, std::to_string(count) + " numbers " + textOf(bounds, unitOf(setting), "", ""), default_text);
+    return default_value;
+  }
   std::istringstream words(found->text);
   std::vector<double> values;
   for (std::string word; words >> word;) {
     const auto value = parseNumber(word);
     if (!value || !std::isfinite(*value) || !bounds.contain(*value)) {
       reportError(*found, setting,
-                  ": '" + quotable(word) + "' is no number that fits; it " + describe(bounds, unitOf(setting)));
+                  ": '" + quotable(word) + "' is no number that fits; it " + demand(bounds, unitOf(setting)));
       return default_value;
     }
     values.push_back(*value);
@@ -205,6 +233,10 @@ std::vector<XmlReader> XmlReader::all(const std::string& tag) {
   std::vector<XmlReader> found;
   for (const auto& child : element_->children) {
     if (child.name == tag) found.push_back(XmlReader(child, *this));
+  }
+  if (settings_ && found.empty()) {
+    found.push_back(XmlReader(kNothing, *this));
+    found.back().around_ = around_ + tag + "/";
   }
   return found;
 }

@@ -27,6 +27,13 @@ struct Bounds {
   bool contain(double value) const { return (min_is_open ? value > min : value >= min) && value <= max; }
 };
 
+/// A setting that an element may have, as described by XmlReader::describeTo().
+struct XmlSetting {
+  std::string name;          ///< with the elements around it: "range_max_m", "noise/std_m"
+  std::string values;        ///< valid values, with unit: "(0, 100] metres", "sector or rays", "a word"
+  std::string default_text;  ///< empty for a required setting
+};
+
 /// Reads the settings of one element. A setting `x` is either the attribute `x="…"` or the child `<x>…</x>`.
 /// Every error is added to the ErrorList as "file:line: <element>: what is wrong; how to fix it", and a valid default
 /// is returned, so that one load reports all errors. Call finish() last: it reports settings that were not read as
@@ -34,6 +41,11 @@ struct Bounds {
 class XmlReader {
  public:
   XmlReader(const XmlElement& element, std::string file, ErrorList& errors);
+
+  /// Appends, from now on, every setting that is requested and that the element does not have. Child elements are read
+  /// as if there were one of each. So a function that reads a kind of element, called with an empty one, describes the
+  /// kind.
+  void describeTo(std::vector<XmlSetting>& settings) { settings_ = &settings; }
 
   const std::string& name() const { return element_->name; }
   const XmlElement& element() const { return *element_; }
@@ -92,12 +104,14 @@ class XmlReader {
   };
   /// Creates the reader of a child element.
   XmlReader(const XmlElement& element, const XmlReader& outer)
-      : element_(&element), file_(outer.file_), errors_(outer.errors_) {}
+      : element_(&element), file_(outer.file_), errors_(outer.errors_), settings_(outer.settings_) {}
 
   /// Marks a setting as read. @return whether it had not been read before
   bool markRead(const std::string& setting);
   bool isRead(const std::string& setting) const;
   std::optional<Found> find(const std::string& setting);
+  void describe(const std::string& setting, const std::string& values, const std::string& default_text);
+  void describe(const std::string& setting, const Bounds& bounds, const std::string& default_text);
   /// @param fix returns the end of an error text; called if there is an error
   std::optional<double> checked(const Found& found, const std::string& setting, const Bounds& bounds,
                                 const std::function<std::string()>& fix);
@@ -106,6 +120,8 @@ class XmlReader {
   const XmlElement* element_;
   std::shared_ptr<const std::string> file_;  ///< shared by all readers of a file, of which there may be millions
   ErrorList* errors_;
+  std::vector<XmlSetting>* settings_ = nullptr;  ///< null: not describing
+  std::string around_;                           ///< when describing: the elements around, "noise/"
   std::vector<std::string> read_settings_;
   bool all_read_ = false;
 };
@@ -114,12 +130,19 @@ template <typename Value>
 Value XmlReader::choice(const std::string& setting, std::initializer_list<std::pair<const char*, Value>> choices,
                         Value default_value) {
   const auto found = find(setting);
-  if (!found) return default_value;
+  if (!found && !settings_) return default_value;
   for (const auto& [text, value] : choices) {
-    if (found->text == text) return value;
+    if (found && found->text == text) return value;
   }
-  std::string accepted;
-  for (const auto& [text, value] : choices) accepted += (accepted.empty() ? "" : ", ") + std::string(text);
+  std::string accepted, default_text;
+  for (const auto& [text, value] : choices) {
+    accepted += (accepted.empty() ? "" : ", ") + std::string(text);
+    if (value == default_value) default_text = text;
+  }
+  if (!found) {
+    describe(setting, accepted, default_text);
+    return default_value;
+  }
   reportError(*found, setting, ": is unknown; accepted are: " + accepted);
   return default_value;
 }

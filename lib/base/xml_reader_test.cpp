@@ -51,6 +51,31 @@ TEST(XmlReader, UsesDefaultsForAbsentSettings) {
   EXPECT_EQ(errors, Lines{});
 }
 
+TEST(XmlReader, DescribesTheSettingsThatAnElementMayHave) {
+  const XmlElement none;
+  ErrorList errors;
+  XmlReader reader(none, "a.xml", errors);
+  std::vector<XmlSetting> settings;
+  reader.describeTo(settings);
+  reader.number("range_m", Bounds::positive(100));
+  reader.number("mass", {0, 5}, 2);
+  reader.length("height", Bounds::notNegative(), 0.1, 1.5);
+  reader.angle("turn_deg", Bounds::any(), M_PI / 2);
+  reader.word("label");
+  reader.word("name", "none");
+  reader.flag("on", true);
+  reader.choice<int>("law", {{"linear", 1}, {"inverse", 2}}, 2);
+  reader.numbers("rgb", 3, {0, 1}, {1, 0.5, 0});
+  if (auto noise = reader.child("noise")) noise->number("std_m", Bounds::notNegative(), 0);
+  for (auto& at : reader.all("at")) at.number("x_m", Bounds::any(), 0);
+  Lines lines;
+  for (const auto& s : settings) lines.push_back(s.name + " | " + s.values + " | " + s.default_text);
+  EXPECT_EQ(lines, (Lines{"range_m | in (0, 100] metres | ", "mass | in [0, 5] | 2", "height | at least 0 | 15",
+                          "turn_deg | within ±1e9 degrees | 90", "label | a word | ", "name | a word | none",
+                          "on | 0, 1 | 1", "law | linear, inverse | inverse", "rgb | 3 numbers in [0, 1] | 1 0.5 0",
+                          "noise/std_m | at least 0 metres | 0", "at/x_m | within ±1e9 metres | 0"}));
+}
+
 TEST(XmlReader, AcceptsNumbersInEveryUsualForm) {
   errorsOf("<a x='+1.5' y='-2e3' z='.25' w=' 7 '/>", [](XmlReader& a) {
     EXPECT_EQ(a.number("x"), 1.5);

@@ -101,6 +101,16 @@ const SensorType* sensorType(const std::string& name) {
   return nullptr;
 }
 
+std::vector<XmlSetting> settingsOf(const SensorType& type) {
+  const XmlElement none{type.name, "", {}, {}, {}};
+  ErrorList missing;
+  XmlReader reader(none, "", missing);
+  std::vector<XmlSetting> settings;
+  reader.describeTo(settings);
+  type.read(reader, {});
+  return settings;
+}
+
 std::unique_ptr<Sensor> readSensor(XmlReader& reader, const Mount& mount) {
   Made sensor;
   if (reader.name() == "sensor") {

@@ -35,6 +35,10 @@ std::span<const SensorType> sensorTypes();
 /// The kind of a name; null for an unknown one.
 const SensorType* sensorType(const std::string& name);
 
+/// The settings of a kind's element. Those of a <ring> and of each <color>, <beacon> and <at> have its name before
+/// them.
+std::vector<XmlSetting> settingsOf(const SensorType& type);
+
 /// Reads a sensor from its element, `<sonar …/>` or a 2005 `<sensor>`. Reports faults to the reader's list; returns
 /// null for an unknown kind.
 std::unique_ptr<Sensor> readSensor(XmlReader&, const Mount&);

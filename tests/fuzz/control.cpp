@@ -5,6 +5,6 @@
 using namespace robosim;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  return fuzzMessage<v1::WorldSource>(
-      data, size, [](const v1::WorldSource& message) { loadWorld(decode(message), {"gold_finder"}); });
+  return fuzzMessage<v1::WorldSource>(data, size,
+                                      [](const v1::WorldSource& message) { loadWorld(decode(message), {}); });
 }
