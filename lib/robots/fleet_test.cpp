@@ -23,9 +23,9 @@ using Lines = std::vector<std::string>;
 const std::filesystem::path kWorlds = ROBOSIM_SOURCE_DIR "/worlds";
 const std::vector<std::filesystem::path> kTypes{kWorlds / "robots"};
 
-/// Knows wander only.
+/// Knows two controllers, without parameters.
 void checkController(const std::string& controller) {
-  if (controller != "wander") throw ConfigError("there is no controller '" + controller + "'");
+  if (controller != "wander" && controller != "gold_finder") throw ConfigError("there is no controller '" + controller + "'");
 }
 
 /// A world of these robots, each on its own line, the first on line 2.
@@ -138,6 +138,13 @@ TEST(Fleet, RejectsUnknownModelsAndControllersThatTheCheckRejects) {
                    "w.xml:4: robot 'C': there is no robot type '../robots/scout'; " + known}));
 }
 
+TEST(Fleet, ReportsARejectedControllerAtItsElementOnceForEachRobot) {
+  const std::string controller = "\n<controller name='wander' speed='2'/>";
+  const std::string fault = "there is no controller 'wander speed=2'";
+  EXPECT_EQ(faults(worldOf({placed("scout", "A", 0, controller), placed("scout", "B", 2, controller)})),
+            (Lines{"w.xml:3: robot 'A': " + fault, "w.xml:5: robot 'B': " + fault}));
+}
+
 TEST(Fleet, ReportsFaultySensorsOfEveryRobot) {
   const std::string sensor = "<sensor><type>radar</type></sensor>";
   EXPECT_EQ(faults(worldOf({of2005("A", 0, sensor), of2005("B", 10, sensor),
@@ -201,7 +208,7 @@ TEST_F(WorldFolder, AHundredThousandRobotsLoadWithOneModel) {
     text += "<object><shape><robot><model>scout</model><name>" + std::to_string(i) + "</name><x>" +
             std::to_string(i % 317) + "</x><y>" + std::to_string(i / 317) + "</y></robot></shape></object>\n";
   }
-  const LoadedWorld loaded = loadWorld(write("w.xml", text + "</surface></world>"), kControllers);
+  const LoadedWorld loaded = loadWorld(write("w.xml", text + "</surface></world>"), nullptr);
   ASSERT_EQ(loaded.fleet.robots.size(), 100'000u);
   EXPECT_EQ(loaded.fleet.robots.front().model, loaded.fleet.robots.back().model);
 }
@@ -212,7 +219,7 @@ TEST(Worlds, ShippedWorldsLoadAndRoundTrip) {
     if (entry.path().extension() != ".xml") continue;
     SCOPED_TRACE(entry.path());
     ++worlds;
-    const LoadedWorld loaded = loadWorld(entry.path(), {"gold_finder", "wander", "wall_follower", "still"});
+    const LoadedWorld loaded = loadWorld(entry.path(), nullptr);
     EXPECT_FALSE(loaded.fleet.robots.empty());
     ErrorList errors;
     EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), filesOnDisk(entry.path()), errors), loaded.world);
@@ -222,7 +229,7 @@ TEST(Worlds, ShippedWorldsLoadAndRoundTrip) {
 }
 
 TEST(Worlds, World2005LoadsUnchanged) {
-  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", kControllers);
+  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", nullptr);
   ASSERT_EQ(loaded.fleet.robots.size(), 1u);
   const RobotInfo& finder = loaded.fleet.robots[0].info;
   EXPECT_EQ(finder.name, "Finder1");

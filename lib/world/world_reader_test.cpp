@@ -129,6 +129,26 @@ TEST(WorldReader, PlacesARobotByItsModel) {
   EXPECT_FALSE(world.robots[1].color);
 }
 
+TEST(WorldReader, ReadsAControllerWithParametersAsAttributesOrAsText) {
+  const World world = parsed(worldOf({scout("A", R"(<controller name="flocking" cohesion="0.3" radius_m="2"/>)"),
+                                      scout("B", "<controller>flocking cohesion=0.3</controller>"),
+                                      scout("C", R"(<controller name="flocking"/>)"), scout("D")}));
+  EXPECT_EQ(world.robots[0].controller, "flocking cohesion=0.3 radius_m=2");
+  EXPECT_EQ(world.robots[1].controller, "flocking cohesion=0.3");
+  EXPECT_EQ(world.robots[2].controller, "flocking");
+  EXPECT_EQ(world.robots[3].controller, "");
+}
+
+TEST(WorldReader, RejectsAControllerWithoutNameOrWithWordsAsParameters) {
+  EXPECT_EQ(
+      faults(worldOf({scout("A", "\n<controller cohesion=\"0.3\"/>"), scout("B", "<controller name='a' b='1 2'/>"),
+                      scout("C", "<controller>very fast</controller>")})),
+      (Lines{"a.xml:3: <controller>: <name> is missing; add it",
+             "a.xml:4: <controller b=\"1 2\">: must be a single number",
+             "a.xml:5: <controller>very fast</controller>: controller 'very': 'fast' is no parameter; write "
+             "PARAMETER=VALUE"}));
+}
+
 TEST(WorldReader, AcceptsABodyBesidesAModel) {
   const World world =
       parsed(worldOf({"<robot><model>scout</model><cylinder><name>A</name><x>1</x><y>2</y><z>3</z><radius>1</radius>"

@@ -113,7 +113,7 @@ class WorldMaker {
     for (auto i = rng_.below(4); i > 0; --i) {
       robot.sensors.push_back(element(only_2005 || maybe() ? "sensor" : "sonar", 2));
     }
-    if (maybe()) robot.controller = word();
+    if (maybe()) robot.controller = maybe() ? "wander" : "flocking cohesion=0.3 radius_m=1e-3";
     return robot;
   }
 
