@@ -25,7 +25,8 @@ const std::vector<std::filesystem::path> kTypes{kWorlds / "robots"};
 
 /// Knows two controllers, without parameters.
 void checkController(const std::string& controller) {
-  if (controller != "wander" && controller != "gold_finder") throw ConfigError("there is no controller '" + controller + "'");
+  if (controller != "wander" && controller != "gold_finder")
+    throw ConfigError("there is no controller '" + controller + "'");
 }
 
 /// A world of these robots, each on its own line, the first on line 2.
