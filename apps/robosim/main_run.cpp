@@ -3,5 +3,6 @@
 
 int main(int argc, char** argv) {
   using namespace robosim;
-  return executeRobosim({addRun, addReplay, addCheck, addExport, addControllers, addSensors, addBench}, argc, argv);
+  return executeRobosim({addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addBench},
+                        argc, argv);
 }

@@ -42,6 +42,7 @@ inline constexpr std::array kSubcommands{
                "robosim-run"},
     Subcommand{"check", "Validate a file and summarise it, or list all errors", "robosim-run"},
     Subcommand{"export", "Export a world as a map for other programs, or as a plan", "robosim-run"},
+    Subcommand{"generate", "Generate a random world: maze, cave, office, open", "robosim-run"},
     Subcommand{"controllers", "List the controllers with their parameters", "robosim-run"},
     Subcommand{"sensors", "List the kinds of sensors with their settings", "robosim-run"},
     Subcommand{"bench", "Measure success rates; speed is measured by robosim_bench", "robosim-run"},
@@ -68,6 +69,7 @@ void addView(CLI::App& program);
 void addReplay(CLI::App& program);
 void addCheck(CLI::App& program);
 void addExport(CLI::App& program);
+void addGenerate(CLI::App& program);
 void addControllers(CLI::App& program);
 void addSensors(CLI::App& program);
 void addBench(CLI::App& program);
