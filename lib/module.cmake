@@ -21,6 +21,7 @@ function(robosim_module name)
   set(kind PUBLIC)
   if(sources)
     add_library(${target} STATIC ${sources})
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)  # part of shared libraries, too
   else()
     add_library(${target} INTERFACE)
     set(kind INTERFACE)
