@@ -177,7 +177,7 @@ void Canvas::outlineText(const TPoint2D& at, const OutlineText& drawn, double si
   cv::Mat ground = fine_(on);
   for (const auto& [mask, paint] : {std::pair{rim, bgr({1, 1, 1})}, {coverage, bgr(color)}}) {
     const cv::Mat part = mask(on - wanted.tl());
-    ground.forEach<cv::Vec3b>([&](cv::Vec3b& pixel, const int* place) {
+    ground.forEach<cv::Vec3b>([&, paint = paint](cv::Vec3b& pixel, const int* place) {
       const double share = part.at<uchar>(place[0], place[1]) / 255.0;
       for (int i = 0; i < 3; ++i) pixel[i] = cv::saturate_cast<uchar>(pixel[i] + (paint[i] - pixel[i]) * share);
     });
