@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -15,8 +14,7 @@
 #include "robosim/connection.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
-#include "robots/world_source.h"
-#include "run/run_outputs.h"
+#include "run/world_run.h"
 #include "server/environment_server.h"
 
 namespace robosim {
@@ -53,24 +51,6 @@ struct ServeArguments {
   ListenerArguments listener;
 };
 
-/// Robots driven by other processes: all, if the environment waits for them; otherwise those without a controller.
-std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const ServeArguments& arguments) {
-  std::vector<std::uint8_t> networked;
-  for (const auto& robot : fleet.robots) {
-    const bool has_controller = !arguments.of_run.run.controller.empty() || !robot.controller.empty();
-    networked.push_back(arguments.wait_for_robots || !has_controller);
-  }
-  return networked;
-}
-
-/// "run.rawlog" → "run_2.rawlog" for the second run; an empty name stays empty.
-std::string numbered(const std::string& file, int number) {
-  if (file.empty() || number == 1) return file;
-  const std::filesystem::path path(file);
-  return (path.parent_path() / (path.stem().string() + "_" + std::to_string(number) + path.extension().string()))
-      .string();
-}
-
 /// Policy for lost robots. By default a lockstep run waits for them, and a real-time run continues.
 OnLostRobot lostRobotPolicy(const ServeArguments& arguments) {
   if (arguments.on_lost_robot.empty()) {
@@ -82,108 +62,19 @@ OnLostRobot lostRobotPolicy(const ServeArguments& arguments) {
   return OnLostRobot::fail;
 }
 
-/// One run of one world with its controllers, its outputs, and its ServedRun.
-struct WorldRunState {
-  RunArguments arguments;
-  std::vector<std::uint8_t> networked;
-  LocalRun run;
-  RunInfo run_info;
-  RunOutputs outputs;
-  RunReport report;
-  std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late; real-time pace only
-  std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
-
-  WorldRunState(LoadedWorld world, const WorldSource& source, const ServeArguments& a, RunArguments of_this_run)
-      : arguments(std::move(of_this_run)),
-        networked(networkedRobots(world.fleet, a)),
-        run(std::move(world), arguments.run, networked),
-        run_info(run.environment(), source, arguments.run.environment.seed, networked),
-        outputs(arguments, run.environment(), noteOf(source, run, arguments.run, networked)) {
-    outputs.observe(run.environment());
-    if (a.pace == "realtime") late = 0;
+EndedBy reasonOf(Served how, const WorldRun& run) {
+  switch (how) {
+    case Served::interrupted:
+      return EndedBy::interrupt;
+    case Served::robot_lost:
+      return EndedBy::robot_lost;
+    case Served::stopped:
+      return EndedBy::control_panel;
+    case Served::to_its_end:
+      return run.endedByItself();
   }
-
-  void finish(EndedBy ended_by) {
-    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
-    outputs.finish(run, wall.count(), ended_by, late, report);
-  }
-};
-
-class PreparedWorldRun final : public PreparedRun {
- public:
-  explicit PreparedWorldRun(std::shared_ptr<WorldRunState> s) : state(std::move(s)) {}
-  std::shared_ptr<WorldRunState> state;
-};
-
-/// The sequence of runs of one program: loading another world from a control panel starts the next run. Each has
-/// separate outputs.
-class WorldRun final : public ServedRun {
- public:
-  explicit WorldRun(const ServeArguments& arguments) : arguments_(arguments) {
-    state_ = createState(sourceOf(arguments.of_run), 1);
-  }
-
-  Environment& environment() override { return state_->run.environment(); }
-  /// Shared with viewers, which keep the run alive.
-  std::shared_ptr<const RunInfo> runInfo() const override { return {state_, &state_->run_info}; }
-  void decide() override { state_->run.decide(); }
-  void stepped(std::size_t late) override {
-    if (state_->late) *state_->late += late;
-    state_->run.noteOutcome();
-    state_->outputs.observe(state_->run.environment());
-  }
-  bool isOver() const override {
-    return state_->run.gold().all_halted_s.has_value() || arguments_.of_run.timeIsUp(state_->run.environment().time());
-  }
-  void ends(const RunReport& report) override {
-    state_->report = report;
-    all_robots_ = all_robots_ && report.hasAllRobots();
-    is_trusted_ = is_trusted_ && report.isTrusted();
-  }
-  std::unique_ptr<PreparedRun> prepare(const WorldSource& source) const override {
-    try {
-      return std::make_unique<PreparedWorldRun>(createState(source, number_ + 1));
-    } catch (const RecordingError& error) {  // of the next run; the current run continues
-      throw ConfigError(error.what());
-    }
-  }
-  void replace(std::unique_ptr<PreparedRun> next) override {
-    state_->finish(EndedBy::control_panel);
-    state_ = static_cast<PreparedWorldRun&>(*next).state;
-    state_->start = std::chrono::steady_clock::now();
-    ++number_;
-  }
-
-  void keep() { state_->outputs.keep(state_->run.environment()); }
-  void finish(Served how) {
-    state_->finish(how == Served::interrupted                    ? EndedBy::interrupt
-                   : how == Served::robot_lost                   ? EndedBy::robot_lost
-                   : how == Served::stopped                      ? EndedBy::control_panel
-                   : state_->run.gold().all_halted_s.has_value() ? EndedBy::all_halted
-                                                                 : EndedBy::time_limit);
-  }
-  /// @throws Exit when a run of this program was incomplete or untrusted.
-  void throwIfIncomplete() const {
-    if (!is_trusted_) throw Exit{kUntrusted};
-    if (!all_robots_) throw Exit{kIncomplete};
-  }
-
- private:
-  std::shared_ptr<WorldRunState> createState(const WorldSource& source, int number) const {
-    RunArguments of_this_run = arguments_.of_run;
-    of_this_run.world = source.file;
-    of_this_run.record = numbered(of_this_run.record, number);
-    of_this_run.picture = numbered(of_this_run.picture, number);
-    LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller);
-    return std::make_shared<WorldRunState>(std::move(world), source, arguments_, std::move(of_this_run));
-  }
-
-  const ServeArguments& arguments_;
-  std::shared_ptr<WorldRunState> state_;
-  int number_ = 1;
-  bool all_robots_ = true;  ///< in all runs so far
-  bool is_trusted_ = true;
-};
+  return EndedBy::interrupt;
+}
 
 ServerOptions serverOptions(const ServeArguments& arguments) {
   ServerOptions options;
@@ -220,7 +111,7 @@ void serveWorld(const ServeArguments& arguments) {
   checkRunArguments(arguments.of_run);
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   const ServerOptions options = serverOptions(arguments);
-  WorldRun run(arguments);
+  WorldRun run({arguments.of_run, arguments.wait_for_robots, arguments.pace == "realtime"});
   EnvironmentServer server(options, run.runInfo());
   logPorts(options, server.ports());
   Served how = Served::interrupted;
@@ -232,8 +123,9 @@ void serveWorld(const ServeArguments& arguments) {
     run.keep();
     throw;
   }
-  run.finish(how);
-  run.throwIfIncomplete();
+  run.finish(reasonOf(how, run));
+  if (!run.isTrusted()) throw Exit{kUntrusted};
+  if (!run.hadAllRobots()) throw Exit{kIncomplete};
 }
 
 }  // namespace
