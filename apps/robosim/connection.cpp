@@ -101,7 +101,7 @@ Access ListenerArguments::access(const std::function<void(const std::string&)>& 
   if (tokens.empty()) return {};
   Access::Options options;
   options.log = log;
-  options.is_reload_requested = isReloadAsked;
+  options.is_reload_requested = isReloadRequested;
   Access access = Access::read(tokens, options);
   catchReloadSignal();
   return access;

@@ -148,7 +148,7 @@ void addControl(CLI::App& program) {
   auto* status = add("status", "show the status of the run", [a] { showStatus(*a); });
   status->add_flag("--watch", a->watch, "print one line per report until the run is over");
   auto* interval = status->add_option("--interval", a->period_s, "with --watch: time between two reports")
-                       ->check(numberIn(0.01, 3600))
+                       ->check(numberIn(0.05, 3600))
                        ->type_name("SECONDS")
                        ->capture_default_str();
   acceptFormerName(*status, *interval, "--every");

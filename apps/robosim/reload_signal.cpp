@@ -16,7 +16,7 @@ void catchReloadSignal() {
   sigaction(SIGHUP, &action, nullptr);
 }
 
-bool isReloadAsked() {
+bool isReloadRequested() {
   if (reload_requested == 0) return false;
   reload_requested = 0;
   return true;

@@ -6,6 +6,6 @@ namespace robosim {
 void catchReloadSignal();
 
 /// Whether SIGHUP has been received since the last call.
-bool isReloadAsked();
+bool isReloadRequested();
 
 }  // namespace robosim

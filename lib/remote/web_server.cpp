@@ -14,6 +14,7 @@
 #include <openssl/ssl.h>
 
 #include "base/log_limiter.h"
+#include "net/host_port.h"
 #include "net/wire_error.h"
 #include "remote/origin.h"
 #include "remote/web_connection.h"
@@ -66,12 +67,10 @@ std::string adviceFor(const boost::system::error_code& error) {
 }
 
 tcp::acceptor listenOn(asio::io_context& context, const std::string& listen) {
-  const auto colon = listen.rfind(':');
-  std::string host = listen.substr(0, colon);
-  if (host.size() > 1 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  const auto [host, port] = HostPort::of(listen);
   tcp::acceptor acceptor(context);
   boost::system::error_code error;
-  const auto found = tcp::resolver(context).resolve(host, listen.substr(colon + 1), error);
+  const auto found = tcp::resolver(context).resolve(host, port, error);
   if (!error) {
     const tcp::endpoint endpoint = found.begin()->endpoint();
     acceptor.open(endpoint.protocol(), error);

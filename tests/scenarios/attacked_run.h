@@ -12,11 +12,9 @@
 #include "client/control_panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/serving.h"
+#include "tests/scenarios/verifying.h"
 
 namespace robosim {
-
-/// Whether the long variants of the attacks run (`ROBOSIM_VERIFY=1`).
-inline bool isVerifying() { return std::getenv("ROBOSIM_VERIFY") != nullptr; }
 
 /// Resident memory of a process [MiB].
 inline double residentMib(pid_t process) {

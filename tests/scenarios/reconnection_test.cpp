@@ -12,6 +12,7 @@
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
+#include "tests/scenarios/verifying.h"
 
 namespace robosim {
 namespace {
@@ -27,7 +28,7 @@ ServedWorld::Options robotsElsewhere(OnLostRobot policy) {
 }
 
 /// Number of connections cut in the long variant.
-int cuts() { return std::getenv("ROBOSIM_VERIFY") ? 400 : 30; }
+int cuts() { return isVerifying() ? 400 : 30; }
 
 TEST(Reconnection, DoesNotChangeTheRunWhereverConnectionsAreCut) {
   const auto in_one = nlohmann::json::parse(runProgram("run worlds/small_maze.xml --json").out);

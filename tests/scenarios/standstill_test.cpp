@@ -1,7 +1,6 @@
 // Every controller in random worlds: no robot may stay in one place for ten minutes. With ROBOSIM_VERIFY=1 the test
 // runs a day of simulated time in 20 worlds.
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include <gtest/gtest.h>
@@ -11,14 +10,13 @@
 #include "environment/testing/small_world.h"
 #include "maze/controllers.h"
 #include "run/local_run.h"
+#include "tests/scenarios/verifying.h"
 
 namespace robosim {
 namespace {
 
 constexpr double kPlace_m = 0.5;  ///< a robot within this distance has not moved
 constexpr double kLongest_s = 600;
-
-bool isLong() { return std::getenv("ROBOSIM_VERIFY") != nullptr; }
 
 void addRobot(World& world, const std::string& model, const mrpt::math::TPose2D& start) {
   RobotPlacement robot;
@@ -105,8 +103,8 @@ std::optional<Stay> firstStay(LocalRun& run, double time_s) {
 class Standstill : public testing::TestWithParam<std::string> {};
 
 TEST_P(Standstill, NeverLasts) {
-  const std::uint64_t worlds = isLong() ? 20 : 3;
-  const double time_s = isLong() ? 86400 : 1800;
+  const std::uint64_t worlds = isVerifying() ? 20 : 3;
+  const double time_s = isVerifying() ? 86400 : 1800;
   for (std::uint64_t seed = 1; seed <= worlds; ++seed) {
     LoadedWorld world = madeWorld(seed);
     RunOptions options;

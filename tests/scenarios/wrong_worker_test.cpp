@@ -21,6 +21,7 @@
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
 #include "tests/scenarios/serving.h"
+#include "tests/scenarios/verifying.h"
 #include "tests/scenarios/wait.h"
 #include "tests/stock_tools.h"
 
@@ -241,7 +242,7 @@ TEST(WrongWorker, IsNotAdmittedAfterThreeRejections) {
 }
 
 TEST(FlippedBits, AreDetectedOnTheWayToAGeometryWorker) {
-  const int rounds = std::getenv("ROBOSIM_VERIFY") ? 1000 : 40;
+  const int rounds = isVerifying() ? 1000 : 40;
   constexpr int kStepsEach = 3;
   ServedWorld::Options options = paused();
   options.world = "worlds/open_100.xml";
