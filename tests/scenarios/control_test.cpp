@@ -211,7 +211,7 @@ TEST(Control, ControlsARunFromTheCommandLine) {
   EXPECT_NE(control("status").find("opho2_1"), std::string::npos);
   control("speed 5");
   EXPECT_NE(control("start").find("running"), std::string::npos);
-  StartedProgram watch({"control", serving.address(), "status", "--watch", "--interval", "0.01"});
+  StartedProgram watch({"control", serving.address(), "status", "--watch", "--interval", "0.05"});
   watch.waitForOutput("running");
   control("stop");
   const Ended watched = watch.wait();

@@ -59,6 +59,16 @@ TEST(NeighbourList, IsRebuiltOnlyAfterItsOwnerCrossedTheSkin) {
   EXPECT_EQ(near(grid, list, {17, 0}, 3.5).solids, (std::vector<std::uint32_t>{2}));
 }
 
+TEST(NeighbourList, IsRebuiltAsSoonAsItsOwnerHasCrossedTheSkin) {
+  const GridIndex grid = pillarsAhead();
+  NeighbourList list;
+  list.update(grid, {0, 0}, 2.5);
+  const mrpt::math::TPoint2D beyond_skin(0.71, 0);  // the skin is 0.7 m wide
+  EXPECT_FALSE(near(grid, list, beyond_skin, 2.5).is_complete);
+  list.update(grid, beyond_skin, 2.5);
+  EXPECT_TRUE(near(grid, list, beyond_skin, 2.5).is_complete);
+}
+
 TEST(NeighbourList, ContainsAllSolidsWithinReach) {
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
     Rng rng(seed);
