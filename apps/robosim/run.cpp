@@ -65,7 +65,7 @@ void runWorld(const RunArguments& arguments) {
   std::optional<WorldSource> source;  // kept for the recording's note
   if (!arguments.record.empty() || !arguments.changes.isNone()) source = sourceOf(arguments);
   LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
-                      : loadWorldToRun(arguments.world, arguments.run.controller),
+                      : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed),
                arguments.run);
   RunOutputs outputs(arguments, run.environment(),
                      !arguments.record.empty() ? noteOf(*source, run, arguments.run) : RunNote());

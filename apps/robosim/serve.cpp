@@ -169,9 +169,11 @@ class WorldRun final : public ServedRun {
   }
 
  private:
-  std::shared_ptr<WorldRunState> createState(const WorldSource& source, int number) const {
+  std::shared_ptr<WorldRunState> createState(WorldSource source, int number) const {
     RunArguments of_this_run = arguments_.of_run;
     of_this_run.world = source.file;
+    auto& seed = of_this_run.run.environment.seed;
+    source.seed = seed = source.seed.value_or(seed);
     of_this_run.record = numbered(of_this_run.record, number);
     of_this_run.picture = numbered(of_this_run.picture, number);
     LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller);

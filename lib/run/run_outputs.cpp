@@ -33,7 +33,9 @@ void draw(const std::string& picture, const Environment& environment, const Trac
 }  // namespace
 
 WorldSource sourceOf(const RunArguments& arguments) {
-  return withChanges(readWorldSource(arguments.world), arguments.changes, arguments.run.environment.seed);
+  WorldSource source = readWorldSource(arguments.world);
+  source.seed = arguments.run.environment.seed;
+  return withChanges(source, arguments.changes, arguments.run.environment.seed);
 }
 
 bool RunArguments::timeIsUp(const SimTime& now) const {
