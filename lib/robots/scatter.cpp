@@ -339,6 +339,7 @@ void placeScattered(World& world, const std::string& world_file, const RobotType
                     ErrorList& errors) {
   if (world.scatters.empty() || !errors.empty()) return;
   const std::vector<Scatter> scatters = std::exchange(world.scatters, {});
+  world.origin.is_scattered = true;
   Scatterer scatterer(world, world_file, types, seed, errors);
   for (std::size_t i = 0; i < scatters.size(); ++i) scatterer.place(static_cast<std::uint32_t>(i), scatters[i]);
 }

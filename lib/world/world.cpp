@@ -26,7 +26,7 @@ std::string Scatter::nameOf(int number) const {
 
 std::string World::fileOf(const SourceLine& line, const std::string& world_file) const {
   if (line.file == 0) return world_file;
-  const auto& included_name = included.names[static_cast<std::size_t>(line.file - 1)];
+  const auto& included_name = origin.included[static_cast<std::size_t>(line.file - 1)];
   return (std::filesystem::path(world_file).parent_path() / included_name).string();
 }
 

@@ -107,11 +107,11 @@ struct Scatter {
 /// Maximum number of scattered robots and objects in a world; bounds the memory that a short file takes.
 constexpr int kScatteredMax = 250'000;
 
-/// Files that a world file includes, by their FileProvider names; SourceLine::file counts them from 1. They compare
-/// equal, because they are not part of the value.
-struct IncludedFiles {
-  std::vector<std::string> names;
-  bool operator==(const IncludedFiles&) const { return true; }
+/// How a world was made. All compare equal, because this is not part of the value.
+struct WorldOrigin {
+  std::vector<std::string> included;  ///< FileProvider names of the included files; SourceLine::file counts them from 1
+  bool is_scattered = false;          ///< some of its places depend on the seed
+  bool operator==(const WorldOrigin&) const { return true; }
 };
 
 /// Limits of the robots' communication.
@@ -137,7 +137,7 @@ struct World {
   std::vector<WorldMap> maps;
   std::vector<RobotPlacement> robots;
   std::vector<Scatter> scatters;  ///< not yet placed
-  IncludedFiles included;
+  WorldOrigin origin;
   bool operator==(const World&) const = default;
 
   /// Path of the file of a line, for errors, in a world read from `world_file`.

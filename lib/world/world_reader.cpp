@@ -90,10 +90,10 @@ class WorldReader {
           return;
         }
         XmlElement& root = included_roots_.emplace_back(parseXml(std::move(text), files_.pathOf(name)));
-        world_.included.names.push_back(name);
+        world_.origin.included.push_back(name);
         const std::string inner = std::filesystem::path(name).parent_path().string();
         folder_of_file_.push_back(inner.empty() ? "" : inner + "/");
-        setFile(root, static_cast<int>(world_.included.names.size()));
+        setFile(root, static_cast<int>(world_.origin.included.size()));
         XmlReader part(root, files_.pathOf(name), errors_);
         if (part.name() != "surface") {
           part.error("is not a part of a world; the first element of an included file is <surface>");
