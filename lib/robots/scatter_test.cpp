@@ -43,6 +43,14 @@ Scatter pillars(int count, double radius_m, ScatterPattern pattern) {
   return scatter;
 }
 
+RobotPlacement robotOf(const std::string& model, const std::string& name, int line) {
+  RobotPlacement robot;
+  robot.name = name;
+  robot.model = model;
+  robot.line.number = line;
+  return robot;
+}
+
 Lines place(World& world, std::uint64_t seed = 1) {
   ErrorList errors;
   placeScattered(world, "w.xml", robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), seed, errors);
@@ -145,7 +153,7 @@ TEST(Scatter, ReportsAnUnknownRobotTypeOnce) {
   Scatter robots;
   robots.count = 100;
   robots.line = {5};
-  robots.copied = RobotPlacement{.name = "R", .model = "no_such", .line = {6}};
+  robots.copied = robotOf("no_such", "R", 6);
   world.scatters = {robots};
   const Lines errors = place(world);
   ASSERT_EQ(errors.size(), 1u);
@@ -219,7 +227,7 @@ TEST(Scatter, WritesTheCopies) {
   world.scatters = {pillars(10, 0.3, ScatterPattern::uniform)};
   Scatter robots;
   robots.count = 3;
-  robots.copied = RobotPlacement{.name = "Scout", .model = "scout", .controller = "wander"};
+  robots.copied = robotOf("scout", "Scout", 0);
   world.scatters.push_back(robots);
   world = placed(world);
   world.name = "w";

@@ -23,7 +23,11 @@ TEST(BuiltWorld, RunsAsItsWrittenFile) {
   Scatter scouts;
   scouts.count = 10;
   scouts.gap_m = 0.5;
-  scouts.copied = RobotPlacement{.name = "Scout", .model = "scout", .controller = "wander"};
+  RobotPlacement scout;
+  scout.name = "Scout";
+  scout.model = "scout";
+  scout.controller = "wander";
+  scouts.copied = scout;
   world.scatters.push_back(scouts);
 
   const RobotTypes types = robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"});

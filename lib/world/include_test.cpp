@@ -53,8 +53,9 @@ TEST(Include, AddsTheObjectsOfTheFile) {
 }
 
 TEST(Include, ReportsLinesOfTheIncludedFile) {
-  EXPECT_EQ(faultsOf("<include file='a.xml'/>", {{"a.xml", "<surface>\n<objekt/>\n</surface>"}}),
-            Lines{"worlds/a.xml:2: <surface>: <objekt> is unknown here; remove it, or correct its spelling"});
+  EXPECT_EQ(
+      faultsOf("<include file='a.xml'/>", {{"a.xml", "<surface>\n<size/>\n</surface>"}}),
+      Lines{"worlds/a.xml:2: <size>: unknown tag in <surface>; accepted here are: include, map, object, scatter"});
   const Lines taken = faultsOf(pillarNamed("A") + "<include file='a.xml'/>",
                                {{"a.xml", "<surface>\n" + pillarNamed("A") + "</surface>"}});
   ASSERT_EQ(taken.size(), 1u);
