@@ -47,7 +47,7 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
 LoadedWorld worldWithGold(const std::string& file, const BenchGoldArguments& arguments) {
   LoadedWorld loaded =
       arguments.changes.isNone()
-          ? loadWorldToRun(file, arguments.controller)
+          ? loadWorldToRun(file, arguments.controller, arguments.seed)
           : loadWorldToRun(withChanges(readWorldSource(file), arguments.changes, arguments.seed), arguments.controller);
   const auto is_gold = [](const WorldObject& object) { return object.body.heat_celsius > 0; };
   if (std::any_of(loaded.world.objects.begin(), loaded.world.objects.end(), is_gold)) return loaded;

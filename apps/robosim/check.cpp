@@ -8,12 +8,13 @@
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "base/xml_parser.h"
-#include "environment/free_space.h"
 #include "environment/world_changes.h"
 #include "remote/robot_list.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
+#include "robots/free_space.h"
+#include "robots/scatter.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
 #include "world/map_writer.h"
@@ -113,7 +114,9 @@ struct Additions {
 
 void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
   LoadedWorld loaded{std::move(world_in_file), {}};
-  loaded.fleet = buildFleet(loaded.world, file, robotTypesIn(robotTypeFolders(file)), checkController, checked.errors);
+  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
+  placeScattered(loaded.world, file, types, additions.seed, checked.errors);
+  loaded.fleet = buildFleet(loaded.world, file, types, checkController, checked.errors);
   if (!additions.changes.isNone() && checked.errors.empty()) {
     loaded = loadWorld(withChanges(readWorldSource(file), additions.changes, additions.seed), checkController);
   }

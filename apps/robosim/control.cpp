@@ -1,6 +1,7 @@
 #include <chrono>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 #include <CLI/CLI.hpp>
 
@@ -17,6 +18,7 @@ namespace {
 struct ControlArguments {
   ConnectionArguments connection;
   std::string world;
+  std::optional<std::uint64_t> seed;
   std::uint64_t steps = 1;
   std::string speed;
   bool watch = false;
@@ -127,10 +129,15 @@ void addControl(CLI::App& program) {
     });
   };
 
-  add_call("load", "end the run and start another with this world, paused",
-           [a](ControlPanel& panel) { return panel.load(readWorldSource(a->world)); })
-      ->add_option("FILE", a->world, "world file")
-      ->required();
+  auto* load = add_call("load", "end the run and start another with this world, paused", [a](ControlPanel& panel) {
+    WorldSource source = readWorldSource(a->world);
+    source.seed = a->seed;
+    return panel.load(source);
+  });
+  load->add_option("FILE", a->world, "world file")->required();
+  load->add_option("--seed", a->seed, "of the new run, 0 to 2^64 - 1; default: that of 'robosim serve'")
+      ->check(seedNumber())
+      ->type_name("NUMBER");
   add_call("start", "continue the run", [](ControlPanel& panel) { return panel.start(); });
   add_call("pause", "pause after the current step", [](ControlPanel& panel) { return panel.pause(); });
   add_call("step", "take a number of steps, then pause; returns on completion",

@@ -3,5 +3,5 @@
 
 int main(int argc, char** argv) {
   using namespace robosim;
-  return executeRobosim({addView}, argc, argv);
+  return executeRobosim({addView, addRunWithWindow}, argc, argv);
 }

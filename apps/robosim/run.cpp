@@ -10,6 +10,7 @@
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"
 #include "robosim/run_arguments.h"
+#include "robosim/run_command.h"
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
 #include "run/run_outputs.h"
@@ -59,20 +60,26 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
   return EndedBy::all_halted;
 }
 
-void runWorld(const RunArguments& arguments) {
-  const Interrupt interrupt;
+/// @param window of --view; null: none
+void runWorld(const RunArguments& arguments, const RunWindow& window, double window_speed) {
+  std::optional<Interrupt> interrupt(std::in_place);
   checkRunArguments(arguments);
   std::optional<WorldSource> source;  // kept for the recording's note
   if (!arguments.record.empty() || !arguments.changes.isNone()) source = sourceOf(arguments);
   LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
-                      : loadWorldToRun(arguments.world, arguments.run.controller),
+                      : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed),
                arguments.run);
   RunOutputs outputs(arguments, run.environment(),
                      !arguments.record.empty() ? noteOf(*source, run, arguments.run) : RunNote());
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {
-    ended_by = drive(run, arguments, interrupt, outputs);
+    if (window) {
+      interrupt.reset();  // the window has one of its own
+      ended_by = window(run, arguments, window_speed, outputs);
+    } else {
+      ended_by = drive(run, arguments, *interrupt, outputs);
+    }
   } catch (const RecordingError&) {
     throw;
   } catch (...) {
@@ -85,12 +92,22 @@ void runWorld(const RunArguments& arguments) {
 
 }  // namespace
 
-void addRun(CLI::App& program) {
+void addRunCommand(CLI::App& program, const RunWindow& window) {
   auto* command = addSubcommand(program, "run");
   auto arguments = std::make_shared<RunArguments>();
   addRunArguments(*command, *arguments);
+  auto* view = command->add_flag(std::string(kViewOption),
+                                 "show the run in a window, in real time unless --speed is given, until it is closed; "
+                                 "keys as for 'robosim view'");
   command->footer(controllersHelp());
-  command->callback([arguments] { runWorld(*arguments); });
+  command->callback([arguments, window, command, view] {
+    const bool has_speed = command->count("--speed") > 0;
+    if (view->count() == 0) return runWorld(*arguments, {}, 0);
+    if (!window) throw ConfigError("--view: is a feature of the command 'robosim run', which starts robosim-view");
+    runWorld(*arguments, window, has_speed ? speedNumber(arguments->speed) : 1);
+  });
 }
+
+void addRun(CLI::App& program) { addRunCommand(program, {}); }
 
 }  // namespace robosim

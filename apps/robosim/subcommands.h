@@ -48,6 +48,9 @@ inline constexpr std::array kSubcommands{
     Subcommand{"bench", "Measure success rates; speed is measured by robosim_bench", "robosim-run"},
 };
 
+/// `robosim run` with this option is in the executable of `robosim view`.
+constexpr std::string_view kViewOption = "--view";
+
 /// The entry of kSubcommands with this name; null when there is none.
 const Subcommand* subcommandNamed(std::string_view name);
 
@@ -60,6 +63,7 @@ CLI::App* addSubcommand(CLI::App& program, std::string_view name);
 /// std::invalid_argument for bad input, anything else for a failed run.
 ///@{
 void addRun(CLI::App& program);
+void addRunWithWindow(CLI::App& program);  ///< the same, for `robosim run --view`
 void addServe(CLI::App& program);
 void addRobot(CLI::App& program);
 void addRemote(CLI::App& program);

@@ -7,10 +7,10 @@
 
 namespace robosim {
 
-/// Line number of a value in its file, for error messages. All lines compare equal, because the position is not part of
-/// the value.
+/// Line of a value, for error messages. All lines compare equal, because the position is not part of the value.
 struct SourceLine {
-  int number = 0;
+  int number = 0;  ///< 0: none
+  int file = 0;    ///< 0: the file itself; i: the i-th file that it includes
   bool operator==(const SourceLine&) const { return true; }
 };
 

@@ -1,4 +1,4 @@
-#include "environment/free_space.h"
+#include "robots/free_space.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 
 #include "base/error_list.h"
 #include "base/random.h"
-#include "environment/free_space.h"
 #include "geometry/shapes/path.h"
+#include "robots/free_space.h"
 
 namespace robosim {
 namespace {

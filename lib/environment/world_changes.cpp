@@ -6,9 +6,10 @@
 
 #include "base/random.h"
 #include "base/xml_element.h"
-#include "environment/free_space.h"
 #include "environment/start_poses.h"
 #include "geometry/shapes/path.h"
+#include "robots/free_space.h"
+#include "robots/scatter.h"
 #include "sensors/registry.h"
 #include "world/map_reader.h"
 #include "world/world_file.h"
@@ -169,8 +170,9 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   if (changes.isNone()) return source;
   ErrorList errors;
   World world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
-  errors.throwIfAny();
   const RobotTypes types = typesFor(source);
+  placeScattered(world, source.file, types, source.seed.value_or(seed), errors);
+  errors.throwIfAny();
   if (changes.addsRobots() && isMapFile(source.file)) world.robots.clear();
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);

@@ -80,7 +80,7 @@ class RunAgain {
  public:
   RunAgain(const ReplayArguments& arguments, const RunNote& note)
       : note_(note),
-        source_(readWorldSource(arguments.check)),
+        source_(sourceFrom(arguments.check, note.seed)),
         run_(worldWithControllers(source_, note), options(note), elsewhere(note)),
         reader_(arguments.rawlog),
         recorded_(reader_, robots(), note.period_s, Pictures::leave_out) {}
@@ -125,6 +125,11 @@ class RunAgain {
     options.environment.seed = note.seed;
     options.environment.period_s = note.period_s;
     return options;
+  }
+  static WorldSource sourceFrom(const std::string& world_file, std::uint64_t seed) {
+    WorldSource source = readWorldSource(world_file);
+    source.seed = seed;
+    return source;
   }
   /// The recorded controller of each robot.
   static LoadedWorld worldWithControllers(const WorldSource& source, const RunNote& note) {

@@ -7,6 +7,7 @@
 #include <mrpt/math/wrap2pi.h>
 
 #include "robots/robot_model_cache.h"
+#include "robots/scatter.h"
 #include "robots/start_check.h"
 #include "world/world_file.h"
 
@@ -94,30 +95,32 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
   starts.reserve(world.robots.size());
   for (const auto& placement : world.robots) {
     if (const std::string fault = faults_of_controllers.of(placement.controller); !fault.empty()) {
-      errors.add(world_file, placement.controller_line.number, "robot '" + placement.name + "': " + fault);
+      errors.add(world.fileOf(placement.controller_line, world_file), placement.controller_line.number,
+                 "robot '" + placement.name + "': " + fault);
     }
     auto model = models.modelFor(placement);
     if (!model) continue;
     if (const std::string excess = budget.add(model); !excess.empty()) {
-      errors.add(world_file, placement.line.number,
+      errors.add(world.fileOf(placement.line, world_file), placement.line.number,
                  "robot '" + placement.name + "': with it " + excess + "; use fewer robots, or sensors of fewer beams");
       break;
     }
     fleet.robots.push_back(made(placement, std::move(model)));
     const FleetRobot& robot = fleet.robots.back();
     const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
-    starts.push_back({placement.name, placement.line.number, disc, robot.body.heights(), robot.body.solid().outline});
+    starts.push_back({placement.name, placement.line, disc, robot.body.heights(), robot.body.solid().outline});
   }
   if (are_poses_valid) checkStarts(world, starts, world_file, errors);
   return fleet;
 }
 
-LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller) {
+LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
   ErrorList errors;
   LoadedWorld loaded;
   loaded.world = readWorld(file, errors);
-  loaded.fleet =
-      buildFleet(loaded.world, file.string(), robotTypesIn(robotTypeFolders(file)), check_controller, errors);
+  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
+  placeScattered(loaded.world, file.string(), types, seed, errors);
+  loaded.fleet = buildFleet(loaded.world, file.string(), types, check_controller, errors);
   errors.throwIfAny();
   return loaded;
 }

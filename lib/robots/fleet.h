@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -48,8 +49,10 @@ struct LoadedWorld {
   Fleet fleet;
 };
 
-/// Reads a world file and builds its fleet.
+/// Reads a world file, places what it scatters, and builds its fleet.
+/// @param seed of the run
 /// @throws ConfigError with every fault found.
-LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller);
+LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller,
+                      std::uint64_t seed = 1);
 
 }  // namespace robosim

@@ -267,10 +267,15 @@ TEST(Worlds, ExamplesInTheirDocumentationLoad) {
       const auto beside = kWorlds / "some.xml";
       const std::string world = "<world><surface>" + text(example) + "</surface></world>";
       EXPECT_EQ(parseWorld(world, beside.string(), filesOnDisk(beside), errors).maps.size(), 1u);
+    } else if (example.name == "scatter") {
+      const World world = parseWorld(
+          "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/>" + text(example) + "</surface></world>",
+          "w.xml", errors);
+      EXPECT_EQ(world.scatters.at(0).count, 20);
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 6);
+  EXPECT_EQ(examples, 7);
 }
 
 TEST(Worlds, ShippedRobotTypesLoad) {

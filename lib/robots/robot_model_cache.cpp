@@ -64,7 +64,7 @@ const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot
   if (found == types_.end()) {
     std::vector<std::string> known;
     for (const auto& [name, type] : types_) known.push_back(name);
-    errors_.add(world_file_, robot.line.number,
+    errors_.add(world_.fileOf(robot.line, world_file_), robot.line.number,
                 "robot '" + quotable(robot.name) + "': there is no robot type '" + quotable(robot.model) + "'; " +
                     (known.empty() ? "none is known" : "known are: " + listed(known)) + "; " + robotTypeFoldersText());
     return nullptr;
@@ -85,7 +85,7 @@ const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot
 }
 
 std::shared_ptr<const RobotModel> RobotModelCache::make(const RobotPlacement& robot) {
-  RobotDescription description{.file = world_file_, .unit_m = world_.unit_m};
+  RobotDescription description{.file = world_.fileOf(robot.line, world_file_), .unit_m = world_.unit_m};
   if (robot.body) description.body = &*robot.body;
   if (robot.model.empty()) {
     if (!robot.body) return nullptr;  // already reported by the world's reader

@@ -98,6 +98,13 @@ std::string discNote(const RobotStart& robot, const Solid& solid) {
                       robot.disc.radius_m);
 }
 
+/// "of line 5", or "of line 5 of FILE" when this is another file than that of the reported line.
+std::string lineText(const World& world, const SourceLine& line, const SourceLine& reported,
+                     const std::string& world_file) {
+  const std::string text = "of line " + std::to_string(line.number);
+  return line.file == reported.file ? text : text + " of " + world.fileOf(line, world_file);
+}
+
 /// The disc shrunk by the map's seam, so that a disc that only touches a wall does not overlap it.
 Circle withoutSeam(const Circle& disc, const WorldMap& map) {
   return {disc.center, disc.radius_m - 2 * seamOf(map.plan, map.world_from_map)};
@@ -113,8 +120,10 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const RobotStart& robot = robots[i];
     const auto report = [&](const std::string& fault) {
-      errors.add(world_file, robot.line, "robot '" + robot.name + "' " + placeOf(robot) + " " + fault);
+      errors.add(world.fileOf(robot.line, world_file), robot.line.number,
+                 "robot '" + robot.name + "' " + placeOf(robot) + " " + fault);
     };
+    const auto line_text = [&](const SourceLine& line) { return lineText(world, line, robot.line, world_file); };
     if (!isWithin(robot.disc, world.bounds)) {
       report("stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>");
       continue;
@@ -127,17 +136,17 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
       if (!overlap({disc, robot.heights}, solids[index])) continue;
       if (map) {
         reported = map;
-        const std::string line = map->line.number > 0 ? " of line " + std::to_string(map->line.number) : "";
+        const std::string line = map->line.number > 0 ? " " + line_text(map->line) : "";
         report("overlaps an obstacle of the map '" + map->file + "'" + line + discNote(robot, solids[index]) +
                "; move the robot");
         continue;
       }
       const WorldObject& object = world.objects[index];
-      report("overlaps the object '" + object.name + "' of line " + std::to_string(object.line.number) +
-             discNote(robot, solids[index]) + "; move one of them");
+      report("overlaps the object '" + object.name + "' " + line_text(object.line) + discNote(robot, solids[index]) +
+             "; move one of them");
     }
     if (const auto other = checked.overlapping(i)) {
-      report("overlaps the robot '" + robots[*other].name + "' of line " + std::to_string(robots[*other].line) +
+      report("overlaps the robot '" + robots[*other].name + "' " + line_text(robots[*other].line) +
              discNote(robot, {robots[*other].outline, robots[*other].heights}) + "; move one of them");
     }
     checked.add(i);

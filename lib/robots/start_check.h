@@ -11,8 +11,8 @@ namespace robosim {
 /// Space occupied by a robot at the start.
 struct RobotStart {
   std::string name;
-  int line = 0;  ///< in the world file
-  Circle disc;   ///< covers its body in plan
+  SourceLine line;
+  Circle disc;  ///< covers its body in plan
   HeightSpan heights;
   Outline outline = {};  ///< of the body, which may be a box within the disc
 };

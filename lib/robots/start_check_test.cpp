@@ -30,7 +30,7 @@ void addPillar(World& world, const std::string& name, double x, double y, double
 }
 
 RobotStart robot(const std::string& name, int line, double x, double y, double radius, HeightSpan heights = {0, 1}) {
-  return {name, line, {{x, y}, radius}, heights};
+  return {name, {line}, {{x, y}, radius}, heights};
 }
 
 Lines faults(const World& world, const std::vector<RobotStart>& robots) {

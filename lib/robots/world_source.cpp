@@ -1,6 +1,7 @@
 #include "robots/world_source.h"
 
 #include "base/digest.h"
+#include "robots/scatter.h"
 #include "world/caching_file_provider.h"
 #include "world/world_file.h"
 
@@ -30,10 +31,14 @@ WorldSource readWorldSource(const std::filesystem::path& file) {
   const World world = parseWorld(source.text, source.file, kept, errors);
   if (unread > 0) errors.throwIfAny();
   const RobotTypes known = robotTypesIn(robotTypeFolders(file));
-  for (const auto& robot : world.robots) {
+  const auto keep_type_of = [&](const RobotPlacement& robot) {
     const auto type = known.find(robot.model);
-    if (type == known.end() || source.robot_types.count(robot.model)) continue;
+    if (type == known.end() || source.robot_types.count(robot.model)) return;
     source.robot_types[robot.model] = {type->second.file, readXmlText(type->second.file)};
+  };
+  for (const auto& robot : world.robots) keep_type_of(robot);
+  for (const auto& scatter : world.scatters) {
+    if (const auto* robot = std::get_if<RobotPlacement>(&scatter.copied)) keep_type_of(*robot);
   }
   return source;
 }
@@ -42,6 +47,7 @@ LoadedWorld loadWorld(const WorldSource& source, const ControllerCheck& check_co
   ErrorList errors;
   LoadedWorld loaded;
   loaded.world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
+  placeScattered(loaded.world, source.file, source.robot_types, source.seed.value_or(kDefaultSeed), errors);
   loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, check_controller, errors);
   errors.throwIfAny();
   return loaded;

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,24 +11,30 @@
 
 namespace robosim {
 
-/// All files that define a world, as text. The same source gives the same World and Fleet, bit for bit, on any machine
-/// without access to files.
+/// Seed of a run for which none is given.
+constexpr std::uint64_t kDefaultSeed = 1;
+
+/// All files that define a world, as text, and the seed of its run. The same source gives the same World and Fleet, bit
+/// for bit, on any machine without access to files.
 struct WorldSource {
   std::string file;  ///< names it in errors; its stem names the world
   std::string text;
   RobotTypes robot_types;  ///< the types that the world uses, each with its text
-  FileTexts files{};       ///< its maps, by their FileProvider names
+  FileTexts files{};       ///< its maps and included files, by their FileProvider names
+  /// Determines the places of scattered robots and objects; nullopt: kDefaultSeed, or that of the program that loads
+  /// it.
+  std::optional<std::uint64_t> seed{};
 };
 
 /// Reads a world file and the files that it refers to.
-/// @throws ConfigError when the file of the world, a robot type or a map cannot be read. loadWorld() reports faults in
-/// their contents.
+/// @throws ConfigError when the file of the world, a robot type, a map or an included file cannot be read. loadWorld()
+/// reports faults in their contents.
 WorldSource readWorldSource(const std::filesystem::path& file);
 
 /// Equivalent to loadWorld() of a file.
 LoadedWorld loadWorld(const WorldSource&, const ControllerCheck& check_controller);
 
-/// Hash of a source's contents, which does not depend on the names of its files.
+/// Hash of a source's contents, which does not depend on the names of its files, nor on the seed.
 std::string versionOf(const WorldSource&);
 
 }  // namespace robosim

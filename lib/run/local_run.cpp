@@ -59,15 +59,16 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
     for (const SensorKind kind : type->needs) {
       const auto& sensors = *robot.info.sensors;
       if (std::any_of(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; })) continue;
-      errors.add(world_file, world.world.robots[i].line.number,
+      const SourceLine& line = world.world.robots[i].line;
+      errors.add(world.world.fileOf(line, world_file), line.number,
                  "robot '" + robot.info.name + "': its controller " + type->name + " requires a sensor of kind " +
                      nameOf(kind) + "; add one, or use another controller");
     }
   }
 }
 
-LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead) {
-  LoadedWorld world = loadWorld(file, checkController);
+LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead, std::uint64_t seed) {
+  LoadedWorld world = loadWorld(file, checkController, seed);
   checkToRun(world, file, instead);
   // The fleet has copied what it needs. (= {} would keep the memory.)
   world.world.robots = std::vector<RobotPlacement>();

@@ -37,7 +37,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
 
 /// Reads a world to be run: loadWorld() plus checkControllers(); requires at least one robot.
 /// @throws ConfigError with all errors found.
-LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead);
+LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead, std::uint64_t seed = kDefaultSeed);
 LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead);
 
 /// Times when the gold was found, won and all robots had stopped [simulated s], and by which robot.

@@ -24,6 +24,7 @@ std::vector<fs::path> inputFilesOf(const std::string& world_file, const World& w
   for (const auto& map : world.maps) {
     for (const auto& file : filesOfMap(folder / map.file)) files.push_back(file);
   }
+  for (const auto& name : world.origin.included) files.push_back(folder / name);
   for (const auto& [name, type] : robotTypesIn(robotTypeFolders(world_file))) files.push_back(type.file);
   return files;
 }

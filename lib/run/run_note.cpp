@@ -79,6 +79,7 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
     for (const auto& [name, file] : json.at("files").items()) note.world.files[name] = fromBase64(file);
     note.world_version = json.at("world_version");
     note.seed = json.at("seed");
+    note.world.seed = note.seed;
     note.period_s = json.at("period_s");
     note.controllers = json.at("controllers").get<std::vector<std::string>>();
     note.outcome = json.at("outcome");
@@ -107,6 +108,7 @@ RunNote noteOf(const WorldSource& source, const LocalRun& run, const RunOptions&
   note.world = source;
   note.world_version = versionOf(source);
   note.seed = options.environment.seed;
+  note.world.seed = note.seed;
   note.period_s = options.environment.period_s;
   const auto& robots = run.environment().fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {

@@ -33,7 +33,9 @@ void draw(const std::string& picture, const Environment& environment, const Trac
 }  // namespace
 
 WorldSource sourceOf(const RunArguments& arguments) {
-  return withChanges(readWorldSource(arguments.world), arguments.changes, arguments.run.environment.seed);
+  WorldSource source = readWorldSource(arguments.world);
+  source.seed = arguments.run.environment.seed;
+  return withChanges(source, arguments.changes, arguments.run.environment.seed);
 }
 
 bool RunArguments::timeIsUp(const SimTime& now) const {
@@ -72,6 +74,7 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
   summary.late = late;
   summary.report = report;
   summary.depends_on_seed |= arguments_.changes.has_random_starts || arguments_.changes.random_robots > 0;
+  summary.depends_on_seed |= run.environment().world().origin.is_scattered;
   if (recording_) {
     note_.outcome = summary.json();
     // The file of a repeated run is identical regardless of its duration.

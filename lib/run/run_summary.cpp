@@ -23,6 +23,8 @@ const char* nameOf(EndedBy why) {
       return "control_panel";
     case EndedBy::robot_lost:
       return "robot_lost";
+    case EndedBy::window_closed:
+      return "window_closed";
   }
   return "";
 }
@@ -47,6 +49,7 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
   if (why == EndedBy::interrupt) text += "; interrupted";
   if (why == EndedBy::control_panel) text += "; ended from a control panel";
   if (why == EndedBy::robot_lost) text += "; ended because a robot was lost";
+  if (why == EndedBy::window_closed) text += "; ended by closing the window";
   return text;
 }
 

@@ -9,7 +9,7 @@
 namespace robosim {
 
 /// Reason why a run ended.
-enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_lost };
+enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_lost, window_closed };
 
 /// Result of a run, printed at its end.
 struct RunSummary {

@@ -118,9 +118,11 @@ void WorldRun::finish(EndedBy ended_by) { run_->finish(ended_by); }
 
 void WorldRun::keep() { run_->outputs.keep(run_->run.environment()); }
 
-std::shared_ptr<WorldRun::OneRun> WorldRun::load(const WorldSource& source, int number) const {
+std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number) const {
   RunArguments of_this_run = options_.of_run;
   of_this_run.world = source.file;
+  auto& seed = of_this_run.run.environment.seed;
+  source.seed = seed = source.seed.value_or(seed);
   of_this_run.record = numbered(of_this_run.record, number);
   of_this_run.picture = numbered(of_this_run.picture, number);
   LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller);

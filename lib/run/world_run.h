@@ -48,7 +48,7 @@ class WorldRun final : public ServedRun {
  private:
   class OneRun;
   class Prepared;
-  std::shared_ptr<OneRun> load(const WorldSource& source, int number) const;
+  std::shared_ptr<OneRun> load(WorldSource source, int number) const;
 
   WorldRunOptions options_;
   std::shared_ptr<OneRun> run_;  ///< shared with viewers

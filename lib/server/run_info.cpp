@@ -34,6 +34,7 @@ RunInfo::RunInfo(const Environment& the_environment, WorldSource the_source, std
       run_id(randomRunId()),
       seed(the_seed),
       is_networked(std::move(networked)) {
+  source.seed = seed;
   checkUtf8(environment.world().name, "world");
   for (const auto& robot : environment.fleet().robots) {
     checkUtf8(robot.info.name, "robot");

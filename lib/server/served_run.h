@@ -29,7 +29,8 @@ class ServedRun {
   virtual bool isOver() const = 0;
   /// Called when the run ends or is about to be replaced.
   virtual void ends(const RunReport& report) = 0;
-  /// Builds another run. Called on another thread while this run continues; must not modify this run.
+  /// Builds another run, with the world's seed, or this run's if it has none. Called on another thread while this run
+  /// continues; must not modify this run.
   /// @throws ConfigError when the world is invalid.
   virtual std::unique_ptr<PreparedRun> prepare(const WorldSource& world) const = 0;
   /// Replaces this run by one that prepare() has built. The previous runInfo() stays valid for its holders.

@@ -19,6 +19,7 @@ void encode(const WorldSource& source, v1::WorldSource& out) {
     sent.set_name(name);
     sent.set_content(content);
   }
+  if (source.seed) out.set_seed(*source.seed);
 }
 
 WorldSource decode(const v1::WorldSource& in) { return decode(v1::WorldSource(in)); }
@@ -31,6 +32,7 @@ WorldSource decode(v1::WorldSource&& in) {
     source.robot_types[type.name()] = {type.file(), std::move(*type.mutable_text())};
   }
   for (auto& file : *in.mutable_files()) source.files[file.name()] = std::move(*file.mutable_content());
+  if (in.has_seed()) source.seed = in.seed();
   return source;
 }
 

@@ -24,7 +24,7 @@ std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChang
   const bool is_text =
       first == '<' || first == '\n' || first == '\r' || first == '\t' || first == ' ' || first == '\xef';
   if (is_text && !changes.isNone()) return viewWorld(source, changes, seed);
-  if (is_text) return viewWorld(source, readXmlText(file->path()));
+  if (is_text) return viewWorld(source, readXmlText(file->path()), seed);
   refuseChanges(source, changes, "a recording");
   return viewRawlog(source, std::move(file));
 }

@@ -71,7 +71,7 @@ RunSnapshot snapshotOf(const Environment& environment);
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes = {},
                                       std::uint64_t seed = 1);
 /// The same for the text of a world file.
-std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text);
+std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text, std::uint64_t seed = 1);
 /// A recording made by RoboSim or by another program.
 /// @param name for the title
 std::unique_ptr<ViewSource> viewRawlog(const std::string& name, std::unique_ptr<RereadableFile> file);
@@ -81,7 +81,7 @@ std::unique_ptr<ViewSource> viewEnvironment(const ConnectOptions& connect_option
 /// Any of these: an address (HOST:PORT), a map by its file name, or a file recognised as a world or a rawlog by its
 /// content.
 /// @param connect_options for the given address; called only for an address
-/// @param seed of the changes
+/// @param seed of the changes, and of what the world scatters
 /// @throws ConfigError when it is none of them, and for changes of anything but a world or a map.
 std::unique_ptr<ViewSource> openView(const std::string& source,
                                      const std::function<ConnectOptions(const std::string& address)>& connect_options,

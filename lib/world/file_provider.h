@@ -31,7 +31,11 @@ struct FileProvider {
 /// Maximum size [bytes] of a file that a world refers to.
 constexpr std::size_t kMaxFileBytes = 256u << 20;
 
-/// Provides files from disk, relative to the world file's folder.
+/// Ending of the files that a world file includes.
+constexpr const char* kIncludedExtension = ".xml";
+
+/// Provides files from disk, relative to the world file's folder. A file that is included must lie in this folder, or
+/// below it, also after symbolic links are resolved.
 FileProvider filesOnDisk(const std::filesystem::path& world_file);
 /// Provides the given texts only. `files` must outlive the result.
 FileProvider providerOf(const std::filesystem::path& world_file, const FileTexts& files);

@@ -1,5 +1,7 @@
 #include "world/world.h"
 
+#include <filesystem>
+
 #include "base/portable_math.h"
 
 namespace robosim {
@@ -16,6 +18,16 @@ double Body::coveringRadius() const {
   if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return cylinder->radius_m;
   const auto& cube = std::get<Cube>(shape);
   return portable::hypot(cube.length_m, cube.width_m) / 2;
+}
+
+std::string Scatter::nameOf(int number) const {
+  return std::visit([](const auto& it) { return it.name; }, copied) + std::to_string(number);
+}
+
+std::string World::fileOf(const SourceLine& line, const std::string& world_file) const {
+  if (line.file == 0) return world_file;
+  const auto& included_name = origin.included[static_cast<std::size_t>(line.file - 1)];
+  return (std::filesystem::path(world_file).parent_path() / included_name).string();
 }
 
 std::vector<Solid> unknownOf(const WorldMap& map) {

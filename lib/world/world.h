@@ -78,6 +78,42 @@ struct RobotPlacement {
   bool operator==(const RobotPlacement&) const = default;
 };
 
+enum class ScatterPattern {
+  uniform,  ///< random places
+  free,     ///< random places in the largest connected free part of the area; unknown cells of maps are not free
+  grid,     ///< rows and columns as far apart as possible, from the lower left
+  ring,     ///< on a circle, as far apart as possible, from its positive x axis counter-clockwise
+};
+
+/// Copies of a robot or an object, at places that do not overlap. placeScattered() (robots/scatter.h) replaces it by
+/// them.
+struct Scatter {
+  int count = 1;  ///< at most kScatteredMax in a world
+  ScatterPattern pattern = ScatterPattern::uniform;
+  std::optional<Bounds2D> area;         ///< in which they lie; nullopt: the surface; unused by a ring
+  mrpt::math::TPoint2D ring_center;     ///< world frame [m]
+  double ring_radius_m = 0;             ///< of the circle of their centres; > 0 for a ring
+  double gap_m = 0;                     ///< minimum distance to each other and to anything else, >= 0
+  std::optional<double> direction_rad;  ///< nullopt: random
+  std::variant<RobotPlacement, WorldObject>
+      copied;  ///< its name is followed by the number: 1, 2, …; its pose is unused
+  SourceLine line;
+  bool operator==(const Scatter&) const = default;
+
+  /// Name of the copy with this number.
+  std::string nameOf(int number) const;
+};
+
+/// Maximum number of scattered robots and objects in a world; bounds the memory that a short file takes.
+constexpr int kScatteredMax = 250'000;
+
+/// How a world was made. All compare equal, because this is not part of the value.
+struct WorldOrigin {
+  std::vector<std::string> included;  ///< FileProvider names of the included files; SourceLine::file counts them from 1
+  bool is_scattered = false;          ///< some of its places depend on the seed
+  bool operator==(const WorldOrigin&) const { return true; }
+};
+
 /// Limits of the robots' communication.
 struct Communication {
   std::optional<double> range_m;  ///< between robots' centres; nullopt: unlimited
@@ -100,7 +136,12 @@ struct World {
   std::vector<WorldObject> objects;
   std::vector<WorldMap> maps;
   std::vector<RobotPlacement> robots;
+  std::vector<Scatter> scatters;  ///< not yet placed
+  WorldOrigin origin;
   bool operator==(const World&) const = default;
+
+  /// Path of the file of a line, for errors, in a world read from `world_file`.
+  std::string fileOf(const SourceLine& line, const std::string& world_file) const;
 };
 
 /// Unknown cells of a map as boxes of the map's height. They are no obstacles.

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cctype>
+#include <cmath>
+#include <list>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
@@ -9,6 +11,7 @@
 #include "base/controller_choice.h"
 #include "base/label.h"
 #include "base/portable_pose.h"
+#include "base/printable_text.h"
 #include "base/xml_parser.h"
 #include "base/xml_reader.h"
 #include "world/caching_file_provider.h"
@@ -38,6 +41,7 @@ class WorldReader {
     world_.win_distance_m = root_.length("win_distance", Bounds::positive(), world_.unit_m, kWinDistance_m);
     XmlReader surface = root_.requiredChild("surface");
     readSurface(surface);
+    nameScattered();
     if (auto communication = root_.child("communication")) readCommunication(*communication);
     root_.finish();
     checkNeighbours();
@@ -47,10 +51,76 @@ class WorldReader {
  private:
   void readSurface(XmlReader& surface) {
     world_.surface_type = surface.word("type", "smooth");
-    for (auto& map : surface.all("map")) readMapElement(map);
+    includeFiles(surface, "");
+    std::vector<XmlReader*> parts{&surface};
+    for (auto& part : included_surfaces_) parts.push_back(&part);
+    for (auto* part : parts) {
+      for (auto& map : part->all("map")) readMapElement(map);
+    }
     readSize(surface);
-    for (auto& object : surface.all("object")) readObject(object);
-    surface.finish();
+    for (auto* part : parts) {
+      for (auto& object : part->all("object")) readObject(object);
+      for (auto& scatter : part->all("scatter")) readScatter(scatter);
+      part->finish();
+    }
+  }
+
+  /// Reads the included files into `included_surfaces_`, each after the one that includes it.
+  /// @param folder of the including file, relative to the world file's; empty, or with a final slash
+  void includeFiles(XmlReader& surface, const std::string& folder) {
+    for (auto& include : surface.all("include")) {
+      const std::string file = include.word("file");
+      include.finish();
+      if (file.empty()) continue;
+      if (const std::string fault = includeError(file); !fault.empty()) {
+        include.errorAt("file", fault);
+        continue;
+      }
+      const std::string name = std::filesystem::path(folder + file).lexically_normal().string();
+      if (!included_once_.insert(name).second) {
+        include.errorAt("file", "is included already, or includes itself; include each file once");
+        continue;
+      }
+      try {
+        std::string text = files_.read(name);
+        included_bytes_ += text.size();
+        if (included_bytes_ > kMaxXmlFileBytes) {
+          include.errorAt("file", "makes the included files larger than " + std::to_string(kMaxXmlFileBytes >> 20) +
+                                      " MiB in total; make them smaller");
+          return;
+        }
+        XmlElement& root = included_roots_.emplace_back(parseXml(std::move(text), files_.pathOf(name)));
+        world_.origin.included.push_back(name);
+        const std::string inner = std::filesystem::path(name).parent_path().string();
+        folder_of_file_.push_back(inner.empty() ? "" : inner + "/");
+        setFile(root, static_cast<int>(world_.origin.included.size()));
+        XmlReader part(root, files_.pathOf(name), errors_);
+        if (part.name() != "surface") {
+          part.error("is not a part of a world; the first element of an included file is <surface>");
+          continue;
+        }
+        includeFiles(included_surfaces_.emplace_back(std::move(part)), folder_of_file_.back());
+      } catch (const UnreadableFile& error) {
+        include.errorAt("file", error.what());
+      } catch (const ConfigError& error) {
+        errors_.add(error);
+      }
+    }
+  }
+
+  /// What is wrong with the name of an included file; empty for a valid one.
+  static std::string includeError(const std::string& file) {
+    const std::filesystem::path path(file);
+    if (path.is_absolute()) return "is an absolute path; only files in the world's folder, or below it, are included";
+    if (std::find(path.begin(), path.end(), "..") != path.end()) {
+      return "contains '..'; only files in the world's folder, or below it, are included";
+    }
+    return path.extension() == kIncludedExtension ? "" : "must end in .xml";
+  }
+
+  static void setFile(XmlElement& element, int file) {
+    element.line.file = file;
+    for (auto& child : element.children) setFile(child, file);
   }
 
   void readSize(XmlReader& surface) {
@@ -92,6 +162,12 @@ class WorldReader {
     WorldMap map;
     map.line = reader.line();
     map.file = reader.word("file");
+    // A map's path is relative to the file that refers to it.
+    if (map.line.file > 0 && !map.file.empty() && map.file.front() != '/') {
+      map.file = std::filesystem::path(folder_of_file_[static_cast<std::size_t>(map.line.file - 1)] + map.file)
+                     .lexically_normal()
+                     .string();
+    }
     const auto place = [&](const char* tag) { return reader.length(tag, Bounds::any(), world_.unit_m, 0); };
     map.world_from_map = {place("x"), place("y"), reader.number("direction", Bounds::any(), 0)};
     map.height_m = reader.length("height", Bounds::positive(), world_.unit_m, map.height_m);
@@ -147,41 +223,108 @@ class WorldReader {
     auto robot = shape.child("robot");
     if (!primitive && !robot) shape.error("contains neither a <primitive> nor a <robot>; add one");
     if (primitive && robot) robot->error("is given beside a <primitive>; put each in its own <object>");
-    if (primitive) readPrimitive(*primitive);
-    if (robot) readRobot(*robot);
+    if (primitive) world_.objects.push_back(readPrimitive(*primitive, Place::given));
+    if (robot) world_.robots.push_back(readRobot(*robot, Place::given));
     shape.finish();
     object.finish();
   }
 
-  void readPrimitive(XmlReader& primitive) {
+  void readScatter(XmlReader& reader) {
+    Scatter scatter;
+    scatter.line = reader.line();
+    const double count = reader.number("count", {1, kScatteredMax});
+    if (count != std::floor(count)) reader.errorAt("count", "must be a whole number");
+    scatter.count = std::max(1, static_cast<int>(count));
+    using enum ScatterPattern;
+    scatter.pattern = reader.choice<ScatterPattern>(
+        "pattern", {{"uniform", uniform}, {"free", free}, {"grid", grid}, {"ring", ring}}, uniform);
+    if (scatter.pattern == ring) {
+      scatter.ring_center = {reader.length("x", Bounds::any(), world_.unit_m, 0),
+                             reader.length("y", Bounds::any(), world_.unit_m, 0)};
+      scatter.ring_radius_m = length(reader, "radius", Bounds::positive());
+    } else {
+      readArea(reader, scatter);
+    }
+    scatter.gap_m = reader.length("gap", Bounds::notNegative(), world_.unit_m, 0);
+    if (reader.has("direction")) scatter.direction_rad = reader.number("direction", Bounds::any());
+    auto primitive = reader.child("primitive");
+    auto robot = reader.child("robot");
+    if (!primitive && !robot) reader.error("contains neither a <primitive> nor a <robot> to scatter; add one");
+    if (primitive && robot) robot->error("is given beside a <primitive>; put each in its own <scatter>");
+    if (primitive) scatter.copied = readPrimitive(*primitive, Place::scattered);
+    if (robot) scatter.copied = readRobot(*robot, Place::scattered);
+    reader.finish();
+    scatter_readers_.push_back(reader);
+    world_.scatters.push_back(std::move(scatter));
+  }
+
+  void readArea(XmlReader& reader, Scatter& scatter) {
+    if (!reader.has("xmin") && !reader.has("xmax") && !reader.has("ymin") && !reader.has("ymax")) return;
+    const Bounds2D& all = world_.bounds;
+    const auto side = [&](const char* name, double otherwise_m) {
+      return reader.length(name, Bounds::any(), world_.unit_m, otherwise_m);
+    };
+    scatter.area = {side("xmin", all.x_min), side("xmax", all.x_max), side("ymin", all.y_min), side("ymax", all.y_max)};
+    if (scatter.area->x_min >= scatter.area->x_max || scatter.area->y_min >= scatter.area->y_max) {
+      reader.error("has an area without extent; xmin must be below xmax, and ymin below ymax");
+    }
+  }
+
+  /// Checks that the names of all copies are free. Comes last, so that a conflict is reported at the <scatter>.
+  void nameScattered() {
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < world_.scatters.size(); ++i) {
+      const Scatter& scatter = world_.scatters[i];
+      XmlReader& reader = scatter_readers_[i];
+      total += static_cast<std::size_t>(scatter.count);
+      if (total > kScatteredMax) {
+        reader.errorAt("count", "makes more than " + std::to_string(kScatteredMax) +
+                                    " scattered robots and objects; use smaller counts");
+        return;
+      }
+      for (int k = 1; k <= scatter.count; ++k) {
+        const std::string name = scatter.nameOf(k);
+        const auto [first, is_new] = line_of_name_.emplace(name, reader.line());
+        if (is_new) continue;
+        reader.error("'" + quotable(name) + "' is taken already, " + lineText(first->second, reader.line()) +
+                     "; scatter with another <name>");
+        break;
+      }
+    }
+  }
+
+  /// Whether the place of a robot or an object is given, or that of a <scatter>.
+  enum class Place { given, scattered };
+
+  WorldObject readPrimitive(XmlReader& primitive, Place place) {
     WorldObject object;
     object.line = primitive.line();
     if (auto solid = solidIn(primitive)) {
       object.line = solid->line();
-      object.name = readName(*solid);
-      object.body = readBody(*solid);
+      object.name = place == Place::given ? readName(*solid) : solid->word("name");
+      object.body = readBody(*solid, place);
       object.stationary = solid->flag("stationary", true);
       solid->finish();
     } else {
       primitive.error("contains neither a <cylinder> nor a <cube>; add one");
     }
     primitive.finish();
-    world_.objects.push_back(std::move(object));
+    return object;
   }
 
-  void readRobot(XmlReader& robot) {
+  RobotPlacement readRobot(XmlReader& robot, Place place) {
     RobotPlacement placement;
     placement.line = robot.line();
     placement.model = robot.word("model", "");
     if (auto solid = solidIn(robot)) {
-      placement.name = readRobotName(*solid);
-      placement.body = readBody(*solid);
+      placement.name = readRobotName(*solid, place);
+      placement.body = readBody(*solid, place);
       placement.world_from_robot = placement.body->world_from_body;
       solid->flag("stationary", false);  // 2005 files set it for robots too; ignored
       solid->finish();
     } else if (robot.has("model")) {
-      placement.name = readRobotName(robot);
-      placement.world_from_robot = readPlace(robot);
+      placement.name = readRobotName(robot, place);
+      if (place == Place::given) placement.world_from_robot = readPlace(robot);
       placement.color = readColor(robot);
     } else {
       robot.error("has no body; add a <cylinder> or <cube>, or a <model> that has one");
@@ -192,10 +335,12 @@ class WorldReader {
       sensors->finish();
     }
     readController(robot, placement);
-    placement.neighbour = robot.word("neighbour", "");
-    if (!placement.neighbour.empty()) neighbours_.emplace_back(robot, world_.robots.size());
+    if (place == Place::given) {
+      placement.neighbour = robot.word("neighbour", "");
+      if (!placement.neighbour.empty()) neighbours_.emplace_back(robot, world_.robots.size());
+    }
     robot.finish();
-    world_.robots.push_back(std::move(placement));
+    return placement;
   }
 
   /// <controller>NAME</controller>, or <controller name="NAME" PARAMETER="VALUE"…/>.
@@ -232,7 +377,7 @@ class WorldReader {
     return cylinder ? cylinder : cube;
   }
 
-  Body readBody(XmlReader& solid) {
+  Body readBody(XmlReader& solid, Place place) {
     Body body;
     if (solid.name() == "cylinder") {
       body.shape = Cylinder{length(solid, "radius", Bounds::positive())};
@@ -240,7 +385,7 @@ class WorldReader {
       const double length_m = length(solid, "length", Bounds::positive());
       body.shape = Cube{length_m, length(solid, "width", Bounds::positive())};
     }
-    body.world_from_body = readPose(solid);
+    if (place == Place::given) body.world_from_body = readPose(solid);
     body.center_z_m = length(solid, "z");
     body.height_m = length(solid, "height", Bounds::positive());
     if (const auto color = readColor(solid)) body.color = *color;
@@ -271,17 +416,24 @@ class WorldReader {
   std::string readName(XmlReader& reader) {
     std::string name = reader.word("name");
     if (name.empty()) return name;
-    const auto [first, is_new] = line_of_name_.emplace(name, reader.line().number);
+    const auto [first, is_new] = line_of_name_.emplace(name, reader.line());
     if (!is_new) {
-      reader.errorAt("name", "is taken already, in line " + std::to_string(first->second) +
+      reader.errorAt("name", "is taken already, " + lineText(first->second, reader.line()) +
                                  "; give each object and robot a name of its own");
     }
     return name;
   }
 
-  std::string readRobotName(XmlReader& reader) {
-    std::string name = readName(reader);
-    if (const std::string fault = robotNameError(name); !fault.empty()) reader.errorAt("name", fault);
+  /// "in line 5", or "in line 5 of FILE" when this is another file than that of the reported line.
+  std::string lineText(const SourceLine& line, const SourceLine& reported) const {
+    const std::string text = "in line " + std::to_string(line.number);
+    return line.file == reported.file ? text : text + " of " + world_.fileOf(line, root_.file());
+  }
+
+  std::string readRobotName(XmlReader& reader, Place place) {
+    std::string name = place == Place::given ? readName(reader) : reader.word("name");
+    const std::string longest = place == Place::given ? name : name + std::to_string(kScatteredMax);
+    if (const std::string fault = robotNameError(longest); !fault.empty()) reader.errorAt("name", fault);
     return name;
   }
 
@@ -292,6 +444,10 @@ class WorldReader {
   void checkNeighbours() {
     std::vector<std::string> names;
     for (const auto& robot : world_.robots) names.push_back(robot.name);
+    for (const auto& scatter : world_.scatters) {
+      if (!std::holds_alternative<RobotPlacement>(scatter.copied) || neighbours_.empty()) continue;
+      for (int k = 1; k <= scatter.count; ++k) names.push_back(scatter.nameOf(k));
+    }
     const std::unordered_set<std::string> known(names.begin(), names.end());
     const std::string fix = "; the robots are: " + listed(names);
     for (auto& [reader, index] : neighbours_) {
@@ -308,10 +464,16 @@ class WorldReader {
   const FileProvider& files_;
   ErrorList& errors_;
   World world_;
-  std::unordered_map<std::string, int> line_of_name_;
+  std::unordered_map<std::string, SourceLine> line_of_name_;
   std::vector<mrpt::math::TPose2D> starts_;  ///< start poses given by maps, world frame
   std::size_t next_start_ = 0;
   std::vector<std::pair<XmlReader, std::size_t>> neighbours_;  ///< robots with a neighbour, and their index
+  std::vector<XmlReader> scatter_readers_;                     ///< of World::scatters
+  std::list<XmlElement> included_roots_;                       ///< readers refer to them
+  std::list<XmlReader> included_surfaces_;
+  std::unordered_set<std::string> included_once_;  ///< names
+  std::vector<std::string> folder_of_file_;        ///< of each included file, with a final slash
+  std::size_t included_bytes_ = 0;
 };
 
 /// Clears the line numbers of a world generated around a map, which refer to no file.

@@ -37,14 +37,47 @@ class WorldWriter {
     addLength(size, "ymax", world_.bounds.y_max);
     for (const auto& map : world_.maps) addMap(surface.add("map"), map);
     for (const auto& object : world_.objects) {
-      addBody(surface.add("object").add("shape").add("primitive"), object.name, object.body, object.stationary);
+      addBody(surface.add("object").add("shape").add("primitive"), object.name, object.body, object.stationary,
+              Place::given);
     }
-    for (const auto& robot : world_.robots) addRobot(surface.add("object").add("shape").add("robot"), robot);
+    for (const auto& robot : world_.robots) {
+      addRobot(surface.add("object").add("shape").add("robot"), robot, Place::given);
+    }
+    for (const auto& scatter : world_.scatters) addScatter(surface.add("scatter"), scatter);
     addCommunication(root);
     return root;
   }
 
  private:
+  enum class Place { given, scattered };
+
+  void addScatter(XmlElement& element, const Scatter& scatter) const {
+    element.add("count", std::to_string(scatter.count));
+    using enum ScatterPattern;
+    element.add("pattern", scatter.pattern == uniform ? "uniform"
+                           : scatter.pattern == free  ? "free"
+                           : scatter.pattern == grid  ? "grid"
+                                                      : "ring");
+    if (scatter.pattern == ring) {
+      addLength(element, "x", scatter.ring_center.x);
+      addLength(element, "y", scatter.ring_center.y);
+      addLength(element, "radius", scatter.ring_radius_m);
+    } else if (scatter.area) {
+      addLength(element, "xmin", scatter.area->x_min);
+      addLength(element, "xmax", scatter.area->x_max);
+      addLength(element, "ymin", scatter.area->y_min);
+      addLength(element, "ymax", scatter.area->y_max);
+    }
+    addLength(element, "gap", scatter.gap_m);
+    if (scatter.direction_rad) element.add("direction", toText(*scatter.direction_rad));
+    if (const auto* robot = std::get_if<RobotPlacement>(&scatter.copied)) {
+      addRobot(element.add("robot"), *robot, Place::scattered);
+    } else {
+      const auto& object = std::get<WorldObject>(scatter.copied);
+      addBody(element.add("primitive"), object.name, object.body, object.stationary, Place::scattered);
+    }
+  }
+
   void addCommunication(XmlElement& root) const {
     const Communication& communication = world_.communication;
     if (communication == Communication{}) return;
@@ -68,16 +101,16 @@ class WorldWriter {
     element.add("negate", map.reading.negate ? "1" : "0");
   }
 
-  void addRobot(XmlElement& element, const RobotPlacement& robot) const {
+  void addRobot(XmlElement& element, const RobotPlacement& robot, Place place) const {
     assert(robot.body || !robot.model.empty());
     if (!robot.model.empty()) element.add("model", robot.model);
     if (robot.body) {
       Body body = *robot.body;
       body.world_from_body = robot.world_from_robot;
-      addBody(element, robot.name, body, false);
+      addBody(element, robot.name, body, false, place);
     } else {
       element.add("name", robot.name);
-      addPose(element, robot.world_from_robot);
+      if (place == Place::given) addPose(element, robot.world_from_robot);
       if (robot.color) element.add("color", colorText(*robot.color));
     }
     addSensors(element, robot.sensors);
@@ -104,11 +137,11 @@ class WorldWriter {
     place.insert(place.end(), sensors.begin(), sensors.end());
   }
 
-  void addBody(XmlElement& owner, const std::string& name, const Body& body, bool stationary) const {
+  void addBody(XmlElement& owner, const std::string& name, const Body& body, bool stationary, Place place) const {
     const auto* cylinder = std::get_if<Cylinder>(&body.shape);
     XmlElement& element = owner.add(cylinder ? "cylinder" : "cube");
     element.add("name", name);
-    addPose(element, body.world_from_body);
+    if (place == Place::given) addPose(element, body.world_from_body);
     addLength(element, "z", body.center_z_m);
     if (cylinder) {
       addLength(element, "radius", cylinder->radius_m);

@@ -109,9 +109,7 @@ std::map<std::string, std::vector<long>> recordedSteps(const std::filesystem::pa
 TEST(Soak, NeitherLosesNorRepeatsSteps) {
   const auto folder = emptyFolder();
   const auto world = folder / "open_50.xml";
-  ASSERT_EQ(runTool("/usr/bin/python3 '" ROBOSIM_SOURCE_DIR "/worlds/make_open.py' --robots 50 > open_50.xml", folder)
-                .exit_code,
-            0);
+  ASSERT_EQ(runProgram("generate open '" + world.string() + "' --robots 50 --controller wander").exit_code, 0);
   const auto rawlog = folder / "run.rawlog";
   const int seed = numberFrom("ROBOSIM_SOAK_SEED", 1);
   const auto until = std::chrono::steady_clock::now() + std::chrono::seconds(numberFrom("ROBOSIM_SOAK_SECONDS", 60));

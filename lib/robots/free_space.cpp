@@ -1,4 +1,4 @@
-#include "environment/free_space.h"
+#include "robots/free_space.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +84,13 @@ std::vector<std::size_t> FreeSpace::largestRegion() const {
 void FreeSpace::blockUnknown(const World& world) {
   for (const auto& map : world.maps) {
     for (const auto& solid : unknownOf(map)) block(solid.outline, 0);
+  }
+}
+
+void FreeSpace::blockOutside(const Bounds2D& region) {
+  for (std::size_t i = 0; i < free_.size(); ++i) {
+    const TPoint2D p = place(i);
+    if (p.x < region.x_min || p.x > region.x_max || p.y < region.y_min || p.y > region.y_max) free_[i] = 0;
   }
 }
 

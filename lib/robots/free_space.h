@@ -26,6 +26,8 @@ class FreeSpace {
   std::vector<std::size_t> largestRegion() const;
   /// Marks cells that are unknown in the maps as blocked.
   void blockUnknown(const World& world);
+  /// Marks cells whose position lies outside a region as blocked.
+  void blockOutside(const Bounds2D& region);
   /// Length [m] of the surface's edge that a disc can touch from the given cells and that is not covered by a
   /// stationary solid on it or within a centimetre behind it.
   double openEdge(const std::vector<std::size_t>& cells) const;

@@ -1,0 +1,104 @@
+// `robosim run --view`: a run of this process in a window.
+#include <algorithm>
+#include <chrono>
+
+#include "base/interrupt.h"
+#include "rendering/panes.h"
+#include "robosim/run_command.h"
+#include "robosim/subcommands.h"
+#include "viewing/view_outputs.h"
+#include "viewing/view_source.h"
+
+namespace robosim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// Takes the steps of a run between the repaints of its window.
+class LocalRunView final : public ViewSource {
+ public:
+  LocalRunView(LocalRun& run, const RunArguments& arguments, double speed, RunOutputs& outputs)
+      : run_(run),
+        arguments_(arguments),
+        outputs_(outputs),
+        world_{run.environment().world(), run.environment().fleet()},
+        snapshot_(snapshotOf(run.environment())),
+        speed_(speed) {
+    outputs_.observe(run.environment());
+  }
+
+  const LoadedWorld& world() const override { return world_; }
+  const RunSnapshot& snapshot() const override { return snapshot_; }
+  std::string title() const override { return arguments_.world; }
+
+  bool advance(double wall_s) override {
+    const std::uint64_t before = run_.environment().time().step;
+    if (std::exchange(has_single_step_, false)) {
+      take();
+    } else if (!is_paused_) {
+      takeFor(wall_s);
+    }
+    if (run_.environment().time().step == before) return false;
+    snapshot_ = snapshotOf(run_.environment());
+    return true;
+  }
+  bool isOver() const override {
+    return run_.gold().all_halted_s.has_value() || arguments_.timeIsUp(run_.environment().time());
+  }
+  std::string remark() const override { return isOver() ? "the run is over" : ""; }
+
+  bool canPlay() const override { return !isOver(); }
+  bool isPaused() const override { return is_paused_; }
+  void pause(bool paused) override { is_paused_ = paused; }
+  void step() override { is_paused_ = has_single_step_ = true; }
+  double speed() const override { return speed_; }
+  void setSpeed(double speed) override { speed_ = speed; }
+
+ private:
+  void take() {
+    if (isOver()) return;
+    run_.step();
+    outputs_.observe(run_.environment());
+  }
+  /// Takes the steps that are due after this wall time. Steps that the computer is too slow for are dropped, so that
+  /// the window stays responsive.
+  void takeFor(double wall_s) {
+    constexpr std::chrono::milliseconds kLongest(30);
+    const auto start = Clock::now();
+    due_s_ += wall_s * speed_;
+    const double period_s = run_.environment().time().period_s;
+    while (!isOver() && (speed_ == 0 || due_s_ >= period_s)) {
+      take();
+      due_s_ -= period_s;
+      if (Clock::now() - start > kLongest) break;
+    }
+    due_s_ = std::clamp(due_s_, 0.0, period_s);
+  }
+
+  LocalRun& run_;
+  const RunArguments& arguments_;
+  RunOutputs& outputs_;
+  LoadedWorld world_;
+  RunSnapshot snapshot_;
+  double speed_;
+  double due_s_ = 0;  ///< simulated time that is due, but not yet taken
+  bool is_paused_ = false, has_single_step_ = false;
+};
+
+EndedBy showRun(LocalRun& run, const RunArguments& arguments, double speed, RunOutputs& outputs) {
+  constexpr Size kSize{1280, 800};
+  LocalRunView view(run, arguments, speed, outputs);
+  const MakePanes make_panes = [](const LoadedWorld& world, AbsentRobots) {
+    return std::vector<Pane>{makePane(false, std::nullopt, world.world)};
+  };
+  showWindow(view, make_panes, kSize, {});
+  if (Interrupt::signal() != 0) return EndedBy::interrupt;
+  if (run.gold().all_halted_s) return EndedBy::all_halted;
+  return arguments.timeIsUp(run.environment().time()) ? EndedBy::time_limit : EndedBy::window_closed;
+}
+
+}  // namespace
+
+void addRunWithWindow(CLI::App& program) { addRunCommand(program, showRun); }
+
+}  // namespace robosim
