@@ -96,13 +96,14 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
   auto* command = addSubcommand(program, "run");
   auto arguments = std::make_shared<RunArguments>();
   addRunArguments(*command, *arguments);
-  auto* view = command->add_flag(std::string(kViewOption),
-                                 "show the run in a window, in real time unless --speed is given, until it is closed; "
-                                 "keys as for 'robosim view'");
+  auto has_view = std::make_shared<bool>(false);
+  command->add_flag(std::string(kViewOption), *has_view,
+                    "show the run in a window, in real time unless --speed is given, until it is closed; keys as for "
+                    "'robosim view'");
   command->footer(controllersHelp());
-  command->callback([arguments, window, command, view] {
+  command->callback([arguments, window, command, has_view] {
     const bool has_speed = command->count("--speed") > 0;
-    if (view->count() == 0) return runWorld(*arguments, {}, 0);
+    if (!*has_view) return runWorld(*arguments, {}, 0);
     if (!window) throw ConfigError("--view: is a feature of the command 'robosim run', which starts robosim-view");
     runWorld(*arguments, window, has_speed ? speedNumber(arguments->speed) : 1);
   });
