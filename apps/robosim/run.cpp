@@ -89,7 +89,7 @@ void addRun(CLI::App& program) {
   auto* command = addSubcommand(program, "run");
   auto arguments = std::make_shared<RunArguments>();
   addRunArguments(*command, *arguments);
-  command->footer(controllersHelp());
+  command->footer(controllersHelp);
   command->callback([arguments] { runWorld(*arguments); });
 }
 

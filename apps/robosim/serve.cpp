@@ -276,7 +276,7 @@ void addServe(CLI::App& program) {
   command->add_flag("--reflection", a->standard_services.reflection,
                     "describe the protocol to gRPC tools on every port, for every client, without a token");
   addListenerOptions(*command, a->listener);
-  command->footer(std::string(kServeSession) + "\n" + controllersHelp());
+  command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
   command->callback([a] { serveWorld(*a); });
 }
 
