@@ -1,3 +1,4 @@
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -78,6 +79,12 @@ class WindCodec : public robosim::CodecOf<CObservationWindSensor, Values> {
   }
   Values get(const CObservationWindSensor& wind, const SensorInfo&, float) const override {
     return {{wind.speed, wind.direction}};
+  }
+  /// For `robosim replay --print`.
+  bool append(const CObservationWindSensor& wind, robosim::ObservedNumbers& all) const override {
+    all.push_back({"wind_speed", {}, robosim::kMetrePerSecond, wind.speed});
+    all.push_back({"wind_direction", {}, {"degrees", "°"}, wind.direction});
+    return true;
   }
 };
 
