@@ -92,7 +92,7 @@ TEST_F(Sdk, PluginsWorkInEverySubcommandThatRunsControllers) {
 TEST_F(Sdk, ASensorIsRecordedByItsOwnCodec) {
   ASSERT_EQ(run("run flock.xml --time 1 --record wind.rawlog " + plugin("flocking")).exit_code, 0);
   const Ended found =
-      runCommand("zcat " + quoted(project() / "wind.rawlog") + " | strings | grep CObservationWindSensor");
+      runCommand("(zcat " + quoted(project() / "wind.rawlog") + " | strings | grep CObservationWindSensor)");
   EXPECT_EQ(found.exit_code, 0) << found.err;
   const Ended print = run("replay wind.rawlog --robot R1 --sensor anemometer --print " + plugin("flocking"));
   EXPECT_EQ(print.exit_code, 0) << print.err;
