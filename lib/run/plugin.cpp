@@ -40,7 +40,7 @@ const Plugin& pluginIn(void* handle, const std::string& name) {
 Registry typesOf(const Plugin& plugin, const std::string& name) {
   Registry registry;
   try {
-    plugin.addTypes(registry);
+    plugin.add_types(registry);
   } catch (const std::exception& error) {
     throw ConfigError(name + ": the plugin threw an exception: " + error.what());
   } catch (...) {

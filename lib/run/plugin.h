@@ -16,8 +16,8 @@ namespace robosim {
 ///
 /// It is linked to the CMake target robosim::robosim, which defines ROBOSIM_VERSION.
 struct Plugin {
-  const char* abi;                    ///< ROBOSIM_PLUGIN_ABI when the plugin was compiled
-  void (*addTypes)(Registry& types);  ///< adds the plugin's types to an empty registry
+  const char* abi;                     ///< ROBOSIM_PLUGIN_ABI when the plugin was compiled
+  void (*add_types)(Registry& types);  ///< adds the plugin's types to an empty registry
 };
 
 /// Loads a plugin and adds its types to this program, before the first run. A file that is loaded already is ignored.
@@ -39,6 +39,7 @@ void loadPluginsInPath();
   "RoboSim " ROBOSIM_VERSION \
   ", C++ ABI " ROBOSIM_NUMBER_TEXT(__GXX_ABI_VERSION) ", MRPT " ROBOSIM_NUMBER_TEXT(MRPT_VERSION)
 
+// NOLINTBEGIN(bugprone-macro-parentheses): the argument is the name of a parameter
 /// Defines the function of a plugin; followed by the body of a function that adds types to `registry`.
 #define ROBOSIM_PLUGIN(registry)                                                             \
   static void robosimAddTypes(robosim::Registry& registry);                                  \
@@ -47,3 +48,4 @@ void loadPluginsInPath();
     return &plugin;                                                                          \
   }                                                                                          \
   static void robosimAddTypes(robosim::Registry& registry)
+// NOLINTEND(bugprone-macro-parentheses)
