@@ -19,4 +19,4 @@ set(ROBOSIM_MODULES_TESTED_TWICE geometry environment recording)
 # Files of tests/scenarios, without _test.cpp, that run in Release.
 set(ROBOSIM_RELEASE_SCENARIOS
   bench_parts bench_speed bench_views check digest error_texts export installation instructions laser_grid libraries lockstep
-  output_files printed_text python_robot rawlogs reverse_proxy run security shared_step slam standstill table1 world_changes)
+  output_files printed_text python_robot rawlogs reverse_proxy run sdk security shared_step slam standstill table1 world_changes)

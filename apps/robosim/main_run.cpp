@@ -1,8 +1,3 @@
-#include "robosim/program.h"
-#include "robosim/subcommands.h"
+#include "robosim/robosim_main.h"
 
-int main(int argc, char** argv) {
-  using namespace robosim;
-  return executeRobosim({addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addBench},
-                        argc, argv);
-}
+int main(int argc, char** argv) { return robosim::robosimMain(argc, argv, {}); }

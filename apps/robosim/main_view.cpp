@@ -1,7 +1,8 @@
+#include "robosim/plugin_options.h"
 #include "robosim/program.h"
 #include "robosim/subcommands.h"
 
 int main(int argc, char** argv) {
   using namespace robosim;
-  return executeRobosim({addView, addRunWithWindow}, argc, argv);
+  return executeRobosim({addView, addRunWithWindow, addPluginOptions}, argc, argv);
 }

@@ -97,12 +97,12 @@ void addReplay(CLI::App& program) {
       ->excludes(truth)
       ->excludes(output)
       ->excludes(check);
-  command->footer(
+  const std::string examples =
       "Try:  robosim replay run.rawlog --robot Pioneer1 --sensor laser --print --csv > laser.csv\n"
       "      robosim replay run.rawlog --robot Pioneer1 --sensor laser --sensor odometry --output slam.rawlog\n"
       "To view a recording: robosim view RAWLOG.\n"
-      "Exit codes: 0 success, 1 bad input, 2 --check found a difference.\n\n" +
-      controllersHelp());
+      "Exit codes: 0 success, 1 bad input, 2 --check found a difference.\n\n";
+  command->footer([examples] { return examples + controllersHelp(); });
   command->callback([a] { replay(*a); });
 }
 

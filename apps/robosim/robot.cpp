@@ -6,8 +6,8 @@
 
 #include "base/fork_processes.h"
 #include "base/log.h"
-#include "control/network_hardware.h"
-#include "maze/controllers.h"
+#include "client/network_hardware.h"
+#include "control/controller_error.h"
 #include "net/host_port.h"
 #include "net/listen.h"
 #include "net/reconnector.h"
@@ -35,7 +35,18 @@ void logRobot(const std::string& line) { logInfo("robot", line); }
 
 struct DrivenRobot {
   Robot robot;
+  std::string controller_name;
   std::unique_ptr<Controller> controller;
+
+  void step() {
+    try {
+      controller->step(robot);
+    } catch (const ConnectionError&) {
+      throw;
+    } catch (...) {
+      throwControllerError(controller_name, robot.name());
+    }
+  }
 };
 
 /// Requires explicit protection of remote control. @throws ConfigError
@@ -59,9 +70,10 @@ class RobotProcess {
         robots_(arguments.connection.connectOptions(arguments.reconnect_timeout_s), arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
-      auto controller = controllers().make(controllerOf(robots_.controller(i), arguments.controller), setup);
+      const std::string name = controllerOf(robots_.controller(i), arguments.controller);
+      auto controller = makeController(name, setup, arguments.names[i]);
       if (arguments.remote_port.empty()) {
-        driven_robots_.push_back({Robot(robots_.robot(i)), std::move(controller)});
+        driven_robots_.push_back({Robot(robots_.robot(i)), name, std::move(controller)});
       } else {
         addRemote(robots_.robot(i), std::move(controller), arguments.dead_man_s);
       }
@@ -72,7 +84,7 @@ class RobotProcess {
   void drive() {
     if (robots_.hasAnswered() && !robots_.nextStep()) return;
     do {
-      for (auto& driven : driven_robots_) driven.controller->step(driven.robot);
+      for (auto& driven : driven_robots_) driven.step();
       for (auto& robot : remote_robots_) robot->step();
       if (port_) port_->publish();
     } while (robots_.nextStep());

@@ -100,7 +100,7 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
   command->add_flag(std::string(kViewOption), *has_view,
                     "show the run in a window, in real time unless --speed is given, until it is closed; keys as for "
                     "'robosim view'");
-  command->footer(controllersHelp());
+  command->footer(controllersHelp);
   command->callback([arguments, window, command, has_view] {
     const bool has_speed = command->count("--speed") > 0;
     if (!*has_view) return runWorld(*arguments, {}, 0);

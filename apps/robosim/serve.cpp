@@ -14,7 +14,7 @@
 #include "robosim/connection.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
-#include "run/world_run.h"
+#include "serving/world_run.h"
 #include "server/environment_server.h"
 
 namespace robosim {
@@ -168,7 +168,7 @@ void addServe(CLI::App& program) {
   command->add_flag("--reflection", a->standard_services.reflection,
                     "describe the protocol to gRPC tools on every port, for every client, without a token");
   addListenerOptions(*command, a->listener);
-  command->footer(std::string(kServeSession) + "\n" + controllersHelp());
+  command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
   command->callback([a] { serveWorld(*a); });
 }
 

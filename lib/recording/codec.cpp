@@ -4,6 +4,30 @@
 #include "recording/recording_error.h"
 
 namespace robosim {
+namespace {
+
+std::vector<const Codec*>& allCodecs() {
+  static std::vector<const Codec*> codecs{
+      &scanCodec(),      // CObservation2DRangeScan: lasers with evenly spaced beams
+      &rangeCodec(),     // CObservationRange: all other sensors that measure echoes
+      &heatCodec(),      // CObservationGasSensors
+      &compassCodec(),   // CObservationIMU
+      &batteryCodec(),   // CObservationBatteryState
+      &bumperCodec(),    // CObservationRawDAQ
+      &odometryCodec(),  // CObservationOdometry
+      &imageCodec(),     // CObservationImage
+      &blobCodec(),      // CObservationRawDAQ
+      &beaconCodec(),    // CObservationBeaconRanges
+      &valuesCodec(),    // CObservationRawDAQ
+  };
+  return codecs;
+}
+
+}  // namespace
+
+std::span<const Codec* const> codecs() { return allCodecs(); }
+
+void addCodec(const Codec& codec) { allCodecs().insert(allCodecs().begin(), &codec); }
 
 void refuse(const mrpt::obs::CObservation& observation, const SensorInfo& sensor, const std::string& why) {
   throw RecordingError("recorded observation \"" + observation.sensorLabel + "\" (" +
@@ -23,8 +47,8 @@ mrpt::math::TPose3D mountOf(const SensorInfo& sensor) {
 }
 
 const Codec& codecOf(const SensorInfo& sensor) {
-  for (const auto codec : kCodecs) {
-    if (codec().encodes(sensor)) return codec();
+  for (const Codec* codec : codecs()) {
+    if (codec->encodes(sensor)) return *codec;
   }
   throw std::logic_error(std::string("no codec records the kind of sensor ") + nameOf(sensor.kind));
 }

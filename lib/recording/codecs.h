@@ -1,9 +1,11 @@
 #pragma once
+#include <span>
+
 #include "recording/codec.h"
 
 namespace robosim {
 
-/// @name All codecs
+/// @name RoboSim's own codecs
 /// Each is defined in its own file.
 ///@{
 const Codec& scanCodec();
@@ -19,20 +21,11 @@ const Codec& beaconCodec();
 const Codec& valuesCodec();
 ///@}
 
-/// All codecs, with the class of their observations. The first one that encodes a sensor's measurements is used.
-inline constexpr const Codec& (*kCodecs[])() = {
-    scanCodec,      // CObservation2DRangeScan: lasers with evenly spaced beams
-    rangeCodec,     // CObservationRange: all other sensors that measure echoes
-    heatCodec,      // CObservationGasSensors
-    compassCodec,   // CObservationIMU
-    batteryCodec,   // CObservationBatteryState
-    bumperCodec,    // CObservationRawDAQ
-    odometryCodec,  // CObservationOdometry
-    imageCodec,     // CObservationImage
-    blobCodec,      // CObservationRawDAQ
-    beaconCodec,    // CObservationBeaconRanges
-    valuesCodec,    // CObservationRawDAQ
-};
+/// All codecs; valid until addCodec() is called. The first one that encodes a sensor's measurements is used.
+std::span<const Codec* const> codecs();
+/// Adds a codec from outside RoboSim, before the first recording is opened; it comes before all others. It must stay
+/// valid.
+void addCodec(const Codec& codec);
 
 /// The codec of a sensor's measurements.
 const Codec& codecOf(const SensorInfo&);

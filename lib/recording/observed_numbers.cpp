@@ -13,8 +13,8 @@ std::string ObservedNumber::fullName() const {
 
 std::optional<ObservedNumbers> numbersIn(const mrpt::obs::CObservation& observation) {
   ObservedNumbers numbers;
-  for (const auto codec : kCodecs) {
-    if (codec().appendNumbers(observation, numbers)) return numbers;
+  for (const Codec* codec : codecs()) {
+    if (codec->appendNumbers(observation, numbers)) return numbers;
   }
   return std::nullopt;
 }

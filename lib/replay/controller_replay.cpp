@@ -6,8 +6,8 @@
 #include "base/interrupt.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
+#include "control/controller_error.h"
 #include "control/replayed_hardware.h"
-#include "maze/controllers.h"
 #include "recording/recorded_step.h"
 #include "replay/replay.h"
 #include "replay/value_text.h"
@@ -25,11 +25,12 @@ double biggestDifference(const Command& a, const Command& b) {
 
 /// A controller running on the recording of one robot.
 struct Replayed {
-  Replayed(const RobotInfo& info, std::unique_ptr<Controller> c)
-      : hardware(info), robot(hardware), controller(std::move(c)) {}
+  Replayed(const RobotInfo& info, std::string name, std::unique_ptr<Controller> c)
+      : hardware(info), robot(hardware), controller_name(std::move(name)), controller(std::move(c)) {}
 
   ReplayedHardware hardware;
   Robot robot;
+  std::string controller_name;
   std::unique_ptr<Controller> controller;
   std::uint64_t compared = 0, different = 0;
   double biggest = 0;
@@ -64,10 +65,11 @@ void replayToController(const ReplayArguments& arguments) {
     const std::string recorded = i < note.controllers.size() ? note.controllers[i] : "";
     const std::string name = arguments.controller == "recorded" ? recorded : arguments.controller;
     const bool is_selected = arguments.selects(robot.info.name, "") || arguments.robots.empty();
-    robots.push_back(is_selected && !name.empty()
-                         ? std::make_unique<Replayed>(
-                               robot.info, controllers().make(name, {note.seed, static_cast<std::uint32_t>(i)}))
-                         : nullptr);
+    robots.push_back(
+        is_selected && !name.empty()
+            ? std::make_unique<Replayed>(
+                  robot.info, name, makeController(name, {note.seed, static_cast<std::uint32_t>(i)}, robot.info.name))
+            : nullptr);
   }
   if (std::all_of(robots.begin(), robots.end(), [](const auto& r) { return !r; })) {
     throw ConfigError(arguments.rawlog +
@@ -89,7 +91,11 @@ void replayToController(const ReplayArguments& arguments) {
       // The recorded command of a step was computed from the readings of the previous step.
       if (!first) robots[i]->compare((*step)[i], arguments.tolerance);
       robots[i]->hardware.replay(std::move((*step)[i].readings));
-      robots[i]->controller->step(robots[i]->robot);
+      try {
+        robots[i]->controller->step(robots[i]->robot);
+      } catch (...) {
+        throwControllerError(robots[i]->controller_name, robots[i]->robot.name());
+      }
     }
     first = false;
   }

@@ -6,6 +6,7 @@
 #include <malloc.h>
 #endif
 
+#include "control/controller_error.h"
 #include "maze/controllers.h"
 #include "rendering/offscreen_renderer.h"
 
@@ -41,6 +42,21 @@ const ControllerType* typeOrNull(const std::string& controller) {
 }
 
 }  // namespace
+
+std::unique_ptr<Controller> makeController(const std::string& choice, const ControllerSetup& setup,
+                                           const std::string& robot) {
+  std::unique_ptr<Controller> controller;
+  try {
+    controller = controllers().make(choice, setup);
+  } catch (const ConfigError&) {
+    throw;
+  } catch (...) {
+    throwControllerError(choice, robot);
+  }
+  if (!controller)
+    throw ControllerError("controller '" + choice + "' of robot '" + robot + "': its type has made none");
+  return controller;
+}
 
 void checkController(const std::string& controller) { controllers().parametersOf(controller); }
 
@@ -93,8 +109,9 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!elsewhere.empty() && elsewhere[i]) continue;
     const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
-    local_robots_.push_back(std::make_unique<LocalRobot>(
-        environment_, i, controllers().make(controllerOf(robots[i].controller, options.controller), setup)));
+    const std::string name = controllerOf(robots[i].controller, options.controller);
+    local_robots_.push_back(
+        std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
   }
 }
 
@@ -113,9 +130,10 @@ LocalRun::LocalRun(ForkOf original)
       throw ConfigError("robot '" + name + "': another process drives it, so that its run cannot be forked; let this " +
                         "process run its controller");
     }
-    auto controller = cloneOf(*local[i]->controller, controllerOf(robots[i].controller, options_.controller), name);
-    local_robots_.push_back(
-        std::make_unique<LocalRobot>(environment_, i, std::move(controller), local[i]->robot.command()));
+    const std::string& controller_name = local[i]->controller_name;
+    auto controller = cloneOf(*local[i]->controller, controller_name, name);
+    local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller),
+                                                         local[i]->robot.command()));
   }
 }
 
@@ -142,8 +160,14 @@ void LocalRun::step() {
 
 void LocalRun::decide() {
   constexpr std::size_t kChunk = 16;
-  workers_.forEach(local_robots_.size(), kChunk,
-                   [&](std::size_t i) { local_robots_[i]->controller->step(local_robots_[i]->robot); });
+  workers_.forEach(local_robots_.size(), kChunk, [&](std::size_t i) {
+    LocalRobot& local = *local_robots_[i];
+    try {
+      local.controller->step(local.robot);
+    } catch (...) {
+      throwControllerError(local.controller_name, local.robot.name());
+    }
+  });
 }
 
 void LocalRun::noteOutcome() {

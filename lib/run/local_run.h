@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "control/controller.h"
+#include "control/controller_type.h"
 #include "environment/environment.h"
 #include "environment/local_hardware.h"
 #include "robots/fleet.h"
@@ -24,6 +25,12 @@ constexpr const char* kDefaultController = "gold_finder";
 
 /// Checks name and parameters of a controller, given as ControllerChoice::text(). @throws ConfigError
 void checkController(const std::string& controller);
+
+/// Makes the controller of a robot.
+/// @throws ConfigError for an unknown controller or an invalid parameter; ControllerError naming both for an exception
+/// of its constructor
+std::unique_ptr<Controller> makeController(const std::string& choice, const ControllerSetup& setup,
+                                           const std::string& robot);
 
 /// A robot's controller, as ControllerChoice::text().
 /// @param in_world that given in the world; empty for none
@@ -62,6 +69,7 @@ class LocalRun {
   std::unique_ptr<LocalRun> fork() const;
 
   /// Runs every controller, then takes one time step.
+  /// @throws ControllerError for an exception of a controller
   void step();
   /// @name Phases of step(), for callers that step the environment themselves
   ///@{
@@ -80,9 +88,11 @@ class LocalRun {
   struct LocalRobot {
     LocalHardware hardware;
     Robot robot;
+    std::string controller_name;  ///< as ControllerChoice::text()
     std::unique_ptr<Controller> controller;
-    LocalRobot(Environment& environment, std::size_t i, std::unique_ptr<Controller> c, const Command& last = {})
-        : hardware(environment, i), robot(hardware, last), controller(std::move(c)) {}
+    LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c,
+               const Command& last = {})
+        : hardware(environment, i), robot(hardware, last), controller_name(std::move(name)), controller(std::move(c)) {}
   };
   struct ForkOf {
     const LocalRun& run;

@@ -1,5 +1,9 @@
 #include "sensors/registry.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "base/error_list.h"
 #include "sensors/battery.h"
 #include "sensors/beacons.h"
 #include "sensors/blob_finder.h"
@@ -44,7 +48,7 @@ Made make(XmlReader& reader, const Mount& mount, const SonarOptions& options) {
 }
 
 // clang-format off
-constexpr SensorType kTypes[] = {
+const SensorType kOwnTypes[] = {
     {"sonar", "A ring of sonars; each measures the nearest object in its cone.", true,
      [](XmlReader& r, const Mount& m) -> Made { return make(r, m, SonarOptions::read(r)); },
      [](XmlReader& r, const Mount& m) -> Made { return make(r, m, SonarOptions::read2005(r, m)); }},
@@ -71,9 +75,14 @@ constexpr SensorType kTypes[] = {
 };
 // clang-format on
 
+std::vector<SensorType>& allTypes() {
+  static std::vector<SensorType> types(std::begin(kOwnTypes), std::end(kOwnTypes));
+  return types;
+}
+
 std::string names(bool of_2005) {
   std::string all;
-  for (const auto& type : kTypes) {
+  for (const auto& type : allTypes()) {
     if (!of_2005 || type.read_2005) all += (all.empty() ? "" : ", ") + std::string(type.name);
   }
   return all;
@@ -92,10 +101,30 @@ Made read2005(XmlReader& reader, const Mount& mount) {
 
 }  // namespace
 
-std::span<const SensorType> sensorTypes() { return kTypes; }
+std::span<const SensorType> sensorTypes() { return allTypes(); }
+
+void addSensorTypes(std::span<const SensorType> types) {
+  std::vector<SensorType> all = allTypes();
+  for (const auto& type : types) {
+    const std::string name = type.name ? type.name : "";
+    const std::string of_type = "sensor '" + name + "': ";
+    const auto is_valid = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+    if (name.empty() || !std::all_of(name.begin(), name.end(), is_valid)) {
+      throw ConfigError(of_type + "a name consists of the letters a to z and '_'");
+    }
+    const auto is_known = [&](const SensorType& known) { return name == known.name; };
+    if (name == "sensor" || std::any_of(all.begin(), all.end(), is_known)) {
+      throw ConfigError(of_type + "there is one of this name already");
+    }
+    if (!type.read || !type.help)
+      throw ConfigError(of_type + "its type has no help text, or no function that reads it");
+    all.push_back(type);
+  }
+  allTypes() = std::move(all);
+}
 
 const SensorType* sensorType(const std::string& name) {
-  for (const auto& type : kTypes) {
+  for (const auto& type : allTypes()) {
     if (name == type.name) return &type;
   }
   return nullptr;

@@ -30,8 +30,11 @@ struct SensorType {
   std::unique_ptr<Sensor> (*read_2005)(XmlReader&, const Mount&);
 };
 
-/// All kinds of sensors.
+/// All kinds of sensors; valid until addSensorTypes() is called.
 std::span<const SensorType> sensorTypes();
+/// Adds kinds of sensors from outside RoboSim, before the first world is read. Their texts must stay valid.
+/// @throws ConfigError for an invalid or known name, and a type without help or read(); none is then added
+void addSensorTypes(std::span<const SensorType> types);
 /// The kind of a name; null for an unknown one.
 const SensorType* sensorType(const std::string& name);
 

@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "base/random.h"
-#include "control/network_hardware.h"
+#include "client/network_hardware.h"
 #include "hardware/inbox_limit.h"
 #include "net/wire_error.h"
 #include "robosim/internal/geometry.grpc.pb.h"

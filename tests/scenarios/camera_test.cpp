@@ -11,8 +11,8 @@
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "client/network_hardware.h"
 #include "client/viewer.h"
-#include "control/network_hardware.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/robot_processes.h"

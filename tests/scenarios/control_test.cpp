@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "control/network_hardware.h"
+#include "client/network_hardware.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"

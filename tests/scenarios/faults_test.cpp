@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "control/network_hardware.h"
+#include "client/network_hardware.h"
 #include "net/wire_error.h"
 #include "robosim/v1/robots.grpc.pb.h"
 #include "tests/scenarios/fault_proxy.h"

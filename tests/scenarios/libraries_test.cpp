@@ -1,6 +1,7 @@
 // Shared libraries that each subcommand loads: what a subcommand does not use must not delay its start.
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -18,6 +19,23 @@ std::string librariesOf(const std::string& executable) {
   EXPECT_EQ(ldd.exit_code, 0) << ldd.err;
   EXPECT_NE(ldd.out.find("libstdc++"), std::string::npos) << ldd.out;
   return ldd.out;
+}
+
+/// The shared library that programs and plugins use.
+const std::filesystem::path kLibrary = ROBOSIM_BUILD_DIR "/apps/robosim/librobosim.so";
+
+/// The functions and variables that a file defines, except inline ones.
+std::set<std::string> definitionsIn(const std::filesystem::path& file, const std::string& options) {
+  const Ended nm = runCommand("nm --defined-only " + options + " " + quoted(file));
+  EXPECT_EQ(nm.exit_code, 0) << nm.err;
+  std::set<std::string> names;
+  const std::regex definition("[0-9a-f]+ [TDBR] (_ZN.*)");
+  std::istringstream lines(nm.out);
+  std::smatch found;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_match(line, found, definition)) names.insert(found[1]);
+  }
+  return names;
 }
 
 bool loads(const std::string& libraries, const std::string& pattern) {
@@ -72,8 +90,7 @@ TEST(Libraries, OfSubcommandsWithoutNetworkAreTheseOnly) {
                                       "xxhash",
                                       "yaml-cpp",
                                       "z"};
-  const auto program = std::filesystem::path(ROBOSIM_PROGRAM).parent_path() / "robosim-run";
-  const Ended readelf = runCommand("readelf --dynamic " + quoted(program));
+  const Ended readelf = runCommand("readelf --dynamic " + quoted(kLibrary));
   ASSERT_EQ(readelf.exit_code, 0) << readelf.err;
   const std::regex needed(R"(\(NEEDED\).*\[lib(.*?)\.so)");
   int count = 0;
@@ -82,6 +99,16 @@ TEST(Libraries, OfSubcommandsWithoutNetworkAreTheseOnly) {
     EXPECT_EQ(allowed.count((*found)[1]), 1u) << (*found)[1];
   }
   EXPECT_GT(count, 20);
+}
+
+TEST(Libraries, HaveTheOnlyCopyOfWhatProgramsShareWithPlugins) {
+  const auto shared = definitionsIn(kLibrary, "--dynamic");
+  EXPECT_GT(shared.size(), 500u);
+  for (const char* program : {"robosim-run", "robosim-net", "robosim-view"}) {
+    for (const auto& name : definitionsIn(std::filesystem::path(ROBOSIM_PROGRAM).parent_path() / program, "")) {
+      EXPECT_EQ(shared.count(name), 0u) << program << " has its own copy of " << name;
+    }
+  }
 }
 
 TEST(Libraries, AreReportedWhenASubcommandIsNotInstalled) {

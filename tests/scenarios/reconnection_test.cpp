@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "control/network_hardware.h"
+#include "client/network_hardware.h"
 #include "net/robot_wire.h"
 #include "robosim/v1/robots.grpc.pb.h"
 #include "tests/scenarios/fault_proxy.h"

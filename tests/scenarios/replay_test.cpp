@@ -13,7 +13,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "control/network_hardware.h"
+#include "client/network_hardware.h"
 #include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/robot_processes.h"

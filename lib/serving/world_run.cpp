@@ -1,4 +1,4 @@
-#include "run/world_run.h"
+#include "serving/world_run.h"
 
 #include <chrono>
 #include <filesystem>

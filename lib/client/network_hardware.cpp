@@ -1,4 +1,4 @@
-#include "control/network_hardware.h"
+#include "client/network_hardware.h"
 
 #include <algorithm>
 #include <iterator>

@@ -1,0 +1,5 @@
+#include "run/plugin.h"
+
+#include "types.h"
+
+ROBOSIM_PLUGIN(registry) { addTypes(registry); }

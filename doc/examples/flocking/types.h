@@ -1,0 +1,16 @@
+#pragma once
+#include "run/registry.h"
+
+/// The controller `flocking`: turns away from near objects, and otherwise into the wind.
+robosim::ControllerType flockingType();
+
+/// The sensor <anemometer>, which measures the apparent wind of a moving robot in a uniform wind, and its recording as
+/// CObservationWindSensor.
+robosim::SensorType anemometerType();
+const robosim::Codec& windCodec();
+
+inline void addTypes(robosim::Registry& registry) {
+  registry.controllers.add(flockingType());
+  registry.sensors.push_back(anemometerType());
+  registry.codecs.push_back(&windCodec());
+}

@@ -1,0 +1,16 @@
+#include "run/registry.h"
+
+#include "maze/controllers.h"
+#include "recording/codecs.h"
+
+namespace robosim {
+
+void addToProgram(const Registry& registry) {
+  ControllerRegistry all = controllers();
+  for (const auto& type : registry.controllers.types()) all.add(type);
+  addSensorTypes(registry.sensors);
+  controllers() = std::move(all);
+  for (const Codec* codec : registry.codecs) addCodec(*codec);
+}
+
+}  // namespace robosim

@@ -1,0 +1,22 @@
+#pragma once
+#include <vector>
+
+#include "control/controller_registry.h"
+#include "recording/codec.h"
+#include "sensors/registry.h"
+
+namespace robosim {
+
+/// Controllers and sensors that are not part of RoboSim.
+struct Registry {
+  ControllerRegistry controllers;
+  std::vector<SensorType> sensors;
+  /// How measurements of the kind SensorKind::values are recorded, if not as CObservationRawDAQ; each must stay valid.
+  std::vector<const Codec*> codecs = {};
+};
+
+/// Adds all of a registry to this program, before its first run, or nothing.
+/// @throws ConfigError for a name that is known already
+void addToProgram(const Registry& registry);
+
+}  // namespace robosim

@@ -1,0 +1,154 @@
+// The installed library, used by a separate project: doc/examples/flocking, as a plugin and as a program of its own.
+#include <fstream>
+#include <memory>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/temporary_directory.h"
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// An installation in a temporary folder, with the example and faulty plugins built against it.
+class Sdk : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (folder_) return;
+    folder_ = std::make_unique<TemporaryDirectory>();
+    for (const std::string component : {"robosim", "robosim-dev"}) {
+      succeed(ROBOSIM_CMAKE " --install '" ROBOSIM_BUILD_DIR "' --component " + component + " --prefix " +
+              quoted(*folder_ / "prefix"));
+    }
+    fs::copy(ROBOSIM_SOURCE_DIR "/doc/examples/flocking", project(), fs::copy_options::recursive);
+    buildFaultyPlugins();
+    succeed(ROBOSIM_CMAKE " -S " + quoted(project()) + " -B " + quoted(project() / "build") + " -DCMAKE_PREFIX_PATH=" +
+            quoted(*folder_ / "prefix") + " && " ROBOSIM_CMAKE " --build " + quoted(project() / "build"));
+  }
+  static void TearDownTestSuite() { folder_.reset(); }
+
+  static void succeed(const std::string& command) {
+    const Ended ended = runCommand(command);
+    ASSERT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  }
+  /// Appends plugins with one fault each to the project.
+  static void buildFaultyPlugins() {
+    std::ofstream cmake(project() / "CMakeLists.txt", std::ios::app);
+    const auto add = [&](const std::string& name, const std::string& source) {
+      std::ofstream(project() / (name + ".cpp")) << source;
+      cmake << "robosim_add_plugin(" << name << " " << name << ".cpp)\n";
+    };
+    add("nothing", "int x;\n");
+    add("throwing", R"(#include "run/plugin.h"
+#include <stdexcept>
+ROBOSIM_PLUGIN(registry) { registry.controllers.add({"half", "", {}, {}, [](const auto&, const auto&) { return nullptr; }});
+  throw std::runtime_error("no licence"); })");
+    add("older",
+        "#include \"run/plugin.h\"\n#undef ROBOSIM_VERSION\n#define ROBOSIM_VERSION \"0.0.9\"\n"
+        "ROBOSIM_PLUGIN(registry) { (void)registry; }\n");
+    add("failing", R"(#include "run/plugin.h"
+#include <stdexcept>
+struct Failing : robosim::Controller {
+  void step(robosim::Robot& robot) override { if (robot.stepNumber() == 5) throw std::runtime_error("lost the flock"); }
+};
+ROBOSIM_PLUGIN(registry) {
+  registry.controllers.add({"failing", "Throws.", {}, {}, [](const auto&, const auto&) { return std::make_unique<Failing>(); }});
+})");
+  }
+
+  static fs::path project() { return *folder_ / "flocking"; }
+  static std::string plugin(const std::string& name) {
+    return "--plugin " + quoted(project() / "build" / ("lib" + name + ".so"));
+  }
+  /// Runs the installed program in the example's folder.
+  static Ended run(const std::string& arguments) {
+    return runCommand("cd " + quoted(project()) + " && " + quoted(*folder_ / "prefix" / "bin" / "robosim") + " " +
+                      arguments);
+  }
+  static void expectRefusal(const std::string& arguments, const std::string& reason) {
+    const Ended ended = run("run flock.xml --time 1 " + arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_NE(ended.err.find(reason), std::string::npos) << ended.err;
+  }
+
+  static std::unique_ptr<TemporaryDirectory> folder_;
+};
+std::unique_ptr<TemporaryDirectory> Sdk::folder_;
+
+TEST_F(Sdk, PluginsWorkInEverySubcommandThatRunsControllers) {
+  const std::string flocking = plugin("flocking");
+  for (const std::string arguments :
+       {"check flock.xml", "run flock.xml --time 5 --record flock.rawlog", "replay flock.rawlog --check flock.xml",
+        "replay flock.rawlog --controller recorded", "bench gold flock.xml --runs 1 --time 2", "controllers flocking",
+        "sensors anemometer"}) {
+    const Ended ended = run(arguments + " " + flocking);
+    EXPECT_EQ(ended.exit_code, 0) << arguments << ended.out << ended.err;
+  }
+}
+
+TEST_F(Sdk, ASensorIsRecordedByItsOwnCodec) {
+  ASSERT_EQ(run("run flock.xml --time 1 --record wind.rawlog " + plugin("flocking")).exit_code, 0);
+  const Ended found =
+      runCommand("(zcat " + quoted(project() / "wind.rawlog") + " | strings | grep CObservationWindSensor)");
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  const Ended print = run("replay wind.rawlog --robot R1 --sensor anemometer --print " + plugin("flocking"));
+  EXPECT_EQ(print.exit_code, 0) << print.err;
+  EXPECT_NE(print.out.find("wind_speed"), std::string::npos) << print.out;
+}
+
+TEST_F(Sdk, APluginAndAnOwnProgramGiveTheSameRun) {
+  const Ended loaded = run("run flock.xml --time 5 --json " + plugin("flocking"));
+  const Ended own = runCommand("cd " + quoted(project()) + " && build/flocking run flock.xml --time 5 --json");
+  ASSERT_EQ(own.exit_code, 0) << own.err;
+  EXPECT_EQ(nlohmann::json::parse(loaded.out)["digest"], nlohmann::json::parse(own.out)["digest"]);
+}
+
+TEST_F(Sdk, PluginsAreLoadedFromTheFoldersOfThePath) {
+  fs::create_directory(project() / "plugins");
+  fs::copy(project() / "build" / "libflocking.so", project() / "plugins");
+  const Ended ended = runCommand("cd " + quoted(project()) + " && ROBOSIM_PLUGIN_PATH=plugins " +
+                                 quoted(*folder_ / "prefix" / "bin" / "robosim") + " check flock.xml");
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  expectRefusal("", "flocking");  // no world makes the program load code
+}
+
+TEST_F(Sdk, RefusesWhatIsNoPluginOfThisVersion) {
+  expectRefusal("--plugin missing.so", "missing.so: there is no such file");
+  expectRefusal("--plugin flock.xml", "flock.xml: cannot be loaded as a plugin");
+  expectRefusal(plugin("nothing"), "it has no function robosimPlugin");
+  expectRefusal(plugin("older"), "was built for RoboSim 0.0.9");
+  expectRefusal(plugin("throwing"), "the plugin threw an exception: no licence");
+}
+
+TEST_F(Sdk, AnExceptionOfAControllerNamesItAndItsRobotAndKeepsTheRecording) {
+  const Ended ended = run("run flock.xml --controller failing --threads 1 --record part.rawlog " + plugin("flocking") +
+                          " " + plugin("failing"));
+  EXPECT_EQ(ended.exit_code, 2) << ended.out;
+  EXPECT_NE(ended.err.find("robot 'R1': its controller failing threw an exception: lost the flock"), std::string::npos)
+      << ended.err;
+  const Ended recorded = run("replay part.rawlog " + plugin("flocking"));
+  EXPECT_EQ(recorded.exit_code, 0) << recorded.err;
+}
+
+TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
+  const std::string program = (*folder_ / "prefix" / "bin" / "robosim").string();
+
+  StartedProgram serve(program, {"serve", (project() / "flock.xml").string(), "--plugin",
+                                 (project() / "build" / "libflocking.so").string(), "--listen", ":0",
+                                 "--wait-for-robots", "--time", "1"});
+  serve.waitForError("listening on ");
+  const std::string log = serve.error();
+  const auto at = log.find("listening on ") + 13;
+  std::string names;
+  for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
+  const Ended robots = run("robot" + names + " --environment " + log.substr(at, log.find_first_of(" \n", at) - at) +
+                           " " + plugin("flocking"));
+  EXPECT_EQ(robots.exit_code, 0) << robots.err;
+  EXPECT_EQ(serve.wait().exit_code, 0);
+}
+
+}  // namespace
+}  // namespace robosim
