@@ -51,6 +51,8 @@ class ControlPanelSession final : public ControlPanelService {
   void execute(RunOperations& operations);
   /// Sends the last status to watchers, before the run's end ends all calls.
   void publishLast(RunOperations& operations);
+  /// Whether a world is being built, which another thread does; execute() must be called soon after it is complete.
+  bool isPreparing() const { return prepared_.valid(); }
 
  private:
   class Call;

@@ -273,7 +273,10 @@ struct EnvironmentServer::Impl {
         return Served::robot_lost;
       }
       if (!areRobotsConnected() || !run_control.mayStep()) {
-        serving.pollUntil(ServingState::kPollInterval, [&] { return serving.wake_requested; });
+        // The thread that builds a world does not end the wait.
+        constexpr std::chrono::milliseconds kPreparingInterval{1};
+        serving.pollUntil(panels.isPreparing() ? kPreparingInterval : ServingState::kPollInterval,
+                          [&] { return serving.wake_requested; });
         due = serving.now();
         rate.rest(due);
         continue;
