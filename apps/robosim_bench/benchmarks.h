@@ -6,6 +6,7 @@ namespace robosim {
 /// @name The benchmarks, one file each; each function adds a subcommand to the program
 ///@{
 void addCameraBenchmark(CLI::App& program);
+void addLearnBenchmark(CLI::App& program);
 void addMapsBenchmark(CLI::App& program);
 void addNetworkBenchmark(CLI::App& program);
 void addSpeedBenchmark(CLI::App& program);

@@ -16,5 +16,6 @@ int main(int argc, char** argv) {
   robosim::addCameraBenchmark(program);
   robosim::addViewBenchmark(program);
   robosim::addMapsBenchmark(program);
+  robosim::addLearnBenchmark(program);
   return robosim::execute(program, argc, argv);
 }

@@ -82,6 +82,7 @@ void requireSameShape(const State& saved, const State& own) {
 struct Environment::Impl {
   const std::shared_ptr<const Model> model;
   const Fleet& fleet;  ///< of the model
+  std::uint64_t seed;  ///< the model's until restart()
   ImageSource* images;
   ParallelExecutor workers;
   State state;
@@ -98,6 +99,7 @@ struct Environment::Impl {
   Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
       : model(std::move(the_model)),
         fleet(model->fleet),
+        seed(model->seed),
         images(the_images),
         workers(threads),
         state(std::move(the_state)),
@@ -182,7 +184,7 @@ struct Environment::Impl {
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,
-                       .seed = model->seed,
+                       .seed = seed,
                        .images = images,
                        .surface = model->world.bounds};
     for (const auto& group : groups) {
@@ -255,14 +257,26 @@ struct Environment::Impl {
     state = saved;
     placeBodies();
   }
+
+  /// Measures step 0.
+  void start() {
+    sense(everyRobot(), SensorGroup::anywhere);
+    finish();
+  }
+
+  void restart(const State& start_state, std::uint64_t new_seed) {
+    restore(start_state);
+    seed = new_seed;
+    message_router.setSeed(new_seed);
+    start();
+  }
 };
 
 Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images) {
   auto model = std::make_shared<const Model>(Model{std::move(world), std::move(fleet), options.seed, options.period_s});
   State start = initialState(*model);
   impl_ = std::make_unique<Impl>(std::move(model), std::move(start), options.threads, images);
-  impl_->sense(impl_->everyRobot(), SensorGroup::anywhere);
-  impl_->finish();
+  impl_->start();
 }
 
 Environment::Environment(std::shared_ptr<const Model> model, State state, int threads, ImageSource* images) {
@@ -275,6 +289,7 @@ Environment::~Environment() = default;
 const std::shared_ptr<const Model>& Environment::model() const { return impl_->model; }
 const State& Environment::state() const { return impl_->state; }
 void Environment::restore(const State& state) { impl_->restore(state); }
+void Environment::restart(const State& start, std::uint64_t seed) { impl_->restart(start, seed); }
 
 void Environment::setCommand(std::size_t robot, const Command& command) { impl_->setCommand(robot, command); }
 

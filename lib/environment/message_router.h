@@ -32,6 +32,8 @@ struct Outbox {
 class MessageRouter {
  public:
   MessageRouter(std::vector<std::string> names, const Communication& communication, std::uint64_t seed);
+  /// Replaces the seed of the loss of messages.
+  void setSeed(std::uint64_t seed) { seed_ = seed; }
 
   /// Queues a message in the outbox of its sender `from`. May be called for different senders from different threads.
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long

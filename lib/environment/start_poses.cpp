@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "base/error_list.h"
 #include "base/random.h"
@@ -10,47 +9,51 @@
 #include "robots/free_space.h"
 
 namespace robosim {
-namespace {
 
 using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
 
-}  // namespace
-
-void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed) {
+RandomStarts::RandomStarts(const World& world, const Fleet& fleet)
+    : world_name_(world.name), robots_(fleet.robots.size()) {
   if (fleet.robots.empty()) return;
-  double radius_m = 0;
   HeightSpan heights = fleet.robots.front().body.heights();
   std::vector<TPoint2D> starts;
   for (const auto& robot : fleet.robots) {
-    radius_m = std::max(radius_m, robot.info.radius_m);
+    radius_m_ = std::max(radius_m_, robot.info.radius_m);
     heights.z_min_m = std::min(heights.z_min_m, robot.body.heights().z_min_m);
     heights.z_max_m = std::max(heights.z_max_m, robot.body.heights().z_max_m);
     starts.emplace_back(robot.world_from_start.x, robot.world_from_start.y);
   }
-  const FreeSpace raster(world, radius_m, heights);
-  std::vector<std::size_t> free_cells = raster.reachableFrom(starts);
+  const FreeSpace raster(world, radius_m_, heights);
+  for (const auto cell : raster.reachableFrom(starts)) places_.push_back(raster.place(cell));
+}
 
+std::vector<TPose2D> RandomStarts::draw(std::uint64_t seed) const {
   Rng rng(seed, RandomPurpose::start_pose);
-  std::vector<TPoint2D> taken;
-  for (auto& robot : fleet.robots) {
-    while (!free_cells.empty()) {
-      const std::size_t draw = rng.below(static_cast<std::uint32_t>(free_cells.size()));
-      const TPoint2D place = raster.place(free_cells[draw]);
-      free_cells[draw] = free_cells.back();
-      free_cells.pop_back();
-      const bool clear = std::none_of(taken.begin(), taken.end(), [&](const TPoint2D& other) {
-        return (other - place).norm() < 2 * radius_m + kContactGap_m;
-      });
-      if (!clear) continue;
-      taken.push_back(place);
-      robot.world_from_start = {place.x, place.y, rng.uniform(-M_PI, M_PI)};
-      robot.body.world_from_body = robot.world_from_start;
-      break;
+  std::vector<TPoint2D> free_places = places_;
+  std::vector<TPose2D> starts;
+  while (starts.size() < robots_) {
+    if (free_places.empty()) {
+      throw ConfigError("world '" + world_name_ + "': there is not enough space to shuffle " + std::to_string(robots_) +
+                        " robots; use fewer robots or a larger world");
     }
-    if (taken.size() < static_cast<std::size_t>(&robot - fleet.robots.data()) + 1) {
-      throw ConfigError("world '" + world.name + "': there is not enough space to shuffle " +
-                        std::to_string(fleet.robots.size()) + " robots; use fewer robots or a larger world");
-    }
+    const std::size_t draw = rng.below(static_cast<std::uint32_t>(free_places.size()));
+    const TPoint2D place = free_places[draw];
+    free_places[draw] = free_places.back();
+    free_places.pop_back();
+    const bool is_clear = std::none_of(starts.begin(), starts.end(), [&](const TPose2D& other) {
+      return (TPoint2D(other.x, other.y) - place).norm() < 2 * radius_m_ + kContactGap_m;
+    });
+    if (is_clear) starts.emplace_back(place.x, place.y, rng.uniform(-M_PI, M_PI));
+  }
+  return starts;
+}
+
+void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed) {
+  const std::vector<TPose2D> starts = RandomStarts(world, fleet).draw(seed);
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    fleet.robots[i].world_from_start = starts[i];
+    fleet.robots[i].body.world_from_body = starts[i];
   }
 }
 

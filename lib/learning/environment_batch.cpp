@@ -1,0 +1,229 @@
+#include "learning/environment_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "base/error_list.h"
+#include "base/parallel_executor.h"
+#include "base/random.h"
+#include "environment/start_poses.h"
+
+namespace robosim {
+namespace {
+
+constexpr std::size_t kActionSize = 2;
+
+/// Constant data that all environments of a world share.
+struct SharedWorld {
+  std::shared_ptr<const Model> model;
+  State start;  ///< before the first measurement
+  std::optional<RandomStarts> random_starts;
+  std::vector<int> heat_slots;  ///< by agent: measurement of its first heat sensor; -1 for none
+};
+
+/// An environment of the batch and its present episode.
+struct Episode {
+  std::unique_ptr<Environment> environment;
+  const SharedWorld* world = nullptr;
+  std::uint64_t seed = 0;
+  std::uint64_t number = 0;  ///< of episodes since the seed was set
+  bool is_over = true;       ///< the next step starts the next episode
+};
+
+int heatSlotOf(const RobotInfo& robot) {
+  for (std::size_t slot = 0; slot < robot.sensors->size(); ++slot) {
+    if ((*robot.sensors)[slot].kind == SensorKind::heat) return static_cast<int>(slot);
+  }
+  return -1;
+}
+
+double heatOf(const State& state, std::size_t robot, int slot) {
+  if (slot < 0) return 0;
+  return std::get<Scalar>(state.readings[robot].measurements[static_cast<std::size_t>(slot)]).value;
+}
+
+/// Seed of an episode: random numbers of different episodes and environments are independent.
+std::uint64_t episodeSeed(std::uint64_t seed, std::uint64_t number) {
+  Rng rng(seed, RandomPurpose::scenery, static_cast<std::uint32_t>(number >> 32), 0, number);
+  const std::uint64_t high = rng();
+  return high << 32 | rng();
+}
+
+void requireSize(const char* what, std::size_t size, std::size_t required) {
+  if (size == required) return;
+  throw std::invalid_argument(std::string(what) + " has " + std::to_string(size) + " elements; it requires " +
+                              std::to_string(required));
+}
+
+void checkOptions(const BatchOptions& options) {
+  if (options.environments == 0) throw ConfigError("a batch requires at least one environment");
+  if (options.steps_max == 0) throw ConfigError("an episode requires at least one step");
+  if (options.threads < 1) throw ConfigError("a batch requires at least one thread");
+  if (!(options.period_s > 0 && options.period_s <= 1)) {
+    throw ConfigError("the time step is " + std::to_string(options.period_s) + " s; it must lie in (0, 1] seconds");
+  }
+}
+
+}  // namespace
+
+struct EnvironmentBatch::Impl {
+  BatchOptions options;
+  std::vector<std::unique_ptr<SharedWorld>> worlds;
+  std::size_t agents = 0;
+  std::optional<ObservationLayout> layout;
+  std::vector<Episode> episodes;
+  ParallelExecutor workers;
+
+  Impl(std::vector<LoadedWorld> loaded, BatchOptions the_options)
+      : options(std::move(the_options)), workers(options.threads) {
+    for (auto& world : loaded) addWorld(std::move(world));
+    episodes.resize(options.environments);
+    workers.forEach(episodes.size(), 1, [this](std::size_t i) {
+      Episode& episode = episodes[i];
+      episode.world = worlds[i % worlds.size()].get();
+      episode.seed = options.seed + i;
+      episode.environment = std::make_unique<Environment>(episode.world->model, episode.world->start);
+    });
+  }
+
+  void addWorld(LoadedWorld loaded) {
+    const std::string name = "world '" + loaded.world.name + "'";
+    const std::size_t robots = loaded.fleet.robots.size();
+    if (robots == 0) throw ConfigError(name + " has no robots; add at least one");
+    if (options.agents > robots) {
+      throw ConfigError(name + " has " + std::to_string(robots) + " robots, but " + std::to_string(options.agents) +
+                        " agents are required; use fewer agents");
+    }
+    const std::size_t of_this = options.agents == 0 ? robots : options.agents;
+    if (agents == 0) agents = of_this;
+    if (of_this != agents) {
+      throw ConfigError(name + " has " + std::to_string(robots) + " robots, but the first world has " +
+                        std::to_string(agents) + "; give the number of agents, or worlds with equal teams");
+    }
+    auto world = std::make_unique<SharedWorld>();
+    for (std::size_t i = 0; i < agents; ++i) {
+      const RobotInfo& robot = loaded.fleet.robots[i].info;
+      const ObservationLayout observed(robot, options.observations);
+      if (!layout) layout = observed;
+      if (!observed.isCompatible(*layout)) {
+        throw ConfigError(name + ": robot '" + robot.name +
+                          "' observes other numbers than the first agent; use agents " + "of one robot type");
+      }
+      world->heat_slots.push_back(heatSlotOf(robot));
+    }
+    if (options.has_random_starts) world->random_starts.emplace(loaded.world, loaded.fleet);
+    world->model = std::make_shared<const Model>(
+        Model{std::move(loaded.world), std::move(loaded.fleet), options.seed, options.period_s});
+    world->start = initialState(*world->model);
+    worlds.push_back(std::move(world));
+  }
+
+  void startEpisode(Episode& episode) const {
+    const std::uint64_t seed = episodeSeed(episode.seed, episode.number++);
+    State start = episode.world->start;
+    if (episode.world->random_starts) start.world_from_robot = episode.world->random_starts->draw(seed);
+    episode.environment->restart(start, seed);
+    episode.is_over = false;
+  }
+
+  void observe(std::size_t i, std::span<float> observations) const {
+    const std::size_t size = layout->size();
+    const State& state = episodes[i].environment->state();
+    for (std::size_t agent = 0; agent < agents; ++agent) {
+      layout->write(state, agent, observations.subspan((i * agents + agent) * size, size));
+    }
+  }
+
+  void step(std::size_t i, std::span<const float> actions, const BatchResults& results) {
+    Episode& episode = episodes[i];
+    const auto rewards = results.rewards.subspan(i * agents, agents);
+    results.terminated[i] = results.truncated[i] = 0;
+    if (episode.is_over) {
+      startEpisode(episode);
+      std::fill(rewards.begin(), rewards.end(), 0.0);
+      return observe(i, results.observations);
+    }
+    Environment& environment = *episode.environment;
+    const State& state = environment.state();
+    const RewardWeights& weights = options.reward;
+    for (std::size_t agent = 0; agent < agents; ++agent) {
+      const float* action = &actions[(i * agents + agent) * kActionSize];
+      const MotionLimits& limit = episode.world->model->fleet.robots[agent].info.limits;
+      Command command;
+      command.speed_mps = std::clamp(static_cast<double>(action[0]), -1.0, 1.0) * limit.speed_max_mps;
+      command.turn_radps = std::clamp(static_cast<double>(action[1]), -1.0, 1.0) * limit.turn_max_radps;
+      environment.setCommand(agent, command);
+      environment.checkWin(agent);
+      rewards[agent] = -weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]);
+    }
+    environment.step();
+    const bool is_won = state.winner.has_value();
+    for (std::size_t agent = 0; agent < agents; ++agent) {
+      rewards[agent] += weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]) +
+                        weights.win * (is_won ? 1 : 0) + weights.forward * state.last_motion[agent].length_m +
+                        weights.stall * state.stalled[agent] + weights.step;
+    }
+    results.terminated[i] = is_won ? 1 : 0;
+    results.truncated[i] = !is_won && state.time.step >= options.steps_max ? 1 : 0;
+    episode.is_over = results.terminated[i] || results.truncated[i];
+    observe(i, results.observations);
+  }
+
+  void checkActions(std::span<const float> actions) const {
+    const auto bad = std::find_if(actions.begin(), actions.end(), [](float a) { return !std::isfinite(a); });
+    if (bad == actions.end()) return;
+    const auto index = static_cast<std::size_t>(bad - actions.begin());
+    throw std::invalid_argument("the action of agent " + std::to_string(index / kActionSize % agents) +
+                                " in environment " + std::to_string(index / kActionSize / agents) +
+                                " is not finite; actions are fractions in [-1, 1]");
+  }
+};
+
+EnvironmentBatch::EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options) {
+  checkOptions(options);
+  if (worlds.empty()) throw ConfigError("a batch requires at least one world");
+  impl_ = std::make_unique<Impl>(std::move(worlds), std::move(options));
+}
+EnvironmentBatch::~EnvironmentBatch() = default;
+
+const BatchOptions& EnvironmentBatch::options() const { return impl_->options; }
+std::size_t EnvironmentBatch::agentCount() const { return impl_->agents; }
+const ObservationLayout& EnvironmentBatch::layout() const { return *impl_->layout; }
+const Environment& EnvironmentBatch::environment(std::size_t i) const { return *impl_->episodes.at(i).environment; }
+
+void EnvironmentBatch::setSeed(std::uint64_t seed) {
+  for (std::size_t i = 0; i < impl_->episodes.size(); ++i) setSeed(i, seed + i);
+}
+
+void EnvironmentBatch::setSeed(std::size_t environment, std::uint64_t seed) {
+  Episode& episode = impl_->episodes.at(environment);
+  episode.seed = seed;
+  episode.number = 0;
+}
+
+void EnvironmentBatch::reset(std::span<float> observations, std::span<const std::uint8_t> which) {
+  requireSize("the array of observations", observations.size(),
+              impl_->episodes.size() * impl_->agents * observationSize());
+  if (!which.empty()) requireSize("the selection of environments", which.size(), impl_->episodes.size());
+  impl_->workers.forEach(impl_->episodes.size(), 4, [&](std::size_t i) {
+    if (!which.empty() && !which[i]) return;
+    impl_->startEpisode(impl_->episodes[i]);
+    impl_->observe(i, observations);
+  });
+}
+
+void EnvironmentBatch::step(std::span<const float> actions, const BatchResults& results) {
+  const std::size_t environments = impl_->episodes.size();
+  const std::size_t robots = environments * impl_->agents;
+  requireSize("the array of actions", actions.size(), robots * kActionSize);
+  requireSize("the array of observations", results.observations.size(), robots * observationSize());
+  requireSize("the array of rewards", results.rewards.size(), robots);
+  requireSize("the array of terminations", results.terminated.size(), environments);
+  requireSize("the array of truncations", results.truncated.size(), environments);
+  impl_->checkActions(actions);
+  impl_->workers.forEach(environments, 4, [&](std::size_t i) { impl_->step(i, actions, results); });
+}
+
+}  // namespace robosim

@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "environment/environment.h"
+#include "learning/batch_options.h"
+#include "learning/observation_layout.h"
+#include "robots/fleet.h"
+
+namespace robosim {
+
+/// Memory of the caller, into which EnvironmentBatch writes the results of a step, in row-major order.
+struct BatchResults {
+  std::span<float> observations;       ///< environments × agents × observationSize()
+  std::span<double> rewards;           ///< environments × agents
+  std::span<std::uint8_t> terminated;  ///< by environment; 1 when the world was won in this step
+  std::span<std::uint8_t> truncated;   ///< by environment; 1 when the episode has reached BatchOptions::steps_max
+};
+
+/// Many environments that step together, for learning algorithms. Environments of one world share its Model. Episodes
+/// follow Gymnasium 1.0's VectorEnv with next-step autoreset: the step in which an episode ends returns its final
+/// observation; the next step ignores the actions of that environment, starts its next episode, and returns its first
+/// observation with reward 0. An episode is terminated when a robot is near enough to the gold to win (Referee), and
+/// truncated after a number of steps.
+///
+/// The results depend on the options and actions only, bit for bit, for any number of threads. An episode's start
+/// poses, noise and lost messages depend on the seed of its environment and on the number of the episode.
+class EnvironmentBatch {
+ public:
+  /// @throws ConfigError for options out of range, worlds whose robots differ in number, and agents whose observations
+  /// differ in size or bounds
+  EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options);
+  ~EnvironmentBatch();
+  EnvironmentBatch(const EnvironmentBatch&) = delete;
+  EnvironmentBatch& operator=(const EnvironmentBatch&) = delete;
+
+  const BatchOptions& options() const;
+  std::size_t agentCount() const;  ///< of each environment
+  const ObservationLayout& layout() const;
+  std::size_t observationSize() const { return layout().size(); }  ///< number of values per agent
+  const Environment& environment(std::size_t i) const;
+
+  /// Gives environment i the seed `seed` + i; its next episode is the first of that seed.
+  void setSeed(std::uint64_t seed);
+  void setSeed(std::size_t environment, std::uint64_t seed);
+  /// Starts a new episode in every environment, or in those whose element of `which` is not 0, and writes their
+  /// observations only.
+  void reset(std::span<float> observations, std::span<const std::uint8_t> which = {});
+  /// @param actions environments × agents × 2: set points of speed and turn rate as fractions of the robot's maximum,
+  /// clipped to [-1, 1]
+  /// @throws std::invalid_argument for an action that is not finite, and for spans of another size; nothing is changed
+  void step(std::span<const float> actions, const BatchResults& results);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,137 @@
+#include "learning/observation_layout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "base/error_list.h"
+
+namespace robosim {
+namespace {
+
+constexpr float kInfinite = std::numeric_limits<float>::infinity();
+
+std::vector<std::string> observableNames(const std::vector<SensorInfo>& sensors) {
+  std::vector<std::string> names;
+  for (const auto& sensor : sensors) {
+    const bool is_picture = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
+    const std::string name = nameOf(sensor.kind);
+    if (is_picture || sensor.kind == SensorKind::unknown) continue;
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  names.insert(names.end(), {"stalled", "pose"});
+  return names;
+}
+
+void bound(ObservationPart& part, std::size_t size, float low, float high) {
+  part.size = size;
+  part.low.assign(size, low);
+  part.high.assign(size, high);
+}
+
+void describe(const SensorInfo& sensor, ObservationPart& part) {
+  constexpr auto kPi = static_cast<float>(M_PI);
+  switch (sensor.kind) {
+    case SensorKind::sonar:
+    case SensorKind::laser:
+    case SensorKind::infrared:
+    case SensorKind::beacons:
+      return bound(part, sensor.beams.size(), 0, static_cast<float>(sensor.no_echo_m));
+    case SensorKind::bumper:
+      return bound(part, sensor.beams.size(), 0, 1);
+    case SensorKind::odometry:
+      bound(part, 5, -kInfinite, kInfinite);
+      part.low[2] = -kPi;
+      part.high[2] = kPi;
+      return;
+    case SensorKind::compass:
+      return bound(part, 1, -kPi, kPi);
+    case SensorKind::values:
+      return bound(part, sensor.quantities.size(), -kInfinite, kInfinite);
+    default:
+      return bound(part, 1, -kInfinite, kInfinite);
+  }
+}
+
+/// Writes the values of a measurement.
+struct MeasurementWriter {
+  float* out;
+
+  void operator()(const Echoes& echoes) const {
+    std::transform(echoes.begin(), echoes.end(), out, [](const Echo& echo) { return echo.range_m; });
+  }
+  void operator()(const Scalar& scalar) const { *out = static_cast<float>(scalar.value); }
+  void operator()(const Contacts& contacts) const {
+    std::transform(contacts.pressed.begin(), contacts.pressed.end(), out, [](auto p) { return static_cast<float>(p); });
+  }
+  void operator()(const Odometry& odometry) const {
+    out[0] = static_cast<float>(odometry.odom_from_robot.x);
+    out[1] = static_cast<float>(odometry.odom_from_robot.y);
+    out[2] = static_cast<float>(odometry.odom_from_robot.phi);
+    out[3] = static_cast<float>(odometry.speed_mps);
+    out[4] = static_cast<float>(odometry.turn_radps);
+  }
+  void operator()(const BeaconRanges& beacons) const { std::copy(beacons.range_m.begin(), beacons.range_m.end(), out); }
+  void operator()(const Values& values) const {
+    std::transform(values.values.begin(), values.values.end(), out, [](double v) { return static_cast<float>(v); });
+  }
+  void operator()(const Image&) const {}
+  void operator()(const Blobs&) const {}
+};
+
+}  // namespace
+
+ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<std::string>& names) {
+  const std::vector<SensorInfo>& sensors = *robot.sensors;
+  const std::vector<std::string> known = observableNames(sensors);
+  for (const auto& name : names) {
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      throw ConfigError("robot '" + robot.name + "' cannot observe '" + name + "'; observations may be " +
+                        listed(known));
+    }
+    ObservationPart part;
+    part.name = name;
+    if (name == "stalled") {
+      part.slot = ObservationPart::kStalled;
+      bound(part, 1, 0, 1);
+    } else if (name == "pose") {
+      part.slot = ObservationPart::kPose;
+      bound(part, 3, -kInfinite, kInfinite);
+      part.low[2] = -static_cast<float>(M_PI);
+      part.high[2] = static_cast<float>(M_PI);
+    } else {
+      while (nameOf(sensors[part.slot].kind) != name) ++part.slot;
+      describe(sensors[part.slot], part);
+    }
+    size_ += part.size;
+    parts_.push_back(std::move(part));
+  }
+}
+
+bool ObservationLayout::isCompatible(const ObservationLayout& other) const {
+  return std::equal(parts_.begin(), parts_.end(), other.parts_.begin(), other.parts_.end(),
+                    [](const ObservationPart& a, const ObservationPart& b) {
+                      return a.name == b.name && a.size == b.size && a.low == b.low && a.high == b.high;
+                    });
+}
+
+void ObservationLayout::write(const State& state, std::size_t robot, std::span<float> out) const {
+  float* at = out.data();
+  const Readings& readings = state.readings[robot];
+  for (const auto& part : parts_) {
+    if (part.slot == ObservationPart::kStalled) {
+      *at = readings.stalled ? 1.f : 0.f;
+    } else if (part.slot == ObservationPart::kPose) {
+      const auto& pose = state.world_from_robot[robot];
+      at[0] = static_cast<float>(pose.x);
+      at[1] = static_cast<float>(pose.y);
+      at[2] = static_cast<float>(pose.phi);
+    } else {
+      std::visit(MeasurementWriter{at}, readings.measurements[part.slot]);
+    }
+    at += part.size;
+  }
+}
+
+}  // namespace robosim

@@ -1,0 +1,50 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "environment/state.h"
+#include "hardware/robot_info.h"
+
+namespace robosim {
+
+/// A part of an agent's observation.
+struct ObservationPart {
+  std::string name;        ///< as in BatchOptions::observations
+  std::size_t slot = 0;    ///< of the robot's measurements; kStalled, kPose
+  std::size_t size = 0;    ///< number of values
+  std::vector<float> low;  ///< bounds of the values; infinite where there are none
+  std::vector<float> high;
+
+  static constexpr std::size_t kStalled = ~std::size_t{0};
+  static constexpr std::size_t kPose = kStalled - 1;
+};
+
+/// Converts readings to an observation: a vector of numbers, of the parts in their order.
+///  * sonar, laser, infrared: range of each beam [m]; no_echo_m without an echo
+///  * heat, compass, battery: the value [°C, rad, V]
+///  * bumper: 0 or 1 for each segment
+///  * odometry: x, y [m], heading [rad], speed [m/s], turn rate [rad/s]
+///  * beacons: range to each [m]
+///  * values: each quantity
+///  * stalled: 0 or 1
+///  * pose: x, y [m] and heading [rad], world frame; the true pose, which no real robot knows
+class ObservationLayout {
+ public:
+  /// @throws ConfigError for an unknown name, a kind that the robot does not have, and cameras
+  ObservationLayout(const RobotInfo& robot, const std::vector<std::string>& names);
+
+  std::span<const ObservationPart> parts() const { return parts_; }
+  std::size_t size() const { return size_; }
+  /// Whether observations have the same parts of the same size.
+  bool isCompatible(const ObservationLayout& other) const;
+  /// Writes the observation of a robot. @param out of size()
+  void write(const State& state, std::size_t robot, std::span<float> out) const;
+
+ private:
+  std::vector<ObservationPart> parts_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace robosim
