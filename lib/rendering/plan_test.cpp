@@ -197,6 +197,8 @@ TEST_F(PlanFile, DrawsAnEmptyWorldAndARunWithoutPaths) {
   EXPECT_FALSE(cv::imread((folder_ / "empty.png").string()).empty());
 }
 
+TEST_F(PlanFile, AcceptsItsEndingInUpperCase) { EXPECT_EQ(Scene10x5().draw(folder_ / "PLAN.PNG").cols, 1200); }
+
 TEST_F(PlanFile, IsCompact) {
   Scene10x5().draw(folder_ / "plan.png");
   EXPECT_LT(fs::file_size(folder_ / "plan.png"), 60'000u);

@@ -1,6 +1,9 @@
 #include "rendering/png_file.h"
 
+#include <algorithm>
+#include <cctype>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -13,7 +16,9 @@ namespace robosim {
 namespace {
 
 void checkName(const std::filesystem::path& file) {
-  if (file.extension() != ".png") {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (ending != ".png") {
     throw ConfigError(file.string() + ": a picture is a PNG file; give it a name that ends in .png");
   }
 }
