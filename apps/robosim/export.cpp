@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/atomic_file.h"
+#include "base/interrupt.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
@@ -192,7 +193,8 @@ std::vector<TableFile> tablesOf(const ExportArguments& arguments) {
 
 void exportTables(const std::string& rawlog, const std::vector<TableFile>& tables) {
   for (const auto& table : tables) refuseOverwriting({rawlog}, {table.file});
-  exportRecording(rawlog, tables);
+  const Interrupt interrupt;
+  exportRecording(rawlog, tables, &interrupt);
   for (const auto& table : tables) printSize(table.file, fs::file_size(table.file));
 }
 

@@ -1,23 +1,44 @@
 #include <algorithm>
 #include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
+#include "base/atomic_file.h"
 #include "base/interrupt.h"
+#include "base/printable_text.h"
 #include "base/progress.h"
+#include "base/temporary_directory.h"
 #include "base/text_table.h"
+#include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
+#include "replay/export_recording.h"
 #include "robosim/arguments.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
+#include "run/output_files.h"
 #include "run/run_outputs.h"
 
 namespace robosim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+struct LocalRunArguments : RunArguments {
+  std::string csv, npz;  ///< files; empty for none
+
+  std::vector<TableFile> tables() const {
+    std::vector<TableFile> tables;
+    if (!csv.empty()) tables.push_back({csv, TableFormat::csv});
+    if (!npz.empty()) tables.push_back({npz, TableFormat::npz});
+    return tables;
+  }
+};
 
 std::string progressText(const LocalRun& run, double wall_s) {
   const State& state = run.environment().state();
@@ -38,11 +59,51 @@ bool waitUntil(std::chrono::time_point<Clock, std::chrono::duration<double>> the
   return !interrupt.isRequested();
 }
 
-EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& interrupt, RunOutputs& outputs) {
+/// Tables of a run: those that `robosim export` writes of its recording.
+class RunTables {
+ public:
+  /// @param note of the recording @throws ConfigError
+  RunTables(const LocalRunArguments& arguments, const Environment& environment, const RunNote& note)
+      : tables_(arguments.tables()) {
+    if (tables_.empty()) return;
+    for (const auto& table : tables_) {
+      refuseOverwriting(inputFilesOf(arguments.world, environment.world()), {table.file});
+      checkWritable(table.file);
+    }
+    std::vector<RobotInfo> robots;
+    for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
+    folder_.emplace();
+    recording_ = std::make_unique<RawlogWriter>(rawlog(), robots, RawlogFormat::observations, RawlogImages::embedded,
+                                                note.text());
+  }
+
+  /// Records the current step. @throws RecordingError
+  void observe(const State& state) {
+    if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
+  }
+  /// Writes the tables. @throws RecordingError @throws ConfigError
+  void finish() {
+    if (!recording_) return;
+    recording_->close();
+    exportRecording(rawlog().string(), tables_, nullptr);
+  }
+  const std::vector<TableFile>& tables() const { return tables_; }
+
+ private:
+  std::filesystem::path rawlog() const { return *folder_ / "run.rawlog"; }
+
+  std::vector<TableFile> tables_;
+  std::optional<TemporaryDirectory> folder_;
+  std::unique_ptr<RawlogWriter> recording_;
+};
+
+EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& interrupt, RunOutputs& outputs,
+              RunTables& tables) {
   const double speed = speedNumber(arguments.speed);
   Progress progress;
   const auto start = Clock::now();
   outputs.observe(run.environment());
+  tables.observe(run.environment().state());
   while (!run.gold().all_halted_s) {
     const SimTime now = run.environment().time();
     if (interrupt.isRequested()) return EndedBy::interrupt;
@@ -52,6 +113,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
     }
     run.step();
     outputs.observe(run.environment());
+    tables.observe(run.environment().state());
     if (progress.due()) {
       progress.show(progressText(run, std::chrono::duration<double>(Clock::now() - start).count()));
     }
@@ -59,20 +121,27 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
   return EndedBy::all_halted;
 }
 
-void runWorld(const RunArguments& arguments) {
+void runWorld(const LocalRunArguments& arguments) {
   const Interrupt interrupt;
   checkRunArguments(arguments);
+  refuseSameFile({{"WORLD", arguments.world},
+                  {"--record", arguments.record},
+                  {"--picture", arguments.picture},
+                  {"--csv", arguments.csv},
+                  {"--npz", arguments.npz}});
+  const bool is_recorded = !arguments.record.empty() || !arguments.tables().empty();
   std::optional<WorldSource> source;  // kept for the recording's note
-  if (!arguments.record.empty() || !arguments.changes.isNone()) source = sourceOf(arguments);
+  if (is_recorded || !arguments.changes.isNone()) source = sourceOf(arguments);
   LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
                       : loadWorldToRun(arguments.world, arguments.run.controller),
                arguments.run);
-  RunOutputs outputs(arguments, run.environment(),
-                     !arguments.record.empty() ? noteOf(*source, run, arguments.run) : RunNote());
+  const RunNote note = is_recorded ? noteOf(*source, run, arguments.run) : RunNote();
+  RunOutputs outputs(arguments, run.environment(), note);
+  RunTables tables(arguments, run.environment(), note);
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {
-    ended_by = drive(run, arguments, interrupt, outputs);
+    ended_by = drive(run, arguments, interrupt, outputs, tables);
   } catch (const RecordingError&) {
     throw;
   } catch (...) {
@@ -80,6 +149,10 @@ void runWorld(const RunArguments& arguments) {
     throw;
   }
   outputs.finish(run, std::chrono::duration<double>(Clock::now() - start).count(), ended_by);
+  tables.finish();
+  for (const auto& table : tables.tables()) {
+    if (!arguments.json) std::cout << "table     " << printableText(table.file.string()) << std::endl;
+  }
   if (ended_by == EndedBy::interrupt) throw Interrupted("interrupted; all outputs cover the steps before");
 }
 
@@ -87,8 +160,16 @@ void runWorld(const RunArguments& arguments) {
 
 void addRun(CLI::App& program) {
   auto* command = addSubcommand(program, "run");
-  auto arguments = std::make_shared<RunArguments>();
+  auto arguments = std::make_shared<LocalRunArguments>();
   addRunArguments(*command, *arguments);
+  command
+      ->add_option("--csv", arguments->csv,
+                   "write all values as comma-separated values, one row per robot and step, as 'robosim export' does")
+      ->type_name("FILE")
+      ->check(fileName());
+  command->add_option("--npz", arguments->npz, "the same as NumPy's arrays, for each robot and sensor")
+      ->type_name("FILE")
+      ->check(fileName());
   command->footer(controllersHelp());
   command->callback([arguments] { runWorld(*arguments); });
 }

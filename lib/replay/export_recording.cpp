@@ -9,7 +9,6 @@
 
 #include "base/atomic_file.h"
 #include "base/error_list.h"
-#include "base/interrupt.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
@@ -27,14 +26,16 @@ namespace {
 /// Progress and interruption of an export.
 class ExportProgress {
  public:
+  explicit ExportProgress(const Interrupt* interrupt) : interrupt_(interrupt) {}
+
   /// @param what formatted only when shown
   void at(const std::function<std::string()>& what) {
-    if (interrupt_.isRequested()) throw Interrupted("interrupted; nothing was written");
+    if (interrupt_ && interrupt_->isRequested()) throw Interrupted("interrupted; nothing was written");
     if (progress_.due()) progress_.show(what());
   }
 
  private:
-  Interrupt interrupt_;
+  const Interrupt* interrupt_;
   Progress progress_;
 };
 
@@ -151,11 +152,11 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 
 }  // namespace
 
-void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs) {
+void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs, const Interrupt* interrupt) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   files.reserve(outs.size());
   for (const auto& out : outs) files.push_back(std::make_unique<AtomicFile>(out.file));
-  ExportProgress progress;
+  ExportProgress progress(interrupt);
   const RecordingTable table = tableOf(rawlog, progress);
   for (std::size_t i = 0; i < outs.size(); ++i) {
     (outs[i].format == TableFormat::npz ? writeNpz : writeCsv)(table, *files[i], progress);

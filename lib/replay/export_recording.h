@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/interrupt.h"
+
 namespace robosim {
 
 /// Form of a recording for other programs; doc/rawlog.md specifies both.
@@ -18,7 +20,8 @@ struct TableFile {
 
 /// Writes a recording as tables. All files are renamed to their names after all have been written.
 /// @param rawlog made by RoboSim or another program; may be a pipe
+/// @param interrupt a request ends the export; null: it cannot be interrupted
 /// @throws ConfigError, Interrupted, std::runtime_error (such as on a full disk); nothing is written then
-void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs);
+void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs, const Interrupt* interrupt);
 
 }  // namespace robosim
