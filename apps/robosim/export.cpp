@@ -8,11 +8,13 @@
 #include <CLI/CLI.hpp>
 
 #include "base/atomic_file.h"
+#include "base/interrupt.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "rendering/stock_scene.h"
 #include "rendering/svg_plan.h"
+#include "replay/export_recording.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
@@ -102,7 +104,8 @@ void makeRosMap(Source& source, const fs::path& out, Files& files) {
 struct Format {
   const char* ending;
   const char* help;
-  std::function<void(Source&, const fs::path& out, Files&)> make;
+  std::function<void(Source&, const fs::path& out, Files&)> make;  ///< of a world; empty for tables of a recording
+  std::optional<TableFormat> table{};
 };
 
 const std::vector<Format>& formats() {
@@ -127,6 +130,8 @@ const std::vector<Format>& formats() {
        [](Source& source, const fs::path& out, Files& files) {
          files[out] = toSvg(source.loaded().world, source.loaded().fleet);
        }},
+      {".csv", "of a rawlog: one row per robot and step, with all values", {}, TableFormat::csv},
+      {".npz", "of a rawlog: NumPy's arrays, for each robot and sensor", {}, TableFormat::npz},
   };
   return all;
 }
@@ -165,8 +170,38 @@ void check(const ExportArguments& arguments) {
   refuseSameFile(all);
 }
 
-void exportWorld(const ExportArguments& arguments) {
+void printSize(const fs::path& file, std::uint64_t bytes) {
+  std::cout << printableText(file.string()) << ": " << withCommas(bytes) << " bytes\n";
+}
+
+/// The tables among the files to write: all or none. @throws ConfigError
+std::vector<TableFile> tablesOf(const ExportArguments& arguments) {
+  std::vector<TableFile> tables;
+  for (const auto& out : arguments.outs) {
+    if (const auto table = formatOf(out).table) tables.push_back({out, *table});
+  }
+  if (tables.empty()) return tables;
+  const std::string first = tables.front().file.string();
+  if (tables.size() < arguments.outs.size()) {
+    throw ConfigError(first + " is a table of a rawlog, other files are of a world; export them by two commands");
+  }
+  if (arguments.resolution_m || !arguments.heights_m.empty()) {
+    throw ConfigError(first + " is a table of a rawlog; --resolution and --heights are for maps of a world");
+  }
+  return tables;
+}
+
+void exportTables(const std::string& rawlog, const std::vector<TableFile>& tables) {
+  for (const auto& table : tables) refuseOverwriting({rawlog}, {table.file});
+  const Interrupt interrupt;
+  exportRecording(rawlog, tables, &interrupt);
+  for (const auto& table : tables) printSize(table.file, fs::file_size(table.file));
+}
+
+void exportFiles(const ExportArguments& arguments) {
+  const auto tables = tablesOf(arguments);
   check(arguments);
+  if (!tables.empty()) return exportTables(arguments.world, tables);
   std::optional<Progress> shown(std::in_place);
   Progress& progress = *shown;
   progress.show("reading " + arguments.world + " …");
@@ -188,15 +223,15 @@ void exportWorld(const ExportArguments& arguments) {
   }
   for (auto& file : written) file->commit();
   shown.reset();  // clears its line
-  for (const auto& [file, bytes] : files)
-    std::cout << printableText(file.string()) << ": " << withCommas(bytes.size()) << " bytes\n";
+  for (const auto& [file, bytes] : files) printSize(file, bytes.size());
 }
 
 std::string formatsHelp() {
   Rows rows;
   for (const auto& format : formats()) rows.push_back({"  " + std::string(format.ending), format.help});
   return "Formats, by the extension of OUT:\n" + listing(rows) +
-         "Try:  robosim export worlds/opho2_1.xml opho2_1.gridmap opho2_1.yaml opho2_1.bt opho2_1.svg";
+         "Try:  robosim export worlds/opho2_1.xml opho2_1.gridmap opho2_1.yaml opho2_1.bt opho2_1.svg\n"
+         "      robosim export run.rawlog run.csv run.npz";
 }
 
 }  // namespace
@@ -204,7 +239,11 @@ std::string formatsHelp() {
 void addExport(CLI::App& program) {
   auto* command = addSubcommand(program, "export");
   auto arguments = std::make_shared<ExportArguments>();
-  command->add_option("WORLD", arguments->world, "world file or map file")->type_name("FILE")->required();
+  command
+      ->add_option("WORLD", arguments->world,
+                   "world file or map file; for .csv and .npz a rawlog, recorded by RoboSim or another program")
+      ->type_name("FILE")
+      ->required();
   command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")
       ->type_name("FILE")
       ->required()
@@ -225,7 +264,7 @@ void addExport(CLI::App& program) {
       ->type_name("LOW HIGH")
       ->expected(2);
   command->footer(formatsHelp());
-  command->callback([arguments] { exportWorld(*arguments); });
+  command->callback([arguments] { exportFiles(*arguments); });
 }
 
 }  // namespace robosim

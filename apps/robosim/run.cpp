@@ -1,24 +1,42 @@
 #include <algorithm>
 #include <chrono>
+#include <iostream>
+#include <memory>
+#include <optional>
 #include <thread>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "base/interrupt.h"
+#include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "recording/recording_error.h"
+#include "replay/run_tables.h"
 #include "robosim/arguments.h"
 #include "robosim/run_arguments.h"
 #include "robosim/run_command.h"
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
+#include "run/output_files.h"
 #include "run/run_outputs.h"
 
 namespace robosim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+struct LocalRunArguments : RunArguments {
+  std::string csv, npz;  ///< files; empty for none
+
+  std::vector<TableFile> tables() const {
+    std::vector<TableFile> tables;
+    if (!csv.empty()) tables.push_back({csv, TableFormat::csv});
+    if (!npz.empty()) tables.push_back({npz, TableFormat::npz});
+    return tables;
+  }
+};
 
 std::string progressText(const LocalRun& run, double wall_s) {
   const State& state = run.environment().state();
@@ -39,11 +57,11 @@ bool waitUntil(std::chrono::time_point<Clock, std::chrono::duration<double>> the
   return !interrupt.isRequested();
 }
 
-EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& interrupt, RunOutputs& outputs) {
+EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& interrupt, const ObserveStep& observe) {
   const double speed = speedNumber(arguments.speed);
   Progress progress;
   const auto start = Clock::now();
-  outputs.observe(run.environment());
+  observe();
   while (!run.gold().all_halted_s) {
     const SimTime now = run.environment().time();
     if (interrupt.isRequested()) return EndedBy::interrupt;
@@ -52,7 +70,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
       return EndedBy::interrupt;
     }
     run.step();
-    outputs.observe(run.environment());
+    observe();
     if (progress.due()) {
       progress.show(progressText(run, std::chrono::duration<double>(Clock::now() - start).count()));
     }
@@ -61,24 +79,35 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
 }
 
 /// @param window of --view; null: none
-void runWorld(const RunArguments& arguments, const RunWindow& window, double window_speed) {
+void runWorld(const LocalRunArguments& arguments, const RunWindow& window, double window_speed) {
   std::optional<Interrupt> interrupt(std::in_place);
   checkRunArguments(arguments);
+  refuseSameFile({{"WORLD", arguments.world},
+                  {"--record", arguments.record},
+                  {"--picture", arguments.picture},
+                  {"--csv", arguments.csv},
+                  {"--npz", arguments.npz}});
+  const bool is_recorded = !arguments.record.empty() || !arguments.tables().empty();
   std::optional<WorldSource> source;  // kept for the recording's note
-  if (!arguments.record.empty() || !arguments.changes.isNone()) source = sourceOf(arguments);
+  if (is_recorded || !arguments.changes.isNone()) source = sourceOf(arguments);
   LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
                       : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed),
                arguments.run);
-  RunOutputs outputs(arguments, run.environment(),
-                     !arguments.record.empty() ? noteOf(*source, run, arguments.run) : RunNote());
+  const RunNote note = is_recorded ? noteOf(*source, run, arguments.run) : RunNote();
+  RunOutputs outputs(arguments, run.environment(), note);
+  RunTables tables(arguments.tables(), arguments.world, run.environment(), note);
+  const ObserveStep observe = [&] {
+    outputs.observe(run.environment());
+    tables.observe(run.environment());
+  };
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {
     if (window) {
       interrupt.reset();  // the window has one of its own
-      ended_by = window(run, arguments, window_speed, outputs);
+      ended_by = window(run, arguments, window_speed, observe);
     } else {
-      ended_by = drive(run, arguments, *interrupt, outputs);
+      ended_by = drive(run, arguments, *interrupt, observe);
     }
   } catch (const RecordingError&) {
     throw;
@@ -87,6 +116,10 @@ void runWorld(const RunArguments& arguments, const RunWindow& window, double win
     throw;
   }
   outputs.finish(run, std::chrono::duration<double>(Clock::now() - start).count(), ended_by);
+  tables.finish();
+  for (const auto& table : tables.tables()) {
+    if (!arguments.json) std::cout << "table     " << printableText(table.file.string()) << std::endl;
+  }
   if (ended_by == EndedBy::interrupt) throw Interrupted("interrupted; all outputs cover the steps before");
 }
 
@@ -94,8 +127,16 @@ void runWorld(const RunArguments& arguments, const RunWindow& window, double win
 
 void addRunCommand(CLI::App& program, const RunWindow& window) {
   auto* command = addSubcommand(program, "run");
-  auto arguments = std::make_shared<RunArguments>();
+  auto arguments = std::make_shared<LocalRunArguments>();
   addRunArguments(*command, *arguments);
+  command
+      ->add_option("--csv", arguments->csv,
+                   "write all values as comma-separated values, one row per robot and step, as 'robosim export' does")
+      ->type_name("FILE")
+      ->check(fileName());
+  command->add_option("--npz", arguments->npz, "the same as NumPy's arrays, for each robot and sensor")
+      ->type_name("FILE")
+      ->check(fileName());
   auto has_view = std::make_shared<bool>(false);
   command->add_flag(std::string(kViewOption), *has_view,
                     "show the run in a window, in real time unless --speed is given, until it is closed; keys as for "

@@ -7,11 +7,14 @@
 
 namespace robosim {
 
-/// Shows a run in a window, which steps and observes it, until the window is closed or a signal ends it.
+/// Called for the first step and after each further one.
+using ObserveStep = std::function<void()>;
+
+/// Shows a run in a window, which steps it, until the window is closed or a signal ends it.
 /// @param speed simulated seconds per second; 0: unlimited
 /// @return why the run ended
 using RunWindow =
-    std::function<EndedBy(LocalRun& run, const RunArguments& arguments, double speed, RunOutputs& outputs)>;
+    std::function<EndedBy(LocalRun& run, const RunArguments& arguments, double speed, const ObserveStep& observe)>;
 
 /// Adds the subcommand `run`.
 /// @param window of --view; null in the executable that has no windows

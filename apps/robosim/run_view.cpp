@@ -17,14 +17,14 @@ using Clock = std::chrono::steady_clock;
 /// Takes the steps of a run between the repaints of its window.
 class LocalRunView final : public ViewSource {
  public:
-  LocalRunView(LocalRun& run, const RunArguments& arguments, double speed, RunOutputs& outputs)
+  LocalRunView(LocalRun& run, const RunArguments& arguments, double speed, const ObserveStep& observe)
       : run_(run),
         arguments_(arguments),
-        outputs_(outputs),
+        observe_(observe),
         world_{run.environment().world(), run.environment().fleet()},
         snapshot_(snapshotOf(run.environment())),
         speed_(speed) {
-    outputs_.observe(run.environment());
+    observe_();
   }
 
   const LoadedWorld& world() const override { return world_; }
@@ -58,7 +58,7 @@ class LocalRunView final : public ViewSource {
   void take() {
     if (isOver()) return;
     run_.step();
-    outputs_.observe(run_.environment());
+    observe_();
   }
   /// Takes the steps that are due after this wall time. Steps that the computer is too slow for are dropped, so that
   /// the window stays responsive.
@@ -77,7 +77,7 @@ class LocalRunView final : public ViewSource {
 
   LocalRun& run_;
   const RunArguments& arguments_;
-  RunOutputs& outputs_;
+  const ObserveStep& observe_;
   LoadedWorld world_;
   RunSnapshot snapshot_;
   double speed_;
@@ -85,9 +85,9 @@ class LocalRunView final : public ViewSource {
   bool is_paused_ = false, has_single_step_ = false;
 };
 
-EndedBy showRun(LocalRun& run, const RunArguments& arguments, double speed, RunOutputs& outputs) {
+EndedBy showRun(LocalRun& run, const RunArguments& arguments, double speed, const ObserveStep& observe) {
   constexpr Size kSize{1280, 800};
-  LocalRunView view(run, arguments, speed, outputs);
+  LocalRunView view(run, arguments, speed, observe);
   const MakePanes make_panes = [](const LoadedWorld& world, AbsentRobots) {
     return std::vector<Pane>{makePane(false, std::nullopt, world.world)};
   };

@@ -1,0 +1,168 @@
+#include "replay/export_recording.h"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include <mrpt/obs/CObservationComment.h>
+
+#include "base/atomic_file.h"
+#include "base/error_list.h"
+#include "base/log.h"
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "recording/observation_times.h"
+#include "recording/rawlog_reader.h"
+#include "replay/csv_field.h"
+#include "replay/npz_writer.h"
+#include "replay/recorded_sensors.h"
+#include "replay/recording_table.h"
+#include "run/run_note.h"
+
+namespace robosim {
+namespace {
+
+/// Progress and interruption of an export.
+class ExportProgress {
+ public:
+  explicit ExportProgress(const Interrupt* interrupt) : interrupt_(interrupt) {}
+
+  /// @param what formatted only when shown
+  void at(const std::function<std::string()>& what) {
+    if (interrupt_ && interrupt_->isRequested()) throw Interrupted("interrupted; nothing was written");
+    if (progress_.due()) progress_.show(what());
+  }
+
+ private:
+  const Interrupt* interrupt_;
+  Progress progress_;
+};
+
+RecordingTable tableOf(const std::string& rawlog, ExportProgress& progress) {
+  RawlogReader reader(rawlog);
+  RecordingTable table;
+  ObservationTimes times;
+  std::optional<RecordedSensors> sensors;
+  while (const auto observation = reader.next()) {
+    progress.at([&] { return "reading: " + withCommas(reader.entries()) + " entries …"; });
+    if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
+      if (!sensors) {
+        if (const auto note = RunNote::parse(comment->text)) sensors = RecordedSensors::of(*note);
+      }
+      continue;
+    }
+    table.add(*observation, times.of(*observation, reader.entries()),
+              sensors ? sensors->find(observation->sensorLabel) : nullptr);
+  }
+  if (reader.readError()) logWarning("export", *reader.readError());
+  return table;
+}
+
+/// The columns of a sensor of all robots.
+class CsvColumns {
+ public:
+  explicit CsvColumns(const RecordingTable& table) : of_series_(table.series().size()) {
+    // Sensors and their columns are in the order of their first appearance.
+    std::map<std::string, std::vector<std::size_t>> series_of;
+    std::vector<std::string> sensors;
+    for (std::size_t i = 0; i < table.series().size(); ++i) {
+      const std::string& sensor = table.series()[i].sensor;
+      if (series_of[sensor].empty()) sensors.push_back(sensor);
+      series_of[sensor].push_back(i);
+    }
+    for (const auto& sensor : sensors) {
+      std::map<std::string, std::size_t> index_of;
+      for (const std::size_t series : series_of[sensor]) {
+        for (const auto& column : table.series()[series].columns) {
+          const auto [found, is_new] = index_of.try_emplace(column.name, names_.size());
+          if (is_new) names_.push_back(sensor + "/" + column.name);
+          of_series_[series].push_back(found->second);
+        }
+      }
+    }
+  }
+
+  const std::vector<std::string>& names() const { return names_; }
+  /// Index in names() of each column of a series.
+  const std::vector<std::size_t>& of(std::size_t series) const { return of_series_[series]; }
+
+ private:
+  std::vector<std::string> names_;
+  std::vector<std::vector<std::size_t>> of_series_;
+};
+
+void writeCsv(const RecordingTable& table, AtomicFile& file, ExportProgress& progress) {
+  const CsvColumns columns(table);
+  std::string line = "step,time_s,robot";
+  for (const auto& name : columns.names()) line += "," + csvField(name);
+  file.write(line + "\n");
+  std::vector<std::string> fields(columns.names().size());
+  std::size_t written = 0;
+  for (const auto& row : table.rows()) {
+    progress.at(
+        [&] { return "writing: row " + withCommas(written) + " of " + withCommas(table.rows().size()) + " …"; });
+    for (auto& field : fields) field.clear();
+    for (const auto& [index, of_series] : row.observations) {
+      const RecordedSeries& series = table.series()[index];
+      for (std::size_t i = 0; i < series.columns.size(); ++i) {
+        std::string text = csvField(series.columns[i].value(of_series));
+        if (!text.empty()) fields[columns.of(index)[i]] = std::move(text);
+      }
+    }
+    line = std::to_string(row.step) + "," + fixed(row.time_s, 7) + "," + csvField(row.robot);
+    for (const auto& field : fields) line += "," + field;
+    file.write(line + "\n");
+    ++written;
+  }
+}
+
+void addSeries(const RecordedSeries& series, NpzWriter& npz) {
+  std::vector<const RecordedColumn*> numbers;
+  std::vector<std::string> names;
+  for (const auto& column : series.columns) {
+    if (column.kind == RecordedColumn::Kind::text) continue;
+    numbers.push_back(&column);
+    names.push_back(column.name);
+  }
+  const std::size_t rows = series.steps.size();
+  if (!numbers.empty()) {
+    npz.addTable(series.label, rows, numbers.size(),
+                 [&](std::size_t row, std::size_t column) { return numbers[column]->number(row); });
+    npz.add(series.label + "/columns", names);
+  }
+  npz.add(series.label + "/step", series.steps);
+  npz.add(series.label + "/time_s", series.times_s);
+  for (const auto& column : series.columns) {
+    if (column.kind != RecordedColumn::Kind::text) continue;
+    std::vector<std::string> texts = column.texts;
+    texts.resize(rows);
+    npz.add(series.label + "/" + column.name, texts);
+  }
+}
+
+void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& progress) {
+  NpzWriter npz(file);
+  for (const auto& series : table.series()) {
+    progress.at([&] { return "writing: " + series.label + " …"; });
+    addSeries(series, npz);
+  }
+  npz.writeDirectory();
+}
+
+}  // namespace
+
+void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs, const Interrupt* interrupt) {
+  std::vector<std::unique_ptr<AtomicFile>> files;
+  files.reserve(outs.size());
+  for (const auto& out : outs) files.push_back(std::make_unique<AtomicFile>(out.file));
+  ExportProgress progress(interrupt);
+  const RecordingTable table = tableOf(rawlog, progress);
+  for (std::size_t i = 0; i < outs.size(); ++i) {
+    (outs[i].format == TableFormat::npz ? writeNpz : writeCsv)(table, *files[i], progress);
+    files[i]->finish();
+  }
+  for (auto& file : files) file->commit();
+}
+
+}  // namespace robosim

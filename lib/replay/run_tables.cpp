@@ -1,0 +1,36 @@
+#include "replay/run_tables.h"
+
+#include <utility>
+
+#include "base/atomic_file.h"
+#include "run/output_files.h"
+
+namespace robosim {
+
+RunTables::RunTables(std::vector<TableFile> tables, const std::string& world, const Environment& environment,
+                     const RunNote& note)
+    : tables_(std::move(tables)) {
+  if (tables_.empty()) return;
+  for (const auto& table : tables_) {
+    refuseOverwriting(inputFilesOf(world, environment.world()), {table.file});
+    checkWritable(table.file);
+  }
+  std::vector<RobotInfo> robots;
+  for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
+  folder_.emplace();
+  recording_ =
+      std::make_unique<RawlogWriter>(rawlog(), robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
+}
+
+void RunTables::observe(const Environment& environment) {
+  const State& state = environment.state();
+  if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
+}
+
+void RunTables::finish() {
+  if (!recording_) return;
+  recording_->close();
+  exportRecording(rawlog().string(), tables_, nullptr);
+}
+
+}  // namespace robosim

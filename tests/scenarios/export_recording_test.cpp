@@ -1,0 +1,124 @@
+// `robosim export RAWLOG` and `robosim run --csv`, read by Python's csv and NumPy.
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "base/temporary_directory.h"
+#include "tests/scenarios/foreign_rawlog.h"
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Result of `robosim export` with these arguments after a success.
+std::string exported(const std::string& arguments) {
+  const Ended ended = runProgram("export " + arguments);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  return ended.out;
+}
+
+/// Compares out.csv and out.npz of a folder with `replay --print --csv`. @return the number of values compared
+int compareWithReplay(const fs::path& rawlog, const fs::path& folder) {
+  std::ofstream(folder / "replay.csv") << runProgram("replay --print --csv " + quoted(rawlog)).out;
+  const Ended compared =
+      StartedProgram("/usr/bin/python3", {ROBOSIM_SOURCE_DIR "/tests/compare_exports.py", folder / "replay.csv",
+                                          folder / "out.csv", folder / "out.npz"})
+          .wait();
+  EXPECT_EQ(compared.exit_code, 0) << compared.err;
+  EXPECT_NE(compared.out.find(" values are equal\n"), std::string::npos) << compared.out;
+  return std::atoi(compared.out.c_str());
+}
+
+int exportAndCompare(const fs::path& rawlog) {
+  const auto folder = emptyFolder();
+  exported(quoted(rawlog) + " " + quoted(folder / "out.csv") + " " + quoted(folder / "out.npz"));
+  return compareWithReplay(rawlog, folder);
+}
+
+TEST(ExportRecording, WritesTheReplayedValuesForPython) {
+  for (const char* name : {"opho2_1", "driven", "slam_sf"}) {
+    EXPECT_GT(exportAndCompare(fs::path(ROBOSIM_SOURCE_DIR "/rawlogs") / (std::string(name) + ".rawlog")), 10'000)
+        << name;
+  }
+}
+
+TEST(ExportRecording, AcceptsRecordingsOfOtherPrograms) {
+  const TemporaryDirectory folder;
+  writeForeignRawlog(folder / "foreign.rawlog");
+  // 50 times odometry (x, y, heading, and two speeds that are not measured), and a scan of 181 ranges.
+  EXPECT_EQ(exportAndCompare(folder / "foreign.rawlog"), 50 * (5 + 181));
+}
+
+TEST(ExportRecording, WritesTheSameBytesEachTime) {
+  const auto folder = emptyFolder();
+  const std::string rawlog = "rawlogs/driven.rawlog ";
+  EXPECT_NE(exported(rawlog + quoted(folder / "a.npz") + " " + quoted(folder / "a.csv")).find("a.npz: "),
+            std::string::npos);
+  exported(rawlog + quoted(folder / "b.NPZ") + " " + quoted(folder / "b.csv"));
+  EXPECT_TRUE(textOf(folder / "a.npz") == textOf(folder / "b.NPZ"));
+  EXPECT_TRUE(textOf(folder / "a.csv") == textOf(folder / "b.csv"));
+  EXPECT_EQ(textOf(folder / "a.csv").rfind("step,time_s,robot,GROUND_TRUTH/x_m,GROUND_TRUTH/y_m,", 0), 0U);
+}
+
+TEST(ExportRecording, ReportsErrorsAndLeavesFilesUnchanged) {
+  const auto folder = emptyFolder();
+  const auto rawlog = folder / "run.csv";  // an unusual name of a rawlog
+  fs::copy_file(ROBOSIM_SOURCE_DIR "/rawlogs/driven.rawlog", rawlog);
+  fs::create_hard_link(rawlog, folder / "hard.npz");
+  const std::string before = textOf(rawlog);
+  const auto out = [&](const char* name) { return " " + quoted(folder / name); };
+  const struct {
+    std::string arguments, complaint;
+  } cases[] = {
+      {quoted(rawlog) + out("run.csv"), "is both WORLD and OUT; name two files"},
+      {quoted(rawlog) + out("hard.npz"), "run.csv"},
+      {quoted(rawlog) + out("a.csv") + out("a.svg"), "a.csv is a table of a rawlog, other files are of a world"},
+      {quoted(rawlog) + out("a.csv") + " --resolution 1", "--resolution and --heights are for maps of a world"},
+      {quoted(rawlog) + out("none/a.npz"), "none/a.npz: cannot be created: the folder "},
+      {"rawlogs/none.rawlog" + out("a.npz"), "rawlogs/none.rawlog: no such file"},
+      {"worlds/small_maze.xml" + out("a.csv"), "worlds/small_maze.xml"},
+  };
+  for (const auto& [arguments, complaint] : cases) {
+    const Ended ended = runProgram("export " + arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_NE(ended.err.find(complaint), std::string::npos) << arguments << "\n" << ended.err;
+  }
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
+  EXPECT_TRUE(textOf(rawlog) == before);
+}
+
+TEST(ExportRecording, ReadsATruncatedRecordingUpToTheDamage) {
+  const auto folder = emptyFolder();
+  const std::string whole = textOf(ROBOSIM_SOURCE_DIR "/rawlogs/driven.rawlog");
+  std::ofstream(folder / "cut.rawlog") << whole.substr(0, whole.size() / 2);
+  const Ended ended = runProgram("export " + quoted(folder / "cut.rawlog") + " " + quoted(folder / "out.csv") + " " +
+                                 quoted(folder / "out.npz"));
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("cut.rawlog"), std::string::npos) << ended.err;
+  EXPECT_GT(compareWithReplay(folder / "cut.rawlog", folder), 1000);
+}
+
+TEST(RunTables, AreThoseOfTheRecordingOfTheRun) {
+  const auto folder = emptyFolder();
+  const auto file = [&](const char* name) { return quoted(folder / name) + " "; };
+  const Ended run = runProgram("run worlds/opho2_1.xml --time 5 --record " + file("run.rawlog") + "--csv " +
+                               file("run.csv") + "--npz " + file("run.npz"));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_NE(run.out.find("run.csv"), std::string::npos) << run.out;
+  exported(file("run.rawlog") + file("out.csv") + file("out.npz"));
+  EXPECT_TRUE(textOf(folder / "run.csv") == textOf(folder / "out.csv"));
+  EXPECT_TRUE(textOf(folder / "run.npz") == textOf(folder / "out.npz"));
+  const Ended alone = runProgram("run worlds/opho2_1.xml --time 5 --csv " + file("alone.csv"));
+  EXPECT_TRUE(textOf(folder / "alone.csv") == textOf(folder / "out.csv")) << alone.err;
+}
+
+TEST(RunTables, AreRefusedInPlaceOfAnInput) {
+  const Ended ended = runProgram("run worlds/small_maze.xml --time 1 --csv worlds/small_maze.xml");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("is both WORLD and --csv; name two files"), std::string::npos) << ended.err;
+}
+
+}  // namespace
+}  // namespace robosim
