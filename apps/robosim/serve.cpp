@@ -14,8 +14,8 @@
 #include "robosim/connection.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
-#include "serving/world_run.h"
 #include "server/environment_server.h"
+#include "serving/world_run.h"
 
 namespace robosim {
 namespace {

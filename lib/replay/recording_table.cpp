@@ -21,7 +21,7 @@ struct KindOf {
   Kind operator()(const std::string&) const { return Kind::text; }
 };
 
-struct NumberOf {
+struct AsNumber {
   double operator()(std::monostate) const { return std::numeric_limits<double>::quiet_NaN(); }
   double operator()(const std::string&) const { return std::numeric_limits<double>::quiet_NaN(); }
   double operator()(auto number) const { return static_cast<double>(number); }
@@ -95,7 +95,7 @@ void RecordingTable::set(RecordedColumn& column, std::size_t row, ColumnValue va
     count(row + 1 - column.numbers.size());
     column.numbers.resize(row + 1, std::numeric_limits<double>::quiet_NaN());
   }
-  column.numbers[row] = std::visit(NumberOf(), value);
+  column.numbers[row] = std::visit(AsNumber(), value);
 }
 
 void RecordingTable::group(std::size_t series, std::size_t row, double time_s) {

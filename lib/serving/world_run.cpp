@@ -68,8 +68,7 @@ class WorldRun::Prepared final : public PreparedRun {
   std::shared_ptr<OneRun> run;
 };
 
-WorldRun::WorldRun(WorldRunOptions options)
-    : options_(std::move(options)), run_(load(sourceOf(options_.of_run), 1)) {}
+WorldRun::WorldRun(WorldRunOptions options) : options_(std::move(options)), run_(load(sourceOf(options_.of_run), 1)) {}
 
 WorldRun::~WorldRun() = default;
 

@@ -42,8 +42,10 @@ class WorldRun final : public ServedRun {
   /// @name Of all runs so far
   ///@{
   bool hadAllRobots() const { return had_all_robots_; }  ///< no step without a robot, no message lost
-  bool isTrusted() const { return is_trusted_; }         ///< no geometry worker returned wrong results
-                                                         ///@}
+  bool isTrusted() const {
+    return is_trusted_;
+  }  ///< no geometry worker returned wrong results
+     ///@}
 
  private:
   class OneRun;

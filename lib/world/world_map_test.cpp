@@ -24,28 +24,28 @@ const FileTexts kFiles{{"lab.pgm", "P2 3 2 255  0 205 254  254 254 0"},
                         "2D-Map\nCairn: RobotHome 1000 2000 90 \"\" ICON \"\"\nCairn: Dock 0 0 0 \"\" ICON \"\"\n"
                         "LINES\n-3000 0 5000 0\n0 -1000 0 4000\n"}};
 
-World parsed(const std::string& text, ErrorList& errors) {
+World parsedWithMaps(const std::string& text, ErrorList& errors) {
   return parseWorld(text, "some/a.xml", providerOf("some/a.xml", kFiles), errors);
 }
-World parsed(const std::string& text) {
+World parsedWithMaps(const std::string& text) {
   ErrorList errors;
-  World world = parsed(text, errors);
+  World world = parsedWithMaps(text, errors);
   EXPECT_EQ(errors.errors(), Lines{});
   return world;
 }
-Lines faults(const std::string& text) {
+Lines faultsOfMaps(const std::string& text) {
   ErrorList errors;
-  parsed(text, errors);
+  parsedWithMaps(text, errors);
   return errors.errors();
 }
 
-std::string worldOf(const std::string& inside) { return "<world><surface>" + inside + "</surface></world>"; }
+std::string worldWithMaps(const std::string& inside) { return "<world><surface>" + inside + "</surface></world>"; }
 std::string robot(const std::string& name, const std::string& more = "") {
   return "<object><shape><robot><model>scout</model><name>" + name + "</name>" + more + "</robot></shape></object>";
 }
 
 TEST(WorldMap, IsPlacedByTheWorldFile) {
-  const World world = parsed(
+  const World world = parsedWithMaps(
       "<world unit_m='0.1'><surface><map file='lab.pgm' resolution='0.5' x='10' y='20' direction='1' "
       "height='8' color='1 0 0'/></surface></world>");
   ASSERT_EQ(world.maps.size(), 1u);
@@ -59,7 +59,7 @@ TEST(WorldMap, IsPlacedByTheWorldFile) {
 }
 
 TEST(WorldMap, IsGrayAndOneMetreHighByDefault) {
-  const World world = parsed("<world unit_m='0.1'><surface><map file='lab.gridmap'/></surface></world>");
+  const World world = parsedWithMaps("<world unit_m='0.1'><surface><map file='lab.gridmap'/></surface></world>");
   EXPECT_EQ(world.maps[0].height_m, 1);
   EXPECT_EQ(world.maps[0].color, (std::array<float, 3>{0.5f, 0.5f, 0.5f}));
   EXPECT_EQ(world.maps[0].world_from_map, TPose2D(0, 0, 0));
@@ -68,19 +68,21 @@ TEST(WorldMap, IsGrayAndOneMetreHighByDefault) {
 TEST(WorldMap, DefinesTheSurfacesSizeByDefault) {
   // The .yaml's origin is (-1.5, 2); 3 × 2 cells of 5 cm. The other map is 1 m × 1 m.
   const std::string maps = "<map file='maps/lab.yaml'/><map file='lab.gridmap' x='2'/>";
-  const World world = parsed(worldOf(maps));
+  const World world = parsedWithMaps(worldWithMaps(maps));
   EXPECT_NEAR(world.bounds.x_min, -1.5, 1e-12);
   EXPECT_NEAR(world.bounds.x_max, 3, 1e-12);
   EXPECT_NEAR(world.bounds.y_min, 0, 1e-12);
   EXPECT_NEAR(world.bounds.y_max, 2.1, 1e-12);
   const std::string size = "<size><xmin>0</xmin><xmax>9</xmax><ymin>0</ymin><ymax>8</ymax></size>";
-  EXPECT_EQ(parsed(worldOf(size + maps)).bounds, (Bounds2D{0, 9, 0, 8}));
-  EXPECT_EQ(faults("<world><surface/></world>"), Lines{"some/a.xml:1: <surface>: <size> is missing; add it"})
+  EXPECT_EQ(parsedWithMaps(worldWithMaps(size + maps)).bounds, (Bounds2D{0, 9, 0, 8}));
+  EXPECT_EQ(faultsOfMaps("<world><surface/></world>"), Lines{"some/a.xml:1: <surface>: <size> is missing; add it"})
       << "without a map";
 }
 
 TEST(WorldMap, SupportsUnknownAsFreeOrOccupied) {
-  const auto occupied = [](const std::string& map) { return parsed(worldOf(map)).maps[0].plan.occupiedCells(); };
+  const auto occupied = [](const std::string& map) {
+    return parsedWithMaps(worldWithMaps(map)).maps[0].plan.occupiedCells();
+  };
   EXPECT_EQ(occupied("<map file='maps/lab.yaml'/>"), 2u);
   EXPECT_EQ(occupied("<map file='maps/lab.yaml' unknown='occupied'/>"), 3u);
   EXPECT_EQ(occupied("<map file='lab.gridmap' unknown='free'/>"), 0u);
@@ -90,17 +92,20 @@ TEST(WorldMap, SupportsUnknownAsFreeOrOccupied) {
 }
 
 TEST(WorldMap, ProvidesTheStartPoseOfARobotWithoutOne) {
-  const World world = parsed(worldOf("<map file='home.map' x='10'/>" + robot("A") + robot("B", "<x>1</x><y>1</y>") +
-                                     robot("C", "<direction>1</direction>")));
+  const World world =
+      parsedWithMaps(worldWithMaps("<map file='home.map' x='10'/>" + robot("A") + robot("B", "<x>1</x><y>1</y>") +
+                                   robot("C", "<direction>1</direction>")));
   EXPECT_EQ(world.robots[0].world_from_robot, TPose2D(11, 2, M_PI / 2));
   EXPECT_EQ(world.robots[1].world_from_robot, TPose2D(1, 1, 0));
   EXPECT_EQ(world.robots[2].world_from_robot, TPose2D(10, 0, 1));
-  EXPECT_EQ(faults(worldOf("<map file='home.map'/>" + robot("A") + robot("B") + "\n" + robot("C"))),
+  EXPECT_EQ(faultsOfMaps(worldWithMaps("<map file='home.map'/>" + robot("A") + robot("B") + "\n" + robot("C"))),
             (Lines{"some/a.xml:2: <robot>: <x> is missing; add it", "some/a.xml:2: <robot>: <y> is missing; add it"}));
 }
 
 TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
-  const auto fault = [](const std::string& map) { return faults("<world>\n<surface>\n" + map + "</surface></world>"); };
+  const auto fault = [](const std::string& map) {
+    return faultsOfMaps("<world>\n<surface>\n" + map + "</surface></world>");
+  };
   const std::string at = "some/a.xml:3: ";
   EXPECT_EQ(fault("<map/>"), Lines{at + "<map>: <file> is missing; add it"});
   EXPECT_EQ(fault("<map file='none.yaml'/>"),
@@ -128,7 +133,7 @@ TEST(WorldMap, ReportsFaultsOfItsFileAtTheFilesLine) {
                          "image: a.pgm\nresolution: nan\norigin: [0, 0, 0]\nnegate: 0\n"
                          "occupied_thresh: 0.65\nfree_thresh: 0.196"}};
   ErrorList errors;
-  parseWorld(worldOf("<map file='b.yaml'/>"), "some/a.xml", providerOf("some/a.xml", files), errors);
+  parseWorld(worldWithMaps("<map file='b.yaml'/>"), "some/a.xml", providerOf("some/a.xml", files), errors);
   EXPECT_EQ(errors.errors(), Lines{"some/b.yaml:2: resolution: nan: must be a number in (0, 100] metres per pixel"});
 }
 
@@ -151,7 +156,7 @@ TEST(WorldMap, MayBeEmptyOnlyIfTheWorldHasASize) {
   const FileTexts files{{"a.map", "2D-Map\n"}};
   const auto faults_with = [&](const std::string& size) {
     ErrorList errors;
-    parseWorld(worldOf(size + "<map file='a.map'/>"), "a.xml", providerOf("a.xml", files), errors);
+    parseWorld(worldWithMaps(size + "<map file='a.map'/>"), "a.xml", providerOf("a.xml", files), errors);
     return errors.errors();
   };
   EXPECT_EQ(faults_with(""), Lines{"a.xml:1: <surface>: has no <size>, and its maps are empty; add a <size>"});
@@ -175,8 +180,9 @@ TEST(WorldMap, RoundTrips) {
       maps += "/>";
     }
     if (maps.empty()) continue;
-    const World world = parsed("<world unit_m='" + number(0.1, 1) + "'><surface>" + maps + "</surface></world>");
-    World again = parsed(toXml(world));
+    const World world =
+        parsedWithMaps("<world unit_m='" + number(0.1, 1) + "'><surface>" + maps + "</surface></world>");
+    World again = parsedWithMaps(toXml(world));
     again.name = world.name;
     ASSERT_EQ(again, world) << "seed " << seed << "\n" << toXml(world);
   }
