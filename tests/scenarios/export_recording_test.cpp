@@ -116,6 +116,18 @@ TEST(RunTables, AreThoseOfTheRecordingOfTheRun) {
   EXPECT_TRUE(textOf(folder / "alone.csv") == textOf(folder / "out.csv")) << alone.err;
 }
 
+TEST(RunTables, CoverTheStepsBeforeAnInterrupt) {
+  const auto folder = emptyFolder();
+  // At real time the run would take half an hour. It is interrupted after its recording has been opened.
+  StartedProgram run({"run", "worlds/small_maze.xml", "--speed", "1", "--controller", "wander", "--csv",
+                      (folder / "out.csv").string(), "--npz", (folder / "out.npz").string(), "--record",
+                      (folder / "run.rawlog").string()});
+  run.waitForFile((folder / "run.rawlog.part").string());
+  run.interrupt();
+  EXPECT_EQ(run.wait().exit_code, 130);
+  EXPECT_GT(compareWithReplay(folder / "run.rawlog", folder), 0);
+}
+
 TEST(RunTables, AreRefusedInPlaceOfAnInput) {
   const Ended ended = runProgram("run worlds/small_maze.xml --time 1 --csv worlds/small_maze.xml");
   EXPECT_EQ(ended.exit_code, 1);
