@@ -45,7 +45,7 @@ def exported_csv(file):
 
 def main(replay_file, csv_file, npz_file):
     fields, steps = exported_csv(csv_file)
-    arrays = np.load(npz_file, allow_pickle=False)
+    arrays = dict(np.load(npz_file, allow_pickle=False))  # NumPy decompresses an array at each access
     rows, used, compared = {}, set(), 0
     for seconds, label, values in replayed(replay_file):
         row = rows[label] = rows.get(label, -1) + 1
@@ -76,7 +76,7 @@ def main(replay_file, csv_file, npz_file):
     for label, row in rows.items():
         if len(arrays[label + "/step"]) != row + 1:
             fail(f"{npz_file}: {label} has more rows than the recording")
-    if unknown := set(arrays.files) - used:
+    if unknown := set(arrays) - used:
         fail(f"{npz_file}: unknown arrays {sorted(unknown)}")
     if left := [key for key, values in fields.items() if values]:
         fail(f"{csv_file}: unknown values {left[:5]}")

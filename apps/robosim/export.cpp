@@ -153,6 +153,15 @@ std::vector<fs::path> filesOf(const fs::path& out) {
   return {yaml, picture};
 }
 
+/// Rejects files that replace an input or cannot be created, in this order, because the latter check creates files.
+/// @throws ConfigError
+void checkOutputs(const ExportArguments& arguments, const std::vector<fs::path>& inputs) {
+  for (const auto& out : arguments.outs) refuseOverwriting(inputs, filesOf(out));
+  for (const auto& out : arguments.outs) {
+    for (const auto& file : filesOf(out)) checkWritable(file);
+  }
+}
+
 void check(const ExportArguments& arguments) {
   if (!arguments.heights_m.empty() && arguments.heights_m[0] >= arguments.heights_m[1]) {
     throw ConfigError("--heights " + toText(arguments.heights_m[0]) + " " + toText(arguments.heights_m[1]) +
@@ -165,7 +174,6 @@ void check(const ExportArguments& arguments) {
   std::vector<std::pair<std::string, fs::path>> all{{"WORLD", arguments.world}};
   for (const auto& [file, out] : outs) {
     all.emplace_back(file == out ? "OUT" : "companion file of " + out, file);
-    checkWritable(file);
   }
   refuseSameFile(all);
 }
@@ -191,23 +199,22 @@ std::vector<TableFile> tablesOf(const ExportArguments& arguments) {
   return tables;
 }
 
-void exportTables(const std::string& rawlog, const std::vector<TableFile>& tables) {
-  for (const auto& table : tables) refuseOverwriting({rawlog}, {table.file});
+void exportTables(const ExportArguments& arguments, const std::vector<TableFile>& tables) {
+  checkOutputs(arguments, {arguments.world});
   const Interrupt interrupt;
-  exportRecording(rawlog, tables, &interrupt);
+  exportRecording(arguments.world, tables, &interrupt);
   for (const auto& table : tables) printSize(table.file, fs::file_size(table.file));
 }
 
 void exportFiles(const ExportArguments& arguments) {
   const auto tables = tablesOf(arguments);
   check(arguments);
-  if (!tables.empty()) return exportTables(arguments.world, tables);
+  if (!tables.empty()) return exportTables(arguments, tables);
   std::optional<Progress> shown(std::in_place);
   Progress& progress = *shown;
   progress.show("reading " + arguments.world + " …");
   Source source(arguments, progress);
-  const auto inputs = inputFilesOf(arguments.world, source.loaded().world);
-  for (const auto& out : arguments.outs) refuseOverwriting(inputs, filesOf(out));
+  checkOutputs(arguments, inputFilesOf(arguments.world, source.loaded().world));
   Files files;
   for (const auto& out : arguments.outs) {
     progress.show("creating " + out + " …");

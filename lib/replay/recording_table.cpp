@@ -86,7 +86,7 @@ void RecordingTable::set(RecordedColumn& column, std::size_t row, ColumnValue va
   column.kind = common(column.kind, std::visit(KindOf(), value));
   if (auto* text = std::get_if<std::string>(&value)) {
     const std::size_t added = row + 1 - std::min(row, column.texts.size());
-    count((text->size() + added * sizeof *text) / sizeof(double));
+    count((text->size() + added * sizeof(std::string)) / sizeof(double));
     column.texts.resize(row);
     column.texts.push_back(std::move(*text));
     return;

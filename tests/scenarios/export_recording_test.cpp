@@ -47,8 +47,8 @@ TEST(ExportRecording, WritesTheReplayedValuesForPython) {
 TEST(ExportRecording, AcceptsRecordingsOfOtherPrograms) {
   const TemporaryDirectory folder;
   writeForeignRawlog(folder / "foreign.rawlog");
-  // 50 times odometry (x, y, heading, and two speeds that are not measured), and a scan of 181 ranges.
-  EXPECT_EQ(exportAndCompare(folder / "foreign.rawlog"), 50 * (5 + 181));
+  // 50 times odometry (x, y, heading; its speeds are not measured), and a scan of 181 ranges.
+  EXPECT_EQ(exportAndCompare(folder / "foreign.rawlog"), 50 * (3 + 181));
 }
 
 TEST(ExportRecording, WritesTheSameBytesEachTime) {
@@ -67,13 +67,15 @@ TEST(ExportRecording, ReportsErrorsAndLeavesFilesUnchanged) {
   const auto rawlog = folder / "run.csv";  // an unusual name of a rawlog
   fs::copy_file(ROBOSIM_SOURCE_DIR "/rawlogs/driven.rawlog", rawlog);
   fs::create_hard_link(rawlog, folder / "hard.npz");
+  fs::create_hard_link(rawlog, folder / "b.csv.part");  // the temporary name of an output
   const std::string before = textOf(rawlog);
   const auto out = [&](const char* name) { return " " + quoted(folder / name); };
   const struct {
     std::string arguments, complaint;
   } cases[] = {
       {quoted(rawlog) + out("run.csv"), "is both WORLD and OUT; name two files"},
-      {quoted(rawlog) + out("hard.npz"), "run.csv"},
+      {quoted(rawlog) + out("hard.npz"), "hard.npz: is both WORLD and OUT; name two files"},
+      {quoted(rawlog) + out("b.csv"), "b.csv"},
       {quoted(rawlog) + out("a.csv") + out("a.svg"), "a.csv is a table of a rawlog, other files are of a world"},
       {quoted(rawlog) + out("a.csv") + " --resolution 1", "--resolution and --heights are for maps of a world"},
       {quoted(rawlog) + out("none/a.npz"), "none/a.npz: cannot be created: the folder "},
@@ -85,7 +87,7 @@ TEST(ExportRecording, ReportsErrorsAndLeavesFilesUnchanged) {
     EXPECT_EQ(ended.exit_code, 1) << arguments;
     EXPECT_NE(ended.err.find(complaint), std::string::npos) << arguments << "\n" << ended.err;
   }
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 2);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 3);
   EXPECT_TRUE(textOf(rawlog) == before);
 }
 
@@ -112,6 +114,18 @@ TEST(RunTables, AreThoseOfTheRecordingOfTheRun) {
   EXPECT_TRUE(textOf(folder / "run.npz") == textOf(folder / "out.npz"));
   const Ended alone = runProgram("run worlds/opho2_1.xml --time 5 --csv " + file("alone.csv"));
   EXPECT_TRUE(textOf(folder / "alone.csv") == textOf(folder / "out.csv")) << alone.err;
+}
+
+TEST(RunTables, CoverTheStepsBeforeAnInterrupt) {
+  const auto folder = emptyFolder();
+  // At real time the run would take half an hour. It is interrupted after its recording has been opened.
+  StartedProgram run({"run", "worlds/small_maze.xml", "--speed", "1", "--controller", "wander", "--csv",
+                      (folder / "out.csv").string(), "--npz", (folder / "out.npz").string(), "--record",
+                      (folder / "run.rawlog").string()});
+  run.waitForFile((folder / "run.rawlog.part").string());
+  run.interrupt();
+  EXPECT_EQ(run.wait().exit_code, 130);
+  EXPECT_GT(compareWithReplay(folder / "run.rawlog", folder), 0);
 }
 
 TEST(RunTables, AreRefusedInPlaceOfAnInput) {

@@ -93,6 +93,9 @@ TEST_F(Inputs, AreNotReplacedByTheUnfinishedOutput) {
   const fs::path output = folder_ / "run.rawlog";
   fs::create_hard_link(folder_ / "map.yaml", folder_ / "run.rawlog.part");
   expectRefusal("run " + quoted(folder_ / "world.xml") + " --time 1 --record " + quoted(output), output, "map.yaml");
+  const fs::path plan = folder_ / "plan.svg";
+  fs::create_hard_link(folder_ / "map.yaml", folder_ / "plan.svg.part");
+  expectRefusal("export " + quoted(folder_ / "world.xml") + " " + quoted(plan), plan, "map.yaml");
 }
 
 /// Runs the program with a limit of 4 KiB on the size of every file that it writes.
