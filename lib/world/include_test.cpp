@@ -33,7 +33,7 @@ World read(const std::string& content, const FileTexts& files, Lines& faults) {
   return world;
 }
 
-Lines faultsOf(const std::string& content, const FileTexts& files = {}) {
+Lines faultsWithFiles(const std::string& content, const FileTexts& files = {}) {
   Lines faults;
   read(content, files, faults);
   return faults;
@@ -54,10 +54,10 @@ TEST(Include, AddsTheObjectsOfTheFile) {
 
 TEST(Include, ReportsLinesOfTheIncludedFile) {
   EXPECT_EQ(
-      faultsOf("<include file='a.xml'/>", {{"a.xml", "<surface>\n<size/>\n</surface>"}}),
+      faultsWithFiles("<include file='a.xml'/>", {{"a.xml", "<surface>\n<size/>\n</surface>"}}),
       Lines{"worlds/a.xml:2: <size>: unknown tag in <surface>; accepted here are: include, map, object, scatter"});
-  const Lines taken = faultsOf(pillarNamed("A") + "<include file='a.xml'/>",
-                               {{"a.xml", "<surface>\n" + pillarNamed("A") + "</surface>"}});
+  const Lines taken = faultsWithFiles(pillarNamed("A") + "<include file='a.xml'/>",
+                                      {{"a.xml", "<surface>\n" + pillarNamed("A") + "</surface>"}});
   ASSERT_EQ(taken.size(), 1u);
   EXPECT_NE(taken[0].find("worlds/a.xml:2:"), std::string::npos) << taken[0];
   EXPECT_NE(taken[0].find("in line 1 of worlds/w.xml"), std::string::npos) << taken[0];
@@ -65,29 +65,29 @@ TEST(Include, ReportsLinesOfTheIncludedFile) {
 
 TEST(Include, RefusesFilesOutsideTheFolder) {
   for (const char* file : {"/etc/passwd.xml", "../a.xml", "parts/../../a.xml"}) {
-    const Lines faults = faultsOf("<include file='" + std::string(file) + "'/>");
+    const Lines faults = faultsWithFiles("<include file='" + std::string(file) + "'/>");
     ASSERT_EQ(faults.size(), 1u) << file;
     EXPECT_TRUE(faults[0].starts_with("worlds/w.xml:1: ")) << faults[0];
     EXPECT_NE(faults[0].find("only files in the world's folder, or below it, are included"), std::string::npos);
   }
-  EXPECT_NE(faultsOf("<include file='map.png'/>").at(0).find("must end in .xml"), std::string::npos);
+  EXPECT_NE(faultsWithFiles("<include file='map.png'/>").at(0).find("must end in .xml"), std::string::npos);
 }
 
 TEST(Include, RefusesCyclesAndASecondInclude) {
   const FileTexts cycle{{"a.xml", "<surface>\n<include file='b.xml'/></surface>"},
                         {"b.xml", "<surface>\n\n<include file='a.xml'/></surface>"}};
-  const Lines faults = faultsOf("<include file='a.xml'/>", cycle);
+  const Lines faults = faultsWithFiles("<include file='a.xml'/>", cycle);
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_TRUE(faults[0].starts_with("worlds/b.xml:3: ")) << faults[0];
   EXPECT_NE(faults[0].find("is included already, or includes itself"), std::string::npos) << faults[0];
   const FileTexts empty{{"a.xml", "<surface/>"}};
-  EXPECT_EQ(faultsOf("<include file='a.xml'/><include file='./a.xml'/>", empty).size(), 1u);
+  EXPECT_EQ(faultsWithFiles("<include file='a.xml'/><include file='./a.xml'/>", empty).size(), 1u);
 }
 
 TEST(Include, RefusesAMissingFileAndAnotherRoot) {
-  EXPECT_NE(faultsOf("<include file='a.xml'/>").at(0).find("worlds/a.xml: did not come with the world"),
+  EXPECT_NE(faultsWithFiles("<include file='a.xml'/>").at(0).find("worlds/a.xml: did not come with the world"),
             std::string::npos);
-  EXPECT_EQ(faultsOf("<include file='a.xml'/>", {{"a.xml", "<world/>"}}),
+  EXPECT_EQ(faultsWithFiles("<include file='a.xml'/>", {{"a.xml", "<world/>"}}),
             Lines{"worlds/a.xml:1: <world>: is not a part of a world; the first element of an included file is "
                   "<surface>"});
 }
@@ -135,21 +135,22 @@ TEST(ScatterElement, IsWrittenAsRead) {
 
 TEST(ScatterElement, ReportsFaults) {
   const std::string robot = "<robot model='scout' name='S'/>";
-  EXPECT_NE(faultsOf("<scatter count='1.5'>" + robot + "</scatter>").at(0).find("must be a whole number"),
+  EXPECT_NE(faultsWithFiles("<scatter count='1.5'>" + robot + "</scatter>").at(0).find("must be a whole number"),
             std::string::npos);
-  EXPECT_NE(faultsOf("<scatter count='2'/>").at(0).find("contains neither a <primitive> nor a <robot>"),
+  EXPECT_NE(faultsWithFiles("<scatter count='2'/>").at(0).find("contains neither a <primitive> nor a <robot>"),
             std::string::npos);
-  EXPECT_NE(faultsOf("<scatter count='200000'>" + robot +
-                     "</scatter>\n<scatter count='200000'><robot model='scout' "
-                     "name='T'/></scatter>")
+  EXPECT_NE(faultsWithFiles("<scatter count='200000'>" + robot +
+                            "</scatter>\n<scatter count='200000'><robot model='scout' "
+                            "name='T'/></scatter>")
                 .at(0)
                 .find("w.xml:2: <scatter count=\"200000\">: makes more than 250000 scattered"),
             std::string::npos);
-  const Lines taken = faultsOf(pillarNamed("S2") + "\n<scatter count='3'>" + robot + "</scatter>");
+  const Lines taken = faultsWithFiles(pillarNamed("S2") + "\n<scatter count='3'>" + robot + "</scatter>");
   EXPECT_EQ(taken, Lines{"worlds/w.xml:2: <scatter>: 'S2' is taken already, in line 1; scatter with another <name>"});
-  EXPECT_NE(faultsOf("<scatter count='2'><robot model='scout' name='S' x='1' y='2'/></scatter>").size(), 0u);
-  EXPECT_NE(faultsOf("<scatter count='2' xmin='3' xmax='2'>" + robot + "</scatter>").at(0).find("without extent"),
-            std::string::npos);
+  EXPECT_NE(faultsWithFiles("<scatter count='2'><robot model='scout' name='S' x='1' y='2'/></scatter>").size(), 0u);
+  EXPECT_NE(
+      faultsWithFiles("<scatter count='2' xmin='3' xmax='2'>" + robot + "</scatter>").at(0).find("without extent"),
+      std::string::npos);
 }
 
 }  // namespace
