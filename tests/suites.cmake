@@ -17,6 +17,11 @@ if(NOT CMAKE_SCRIPT_MODE_FILE)
   return()
 endif()
 
+cmake_policy(VERSION 3.25)
+# Suites that take longest start first, so that none runs alone at the end.
+set(long_suites Camera ChosenControllers ConsoleSessionProperty Control Faults InputFiles LostRobot Rawlogs Replay View ViewWindow
+    OfEveryController/Standstill InputFiles/WaitingForAPipe Worlds/Golden)
+
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE tests COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "(^|\n)[^ \n]+\\." suites "${tests}")  # tests are indented
 set(script "")
@@ -28,5 +33,8 @@ foreach(suite IN LISTS suites)
   endif()
   string(APPEND script
     "add_test([[${PREFIX}.${suite}]] [[${PROGRAM}]] [[--gtest_filter=${suite}.*]] --gtest_brief=1)\n")
+  if(suite IN_LIST long_suites)
+    string(APPEND script "set_tests_properties([[${PREFIX}.${suite}]] PROPERTIES COST 100)\n")
+  endif()
 endforeach()
 file(WRITE ${LIST} "${script}")
