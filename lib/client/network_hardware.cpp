@@ -19,10 +19,12 @@ namespace {
 /// One robot of the process. Buffers its command and messages until the next answer.
 class ProcessRobot final : public Hardware, public RefereeLink {
  public:
-  ProcessRobot(RobotInfo info, const std::unordered_set<std::string>& all_robots)
-      : info_(std::move(info)), all_robots_(all_robots), readings_(blankReadings(*info_.sensors)) {}
+  /// @param names of all robots in the world's order @param all_robots the same for lookup; both must outlive this
+  ProcessRobot(RobotInfo info, const std::vector<std::string>& names, const std::unordered_set<std::string>& all_robots)
+      : info_(std::move(info)), names_(names), all_robots_(all_robots), readings_(blankReadings(*info_.sensors)) {}
 
   const RobotInfo& info() const override { return info_; }
+  const std::vector<std::string>& robots() const override { return names_; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override {
     command_ = command;
@@ -83,6 +85,7 @@ class ProcessRobot final : public Hardware, public RefereeLink {
   }
 
   RobotInfo info_;
+  const std::vector<std::string>& names_;
   const std::unordered_set<std::string>& all_robots_;
   Readings readings_;
   Command command_;
@@ -127,7 +130,9 @@ struct NetworkHardware::Impl {
         stream(options, [this](auto... arguments) { return stub->AsyncDrive(arguments...); }) {
     welcome = join();
     all_robots.insert(welcome.all_robots.begin(), welcome.all_robots.end());
-    for (const auto& robot : welcome.robots) robots.push_back(std::make_unique<ProcessRobot>(robot.info, all_robots));
+    for (const auto& robot : welcome.robots) {
+      robots.push_back(std::make_unique<ProcessRobot>(robot.info, welcome.all_robots, all_robots));
+    }
     readFirstStep();
   }
 

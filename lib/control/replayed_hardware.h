@@ -10,9 +10,11 @@ namespace robosim {
 /// A robot of a recording: returns the recorded readings. Commands have no effect on them.
 class ReplayedHardware : public Hardware, public RefereeLink {
  public:
-  explicit ReplayedHardware(RobotInfo info) : info_(std::move(info)) {}
+  /// @param robots names of all robots of the recorded run, in the world's order; must outlive this
+  ReplayedHardware(RobotInfo info, const std::vector<std::string>& robots) : info_(std::move(info)), robots_(robots) {}
 
   const RobotInfo& info() const override { return info_; }
+  const std::vector<std::string>& robots() const override { return robots_; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
   void send(const std::string& to, const std::string& text) override { sent_.push_back({info_.name, to, text}); }
@@ -31,6 +33,7 @@ class ReplayedHardware : public Hardware, public RefereeLink {
 
  private:
   RobotInfo info_;
+  const std::vector<std::string>& robots_;
   Readings readings_;
   Command command_;
   std::vector<RobotMessage> sent_;

@@ -59,6 +59,12 @@ class Robot {
 
   /// @throws std::invalid_argument for an unknown receiver or too long a text.
   void send(const std::string& to, const std::string& text) { hardware_.send(to, text); }
+  /// Names of all robots of the run in the world's order, including this one.
+  const std::vector<std::string>& robots() const { return hardware_.robots(); }
+  /// Sends a message to every other robot, in the world's order. Each counts as one of the kMaxMessagesSent messages of
+  /// a step; those beyond are dropped and counted.
+  /// @throws std::invalid_argument for too long a text.
+  void broadcast(const std::string& text);
   /// Requests CheckWin, whether this robot is near enough to the gold; the next step's readings contain the result.
   /// Without effect for hardware without a referee.
   void checkWin() {

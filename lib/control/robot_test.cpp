@@ -92,6 +92,15 @@ TEST(Robot, SendsAndReceivesMessages) {
   EXPECT_EQ(robot.inbox()[0].text, "hi");
 }
 
+TEST(Robot, BroadcastsToEveryOtherRobotInTheWorldsOrder) {
+  FakeHardware hardware;
+  hardware.robot_names = {"b", "fake", "a"};
+  Robot robot(hardware);
+  EXPECT_EQ(robot.robots(), hardware.robot_names);
+  robot.broadcast("hi");
+  EXPECT_EQ(hardware.sent, (std::vector<RobotMessage>{{"fake", "b", "hi"}, {"fake", "a", "hi"}}));
+}
+
 TEST(Robot, RequestsCheckWinFromItsReferee) {
   FakeHardware hardware;
   Robot robot(hardware);
@@ -104,12 +113,14 @@ class BareHardware : public Hardware {
  public:
   BareHardware() { info_.sensors = std::make_shared<std::vector<SensorInfo>>(); }
   const RobotInfo& info() const override { return info_; }
+  const std::vector<std::string>& robots() const override { return robots_; }
   const Readings& readings() const override { return readings_; }
   void command(const Command&) override {}
   void send(const std::string&, const std::string&) override {}
 
  private:
   RobotInfo info_;
+  std::vector<std::string> robots_;
   Readings readings_;
 };
 

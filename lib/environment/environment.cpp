@@ -293,6 +293,8 @@ void Environment::restart(const State& start, std::uint64_t seed) { impl_->resta
 
 void Environment::setCommand(std::size_t robot, const Command& command) { impl_->setCommand(robot, command); }
 
+const std::vector<std::string>& Environment::robotNames() const { return impl_->message_router.names(); }
+
 void Environment::send(std::size_t from, const std::string& to, const std::string& text) {
   impl_->message_router.send(from, to, text, impl_->state.outboxes[from]);
 }

@@ -86,6 +86,8 @@ class Environment {
   /// Queues a message for the next step. Thread-safe like setCommand().
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
   void send(std::size_t from, const std::string& to, const std::string& text);
+  /// Names of all robots in the world's order.
+  const std::vector<std::string>& robotNames() const;
   /// Makes the next step decide whether a robot has won. Thread-safe like setCommand().
   void checkWin(std::size_t robot);
   /// Counts messages that a robot's process has not sent because of kMaxMessagesSent.

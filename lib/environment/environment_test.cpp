@@ -277,6 +277,7 @@ TEST(Environment, ProvidesARobotAsHardware) {
   LocalHardware a(*environment, 0);
   LocalHardware b(*environment, 1);
   EXPECT_EQ(b.info().name, "b");
+  EXPECT_EQ(b.robots(), (std::vector<std::string>{"a", "b"}));
   a.command({.speed_mps = 1});
   a.send("b", "hello");
   environment->step();

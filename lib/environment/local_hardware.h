@@ -1,4 +1,7 @@
 #pragma once
+#include <string>
+#include <vector>
+
 #include "environment/environment.h"
 #include "hardware/hardware.h"
 
@@ -10,6 +13,7 @@ class LocalHardware : public Hardware, public RefereeLink {
   LocalHardware(Environment& environment, std::size_t robot) : environment_(environment), robot_(robot) {}
 
   const RobotInfo& info() const override { return environment_.fleet().robots[robot_].info; }
+  const std::vector<std::string>& robots() const override { return environment_.robotNames(); }
   const Readings& readings() const override { return environment_.state().readings[robot_]; }
   void command(const Command& command) override { environment_.setCommand(robot_, command); }
   void send(const std::string& to, const std::string& text) override { environment_.send(robot_, to, text); }

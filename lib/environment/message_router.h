@@ -35,6 +35,9 @@ class MessageRouter {
   /// Replaces the seed of the loss of messages.
   void setSeed(std::uint64_t seed) { seed_ = seed; }
 
+  /// By robot.
+  const std::vector<std::string>& names() const { return names_; }
+
   /// Queues a message in the outbox of its sender `from`. May be called for different senders from different threads.
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
   void send(std::size_t from, const std::string& to, const std::string& text, Outbox& outbox) const;

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "hardware/command.h"
 #include "hardware/readings.h"
@@ -17,6 +18,8 @@ class Hardware {
   virtual ~Hardware() = default;
 
   virtual const RobotInfo& info() const = 0;
+  /// Names of all robots of the run in the world's order, including this one: the valid receivers of messages.
+  virtual const std::vector<std::string>& robots() const = 0;
   /// Measurements at the end of the last time step.
   virtual const Readings& readings() const = 0;
   /// Sets the command for the next time step. The last command before a step is used, and kept until the next one.

@@ -10,6 +10,7 @@ class RemoteControlRobot::ControllersView final : public Hardware {
   explicit ControllersView(Hardware& hardware) : hardware_(hardware) {}
 
   const RobotInfo& info() const override { return hardware_.info(); }
+  const std::vector<std::string>& robots() const override { return hardware_.robots(); }
   const Readings& readings() const override { return held_.empty() ? hardware_.readings() : readings_; }
   void command(const Command& command) override {
     command_ = command;

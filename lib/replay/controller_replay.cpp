@@ -25,8 +25,12 @@ double biggestDifference(const Command& a, const Command& b) {
 
 /// A controller running on the recording of one robot.
 struct Replayed {
-  Replayed(const RobotInfo& info, std::string name, std::unique_ptr<Controller> c)
-      : hardware(info), robot(hardware), controller_name(std::move(name)), controller(std::move(c)) {}
+  Replayed(const RobotInfo& info, const std::vector<std::string>& names, std::string controller_name_in,
+           std::unique_ptr<Controller> c)
+      : hardware(info, names),
+        robot(hardware),
+        controller_name(std::move(controller_name_in)),
+        controller(std::move(c)) {}
 
   ReplayedHardware hardware;
   Robot robot;
@@ -57,6 +61,8 @@ void replayToController(const ReplayArguments& arguments) {
     throw ConfigError(arguments.rawlog + ": its world is too large to be stored in it; --check WORLD repeats the run");
   }
   const LoadedWorld world = loadWorld(note.world, {});
+  std::vector<std::string> names;
+  for (const auto& robot : world.fleet.robots) names.push_back(robot.info.name);
   std::vector<RobotInfo> infos;
   std::vector<std::unique_ptr<Replayed>> robots;  // by robot of the world; null for robots not selected
   for (const auto& robot : world.fleet.robots) {
@@ -65,11 +71,11 @@ void replayToController(const ReplayArguments& arguments) {
     const std::string recorded = i < note.controllers.size() ? note.controllers[i] : "";
     const std::string name = arguments.controller == "recorded" ? recorded : arguments.controller;
     const bool is_selected = arguments.selects(robot.info.name, "") || arguments.robots.empty();
-    robots.push_back(
-        is_selected && !name.empty()
-            ? std::make_unique<Replayed>(
-                  robot.info, name, makeController(name, {note.seed, static_cast<std::uint32_t>(i)}, robot.info.name))
-            : nullptr);
+    robots.push_back(is_selected && !name.empty()
+                         ? std::make_unique<Replayed>(
+                               robot.info, names, name,
+                               makeController(name, {note.seed, static_cast<std::uint32_t>(i)}, robot.info.name))
+                         : nullptr);
   }
   if (std::all_of(robots.begin(), robots.end(), [](const auto& r) { return !r; })) {
     throw ConfigError(arguments.rawlog +

@@ -40,6 +40,7 @@ class FakeHardware : public Hardware, public RefereeLink {
   }
 
   const RobotInfo& info() const override { return info_; }
+  const std::vector<std::string>& robots() const override { return robot_names; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
   void send(const std::string& to, const std::string& text) override { sent.push_back({info_.name, to, text}); }
@@ -94,7 +95,8 @@ class FakeHardware : public Hardware, public RefereeLink {
   bool blocked = false;                      ///< the robot cannot move
   std::function<void(FakeHardware&)> sense;  ///< called at the end of each step
   std::vector<RobotMessage> sent;
-  int win_checks = 0;  ///< number of CheckWin requests
+  std::vector<std::string> robot_names{"fake"};  ///< of the run
+  int win_checks = 0;                            ///< number of CheckWin requests
 
   static constexpr double kRadius_m = 0.25;
 
