@@ -120,19 +120,39 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes) {
       ->type_name("NUMBER[,TYPE]");
 }
 
+namespace {
+
+/// Accepts what a function accepts that throws ConfigError.
+CLI::Validator acceptedBy(std::function<void(const std::string&)> check) {
+  return {[check = std::move(check)](const std::string& text) -> std::string {
+            try {
+              check(text);
+              return "";
+            } catch (const ConfigError& error) {
+              return error.what();
+            }
+          },
+          ""};
+}
+
+}  // namespace
+
 CLI::Option* addControllerOption(CLI::App& command, std::string& controller, const std::string& help,
                                  const std::string& also) {
-  const auto fault = [also](const std::string& choice) -> std::string {
-    try {
-      if (also.empty() || choice != also) checkController(choice);
-      return "";
-    } catch (const ConfigError& error) {
-      return error.what();
-    }
-  };
   return command.add_option("--controller", controller, help + ", as NAME or \"NAME PARAMETER=VALUE …\"")
-      ->check(CLI::Validator(fault, ""))
+      ->check(acceptedBy([also](const std::string& choice) {
+        if (also.empty() || choice != also) checkController(choice);
+      }))
       ->type_name("CONTROLLER");
+}
+
+CLI::Option* addObserverOption(CLI::App& command, std::vector<std::string>& observers, const std::string& help) {
+  return command
+      .add_option("--observer", observers,
+                  help + ", as NAME or \"NAME PARAMETER=VALUE …\"; repeatable; see robosim observers")
+      ->check(acceptedBy([](const std::string& choice) { checkObservers({choice}); }))
+      ->type_name("OBSERVER")
+      ->allow_extra_args(false);
 }
 
 void addReconnectTimeout(CLI::App& command, double& reconnect_timeout_s) {

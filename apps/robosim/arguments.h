@@ -37,6 +37,9 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes);
 CLI::Option* addControllerOption(CLI::App& command, std::string& controller, const std::string& help,
                                  const std::string& also = "");
 
+/// Adds `--observer`, repeatable, which accepts a ControllerChoice::text() of an observer.
+CLI::Option* addObserverOption(CLI::App& command, std::vector<std::string>& observers, const std::string& help);
+
 /// Adds `--reconnect-timeout SECONDS`: how long a client reconnects after its connection breaks.
 void addReconnectTimeout(CLI::App& command, double& reconnect_timeout_s);
 

@@ -1,4 +1,4 @@
-// robosim controllers and robosim sensors: what this program has, with all settings.
+// robosim controllers, sensors and observers: what this program has, with all settings.
 #include <iostream>
 #include <memory>
 #include <string>
@@ -12,6 +12,7 @@
 #include "base/xml_element.h"
 #include "maze/controllers.h"
 #include "robosim/subcommands.h"
+#include "run/observer.h"
 #include "sensors/registry.h"
 
 namespace robosim {
@@ -42,20 +43,36 @@ std::vector<Json> selected(const std::vector<Json>& entries, const std::vector<s
   return found;
 }
 
+Json parametersAsJson(const std::vector<Parameter>& declared) {
+  Json all = Json::array();
+  for (const auto& parameter : declared) {
+    all.push_back({{"name", parameter.name},
+                   {"default", parameter.default_value},
+                   {"min", parameter.min},
+                   {"max", parameter.max},
+                   {"unit", parameter.unit},
+                   {"help", parameter.help}});
+  }
+  return all;
+}
+
 std::vector<Json> controllersAsJson() {
   std::vector<Json> all;
   for (const auto& type : controllers().types()) {
-    Json parameters = Json::array(), needs = Json::array();
-    for (const auto& parameter : type.parameters) {
-      parameters.push_back({{"name", parameter.name},
-                            {"default", parameter.default_value},
-                            {"min", parameter.min},
-                            {"max", parameter.max},
-                            {"unit", parameter.unit},
-                            {"help", parameter.help}});
-    }
+    Json needs = Json::array();
     for (const SensorKind kind : type.needs) needs.push_back(nameOf(kind));
-    all.push_back({{"name", type.name}, {"help", type.help}, {"needs", needs}, {"parameters", parameters}});
+    all.push_back({{"name", type.name},
+                   {"help", type.help},
+                   {"needs", needs},
+                   {"parameters", parametersAsJson(type.parameters)}});
+  }
+  return all;
+}
+
+std::vector<Json> observersAsJson() {
+  std::vector<Json> all;
+  for (const auto& type : observers().types()) {
+    all.push_back({{"name", type.name}, {"help", type.help}, {"parameters", parametersAsJson(type.parameters)}});
   }
   return all;
 }
@@ -74,10 +91,11 @@ std::vector<Json> sensorsAsJson() {
 
 std::string numberText(const Json& number) { return toText(number.get<double>()); }
 
-void printControllers(const std::vector<Json>& entries) {
+/// Controllers, and observers, which need no sensors.
+void printWithParameters(const std::vector<Json>& entries) {
   for (const auto& entry : entries) {
     std::cout << entry["name"].get<std::string>() << ": " << entry["help"].get<std::string>() << '\n';
-    std::vector<std::string> needs = entry["needs"];
+    const std::vector<std::string> needs = entry.value("needs", std::vector<std::string>());
     if (!needs.empty()) std::cout << "  requires sensors of the kinds: " << listed(needs) << '\n';
     Rows rows;
     for (const auto& parameter : entry["parameters"]) {
@@ -124,9 +142,15 @@ void addList(CLI::App& program, const char* subcommand, const std::string& kind,
 }  // namespace
 
 void addControllers(CLI::App& program) {
-  addList(program, "controllers", "controller", controllersAsJson, printControllers,
+  addList(program, "controllers", "controller", controllersAsJson, printWithParameters,
           "In a world file:      <controller name=\"wall_follower\" distance_radii=\"2\"/>\n"
           "On the command line:  --controller \"wall_follower distance_radii=2\"");
+}
+
+void addObservers(CLI::App& program) {
+  addList(program, "observers", "observer", observersAsJson, printWithParameters,
+          "robosim run WORLD --observer \"coverage end_percent=90\"\n"
+          "robosim bench metrics WORLD --observer coverage --controller wander --controller wall_follower");
 }
 
 void addSensors(CLI::App& program) {

@@ -15,9 +15,9 @@ int robosimMain(int argc, char** argv, const Registry& registry) {
     std::cerr << "robosim: " << error.what() << '\n';
     return kBadInput;
   }
-  return executeRobosim(
-      {addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addBench, addPluginOptions},
-      argc, argv);
+  return executeRobosim({addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addObservers,
+                         addBench, addPluginOptions},
+                        argc, argv);
 }
 
 }  // namespace robosim

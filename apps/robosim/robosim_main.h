@@ -3,7 +3,8 @@
 
 namespace robosim {
 
-/// The program `robosim` with the subcommands run, replay, check, export, generate, controllers, sensors and bench, and
+/// The program `robosim` with the subcommands run, replay, check, export, generate, controllers, sensors, observers
+/// and bench, and
 /// with additional types: an alternative to a plugin.
 ///
 ///     int main(int argc, char** argv) {

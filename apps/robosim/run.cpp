@@ -62,7 +62,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
   Progress progress;
   const auto start = Clock::now();
   observe();
-  while (!run.gold().all_halted_s) {
+  while (!run.isOver()) {
     const SimTime now = run.environment().time();
     if (interrupt.isRequested()) return EndedBy::interrupt;
     if (arguments.timeIsUp(now)) return EndedBy::time_limit;
@@ -75,7 +75,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
       progress.show(progressText(run, std::chrono::duration<double>(Clock::now() - start).count()));
     }
   }
-  return EndedBy::all_halted;
+  return endedByItself(run);
 }
 
 /// @param window of --view; null: none

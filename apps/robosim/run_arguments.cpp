@@ -45,6 +45,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
       ->type_name("X|max")
       ->capture_default_str();
   addControllerOption(command, a.run.controller, "controller of all robots, instead of those in the world");
+  addObserverOption(command, a.run.observers, "watch the run with this observer: metrics, an end of its own, a log");
   command
       .add_option("--picture", a.picture, "draw the world from above, with the paths of all robots, to this PNG file")
       ->type_name("FILE")
@@ -54,6 +55,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
 
 void checkRunArguments(const RunArguments& a) {
   speedNumber(a.speed);
+  checkObservers(a.run.observers);
   warnOfPartialStep(a.time_s, a.run.environment.period_s);
   refuseSameFile({{"WORLD", a.world}, {"--record", a.record}, {"--picture", a.picture}});
 }

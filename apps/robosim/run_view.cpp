@@ -42,9 +42,7 @@ class LocalRunView final : public ViewSource {
     snapshot_ = snapshotOf(run_.environment());
     return true;
   }
-  bool isOver() const override {
-    return run_.gold().all_halted_s.has_value() || arguments_.timeIsUp(run_.environment().time());
-  }
+  bool isOver() const override { return run_.isOver() || arguments_.timeIsUp(run_.environment().time()); }
   std::string remark() const override { return isOver() ? "the run is over" : ""; }
 
   bool canPlay() const override { return !isOver(); }
@@ -93,8 +91,8 @@ EndedBy showRun(LocalRun& run, const RunArguments& arguments, double speed, cons
   };
   showWindow(view, make_panes, kSize, {});
   if (Interrupt::signal() != 0) return EndedBy::interrupt;
-  if (run.gold().all_halted_s) return EndedBy::all_halted;
-  return arguments.timeIsUp(run.environment().time()) ? EndedBy::time_limit : EndedBy::window_closed;
+  const bool has_ended = run.isOver() || arguments.timeIsUp(run.environment().time());
+  return has_ended ? endedByItself(run) : EndedBy::window_closed;
 }
 
 }  // namespace

@@ -45,7 +45,9 @@ inline constexpr std::array kSubcommands{
     Subcommand{"generate", "Generate a random world: maze, cave, office, open", "robosim-run"},
     Subcommand{"controllers", "List the controllers with their parameters", "robosim-run"},
     Subcommand{"sensors", "List the kinds of sensors with their settings", "robosim-run"},
-    Subcommand{"bench", "Measure success rates; speed is measured by robosim_bench", "robosim-run"},
+    Subcommand{"observers", "List the observers of runs with their parameters", "robosim-run"},
+    Subcommand{"bench", "Tabulate success rates and metrics of many runs; speed is measured by robosim_bench",
+               "robosim-run"},
 };
 
 /// `robosim run` with this option is in the executable of `robosim view`.
@@ -76,6 +78,7 @@ void addExport(CLI::App& program);
 void addGenerate(CLI::App& program);
 void addControllers(CLI::App& program);
 void addSensors(CLI::App& program);
+void addObservers(CLI::App& program);
 void addBench(CLI::App& program);
 ///@}
 

@@ -23,7 +23,7 @@ ControllerType drives() {
           "Drives ahead.",
           {},
           {{"speed_mps", 0.2, 0, 1, "m/s", "speed"}, {"laps", 3, 1, 10, "", "number of laps"}},
-          [](const ControllerSetup& setup, const ControllerParameters& parameters) -> std::unique_ptr<Controller> {
+          [](const ControllerSetup& setup, const ParameterValues& parameters) -> std::unique_ptr<Controller> {
             return std::make_unique<Drives>(setup, parameters["speed_mps"]);
           }};
 }

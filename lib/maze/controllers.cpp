@@ -17,14 +17,14 @@ ControllerRegistry own() {
        "Searches an unknown maze for gold, sends GOLD to its neighbour, and halts.",
        {SensorKind::odometry, SensorKind::heat},
        {{"heat_threshold_celsius", GoldFinderOptions{}.heat_threshold, 0, 1e6, "°C", "heat above this means gold"}},
-       [](const ControllerSetup& setup, const ControllerParameters& parameters) -> Made {
+       [](const ControllerSetup& setup, const ParameterValues& parameters) -> Made {
          return std::make_unique<GoldFinder>(setup, GoldFinderOptions{parameters["heat_threshold_celsius"]});
        }});
   registry.add({"wander",
                 "Drives about at random and avoids what is near.",
                 {},
                 {},
-                [](const ControllerSetup& setup, const ControllerParameters&) -> Made {
+                [](const ControllerSetup& setup, const ParameterValues&) -> Made {
                   return std::make_unique<Wander>(setup);
                 }});
   registry.add({"wall_follower",
@@ -32,10 +32,10 @@ ControllerRegistry own() {
                 {SensorKind::sonar},
                 {{"distance_radii", WallFollowerOptions{}.distance_radii, 0.5, 10, "robot radii",
                   "distance between the robot's edge and the wall"}},
-                [](const ControllerSetup& setup, const ControllerParameters& parameters) -> Made {
+                [](const ControllerSetup& setup, const ParameterValues& parameters) -> Made {
                   return std::make_unique<WallFollower>(setup, WallFollowerOptions{parameters["distance_radii"]});
                 }});
-  registry.add({"still", "Does nothing.", {}, {}, [](const ControllerSetup&, const ControllerParameters&) -> Made {
+  registry.add({"still", "Does nothing.", {}, {}, [](const ControllerSetup&, const ParameterValues&) -> Made {
                   return std::make_unique<Still>();
                 }});
   return registry;

@@ -104,7 +104,8 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     : options_(options),
       images_(imagesFor(world)),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
-      workers_(options.environment.threads) {
+      workers_(options.environment.threads),
+      observers_(options.observers, options.environment.seed, options.observers_log) {
   const auto& robots = environment_.fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!elsewhere.empty() && elsewhere[i]) continue;
@@ -113,6 +114,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     local_robots_.push_back(
         std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
   }
+  observers_.observe(environment_);
 }
 
 LocalRun::LocalRun(ForkOf original)
@@ -121,7 +123,8 @@ LocalRun::LocalRun(ForkOf original)
       environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
                    images_.get()),
       workers_(options_.environment.threads),
-      gold_(original.run.gold_) {
+      gold_(original.run.gold_),
+      observers_({}, options_.environment.seed) {
   const auto& robots = environment_.fleet().robots;
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const auto& local = original.run.local_robots_;
@@ -185,6 +188,7 @@ void LocalRun::noteOutcome() {
     gold_.won_s = state.time.seconds();
   }
   if (!gold_.all_halted_s && environment_.allHalted()) gold_.all_halted_s = state.time.seconds();
+  observers_.observe(environment_);
 }
 
 }  // namespace robosim

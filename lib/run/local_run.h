@@ -11,6 +11,7 @@
 #include "environment/local_hardware.h"
 #include "robots/fleet.h"
 #include "robots/world_source.h"
+#include "run/run_observers.h"
 
 namespace robosim {
 
@@ -18,6 +19,8 @@ struct RunOptions {
   EnvironmentOptions environment;
   /// For all robots, as ControllerChoice::text(); empty: as given in the world, else kDefaultController.
   std::string controller;
+  std::vector<std::string> observers = {};  ///< as ControllerChoice::text()
+  bool observers_log = true;                ///< whether ObserverSetup::log prints
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
@@ -60,26 +63,31 @@ struct GoldOutcome {
 class LocalRun {
  public:
   /// @param elsewhere by robot: whether it is driven by another process; empty for none
-  /// @throws ConfigError for an unknown controller, and for cameras on a machine without OpenGL.
+  /// @throws ConfigError for an unknown controller or observer, and for cameras on a machine without OpenGL.
+  /// @throws ControllerError, ObserverError for an exception of one's constructor
   LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 
-  /// A run that continues from the present state, independently of this one.
+  /// A run that continues from the present state, independently of this one and without observers.
   /// @throws ConfigError naming the robot and its controller when the controller has no Controller::clone(), or when
   /// another process drives the robot
   std::unique_ptr<LocalRun> fork() const;
 
   /// Runs every controller, then takes one time step.
   /// @throws ControllerError for an exception of a controller
+  /// @throws ObserverError for an exception of an observer, after the step
   void step();
   /// @name Phases of step(), for callers that step the environment themselves
   ///@{
   void decide();
-  void noteOutcome();  ///< after the step
+  void noteOutcome();  ///< after the step; also calls the observers
   ///@}
 
   Environment& environment() { return environment_; }
   const Environment& environment() const { return environment_; }
   const GoldOutcome& gold() const { return gold_; }
+  const RunObservers& observers() const { return observers_; }
+  /// Whether the run has reached an end of its own: all robots have halted, or an observer ends it.
+  bool isOver() const { return gold_.all_halted_s.has_value() || !observers_.endReason().empty(); }
   /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
   /// random number. Assumed for robots driven by another process.
   bool dependsOnSeed() const;
@@ -106,6 +114,7 @@ class LocalRun {
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware
   GoldOutcome gold_;
+  RunObservers observers_;
 };
 
 }  // namespace robosim

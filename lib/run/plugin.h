@@ -7,8 +7,8 @@
 
 namespace robosim {
 
-/// What a plugin's function robosimPlugin() returns. A plugin is a shared library with additional controllers and
-/// sensors:
+/// What a plugin's function robosimPlugin() returns. A plugin is a shared library with additional controllers,
+/// sensors and observers:
 ///
 ///     ROBOSIM_PLUGIN(registry) {
 ///       registry.controllers.add({"flocking", "Flies in a flock.", …});

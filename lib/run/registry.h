@@ -3,16 +3,18 @@
 
 #include "control/controller_registry.h"
 #include "recording/codec.h"
+#include "run/observer.h"
 #include "sensors/registry.h"
 
 namespace robosim {
 
-/// Controllers and sensors that are not part of RoboSim.
+/// Controllers, sensors and observers that are not part of RoboSim.
 struct Registry {
   ControllerRegistry controllers;
   std::vector<SensorType> sensors;
   /// How measurements of the kind SensorKind::values are recorded, if not as CObservationRawDAQ; each must stay valid.
   std::vector<const Codec*> codecs = {};
+  ObserverRegistry observers = {};
 };
 
 /// Adds all of a registry to this program, before its first run, or nothing.

@@ -1,5 +1,6 @@
 #include "run/run_summary.h"
 
+#include <cmath>
 #include <numeric>
 
 #include <nlohmann/json.hpp>
@@ -25,6 +26,8 @@ const char* nameOf(EndedBy why) {
       return "robot_lost";
     case EndedBy::window_closed:
       return "window_closed";
+    case EndedBy::observer:
+      return "observer";
   }
   return "";
 }
@@ -37,7 +40,8 @@ nlohmann::ordered_json orNull(const std::optional<T>& value) {
 constexpr const char* kSeedHadNoEffect =
     " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
 
-std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
+/// @param observer_end RunObservers::endReason()
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::string& observer_end) {
   std::string text = "no gold found";
   if (gold.won_by) {
     text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
@@ -50,10 +54,16 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why) {
   if (why == EndedBy::control_panel) text += "; ended from a control panel";
   if (why == EndedBy::robot_lost) text += "; ended because a robot was lost";
   if (why == EndedBy::window_closed) text += "; ended by closing the window";
+  if (why == EndedBy::observer) text += "; ended by " + observer_end;
   return text;
 }
 
 }  // namespace
+
+EndedBy endedByItself(const LocalRun& run) {
+  if (run.gold().all_halted_s) return EndedBy::all_halted;
+  return run.isOver() ? EndedBy::observer : EndedBy::time_limit;
+}
 
 RunSummary RunSummary::of(const LocalRun& run) {
   const Environment& environment = run.environment();
@@ -69,10 +79,16 @@ RunSummary RunSummary::of(const LocalRun& run) {
   summary.stalls = state.stalls;
   summary.messages = state.messages_delivered;
   summary.messages_dropped = state.messages_dropped;
+  summary.metrics = run.observers().metrics();
+  summary.observer_end = run.observers().endReason();
   return summary;
 }
 
 nlohmann::ordered_json RunSummary::json() const {
+  auto by_name = nlohmann::ordered_json::object();
+  for (const auto& metric : metrics) {
+    by_name[metric.name] = std::isfinite(metric.value) ? nlohmann::ordered_json(metric.value) : nullptr;
+  }
   return {{"world", world},
           {"seed", seed},
           {"depends_on_seed", depends_on_seed},
@@ -94,6 +110,7 @@ nlohmann::ordered_json RunSummary::json() const {
           {"messages", messages},
           {"messages_dropped", messages_dropped},
           {"late", orNull(late)},
+          {"metrics", by_name},
           {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
 }
 
@@ -109,7 +126,10 @@ std::string RunSummary::text() const {
   if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
   rows.push_back({"seed", std::to_string(seed) + (depends_on_seed ? "" : kSeedHadNoEffect)});
   rows.push_back({"digest", digest});
-  std::string sentence = sentenceOn(gold, ended_by);
+  for (const auto& metric : metrics) {
+    rows.push_back({metric.name, std::isfinite(metric.value) ? fixed(metric.value, 3) : "none"});
+  }
+  std::string sentence = sentenceOn(gold, ended_by, observer_end);
   if (report) {
     addClients(*report, rows);
     if (!report->hasAllRobots()) sentence += "; INCOMPLETE: steps were taken without some robots, or messages lost";

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -9,7 +10,10 @@
 namespace robosim {
 
 /// Reason why a run ended.
-enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_lost, window_closed };
+enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_lost, window_closed, observer };
+
+/// Why a run ended that neither a person nor a lost robot has ended: all robots halted, an observer, or the time limit.
+EndedBy endedByItself(const LocalRun& run);
 
 /// Result of a run, printed at its end.
 struct RunSummary {
@@ -29,6 +33,8 @@ struct RunSummary {
   std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits on messages in a step
   std::optional<std::uint64_t> late;   ///< robot-steps whose command came too late; nullopt for a lockstep run
   std::optional<RunReport> report;     ///< of a served run
+  std::vector<Metric> metrics;         ///< of the observers
+  std::string observer_end;            ///< RunObservers::endReason()
 
   /// Fills the fields derived from the run; the caller sets the rest.
   static RunSummary of(const LocalRun& run);

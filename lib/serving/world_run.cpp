@@ -85,7 +85,7 @@ void WorldRun::stepped(std::size_t late) {
 }
 
 bool WorldRun::isOver() const {
-  return run_->run.gold().all_halted_s.has_value() || options_.of_run.timeIsUp(run_->run.environment().time());
+  return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time());
 }
 
 void WorldRun::ends(const RunReport& report) {
@@ -110,7 +110,7 @@ void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
 }
 
 EndedBy WorldRun::endedByItself() const {
-  return run_->run.gold().all_halted_s.has_value() ? EndedBy::all_halted : EndedBy::time_limit;
+  return robosim::endedByItself(run_->run);
 }
 
 void WorldRun::finish(EndedBy ended_by) { run_->finish(ended_by); }

@@ -74,7 +74,25 @@ TEST(BenchGold, PrintsTheSameTableForAnyNumberOfThreads) {
   EXPECT_EQ(one.out, two.out);
   EXPECT_NE(one.out.find("100.0 %"), std::string::npos) << one.out;
   EXPECT_EQ(textOf(folder / "1.csv"), textOf(folder / "2.csv"));
-  EXPECT_EQ(textOf(folder / "1.csv").substr(0, 16), "world,seed,gold_");
+  EXPECT_EQ(textOf(folder / "1.csv").substr(0, 22), "world,controller,seed,");
+}
+
+TEST(BenchMetrics, TabulatesMetricsOverControllersAndParameterValues) {
+  const auto folder = emptyFolder();
+  const Ended bench = runProgram(
+      "bench metrics worlds/small_maze.xml --runs 2 --time 5 --observer coverage --controller still --controller "
+      "'wall_follower distance_radii=1,2' --csv '" +
+      (folder / "runs.csv").string() + "'");
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  for (const std::string text :
+       {"coverage.covered_percent", " still ", "wall_follower distance_radii=1 ", "wall_follower distance_radii=2 "}) {
+    EXPECT_NE(bench.out.find(text), std::string::npos) << text << "\n" << bench.out;
+  }
+  const std::string csv = textOf(folder / "runs.csv");
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2);
+  EXPECT_EQ(bench.out.find("found"), std::string::npos);  // which bench gold has
+
+  EXPECT_EQ(runProgram("bench metrics worlds/small_maze.xml --runs 1").exit_code, 1);  // without an observer
 }
 
 TEST(BenchGold, PrintsTheCompletedRunsWhenInterrupted) {
@@ -88,7 +106,7 @@ TEST(BenchGold, PrintsTheCompletedRunsWhenInterrupted) {
   EXPECT_NE(ended.err.find("interrupted; the figures are of the "), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find(" of 1000000 runs that were completed"), std::string::npos) << ended.err;
   EXPECT_EQ(ended.out.substr(0, 6), "world ");
-  EXPECT_EQ(textOf(folder / "runs.csv").substr(0, 16), "world,seed,gold_");
+  EXPECT_EQ(textOf(folder / "runs.csv").substr(0, 22), "world,controller,seed,");
   EXPECT_FALSE(std::filesystem::exists(folder / "runs.csv.part"));
 }
 

@@ -82,8 +82,9 @@ TEST_F(Sdk, PluginsWorkInEverySubcommandThatRunsControllers) {
   const std::string flocking = plugin("flocking");
   for (const std::string arguments :
        {"check flock.xml", "run flock.xml --time 5 --record flock.rawlog", "replay flock.rawlog --check flock.xml",
-        "replay flock.rawlog --controller recorded", "bench gold flock.xml --runs 1 --time 2", "controllers flocking",
-        "sensors anemometer"}) {
+        "replay flock.rawlog --controller recorded", "bench gold flock.xml --runs 1 --time 2",
+        "bench metrics flock.xml --runs 1 --time 2 --observer alignment", "controllers flocking", "sensors anemometer",
+        "observers alignment"}) {
     const Ended ended = run(arguments + " " + flocking);
     EXPECT_EQ(ended.exit_code, 0) << arguments << ended.out << ended.err;
   }
@@ -112,7 +113,7 @@ TEST_F(Sdk, PluginsAreLoadedFromTheFoldersOfThePath) {
   const Ended ended = runCommand("cd " + quoted(project()) + " && ROBOSIM_PLUGIN_PATH=plugins " +
                                  quoted(*folder_ / "prefix" / "bin" / "robosim") + " check flock.xml");
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
-  expectRefusal("", "flocking");  // no world makes the program load code
+  expectRefusal("", "anemometer");  // no world makes the program load code
 }
 
 TEST_F(Sdk, RefusesWhatIsNoPluginOfThisVersion) {
@@ -131,6 +132,15 @@ TEST_F(Sdk, AnExceptionOfAControllerNamesItAndItsRobotAndKeepsTheRecording) {
       << ended.err;
   const Ended recorded = run("replay part.rawlog " + plugin("flocking"));
   EXPECT_EQ(recorded.exit_code, 0) << recorded.err;
+}
+
+TEST_F(Sdk, AnObserverEndsARunAndReportsItsMetrics) {
+  const Ended ended = run("run flock.xml --time 100 --json --observer 'alignment end_percent=1' " + plugin("flocking"));
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto summary = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(summary["ended_by"], "observer");
+  EXPECT_LT(summary["steps"], 1000);
+  EXPECT_GE(summary["metrics"]["alignment.end_alignment_percent"], 1);
 }
 
 TEST_F(Sdk, ARobotProcessRunsAPluginsController) {

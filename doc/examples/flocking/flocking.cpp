@@ -52,15 +52,15 @@ class Flocking : public robosim::Controller {
 }  // namespace
 
 robosim::ControllerType flockingType() {
-  return {"flocking",
-          "Drives with the wind, close to other robots but not into them.",
-          {robosim::SensorKind::sonar},
-          {{"cohesion", 0.1, 0, 10, "", "strength of turning towards what is farther than half the radius"},
-           {"separation", 0.3, 0, 10, "", "strength of turning away from what is nearer than that"},
-           {"radius_m", 1.5, 0.1, 10, "m", "range within which objects matter"},
-           {"speed_mps", 0.4, 0, 2, "m/s", "speed without an object ahead"}},
-          [](const robosim::ControllerSetup&,
-             const robosim::ControllerParameters& p) -> std::unique_ptr<robosim::Controller> {
-            return std::make_unique<Flocking>(Options{p["cohesion"], p["separation"], p["radius_m"], p["speed_mps"]});
-          }};
+  return {
+      "flocking",
+      "Drives with the wind, close to other robots but not into them.",
+      {robosim::SensorKind::sonar},
+      {{"cohesion", 0.1, 0, 10, "", "strength of turning towards what is farther than half the radius"},
+       {"separation", 0.3, 0, 10, "", "strength of turning away from what is nearer than that"},
+       {"radius_m", 1.5, 0.1, 10, "m", "range within which objects matter"},
+       {"speed_mps", 0.4, 0, 2, "m/s", "speed without an object ahead"}},
+      [](const robosim::ControllerSetup&, const robosim::ParameterValues& p) -> std::unique_ptr<robosim::Controller> {
+        return std::make_unique<Flocking>(Options{p["cohesion"], p["separation"], p["radius_m"], p["speed_mps"]});
+      }};
 }

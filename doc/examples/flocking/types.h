@@ -9,8 +9,12 @@ robosim::ControllerType flockingType();
 robosim::SensorType anemometerType();
 const robosim::Codec& windCodec();
 
+/// The observer `alignment`: how well the robots' headings agree.
+robosim::ObserverType alignmentType();
+
 inline void addTypes(robosim::Registry& registry) {
   registry.controllers.add(flockingType());
   registry.sensors.push_back(anemometerType());
   registry.codecs.push_back(&windCodec());
+  registry.observers.add(alignmentType());
 }

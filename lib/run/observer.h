@@ -1,0 +1,62 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "control/parameters.h"
+#include "control/type_registry.h"
+#include "environment/environment.h"
+
+namespace robosim {
+
+/// A figure of a whole run.
+struct Metric {
+  std::string name;  ///< with its unit as suffix, like a parameter: "covered_percent"
+  double value = 0;  ///< NaN when the run has none, such as the time of an event that did not happen
+};
+
+/// Watches a run from outside the robots, with access to the true state of the world: computes metrics, ends the run
+/// on a condition of its own, and logs. It cannot change the run.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Called before the first step (step 0) and after each step.
+  virtual void observe(const Environment& environment) = 0;
+  /// Why the run should end now, as a phrase: "90 % covered"; empty to continue. Called after each observe().
+  virtual std::string endReason() const { return {}; }
+  /// At the end of the run; always the same names in the same order.
+  virtual std::vector<Metric> metrics() const { return {}; }
+};
+
+/// What an observer may use.
+struct ObserverSetup {
+  std::uint64_t seed = 1;  ///< of the run
+  /// Prints a line with the simulated time and the observer's name to standard error.
+  std::function<void(const std::string& line)> log;
+};
+
+/// A kind of observer.
+struct ObserverType {
+  using Setup = ObserverSetup;
+  static constexpr const char* kKind = "observer";
+
+  std::string name;  ///< on the command line; of letters, digits and '_'
+  std::string help;  ///< one sentence
+  std::vector<Parameter> parameters;
+  std::function<std::unique_ptr<Observer>(const ObserverSetup&, const ParameterValues&)> make;
+};
+
+using ObserverRegistry = TypeRegistry<ObserverType>;
+
+/// The observers of this program.
+ObserverRegistry& observers();
+
+/// An exception of an observer.
+class ObserverError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace robosim

@@ -1,0 +1,41 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "run/observer.h"
+
+namespace robosim {
+
+/// Checks names and parameters of observers, given as ControllerChoice::text(). @throws ConfigError
+void checkObservers(const std::vector<std::string>& choices);
+
+/// The observers of one run.
+class RunObservers {
+ public:
+  /// @param choices as ControllerChoice::text(), each at most once
+  /// @param is_logging whether ObserverSetup::log prints
+  /// @throws ConfigError for an unknown observer or an invalid parameter
+  /// @throws ObserverError for an exception of an observer's constructor
+  RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging = true);
+  RunObservers(const RunObservers&) = delete;
+  RunObservers& operator=(const RunObservers&) = delete;
+
+  /// Lets all observe the present state. @throws ObserverError
+  void observe(const Environment& environment);
+  /// "OBSERVER: reason" of the first observer that ends the run; empty to continue.
+  const std::string& endReason() const { return end_reason_; }
+  /// The metrics of all, "OBSERVER.METRIC". @throws ObserverError
+  std::vector<Metric> metrics() const;
+
+ private:
+  struct Named {
+    std::string choice, name;
+    std::unique_ptr<Observer> observer;
+  };
+  double now_s_ = 0;  ///< simulated time of the present observation, for log lines
+  std::string end_reason_;
+  std::vector<Named> observers_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,101 @@
+#include "run/run_observers.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include "run/local_run.h"
+#include "run/run_summary.h"
+
+namespace robosim {
+namespace {
+
+/// Counts its calls, ends after a number of steps, and throws at a step.
+class Counting : public Observer {
+ public:
+  Counting(double end_step, double throw_step) : end_step_(end_step), throw_step_(throw_step) {}
+  void observe(const Environment& environment) override {
+    ++calls_;
+    step_ = static_cast<double>(environment.time().step);
+    if (step_ == throw_step_) throw std::runtime_error("cannot count");
+  }
+  std::string endReason() const override { return step_ >= end_step_ ? "counted enough" : ""; }
+  std::vector<Metric> metrics() const override { return {{"calls", calls_}}; }
+
+ private:
+  double end_step_, throw_step_;
+  double calls_ = 0, step_ = 0;
+};
+
+/// Adds the observer `counting` to this program, once.
+void addCounting() {
+  const auto names = observers().names();
+  if (std::find(names.begin(), names.end(), "counting") != names.end()) return;
+  observers().add(
+      {"counting",
+       "Counts.",
+       {{"end_step", 1e6, 0, 1e6, "", "last step"}, {"throw_step", -1, -1, 1e6, "", "step of an exception"}},
+       [](const ObserverSetup&, const ParameterValues& p) -> std::unique_ptr<Observer> {
+         return std::make_unique<Counting>(p["end_step"], p["throw_step"]);
+       }});
+}
+
+/// A run of the small maze in which no robot moves.
+LocalRun runWith(const std::vector<std::string>& chosen) {
+  addCounting();
+  RunOptions options;
+  options.controller = "still";
+  options.observers = chosen;
+  return LocalRun(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", "still"), options);
+}
+
+TEST(RunObservers, SeeTheStartAndEachStep) {
+  addCounting();
+  LocalRun run = runWith({"counting"});
+  for (int i = 0; i < 3; ++i) run.step();
+  const auto metrics = run.observers().metrics();
+  ASSERT_EQ(metrics.size(), 1U);
+  EXPECT_EQ(metrics[0].name, "counting.calls");
+  EXPECT_EQ(metrics[0].value, 4);
+}
+
+TEST(RunObservers, EndARunWithAReasonInItsSummary) {
+  LocalRun run = runWith({"counting end_step=2"});
+  while (!run.isOver()) run.step();
+  EXPECT_EQ(run.environment().time().step, 2U);
+  EXPECT_EQ(endedByItself(run), EndedBy::observer);
+  RunSummary summary = RunSummary::of(run);
+  summary.ended_by = endedByItself(run);
+  EXPECT_NE(summary.text().find("ended by counting: counted enough"), std::string::npos) << summary.text();
+  EXPECT_NE(summary.text().find("counting.calls"), std::string::npos);
+}
+
+TEST(RunObservers, DoNotChangeARun) {
+  LocalRun watched = runWith({"counting", "coverage"}), alone = runWith({});
+  for (int i = 0; i < 5; ++i) {
+    watched.step();
+    alone.step();
+  }
+  EXPECT_EQ(watched.environment().digest(), alone.environment().digest());
+}
+
+TEST(RunObservers, AreNamedInTheirExceptions) {
+  LocalRun run = runWith({"counting throw_step=1"});
+  try {
+    run.step();
+    FAIL() << "no exception";
+  } catch (const ObserverError& error) {
+    EXPECT_STREQ(error.what(), "observer 'counting throw_step=1' threw an exception: cannot count");
+  }
+}
+
+TEST(RunObservers, AreRejectedWhenUnknownOrGivenTwice) {
+  addCounting();
+  EXPECT_THROW(checkObservers({"nothing"}), ConfigError);
+  EXPECT_THROW(checkObservers({"coverage cell_m=0"}), ConfigError);
+  EXPECT_THROW(checkObservers({"counting", "counting end_step=1"}), ConfigError);
+  EXPECT_NO_THROW(checkObservers({"counting", "coverage"}));
+}
+
+}  // namespace
+}  // namespace robosim
