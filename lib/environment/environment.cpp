@@ -82,7 +82,6 @@ void requireSameShape(const State& saved, const State& own) {
 struct Environment::Impl {
   const std::shared_ptr<const Model> model;
   const Fleet& fleet;  ///< of the model
-  std::uint64_t seed;  ///< the model's until restart()
   ImageSource* images;
   ParallelExecutor workers;
   State state;
@@ -99,13 +98,12 @@ struct Environment::Impl {
   Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
       : model(std::move(the_model)),
         fleet(model->fleet),
-        seed(model->seed),
         images(the_images),
         workers(threads),
         state(std::move(the_state)),
         scene(stationarySolids(model->world), fleet.robots.size(), model->world.bounds),
         move_authorisation(moversOf(fleet), model->world.bounds),
-        message_router(namesOf(fleet), model->world.communication, model->seed),
+        message_router(namesOf(fleet), model->world.communication),
         referee(model->world),
         groups(groupsOf(fleet, model->period_s)),
         paths(fleet.robots.size()),
@@ -184,7 +182,7 @@ struct Environment::Impl {
                        .last_motion = state.last_motion,
                        .laser_pan_rad = state.laser_pan_rad,
                        .time = state.time,
-                       .seed = seed,
+                       .seed = state.seed,
                        .images = images,
                        .surface = model->world.bounds};
     for (const auto& group : groups) {
@@ -209,7 +207,8 @@ struct Environment::Impl {
 
   /// The phase after all sensing.
   void finish() {
-    const auto delivery = message_router.deliver(state.time, state.world_from_robot, state.outboxes, state.readings);
+    const auto delivery =
+        message_router.deliver(state.seed, state.time, state.world_from_robot, state.outboxes, state.readings);
     state.messages_delivered += delivery.delivered;
     state.messages_dropped += delivery.dropped;
     sense(everyRobot(), SensorGroup::in_host_process);
@@ -264,10 +263,8 @@ struct Environment::Impl {
     finish();
   }
 
-  void restart(const State& start_state, std::uint64_t new_seed) {
+  void restart(const State& start_state) {
     restore(start_state);
-    seed = new_seed;
-    message_router.setSeed(new_seed);
     start();
   }
 };
@@ -289,7 +286,7 @@ Environment::~Environment() = default;
 const std::shared_ptr<const Model>& Environment::model() const { return impl_->model; }
 const State& Environment::state() const { return impl_->state; }
 void Environment::restore(const State& state) { impl_->restore(state); }
-void Environment::restart(const State& start, std::uint64_t seed) { impl_->restart(start, seed); }
+void Environment::restart(const State& start) { impl_->restart(start); }
 
 void Environment::setCommand(std::size_t robot, const Command& command) { impl_->setCommand(robot, command); }
 

@@ -74,11 +74,10 @@ class Environment {
   void restore(const State& state);
   /// Begins another run of the model between two steps, without building or allocating anything: restores a state
   /// before the first measurement, and updates the sensors once, as step 0. Equal to a new environment that starts at
-  /// the state's poses, except that noise and the loss of messages depend on `seed` instead of Model::seed. They do so
-  /// until the next restart(): a state saved in between continues with these random numbers only in this environment.
-  /// @param start initialState() of the model, with any poses at which the robots touch nothing
+  /// the state's poses with its seed.
+  /// @param start initialState() of the model, with any seed, and any poses at which the robots touch nothing
   /// @throws std::invalid_argument for a state of another world or time step
-  void restart(const State& start, std::uint64_t seed);
+  void restart(const State& start);
 
   /// Sets a robot's command; 0 replaces values that are not finite. May be called for different robots from different
   /// threads, between steps.

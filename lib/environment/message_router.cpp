@@ -10,8 +10,8 @@
 
 namespace robosim {
 
-MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication, std::uint64_t seed)
-    : names_(std::move(names)), communication_(communication), seed_(seed), limits_(names_.size()) {
+MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication)
+    : names_(std::move(names)), communication_(communication), limits_(names_.size()) {
   by_name_.resize(names_.size());
   std::iota(by_name_.begin(), by_name_.end(), 0U);
   std::sort(by_name_.begin(), by_name_.end(), [&](auto a, auto b) { return names_[a] < names_[b]; });
@@ -37,18 +37,19 @@ void MessageRouter::send(std::size_t from, const std::string& to, const std::str
   outbox.messages.push_back({*found, text});
 }
 
-bool MessageRouter::arrives(SimTime now, std::size_t from, std::size_t index, std::size_t to,
+bool MessageRouter::arrives(std::uint64_t seed, SimTime now, std::size_t from, std::size_t index, std::size_t to,
                             std::span<const mrpt::math::TPose2D> world_from_robot) const {
   const auto& a = world_from_robot[from];
   const auto& b = world_from_robot[to];
   if (communication_.range_m && portable::hypot(a.x - b.x, a.y - b.y) > *communication_.range_m) return false;
   if (communication_.loss_probability == 0) return true;
-  Rng rng(seed_, RandomPurpose::message_loss, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(index),
+  Rng rng(seed, RandomPurpose::message_loss, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(index),
           now.step);
   return rng.uniform() >= communication_.loss_probability;
 }
 
-MessageRouter::Delivery MessageRouter::deliver(SimTime now, std::span<const mrpt::math::TPose2D> world_from_robot,
+MessageRouter::Delivery MessageRouter::deliver(std::uint64_t seed, SimTime now,
+                                               std::span<const mrpt::math::TPose2D> world_from_robot,
                                                std::span<Outbox> outboxes, std::span<Readings> readings) {
   Delivery delivery;
   for (std::size_t from = 0; from < outboxes.size(); ++from) {
@@ -56,7 +57,7 @@ MessageRouter::Delivery MessageRouter::deliver(SimTime now, std::span<const mrpt
     delivery.dropped += std::exchange(outbox.surplus, 0);
     for (std::size_t i = 0; i < outbox.messages.size(); ++i) {
       auto& message = outbox.messages[i];
-      if (!arrives(now, from, i, message.to, world_from_robot)) continue;
+      if (!arrives(seed, now, from, i, message.to, world_from_robot)) continue;
       if (!limits_[message.to].admit(names_[from], names_[message.to], message.text)) {
         ++delivery.dropped;
         continue;

@@ -31,9 +31,7 @@ struct Outbox {
 /// the outboxes of its caller.
 class MessageRouter {
  public:
-  MessageRouter(std::vector<std::string> names, const Communication& communication, std::uint64_t seed);
-  /// Replaces the seed of the loss of messages.
-  void setSeed(std::uint64_t seed) { seed_ = seed; }
+  MessageRouter(std::vector<std::string> names, const Communication& communication);
 
   /// By robot.
   const std::vector<std::string>& names() const { return names_; }
@@ -49,18 +47,17 @@ class MessageRouter {
   /// Moves the messages of all outboxes to the inboxes of their receivers, ordered by sender and then by time of
   /// sending. Messages to a robot out of range, or selected by the loss probability, are lost. Messages beyond the
   /// sender's kMaxMessagesSent or the receiver's InboxLimit are dropped.
-  /// @pre the inboxes are empty
-  Delivery deliver(SimTime now, std::span<const mrpt::math::TPose2D> world_from_robot, std::span<Outbox> outboxes,
-                   std::span<Readings> readings);
+  /// @param seed of the loss of messages @pre the inboxes are empty
+  Delivery deliver(std::uint64_t seed, SimTime now, std::span<const mrpt::math::TPose2D> world_from_robot,
+                   std::span<Outbox> outboxes, std::span<Readings> readings);
 
  private:
-  bool arrives(SimTime now, std::size_t from, std::size_t index, std::size_t to,
+  bool arrives(std::uint64_t seed, SimTime now, std::size_t from, std::size_t index, std::size_t to,
                std::span<const mrpt::math::TPose2D> world_from_robot) const;
 
   std::vector<std::string> names_;
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
-  std::uint64_t seed_;
   std::vector<InboxLimit> limits_;     ///< by receiver; unused ones between two calls of deliver()
   std::vector<std::uint32_t> filled_;  ///< receivers of messages in this call of deliver()
 };

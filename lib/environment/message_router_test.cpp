@@ -14,17 +14,18 @@ struct Fixture {
   std::vector<Outbox> outboxes = std::vector<Outbox>(3);
   SimTime time;
   std::size_t dropped = 0;  ///< in the last step
+  std::uint64_t seed;
   MessageRouter message_router;
 
-  explicit Fixture(const Communication& communication = {}, std::uint64_t seed = 1)
-      : message_router({"a", "b", "c"}, communication, seed) {}
+  explicit Fixture(const Communication& communication = {}, std::uint64_t the_seed = 1)
+      : seed(the_seed), message_router({"a", "b", "c"}, communication) {}
   void send(std::size_t from, const std::string& to, const std::string& text) {
     message_router.send(from, to, text, outboxes[from]);
   }
   std::size_t step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    const auto delivery = message_router.deliver(time, poses, outboxes, readings);
+    const auto delivery = message_router.deliver(seed, time, poses, outboxes, readings);
     dropped = delivery.dropped;
     return delivery.delivered;
   }

@@ -40,6 +40,7 @@ State initialState(const Model& model) {
   const std::size_t n = model.fleet.robots.size();
   State state;
   state.time = {0, model.period_s};
+  state.seed = model.seed;
   state.digest = RunDigest(n);
   forArrays(state, [n](auto& array) { array.resize(n); });
   for (std::size_t i = 0; i < n; ++i) {

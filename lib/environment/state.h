@@ -21,6 +21,7 @@ namespace robosim {
 /// robot, in the world's order.
 struct State {
   SimTime time;
+  std::uint64_t seed = 1;  ///< of noise and lost messages: Model::seed unless Environment::restart() was given another
   std::vector<mrpt::math::TPose2D> world_from_robot;
   std::vector<double> speed_mps;  ///< of the last step, after acceleration limits
   std::vector<double> turn_radps;

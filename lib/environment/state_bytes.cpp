@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 constexpr std::size_t kSizeAt = 20;  ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
@@ -180,6 +180,7 @@ State readContents(const Model& model, StateReader in) {
   State state = initialState(model);
   const std::size_t robots = model.fleet.robots.size();
   state.time.step = in.takeNumber<std::uint64_t>();
+  state.seed = in.takeNumber<std::uint64_t>();
   state.stalls = in.takeNumber<std::uint64_t>();
   state.messages_delivered = in.takeNumber<std::uint64_t>();
   state.messages_dropped = in.takeNumber<std::uint64_t>();
@@ -205,6 +206,7 @@ std::string toBytes(const Model& model, const State& state) {
   out.addNumber(std::uint64_t{0});  // the size, known at the end
   out.addNumber(digestOf(model));
   out.addNumber(state.time.step);
+  out.addNumber(state.seed);
   out.addNumber(state.stalls);
   out.addNumber(state.messages_delivered);
   out.addNumber(state.messages_dropped);

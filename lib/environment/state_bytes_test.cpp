@@ -101,9 +101,9 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 2;
+  newer[16] = 3;
   EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 2 of the format, and this program reads version 1; use the version of RoboSim "
+            "the saved state has version 3 of the format, and this program reads version 2; use the version of RoboSim "
             "that saved it");
   Model other = model;
   other.seed = 2;

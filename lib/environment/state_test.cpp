@@ -68,6 +68,30 @@ std::unique_ptr<Environment> smallRun() {
   return std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
 }
 
+TEST(State, HasTheSeedOfARestartSoThatAnyEnvironmentContinuesIt) {
+  ProbeRun run(1);
+  Environment& environment = run.environment();
+  const std::string first = environment.digest();
+  State start = initialState(*environment.model());
+  environment.restart(start);
+  EXPECT_EQ(environment.digest(), first);
+
+  start.seed = 99;
+  environment.restart(start);
+  for (int i = 0; i < 10; ++i) run.step();
+  const std::string bytes = toBytes(*environment.model(), environment.state());
+  for (int i = 0; i < 10; ++i) run.step();
+  const auto other = run.another();
+  other->restore(stateFromBytes(*other->model(), bytes));
+  for (int i = 0; i < 10; ++i) run.step(*other);
+  EXPECT_EQ(other->digest(), environment.digest());
+
+  start.seed = 1;
+  environment.restart(start);
+  for (int i = 0; i < 20; ++i) run.step();
+  EXPECT_NE(environment.digest(), other->digest()) << "noise does not depend on the seed";
+}
+
 TEST(State, TenThousandForksOfARunDependOnlyOnTheirCommands) {
   constexpr int kForks = 10'000, kVariants = 10, kForkSteps = 3;
   const auto run = smallRun();
@@ -102,6 +126,7 @@ TEST(State, DiffersInEachOfItsParts) {
   const State state = run.environment().state();
   const std::function<void(State&)> changes[] = {
       [](State& s) { ++s.time.step; },
+      [](State& s) { ++s.seed; },
       [](State& s) { s.world_from_robot[1].x += 1; },
       [](State& s) { s.speed_mps[1] += 1; },
       [](State& s) { s.turn_radps[1] += 1; },

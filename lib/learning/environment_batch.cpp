@@ -124,7 +124,8 @@ struct EnvironmentBatch::Impl {
     const std::uint64_t seed = episodeSeed(episode.seed, episode.number++);
     State start = episode.world->start;
     if (episode.world->random_starts) start.world_from_robot = episode.world->random_starts->draw(seed);
-    episode.environment->restart(start, seed);
+    start.seed = seed;
+    episode.environment->restart(start);
     episode.is_over = false;
   }
 
