@@ -46,7 +46,8 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
       ->capture_default_str();
   addControllerOption(command, a.run.controller, "controller of all robots, instead of those in the world");
   command
-      .add_option("--picture", a.picture, "draw the world from above, with the paths of all robots, to this PNG file")
+      .add_option("--picture", a.picture,
+                  "draw the world from above, with the paths of all robots, to this PNG, SVG or PDF file")
       ->type_name("FILE")
       ->check(fileName());
   command.add_flag("--json", a.json, "print the summary as one JSON object");
