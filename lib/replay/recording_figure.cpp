@@ -7,6 +7,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include "base/error_list.h"
+#include "base/log.h"
 #include "base/text_table.h"
 #include "recording/robot_status_record.h"
 #include "rendering/run_figure.h"
@@ -28,7 +29,12 @@ constexpr double kUnknownRadius_m = 0.2;  ///< of robots of other programs
 
 void RecordingFigure::setRun(const RunNote& note) {
   is_of_robosim_ = true;
-  if (note.world.text.empty()) return;  // too large to be recorded
+  if (note.world.text.empty()) {
+    logWarning("export", rawlog_ +
+                             ": does not contain its world, which is larger than 1 MiB; the figure shows "
+                             "trajectories and events only");
+    return;
+  }
   world_ = loadWorld(note.world, {});
   for (const auto& robot : world_->fleet.robots) robotNamed(robot.info.name);
 }
