@@ -1,6 +1,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <tuple>
 
 namespace robosim {
 
@@ -8,7 +9,7 @@ namespace robosim {
 struct FontFile {
   std::string file;
   int index = 0;  ///< of the font in the file
-  auto operator<=>(const FontFile&) const = default;
+  bool operator<(const FontFile& other) const { return std::tie(file, index) < std::tie(other.file, other.index); }
 };
 
 /// The font for a character, found by fontconfig: DejaVu Sans, or another font if DejaVu Sans lacks the character.

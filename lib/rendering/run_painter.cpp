@@ -12,7 +12,7 @@ using mrpt::math::TPoint2D;
 
 constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover at full opacity
 constexpr double kStartRadius_px = 4.5;
-constexpr double kRobotRadiusMin_px = 3;  // minimum for large worlds
+constexpr double kDrawnRadiusMin_px = 3;  // minimum for large worlds
 constexpr double kMarkSpacing_px = 14;
 constexpr double kMarkRadius_px = 7;
 constexpr Color kGoldColor{1.0f, 0.80f, 0.10f};
@@ -147,7 +147,7 @@ std::optional<TPoint2D> RunPainter::robotPixel(std::size_t robot) const {
 }
 
 double RunPainter::robotRadius(std::size_t robot) const {
-  return std::max(kRobotRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
+  return std::max(kDrawnRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
 }
 
 /// Blend factor of paths towards the floor colour: grows with the share of the picture that they cover, so that

@@ -15,7 +15,7 @@ class RunPainter {
  public:
   struct Style {
     double text_px = kTextSize_px;  ///< height of a capital letter in names
-    double path_px = 2;             ///< width of paths
+    double path_px = 2.4;           ///< width of paths
   };
   /// @param figure, world, fleet, run must outlive this
   RunPainter(Figure& figure, const World& world, const Fleet& fleet, const DrawnRun& run, const Style& style);
