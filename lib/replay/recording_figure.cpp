@@ -36,7 +36,6 @@ void RecordingFigure::setRun(const RunNote& note) {
     return;
   }
   world_ = loadWorld(note.world, {});
-  for (const auto& robot : world_->fleet.robots) robotNamed(robot.info.name);
 }
 
 std::size_t RecordingFigure::robotNamed(const std::string& name) {
@@ -67,11 +66,7 @@ void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_tr
   if (robot.has_truth && !is_truth) return;
   if (is_truth && !robot.has_truth) robot.path.clear();
   robot.has_truth = is_truth;
-  robot.pose = pose;
-  // Odometry counts from the start.
-  if (!is_truth && world_ && index < world_->fleet.robots.size()) {
-    robot.pose = world_->fleet.robots[index].world_from_start + pose;
-  }
+  robot.pose = is_truth ? pose : startOfOdometry(robot.name) + pose;
   const TPoint2D at(robot.pose->x, robot.pose->y);
   if (robot.path.empty() || (at - robot.path.back()).norm() >= kPathSpacing_m) robot.path.push_back(at);
 }
@@ -98,12 +93,22 @@ void RecordingFigure::addEvent(RunEvent::Kind kind, std::size_t robot) {
   if (pose) robots_[robot].events.push_back({kind, robot, {pose->x, pose->y}});
 }
 
+/// In a run of RoboSim, odometry counts from the start.
+TPose2D RecordingFigure::startOfOdometry(const std::string& robot) const {
+  if (!world_) return {};
+  for (const auto& of_world : world_->fleet.robots) {
+    if (of_world.info.name == robot) return of_world.world_from_start;
+  }
+  return {};
+}
+
 /// An empty floor under the trajectories.
 LoadedWorld RecordingFigure::withoutWorld() const {
   LoadedWorld loaded;
   loaded.world.name = std::filesystem::path(rawlog_).stem().string();
   std::optional<Bounds2D> area;
   for (const auto& robot : robots_) {
+    if (!robot.pose) continue;
     FleetRobot drawn;
     drawn.info.name = robot.name;
     drawn.info.radius_m = kUnknownRadius_m;
@@ -115,24 +120,31 @@ LoadedWorld RecordingFigure::withoutWorld() const {
     }
   }
   constexpr double kMargin_m = 0.5;
-  loaded.world.bounds = {area->x_min - kMargin_m, area->x_max + kMargin_m, area->y_min - kMargin_m,
-                         area->y_max + kMargin_m};
+  const Bounds2D paths = area.value_or(Bounds2D());
+  loaded.world.bounds = {paths.x_min - kMargin_m, paths.x_max + kMargin_m, paths.y_min - kMargin_m,
+                         paths.y_max + kMargin_m};
   return loaded;
 }
 
 std::string RecordingFigure::draw(PictureFormat format) const {
-  if (std::none_of(robots_.begin(), robots_.end(), [](const Robot& robot) { return robot.pose.has_value(); })) {
-    throw ConfigError(rawlog_ +
-                      ": contains neither ground truth nor odometry; a figure requires a recording with poses");
-  }
   const LoadedWorld loaded = world_ ? *world_ : withoutWorld();
   DrawnRun run;
   run.title = loaded.world.name + ", " + fixed(duration_s_, 1) + " s";
-  for (const auto& robot : robots_) {
-    if (run.paths.size() == loaded.fleet.robots.size()) break;  // observations of a robot that the world does not have
+  bool has_poses = false;
+  for (const auto& of_world : loaded.fleet.robots) {
+    const auto found = index_of_.find(of_world.info.name);
+    const Robot robot = found == index_of_.end() ? Robot() : robots_[found->second];
+    has_poses |= robot.pose.has_value();
+    for (RunEvent event : robot.events) {
+      event.robot = run.paths.size();
+      run.events.push_back(event);
+    }
     run.paths.push_back(robot.path);
     run.world_from_robot.push_back(robot.pose);
-    run.events.insert(run.events.end(), robot.events.begin(), robot.events.end());
+  }
+  if (!has_poses) {
+    throw ConfigError(rawlog_ +
+                      ": contains neither ground truth nor odometry; a figure requires a recording with poses");
   }
   return runFigure(format, loaded.world, loaded.fleet, run);
 }

@@ -23,7 +23,7 @@ class RecordingFigure {
   /// @param rawlog its name, for errors and the title
   explicit RecordingFigure(std::string rawlog) : rawlog_(std::move(rawlog)) {}
 
-  /// Sets the run of a recording by RoboSim; to be called before the first add().
+  /// Sets the run of a recording by RoboSim; to be called before the robots' observations are added.
   /// @throws ConfigError when this program cannot read its world, such as without a plugin
   void setRun(const RunNote& note);
   /// Adds the next observation. @param time_s since the first one
@@ -49,12 +49,13 @@ class RecordingFigure {
   void addStatus(std::size_t robot, const mrpt::obs::CObservation& observation);
   void addMessages(const std::string& receiver, const mrpt::obs::CObservation& observation);
   void addEvent(RunEvent::Kind kind, std::size_t robot);
+  mrpt::math::TPose2D startOfOdometry(const std::string& robot) const;
   LoadedWorld withoutWorld() const;
 
   std::string rawlog_;
   std::optional<LoadedWorld> world_;  ///< of a recording by RoboSim that contains it
   bool is_of_robosim_ = false;
-  std::vector<Robot> robots_;  ///< those of world_ first
+  std::vector<Robot> robots_;  ///< in the order of their first appearance
   std::map<std::string, std::size_t> index_of_;
   double duration_s_ = 0;
 };

@@ -99,6 +99,17 @@ TEST(RecordingFigure, DrawsOdometryFromTheStartsWithoutGroundTruth) {
   EXPECT_EQ(Picture(figure).at({6, 6.5}), kBlue) << "it starts at (6, 6), facing north";
 }
 
+TEST(RecordingFigure, IgnoresTheMotionOfThePairThatContainsTheNote) {
+  RecordingFigure figure("run_sf.rawlog");
+  figure.add(odometry("odometry", {0, 0, 0}), 0);  // RawlogReader returns it before the comment
+  figure.setRun(twoRobots());
+  for (int i = 0; i <= 100; ++i) figure.add(truth("Bob", {6, 6 - 0.05 * i, 0}), 0.1 * i);
+  const Picture picture(figure);
+  EXPECT_EQ(picture.at({6, 4}), kBlue);
+  EXPECT_EQ(picture.count({0.5, 0.5}, {0, 0, 255}) + picture.count({0.5, 0.5}, {255, 0, 0}), 0);
+  EXPECT_EQ(picture.count({1, 1}, {0, 0, 255}), 0) << "Ann is not in the recording";
+}
+
 TEST(RecordingFigure, MarksEvents) {
   const RunNote note = twoRobots();
   const LoadedWorld loaded = loadWorld(note.world, {});
