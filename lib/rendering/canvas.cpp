@@ -32,7 +32,7 @@ TextStyle styleOf(double size_px) {
 }  // namespace
 
 Canvas::Canvas(const GroundView& view, const Color& background)
-    : Surface(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
+    : DrawingSurface(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
 
 Canvas::Layer Canvas::differenceFrom(const Canvas& ground) const {
   Layer layer{fine_, cv::Mat(fine_.size(), CV_8U)};

@@ -6,20 +6,20 @@
 #include <mrpt/math/TPoint2D.h>
 #include <opencv2/core/mat.hpp>
 
-#include "rendering/surface.h"
+#include "rendering/drawing_surface.h"
 
 namespace robosim {
 
 struct OutlineText;
 
-/// Surface of pixels, drawn by OpenCV. Renders at twice the resolution and downsamples, which antialiases better than
-/// OpenCV alone.
-class Canvas final : public Surface {
+/// DrawingSurface of pixels, drawn by OpenCV. Renders at twice the resolution and downsamples, which antialiases better
+/// than OpenCV alone.
+class Canvas final : public DrawingSurface {
  public:
   Canvas(const GroundView& view, const Color& background);
 
   /// Deep copy: the copies share no pixels.
-  Canvas(const Canvas& other) : Surface(other), fine_(other.fine_.clone()) {}
+  Canvas(const Canvas& other) : DrawingSurface(other), fine_(other.fine_.clone()) {}
   Canvas(Canvas&&) = default;
 
   /// Difference between two canvases of the same view, which can be composited onto further canvases.

@@ -57,7 +57,7 @@ cairo_surface_t* pageOf(const Figure::Options& options, double width_px, double 
 }  // namespace
 
 Figure::Figure(const GroundView& view, const Color& background, Options options)
-    : Surface(view), options_(std::move(options)) {
+    : DrawingSurface(view), options_(std::move(options)) {
   const bool is_png = options_.format == PictureFormat::png;
   const double scale = options_.png_scale;  // also of other formats, so that contrast() is the same for all
   image_.reset(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::lround(view.width() * scale)),

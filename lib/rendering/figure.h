@@ -5,16 +5,16 @@
 
 #include <cairo.h>
 
+#include "rendering/drawing_surface.h"
 #include "rendering/figure_text.h"
 #include "rendering/picture_format.h"
-#include "rendering/surface.h"
 
 namespace robosim {
 
-/// Surface of a picture file, drawn by Cairo: a PNG picture, or an SVG or PDF document whose shapes stay vectors. One
-/// pixel of the view is one pixel of an SVG document (1/96 inch), and 0.75 points of a PDF document. Equal calls give
-/// equal bytes.
-class Figure final : public Surface {
+/// DrawingSurface of a picture file, drawn by Cairo: a PNG picture, or an SVG or PDF document whose shapes stay
+/// vectors. One pixel of the view is one pixel of an SVG document (1/96 inch), and 0.75 points of a PDF document. Equal
+/// calls give equal bytes.
+class Figure final : public DrawingSurface {
  public:
   struct Options {
     PictureFormat format = PictureFormat::png;

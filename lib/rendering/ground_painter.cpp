@@ -65,7 +65,7 @@ double gridStep(const GroundView& view) {
   return roundLengthUpTo(kGridMax_px / view.pixelsPerMetre());
 }
 
-void drawFloor(Surface& surface, const Bounds2D& b) {
+void drawFloor(DrawingSurface& surface, const Bounds2D& b) {
   const GroundView& view = surface.view();
   const mrpt::math::TPose2D center{(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2, 0};
   const Outline floor = OrientedBox::from(center, b.x_max - b.x_min, b.y_max - b.y_min);
@@ -83,7 +83,7 @@ void drawFloor(Surface& surface, const Bounds2D& b) {
   surface.outline(floor, 1, mix(kGridColor, kInkColor, 0.3f));
 }
 
-void drawMaps(Surface& surface, const World& world) {
+void drawMaps(DrawingSurface& surface, const World& world) {
   for (const auto& map : world.maps) {
     surface.fillCells(map.plan, map.world_from_map, map.color);
     for (const auto& box : map.plan.boxes) {
@@ -94,7 +94,7 @@ void drawMaps(Surface& surface, const World& world) {
   }
 }
 
-void drawObjects(Surface& surface, const World& world) {
+void drawObjects(DrawingSurface& surface, const World& world) {
   std::vector<const Body*> bodies;
   for (const auto& object : world.objects) bodies.push_back(&object.body);
   std::stable_sort(bodies.begin(), bodies.end(),
@@ -109,15 +109,16 @@ void drawObjects(Surface& surface, const World& world) {
   }
 }
 
-void drawRobot(Surface& surface, const TPoint2D& center, double radius_px, const TPoint2D& ahead, const Color& color) {
+void drawRobot(DrawingSurface& surface, const TPoint2D& center, double radius_px, const TPoint2D& ahead,
+               const Color& color) {
   const bool small = radius_px < 6;  // too small for details and antialiasing
-  const auto disc = small ? &Surface::dot : &Surface::disc;
+  const auto disc = small ? &DrawingSurface::dot : &DrawingSurface::disc;
   (surface.*disc)(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
   (surface.*disc)(center, radius_px - 1, color);
   surface.line(center, center + ahead * (radius_px + (small ? 4 : -1.5)), 2, small ? color : kWhite);
 }
 
-double drawScale(Surface& surface, const TPoint2D& from, double text_px) {
+double drawScale(DrawingSurface& surface, const TPoint2D& from, double text_px) {
   const double length_m = scaleLength(surface.view());
   const double length_px = length_m * surface.view().pixelsPerMetre();
   const TPoint2D to(from.x + length_px, from.y);
@@ -127,7 +128,7 @@ double drawScale(Surface& surface, const TPoint2D& from, double text_px) {
   return length_px;
 }
 
-double scaleWidth(const Surface& surface, double text_px) {
+double scaleWidth(const DrawingSurface& surface, double text_px) {
   const double length_m = scaleLength(surface.view());
   return length_m * surface.view().pixelsPerMetre() + kScaleGap_px + surface.textWidth(scaleLabel(length_m), text_px);
 }

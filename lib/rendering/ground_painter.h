@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "rendering/surface.h"
+#include "rendering/drawing_surface.h"
 #include "robots/fleet.h"
 #include "world/world.h"
 
@@ -26,24 +26,24 @@ std::vector<Color> robotColors(const Fleet&);
 /// Spacing of grid lines [m], a round number.
 double gridStep(const GroundView&);
 /// The ground within the world's bounds, with a grid.
-void drawFloor(Surface&, const Bounds2D& bounds);
+void drawFloor(DrawingSurface&, const Bounds2D& bounds);
 /// The walls of the world's maps.
-void drawMaps(Surface&, const World&);
+void drawMaps(DrawingSurface&, const World&);
 /// The world's objects in their colours, in order of height, hot ones with a glow.
-void drawObjects(Surface&, const World&);
+void drawObjects(DrawingSurface&, const World&);
 /// A disc with a mark in the direction of its heading; all in pixels.
-void drawRobot(Surface&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
+void drawRobot(DrawingSurface&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
                const Color&);
 /// A scale bar of a round length, starting at `from` [px], with its number of metres. @return its length [px]
-double drawScale(Surface&, const mrpt::math::TPoint2D& from, double text_px = kTextSize_px);
+double drawScale(DrawingSurface&, const mrpt::math::TPoint2D& from, double text_px = kTextSize_px);
 /// Width of that bar with its number [px].
-double scaleWidth(const Surface&, double text_px);
+double scaleWidth(const DrawingSurface&, double text_px);
 ///@}
 
 /// Places labels beside objects so that they overlap neither each other nor reserved areas.
 class NameWriter {
  public:
-  explicit NameWriter(Surface& surface, double text_px = kTextSize_px) : surface_(surface), text_px_(text_px) {}
+  explicit NameWriter(DrawingSurface& surface, double text_px = kTextSize_px) : surface_(surface), text_px_(text_px) {}
 
   void keepClear(const mrpt::math::TPoint2D& center, double half_width_px, double half_height_px);
   /// Writes a label at the free position beside an object that has the lowest contrast; omits it if there is none.
@@ -53,7 +53,7 @@ class NameWriter {
   void writeHotObjects(const World&);
 
  private:
-  Surface& surface_;
+  DrawingSurface& surface_;
   double text_px_;               ///< height of a capital
   std::vector<Bounds2D> taken_;  ///< rectangles of pixels
 };

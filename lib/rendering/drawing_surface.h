@@ -13,11 +13,11 @@ namespace robosim {
 
 /// Drawing surface over a GroundView: Canvas (pixels, for live windows) or Figure (files). Positions are pixels of the
 /// finished picture (GroundView::toPixel()), or outlines in the world frame; widths and radii are in pixels.
-class Surface {
+class DrawingSurface {
  public:
-  explicit Surface(const GroundView& view) : view_(view) {}
-  virtual ~Surface() = default;
-  Surface& operator=(const Surface&) = delete;
+  explicit DrawingSurface(const GroundView& view) : view_(view) {}
+  virtual ~DrawingSurface() = default;
+  DrawingSurface& operator=(const DrawingSurface&) = delete;
 
   const GroundView& view() const { return view_; }
 
@@ -44,8 +44,8 @@ class Surface {
   virtual double contrast(const Bounds2D& pixels) const = 0;
 
  protected:
-  Surface(const Surface&) = default;
-  Surface(Surface&&) = default;
+  DrawingSurface(const DrawingSurface&) = default;
+  DrawingSurface(DrawingSurface&&) = default;
 
  private:
   GroundView view_;
