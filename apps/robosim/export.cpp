@@ -12,8 +12,9 @@
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "recording/rawlog_file.h"
+#include "rendering/plan.h"
 #include "rendering/stock_scene.h"
-#include "rendering/svg_plan.h"
 #include "replay/export_recording.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
@@ -100,12 +101,18 @@ void makeRosMap(Source& source, const fs::path& out, Files& files) {
   files[yaml] = std::move(map.yaml);
 }
 
+/// A plan, with the robots at their starts.
+void makePlan(Source& source, const fs::path& out, Files& files) {
+  const LoadedWorld& loaded = source.loaded();
+  files[out] = planPicture(requirePictureFormat(out), loaded.world, loaded.fleet, startOf(loaded.fleet));
+}
+
 /// Formats by file name extension, case-insensitive. To add a format, add a line here.
 struct Format {
   const char* ending;
   const char* help;
   std::function<void(Source&, const fs::path& out, Files&)> make;  ///< of a world; empty for tables of a recording
-  std::optional<TableFormat> table{};
+  std::optional<RecordingFormat> of_recording{};                   ///< nullopt if only of a world
 };
 
 const std::vector<Format>& formats() {
@@ -115,7 +122,7 @@ const std::vector<Format>& formats() {
       {".gridmap.gz", "the same, compressed",
        [](Source& source, const fs::path& out, Files& files) { files[out] = gzipped(toGridmap(source.grid())); }},
       {".yaml", "ROS's map_server, with its image in a .png next to it", makeRosMap},
-      {".png", "the same, by the name of the image", makeRosMap},
+      {".png", "the same, by the name of the image; of a rawlog: a figure", makeRosMap, RecordingFormat::picture},
       {".bt", "OctoMap, free or occupied",
        [](Source& source, const fs::path& out, Files& files) { files[out] = source.octomap(OctomapForm::binary); }},
       {".ot", "OctoMap, with probabilities",
@@ -126,12 +133,11 @@ const std::vector<Format>& formats() {
        [](Source& source, const fs::path& out, Files& files) {
          files[out] = toStockScene(source.loaded().world, source.loaded().fleet);
        }},
-      {".svg", "a plan to scale, with the robots",
-       [](Source& source, const fs::path& out, Files& files) {
-         files[out] = toSvg(source.loaded().world, source.loaded().fleet);
-       }},
-      {".csv", "of a rawlog: one row per robot and step, with all values", {}, TableFormat::csv},
-      {".npz", "of a rawlog: NumPy's arrays, for each robot and sensor", {}, TableFormat::npz},
+      {".svg", "a plan to scale, with the robots; of a rawlog: a figure with the trajectories and events", makePlan,
+       RecordingFormat::picture},
+      {".pdf", "the same", makePlan, RecordingFormat::picture},
+      {".csv", "of a rawlog: one row per robot and step, with all values", {}, RecordingFormat::csv},
+      {".npz", "of a rawlog: NumPy's arrays, for each robot and sensor", {}, RecordingFormat::npz},
   };
   return all;
 }
@@ -145,7 +151,7 @@ const Format& formatOf(const fs::path& out) {
   throw ConfigError(out.string() + ": unknown format; use a name that ends in one of: " + listed(endings));
 }
 
-/// Files that a format writes for this name.
+/// Files that the format of this name writes for a world.
 std::vector<fs::path> filesOf(const fs::path& out) {
   const std::string ending = formatOf(out).ending;
   if (ending != ".yaml" && ending != ".png") return {out};
@@ -153,26 +159,29 @@ std::vector<fs::path> filesOf(const fs::path& out) {
   return {yaml, picture};
 }
 
+/// Files that each output consists of.
+using FilesByOutput = std::map<std::string, std::vector<fs::path>>;
+
 /// Rejects files that replace an input or cannot be created, in this order, because the latter check creates files.
 /// @throws ConfigError
-void checkOutputs(const ExportArguments& arguments, const std::vector<fs::path>& inputs) {
-  for (const auto& out : arguments.outs) refuseOverwriting(inputs, filesOf(out));
-  for (const auto& out : arguments.outs) {
-    for (const auto& file : filesOf(out)) checkWritable(file);
+void checkOutputs(const FilesByOutput& outs, const std::vector<fs::path>& inputs) {
+  for (const auto& [out, files] : outs) refuseOverwriting(inputs, files);
+  for (const auto& [out, files] : outs) {
+    for (const auto& file : files) checkWritable(file);
   }
 }
 
-void check(const ExportArguments& arguments) {
+void check(const ExportArguments& arguments, const FilesByOutput& outs) {
   if (!arguments.heights_m.empty() && arguments.heights_m[0] >= arguments.heights_m[1]) {
     throw ConfigError("--heights " + toText(arguments.heights_m[0]) + " " + toText(arguments.heights_m[1]) +
                       ": the first must be below the second");
   }
-  std::map<fs::path, std::string> outs;
-  for (const auto& out : arguments.outs) {
-    for (const auto& file : filesOf(out)) outs[file] = out;
+  std::map<fs::path, std::string> out_of;
+  for (const auto& [out, files] : outs) {
+    for (const auto& file : files) out_of[file] = out;
   }
   std::vector<std::pair<std::string, fs::path>> all{{"WORLD", arguments.world}};
-  for (const auto& [file, out] : outs) {
+  for (const auto& [file, out] : out_of) {
     all.emplace_back(file == out ? "OUT" : "companion file of " + out, file);
   }
   refuseSameFile(all);
@@ -182,39 +191,51 @@ void printSize(const fs::path& file, std::uint64_t bytes) {
   std::cout << printableText(file.string()) << ": " << withCommas(bytes) << " bytes\n";
 }
 
-/// The tables among the files to write: all or none. @throws ConfigError
-std::vector<TableFile> tablesOf(const ExportArguments& arguments) {
-  std::vector<TableFile> tables;
-  for (const auto& out : arguments.outs) {
-    if (const auto table = formatOf(out).table) tables.push_back({out, *table});
-  }
-  if (tables.empty()) return tables;
-  const std::string first = tables.front().file.string();
-  if (tables.size() < arguments.outs.size()) {
-    throw ConfigError(first + " is a table of a rawlog, other files are of a world; export them by two commands");
-  }
-  if (arguments.resolution_m || !arguments.heights_m.empty()) {
-    throw ConfigError(first + " is a table of a rawlog; --resolution and --heights are for maps of a world");
-  }
-  return tables;
+bool isRecording(const std::string& file) {
+  return fs::is_regular_file(file) && !isMapFile(file) && looksLikeRawlog(file);
 }
 
-void exportTables(const ExportArguments& arguments, const std::vector<TableFile>& tables) {
-  checkOutputs(arguments, {arguments.world});
+/// The outputs of a recording; empty for those of a world. @throws ConfigError
+std::vector<RecordingOutput> recordingOutputs(const ExportArguments& arguments) {
+  const auto table = std::find_if(arguments.outs.begin(), arguments.outs.end(),
+                                  [](const std::string& out) { return !formatOf(out).make; });
+  const bool has_table = table != arguments.outs.end();
+  if (!has_table && !isRecording(arguments.world)) return {};
+  const std::string what = has_table ? *table + " is a table of a rawlog" : arguments.world + " is a rawlog";
+  std::vector<RecordingOutput> outputs;
+  for (const auto& out : arguments.outs) {
+    const auto format = formatOf(out).of_recording;
+    if (!format)
+      throw ConfigError(out + ": can be made of a world only, but " + what + "; export it by another command");
+    outputs.push_back({out, *format});
+  }
+  if (arguments.resolution_m || !arguments.heights_m.empty()) {
+    throw ConfigError(what + "; --resolution and --heights are for maps of a world");
+  }
+  return outputs;
+}
+
+void exportOfRecording(const ExportArguments& arguments, const std::vector<RecordingOutput>& outputs) {
+  FilesByOutput files;
+  for (const auto& output : outputs) files[output.file.string()] = {output.file};
+  check(arguments, files);
+  checkOutputs(files, {arguments.world});
   const Interrupt interrupt;
-  exportRecording(arguments.world, tables, &interrupt);
-  for (const auto& table : tables) printSize(table.file, fs::file_size(table.file));
+  exportRecording(arguments.world, outputs, &interrupt);
+  for (const auto& output : outputs) printSize(output.file, fs::file_size(output.file));
 }
 
 void exportFiles(const ExportArguments& arguments) {
-  const auto tables = tablesOf(arguments);
-  check(arguments);
-  if (!tables.empty()) return exportTables(arguments, tables);
+  const auto of_recording = recordingOutputs(arguments);
+  if (!of_recording.empty()) return exportOfRecording(arguments, of_recording);
+  FilesByOutput outs;
+  for (const auto& out : arguments.outs) outs[out] = filesOf(out);
+  check(arguments, outs);
   std::optional<Progress> shown(std::in_place);
   Progress& progress = *shown;
   progress.show("reading " + arguments.world + " …");
   Source source(arguments, progress);
-  checkOutputs(arguments, inputFilesOf(arguments.world, source.loaded().world));
+  checkOutputs(outs, inputFilesOf(arguments.world, source.loaded().world));
   Files files;
   for (const auto& out : arguments.outs) {
     progress.show("creating " + out + " …");
@@ -238,7 +259,7 @@ std::string formatsHelp() {
   for (const auto& format : formats()) rows.push_back({"  " + std::string(format.ending), format.help});
   return "Formats, by the extension of OUT:\n" + listing(rows) +
          "Try:  robosim export worlds/opho2_1.xml opho2_1.gridmap opho2_1.yaml opho2_1.bt opho2_1.svg\n"
-         "      robosim export run.rawlog run.csv run.npz";
+         "      robosim export run.rawlog run.csv run.npz run.pdf";
 }
 
 }  // namespace
@@ -248,7 +269,8 @@ void addExport(CLI::App& program) {
   auto arguments = std::make_shared<ExportArguments>();
   command
       ->add_option("WORLD", arguments->world,
-                   "world file or map file; for .csv and .npz a rawlog, recorded by RoboSim or another program")
+                   "world file or map file; or a rawlog, recorded by RoboSim or another program, for .csv, .npz, .png, "
+                   ".svg and .pdf")
       ->type_name("FILE")
       ->required();
   command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")

@@ -30,10 +30,10 @@ using Clock = std::chrono::steady_clock;
 struct LocalRunArguments : RunArguments {
   std::string csv, npz;  ///< files; empty for none
 
-  std::vector<TableFile> tables() const {
-    std::vector<TableFile> tables;
-    if (!csv.empty()) tables.push_back({csv, TableFormat::csv});
-    if (!npz.empty()) tables.push_back({npz, TableFormat::npz});
+  std::vector<RecordingOutput> tables() const {
+    std::vector<RecordingOutput> tables;
+    if (!csv.empty()) tables.push_back({csv, RecordingFormat::csv});
+    if (!npz.empty()) tables.push_back({npz, RecordingFormat::npz});
     return tables;
   }
 };

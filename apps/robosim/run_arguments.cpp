@@ -47,7 +47,8 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
   addControllerOption(command, a.run.controller, "controller of all robots, instead of those in the world");
   addObserverOption(command, a.run.observers, "watch the run with this observer: metrics, an end of its own, a log");
   command
-      .add_option("--picture", a.picture, "draw the world from above, with the paths of all robots, to this PNG file")
+      .add_option("--picture", a.picture,
+                  "draw the world from above, with the paths of all robots, to this PNG, SVG or PDF file")
       ->type_name("FILE")
       ->check(fileName());
   command.add_flag("--json", a.json, "print the summary as one JSON object");

@@ -41,7 +41,7 @@ inline constexpr std::array kSubcommands{
     Subcommand{"replay", "Summarise a recording, print it, extract a part, repeat its run, or feed it to a controller",
                "robosim-run"},
     Subcommand{"check", "Validate a file and summarise it, or list all errors", "robosim-run"},
-    Subcommand{"export", "Export a world as a map or plan, or a recording as tables", "robosim-run"},
+    Subcommand{"export", "Export a world as a map or plan, or a recording as tables or a figure", "robosim-run"},
     Subcommand{"generate", "Generate a random world: maze, cave, office, open", "robosim-run"},
     Subcommand{"controllers", "List the controllers with their parameters", "robosim-run"},
     Subcommand{"sensors", "List the kinds of sensors with their settings", "robosim-run"},

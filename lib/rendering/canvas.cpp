@@ -32,7 +32,7 @@ TextStyle styleOf(double size_px) {
 }  // namespace
 
 Canvas::Canvas(const GroundView& view, const Color& background)
-    : view_(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
+    : DrawingSurface(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
 
 Canvas::Layer Canvas::differenceFrom(const Canvas& ground) const {
   Layer layer{fine_, cv::Mat(fine_.size(), CV_8U)};
@@ -58,7 +58,7 @@ std::vector<cv::Point> Canvas::finePolygon(const OrientedBox& box) const {
   const TPoint2D across = TPoint2D(-box.axis.y, box.axis.x) * box.half_width_m;
   std::vector<cv::Point> corners;
   for (const auto& corner : {along + across, across - along, -along - across, along - across}) {
-    corners.push_back(fine(view_.toPixel(box.center + corner)));
+    corners.push_back(fine(view().toPixel(box.center + corner)));
   }
   return corners;
 }
@@ -67,10 +67,6 @@ cv::Rect Canvas::fineRect(const Bounds2D& pixels) const {
   const auto at = [](double coordinate) { return static_cast<int>(std::lround((coordinate + 0.5) * kFiner)); };
   return cv::Rect(cv::Point(at(pixels.x_min), at(pixels.y_min)), cv::Point(at(pixels.x_max), at(pixels.y_max))) &
          cv::Rect(0, 0, fine_.cols, fine_.rows);
-}
-
-void Canvas::line(const TPoint2D& from, const TPoint2D& to, double width_px, const Color& color) {
-  cv::line(fine_, fine(from), fine(to), bgr(color), fineWidth(width_px), cv::LINE_AA, kShift);
 }
 
 void Canvas::polyline(std::span<const TPoint2D> points, double width_px, const Color& color) {
@@ -91,7 +87,7 @@ void Canvas::dot(const TPoint2D& center, double radius_px, const Color& color) {
 
 void Canvas::fill(const Outline& shape, const Color& color) {
   if (const auto* circle = std::get_if<Circle>(&shape)) {
-    disc(view_.toPixel(circle->center), circle->radius_m * view_.pixelsPerMetre(), color);
+    disc(view().toPixel(circle->center), circle->radius_m * view().pixelsPerMetre(), color);
   } else {
     cv::fillConvexPoly(fine_, finePolygon(std::get<OrientedBox>(shape)), bgr(color), cv::LINE_AA, kShift);
   }
@@ -99,7 +95,7 @@ void Canvas::fill(const Outline& shape, const Color& color) {
 
 void Canvas::outline(const Outline& shape, double width_px, const Color& color) {
   if (const auto* circle = std::get_if<Circle>(&shape)) {
-    cv::circle(fine_, fine(view_.toPixel(circle->center)), fineRadius(circle->radius_m * view_.pixelsPerMetre()),
+    cv::circle(fine_, fine(view().toPixel(circle->center)), fineRadius(circle->radius_m * view().pixelsPerMetre()),
                bgr(color), fineWidth(width_px), cv::LINE_AA, kShift);
   } else {
     cv::polylines(fine_, finePolygon(std::get<OrientedBox>(shape)), true, bgr(color), fineWidth(width_px), cv::LINE_AA,
@@ -109,10 +105,10 @@ void Canvas::outline(const Outline& shape, double width_px, const Color& color) 
 
 void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
   const Bounds2D bounds = boundsOf(shape);
-  const auto low = view_.toPixel({bounds.x_min, bounds.y_max}), high = view_.toPixel({bounds.x_max, bounds.y_min});
+  const auto low = view().toPixel({bounds.x_min, bounds.y_max}), high = view().toPixel({bounds.x_max, bounds.y_min});
   const cv::Rect region = fineRect({low.x - reach_px, high.x + reach_px, low.y - reach_px, high.y + reach_px});
   if (region.empty()) return;  // outside the picture
-  Canvas light(view_, {0, 0, 0});
+  Canvas light(view(), {0, 0, 0});
   light.fill(shape, {1, 1, 1});
   light.outline(shape, reach_px * 0.7, {1, 1, 1});
   cv::Mat lit = light.fine_(region);
@@ -123,6 +119,12 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
     const double share = lit.at<cv::Vec3b>(at[0], at[1])[0] / 255.0;
     for (int i = 0; i < 3; ++i) pixel[i] = cv::saturate_cast<uchar>(pixel[i] + (glow_bgr[i] - pixel[i]) * share);
   });
+}
+
+void Canvas::fillCells(const FloorPlan& plan, const mrpt::math::TPose2D& world_from_map, const Color& color) {
+  std::vector<Solid> solids;
+  addSolids(plan, world_from_map, {}, solids);  // of the cells, then of the boxes
+  for (std::size_t i = 0; i < plan.occupied.size(); ++i) fill(solids[i].outline, color);
 }
 
 void Canvas::tint(std::span<const std::vector<TPoint2D>> polygons, const Color& color, float opacity) {
@@ -184,7 +186,7 @@ void Canvas::outlineText(const TPoint2D& at, const OutlineText& drawn, double si
   }
 }
 
-double Canvas::textWidth(const std::string& text, double size_px) {
+double Canvas::textWidth(const std::string& text, double size_px) const {
   if (needsOutlineFont(text)) {
     if (const auto drawn = drawOutlineText(text, size_px * kFiner)) {
       return drawn->coverage.cols / static_cast<double>(kFiner);
@@ -203,16 +205,7 @@ double Canvas::contrast(const Bounds2D& pixels) const {
 
 cv::Mat Canvas::picture() const {
   cv::Mat picture;
-  cv::resize(fine_, picture, {view_.width(), view_.height()}, 0, 0, cv::INTER_AREA);
-  return picture;
-}
-
-cv::Mat Canvas::pictureForFile() const {
-  cv::Mat picture = this->picture();
-  constexpr int kLevelStep = 5;  // 52 levels remain
-  cv::Mat level(1, 256, CV_8U);
-  for (int i = 0; i < 256; ++i) level.at<uchar>(i) = static_cast<uchar>((i + kLevelStep / 2) / kLevelStep * kLevelStep);
-  cv::LUT(picture, level, picture);
+  cv::resize(fine_, picture, {view().width(), view().height()}, 0, 0, cv::INTER_AREA);
   return picture;
 }
 

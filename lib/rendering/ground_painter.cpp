@@ -24,6 +24,15 @@ bool inside(const Bounds2D& inner, const Bounds2D& outer) {
   return outer.contains({inner.x_min, inner.y_min}) && outer.contains({inner.x_max, inner.y_max});
 }
 
+constexpr double kScaleGap_px = 10;  ///< between a scale bar and its number
+
+double scaleLength(const GroundView& view) {
+  constexpr double kMax_px = 160;
+  return roundLengthUpTo(kMax_px / view.pixelsPerMetre());
+}
+
+std::string scaleLabel(double length_m) { return mrpt::format("%g m", length_m); }
+
 }  // namespace
 
 Color robotColor(std::size_t robot) {
@@ -51,68 +60,77 @@ std::vector<Color> robotColors(const Fleet& fleet) {
   return colors;
 }
 
-void drawFloor(Canvas& canvas, const Bounds2D& b) {
-  const GroundView& view = canvas.view();
+double gridStep(const GroundView& view) {
+  constexpr double kGridMax_px = 64;
+  return roundLengthUpTo(kGridMax_px / view.pixelsPerMetre());
+}
+
+void drawFloor(DrawingSurface& surface, const Bounds2D& b) {
+  const GroundView& view = surface.view();
   const mrpt::math::TPose2D center{(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2, 0};
   const Outline floor = OrientedBox::from(center, b.x_max - b.x_min, b.y_max - b.y_min);
-  canvas.fill(floor, kFloorColor);
-  constexpr double kGridMin_px = 32;
-  const double cell_m = roundLengthUpTo(2 * kGridMin_px / view.pixelsPerMetre());
+  surface.fill(floor, kFloorColor);
+  const double cell_m = gridStep(view);
   const Bounds2D visible = view.visibleArea();
   const Bounds2D seen{std::max(b.x_min, visible.x_min), std::min(b.x_max, visible.x_max),
                       std::max(b.y_min, visible.y_min), std::min(b.y_max, visible.y_max)};
   for (double x = std::ceil(seen.x_min / cell_m) * cell_m; x <= seen.x_max; x += cell_m) {
-    canvas.line(view.toPixel({x, seen.y_min}), view.toPixel({x, seen.y_max}), 1, kGridColor);
+    surface.line(view.toPixel({x, seen.y_min}), view.toPixel({x, seen.y_max}), 1, kGridColor);
   }
   for (double y = std::ceil(seen.y_min / cell_m) * cell_m; y <= seen.y_max; y += cell_m) {
-    canvas.line(view.toPixel({seen.x_min, y}), view.toPixel({seen.x_max, y}), 1, kGridColor);
+    surface.line(view.toPixel({seen.x_min, y}), view.toPixel({seen.x_max, y}), 1, kGridColor);
   }
-  canvas.outline(floor, 1, mix(kGridColor, kInkColor, 0.3f));
+  surface.outline(floor, 1, mix(kGridColor, kInkColor, 0.3f));
 }
 
-void drawMaps(Canvas& canvas, const World& world) {
+void drawMaps(DrawingSurface& surface, const World& world) {
   for (const auto& map : world.maps) {
-    std::vector<Solid> solids;
-    addSolids(map.plan, map.world_from_map, map.heights(), solids);
-    for (const auto& solid : solids) canvas.fill(solid.outline, map.color);
-    // Walls of a map may be thinner than a visible line.
-    for (std::size_t i = map.plan.occupied.size(); i < solids.size(); ++i) {
-      canvas.outline(solids[i].outline, 1.5, map.color);
+    surface.fillCells(map.plan, map.world_from_map, map.color);
+    for (const auto& box : map.plan.boxes) {
+      const Outline shape = OrientedBox::from(map.world_from_map + box.map_from_box, box.length_m, box.width_m);
+      surface.fill(shape, map.color);
+      surface.outline(shape, 1.5, map.color);  // walls of a map may be thinner than a visible line
     }
   }
 }
 
-void drawObjects(Canvas& canvas, const World& world) {
+void drawObjects(DrawingSurface& surface, const World& world) {
   std::vector<const Body*> bodies;
   for (const auto& object : world.objects) bodies.push_back(&object.body);
   std::stable_sort(bodies.begin(), bodies.end(),
                    [](const Body* a, const Body* b) { return a->heights().z_max_m < b->heights().z_max_m; });
   for (const Body* body : bodies) {
-    if (body->heat_celsius > 0) canvas.glow(body->solid().outline, 26, kGlowColor);
+    if (body->heat_celsius > 0) surface.glow(body->solid().outline, 26, kGlowColor);
   }
   for (const Body* body : bodies) {
     const Outline shape = body->solid().outline;
-    canvas.fill(shape, body->color);
-    canvas.outline(shape, 1, mix(body->color, {0, 0, 0}, 0.45f));
+    surface.fill(shape, body->color);
+    surface.outline(shape, 1, mix(body->color, {0, 0, 0}, 0.45f));
   }
 }
 
-void drawRobot(Canvas& canvas, const TPoint2D& center, double radius_px, const TPoint2D& ahead, const Color& color) {
+void drawRobot(DrawingSurface& surface, const TPoint2D& center, double radius_px, const TPoint2D& ahead,
+               const Color& color) {
   const bool small = radius_px < 6;  // too small for details and antialiasing
-  const auto disc = small ? &Canvas::dot : &Canvas::disc;
-  (canvas.*disc)(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
-  (canvas.*disc)(center, radius_px - 1, color);
-  canvas.line(center, center + ahead * (radius_px + (small ? 4 : -1.5)), 2, small ? color : kWhite);
+  const auto disc = small ? &DrawingSurface::dot : &DrawingSurface::disc;
+  (surface.*disc)(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
+  (surface.*disc)(center, radius_px - 1, color);
+  surface.line(center, center + ahead * (radius_px + (small ? 4 : -1.5)), 2, small ? color : kWhite);
 }
 
-double drawScale(Canvas& canvas, const TPoint2D& from) {
-  const double scale_m = roundLengthUpTo(160 / canvas.view().pixelsPerMetre());
-  const double length_px = scale_m * canvas.view().pixelsPerMetre();
+double drawScale(DrawingSurface& surface, const TPoint2D& from, double text_px) {
+  const double length_m = scaleLength(surface.view());
+  const double length_px = length_m * surface.view().pixelsPerMetre();
   const TPoint2D to(from.x + length_px, from.y);
-  canvas.line(from, to, 2, kInkColor);
-  for (const TPoint2D& end : {from, to}) canvas.line({end.x, end.y - 5}, {end.x, end.y + 5}, 2, kInkColor);
-  canvas.text({to.x + 10, to.y}, mrpt::format("%g m", scale_m), kTextSize_px, kInkColor);
+  surface.line(from, to, 2, kInkColor);
+  for (const TPoint2D& end : {from, to}) surface.line({end.x, end.y - 5}, {end.x, end.y + 5}, 2, kInkColor);
+  surface.text({to.x + kScaleGap_px, to.y}, scaleLabel(length_m), text_px, kInkColor);
   return length_px;
+}
+
+double scaleWidth(const DrawingSurface& surface, double text_px) {
+  const double length_m = scaleLength(surface.view());
+  return length_m * surface.view().pixelsPerMetre() + kScaleGap_px + surface.textWidth(scaleLabel(length_m), text_px);
 }
 
 void NameWriter::keepClear(const TPoint2D& center, double half_width_px, double half_height_px) {
@@ -121,12 +139,12 @@ void NameWriter::keepClear(const TPoint2D& center, double half_width_px, double 
 
 void NameWriter::write(const std::string& name, const TPoint2D& center, double half_width_px, double half_height_px,
                        const Color& color) {
-  const double width = Canvas::textWidth(name, kTextSize_px);
-  const double height = kTextSize_px * 1.4;
+  const double width = surface_.textWidth(name, text_px_);
+  const double height = text_px_ * 1.4;
   const double right = half_width_px + 5 + width / 2, up = half_height_px + 4 + height / 2;
   const TPoint2D offsets[] = {{right, 0},        {-right, 0},         {0, -up},          {0, up}, {right * 0.8, -up},
                               {right * 0.8, up}, {-right * 0.8, -up}, {-right * 0.8, up}};
-  const TPoint2D half(canvas_.view().width() / 2.0, canvas_.view().height() / 2.0);
+  const TPoint2D half(surface_.view().width() / 2.0, surface_.view().height() / 2.0);
   const Bounds2D page = around(half, half.x - 2, half.y - 2);
   std::optional<Bounds2D> best;
   double best_contrast = 0;
@@ -136,24 +154,33 @@ void NameWriter::write(const std::string& name, const TPoint2D& center, double h
         std::any_of(taken_.begin(), taken_.end(), [&](const Bounds2D& other) { return cover(place, other); })) {
       continue;
     }
-    const double contrast = canvas_.contrast(place);
+    const double contrast = surface_.contrast(place);
     if (best && contrast >= best_contrast) continue;
     best = place;
     best_contrast = contrast;
   }
   if (!best) return;
   taken_.push_back(*best);
-  canvas_.text({best->x_min + 2, (best->y_min + best->y_max) / 2}, name, kTextSize_px, color);
+  surface_.text({best->x_min + 2, (best->y_min + best->y_max) / 2}, name, text_px_, color);
 }
 
 void NameWriter::writeHotObjects(const World& world) {
-  const GroundView& view = canvas_.view();
+  struct Label {
+    const std::string& name;
+    TPoint2D center, half;  // [px]
+  };
+  std::vector<Label> labels;
+  const GroundView& view = surface_.view();
   for (const auto& object : world.objects) {
     if (object.body.heat_celsius <= 0) continue;
     const Bounds2D b = boundsOf(object.body.solid().outline);
     const auto& pose = object.body.world_from_body;
-    write(object.name, view.toPixel({pose.x, pose.y}), (b.x_max - b.x_min) / 2 * view.pixelsPerMetre(),
-          (b.y_max - b.y_min) / 2 * view.pixelsPerMetre(), mix(kGlowColor, {0.3f, 0, 0}, 0.6f));
+    labels.push_back({object.name, view.toPixel({pose.x, pose.y}),
+                      TPoint2D(b.x_max - b.x_min, b.y_max - b.y_min) * (view.pixelsPerMetre() / 2)});
+  }
+  for (const auto& label : labels) keepClear(label.center, label.half.x, label.half.y);
+  for (const auto& label : labels) {
+    write(label.name, label.center, label.half.x, label.half.y, mix(kGlowColor, {0.3f, 0, 0}, 0.6f));
   }
 }
 

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "rendering/canvas.h"
+#include "rendering/drawing_surface.h"
 #include "robots/fleet.h"
 #include "world/world.h"
 
@@ -23,23 +23,27 @@ Color robotColor(std::size_t robot);
 /// By robot: the body colour given in the file where no other robot has the same, else robotColor().
 std::vector<Color> robotColors(const Fleet&);
 
-/// The ground within the world's bounds, with a grid of a round number of metres.
-void drawFloor(Canvas&, const Bounds2D& bounds);
+/// Spacing of grid lines [m], a round number.
+double gridStep(const GroundView&);
+/// The ground within the world's bounds, with a grid.
+void drawFloor(DrawingSurface&, const Bounds2D& bounds);
 /// The walls of the world's maps.
-void drawMaps(Canvas&, const World&);
+void drawMaps(DrawingSurface&, const World&);
 /// The world's objects in their colours, in order of height, hot ones with a glow.
-void drawObjects(Canvas&, const World&);
+void drawObjects(DrawingSurface&, const World&);
 /// A disc with a mark in the direction of its heading; all in pixels.
-void drawRobot(Canvas&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
+void drawRobot(DrawingSurface&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
                const Color&);
 /// A scale bar of a round length, starting at `from` [px], with its number of metres. @return its length [px]
-double drawScale(Canvas&, const mrpt::math::TPoint2D& from);
+double drawScale(DrawingSurface&, const mrpt::math::TPoint2D& from, double text_px = kTextSize_px);
+/// Width of that bar with its number [px].
+double scaleWidth(const DrawingSurface&, double text_px);
 ///@}
 
 /// Places labels beside objects so that they overlap neither each other nor reserved areas.
 class NameWriter {
  public:
-  explicit NameWriter(Canvas& canvas) : canvas_(canvas) {}
+  explicit NameWriter(DrawingSurface& surface, double text_px = kTextSize_px) : surface_(surface), text_px_(text_px) {}
 
   void keepClear(const mrpt::math::TPoint2D& center, double half_width_px, double half_height_px);
   /// Writes a label at the free position beside an object that has the lowest contrast; omits it if there is none.
@@ -49,7 +53,8 @@ class NameWriter {
   void writeHotObjects(const World&);
 
  private:
-  Canvas& canvas_;
+  DrawingSurface& surface_;
+  double text_px_;               ///< height of a capital
   std::vector<Bounds2D> taken_;  ///< rectangles of pixels
 };
 

@@ -54,8 +54,9 @@ struct Scene10x5 {
     writePlan(file, world, fleet, paths, world_from_robot);
     return cv::imread(file.string());
   }
+  PlanView view() const { return planView(world, {.paths = paths}); }
   cv::Vec3b at(const cv::Mat& picture, const TPoint2D& place) const {
-    const auto pixel = planView(world, paths).toPixel(place);
+    const auto pixel = view().toPixel(place);
     return picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
   }
 };
@@ -169,7 +170,7 @@ TEST_F(PlanFile, WritesEachRobotsNameBesideItsDisc) {
   cv::Mat difference;
   cv::absdiff(named, scene.draw(folder_ / "nameless.png"), difference);
   for (const auto& pose : scene.world_from_robot) {
-    const auto pixel = planView(scene.world, scene.paths).toPixel({pose.x, pose.y});
+    const auto pixel = scene.view().toPixel({pose.x, pose.y});
     const cv::Point center(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     const cv::Rect disc(center - cv::Point(24, 24), cv::Size(48, 48)),
         near(center - cv::Point(90, 60), cv::Size(180, 120));
@@ -222,6 +223,19 @@ std::string errorOf(const std::function<void()>& work) {
   return "no error";
 }
 
+TEST_F(PlanFile, IsWrittenInTheFormatOfItsName) {
+  const auto beginning = [&](const char* name) {
+    const Scene10x5 scene;
+    writePlan(folder_ / name, scene.world, scene.fleet, scene.paths, scene.world_from_robot);
+    std::string text(5, ' ');
+    std::ifstream(folder_ / name).read(text.data(), 5);
+    return text;
+  };
+  EXPECT_EQ(beginning("a.svg"), "<?xml");
+  EXPECT_EQ(beginning("a.PDF"), "%PDF-");
+  EXPECT_EQ(beginning("a.png").substr(1, 3), "PNG");
+}
+
 TEST_F(PlanFile, RejectsInvalidNamesBeforeAndAfterARun) {
   fs::create_directory(folder_ / "folder.png");
   struct Case {
@@ -229,7 +243,7 @@ TEST_F(PlanFile, RejectsInvalidNamesBeforeAndAfterARun) {
     std::string what;
   };
   const Case cases[] = {
-      {folder_ / "plan.jpg", ": a picture is a PNG file; give it a name that ends in .png"},
+      {folder_ / "plan.jpg", ": a picture is a PNG, SVG or PDF file; give it a name that ends in .png, .svg or .pdf"},
       {folder_ / "folder.png", ": is a folder; name a file in it"},
       {folder_ / "none" / "plan.png", ": cannot be created: the folder " + (folder_ / "none").string() +
                                           " does not exist; create it, or choose another"}};

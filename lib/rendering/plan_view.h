@@ -3,17 +3,21 @@
 
 namespace robosim {
 
-/// A GroundView with margins for a title above and a legend below. Its longer side has kLongSide_px.
+/// Size and margins of a page with a view from above, in pixels.
+struct PageLayout {
+  int long_side_px;
+  int short_side_min_px;  ///< minimum for the legend of a long, narrow world
+  double left_px, right_px, top_px, bottom_px;
+};
+
+/// Margins for a title above and a legend below.
+inline constexpr PageLayout kPlanLayout{1200, 440, 24, 24, 44, 56};
+
+/// A GroundView with margins. Its longer side has the layout's length.
 class PlanView : public GroundView {
  public:
   /// @param area to be shown; a side of length 0 is shown as a narrow strip
-  explicit PlanView(const Bounds2D& area);
-
-  static constexpr int kLongSide_px = 1200;
-  static constexpr int kShortSideMin_px = 440;  ///< minimum for the legend of a long, narrow world
-  static constexpr int kSideMargin_px = 24;
-  static constexpr int kTopMargin_px = 44;
-  static constexpr int kBottomMargin_px = 56;
+  explicit PlanView(const Bounds2D& area, const PageLayout& layout = kPlanLayout);
 };
 
 }  // namespace robosim

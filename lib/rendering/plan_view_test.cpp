@@ -30,7 +30,7 @@ TEST(PlanView, IsTwelveHundredPixelsHighForATallWorld) {
 
 TEST(PlanView, CentresANarrowWorldAboveTheLegend) {
   const PlanView view({0, 1, 0, 100});
-  EXPECT_EQ(view.width(), PlanView::kShortSideMin_px);
+  EXPECT_EQ(view.width(), kPlanLayout.short_side_min_px);
   EXPECT_NEAR(view.toPixel({0.5, 0}).x, view.width() / 2.0 - 0.5, 1e-9);
 }
 

@@ -1,26 +1,22 @@
 #include "rendering/png_file.h"
 
-#include <algorithm>
-#include <cctype>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include <mrpt/core/format.h>
 #include <opencv2/imgcodecs.hpp>
 
 #include "base/atomic_file.h"
 #include "base/error_list.h"
+#include "rendering/picture_format.h"
 
 namespace robosim {
 namespace {
 
 void checkName(const std::filesystem::path& file) {
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (ending != ".png") {
-    throw ConfigError(file.string() + ": a picture is a PNG file; give it a name that ends in .png");
-  }
+  if (pictureFormatOf(file) == PictureFormat::png) return;
+  throw ConfigError(file.string() + ": a picture is a PNG file; give it a name that ends in .png");
 }
 
 }  // namespace
@@ -30,14 +26,19 @@ void checkPngFile(const std::filesystem::path& file) {
   checkWritable(file);
 }
 
+std::string encodePng(const cv::Mat& picture) {
+  std::vector<unsigned char> bytes;
+  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
+    throw std::runtime_error(mrpt::format(
+        "the picture of %d × %d pixels could not be compressed; ask for a smaller one", picture.cols, picture.rows));
+  }
+  return {bytes.begin(), bytes.end()};
+}
+
 void writePngFile(const std::filesystem::path& file, const cv::Mat& picture) {
   checkName(file);
   AtomicFile whole(file);
-  std::vector<unsigned char> bytes;
-  if (!cv::imencode(".png", picture, bytes, {cv::IMWRITE_PNG_COMPRESSION, 9})) {
-    throw std::runtime_error(file.string() + ": the picture could not be compressed; ask for a smaller one");
-  }
-  whole.write({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  whole.write(encodePng(picture));
   whole.commit();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include <opencv2/core/mat.hpp>
 
@@ -7,6 +8,9 @@ namespace robosim {
 
 /// @throws ConfigError when the name does not end in .png, or the file cannot be created. Changes no file.
 void checkPngFile(const std::filesystem::path& file);
+
+/// The picture as a PNG file. @throws std::runtime_error when it is too large
+std::string encodePng(const cv::Mat& picture);
 
 /// Writes the picture as an AtomicFile.
 /// @throws ConfigError as checkPngFile() does, and std::runtime_error when the disk is full.

@@ -6,6 +6,7 @@
 
 #include <mrpt/core/format.h>
 
+#include "rendering/canvas.h"
 #include "rendering/ground_painter.h"
 
 namespace robosim {

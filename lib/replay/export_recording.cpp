@@ -14,9 +14,11 @@
 #include "base/text_table.h"
 #include "recording/observation_times.h"
 #include "recording/rawlog_reader.h"
+#include "rendering/picture_format.h"
 #include "replay/csv_field.h"
 #include "replay/npz_writer.h"
 #include "replay/recorded_sensors.h"
+#include "replay/recording_figure.h"
 #include "replay/recording_table.h"
 #include "run/run_note.h"
 
@@ -39,24 +41,43 @@ class ExportProgress {
   Progress progress_;
 };
 
-RecordingTable tableOf(const std::string& rawlog, ExportProgress& progress) {
+/// What the outputs of an export require of a recording.
+struct RecordingContents {
+  std::optional<RecordingTable> table;    ///< nullopt without a table
+  std::optional<RecordingFigure> figure;  ///< nullopt without a picture
+};
+
+RecordingContents contentsOf(const std::string& rawlog, const std::vector<RecordingOutput>& outs,
+                             ExportProgress& progress) {
   RawlogReader reader(rawlog);
-  RecordingTable table;
+  RecordingContents contents;
+  for (const auto& out : outs) {
+    if (out.format == RecordingFormat::picture) {
+      if (!contents.figure) contents.figure.emplace(rawlog);
+    } else if (!contents.table) {
+      contents.table.emplace();
+    }
+  }
   ObservationTimes times;
   std::optional<RecordedSensors> sensors;
   while (const auto observation = reader.next()) {
     progress.at([&] { return "reading: " + withCommas(reader.entries()) + " entries …"; });
     if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
-      if (!sensors) {
-        if (const auto note = RunNote::parse(comment->text)) sensors = RecordedSensors::of(*note);
+      if (sensors) continue;
+      if (const auto note = RunNote::parse(comment->text)) {
+        sensors = RecordedSensors::of(*note);
+        if (contents.figure) contents.figure->setRun(*note);
       }
       continue;
     }
-    table.add(*observation, times.of(*observation, reader.entries()),
-              sensors ? sensors->find(observation->sensorLabel) : nullptr);
+    const double time_s = times.of(*observation, reader.entries());
+    if (contents.figure) contents.figure->add(*observation, time_s);
+    if (contents.table) {
+      contents.table->add(*observation, time_s, sensors ? sensors->find(observation->sensorLabel) : nullptr);
+    }
   }
   if (reader.readError()) logWarning("export", *reader.readError());
-  return table;
+  return contents;
 }
 
 /// The columns of a sensor of all robots.
@@ -152,14 +173,25 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 
 }  // namespace
 
-void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs, const Interrupt* interrupt) {
+void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   files.reserve(outs.size());
   for (const auto& out : outs) files.push_back(std::make_unique<AtomicFile>(out.file));
   ExportProgress progress(interrupt);
-  const RecordingTable table = tableOf(rawlog, progress);
+  const RecordingContents contents = contentsOf(rawlog, outs, progress);
   for (std::size_t i = 0; i < outs.size(); ++i) {
-    (outs[i].format == TableFormat::npz ? writeNpz : writeCsv)(table, *files[i], progress);
+    switch (outs[i].format) {
+      case RecordingFormat::csv:
+        writeCsv(*contents.table, *files[i], progress);
+        break;
+      case RecordingFormat::npz:
+        writeNpz(*contents.table, *files[i], progress);
+        break;
+      case RecordingFormat::picture:
+        progress.at([] { return "drawing …"; });
+        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file)));
+        break;
+    }
     files[i]->finish();
   }
   for (auto& file : files) file->commit();

@@ -7,21 +7,22 @@
 
 namespace robosim {
 
-/// Form of a recording for other programs; doc/rawlog.md specifies both.
-enum class TableFormat {
-  csv,  ///< comma-separated values, one row per robot and step
-  npz,  ///< NumPy's arrays, for each robot and sensor
+/// Form of a recording for other programs; doc/rawlog.md specifies them.
+enum class RecordingFormat {
+  csv,      ///< comma-separated values, one row per robot and step
+  npz,      ///< NumPy's arrays, for each robot and sensor
+  picture,  ///< a figure of the run; PNG, SVG or PDF according to the file name
 };
 
-struct TableFile {
+struct RecordingOutput {
   std::filesystem::path file;
-  TableFormat format;
+  RecordingFormat format;
 };
 
-/// Writes a recording as tables. All files are renamed to their names after all have been written.
+/// Writes a recording as tables and figures. All files are renamed to their names after all have been written.
 /// @param rawlog made by RoboSim or another program; may be a pipe
 /// @param interrupt a request ends the export; null: it cannot be interrupted
 /// @throws ConfigError, Interrupted, std::runtime_error (such as on a full disk); nothing is written then
-void exportRecording(const std::string& rawlog, const std::vector<TableFile>& outs, const Interrupt* interrupt);
+void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt);
 
 }  // namespace robosim

@@ -7,7 +7,7 @@
 
 namespace robosim {
 
-RunTables::RunTables(std::vector<TableFile> tables, const std::string& world, const Environment& environment,
+RunTables::RunTables(std::vector<RecordingOutput> tables, const std::string& world, const Environment& environment,
                      const RunNote& note)
     : tables_(std::move(tables)) {
   if (tables_.empty()) return;

@@ -18,17 +18,17 @@ class RunTables {
  public:
   /// @param tables may be empty  @param world its file  @param note of the recording
   /// @throws ConfigError for a file that cannot be written or is an input of the run
-  RunTables(std::vector<TableFile> tables, const std::string& world, const Environment& environment,
+  RunTables(std::vector<RecordingOutput> tables, const std::string& world, const Environment& environment,
             const RunNote& note);
 
   void observe(const Environment& environment);  ///< records the current step @throws RecordingError
   void finish();                                 ///< writes the tables @throws RecordingError @throws ConfigError
-  const std::vector<TableFile>& tables() const { return tables_; }
+  const std::vector<RecordingOutput>& tables() const { return tables_; }
 
  private:
   std::filesystem::path rawlog() const { return *folder_ / "run.rawlog"; }
 
-  std::vector<TableFile> tables_;
+  std::vector<RecordingOutput> tables_;
   std::optional<TemporaryDirectory> folder_;
   std::unique_ptr<RawlogWriter> recording_;
 };

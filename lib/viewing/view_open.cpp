@@ -1,9 +1,9 @@
 #include <filesystem>
 
 #include "base/error_list.h"
-#include "base/input_file.h"
 #include "base/rereadable_file.h"
 #include "base/xml_element.h"
+#include "recording/rawlog_file.h"
 #include "viewing/view_source.h"
 #include "world/map_reader.h"
 
@@ -18,11 +18,7 @@ void refuseChanges(const std::string& source, const WorldChanges& changes, const
 std::unique_ptr<ViewSource> viewFile(const std::string& source, const WorldChanges& changes, std::uint64_t seed) {
   if (isMapFile(source)) return viewWorld(source, changes, seed);
   auto file = std::make_unique<RereadableFile>(source);
-  // XML begins with '<', after white space or a byte order mark; a rawlog is compressed, or begins with a length.
-  char first = 0;
-  InputFile(file->path()).read(&first, 1);
-  const bool is_text =
-      first == '<' || first == '\n' || first == '\r' || first == '\t' || first == ' ' || first == '\xef';
+  const bool is_text = !looksLikeRawlog(file->path());
   if (is_text && !changes.isNone()) return viewWorld(source, changes, seed);
   if (is_text) return viewWorld(source, readXmlText(file->path()), seed);
   refuseChanges(source, changes, "a recording");

@@ -1,11 +1,15 @@
-// `robosim export RAWLOG` and `robosim run --csv`, read by Python's csv and NumPy.
+// `robosim export RAWLOG` (tables and figures) and `robosim run --csv`, the tables read by Python's csv and
+// NumPy.
 #include <fstream>
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "base/temporary_directory.h"
 #include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/program.h"
+#include "tests/stock_tools.h"
 
 namespace robosim {
 namespace {
@@ -76,7 +80,13 @@ TEST(ExportRecording, ReportsErrorsAndLeavesFilesUnchanged) {
       {quoted(rawlog) + out("run.csv"), "is both WORLD and OUT; name two files"},
       {quoted(rawlog) + out("hard.npz"), "hard.npz: is both WORLD and OUT; name two files"},
       {quoted(rawlog) + out("b.csv"), "b.csv"},
-      {quoted(rawlog) + out("a.csv") + out("a.svg"), "a.csv is a table of a rawlog, other files are of a world"},
+      {quoted(rawlog) + out("a.csv") + out("a.gridmap"),
+       "a.gridmap: can be made of a world only, but " + (folder / "a.csv").string() + " is a table of a rawlog"},
+      {quoted(rawlog) + out("a.gridmap"),
+       "a.gridmap: can be made of a world only, but " + rawlog.string() + " is a rawlog; export it by another command"},
+      {quoted(rawlog) + out("a.svg") + out("none/a.pdf"), "none/a.pdf: cannot be created: the folder "},
+      {quoted(rawlog) + out("a.svg") + " --heights 0 1", "--resolution and --heights are for maps of a world"},
+      {quoted(rawlog) + out("a.jpg"), "a.jpg: unknown format"},
       {quoted(rawlog) + out("a.csv") + " --resolution 1", "--resolution and --heights are for maps of a world"},
       {quoted(rawlog) + out("none/a.npz"), "none/a.npz: cannot be created: the folder "},
       {"rawlogs/none.rawlog" + out("a.npz"), "rawlogs/none.rawlog: no such file"},
@@ -89,6 +99,46 @@ TEST(ExportRecording, ReportsErrorsAndLeavesFilesUnchanged) {
   }
   EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 3);
   EXPECT_TRUE(textOf(rawlog) == before);
+}
+
+TEST(ExportRecording, DrawsAFigureOfTheRun) {
+  const auto folder = emptyFolder();
+  const std::string run = quoted(folder / "run.rawlog");
+  const Ended recorded = runProgram("run worlds/lab_map.xml --record " + run);
+  ASSERT_EQ(recorded.exit_code, 0) << recorded.err;
+  const auto draw = [&](const std::string& name) {
+    exported(run + " " + quoted(folder / (name + ".png")) + " " + quoted(folder / (name + ".svg")) + " " +
+             quoted(folder / (name + ".pdf")) + " " + quoted(folder / (name + ".csv")));
+  };
+  draw("a");
+  draw("b");
+  EXPECT_FALSE(fs::exists(folder / "a.yaml")) << "a .png of a recording is no map";
+  for (const char* ending : {".png", ".svg", ".pdf", ".csv"}) {
+    EXPECT_TRUE(textOf(folder / (std::string("a") + ending)) == textOf(folder / (std::string("b") + ending))) << ending;
+  }
+  const ToolRun text = runTool("pdftotext -layout a.pdf -", folder);
+  for (const char* word : {"lab_map, 37.5 s", "Pioneer1", "Scout1", "Gold", "x [m]", "y [m]", "14", "start",
+                           "gold found", "message sent"}) {
+    EXPECT_NE(text.output.find(word), std::string::npos) << word << " is not in " << text.output;
+  }
+  const ToolRun drawn =
+      runTool("rsvg-convert -z 2 a.svg -o svg.png && pdftoppm -r 192 -png -singlefile a.pdf pdf", folder);
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.output;
+  const cv::Mat png = cv::imread((folder / "a.png").string());
+  for (const char* other : {"svg.png", "pdf.png"}) {
+    const cv::Mat picture = cv::imread((folder / other).string());
+    ASSERT_EQ(picture.size(), png.size());
+    cv::Mat difference;
+    cv::absdiff(png, picture, difference);
+    EXPECT_LT(cv::mean(difference.reshape(1))[0], 1) << other << ": of 255";
+  }
+}
+
+TEST(ExportRecording, DrawsTheTrajectoryOfAnotherProgram) {
+  const TemporaryDirectory folder;
+  writeForeignRawlog(folder / "foreign.rawlog");
+  exported(quoted(folder / "foreign.rawlog") + " " + quoted(folder / "a.svg"));
+  EXPECT_NE(textOf(folder / "a.svg").find("<title>foreign, 9.8 s</title>"), std::string::npos);
 }
 
 TEST(ExportRecording, ReadsATruncatedRecordingUpToTheDamage) {

@@ -58,6 +58,7 @@ TEST(Libraries, OfSubcommandsWithoutNetworkAreTheseOnly) {
   const std::set<std::string> allowed{"OpenGL",
                                       "asan",
                                       "c",
+                                      "cairo",
                                       "crypto",
                                       "expat",
                                       "fmt",

@@ -109,6 +109,8 @@ TEST(OutputFiles, LeaveNoPartialFileAtASizeLimit) {
        {"run worlds/small_maze.xml --time 60 --record " + quoted(folder / "a.rawlog"),
         "run worlds/small_maze.xml --time 60 --rawlog-format sf --record " + quoted(folder / "a.rawlog"),
         "run worlds/small_maze.xml --time 60 --picture " + quoted(folder / "a.png"),
+        "run worlds/small_maze.xml --time 60 --picture " + quoted(folder / "a.pdf"),
+        "export rawlogs/driven.rawlog " + quoted(folder / "a.svg") + " " + quoted(folder / "a.pdf"),
         "export worlds/small_maze.xml " + quoted(folder / "a.svg") + " " + quoted(folder / "a.gridmap"),
         "view worlds/small_maze.xml --offscreen " + quoted(folder / "a.png"),
         "bench gold worlds/small_maze.xml --time 0.1 --runs 100 --csv " + quoted(folder / "a.csv")}) {

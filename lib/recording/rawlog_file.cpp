@@ -1,0 +1,13 @@
+#include "recording/rawlog_file.h"
+
+#include "base/input_file.h"
+
+namespace robosim {
+
+bool looksLikeRawlog(const std::filesystem::path& file) {
+  char first = 0;
+  InputFile(file).read(&first, 1);
+  return first != '<' && first != '\n' && first != '\r' && first != '\t' && first != ' ' && first != '\xef';
+}
+
+}  // namespace robosim

@@ -1,0 +1,91 @@
+#include "rendering/figure_text.h"
+
+#include <cairo-ft.h>
+#include <fontconfig/fontconfig.h>
+
+namespace robosim {
+namespace {
+
+void appendUtf8(char32_t character, std::string& text) {
+  const auto add = [&](char32_t byte) { text += static_cast<char>(static_cast<unsigned char>(byte)); };
+  if (character < 0x80) return add(character);
+  const int more = character < 0x800 ? 1 : character < 0x10000 ? 2 : 3;
+  constexpr char32_t kLeading[] = {0, 0xC0, 0xE0, 0xF0};
+  add(kLeading[more] | character >> (6 * more));
+  for (int i = more - 1; i >= 0; --i) add(0x80 | (character >> (6 * i) & 0x3F));
+}
+
+cairo_font_face_t* openFace(const FontFile& font) {
+  if (font.file.empty())
+    return cairo_toy_font_face_create("@cairo:", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
+  FcPattern* const pattern = FcPatternCreate();
+  FcPatternAddString(pattern, FC_FILE, reinterpret_cast<const FcChar8*>(font.file.c_str()));
+  FcPatternAddInteger(pattern, FC_INDEX, font.index);
+  cairo_font_face_t* const face = cairo_ft_font_face_create_for_pattern(pattern);
+  FcPatternDestroy(pattern);
+  return face;
+}
+
+void useFont(cairo_t& context, cairo_font_face_t* face, double capital_px) {
+  cairo_set_font_face(&context, face);
+  cairo_set_font_size(&context, capital_px / kCapitalPerEm);
+}
+
+}  // namespace
+
+FigureText::~FigureText() {
+  for (const auto& [font, face] : faces_) cairo_font_face_destroy(face);
+}
+
+cairo_font_face_t* FigureText::faceFor(char32_t character) {
+  const FontFile font = fontFor(character).value_or(FontFile());
+  const auto [known, is_new] = faces_.try_emplace(font, nullptr);
+  if (is_new) known->second = openFace(font);
+  return known->second;
+}
+
+std::vector<FigureText::Run> FigureText::runsOf(const std::string& text) {
+  std::vector<Run> runs;
+  for (const char32_t character : charactersOf(text)) {
+    cairo_font_face_t* const face = faceFor(character);
+    if (runs.empty() || runs.back().face != face) runs.push_back({face, {}});
+    appendUtf8(character < 0x20 ? U' ' : character, runs.back().text);
+  }
+  return runs;
+}
+
+void FigureText::addPath(cairo_t& context, const std::string& text, double capital_px, double x, double y) {
+  cairo_move_to(&context, x, y);
+  for (const auto& run : runsOf(text)) {
+    useFont(context, run.face, capital_px);
+    cairo_text_path(&context, run.text.c_str());
+  }
+}
+
+void FigureText::show(cairo_t& context, const std::string& text, double capital_px, double x, double y) {
+  if (cairo_surface_get_type(cairo_get_target(&context)) == CAIRO_SURFACE_TYPE_IMAGE) {
+    // As characters, Cairo 1.16 would move each of them to whole pixels.
+    addPath(context, text, capital_px, x, y);
+    cairo_fill(&context);
+    return;
+  }
+  cairo_move_to(&context, x, y);
+  for (const auto& run : runsOf(text)) {
+    useFont(context, run.face, capital_px);
+    cairo_show_text(&context, run.text.c_str());
+  }
+  cairo_new_path(&context);  // without the end of the text
+}
+
+double FigureText::width(cairo_t& context, const std::string& text, double capital_px) {
+  double width_px = 0;
+  for (const auto& run : runsOf(text)) {
+    useFont(context, run.face, capital_px);
+    cairo_text_extents_t extents;
+    cairo_text_extents(&context, run.text.c_str(), &extents);
+    width_px += extents.x_advance;
+  }
+  return width_px;
+}
+
+}  // namespace robosim

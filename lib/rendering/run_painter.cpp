@@ -1,0 +1,182 @@
+#include "rendering/run_painter.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+
+constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover at full opacity
+constexpr double kStartRadius_px = 4.5;
+constexpr double kDrawnRadiusMin_px = 3;  // minimum for large worlds
+constexpr double kMarkSpacing_px = 14;
+constexpr double kMarkRadius_px = 7;
+constexpr Color kGoldColor{1.0f, 0.80f, 0.10f};
+constexpr Color kStopColor{0.80f, 0.05f, 0.05f};
+
+/// A star with five points.
+std::array<TPoint2D, 10> star(const TPoint2D& center, double radius_px) {
+  std::array<TPoint2D, 10> corners;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double angle_rad = static_cast<double>(i) * M_PI / 5 - M_PI / 2;
+    const double from_center_px = i % 2 == 0 ? radius_px : 0.45 * radius_px;
+    corners[i] = center + TPoint2D(std::cos(angle_rad), std::sin(angle_rad)) * from_center_px;
+  }
+  return corners;
+}
+
+}  // namespace
+
+RunPainter::RunPainter(Figure& figure, const World& world, const Fleet& fleet, const DrawnRun& run, const Style& style)
+    : figure_(figure),
+      view_(figure.view()),
+      world_(world),
+      fleet_(fleet),
+      run_(run),
+      style_(style),
+      colors_(robotColors(fleet)) {}
+
+void RunPainter::paintGround() {
+  drawFloor(figure_, world_.bounds);
+  const float paleness = pathPaleness();
+  for (std::size_t i = 0; i < run_.paths.size(); ++i) paintPath(i, paleness);
+  for (std::size_t i = 0; i < run_.paths.size(); ++i) {
+    if (!run_.paths[i].empty()) paintStart(view_.toPixel(run_.paths[i].front()), colors_[i]);
+  }
+  drawMaps(figure_, world_);
+  drawObjects(figure_, world_);
+}
+
+void RunPainter::paintRobots() {
+  for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
+    const auto at = robotPixel(i);
+    if (!at) continue;
+    const double heading_rad = run_.world_from_robot[i]->phi;
+    drawRobot(figure_, *at, robotRadius(i), {std::cos(heading_rad), -std::sin(heading_rad)}, colors_[i]);
+  }
+}
+
+void RunPainter::paintEvents() {
+  std::map<std::pair<RunEvent::Kind, std::size_t>, TPoint2D> last;
+  for (const auto& event : run_.events) {
+    const TPoint2D at = view_.toPixel(event.at);
+    const auto [before, is_first] = last.try_emplace({event.kind, event.robot}, at);
+    if (!is_first && (at - before->second).norm() < kMarkSpacing_px) continue;
+    before->second = at;
+    marks_.push_back(besideRobots(at));
+    paintEvent(event.kind, marks_.back(), colors_[event.robot]);
+  }
+}
+
+TPoint2D RunPainter::besideRobots(const TPoint2D& at) const {
+  for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
+    const auto robot = robotPixel(i);
+    if (!robot || (at - *robot).norm() > robotRadius(i)) continue;
+    std::optional<TPoint2D> best;
+    double best_contrast = 0;
+    for (int k = 0; k < 8; ++k) {
+      const double angle_rad = -M_PI / 4 + k * M_PI / 4;  // to the upper right first
+      const TPoint2D place =
+          *robot + TPoint2D(std::cos(angle_rad), std::sin(angle_rad)) * (robotRadius(i) + kMarkRadius_px + 1);
+      const double half_px = kMarkRadius_px - 1.5;
+      const double contrast =
+          figure_.contrast({place.x - half_px, place.x + half_px, place.y - half_px, place.y + half_px});
+      if (best && contrast >= best_contrast) continue;
+      best = place;
+      best_contrast = contrast;
+    }
+    return *best;
+  }
+  return at;
+}
+
+void RunPainter::paintNames() {
+  NameWriter names(figure_, style_.text_px);
+  for (const auto& mark : marks_) names.keepClear(mark, kMarkRadius_px, kMarkRadius_px);
+  for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
+    if (const auto at = robotPixel(i)) names.keepClear(*at, robotRadius(i), robotRadius(i));
+  }
+  names.writeHotObjects(world_);
+  for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
+    const auto at = robotPixel(i);
+    if (!at) continue;
+    names.write(fleet_.robots[i].info.name, *at, robotRadius(i), robotRadius(i), mix(colors_[i], {0, 0, 0}, 0.35f));
+  }
+}
+
+void RunPainter::paintStart(const TPoint2D& at, const Color& color) {
+  figure_.disc(at, kStartRadius_px, color);
+  figure_.disc(at, kStartRadius_px - 2, kWhite);
+}
+
+void RunPainter::paintEvent(RunEvent::Kind kind, const TPoint2D& at, const Color& color) {
+  switch (kind) {
+    case RunEvent::Kind::gold:
+      figure_.polygon(star(at, 10), kWhite);
+      figure_.polygon(star(at, 8.5), mix(kGoldColor, {0, 0, 0}, 0.45f));
+      figure_.polygon(star(at, 6.5), kGoldColor);
+      break;
+    case RunEvent::Kind::message: {
+      const auto diamond = [&](double size_px, const Color& paint) {
+        const TPoint2D corners[] = {
+            {at.x, at.y - size_px}, {at.x + size_px, at.y}, {at.x, at.y + size_px}, {at.x - size_px, at.y}};
+        figure_.polygon(corners, paint);
+      };
+      diamond(7.5, kWhite);
+      diamond(6, mix(color, {0, 0, 0}, 0.25f));
+      diamond(3.5, kWhite);
+      break;
+    }
+    case RunEvent::Kind::stall:
+      for (const auto& [width_px, paint] : {std::pair{4.0, kWhite}, std::pair{1.8, kStopColor}}) {
+        figure_.line({at.x - 3.5, at.y - 3.5}, {at.x + 3.5, at.y + 3.5}, width_px, paint);
+        figure_.line({at.x - 3.5, at.y + 3.5}, {at.x + 3.5, at.y - 3.5}, width_px, paint);
+      }
+      break;
+  }
+}
+
+std::optional<TPoint2D> RunPainter::robotPixel(std::size_t robot) const {
+  const auto& pose = run_.world_from_robot[robot];
+  if (!pose) return std::nullopt;
+  return view_.toPixel({pose->x, pose->y});
+}
+
+double RunPainter::robotRadius(std::size_t robot) const {
+  return std::max(kDrawnRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
+}
+
+/// Blend factor of paths towards the floor colour: grows with the share of the picture that they cover, so that
+/// objects stay visible.
+float RunPainter::pathPaleness() const {
+  double length_m = 0;
+  for (const auto& path : run_.paths) {
+    for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
+  }
+  const double covered_px = length_m * view_.pixelsPerMetre() * style_.path_px;
+  const double covered = covered_px / (view_.width() * view_.height());
+  return static_cast<float>(std::clamp(1 - kPathsBright / covered, 0.0, 0.75));
+}
+
+void RunPainter::paintPath(std::size_t robot, float paleness) {
+  std::vector<TPoint2D> path;
+  for (const auto& point : run_.paths[robot]) path.push_back(view_.toPixel(point));
+  if (path.empty()) return;
+  if (robot < run_.world_from_robot.size()) {
+    if (const auto end = robotPixel(robot)) path.push_back(*end);
+  }
+  figure_.polyline(path, style_.path_px + 1.6, kWhite);
+  figure_.polyline(path, style_.path_px, mix(colors_[robot], kFloorColor, paleness));
+}
+
+void paintPathLegend(Legend& legend, RunPainter& painter, Figure& figure) {
+  const Color color = mix(kPageColor, kInkColor, 0.7f);
+  legend.add("end", 16, [&](const TPoint2D& at) { drawRobot(figure, at, 8, {1, 0}, color); });
+  legend.add("start", 2 * kStartRadius_px, [&](const TPoint2D& at) { painter.paintStart(at, color); });
+}
+
+}  // namespace robosim

@@ -1,0 +1,152 @@
+#include "replay/recording_figure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include "base/error_list.h"
+#include "base/log.h"
+#include "base/text_table.h"
+#include "recording/robot_status_record.h"
+#include "rendering/run_figure.h"
+#include "replay/value_text.h"
+#include "robots/world_source.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPoint2D;
+using mrpt::math::TPose2D;
+using mrpt::obs::CObservation;
+
+constexpr double kPathSpacing_m = 0.05;
+constexpr double kFarthest_m = 1e6;       ///< poses beyond are not drawn; those of a run are within a world's bounds
+constexpr double kUnknownRadius_m = 0.2;  ///< of robots of other programs
+
+}  // namespace
+
+void RecordingFigure::setRun(const RunNote& note) {
+  is_of_robosim_ = true;
+  if (note.world.text.empty()) {
+    logWarning("export", rawlog_ +
+                             ": does not contain its world, which is larger than 1 MiB; the figure shows "
+                             "trajectories and events only");
+    return;
+  }
+  world_ = loadWorld(note.world, {});
+}
+
+std::size_t RecordingFigure::robotNamed(const std::string& name) {
+  const auto [known, is_new] = index_of_.try_emplace(name, robots_.size());
+  if (is_new) {
+    robots_.emplace_back();
+    robots_.back().name = name;
+  }
+  return known->second;
+}
+
+void RecordingFigure::add(const CObservation& observation, double time_s) {
+  duration_s_ = std::max(duration_s_, time_s);
+  const Label label = Label::parse(observation.sensorLabel);
+  if (const auto pose = poseIn(observation)) {
+    const bool is_truth = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr;
+    addPose(robotNamed(label.robot), *pose, is_truth);
+  } else if (is_of_robosim_ && label.sensor == kStatus) {
+    addStatus(robotNamed(label.robot), observation);
+  } else if (is_of_robosim_ && label.sensor == kInbox) {
+    addMessages(label.robot, observation);
+  }
+}
+
+void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_truth) {
+  Robot& robot = robots_[index];
+  if (!(std::abs(pose.x) < kFarthest_m && std::abs(pose.y) < kFarthest_m && std::isfinite(pose.phi))) return;
+  if (robot.has_truth && !is_truth) return;
+  if (is_truth && !robot.has_truth) robot.path.clear();
+  robot.has_truth = is_truth;
+  robot.pose = is_truth ? pose : startOfOdometry(robot.name) + pose;
+  const TPoint2D at(robot.pose->x, robot.pose->y);
+  if (robot.path.empty() || (at - robot.path.back()).norm() >= kPathSpacing_m) robot.path.push_back(at);
+}
+
+void RecordingFigure::addStatus(std::size_t index, const CObservation& observation) {
+  const RobotStatus status = statusFrom(observation);
+  Robot& robot = robots_[index];
+  const bool has_found = status.has_won || status.command.activity == Activity::found;
+  if (has_found && !robot.has_found) addEvent(RunEvent::Kind::gold, index);
+  if (status.stalled && !robot.is_stalled) addEvent(RunEvent::Kind::stall, index);
+  robot.has_found = robot.has_found || has_found;
+  robot.is_stalled = status.stalled;
+}
+
+void RecordingFigure::addMessages(const std::string& receiver, const CObservation& observation) {
+  for (const auto& message : inboxFrom(observation, receiver)) {
+    const auto sender = index_of_.find(message.from);
+    if (sender != index_of_.end()) addEvent(RunEvent::Kind::message, sender->second);
+  }
+}
+
+void RecordingFigure::addEvent(RunEvent::Kind kind, std::size_t robot) {
+  const auto& pose = robots_[robot].pose;
+  if (pose) robots_[robot].events.push_back({kind, robot, {pose->x, pose->y}});
+}
+
+/// In a run of RoboSim, odometry counts from the start.
+TPose2D RecordingFigure::startOfOdometry(const std::string& robot) const {
+  if (!world_) return {};
+  for (const auto& of_world : world_->fleet.robots) {
+    if (of_world.info.name == robot) return of_world.world_from_start;
+  }
+  return {};
+}
+
+/// An empty floor under the trajectories.
+LoadedWorld RecordingFigure::withoutWorld() const {
+  LoadedWorld loaded;
+  loaded.world.name = std::filesystem::path(rawlog_).stem().string();
+  std::optional<Bounds2D> area;
+  for (const auto& robot : robots_) {
+    if (!robot.pose) continue;
+    FleetRobot drawn;
+    drawn.info.name = robot.name;
+    drawn.info.radius_m = kUnknownRadius_m;
+    loaded.fleet.robots.push_back(std::move(drawn));
+    for (const auto& p : robot.path) {
+      if (!area) area = Bounds2D{p.x, p.x, p.y, p.y};
+      *area = {std::min(area->x_min, p.x), std::max(area->x_max, p.x), std::min(area->y_min, p.y),
+               std::max(area->y_max, p.y)};
+    }
+  }
+  constexpr double kMargin_m = 0.5;
+  const Bounds2D paths = area.value_or(Bounds2D());
+  loaded.world.bounds = {paths.x_min - kMargin_m, paths.x_max + kMargin_m, paths.y_min - kMargin_m,
+                         paths.y_max + kMargin_m};
+  return loaded;
+}
+
+std::string RecordingFigure::draw(PictureFormat format) const {
+  const LoadedWorld loaded = world_ ? *world_ : withoutWorld();
+  DrawnRun run;
+  run.title = loaded.world.name + ", " + fixed(duration_s_, 1) + " s";
+  bool has_poses = false;
+  for (const auto& of_world : loaded.fleet.robots) {
+    const auto found = index_of_.find(of_world.info.name);
+    const Robot robot = found == index_of_.end() ? Robot() : robots_[found->second];
+    has_poses |= robot.pose.has_value();
+    for (RunEvent event : robot.events) {
+      event.robot = run.paths.size();
+      run.events.push_back(event);
+    }
+    run.paths.push_back(robot.path);
+    run.world_from_robot.push_back(robot.pose);
+  }
+  if (!has_poses) {
+    throw ConfigError(rawlog_ +
+                      ": contains neither ground truth nor odometry; a figure requires a recording with poses");
+  }
+  return runFigure(format, loaded.world, loaded.fleet, run);
+}
+
+}  // namespace robosim
