@@ -3,8 +3,10 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "python_errors.h"
+#include "python_robot.h"
 #include "python_world.h"
 #include "run/plugin.h"
+#include "simulation.h"
 
 PYBIND11_MODULE(_robosim, module) {
   namespace py = pybind11;
@@ -14,4 +16,6 @@ PYBIND11_MODULE(_robosim, module) {
              "Loads a plugin with additional controllers and sensors (doc/sdk.md). Raises ConfigError.");
   robosim::bindDescriptions(module);
   robosim::bindWorld(module);
+  robosim::bindRobot(module);
+  robosim::bindSimulation(module);
 }

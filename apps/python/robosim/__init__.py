@@ -8,6 +8,10 @@ from ._errors import ConfigError, ControllerError, Error, RecordingError
 
 _MODULE_OF = {
     "World": "_robosim",
+    "Simulation": "_robosim",
+    "Robot": "_robosim",
+    "Controller": "controller",
+    "Message": "controller",
     "RobotInfo": "_robosim",
     "SensorInfo": "_robosim",
     "WorldObject": "_robosim",
