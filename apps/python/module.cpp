@@ -2,6 +2,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "batch.h"
 #include "python_errors.h"
 #include "python_robot.h"
 #include "python_world.h"
@@ -18,4 +19,5 @@ PYBIND11_MODULE(_robosim, module) {
   robosim::bindWorld(module);
   robosim::bindRobot(module);
   robosim::bindSimulation(module);
+  robosim::bindBatch(module);
 }
