@@ -43,11 +43,8 @@ LoadedWorld loadedWorld(const std::string& file, const BenchArguments& arguments
 
 /// A world for all controllers. @throws ConfigError also for a world without gold, when it is needed
 LoadedWorld worldFor(const std::string& file, const BenchArguments& arguments) {
-  const auto& controllers = arguments.sweep.controllers;
-  LoadedWorld loaded = loadedWorld(file, arguments, controllers.front());
-  ErrorList errors;
-  for (const auto& controller : controllers) checkControllers(loaded, file, controller, errors);
-  errors.throwIfAny();
+  LoadedWorld loaded;
+  for (const auto& controller : arguments.sweep.controllers) loaded = loadedWorld(file, arguments, controller);
   const auto is_gold = [](const WorldObject& object) { return object.body.heat_celsius > 0; };
   if (arguments.is_about_gold && std::none_of(loaded.world.objects.begin(), loaded.world.objects.end(), is_gold)) {
     throw ConfigError(file + ": has no gold; give an object a <hot> above 0, or use robosim bench metrics");

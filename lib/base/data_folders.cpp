@@ -3,15 +3,39 @@
 #include <cstdlib>
 #include <sstream>
 
+#include <dlfcn.h>
+#include <link.h>
+
 #include "base/program_folder.h"
 
 namespace robosim {
 
-std::filesystem::path shareFolder() {
-  const std::filesystem::path prefix = programFolder().parent_path();
-  const std::filesystem::path share = prefix / "share" / "robosim";
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Folder of the program or shared library that contains this code. An interpreter that loads the library is elsewhere.
+fs::path folderOfThisCode() {
+  Dl_info info;
+  link_map* object = nullptr;
+  const auto* here = reinterpret_cast<const void*>(&shareFolder);
+  const bool is_found = dladdr1(here, &info, reinterpret_cast<void**>(&object), RTLD_DL_LINKMAP) != 0;
+  // The main program has no name here.
+  if (!is_found || !object || !object->l_name || !*object->l_name) return programFolder();
   std::error_code none;
-  return std::filesystem::is_directory(share, none) ? share : prefix.parent_path() / "share" / "robosim";
+  const fs::path file = fs::canonical(object->l_name, none);
+  return none ? programFolder() : file.parent_path();
+}
+
+}  // namespace
+
+std::filesystem::path shareFolder() {
+  const fs::path folder = folderOfThisCode();
+  for (const fs::path& prefix : {folder, folder.parent_path(), folder.parent_path().parent_path()}) {
+    std::error_code none;
+    if (fs::is_directory(prefix / "share" / "robosim", none)) return prefix / "share" / "robosim";
+  }
+  return folder.parent_path() / "share" / "robosim";
 }
 
 std::vector<WorldFolder> worldFolders() {

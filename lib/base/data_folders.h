@@ -4,9 +4,9 @@
 
 namespace robosim {
 
-/// Folder with the data that belong to the running program: worlds/, maps/ and rawlogs/. It is share/robosim of the
-/// installation: ../share/robosim of the program's folder, or ../../share/robosim of programs in lib/robosim. In a
-/// build tree it is a link to the source tree.
+/// Folder with the data that belong to RoboSim: worlds/, maps/ and rawlogs/. It is share/robosim of the installation:
+/// the first that exists in the folder of the program or shared library that contains this function, in its parent and
+/// in its grandparent. In a build tree it is a link to the source tree.
 /// @throws std::runtime_error when /proc is not mounted
 std::filesystem::path shareFolder();
 

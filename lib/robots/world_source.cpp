@@ -15,11 +15,12 @@ void add(Digest& digest, const std::string& text) {
 
 }  // namespace
 
-WorldSource readWorldSource(const std::filesystem::path& file) {
+namespace {
+
+WorldSource completed(std::string world_text, const std::filesystem::path& file, const FileProvider& disk) {
   WorldSource source;
   source.file = file.string();
-  const FileProvider disk = cachingFileProvider(filesOnDisk(file));
-  source.text = readWorldText(file, disk);
+  source.text = std::move(world_text);
   int unread = 0;
   const FileProvider kept{disk.folder, [&](const std::string& name) {
                             ++unread;
@@ -41,6 +42,17 @@ WorldSource readWorldSource(const std::filesystem::path& file) {
     if (const auto* robot = std::get_if<RobotPlacement>(&scatter.copied)) keep_type_of(*robot);
   }
   return source;
+}
+
+}  // namespace
+
+WorldSource readWorldSource(const std::filesystem::path& file) {
+  const FileProvider disk = cachingFileProvider(filesOnDisk(file));
+  return completed(readWorldText(file, disk), file, disk);
+}
+
+WorldSource worldSourceOf(std::string text, const std::filesystem::path& file) {
+  return completed(std::move(text), file, cachingFileProvider(filesOnDisk(file)));
 }
 
 LoadedWorld loadWorld(const WorldSource& source, const ControllerCheck& check_controller) {

@@ -30,6 +30,9 @@ struct WorldSource {
 /// @throws ConfigError when the file of the world, a robot type, a map or an included file cannot be read. loadWorld()
 /// reports faults in their contents.
 WorldSource readWorldSource(const std::filesystem::path& file);
+/// Completes the text of a world file by the files that it refers to, as if it were in `file`, which need not exist.
+/// @throws ConfigError as readWorldSource()
+WorldSource worldSourceOf(std::string text, const std::filesystem::path& file);
 
 /// Equivalent to loadWorld() of a file.
 LoadedWorld loadWorld(const WorldSource&, const ControllerCheck& check_controller);

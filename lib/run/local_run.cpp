@@ -126,21 +126,25 @@ LocalRun::LocalRun(ForkOf original)
       gold_(original.run.gold_),
       observers_({}, options_.environment.seed) {
   const auto& robots = environment_.fleet().robots;
+  auto local = original.run.local_robots_.begin();  // in the world's order
   for (std::size_t i = 0; i < robots.size(); ++i) {
-    const auto& local = original.run.local_robots_;
     const std::string& name = robots[i].info.name;
-    if (i >= local.size() || local[i]->robot.name() != name) {
+    if (local == original.run.local_robots_.end() || (*local)->robot.name() != name) {
+      if (original.elsewhere == Elsewhere::keep) continue;
       throw ConfigError("robot '" + name + "': another process drives it, so that its run cannot be forked; let this " +
                         "process run its controller");
     }
-    const std::string& controller_name = local[i]->controller_name;
-    auto controller = cloneOf(*local[i]->controller, controller_name, name);
+    const std::string& controller_name = (*local)->controller_name;
+    auto controller = cloneOf(*(*local)->controller, controller_name, name);
     local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller),
-                                                         local[i]->robot.command()));
+                                                         (*local)->robot.command()));
+    ++local;
   }
 }
 
-std::unique_ptr<LocalRun> LocalRun::fork() const { return std::unique_ptr<LocalRun>(new LocalRun(ForkOf{*this})); }
+std::unique_ptr<LocalRun> LocalRun::fork(Elsewhere elsewhere) const {
+  return std::unique_ptr<LocalRun>(new LocalRun(ForkOf{*this, elsewhere}));
+}
 
 bool LocalRun::dependsOnSeed() const {
   const auto& robots = environment_.fleet().robots;

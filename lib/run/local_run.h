@@ -67,10 +67,12 @@ class LocalRun {
   /// @throws ControllerError, ObserverError for an exception of one's constructor
   LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 
+  /// What fork() does with robots that LocalRun does not run the controllers of.
+  enum class Elsewhere { refuse, keep };
   /// A run that continues from the present state, independently of this one and without observers.
   /// @throws ConfigError naming the robot and its controller when the controller has no Controller::clone(), or when
-  /// another process drives the robot
-  std::unique_ptr<LocalRun> fork() const;
+  /// another process drives the robot and `elsewhere` is refuse
+  std::unique_ptr<LocalRun> fork(Elsewhere elsewhere = Elsewhere::refuse) const;
 
   /// Runs every controller, then takes one time step.
   /// @throws ControllerError for an exception of a controller
@@ -104,6 +106,7 @@ class LocalRun {
   };
   struct ForkOf {
     const LocalRun& run;
+    Elsewhere elsewhere;
   };
   explicit LocalRun(ForkOf original);
 

@@ -1,0 +1,169 @@
+#include "batch.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "array_arguments.h"
+#include "learning/environment_batch.h"
+#include "python_errors.h"
+#include "python_world.h"
+
+namespace robosim {
+namespace {
+
+namespace py = pybind11;
+
+/// A batch that one thread at a time may use.
+class PythonBatch {
+ public:
+  PythonBatch(std::vector<LoadedWorld> worlds, BatchOptions options) : batch_(std::move(worlds), std::move(options)) {}
+
+  const EnvironmentBatch& batch() const { return batch_; }
+  py::ssize_t environments() const { return static_cast<py::ssize_t>(batch_.options().environments); }
+  py::ssize_t agents() const { return static_cast<py::ssize_t>(batch_.agentCount()); }
+  py::ssize_t size() const { return static_cast<py::ssize_t>(batch_.observationSize()); }
+
+  /// Calls use(batch) without Python's lock.
+  template <typename Use>
+  void exclusively(const Use& use) {
+    if (is_used_.exchange(true)) {
+      throw std::runtime_error("another thread is using these environments; wait until it has ended");
+    }
+    const std::unique_ptr<std::atomic<bool>, void (*)(std::atomic<bool>*)> end(&is_used_,
+                                                                               [](auto* used) { *used = false; });
+    const py::gil_scoped_release no_python;
+    use(batch_);
+  }
+
+ private:
+  EnvironmentBatch batch_;
+  std::atomic<bool> is_used_ = false;
+};
+
+/// @throws pybind11::type_error for an unknown weight, std::invalid_argument for one that is not finite
+RewardWeights weightsOf(const py::dict& given) {
+  RewardWeights weights;
+  const std::pair<const char*, double*> known[] = {{"win", &weights.win},
+                                                   {"forward", &weights.forward},
+                                                   {"heat", &weights.heat},
+                                                   {"stall", &weights.stall},
+                                                   {"step", &weights.step}};
+  if (!given.empty()) weights.win = 0;
+  for (const auto& [key, value] : given) {
+    const std::string name = toBytes(py::str(key));
+    const auto* found =
+        std::find_if(std::begin(known), std::end(known), [&](const auto& of) { return name == of.first; });
+    if (found == std::end(known)) {
+      throw py::type_error("there is no reward '" + name + "'; rewards are win, forward, heat, stall, step");
+    }
+    *found->second = value.cast<double>();
+    requireFinite("the weight of a reward", *found->second);
+  }
+  return weights;
+}
+
+std::unique_ptr<PythonBatch> makeBatch(const std::vector<std::shared_ptr<PythonWorld>>& worlds, BatchOptions options) {
+  std::vector<LoadedWorld> loaded;
+  for (const auto& world : worlds) loaded.push_back(world->loaded);
+  return std::make_unique<PythonBatch>(std::move(loaded), std::move(options));
+}
+
+py::array_t<float> boundsOf(const PythonBatch& of, std::vector<float> ObservationPart::*bound) {
+  py::array_t<float> bounds(of.size());
+  float* out = bounds.mutable_data();
+  for (const auto& part : of.batch().layout().parts()) out = std::copy((part.*bound).begin(), (part.*bound).end(), out);
+  return bounds;
+}
+
+py::list partsOf(const PythonBatch& of) {
+  py::list parts;
+  std::size_t begin = 0;
+  for (const auto& part : of.batch().layout().parts()) {
+    parts.append(py::make_tuple(part.name, begin, begin + part.size));
+    begin += part.size;
+  }
+  return parts;
+}
+
+py::list agentNames(const PythonBatch& of) {
+  py::list names;
+  for (std::size_t i = 0; i < of.batch().agentCount(); ++i) {
+    names.append(toPython(of.batch().environment(0).robotNames()[i]));
+  }
+  return names;
+}
+
+std::span<float> observationsOf(const PythonBatch& of, py::array& array) {
+  const auto shape = std::vector<py::ssize_t>{of.environments(), of.agents(), of.size()};
+  return {resultsOf<float>("observations", array, shape), static_cast<std::size_t>(array.size())};
+}
+
+void reset(PythonBatch& of, py::array observations, const py::object& mask) {
+  const auto out = observationsOf(of, observations);
+  std::vector<std::uint8_t> which;
+  if (!mask.is_none()) {
+    const auto given = py::array::ensure(mask);
+    if (!given || !py::dtype::of<bool>().equal(given.dtype())) {
+      PyErr_Clear();
+      throw py::type_error("the reset mask must be an array of bool");
+    }
+    requireShape("the elements of the reset mask", given, {of.environments()});
+    const auto selected = py::array_t<bool>(given);
+    for (py::ssize_t i = 0; i < of.environments(); ++i) which.push_back(selected.at(i) ? 1 : 0);
+  }
+  of.exclusively([&](EnvironmentBatch& batch) { batch.reset(out, which); });
+}
+
+void step(PythonBatch& of, const py::object& actions, py::array observations, py::array rewards, py::array terminated,
+          py::array truncated) {
+  const auto given = numbersOf<float>("actions", actions, {of.environments(), of.agents(), 2});
+  const auto environments = static_cast<std::size_t>(of.environments());
+  const auto flags = [&](const char* what, py::array& array) {
+    return std::span(reinterpret_cast<std::uint8_t*>(resultsOf<bool>(what, array, {of.environments()})), environments);
+  };
+  const BatchResults results{observationsOf(of, observations),
+                             {resultsOf<double>("rewards", rewards, {of.environments(), of.agents()}),
+                              static_cast<std::size_t>(rewards.size())},
+                             flags("terminations", terminated),
+                             flags("truncations", truncated)};
+  const std::span<const float> of_agents(given.data(), static_cast<std::size_t>(given.size()));
+  of.exclusively([&](EnvironmentBatch& batch) { batch.step(of_agents, results); });
+}
+
+}  // namespace
+
+void bindBatch(py::module_& module) {
+  const auto make = [](const std::vector<std::shared_ptr<PythonWorld>>& worlds, std::size_t num_envs,
+                       std::size_t agents, std::vector<std::string> observations, const py::dict& reward,
+                       double period_s, std::uint32_t max_steps, bool random_starts, int threads, std::uint64_t seed) {
+    BatchOptions options{num_envs,          agents,   std::move(observations),
+                         weightsOf(reward), period_s, max_steps,
+                         random_starts,     threads,  seed};
+    const py::gil_scoped_release no_python;
+    return makeBatch(worlds, std::move(options));
+  };
+  py::class_<PythonBatch>(module, "_Batch")
+      .def(py::init(make), py::arg("worlds"), py::arg("num_envs"), py::arg("agents"), py::arg("observations"),
+           py::arg("reward"), py::arg("period_s"), py::arg("max_steps"), py::arg("random_starts"), py::arg("threads"),
+           py::arg("seed"))
+      .def_property_readonly("agents", &PythonBatch::agents)
+      .def_property_readonly("size", &PythonBatch::size)
+      .def_property_readonly("agent_names", agentNames)
+      .def_property_readonly("parts", partsOf)
+      .def_property_readonly("low", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::low); })
+      .def_property_readonly("high", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::high); })
+      .def("set_seed",
+           [](PythonBatch& of, std::size_t environment, std::uint64_t seed) {
+             of.exclusively([&](EnvironmentBatch& batch) { batch.setSeed(environment, seed); });
+           })
+      .def("reset", reset, py::arg("observations"), py::arg("mask") = py::none())
+      .def("step", step);
+}
+
+}  // namespace robosim

@@ -1,0 +1,110 @@
+// Descriptions of robots, sensors and objects of a world, which Python can read but not change.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include "python_errors.h"
+#include "python_world.h"
+#include "robots/fleet.h"
+
+namespace robosim {
+namespace {
+
+namespace py = pybind11;
+
+py::tuple poseTuple(const mrpt::math::TPose2D& pose) { return py::make_tuple(pose.x, pose.y, pose.phi); }
+
+/// Direction of each beam in the plane [rad], robot frame.
+py::array_t<double> bearingsOf(const SensorInfo& sensor) {
+  py::array_t<double> bearings(static_cast<py::ssize_t>(sensor.beams.size()));
+  auto bearing = bearings.mutable_unchecked<1>();
+  for (std::size_t i = 0; i < sensor.beams.size(); ++i) {
+    bearing(static_cast<py::ssize_t>(i)) = sensor.beams[i].robot_from_beam.yaw;
+  }
+  return bearings;
+}
+
+void bindSensorInfo(py::module_& module) {
+  py::class_<SensorInfo>(module, "SensorInfo", "A sensor mounted on a robot.")
+      .def_property_readonly(
+          "kind", [](const SensorInfo& sensor) { return nameOf(sensor.kind); }, "Such as 'sonar' or 'heat'.")
+      .def_readonly("label", &SensorInfo::label, "Unique on its robot: 'sonar', 'laser_2'.")
+      .def_property_readonly(
+          "size", [](const SensorInfo& sensor) { return sensor.beams.size(); }, "Number of beams or segments.")
+      .def_property_readonly("bearings_rad", bearingsOf,
+                             "Direction of each beam in the plane [rad], robot frame, counter-clockwise from ahead: "
+                             "float64, shape (size,).")
+      .def_readonly("range_min_m", &SensorInfo::range_min_m, "Smallest range that is reported [m].")
+      .def_readonly("range_max_m", &SensorInfo::range_max_m, "Largest range [m].")
+      .def_readonly("no_echo_m", &SensorInfo::no_echo_m, "Reading of a beam without an echo [m].")
+      .def("__repr__", [](const SensorInfo& sensor) {
+        return "<SensorInfo '" + sensor.label + "', " + std::to_string(sensor.beams.size()) + " beams>";
+      });
+}
+
+void bindRobotInfo(py::module_& module) {
+  py::class_<FleetRobot>(module, "RobotInfo", "A robot as placed in a world.")
+      .def_property_readonly("name", [](const FleetRobot& robot) { return toPython(robot.info.name); })
+      .def_property_readonly(
+          "type", [](const FleetRobot& robot) { return toPython(robot.info.model); },
+          "Name of its type; '2005' for a robot that its world file describes.")
+      .def_property_readonly(
+          "controller", [](const FleetRobot& robot) { return toPython(robot.controller); },
+          "As given in the world, with parameters; empty: the default.")
+      .def_property_readonly(
+          "start", [](const FleetRobot& robot) { return poseTuple(robot.world_from_start); },
+          "x, y [m] and heading [rad], world frame.")
+      .def_property_readonly(
+          "radius_m", [](const FleetRobot& robot) { return robot.info.radius_m; }, "Of its circular footprint.")
+      .def_property_readonly("height_m", [](const FleetRobot& robot) { return robot.info.height_m; })
+      .def_property_readonly("speed_max_mps", [](const FleetRobot& robot) { return robot.info.limits.speed_max_mps; })
+      .def_property_readonly("turn_max_radps", [](const FleetRobot& robot) { return robot.info.limits.turn_max_radps; })
+      .def_property_readonly(
+          "sensors", [](const FleetRobot& robot) { return py::tuple(py::cast(*robot.info.sensors)); },
+          "Its sensors, as SensorInfo.")
+      .def("__repr__", [](const FleetRobot& robot) {
+        return toPython("<RobotInfo '" + robot.info.name + "', " + robot.info.model + ">");
+      });
+}
+
+void bindObject(py::module_& module) {
+  py::class_<WorldObject>(module, "WorldObject", "A stationary object of a world.")
+      .def_property_readonly("name", [](const WorldObject& object) { return toPython(object.name); })
+      .def_property_readonly(
+          "shape",
+          [](const WorldObject& object) {
+            return std::holds_alternative<Cylinder>(object.body.shape) ? "cylinder" : "cube";
+          },
+          "'cylinder' or 'cube'.")
+      .def_property_readonly(
+          "pose", [](const WorldObject& object) { return poseTuple(object.body.world_from_body); },
+          "x, y [m] of its centre and direction [rad], world frame.")
+      .def_property_readonly(
+          "size_m",
+          [](const WorldObject& object) {
+            if (const auto* box = std::get_if<Cube>(&object.body.shape)) {
+              return py::make_tuple(box->length_m, box->width_m);
+            }
+            const double width_m = 2 * std::get<Cylinder>(object.body.shape).radius_m;
+            return py::make_tuple(width_m, width_m);
+          },
+          "Extent along its x and y axes [m].")
+      .def_property_readonly("height_m", [](const WorldObject& object) { return object.body.height_m; })
+      .def_property_readonly(
+          "color", [](const WorldObject& object) { return py::tuple(py::cast(object.body.color)); },
+          "Red, green and blue, each in [0, 1].")
+      .def_property_readonly(
+          "heat_celsius", [](const WorldObject& object) { return object.body.heat_celsius; },
+          "Its temperature; 0 gives off no heat.")
+      .def("__repr__", [](const WorldObject& object) { return toPython("<WorldObject '" + object.name + "'>"); });
+}
+
+}  // namespace
+
+void bindDescriptions(py::module_& module) {
+  bindSensorInfo(module);
+  bindRobotInfo(module);
+  bindObject(module);
+}
+
+}  // namespace robosim

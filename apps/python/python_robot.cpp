@@ -1,0 +1,212 @@
+#include "python_robot.h"
+
+#include <variant>
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include "array_arguments.h"
+#include "python_errors.h"
+
+namespace robosim {
+namespace {
+
+namespace py = pybind11;
+
+/// @throws std::invalid_argument
+SensorKind kindNamed(const std::string& name) {
+  const auto kind = sensorKindNamed(name);
+  if (kind) return *kind;
+  throw std::invalid_argument("there is no kind of sensor '" + name + "'");
+}
+
+/// Ranges of the first sensor of a kind; None for a robot without it.
+py::object rangesOf(const PythonRobot& robot, SensorKind kind) {
+  const Measurement* measurement = robot.toRead().measurement(kind);
+  if (!measurement) return py::none();
+  if (const auto* beacons = std::get_if<BeaconRanges>(measurement)) {
+    return py::array_t<float>(static_cast<py::ssize_t>(beacons->range_m.size()), beacons->range_m.data());
+  }
+  const auto* echoes = std::get_if<Echoes>(measurement);
+  if (!echoes) throw std::invalid_argument(std::string("a ") + nameOf(kind) + " measures no ranges");
+  py::array_t<float> ranges(static_cast<py::ssize_t>(echoes->size()));
+  float* out = ranges.mutable_data();
+  for (const Echo& echo : *echoes) *out++ = echo.range_m;
+  return ranges;
+}
+
+py::object pointsOf(const PythonRobot& robot, const std::string& kind) {
+  const Measurement* measurement = robot.toRead().measurement(kindNamed(kind));
+  if (!measurement) return py::none();
+  const auto* echoes = std::get_if<Echoes>(measurement);
+  if (!echoes) throw std::invalid_argument("a " + kind + " has no echoes");
+  py::array_t<float> points({static_cast<py::ssize_t>(echoes->size()), py::ssize_t{3}});
+  float* out = points.mutable_data();
+  for (const Echo& echo : *echoes) {
+    for (const float coordinate : {echo.point_m.x, echo.point_m.y, echo.point_m.z}) *out++ = coordinate;
+  }
+  return points;
+}
+
+py::object bumperOf(const PythonRobot& robot) {
+  const Robot& of = robot.toRead();
+  if (!of.sensor(SensorKind::bumper)) return py::none();
+  py::array_t<bool> pressed(static_cast<py::ssize_t>(of.bumper().size()));
+  std::copy(of.bumper().begin(), of.bumper().end(), pressed.mutable_data());
+  return pressed;
+}
+
+py::object imageOf(const PythonRobot& robot) {
+  const std::string& jpeg = robot.toRead().image().jpeg;
+  if (jpeg.empty()) return py::none();
+  return py::bytes(jpeg);
+}
+
+py::object valuesOf(const PythonRobot& robot) {
+  const Robot& of = robot.toRead();
+  const SensorInfo* sensor = of.sensor(SensorKind::values);
+  if (!sensor) return py::none();
+  const auto& values = std::get<Values>(*of.measurement(SensorKind::values)).values;
+  py::dict named;
+  for (std::size_t i = 0; i < values.size(); ++i) named[toPython(sensor->quantities[i].name)] = values[i];
+  return named;
+}
+
+void drive(const PythonRobot& robot, double speed_mps, double turn_radps) {
+  requireFinite("the speed", speed_mps);
+  requireFinite("the turn rate", turn_radps);
+  robot.toCommand().drive(speed_mps, turn_radps);
+}
+
+void panLaser(const PythonRobot& robot, double pan_rad) {
+  requireFinite("the pan angle", pan_rad);
+  robot.toCommand().panLaser(pan_rad);
+}
+
+py::list nameList(const std::vector<std::string>& names) {
+  py::list list;
+  for (const auto& name : names) list.append(toPython(name));
+  return list;
+}
+
+using RobotClass = py::class_<PythonRobot>;
+
+void bindReadings(RobotClass& robot) {
+  for (const SensorKind kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared, SensorKind::beacons}) {
+    robot.def_property_readonly(
+        nameOf(kind), [kind](const PythonRobot& of) { return rangesOf(of, kind); },
+        "Range of each beam or beacon [m]: float32, shape (beams,); the sensor's no_echo_m without an echo. None "
+        "without such a sensor.");
+  }
+  robot
+      .def("points", pointsOf, py::arg("kind"),
+           "Echoes of the first sensor of a kind, robot frame [m]: float32, shape (beams, 3). None without one.")
+      .def_property_readonly(
+          "heat", [](const PythonRobot& of) { return of.toRead().heat(); }, "[°C]; None without a sensor.")
+      .def_property_readonly(
+          "compass", [](const PythonRobot& of) { return of.toRead().compass(); },
+          "Heading [rad], world frame, in (-π, π]; None without a sensor.")
+      .def_property_readonly(
+          "battery", [](const PythonRobot& of) { return of.toRead().battery(); }, "[V]; None without a sensor.")
+      .def_property_readonly("bumper", bumperOf, "Whether each segment is pressed: bool, shape (segments,), or None.")
+      .def_property_readonly(
+          "odometry",
+          [](const PythonRobot& of) {
+            const Odometry& odometry = of.toRead().odometry();
+            const auto& pose = odometry.odom_from_robot;
+            return py::make_tuple(pose.x, pose.y, pose.phi, odometry.speed_mps, odometry.turn_radps);
+          },
+          "x, y [m] and heading [rad] since the start, speed [m/s], turn rate [rad/s].")
+      .def_property_readonly("image", imageOf, "Camera picture as the bytes of a JPEG file; None without one.")
+      .def_property_readonly("values", valuesOf, "Quantities of a sensor of a plugin by name; None without one.")
+      .def_property_readonly(
+          "stalled", [](const PythonRobot& of) { return of.toRead().stalled(); },
+          "Whether an obstacle stopped the last motion.")
+      .def_property_readonly(
+          "inbox", [](const PythonRobot& of) { return inboxOf(of.toRead().readings()); },
+          "Messages received in the last step, as Message(sender, text).")
+      .def_property_readonly(
+          "winner", [](const PythonRobot& of) { return toPython(of.toRead().winner()); },
+          "Name of the robot that has won; empty until then.");
+}
+
+void bindCommands(RobotClass& robot) {
+  robot
+      .def("drive", drive, py::arg("speed_mps"), py::arg("turn_radps"),
+           "Sets speed (ahead) and turn rate (counter-clockwise), which are kept until the next call.")
+      .def(
+          "stop", [](const PythonRobot& of) { of.toCommand().stop(); }, "The same as drive(0, 0).")
+      .def("pan_laser", panLaser, py::arg("pan_rad"), "Turns the sensors that pan: [-π/2, π/2].")
+      .def(
+          "halt",
+          [](const PythonRobot& of, bool found) { of.toCommand().halt(found ? Activity::found : Activity::halted); },
+          py::arg("found") = false, "Stops permanently; found reports that the robot has found its target.")
+      .def(
+          "send",
+          [](const PythonRobot& of, const py::str& receiver, const py::str& text) {
+            of.toCommand().send(toBytes(receiver), toBytes(text));
+          },
+          py::arg("receiver"), py::arg("text"), "Sends a message of at most 4096 bytes, delivered in the next step.")
+      .def(
+          "broadcast", [](const PythonRobot& of, const py::str& text) { of.toCommand().broadcast(toBytes(text)); },
+          py::arg("text"), "Sends a message to every other robot.")
+      .def(
+          "check_win", [](const PythonRobot& of) { of.toCommand().checkWin(); },
+          "Requests, with the next step, a decision whether this robot is near enough to the gold; then winner is its "
+          "name.");
+}
+
+}  // namespace
+
+PythonRobot::PythonRobot(Simulation& simulation, std::size_t index)
+    : simulation_(simulation.weak_from_this()), index_(index), may_command_(simulation.isDrivenFromPython(index)) {}
+
+Robot& PythonRobot::toRead() const {
+  const auto simulation = simulation_.lock();
+  if (!simulation) throw std::invalid_argument("the robot's simulation no longer exists; keep a reference to it");
+  requireUsable(*simulation, Access::read);
+  return simulation->robot(index_);  // exists as long as the simulation, which the caller's Python objects keep
+}
+
+Robot& PythonRobot::toCommand() const {
+  Robot& robot = toRead();
+  if (may_command_) return robot;
+  throw std::invalid_argument("robot '" + robot.name() +
+                              "' has a controller, which commands it; give it the controller '" + kNoController + "'");
+}
+
+py::list inboxOf(const Readings& readings) {
+  const py::object message = py::module_::import("robosim.controller").attr("Message");
+  py::list inbox;
+  for (const auto& of : readings.inbox) inbox.append(message(toPython(of.from), toPython(of.text)));
+  return inbox;
+}
+
+void bindRobot(py::module_& module) {
+  RobotClass robot(module, "Robot",
+                   "A robot as its controller sees it: readings of the last step, and commands for the next one.\n\n"
+                   "Arrays are copies. Sensor properties are of the first sensor of that kind.");
+  robot.def_property_readonly("name", [](const PythonRobot& of) { return toPython(of.toRead().name()); })
+      .def_property_readonly(
+          "time_s", [](const PythonRobot& of) { return of.toRead().time(); }, "Simulated time [s] since the start.")
+      .def_property_readonly("step_count", [](const PythonRobot& of) { return of.toRead().stepNumber(); })
+      .def_property_readonly(
+          "neighbour", [](const PythonRobot& of) { return toPython(of.toRead().info().neighbour); },
+          "As given in the world; empty for none.")
+      .def_property_readonly("radius_m", [](const PythonRobot& of) { return of.toRead().info().radius_m; })
+      .def_property_readonly("speed_max_mps",
+                             [](const PythonRobot& of) { return of.toRead().info().limits.speed_max_mps; })
+      .def_property_readonly("turn_max_radps",
+                             [](const PythonRobot& of) { return of.toRead().info().limits.turn_max_radps; })
+      .def_property_readonly(
+          "sensors", [](const PythonRobot& of) { return py::tuple(py::cast(*of.toRead().info().sensors)); },
+          "Its sensors, as SensorInfo.")
+      .def(
+          "robots", [](const PythonRobot& of) { return nameList(of.toRead().robots()); },
+          "Names of all robots in the world's order, including this one.")
+      .def("__repr__", [](const PythonRobot& of) { return toPython("<Robot '" + of.toRead().name() + "'>"); });
+  bindReadings(robot);
+  bindCommands(robot);
+}
+
+}  // namespace robosim

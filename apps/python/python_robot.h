@@ -1,0 +1,33 @@
+#pragma once
+#include <memory>
+#include <string>
+
+#include <pybind11/pybind11.h>
+
+#include "simulation.h"
+
+namespace robosim {
+
+/// Python's class Robot: the view that a controller has of its robot. Of a robot that has a controller of this program,
+/// only the readings may be used.
+class PythonRobot {
+ public:
+  PythonRobot(Simulation& simulation, std::size_t index);
+
+  /// @throws std::invalid_argument when the simulation no longer exists, and as requireUsable()
+  Robot& toRead() const;
+  /// @throws std::invalid_argument also when a controller of this program drives the robot
+  Robot& toCommand() const;
+
+ private:
+  std::weak_ptr<Simulation> simulation_;
+  std::size_t index_;
+  bool may_command_;
+};
+
+void bindRobot(pybind11::module_& module);
+
+/// Python's class Message of a message to a robot.
+pybind11::list inboxOf(const Readings& readings);
+
+}  // namespace robosim

@@ -1,0 +1,90 @@
+"""A team of agents in one world, with the interface of PettingZoo's ParallelEnv."""
+from ._learning import Results, make_batch, spaces_of
+
+
+class ParallelEnv:
+    """The robots of a world as agents that act at the same time, with the interface of pettingzoo.ParallelEnv.
+
+    world: World or file. robots: the first robots of the world, which are the agents; 0: all.
+    Other arguments, observations (float32, shape (size,)), actions (shape (2,)) and rewards are those of VectorEnv.
+    All agents' episodes end together. Observations are copies.
+    """
+
+    metadata = {"render_modes": [], "name": "robosim", "is_parallelizable": True}
+    render_mode = None
+
+    def __init__(self, world, robots=0, observations=("sonar", "heat"), reward=None, max_steps=1000, period_s=0.1,
+                 random_starts=True, seed=1):
+        self._batch = make_batch(world, 1, robots, observations, reward, period_s, max_steps, random_starts, 1, seed)
+        self.possible_agents = list(self._batch.agent_names)
+        self.agents = []
+        self.observation_spaces, self.action_spaces = {}, {}
+        for agent in self.possible_agents:
+            self.observation_spaces[agent], self.action_spaces[agent] = spaces_of(self._batch, ())
+        self._results = Results(self._batch, 1)
+        self._has_episode = False
+
+    @property
+    def num_agents(self):
+        return len(self.agents)
+
+    @property
+    def max_num_agents(self):
+        return len(self.possible_agents)
+
+    def observation_space(self, agent):
+        return self.observation_spaces[agent]
+
+    def action_space(self, agent):
+        return self.action_spaces[agent]
+
+    def reset(self, seed=None, options=None):
+        """Begins a new episode; returns observations and infos by agent. Without a seed, the next episode follows."""
+        self._require_open()
+        if options:
+            raise ValueError(f"unknown options {sorted(options)}; there are none")
+        if seed is not None:
+            self._batch.set_seed(0, seed)
+        self._batch.reset(self._results.observations)
+        self.agents = list(self.possible_agents)
+        self._has_episode = True
+        return self._observed(), {agent: {} for agent in self.agents}
+
+    def step(self, actions):
+        """Takes a step; actions: by agent. Returns observations, rewards, terminations, truncations, infos by agent."""
+        self._require_open()
+        if not self._has_episode:
+            raise RuntimeError("call reset() before the first step")
+        if set(actions) != set(self.agents):
+            raise ValueError(f"actions are of the agents {sorted(actions)}; they must be of {sorted(self.agents)}")
+        if not self.agents:
+            return {}, {}, {}, {}, {}
+        of_all = [actions[agent] for agent in self.agents]
+        results = self._results
+        self._batch.step([of_all], results.observations, results.rewards, results.terminated, results.truncated)
+        agents = self.agents
+        rewards = dict(zip(agents, results.rewards[0].tolist()))
+        terminated, truncated = bool(results.terminated[0]), bool(results.truncated[0])
+        observed = self._observed()
+        if terminated or truncated:
+            self.agents = []
+        return (observed, rewards, dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated),
+                {agent: {} for agent in agents})
+
+    def render(self):
+        """Returns None: there is no render mode."""
+
+    def close(self):
+        self._batch = None
+        self.agents = []
+
+    @property
+    def unwrapped(self):
+        return self
+
+    def _require_open(self):
+        if self._batch is None:
+            raise ValueError("the environment is closed; make another one")
+
+    def _observed(self):
+        return {agent: self._results.observations[0, i].copy() for i, agent in enumerate(self.agents)}

@@ -1,0 +1,181 @@
+"""Many environments that step together, with the interface of Gymnasium 1.0's VectorEnv."""
+from enum import Enum
+
+import numpy as np
+
+from ._learning import Results, make_batch, spaces_of
+from .spaces import batched
+
+
+class AutoresetMode(Enum):
+    """When environments whose episode has ended are reset, as in Gymnasium."""
+
+    NEXT_STEP = "NextStep"
+    SAME_STEP = "SameStep"
+    DISABLED = "Disabled"
+
+
+class VectorEnv:
+    """Many environments that step together in this process, with the semantics of gymnasium.vector.VectorEnv 1.0.
+
+    worlds: World or file, or a list of them; environment i is of world i modulo their number.
+    num_envs: number of environments.
+    robots: the first robots of each world, which are the agents; others stand still. 0: all robots.
+    observations: parts of an observation: kinds of sensors, "stalled", "pose" (Simulation.readings() lists them).
+    reward: weights by name: "win" (1 when the world is won), "forward" (distance driven [m]), "heat" (increase of the
+        reading [°C]), "stall" (1 when an obstacle stopped the robot), "step" (1). Default {"win": 1}.
+    max_steps: an episode of so many steps is truncated.
+    period_s: length of a step, (0, 1] s.
+    random_starts: each episode starts at random poses, which depend on the seed; else at the world's.
+    threads: they do not affect the results.
+
+    Observations are float32 of shape (num_envs, size); of several agents (num_envs, agents, size). Actions have the shape
+    (num_envs, 2) or (num_envs, agents, 2): speed and turn rate as fractions of the robot's maximum, clipped to [-1, 1].
+    Rewards are float64 of shape (num_envs,) or (num_envs, agents).
+
+    The step in which an episode ends returns its final observation. The next step ignores the action of that
+    environment, begins its next episode, and returns its first observation with reward 0 (AutoresetMode.NEXT_STEP).
+
+    The engine writes into the returned arrays without a copy, alternating between two sets: they keep their values until
+    the next but one call of step() or reset(). Copy what is to be kept for longer.
+    """
+
+    metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}
+    spec = None
+    render_mode = None
+
+    def __init__(self, worlds, num_envs=1, robots=1, observations=("sonar", "heat"), reward=None, max_steps=1000,
+                 period_s=0.1, random_starts=True, threads=1, seed=1):
+        self.closed = True
+        self._batch = make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts,
+                                 threads, seed)
+        self.closed = False
+        self.num_envs = int(num_envs)
+        self.agent_names = tuple(self._batch.agent_names)
+        agents = () if robots == 1 else (self._batch.agents,)
+        self.single_observation_space, self.single_action_space = spaces_of(self._batch, agents)
+        self.observation_space = batched(self.single_observation_space, self.num_envs)
+        self.action_space = batched(self.single_action_space, self.num_envs)
+        self._sets = [Results(self._batch, self.num_envs) for _ in range(2)]
+        self._action_shape = (self.num_envs, self._batch.agents, 2)
+        self._has_episode = np.zeros(self.num_envs, bool)
+        self._is_ready = False
+        self._np_random = None
+        self._np_random_seed = None
+
+    @property
+    def observation_parts(self):
+        """Slice of an observation by the name of its part."""
+        return {name: slice(begin, end) for name, begin, end in self._batch.parts}
+
+    def reset(self, *, seed=None, options=None):
+        """Begins a new episode in every environment; returns observations and infos.
+
+        seed: environment i gets seed + i; or a list of a seed or None for each. Without one, the next episodes follow.
+        options: {"reset_mask": bool array of shape (num_envs,)} resets the selected environments only.
+        """
+        self._require_open()
+        options = dict(options or {})
+        mask = options.pop("reset_mask", None)
+        if options:
+            raise ValueError(f"unknown options {sorted(options)}; the only option is 'reset_mask'")
+        selected = np.ones(self.num_envs, bool) if mask is None else mask
+        if not isinstance(selected, np.ndarray) or selected.dtype != bool or selected.shape != (self.num_envs,):
+            raise TypeError(f"reset_mask must be a bool array of shape ({self.num_envs},)")
+        seeds = self._seeds_of(seed)
+        results = self._sets[1]
+        if mask is not None:
+            results.observations[:] = self._sets[0].observations
+        for index, of_one in enumerate(seeds):
+            if of_one is not None and selected[index]:
+                self._batch.set_seed(index, of_one)
+        self._batch.reset(results.observations, mask)
+        self._has_episode |= selected
+        self._is_ready = bool(self._has_episode.all())
+        self._sets.reverse()
+        return self._shaped(results.observations), {}
+
+    def step(self, actions):
+        """Takes a step in every environment; returns observations, rewards, terminations, truncations and infos."""
+        self._require_open()
+        if not self._is_ready:
+            raise RuntimeError("call reset() before the first step")
+        actions = np.asarray(actions)
+        if actions.shape == self.action_space.shape:
+            actions = actions.reshape(self._action_shape)
+        else:
+            raise ValueError(f"actions have the shape {actions.shape}; it must be {self.action_space.shape}")
+        results = self._sets[1]
+        self._batch.step(actions, results.observations, results.rewards, results.terminated, results.truncated)
+        self._sets.reverse()
+        rewards = results.rewards if len(self.action_space.shape) == 3 else results.rewards[:, 0]
+        return self._shaped(results.observations), rewards, results.terminated, results.truncated, {}
+
+    def render(self):
+        """Returns None: there is no render mode."""
+
+    def close(self, **kwargs):
+        """Releases the environments. Arrays keep their values."""
+        if not self.closed:
+            self.close_extras(**kwargs)
+            self.closed = True
+
+    def close_extras(self, **kwargs):
+        self._batch = None
+
+    @property
+    def np_random(self):
+        """A generator seeded by reset(seed=…), for wrappers; the environments have random numbers of their own."""
+        if self._np_random is None:
+            self._seed_generator(None)
+        return self._np_random
+
+    @np_random.setter
+    def np_random(self, value):
+        self._np_random = value
+        self._np_random_seed = -1
+
+    @property
+    def np_random_seed(self):
+        """Seed of np_random; -1 if unknown."""
+        if self._np_random is None:
+            self._seed_generator(None)
+        return self._np_random_seed
+
+    @property
+    def unwrapped(self):
+        return self
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *args):
+        self.close()
+
+    def __repr__(self):
+        return f"VectorEnv(num_envs={self.num_envs}, agents={len(self.agent_names)})"
+
+    def _require_open(self):
+        if self.closed:
+            raise ValueError("the environment is closed; make another one")
+
+    def _seed_generator(self, seed):
+        sequence = np.random.SeedSequence(seed)
+        self._np_random = np.random.Generator(np.random.PCG64(sequence))
+        self._np_random_seed = sequence.entropy
+
+    def _seeds_of(self, seed):
+        if seed is None:
+            return [None] * self.num_envs
+        if isinstance(seed, (int, np.integer)):
+            if seed < 0:
+                raise ValueError(f"the seed is {seed}; it must be at least 0")
+            self._seed_generator(int(seed))
+            return [int(seed) + i for i in range(self.num_envs)]
+        seeds = list(seed)
+        if len(seeds) != self.num_envs:
+            raise ValueError(f"there are {len(seeds)} seeds; {self.num_envs} are required")
+        return seeds
+
+    def _shaped(self, observations):
+        return observations if len(self.action_space.shape) == 3 else observations[:, 0]

@@ -1,0 +1,300 @@
+// Python's class Simulation.
+#include <algorithm>
+#include <limits>
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "array_arguments.h"
+#include "environment/state_bytes.h"
+#include "python_errors.h"
+#include "python_robot.h"
+#include "simulation.h"
+
+namespace robosim {
+namespace {
+
+namespace py = pybind11;
+
+using SimulationHandle = std::shared_ptr<Simulation>;
+
+const Simulation& toRead(const Simulation& simulation) {
+  requireUsable(simulation, Access::read);
+  return simulation;
+}
+
+const State& stateOf(const Simulation& simulation) { return toRead(simulation).environment().state(); }
+
+py::ssize_t robotsOf(const Simulation& simulation) { return static_cast<py::ssize_t>(simulation.robotCount()); }
+
+/// A read-only array over memory of the simulation, which it keeps.
+template <typename T>
+py::array viewOf(const SimulationHandle& simulation, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
+                 const T* data) {
+  const py::capsule owner(new SimulationHandle(simulation),
+                          [](void* kept) { delete static_cast<SimulationHandle*>(kept); });
+  py::array view(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
+  py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return view;
+}
+
+py::array poses(const SimulationHandle& simulation) {
+  const auto& poses = stateOf(*simulation).world_from_robot;
+  static_assert(sizeof(mrpt::math::TPose2D) == 3 * sizeof(double));
+  return viewOf<double>(simulation, {robotsOf(*simulation), 3}, {sizeof poses[0], sizeof(double)},
+                        poses.empty() ? nullptr : &poses[0].x);
+}
+
+py::array commands(const SimulationHandle& simulation) {
+  const auto& commands = stateOf(*simulation).commands;
+  static_assert(offsetof(Command, turn_radps) == offsetof(Command, speed_mps) + sizeof(double));
+  return viewOf<double>(simulation, {robotsOf(*simulation), 2}, {sizeof commands[0], sizeof(double)},
+                        commands.empty() ? nullptr : &commands[0].speed_mps);
+}
+
+py::array stalled(const SimulationHandle& simulation) {
+  const auto& stalled = stateOf(*simulation).stalled;
+  return viewOf<bool>(simulation, {robotsOf(*simulation)}, {1}, reinterpret_cast<const bool*>(stalled.data()));
+}
+
+void setCommands(Simulation& simulation, const py::object& argument) {
+  requireUsable(simulation, Access::command);
+  const py::ssize_t robots = robotsOf(simulation);
+  const auto given = numbersOf<double>("commands", argument, {robots, 2});
+  const auto command = given.unchecked<2>();
+  bool is_any_driven = false;
+  for (py::ssize_t i = 0; i < robots; ++i) {
+    const auto robot = static_cast<std::size_t>(i);
+    is_any_driven |= simulation.isDrivenByCommands(robot);
+    if (!simulation.isDrivenByCommands(robot) || (std::isfinite(command(i, 0)) && std::isfinite(command(i, 1))))
+      continue;
+    throw std::invalid_argument("the command of robot '" + simulation.environment().robotNames()[robot] + "' (row " +
+                                std::to_string(i) + ") is not finite");
+  }
+  if (!is_any_driven) {
+    throw std::invalid_argument(std::string("every robot has a controller, which commands it; make the simulation with "
+                                            "controller='") +
+                                kNoController + "'");
+  }
+  for (py::ssize_t i = 0; i < robots; ++i) {
+    const auto robot = static_cast<std::size_t>(i);
+    if (simulation.isDrivenByCommands(robot)) simulation.robot(robot).drive(command(i, 0), command(i, 1));
+  }
+}
+
+py::array readings(Simulation& simulation, const std::string& kind, const py::object& out) {
+  requireUsable(simulation, Access::read);
+  const auto& layouts = simulation.layoutsOf(kind);
+  std::size_t size = 0;
+  for (const auto& layout : layouts) size = std::max(size, layout ? layout->size() : 0);
+  const std::vector<py::ssize_t> shape{robotsOf(simulation), static_cast<py::ssize_t>(size)};
+  if (!out.is_none() && !py::isinstance<py::array>(out)) throw py::type_error("out must be a NumPy array");
+  py::array array = out.is_none() ? py::array_t<float>(shape) : py::reinterpret_borrow<py::array>(out);
+  float* row = resultsOf<float>("readings", array, shape);
+  const State& state = simulation.environment().state();
+  for (std::size_t i = 0; i < layouts.size(); ++i, row += size) {
+    const std::size_t own = layouts[i] ? layouts[i]->size() : 0;
+    if (layouts[i]) layouts[i]->write(state, i, {row, own});
+    std::fill(row + own, row + size, std::numeric_limits<float>::quiet_NaN());
+  }
+  return array;
+}
+
+/// @throws pybind11::type_error
+SimulationHandle make(const std::shared_ptr<PythonWorld>& world, std::uint64_t seed, double period_s, int threads,
+                      const std::string& controller, const py::dict& controllers) {
+  if (!(period_s > 0 && period_s <= 1)) throw std::invalid_argument("period_s must lie in (0, 1] seconds");
+  if (threads < 1 || threads > 1024) throw std::invalid_argument("threads must be 1 to 1024");
+  Simulation::Options options;
+  options.run.environment = {seed, period_s, threads};
+  options.run.controller = controller;
+  for (const auto& [robot, of_robot] : controllers) {
+    const std::string name = toBytes(py::str(robot));
+    if (py::isinstance<py::str>(of_robot)) {
+      options.named[name] = toBytes(py::reinterpret_borrow<py::str>(of_robot));
+    } else if (py::hasattr(of_robot, "step") && !PyType_Check(of_robot.ptr())) {
+      options.of_python[name] = py::reinterpret_borrow<py::object>(of_robot);
+    } else {
+      throw py::type_error("the controller of robot '" + name +
+                           "' must be the name of a controller, or an object with a method step(robot)");
+    }
+  }
+  return std::make_shared<Simulation>(world, std::move(options));
+}
+
+using SimulationClass = py::class_<Simulation, SimulationHandle>;
+
+void bindStepping(SimulationClass& simulation) {
+  simulation
+      .def(
+          "step",
+          [](const SimulationHandle& of, std::int64_t n) {
+            requireUsable(*of, Access::structural);
+            if (n < 0)
+              throw std::invalid_argument("the number of steps is " + std::to_string(n) + "; it must be at least 0");
+            of->step(static_cast<std::uint64_t>(n));
+          },
+          py::arg("n") = 1,
+          "Runs all controllers and takes a time step, n times.\n\nOther threads run meanwhile; Ctrl-C raises "
+          "KeyboardInterrupt between two steps.\nRaises ControllerError for an exception of a controller; that step is "
+          "not taken.")
+      .def_property_readonly(
+          "time_s", [](const Simulation& of) { return stateOf(of).time.seconds(); }, "Simulated time [s].")
+      .def_property_readonly(
+          "step_count", [](const Simulation& of) { return stateOf(of).time.step; }, "Number of steps since the start.")
+      .def_property_readonly(
+          "period_s", [](const Simulation& of) { return stateOf(of).time.period_s; }, "Length of a step [s].")
+      .def_property_readonly(
+          "all_halted", [](const Simulation& of) { return toRead(of).environment().allHalted(); },
+          "Whether every robot has halted or found its target.")
+      .def_property_readonly(
+          "winner",
+          [](const Simulation& of) -> py::object {
+            const auto& winner = stateOf(of).winner;
+            if (!winner) return py::none();
+            return toPython(of.environment().robotNames()[*winner]);
+          },
+          "Name of the robot that has won; None until then.")
+      .def_property_readonly(
+          "digest", [](const Simulation& of) { return toRead(of).environment().digest(); },
+          "Hash over all states and readings so far; equal runs have equal digests.");
+}
+
+void bindArrays(SimulationClass& simulation) {
+  simulation
+      .def_property_readonly(
+          "poses", poses,
+          "True poses: float64, shape (robots, 3): x, y [m] and heading [rad], world frame.\n\nA view "
+          "without a copy: it changes with each step and cannot be written.")
+      .def_property(
+          "commands", commands, setCommands,
+          "Speed [m/s] and turn rate [rad/s] of each robot: float64, shape (robots, 2).\n\nReading gives a view "
+          "like poses. Assigning an array commands the robots without a controller;\nrows of others are "
+          "ignored. Commands are kept until the next ones.")
+      .def_property_readonly("stalled", stalled,
+                             "Whether an obstacle stopped each robot in the last step: bool, shape (robots,); a view.")
+      .def("readings", readings, py::arg("kind"), py::arg("out") = py::none(),
+           "Readings of the first sensor of a kind of each robot: float32, shape (robots, values).\n\nkind: 'sonar', "
+           "'laser', 'infrared', 'beacons' (ranges [m]), 'heat' [°C], 'compass' [rad], 'battery' [V],\n'bumper' (0 or "
+           "1), "
+           "'odometry' (x, y [m], heading [rad], speed [m/s], turn rate [rad/s]), 'values',\n'stalled' (0 or 1), "
+           "'pose'. "
+           "Rows of robots without the sensor, and the ends of shorter ones, are NaN.\nThe array is new, or out, which "
+           "must have this shape and type.");
+}
+
+void bindMessages(SimulationClass& simulation) {
+  simulation
+      .def(
+          "send",
+          [](Simulation& of, const py::str& sender, const py::str& receiver, const py::str& text) {
+            requireUsable(of, Access::command);
+            of.environment().send(of.indexOf(toBytes(sender)), toBytes(receiver), toBytes(text));
+          },
+          py::arg("sender"), py::arg("receiver"), py::arg("text"),
+          "Sends a message from a robot to another one, delivered in the next step; at most 4096 bytes.")
+      .def(
+          "inbox",
+          [](const Simulation& of, const py::str& robot) {
+            return inboxOf(stateOf(of).readings[of.indexOf(toBytes(robot))]);
+          },
+          py::arg("robot"), "Messages that a robot received in the last step, as a list of Message(sender, text).")
+      .def(
+          "robot",
+          [](Simulation& of, const py::str& name) {
+            requireUsable(of, Access::read);
+            return PythonRobot(of, of.indexOf(toBytes(name)));
+          },
+          py::arg("name"), "A robot as its controller sees it: Robot.");
+}
+
+void bindSaving(SimulationClass& simulation) {
+  simulation
+      .def(
+          "save",
+          [](const Simulation& of) {
+            const State& state = stateOf(of);
+            return py::bytes(toBytes(*of.environment().model(), state));
+          },
+          "State of the environment as bytes, with version and checksum.\n\nThe memory of controllers is not part of "
+          "it; fork() copies them, too.")
+      .def(
+          "restore",
+          [](Simulation& of, const py::bytes& state) {
+            requireUsable(of, Access::structural);
+            of.restore(std::string_view(state));
+          },
+          py::arg("state"),
+          "Continues from a state saved by a simulation of the same world, seed and period.\n\nRaises ConfigError for "
+          "other bytes; the state is then unchanged.")
+      .def(
+          "fork",
+          [](const Simulation& of) {
+            requireUsable(of, Access::structural);
+            return of.fork();
+          },
+          "A simulation that continues independently from the present state.\n\nControllers are copied, those in "
+          "Python "
+          "by copy.deepcopy(). It records nothing.")
+      .def(
+          "record",
+          [](Simulation& of, const std::filesystem::path& file) {
+            requireUsable(of, Access::structural);
+            of.record(file);
+          },
+          py::arg("file"),
+          "Records the present state and all further steps as an MRPT rawlog, which appears when it is complete.")
+      .def(
+          "stop_recording",
+          [](Simulation& of) {
+            requireUsable(of, Access::structural);
+            of.stopRecording();
+          },
+          "Completes the recording. Raises RecordingError, such as when the disk is full.")
+      .def_property_readonly("is_recording", [](const Simulation& of) { return toRead(of).isRecording(); });
+}
+
+void close(Simulation& simulation) {
+  if (simulation.isClosed()) return;
+  requireUsable(simulation, Access::structural);
+  simulation.close();
+}
+
+}  // namespace
+
+void bindSimulation(py::module_& module) {
+  SimulationClass simulation(module, "Simulation",
+                             "A run of a world, step by step. The same world, seed, controllers and commands give the "
+                             "same run, bit for bit.");
+  simulation
+      .def(
+          py::init(&make), py::arg("world"), py::arg("seed") = kDefaultSeed, py::arg("period_s") = 0.1,
+          py::arg("threads") = 1, py::arg("controller") = "", py::arg("controllers") = py::dict(),
+          "controller: of all robots: a name as for `robosim run --controller`, or 'none' for robots that are driven "
+          "by "
+          "commands;\nempty: as given in the world, else gold_finder.\ncontrollers: those of single robots, by name: a "
+          "name of a controller, 'none', or an object with step(robot).\nperiod_s: length of a step, (0, 1] s. threads "
+          "do "
+          "not affect the results.")
+      .def_property_readonly(
+          "robots", [](const Simulation& of) { return py::tuple(py::cast(toRead(of).environment().fleet().robots)); },
+          "The robots, as RobotInfo, in the order of all arrays.")
+      .def("close", close, "Completes the recording, and ends the use of the simulation. Arrays keep their values.")
+      .def_property_readonly("closed", &Simulation::isClosed)
+      .def("__enter__", [](const SimulationHandle& of) { return of; })
+      .def("__exit__", [](Simulation& of, const py::args&) { close(of); })
+      .def("__repr__", [](const Simulation& of) {
+        if (of.isClosed()) return py::str("<Simulation, closed>");
+        const State& state = stateOf(of);
+        return toPython("<Simulation of '" + of.environment().world().name + "', step " +
+                        std::to_string(state.time.step) + ">");
+      });
+  bindStepping(simulation);
+  bindArrays(simulation);
+  bindMessages(simulation);
+  bindSaving(simulation);
+}
+
+}  // namespace robosim

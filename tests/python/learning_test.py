@@ -1,0 +1,173 @@
+"""Learning environments: semantics of Gymnasium's VectorEnv and PettingZoo's ParallelEnv, and misuse."""
+import unittest
+
+import numpy as np
+
+import robosim
+import scene
+
+
+def at_the_start(num_envs=2, **options):
+    """Environments whose robot heads towards the gold at (4, 0) from (0, 0)."""
+    return robosim.VectorEnv(scene.world(1), num_envs, observations=("pose",), random_starts=False, **options)
+
+
+class VectorEnvTest(unittest.TestCase):
+    def test_conforms(self):
+        mazes = [robosim.World.generate("maze", columns=3, rows=3, robots=2, seed=seed) for seed in range(3)]
+        for robots in (1, 2):
+            with self.subTest(robots=robots):
+                robosim.check_env(robosim.VectorEnv(mazes, 5, robots=robots, observations=("sonar", "heat", "odometry"),
+                                                    max_steps=23))
+
+    def test_the_checker_detects_violations(self):
+        class WithoutReset(robosim.VectorEnv):
+            def step(self, actions):
+                observations, rewards, terminated, truncated, infos = super().step(actions)
+                return observations, rewards + 1, terminated, truncated, infos
+
+        with self.assertRaisesRegex(AssertionError, "reward 0"):
+            robosim.check_env(WithoutReset(scene.world(1), 2, max_steps=5))
+
+    def test_spaces_describe_observations_and_actions(self):
+        env = robosim.VectorEnv(scene.world(3), 4, robots=2, observations=("sonar", "stalled"))
+        self.assertEqual(env.single_observation_space.shape, (2, 17))
+        self.assertEqual(env.observation_space.shape, (4, 2, 17))
+        self.assertEqual(env.action_space, robosim.Box(-1, 1, (4, 2, 2)))
+        self.assertEqual(env.observation_parts, {"sonar": slice(0, 16), "stalled": slice(16, 17)})
+        self.assertEqual(env.agent_names, ("R1", "R2"))
+        self.assertEqual(env.single_observation_space.low.min(), 0)
+
+    def test_the_step_after_the_end_begins_the_next_episode(self):
+        env = at_the_start(max_steps=1000, reward={"win": 10, "step": -1})
+        env.reset(seed=1)
+        ahead = np.array([[1, 0], [0, 0]], np.float32)
+        terminated = [False, False]
+        while not terminated[0]:
+            observations, rewards, terminated, truncated, infos = env.step(ahead)
+        self.assertGreater(observations[0, 0], 2)  # the final observation
+        np.testing.assert_array_equal(rewards, [9, -1])
+        np.testing.assert_array_equal(terminated, [True, False])
+        observations, rewards, terminated, truncated, infos = env.step(ahead)
+        np.testing.assert_array_equal(observations[0], [0, 0, 0])
+        np.testing.assert_array_equal(rewards, [0, -1])
+        self.assertFalse(terminated.any() or truncated.any())
+
+    def test_truncates_after_max_steps(self):
+        env = at_the_start(max_steps=3)
+        env.reset()
+        flags = [env.step(np.zeros((2, 2)))[3][0] for _ in range(8)]
+        self.assertEqual(flags, [0, 0, 1, 0, 0, 0, 1, 0])
+
+    def test_results_keep_their_values_for_one_more_step(self):
+        env = at_the_start()
+        before, _ = env.reset()
+        after = env.step(np.ones((2, 2)))[0]
+        np.testing.assert_array_equal(before, np.zeros((2, 3)))
+        self.assertFalse(np.shares_memory(before, after))
+        third = env.step(np.ones((2, 2)))[0]
+        self.assertTrue(np.shares_memory(before, third))
+
+    def test_resets_selected_environments(self):
+        env = at_the_start()
+        env.reset()
+        for _ in range(5):
+            moved = env.step(np.ones((2, 2), np.float32))[0].copy()
+        observations, _ = env.reset(options={"reset_mask": np.array([True, False])})
+        np.testing.assert_array_equal(observations[0], [0, 0, 0])
+        np.testing.assert_array_equal(observations[1], moved[1])
+
+    def test_seeds_determine_the_starts(self):
+        env = robosim.VectorEnv(scene.world(1), 3, observations=("pose",))
+        first = env.reset(seed=5)[0].copy()
+        second = env.reset()[0].copy()
+        self.assertFalse(np.array_equal(first, second))
+        np.testing.assert_array_equal(env.reset(seed=[5, 6, 7])[0], first)
+        self.assertEqual(env.reset(seed=5)[0].tolist(), first.tolist())
+        self.assertEqual(env.np_random_seed, 5)
+
+    def test_gives_the_same_batch_for_any_number_of_threads(self):
+        world = robosim.World.generate("maze", columns=3, rows=3)
+        of_one = None
+        for threads in (1, 3):
+            env = robosim.VectorEnv(world, 11, threads=threads, max_steps=20)
+            env.reset(seed=1)
+            env.action_space.seed(1)
+            rewards = [env.step(env.action_space.sample())[0].copy() for _ in range(30)]
+            of_one = rewards if of_one is None else of_one
+            np.testing.assert_array_equal(rewards, of_one)
+
+    def test_reports_misuse_and_stays_usable(self):
+        env = at_the_start()
+        with self.assertRaisesRegex(RuntimeError, r"call reset\(\) before the first step"):
+            env.step(np.zeros((2, 2)))
+        env.reset()
+        with self.assertRaisesRegex(ValueError, r"actions have the shape \(2, 3\); it must be \(2, 2\)"):
+            env.step(np.zeros((2, 3)))
+        with self.assertRaisesRegex(ValueError, "the action of agent 0 in environment 1 is not finite"):
+            env.step([[0, 0], [0, np.inf]])
+        with self.assertRaisesRegex(TypeError, "actions must be an array of numbers"):
+            env.step(np.array([["a", "b"], ["c", "d"]]))
+        with self.assertRaisesRegex(TypeError, r"reset_mask must be a bool array of shape \(2,\)"):
+            env.reset(options={"reset_mask": np.ones(3, bool)})
+        with self.assertRaisesRegex(ValueError, "unknown options"):
+            env.reset(options={"mask": None})
+        with self.assertRaisesRegex(ValueError, "there are 3 seeds; 2 are required"):
+            env.reset(seed=[1, 2, 3])
+        self.assertEqual(env.step(np.zeros((2, 2)))[0].shape, (2, 3))
+        env.close()
+        with self.assertRaisesRegex(ValueError, "the environment is closed"):
+            env.reset()
+
+    def test_reports_invalid_options(self):
+        world = scene.world(1)
+        with self.assertRaisesRegex(robosim.ConfigError, "robot 'R1' cannot observe 'radar'"):
+            robosim.VectorEnv(world, observations="radar")
+        with self.assertRaisesRegex(TypeError, "there is no reward 'luck'; rewards are win, forward, heat, stall, step"):
+            robosim.VectorEnv(world, reward={"luck": 1})
+        with self.assertRaisesRegex(ValueError, "num_envs is 0; it must be at least 1"):
+            robosim.VectorEnv(world, 0)
+        with self.assertRaisesRegex(robosim.ConfigError, "2 agents are required"):
+            robosim.VectorEnv(world, robots=2)
+
+
+class ParallelEnvTest(unittest.TestCase):
+    def test_conforms(self):
+        world = robosim.World.generate("maze", columns=3, rows=3, robots=3)
+        robosim.check_env(robosim.ParallelEnv(world, observations=("sonar", "odometry"), max_steps=30))
+
+    def test_ends_the_episode_of_all_agents(self):
+        env = robosim.ParallelEnv(scene.world(2), observations="pose", random_starts=False, max_steps=2,
+                                  reward={"forward": 1})
+        observations, infos = env.reset(seed=1)
+        self.assertEqual(env.agents, ["R1", "R2"])
+        np.testing.assert_array_equal(observations["R2"], [0, 1, 0])
+        actions = {"R1": [1, 0], "R2": [0, 0]}
+        _, rewards, terminated, truncated, _ = env.step(actions)
+        self.assertGreater(rewards["R1"], 0)
+        self.assertEqual(rewards["R2"], 0)
+        self.assertEqual((terminated, truncated), ({"R1": False, "R2": False}, {"R1": False, "R2": False}))
+        self.assertEqual(env.step(actions)[3], {"R1": True, "R2": True})
+        self.assertEqual(env.agents, [])
+        self.assertEqual(env.step({}), ({}, {}, {}, {}, {}))
+
+    def test_refuses_actions_of_other_agents(self):
+        env = robosim.ParallelEnv(scene.world(2))
+        env.reset()
+        with self.assertRaisesRegex(ValueError, r"actions are of the agents \['R1'\]; they must be of \['R1', 'R2'\]"):
+            env.step({"R1": [0, 0]})
+
+
+class BoxTest(unittest.TestCase):
+    def test_samples_lie_within_all_kinds_of_bounds(self):
+        box = robosim.Box(np.array([0, -np.inf, 3, -np.inf]), np.array([1, 5, np.inf, np.inf]), seed=1)
+        for _ in range(100):
+            self.assertIn(box.sample(), box)
+        self.assertNotIn(np.array([2, 0, 4, 0], np.float32), box)
+        self.assertNotIn(np.zeros(3, np.float32), box)
+        self.assertTrue(robosim.Box(0, 1, (2,)).is_bounded())
+        self.assertFalse(box.is_bounded("below"))
+
+
+if __name__ == "__main__":
+    unittest.main()

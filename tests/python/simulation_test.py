@@ -1,0 +1,230 @@
+"""Simulations in Python: steps, arrays, commands, messages, saved states, and misuse."""
+import gc
+import os
+import signal
+import tempfile
+import threading
+import unittest
+
+import numpy as np
+
+import robosim
+import scene
+
+
+def driven(robots=2, **options):
+    return robosim.Simulation(scene.world(robots), controller="none", **options)
+
+
+class StepTest(unittest.TestCase):
+    def test_advances_time(self):
+        with driven(period_s=0.5) as simulation:
+            simulation.step(3)
+            simulation.step()
+            self.assertEqual((simulation.step_count, simulation.time_s, simulation.period_s), (4, 2.0, 0.5))
+
+    def test_runs_the_worlds_controllers_for_any_number_of_threads(self):
+        world = robosim.World.generate("maze", columns=4, rows=4, robots=4, controller="wander")
+        digests = set()
+        for threads in (1, 2, 3):
+            with robosim.Simulation(world, threads=threads) as simulation:
+                simulation.step(50)
+                digests.add(simulation.digest)
+        self.assertEqual(len(digests), 1)
+        with robosim.Simulation(world, controller="wall_follower") as simulation:
+            simulation.step(50)
+            self.assertNotIn(simulation.digest, digests)
+
+    def test_lets_other_threads_run_refuses_them_and_is_interrupted_by_a_signal(self):
+        simulation = driven()
+        refusals = []
+
+        def use_and_interrupt():
+            while not refusals:
+                try:
+                    simulation.time_s
+                except RuntimeError as error:
+                    refusals.append(str(error))
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=use_and_interrupt)
+        thread.start()
+        with self.assertRaises(KeyboardInterrupt):
+            simulation.step(10**12)
+        thread.join()
+        self.assertIn("another thread is running a step", refusals[0])
+        steps = simulation.step_count
+        simulation.step()
+        self.assertEqual(simulation.step_count, steps + 1)
+
+
+class ArraysTest(unittest.TestCase):
+    def test_poses_are_a_view_that_follows_the_steps(self):
+        simulation = driven()
+        poses = simulation.poses
+        self.assertEqual((poses.shape, poses.dtype), ((2, 3), np.float64))
+        np.testing.assert_array_equal(poses, [[0, 0, 0], [0, 1, 0]])
+        simulation.commands = [[0.5, 0], [0, 0]]
+        simulation.step(20)
+        self.assertGreater(poses[0, 0], 0.5)
+        self.assertEqual(poses[1, 0], 0)
+        self.assertTrue(np.shares_memory(poses, simulation.poses))
+        with self.assertRaisesRegex(ValueError, "read-only"):
+            poses[0, 0] = 1
+
+    def test_arrays_remain_valid_without_their_simulation(self):
+        simulation = driven()
+        poses = simulation.poses
+        simulation.close()
+        del simulation
+        gc.collect()
+        np.testing.assert_array_equal(poses, [[0, 0, 0], [0, 1, 0]])
+
+    def test_reads_ranges_of_all_robots(self):
+        simulation = driven()
+        sonar = simulation.readings("sonar")
+        self.assertEqual((sonar.shape, sonar.dtype), ((2, 16), np.float32))
+        self.assertAlmostEqual(np.nanmin(sonar[0]), np.min(simulation.robot("R1").sonar), places=6)
+        into = np.empty((2, 16), np.float32)
+        self.assertIs(simulation.readings("sonar", out=into), into)
+        np.testing.assert_array_equal(into, sonar)
+
+    def test_rows_of_robots_without_the_sensor_are_nan(self):
+        share = os.path.join(os.environ["ROBOSIM_PREFIX"], "share", "robosim")
+        world = robosim.World.load(share + "/worlds/opho2_1.xml")
+        with robosim.Simulation(world, controller="none") as simulation:
+            sensors = [{sensor.kind for sensor in robot.sensors} for robot in world.robots]
+            laser = simulation.readings("laser")
+            for row, kinds in zip(laser, sensors):
+                self.assertEqual(np.isnan(row).all(), "laser" not in kinds)
+
+    def test_reports_unknown_kinds_and_unsuitable_arrays(self):
+        simulation = driven()
+        with self.assertRaisesRegex(ValueError, "robot 'R1' cannot observe 'radar'; observations may be "):
+            simulation.readings("radar")
+        with self.assertRaisesRegex(ValueError, r"readings have the shape \(2, 3\); it must be \(2, 16\)"):
+            simulation.readings("sonar", out=np.empty((2, 3), np.float32))
+        with self.assertRaisesRegex(TypeError, "readings are of type float64; it must be float32"):
+            simulation.readings("sonar", out=np.empty((2, 16)))
+        with self.assertRaisesRegex(ValueError, "contiguous array that can be written"):
+            simulation.readings("sonar", out=np.empty((2, 32), np.float32)[:, ::2])
+
+
+class CommandsTest(unittest.TestCase):
+    def test_refuses_other_shapes_types_and_values(self):
+        simulation = driven()
+        with self.assertRaisesRegex(ValueError, r"commands have the shape \(2,\); it must be \(2, 2\)"):
+            simulation.commands = [1, 2]
+        with self.assertRaisesRegex(TypeError, "commands must be an array of numbers, not of <U1"):
+            simulation.commands = [["a", "b"], ["c", "d"]]
+        with self.assertRaisesRegex(ValueError, r"the command of robot 'R2' \(row 1\) is not finite"):
+            simulation.commands = [[0.1, 0], [0, np.nan]]
+        np.testing.assert_array_equal(simulation.commands, np.zeros((2, 2)))
+
+    def test_are_for_robots_without_controller(self):
+        world = scene.world(2)
+        with robosim.Simulation(world, controller="wander", controllers={"R2": "none"}) as simulation:
+            simulation.commands = [[9, 9], [0.25, 0.125]]
+            simulation.step()
+            np.testing.assert_array_equal(simulation.commands[1], [0.25, 0.125])
+        with robosim.Simulation(world, controller="wander") as simulation:
+            with self.assertRaisesRegex(ValueError, "every robot has a controller"):
+                simulation.commands = np.zeros((2, 2))
+            with self.assertRaisesRegex(ValueError, "robot 'R1' has a controller, which commands it"):
+                simulation.robot("R1").drive(1, 0)
+
+    def test_messages_arrive_in_the_next_step(self):
+        simulation = driven()
+        simulation.send("R1", "R2", "grüße")
+        simulation.step()
+        self.assertEqual(simulation.inbox("R2"), [robosim.Message("R1", "grüße")])
+        self.assertEqual(simulation.inbox("R1"), [])
+        simulation.step()
+        self.assertEqual(simulation.inbox("R2"), [])
+        with self.assertRaisesRegex(ValueError, "R9"):
+            simulation.send("R1", "R9", "")
+        with self.assertRaisesRegex(ValueError, "there is no robot 'R8'; the world has R1, R2"):
+            simulation.inbox("R8")
+
+
+class SavedStateTest(unittest.TestCase):
+    def test_a_restored_run_continues_bit_for_bit(self):
+        simulation = driven()
+        simulation.commands = [[0.5, 0.3], [0.4, -0.2]]
+        simulation.step(10)
+        state = simulation.save()
+        simulation.step(10)
+        digest = simulation.digest
+        simulation.restore(state)
+        self.assertEqual(simulation.step_count, 10)
+        simulation.step(10)
+        self.assertEqual(simulation.digest, digest)
+
+    def test_refuses_other_bytes_and_changes_nothing(self):
+        simulation = driven()
+        state = simulation.save()
+        other = driven(3)
+        for bad in (b"", state[:-1], other.save()):
+            with self.assertRaises(robosim.ConfigError):
+                simulation.restore(bad)
+        self.assertEqual(simulation.save(), state)
+
+    def test_a_fork_is_independent_and_equal(self):
+        world = robosim.World.generate("maze", columns=4, rows=4, robots=3, controller="wander")
+        simulation = robosim.Simulation(world, controllers={world.robots[1].name: "none"})
+        simulation.step(20)
+        fork = simulation.fork()
+        fork.step(20)
+        self.assertEqual(simulation.step_count, 20)
+        simulation.step(20)
+        self.assertEqual(fork.digest, simulation.digest)
+
+
+class RecordingTest(unittest.TestCase):
+    def test_a_recording_appears_when_it_is_complete(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "run.rawlog")
+            with driven() as simulation:
+                simulation.record(file)
+                simulation.step(5)
+                self.assertTrue(simulation.is_recording)
+                self.assertFalse(os.path.exists(file))
+                with self.assertRaisesRegex(ValueError, "is being recorded"):
+                    simulation.record(file)
+            self.assertTrue(os.path.exists(file))
+
+    def test_reports_a_file_that_cannot_be_written(self):
+        with self.assertRaises(robosim.ConfigError):
+            driven().record("/missing/run.rawlog")
+
+
+class MisuseTest(unittest.TestCase):
+    def test_use_after_close_is_an_error(self):
+        simulation = driven()
+        robot = simulation.robot("R1")
+        simulation.close()
+        simulation.close()
+        self.assertTrue(simulation.closed)
+        for use in (simulation.step, simulation.save, simulation.fork, lambda: simulation.poses,
+                    lambda: simulation.readings("sonar"), lambda: robot.sonar):
+            with self.assertRaisesRegex(ValueError, "the simulation is closed"):
+                use()
+
+    def test_reports_invalid_arguments(self):
+        world = scene.world()
+        with self.assertRaisesRegex(robosim.ConfigError, "wonder"):
+            robosim.Simulation(world, controller="wonder")
+        with self.assertRaisesRegex(ValueError, "there is no robot 'R7'; the world has R1, R2"):
+            robosim.Simulation(world, controllers={"R7": "wander"})
+        with self.assertRaisesRegex(TypeError, "the controller of robot 'R1' must be the name of a controller, or an object"):
+            robosim.Simulation(world, controllers={"R1": 5})
+        with self.assertRaisesRegex(ValueError, r"period_s must lie in \(0, 1\] seconds"):
+            robosim.Simulation(world, period_s=0)
+        with self.assertRaisesRegex(ValueError, "the number of steps is -1; it must be at least 0"):
+            driven().step(-1)
+        with self.assertRaisesRegex(robosim.ConfigError, "has no robots; add at least one"):
+            robosim.Simulation(scene.world(0))
+
+
+if __name__ == "__main__":
+    unittest.main()
