@@ -113,6 +113,7 @@ void runWorld(const LocalRunArguments& arguments, const RunWindow& window, doubl
     throw;
   } catch (...) {
     outputs.keep(run.environment());
+    tables.keep();
     throw;
   }
   outputs.finish(run, std::chrono::duration<double>(Clock::now() - start).count(), ended_by);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "base/log.h"
 #include "run/output_files.h"
 
 namespace robosim {
@@ -31,6 +32,14 @@ void RunTables::finish() {
   if (!recording_) return;
   recording_->close();
   exportRecording(rawlog().string(), tables_, nullptr);
+}
+
+void RunTables::keep() noexcept {
+  try {
+    finish();
+  } catch (const std::exception& error) {
+    logError("run", std::string("the tables of the failed run cannot be written: ") + error.what());
+  }
 }
 
 }  // namespace robosim

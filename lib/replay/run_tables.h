@@ -23,6 +23,7 @@ class RunTables {
 
   void observe(const Environment& environment);  ///< records the current step @throws RecordingError
   void finish();                                 ///< writes the tables @throws RecordingError @throws ConfigError
+  void keep() noexcept;                          ///< writes those of a failed run, with its steps so far, if possible
   const std::vector<RecordingOutput>& tables() const { return tables_; }
 
  private:

@@ -125,11 +125,15 @@ TEST_F(Sdk, RefusesWhatIsNoPluginOfThisVersion) {
 }
 
 TEST_F(Sdk, AnExceptionOfAControllerNamesItAndItsRobotAndKeepsTheRecording) {
-  const Ended ended = run("run flock.xml --controller failing --threads 1 --record part.rawlog " + plugin("flocking") +
-                          " " + plugin("failing"));
+  const Ended ended = run("run flock.xml --controller failing --threads 1 --record part.rawlog --csv part.csv " +
+                          plugin("flocking") + " " + plugin("failing"));
   EXPECT_EQ(ended.exit_code, 2) << ended.out;
   EXPECT_NE(ended.err.find("robot 'R1': its controller failing threw an exception: lost the flock"), std::string::npos)
       << ended.err;
+  std::ifstream table(project() / "part.csv");
+  std::string line, last;
+  while (std::getline(table, line)) last = line;
+  EXPECT_EQ(last.substr(0, 2), "5,") << last;  // the controller failed in the step after it
   const Ended recorded = run("replay part.rawlog " + plugin("flocking"));
   EXPECT_EQ(recorded.exit_code, 0) << recorded.err;
 }
