@@ -36,6 +36,14 @@ const Measurement* Robot::measurement(SensorKind kind) const {
   return found ? &readings().measurements[*found] : nullptr;
 }
 
+const Measurement* Robot::measurement(const std::string& label) const {
+  const auto& sensors = *info().sensors;
+  for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+    if (sensors[slot].label == label) return &readings().measurements[slot];
+  }
+  return nullptr;
+}
+
 const Echoes& Robot::echoes(SensorKind kind) const {
   const auto found = slot(kind);
   return found ? std::get<Echoes>(readings().measurements[*found]) : kNoEchoes;

@@ -45,6 +45,8 @@ class Robot {
   const Echoes& echoes(SensorKind kind) const;
   /// Measurement of the first sensor of a kind, such as Values; null for a robot without it.
   const Measurement* measurement(SensorKind kind) const;
+  /// Measurement of the sensor with a label; null for a robot without it. Takes time in proportion to the sensors.
+  const Measurement* measurement(const std::string& label) const;
   /// Description of the first sensor of a kind; null for a robot without it.
   const SensorInfo* sensor(SensorKind kind) const;
   bool stalled() const { return readings().stalled; }

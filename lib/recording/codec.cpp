@@ -8,17 +8,18 @@ namespace {
 
 std::vector<const Codec*>& allCodecs() {
   static std::vector<const Codec*> codecs{
-      &scanCodec(),      // CObservation2DRangeScan: lasers with evenly spaced beams
-      &rangeCodec(),     // CObservationRange: all other sensors that measure echoes
-      &heatCodec(),      // CObservationGasSensors
-      &compassCodec(),   // CObservationIMU
-      &batteryCodec(),   // CObservationBatteryState
-      &bumperCodec(),    // CObservationRawDAQ
-      &odometryCodec(),  // CObservationOdometry
-      &imageCodec(),     // CObservationImage
-      &blobCodec(),      // CObservationRawDAQ
-      &beaconCodec(),    // CObservationBeaconRanges
-      &valuesCodec(),    // CObservationRawDAQ
+      &scanCodec(),          // CObservation2DRangeScan: lasers with evenly spaced beams
+      &rangeCodec(),         // CObservationRange: all other sensors that measure echoes
+      &heatCodec(),          // CObservationGasSensors
+      &compassCodec(),       // CObservationIMU
+      &batteryCodec(),       // CObservationBatteryState
+      &bumperCodec(),        // CObservationRawDAQ
+      &odometryCodec(),      // CObservationOdometry
+      &imageCodec(),         // CObservationImage
+      &blobCodec(),          // CObservationRawDAQ
+      &beaconCodec(),        // CObservationBeaconRanges
+      &bearingRangeCodec(),  // CObservationBearingRange: range_and_bearing
+      &valuesCodec(),        // CObservationRawDAQ: all other values
   };
   return codecs;
 }

@@ -18,6 +18,7 @@ const Codec& odometryCodec();
 const Codec& imageCodec();
 const Codec& blobCodec();
 const Codec& beaconCodec();
+const Codec& bearingRangeCodec();
 const Codec& valuesCodec();
 ///@}
 

@@ -4,6 +4,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationBatteryState.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -12,6 +13,8 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/poses/CPoint3D.h>
 
+#include "hardware/neighbour_quantities.h"
+#include "recording/codecs.h"
 #include "recording/cone_aperture.h"
 #include "recording/jpeg_observation.h"
 #include "recording/testing/sample_robot.h"
@@ -267,6 +270,22 @@ TEST(Observations, RecordValuesAsAnalogueInputs) {
   air.quantities = {{"co2", "ppm"}, {"humidity", "%"}};
   EXPECT_EQ(recorded<mrpt::obs::CObservationRawDAQ>(air, Values{{412.5, 0.1}}).AIN_double,
             (std::vector<double>{412.5, 0.1}));
+}
+
+TEST(Observations, RecordRangesAndBearingsOfNeighboursByTheirNumbers) {
+  auto board = plainSensor(SensorKind::values, "range_and_bearing", {beamAt(0, 0, 0.1, 0)});
+  board.range_max_m = 3;
+  board.quantities = neighbourQuantities(3);
+  const Values measured{{7, 1.5, -0.25, 2, 2.5, 3, -1, 0, 0}};  // robots 7 and 2, and a free place
+  const auto neighbours = recorded<mrpt::obs::CObservationBearingRange>(board, measured);
+  ASSERT_EQ(neighbours.sensedData.size(), 2u);
+  EXPECT_EQ(neighbours.sensedData[0].landmarkID, 7);
+  EXPECT_EQ(neighbours.sensedData[0].range, 1.5f);
+  EXPECT_EQ(neighbours.sensedData[0].yaw, -0.25f);
+  EXPECT_EQ(neighbours.sensedData[1].landmarkID, 2);
+  EXPECT_EQ(neighbours.maxSensorDistance, 3);
+  EXPECT_NEAR(neighbours.sensorLocationOnRobot.z(), 0.1, 1e-9);
+  EXPECT_EQ(codecOf(board).measurementFrom(neighbours, board, 0, ""), Measurement(measured));
 }
 
 TEST(Observations, RecordOdometryWithPoseAndSpeeds) {

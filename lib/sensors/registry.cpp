@@ -14,6 +14,7 @@
 #include "sensors/infrared.h"
 #include "sensors/laser.h"
 #include "sensors/odometry.h"
+#include "sensors/range_and_bearing.h"
 #include "sensors/sonar.h"
 
 namespace robosim {
@@ -71,6 +72,8 @@ const SensorType kOwnTypes[] = {
     {"battery", "The battery's voltage, which falls with use.", false,
      [](XmlReader& r, const Mount&) -> Made { return makeBattery(BatteryOptions::read(r)); }, nullptr},
     {"beacons", "Ranges to ultra-wideband beacons.", true, readBeacons, nullptr},
+    {"range_and_bearing", "Distance and direction to the nearest robots in line of sight.", true, readRangeAndBearing,
+     nullptr},
     {"blob_finder", "The largest blob of each given colour in a camera's picture.", false, readBlobFinder, nullptr},
 };
 // clang-format on
