@@ -3,22 +3,16 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
-
-#include <mrpt/obs/CObservationComment.h>
 
 #include "base/atomic_file.h"
 #include "base/error_list.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
-#include "recording/observation_times.h"
-#include "recording/rawlog_reader.h"
 #include "replay/csv_field.h"
 #include "replay/npz_writer.h"
-#include "replay/recorded_sensors.h"
+#include "replay/read_recording.h"
 #include "replay/recording_table.h"
-#include "run/run_note.h"
 
 namespace robosim {
 namespace {
@@ -40,23 +34,11 @@ class ExportProgress {
 };
 
 RecordingTable tableOf(const std::string& rawlog, ExportProgress& progress) {
-  RawlogReader reader(rawlog);
-  RecordingTable table;
-  ObservationTimes times;
-  std::optional<RecordedSensors> sensors;
-  while (const auto observation = reader.next()) {
-    progress.at([&] { return "reading: " + withCommas(reader.entries()) + " entries …"; });
-    if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
-      if (!sensors) {
-        if (const auto note = RunNote::parse(comment->text)) sensors = RecordedSensors::of(*note);
-      }
-      continue;
-    }
-    table.add(*observation, times.of(*observation, reader.entries()),
-              sensors ? sensors->find(observation->sensorLabel) : nullptr);
-  }
-  if (reader.readError()) logWarning("export", *reader.readError());
-  return table;
+  RecordingContents read = readRecording(rawlog, [&](std::uint64_t entries) {
+    progress.at([&] { return "reading: " + withCommas(entries) + " entries …"; });
+  });
+  if (read.damage) logWarning("export", *read.damage);
+  return std::move(read.table);
 }
 
 /// The columns of a sensor of all robots.

@@ -1,0 +1,32 @@
+#include "replay/read_recording.h"
+
+#include <mrpt/obs/CObservationComment.h>
+
+#include "recording/observation_times.h"
+#include "recording/rawlog_reader.h"
+#include "replay/recorded_sensors.h"
+#include "run/run_note.h"
+
+namespace robosim {
+
+RecordingContents readRecording(const std::string& rawlog, const std::function<void(std::uint64_t)>& progress) {
+  RawlogReader reader(rawlog);
+  RecordingContents read;
+  ObservationTimes times;
+  std::optional<RecordedSensors> sensors;
+  while (const auto observation = reader.next()) {
+    if (progress) progress(reader.entries());
+    if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
+      if (!sensors) {
+        if (const auto note = RunNote::parse(comment->text)) sensors = RecordedSensors::of(*note);
+      }
+      continue;
+    }
+    read.table.add(*observation, times.of(*observation, reader.entries()),
+                   sensors ? sensors->find(observation->sensorLabel) : nullptr);
+  }
+  read.damage = reader.readError();
+  return read;
+}
+
+}  // namespace robosim
