@@ -9,6 +9,7 @@
 
 #include "array_arguments.h"
 #include "environment/state_bytes.h"
+#include "pictures.h"
 #include "python_errors.h"
 #include "python_robot.h"
 #include "simulation.h"
@@ -281,6 +282,19 @@ void bindSimulation(py::module_& module) {
       .def_property_readonly(
           "robots", [](const Simulation& of) { return py::tuple(py::cast(toRead(of).environment().fleet().robots)); },
           "The robots, as RobotInfo, in the order of all arrays.")
+      .def(
+          "plan",
+          [](const Simulation& of) {
+            return planOf(toRead(of).environment().world(), of.environment().fleet(), stateOf(of).world_from_robot);
+          },
+          "Plan from above with the robots at their poses: uint8, shape (height, width, 3): red, green, blue.")
+      .def(
+          "_repr_svg_",
+          [](const Simulation& of) {
+            return toPython(
+                svgOf(toRead(of).environment().world(), of.environment().fleet(), stateOf(of).world_from_robot));
+          },
+          "The plan as an SVG document, which notebooks show.")
       .def("close", close, "Completes the recording, and ends the use of the simulation. Arrays keep their values.")
       .def_property_readonly("closed", &Simulation::isClosed)
       .def("__enter__", [](const SimulationHandle& of) { return of; })

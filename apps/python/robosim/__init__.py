@@ -15,6 +15,8 @@ _MODULE_OF = {
     "ParallelEnv": "parallel_env",
     "Box": "spaces",
     "check_env": "check_env",
+    "read_rawlog": "recording",
+    "Recording": "recording",
     "Controller": "controller",
     "Message": "controller",
     "RobotInfo": "_robosim",
