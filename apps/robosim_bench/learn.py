@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Measures robosim.VectorEnv with the batches of `robosim_bench learn`, and compares it with that.
 
-learn.py ROBOSIM_BENCH [SECONDS]; the package robosim must be on Python's path. Prints agent-steps per second of processor
-time, one thread, including resets, and Python's share of the speed of C++.
+learn.py ROBOSIM_BENCH [SECONDS]; the package robosim must be on Python's path. Prints agent-steps per second of
+processor time, one thread, including resets, and Python's share of the speed of C++.
 """
 import json
 import os

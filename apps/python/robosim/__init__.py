@@ -14,7 +14,7 @@ _MODULE_OF = {
     "AutoresetMode": "vector_env",
     "ParallelEnv": "parallel_env",
     "Box": "spaces",
-    "check_env": "check_env",
+    "check_env": "conformance",
     "read_rawlog": "recording",
     "Recording": "recording",
     "Controller": "controller",

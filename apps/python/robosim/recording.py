@@ -32,7 +32,8 @@ class Recording(Mapping):
     def readings(self, robot, sensor):
         """Values of a sensor: float64, shape (rows, columns)."""
         if sensor not in self.sensors(robot) or self._label(robot, sensor) not in self._arrays:
-            raise ValueError(f"robot '{robot}' has no recorded numbers of '{sensor}'; it has {', '.join(self.sensors(robot))}")
+            raise ValueError(f"robot '{robot}' has no recorded numbers of '{sensor}'; it has "
+                             f"{', '.join(self.sensors(robot))}")
         return self._arrays[self._label(robot, sensor)]
 
     def times_s(self, robot, sensor="GROUND_TRUTH"):
