@@ -6,6 +6,7 @@
 #include "python_errors.h"
 #include "python_robot.h"
 #include "python_world.h"
+#include "recording.h"
 #include "run/plugin.h"
 #include "simulation.h"
 
@@ -20,4 +21,5 @@ PYBIND11_MODULE(_robosim, module) {
   robosim::bindRobot(module);
   robosim::bindSimulation(module);
   robosim::bindBatch(module);
+  robosim::bindRecording(module);
 }

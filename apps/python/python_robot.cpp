@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "array_arguments.h"
+#include "pictures.h"
 #include "python_errors.h"
 
 namespace robosim {
@@ -59,7 +60,7 @@ py::object bumperOf(const PythonRobot& robot) {
 py::object imageOf(const PythonRobot& robot) {
   const std::string& jpeg = robot.toRead().image().jpeg;
   if (jpeg.empty()) return py::none();
-  return py::bytes(jpeg);
+  return pictureOf(jpeg);
 }
 
 py::object valuesOf(const PythonRobot& robot) {
@@ -117,7 +118,9 @@ void bindReadings(RobotClass& robot) {
             return py::make_tuple(pose.x, pose.y, pose.phi, odometry.speed_mps, odometry.turn_radps);
           },
           "x, y [m] and heading [rad] since the start, speed [m/s], turn rate [rad/s].")
-      .def_property_readonly("image", imageOf, "Camera picture as the bytes of a JPEG file; None without one.")
+      .def_property_readonly(
+          "image", imageOf,
+          "Camera picture: uint8, shape (height, width, 3): red, green, blue; None in a step without one.")
       .def_property_readonly("values", valuesOf, "Quantities of a sensor of a plugin by name; None without one.")
       .def_property_readonly(
           "stalled", [](const PythonRobot& of) { return of.toRead().stalled(); },

@@ -5,6 +5,7 @@
 
 #include "base/atomic_file.h"
 #include "generated_world.h"
+#include "pictures.h"
 #include "python_errors.h"
 #include "run/local_run.h"
 #include "world/world_file.h"
@@ -39,6 +40,12 @@ void write(const PythonWorld& world, const fs::path& file) {
   written.write(toXml(world.loaded.world));
   written.finish();
   written.commit();
+}
+
+std::vector<mrpt::math::TPose2D> startsOf(const PythonWorld& world) {
+  std::vector<mrpt::math::TPose2D> starts;
+  for (const auto& robot : world.loaded.fleet.robots) starts.push_back(robot.world_from_start);
+  return starts;
 }
 
 std::string described(const PythonWorld& world) {
@@ -106,6 +113,16 @@ void bindWorld(py::module_& module) {
       .def(
           "to_xml", [](const PythonWorld& world) { return toPython(toXml(world.loaded.world)); },
           "Text of the file that write() writes.")
+      .def(
+          "plan",
+          [](const PythonWorld& world) { return planOf(world.loaded.world, world.loaded.fleet, startsOf(world)); },
+          "Plan from above with the robots at their starts: uint8, shape (height, width, 3): red, green, blue.")
+      .def(
+          "_repr_svg_",
+          [](const PythonWorld& world) {
+            return toPython(svgOf(world.loaded.world, world.loaded.fleet, startsOf(world)));
+          },
+          "The plan as an SVG document, which notebooks show.")
       .def("__repr__", [](const PythonWorld& world) { return toPython(described(world)); });
 }
 

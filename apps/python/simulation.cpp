@@ -10,7 +10,7 @@
 #include "python_errors.h"
 #include "python_robot.h"
 #include "run/output_files.h"
-#include "run/run_note.h"
+#include "run/run_summary.h"
 
 namespace robosim {
 namespace {
@@ -197,16 +197,24 @@ void Simulation::record(const std::filesystem::path& file) {
   refuseOverwriting(inputFilesOf(world_->source.file, environment().world()), {file});
   std::vector<RobotInfo> robots;
   for (const auto& robot : environment().fleet().robots) robots.push_back(robot.info);
-  const RunNote note = noteOf(world_->source, *run_, options_, elsewhere_);
+  RunNote note = noteOf(world_->source, *run_, options_, elsewhere_);
   recording_ =
       std::make_unique<RawlogWriter>(file, robots, RawlogFormat::observations, RawlogImages::embedded, note.text());
+  recorded_ = std::make_unique<RunNote>(std::move(note));
   observe();
 }
 
 void Simulation::stopRecording() {
   if (!recording_) throw std::invalid_argument("the simulation is not being recorded; call record(file) before");
   const std::unique_ptr<RawlogWriter> ended = std::move(recording_);
-  ended->close();
+  RunSummary summary = RunSummary::of(*run_);
+  summary.world = world_->source.file;
+  summary.seed = options_.environment.seed;
+  summary.ended_by = environment().allHalted() ? EndedBy::all_halted : EndedBy::interrupt;
+  recorded_->outcome = summary.json();
+  // Equal runs give equal files.
+  for (const char* of_the_clock : {"wall_s", "real_time_factor"}) recorded_->outcome.erase(of_the_clock);
+  ended->close(recorded_->text());
 }
 
 void Simulation::close() {

@@ -15,6 +15,7 @@
 #include "python_world.h"
 #include "recording/rawlog_writer.h"
 #include "run/local_run.h"
+#include "run/run_note.h"
 
 namespace robosim {
 
@@ -111,6 +112,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   std::map<std::string, std::size_t> index_;
   std::map<std::string, std::vector<std::unique_ptr<ObservationLayout>>> layouts_;
   std::unique_ptr<RawlogWriter> recording_;
+  std::unique_ptr<RunNote> recorded_;  ///< the recording's note
   std::atomic<bool> engine_runs_ = false;
   bool is_in_step_ = false;
   bool is_closed_ = false;

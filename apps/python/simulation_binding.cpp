@@ -1,17 +1,14 @@
 // Python's class Simulation.
-#include <algorithm>
-#include <limits>
-
-#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "array_arguments.h"
 #include "environment/state_bytes.h"
+#include "pictures.h"
 #include "python_errors.h"
 #include "python_robot.h"
 #include "simulation.h"
+#include "simulation_arrays.h"
 
 namespace robosim {
 namespace {
@@ -26,81 +23,6 @@ const Simulation& toRead(const Simulation& simulation) {
 }
 
 const State& stateOf(const Simulation& simulation) { return toRead(simulation).environment().state(); }
-
-py::ssize_t robotsOf(const Simulation& simulation) { return static_cast<py::ssize_t>(simulation.robotCount()); }
-
-/// A read-only array over memory of the simulation, which it keeps.
-template <typename T>
-py::array viewOf(const SimulationHandle& simulation, std::vector<py::ssize_t> shape, std::vector<py::ssize_t> strides,
-                 const T* data) {
-  const py::capsule owner(new SimulationHandle(simulation),
-                          [](void* kept) { delete static_cast<SimulationHandle*>(kept); });
-  py::array view(py::dtype::of<T>(), std::move(shape), std::move(strides), data, owner);
-  py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
-  return view;
-}
-
-py::array poses(const SimulationHandle& simulation) {
-  const auto& poses = stateOf(*simulation).world_from_robot;
-  static_assert(sizeof(mrpt::math::TPose2D) == 3 * sizeof(double));
-  return viewOf<double>(simulation, {robotsOf(*simulation), 3}, {sizeof poses[0], sizeof(double)},
-                        poses.empty() ? nullptr : &poses[0].x);
-}
-
-py::array commands(const SimulationHandle& simulation) {
-  const auto& commands = stateOf(*simulation).commands;
-  static_assert(offsetof(Command, turn_radps) == offsetof(Command, speed_mps) + sizeof(double));
-  return viewOf<double>(simulation, {robotsOf(*simulation), 2}, {sizeof commands[0], sizeof(double)},
-                        commands.empty() ? nullptr : &commands[0].speed_mps);
-}
-
-py::array stalled(const SimulationHandle& simulation) {
-  const auto& stalled = stateOf(*simulation).stalled;
-  return viewOf<bool>(simulation, {robotsOf(*simulation)}, {1}, reinterpret_cast<const bool*>(stalled.data()));
-}
-
-void setCommands(Simulation& simulation, const py::object& argument) {
-  requireUsable(simulation, Access::command);
-  const py::ssize_t robots = robotsOf(simulation);
-  const auto given = numbersOf<double>("commands", argument, {robots, 2});
-  const auto command = given.unchecked<2>();
-  bool is_any_driven = false;
-  for (py::ssize_t i = 0; i < robots; ++i) {
-    const auto robot = static_cast<std::size_t>(i);
-    is_any_driven |= simulation.isDrivenByCommands(robot);
-    if (!simulation.isDrivenByCommands(robot) || (std::isfinite(command(i, 0)) && std::isfinite(command(i, 1))))
-      continue;
-    throw std::invalid_argument("the command of robot '" + simulation.environment().robotNames()[robot] + "' (row " +
-                                std::to_string(i) + ") is not finite");
-  }
-  if (!is_any_driven) {
-    throw std::invalid_argument(std::string("every robot has a controller, which commands it; make the simulation with "
-                                            "controller='") +
-                                kNoController + "'");
-  }
-  for (py::ssize_t i = 0; i < robots; ++i) {
-    const auto robot = static_cast<std::size_t>(i);
-    if (simulation.isDrivenByCommands(robot)) simulation.robot(robot).drive(command(i, 0), command(i, 1));
-  }
-}
-
-py::array readings(Simulation& simulation, const std::string& kind, const py::object& out) {
-  requireUsable(simulation, Access::read);
-  const auto& layouts = simulation.layoutsOf(kind);
-  std::size_t size = 0;
-  for (const auto& layout : layouts) size = std::max(size, layout ? layout->size() : 0);
-  const std::vector<py::ssize_t> shape{robotsOf(simulation), static_cast<py::ssize_t>(size)};
-  if (!out.is_none() && !py::isinstance<py::array>(out)) throw py::type_error("out must be a NumPy array");
-  py::array array = out.is_none() ? py::array_t<float>(shape) : py::reinterpret_borrow<py::array>(out);
-  float* row = resultsOf<float>("readings", array, shape);
-  const State& state = simulation.environment().state();
-  for (std::size_t i = 0; i < layouts.size(); ++i, row += size) {
-    const std::size_t own = layouts[i] ? layouts[i]->size() : 0;
-    if (layouts[i]) layouts[i]->write(state, i, {row, own});
-    std::fill(row + own, row + size, std::numeric_limits<float>::quiet_NaN());
-  }
-  return array;
-}
 
 /// @throws pybind11::type_error
 SimulationHandle make(const std::shared_ptr<PythonWorld>& world, std::uint64_t seed, double period_s, int threads,
@@ -165,17 +87,17 @@ void bindStepping(SimulationClass& simulation) {
 void bindArrays(SimulationClass& simulation) {
   simulation
       .def_property_readonly(
-          "poses", poses,
+          "poses", posesOf,
           "True poses: float64, shape (robots, 3): x, y [m] and heading [rad], world frame.\n\nA view "
           "without a copy: it changes with each step and cannot be written.")
       .def_property(
-          "commands", commands, setCommands,
+          "commands", commandsOf, setCommands,
           "Speed [m/s] and turn rate [rad/s] of each robot: float64, shape (robots, 2).\n\nReading gives a view "
           "like poses. Assigning an array commands the robots without a controller;\nrows of others are "
           "ignored. Commands are kept until the next ones.")
-      .def_property_readonly("stalled", stalled,
+      .def_property_readonly("stalled", stalledOf,
                              "Whether an obstacle stopped each robot in the last step: bool, shape (robots,); a view.")
-      .def("readings", readings, py::arg("kind"), py::arg("out") = py::none(),
+      .def("readings", readingsOf, py::arg("kind"), py::arg("out") = py::none(),
            "Readings of the first sensor of a kind of each robot: float32, shape (robots, values).\n\nkind: 'sonar', "
            "'laser', 'infrared', 'beacons' (ranges [m]), 'heat' [°C], 'compass' [rad], 'battery' [V],\n'bumper' (0 or "
            "1), "
@@ -281,6 +203,19 @@ void bindSimulation(py::module_& module) {
       .def_property_readonly(
           "robots", [](const Simulation& of) { return py::tuple(py::cast(toRead(of).environment().fleet().robots)); },
           "The robots, as RobotInfo, in the order of all arrays.")
+      .def(
+          "plan",
+          [](const Simulation& of) {
+            return planOf(toRead(of).environment().world(), of.environment().fleet(), stateOf(of).world_from_robot);
+          },
+          "Plan from above with the robots at their poses: uint8, shape (height, width, 3): red, green, blue.")
+      .def(
+          "_repr_svg_",
+          [](const Simulation& of) {
+            return toPython(
+                svgOf(toRead(of).environment().world(), of.environment().fleet(), stateOf(of).world_from_robot));
+          },
+          "The plan as an SVG document, which notebooks show.")
       .def("close", close, "Completes the recording, and ends the use of the simulation. Arrays keep their values.")
       .def_property_readonly("closed", &Simulation::isClosed)
       .def("__enter__", [](const SimulationHandle& of) { return of; })

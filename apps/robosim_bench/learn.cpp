@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <iostream>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +20,9 @@ namespace {
 
 constexpr std::size_t kRobots = 1000;    ///< of the run that batches are compared with, and agents of a batch
 constexpr std::uint32_t kEpisode = 500;  ///< steps of an episode
+constexpr const char* kWorkloadsOfLearning[] = {"sonar", "laser"};
+constexpr std::size_t kTeams[] = {1, 10, 100};
+constexpr std::uint64_t kWorlds = 8;  ///< of a batch
 
 /// A batch with its arrays, and random actions that it takes in turn.
 class BatchRun {
@@ -57,7 +61,7 @@ class BatchRun {
 nlohmann::json compare(const Workload& workload, std::size_t team, double min_s) {
   LocalRun run(makeWorldToRun(workload, kRobots, 1), RunOptions{});
   std::vector<LoadedWorld> worlds;
-  for (std::uint64_t seed = 1; seed <= 8; ++seed) worlds.push_back(makeWorldToRun(workload, team, seed));
+  for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) worlds.push_back(makeWorldToRun(workload, team, seed));
   BatchOptions options;
   options.environments = kRobots / team;
   options.observations = {workload.name == std::string("laser") ? "laser" : "sonar", "odometry"};
@@ -106,15 +110,29 @@ nlohmann::json memoryOf(std::size_t environments) {
   return {{"worlds", environments}, {"held_mb", Memory::now().resident_mb - before.resident_mb}};
 }
 
+/// Writes the worlds of all batches, for learn.py.
+void writeWorlds(const std::filesystem::path& folder) {
+  for (const char* name : kWorkloadsOfLearning) {
+    for (const std::size_t team : kTeams) {
+      for (std::uint64_t seed = 1; seed <= kWorlds; ++seed) {
+        const auto of_one = folder / std::to_string(team) / std::to_string(seed);
+        writeWorld(of_one, workloadNamed(name), team, seed);
+      }
+    }
+  }
+}
+
 struct LearnArguments {
+  std::string worlds;
   double min_s = 3;
   bool as_json = false;
 };
 
 void benchLearn(const LearnArguments& arguments) {
+  if (!arguments.worlds.empty()) return writeWorlds(arguments.worlds);
   auto figures = nlohmann::json::object();
-  for (const char* name : {"sonar", "laser"}) {
-    for (const std::size_t team : {1, 10, 100}) {
+  for (const char* name : kWorkloadsOfLearning) {
+    for (const std::size_t team : kTeams) {
       figures["speed"].push_back(
           runInChildProcess([&] { return compare(workloadNamed(name), team, arguments.min_s); }));
     }
@@ -146,6 +164,9 @@ void addLearnBenchmark(CLI::App& program) {
       ->type_name("SECONDS")
       ->capture_default_str();
   command->add_flag("--json", a->as_json, "print a JSON object");
+  command
+      ->add_option("--write-worlds", a->worlds, "write the worlds into this folder, for learn.py, and measure nothing")
+      ->type_name("FOLDER");
   command->callback([a] { benchLearn(*a); });
 }
 

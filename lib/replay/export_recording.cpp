@@ -3,24 +3,17 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
-
-#include <mrpt/obs/CObservationComment.h>
 
 #include "base/atomic_file.h"
 #include "base/error_list.h"
 #include "base/log.h"
 #include "base/progress.h"
 #include "base/text_table.h"
-#include "recording/observation_times.h"
-#include "recording/rawlog_reader.h"
 #include "rendering/picture_format.h"
 #include "replay/csv_field.h"
 #include "replay/npz_writer.h"
-#include "replay/recorded_sensors.h"
-#include "replay/recording_figure.h"
+#include "replay/read_recording.h"
 #include "replay/recording_table.h"
-#include "run/run_note.h"
 
 namespace robosim {
 namespace {
@@ -41,43 +34,15 @@ class ExportProgress {
   Progress progress_;
 };
 
-/// What the outputs of an export require of a recording.
-struct RecordingContents {
-  std::optional<RecordingTable> table;    ///< nullopt without a table
-  std::optional<RecordingFigure> figure;  ///< nullopt without a picture
-};
-
 RecordingContents contentsOf(const std::string& rawlog, const std::vector<RecordingOutput>& outs,
                              ExportProgress& progress) {
-  RawlogReader reader(rawlog);
-  RecordingContents contents;
-  for (const auto& out : outs) {
-    if (out.format == RecordingFormat::picture) {
-      if (!contents.figure) contents.figure.emplace(rawlog);
-    } else if (!contents.table) {
-      contents.table.emplace();
-    }
-  }
-  ObservationTimes times;
-  std::optional<RecordedSensors> sensors;
-  while (const auto observation = reader.next()) {
-    progress.at([&] { return "reading: " + withCommas(reader.entries()) + " entries …"; });
-    if (const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(observation.get())) {
-      if (sensors) continue;
-      if (const auto note = RunNote::parse(comment->text)) {
-        sensors = RecordedSensors::of(*note);
-        if (contents.figure) contents.figure->setRun(*note);
-      }
-      continue;
-    }
-    const double time_s = times.of(*observation, reader.entries());
-    if (contents.figure) contents.figure->add(*observation, time_s);
-    if (contents.table) {
-      contents.table->add(*observation, time_s, sensors ? sensors->find(observation->sensorLabel) : nullptr);
-    }
-  }
-  if (reader.readError()) logWarning("export", *reader.readError());
-  return contents;
+  RecordingParts parts{.table = false, .figure = false};
+  for (const auto& out : outs) (out.format == RecordingFormat::picture ? parts.figure : parts.table) = true;
+  RecordingContents read = readRecording(rawlog, parts, [&](std::uint64_t entries) {
+    progress.at([&] { return "reading: " + withCommas(entries) + " entries …"; });
+  });
+  if (read.damage) logWarning("export", *read.damage);
+  return read;
 }
 
 /// The columns of a sensor of all robots.

@@ -210,7 +210,7 @@ class RunAgain {
 
   bool sameDigest(std::uint64_t steps) const {
     const auto note = RunNote::parse(recorded_.note());
-    const std::string recorded = note ? note->outcome.value("digest", "") : "";
+    const std::string recorded = note && note->outcome.is_object() ? note->outcome.value("digest", "") : "";
     const std::string now = run_.environment().digest();
     if (recorded.empty()) {
       std::cout << "All " << withCommas(steps) << " steps are the same; the recording has no digest.\n";

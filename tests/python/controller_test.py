@@ -29,8 +29,8 @@ class ControllerTest(unittest.TestCase):
 
         class Reader(robosim.Controller):
             def step(self, robot):
-                seen.update(name=robot.name, time_s=robot.time_s, sonar=robot.sonar, heat=robot.heat, robots=robot.robots(),
-                            odometry=robot.odometry, points=robot.points("sonar"), image=robot.image, laser=robot.laser)
+                seen.update(name=robot.name, time_s=robot.time_s, sonar=robot.sonar, robots=robot.robots(),
+                            odometry=robot.odometry, points=robot.points("sonar"), image=robot.image)
 
         with robosim.Simulation(scene.world(2), controller="none", controllers={"R1": Reader()}) as simulation:
             simulation.step(3)
@@ -98,8 +98,10 @@ class ControllerTest(unittest.TestCase):
                 simulation.step()
 
     def test_refuses_commands_that_are_not_finite_and_changes_of_the_simulation(self):
-        for fault in (lambda simulation, robot: robot.drive(float("nan"), 0), lambda simulation, robot: simulation.step(),
-                      lambda simulation, robot: simulation.close(), lambda simulation, robot: simulation.fork()):
+        for fault in (lambda simulation, robot: robot.drive(float("nan"), 0),
+                      lambda simulation, robot: simulation.step(),
+                      lambda simulation, robot: simulation.close(),
+                      lambda simulation, robot: simulation.fork()):
             class Faulty(robosim.Controller):
                 def step(self, robot):
                     fault(simulation, robot)

@@ -123,7 +123,7 @@ class VectorEnvTest(unittest.TestCase):
         world = scene.world(1)
         with self.assertRaisesRegex(robosim.ConfigError, "robot 'R1' cannot observe 'radar'"):
             robosim.VectorEnv(world, observations="radar")
-        with self.assertRaisesRegex(TypeError, "there is no reward 'luck'; rewards are win, forward, heat, stall, step"):
+        with self.assertRaisesRegex(TypeError, "no reward 'luck'; rewards are win, forward, heat, stall, step"):
             robosim.VectorEnv(world, reward={"luck": 1})
         with self.assertRaisesRegex(ValueError, "num_envs is 0; it must be at least 1"):
             robosim.VectorEnv(world, 0)

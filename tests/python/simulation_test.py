@@ -216,7 +216,7 @@ class MisuseTest(unittest.TestCase):
             robosim.Simulation(world, controller="wonder")
         with self.assertRaisesRegex(ValueError, "there is no robot 'R7'; the world has R1, R2"):
             robosim.Simulation(world, controllers={"R7": "wander"})
-        with self.assertRaisesRegex(TypeError, "the controller of robot 'R1' must be the name of a controller, or an object"):
+        with self.assertRaisesRegex(TypeError, "the controller of robot 'R1' must be the name of a controller"):
             robosim.Simulation(world, controllers={"R1": 5})
         with self.assertRaisesRegex(ValueError, r"period_s must lie in \(0, 1\] seconds"):
             robosim.Simulation(world, period_s=0)

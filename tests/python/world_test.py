@@ -56,9 +56,9 @@ class WorldTest(unittest.TestCase):
             self.assertEqual(len(robosim.World.generate(kind, robots=3).robots), 3)
 
     def test_refuses_unknown_generators_and_options(self):
-        with self.assertRaisesRegex(robosim.ConfigError, "there is no generator 'castle'; use maze, cave, office or open"):
+        with self.assertRaisesRegex(robosim.ConfigError, "no generator 'castle'; use maze, cave, office or open"):
             robosim.World.generate("castle")
-        with self.assertRaisesRegex(TypeError, "a maze has no option 'clutter'; its options are columns, rows, braid, cell_m"):
+        with self.assertRaisesRegex(TypeError, "no option 'clutter'; its options are columns, rows, braid, cell_m"):
             robosim.World.generate("maze", clutter=1)
         with self.assertRaisesRegex(TypeError, "columns must be a whole number"):
             robosim.World.generate("maze", columns="many")
@@ -76,7 +76,8 @@ class WorldTest(unittest.TestCase):
 
     def test_scattered_robots_depend_on_the_seed(self):
         share = os.path.join(os.environ["ROBOSIM_PREFIX"], "share", "robosim")
-        starts = [robosim.World.load(share + "/worlds/scatter_swarm.xml", seed=seed).robots[0].start for seed in (1, 1, 2)]
+        file = share + "/worlds/scatter_swarm.xml"
+        starts = [robosim.World.load(file, seed=seed).robots[0].start for seed in (1, 1, 2)]
         self.assertEqual(starts[0], starts[1])
         self.assertNotEqual(starts[0], starts[2])
 

@@ -29,15 +29,15 @@ class VectorEnv:
     random_starts: each episode starts at random poses, which depend on the seed; else at the world's.
     threads: they do not affect the results.
 
-    Observations are float32 of shape (num_envs, size); of several agents (num_envs, agents, size). Actions have the shape
+    Observations are float32 of shape (num_envs, size); of several agents (num_envs, agents, size). Actions are of shape
     (num_envs, 2) or (num_envs, agents, 2): speed and turn rate as fractions of the robot's maximum, clipped to [-1, 1].
     Rewards are float64 of shape (num_envs,) or (num_envs, agents).
 
     The step in which an episode ends returns its final observation. The next step ignores the action of that
     environment, begins its next episode, and returns its first observation with reward 0 (AutoresetMode.NEXT_STEP).
 
-    The engine writes into the returned arrays without a copy, alternating between two sets: they keep their values until
-    the next but one call of step() or reset(). Copy what is to be kept for longer.
+    The engine writes into the returned arrays without a copy, alternating between two sets: they keep their values
+    until the next but one call of step() or reset(). Copy what is to be kept for longer.
     """
 
     metadata = {"render_modes": [], "autoreset_mode": AutoresetMode.NEXT_STEP}

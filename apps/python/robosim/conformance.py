@@ -66,11 +66,13 @@ def _checked_episodes(env, actions):
     for action in actions:
         observations, rewards, terminated, truncated, infos = env.step(action)
         _check_observations(env, observations, infos)
-        _require(rewards.dtype == np.float64 and rewards.shape[0] == env.num_envs, "rewards must be float64 by environment")
+        _require(rewards.dtype == np.float64 and rewards.shape[0] == env.num_envs,
+                 "rewards must be float64 by environment")
         for flags in (terminated, truncated):
             _require(flags.dtype == bool and flags.shape == (env.num_envs,), "ends must be bool by environment")
         _require(not np.any(terminated & truncated), "an episode must end either way, not both")
-        _require(not np.any((terminated | truncated) & over), "the step after an episode's end must begin the next episode")
+        _require(not np.any((terminated | truncated) & over),
+                 "the step after an episode's end must begin the next episode")
         _require(not np.any(rewards[over]), "the step after an episode's end must have reward 0")
         steps.append((observations.copy(), rewards.copy(), terminated.copy(), truncated.copy()))
         over = terminated | truncated
@@ -86,10 +88,12 @@ def _check_parallel(env, steps):
     agents = list(env.possible_agents)
     _require(env.max_num_agents == len(agents) > 0, "max_num_agents must be the number of possible_agents")
     for i, agent in enumerate(agents):
-        _require(env.action_space(agent) is env.action_space(agent), "action_space() must return the same object each time")
+        _require(env.action_space(agent) is env.action_space(agent),
+                 "action_space() must return the same object each time")
         env.action_space(agent).seed(i)
     actions = [{agent: env.action_space(agent).sample() for agent in agents} for _ in range(steps)]
-    _require(_checked_team(env, actions) == _checked_team(env, actions), "equal seeds and actions must give equal steps")
+    _require(_checked_team(env, actions) == _checked_team(env, actions),
+             "equal seeds and actions must give equal steps")
     env.reset(seed=7)
     _require_refusal(lambda: env.step({}), "step() must refuse missing actions")
     bad = {agent: np.full(env.action_space(agent).shape, np.nan, np.float32) for agent in agents}
@@ -110,7 +114,8 @@ def _checked_team(env, actions):
         _require(all(set(result) == agents for result in results), "each result must be of all agents that acted")
         observations, rewards, terminated, truncated, _ = results
         for agent in agents:
-            _require(env.observation_space(agent).contains(observations[agent]), "observations must be elements of their space")
+            _require(env.observation_space(agent).contains(observations[agent]),
+                     "observations must be elements of their space")
         over = {agent for agent in agents if terminated[agent] or truncated[agent]}
         _require(set(env.agents) == agents - over, "agents must be those whose episode has not ended")
         seen.append((sorted(rewards.items()), [observations[agent].tolist() for agent in sorted(agents)]))

@@ -1,0 +1,31 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "replay/recording_figure.h"
+#include "replay/recording_table.h"
+
+namespace robosim {
+
+/// What is read of a recording.
+struct RecordingParts {
+  bool table = true;  ///< all numbers of all observations
+  bool figure = false;
+};
+
+/// The observations of a recording in memory.
+struct RecordingContents {
+  std::optional<RecordingTable> table;    ///< as RecordingParts::table
+  std::optional<RecordingFigure> figure;  ///< as RecordingParts::figure
+  std::optional<std::string> damage;      ///< at which reading ended; nullopt for an undamaged file
+};
+
+/// Reads a recording made by RoboSim or another program.
+/// @param progress called with the number of entries so far; may throw to end the reading; empty: none
+/// @throws ConfigError for a file that is no rawlog, or above RecordingTable::kMaxValues
+RecordingContents readRecording(const std::string& rawlog, const RecordingParts& parts = {},
+                                const std::function<void(std::uint64_t)>& progress = {});
+
+}  // namespace robosim
