@@ -1,6 +1,7 @@
 #include "python_errors.h"
 
 #include <exception>
+#include <utility>
 
 #include "base/error_list.h"
 #include "control/controller_error.h"
@@ -17,7 +18,7 @@ void setError(const char* name, const std::exception& error) {
 
 void translate(std::exception_ptr error) {
   try {
-    if (error) std::rethrow_exception(error);
+    if (error) std::rethrow_exception(std::move(error));
   } catch (const ConfigError& of_input) {
     setError("ConfigError", of_input);
   } catch (const ControllerError& of_controller) {

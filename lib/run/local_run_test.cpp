@@ -40,5 +40,20 @@ TEST(LocalRun, KeepsWhenTheGoldWasFoundAlsoInAFork) {
   }
 }
 
+TEST(LocalRun, ForksRobotsThatAreDrivenElsewhereOnRequestOnly) {
+  RunOptions options;
+  options.controller = "still";
+  LocalRun run(twoRobots(""), options, {1, 0});
+  run.environment().setCommand(0, {.speed_mps = 0.1});
+  run.step();
+  EXPECT_THROW(run.fork(), ConfigError);
+  const auto fork = run.fork(LocalRun::Elsewhere::keep);
+  for (LocalRun* one : {&run, fork.get()}) {
+    for (int i = 0; i < 5; ++i) one->step();
+  }
+  EXPECT_GT(run.environment().state().world_from_robot[0].x, -1);
+  EXPECT_EQ(fork->environment().state(), run.environment().state());
+}
+
 }  // namespace
 }  // namespace robosim

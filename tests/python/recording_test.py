@@ -87,6 +87,16 @@ class RecordingTest(unittest.TestCase):
 
 
 class PicturesTest(unittest.TestCase):
+    def test_camera_pictures_are_arrays(self):
+        share = os.path.join(os.environ["ROBOSIM_PREFIX"], "share", "robosim")
+        world = robosim.World.load(share + "/rawlogs/driven.xml")
+        with robosim.Simulation(world, controller="none") as simulation:
+            image = simulation.robot(world.robots[0].name).image
+            self.assertEqual((image.shape, image.dtype), ((120, 160, 3), np.uint8))
+            self.assertGreater(image.std(), 5)  # more than the sky
+            simulation.step()  # the camera's rate is lower than that of steps
+            self.assertIsNone(simulation.robot(world.robots[0].name).image)
+
     def test_plans_are_arrays_and_documents_for_notebooks(self):
         world = scene.world(2)
         plan = world.plan()
