@@ -5,9 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>
 
-#include "base/temporary_directory.h"
 #include "rendering/plan.h"
-#include "rendering/svg_plan.h"
 
 namespace robosim {
 namespace {
@@ -27,30 +25,31 @@ py::array rgbOf(const cv::Mat& picture) {
   return rgb;
 }
 
-cv::Mat drawn(const World& world, const Fleet& fleet, std::span<const mrpt::math::TPose2D> world_from_robot) {
+cv::Mat decoded(const std::string& file) {
+  const cv::Mat bytes(1, static_cast<int>(file.size()), CV_8U, const_cast<char*>(file.data()));
+  return cv::imdecode(bytes, cv::IMREAD_COLOR);
+}
+
+std::string drawn(PictureFormat format, const World& world, const Fleet& fleet,
+                  std::span<const mrpt::math::TPose2D> world_from_robot) {
   const py::gil_scoped_release no_python;
-  const TemporaryDirectory folder;
-  const auto png = folder / "plan.png";
-  writePlan(png, world, fleet, {}, world_from_robot);
-  return cv::imread(png.string(), cv::IMREAD_COLOR);
+  DrawnRun run;
+  run.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
+  return planPicture(format, world, fleet, run);
 }
 
 }  // namespace
 
 py::array planOf(const World& world, const Fleet& fleet, std::span<const mrpt::math::TPose2D> world_from_robot) {
-  return rgbOf(drawn(world, fleet, world_from_robot));
+  return rgbOf(decoded(drawn(PictureFormat::png, world, fleet, world_from_robot)));
 }
 
-std::string svgOf(const World& world, Fleet fleet, std::span<const mrpt::math::TPose2D> world_from_robot) {
-  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    fleet.robots[i].world_from_start = fleet.robots[i].body.world_from_body = world_from_robot[i];
-  }
-  return toSvg(world, fleet);
+std::string svgOf(const World& world, const Fleet& fleet, std::span<const mrpt::math::TPose2D> world_from_robot) {
+  return drawn(PictureFormat::svg, world, fleet, world_from_robot);
 }
 
 py::array pictureOf(const std::string& jpeg) {
-  const cv::Mat bytes(1, static_cast<int>(jpeg.size()), CV_8U, const_cast<char*>(jpeg.data()));
-  const cv::Mat picture = cv::imdecode(bytes, cv::IMREAD_COLOR);
+  const cv::Mat picture = decoded(jpeg);
   if (picture.empty()) throw std::invalid_argument("the camera picture is no JPEG file that can be decoded");
   return rgbOf(picture);
 }

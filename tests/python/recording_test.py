@@ -111,7 +111,7 @@ class PicturesTest(unittest.TestCase):
             self.assertFalse(np.array_equal(simulation.plan(), before))
             self.assertNotEqual(simulation._repr_svg_(), document)
         self.assertTrue(document.startswith("<?xml"))
-        self.assertIn(">R2</text>", document)
+        self.assertIn("<title>scene</title>", document)
 
 
 if __name__ == "__main__":
