@@ -12,7 +12,7 @@ struct AddedRobot {
   std::string model;
   mrpt::math::TPose2D world_from_robot;  ///< start [m, rad]
 
-  /// Parses TYPE@X,Y,HEADING in metres and degrees; HEADING is optional, default 0.
+  /// Parses `TYPE@X,Y,HEADING` in metres and degrees; HEADING is optional, default 0.
   /// @throws ConfigError
   static AddedRobot parse(const std::string& text);
 };

@@ -29,13 +29,4 @@ done <"$root/srv/files"
 # the list of modules, or else ./dev fetches them again.
 cp -a --no-target-directory "$project/tests/browser/node_modules" "$copy/tests/browser/node_modules"
 touch "$copy/tests/browser/node_modules/.package-lock.json"
-[[ -f /etc/resolv.conf ]] && cp /etc/resolv.conf "$root/etc/resolv.conf"
-
-inside='
-  mount --make-rprivate /
-  mount --bind "$1" "$1"  # a test makes mount namespaces, which needs a root that is a mount point
-  mount -t proc proc "$1/proc"
-  mount --rbind /dev "$1/dev"
-  exec chroot "$1" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 TERM="${TERM:-dumb}" \
-    ${ROBOSIM_VERIFY:+ROBOSIM_VERIFY=1} ROBOSIM_UNITY=ON bash -c "cd /srv/robosim && exec ./dev test \"\$@\"" dev "${@:2}"'
-exec unshare --mount bash -c "$inside" trixie "$root" "$@"
+exec "$project/tests/chroot.sh" "$root" bash -c 'cd /srv/robosim && ROBOSIM_UNITY=ON exec ./dev test "$@"' dev "$@"
