@@ -100,7 +100,8 @@ TEST_F(ErrorTexts, AcceptTheFormerNameOfAFlag) {
 TEST_F(ErrorTexts, ListTheKnownSubcommands) {
   const Ended bench = runProgram("bench foo");
   EXPECT_EQ(bench.exit_code, 1);
-  EXPECT_EQ(bench.err.substr(0, 73), "robosim: there is no subcommand 'foo' of robosim bench; known are: gold; ");
+  EXPECT_EQ(bench.err.substr(0, 82),
+            "robosim: there is no subcommand 'foo' of robosim bench; known are: gold, metrics; ");
   const Ended benchmark = runBenchmark("foo");
   EXPECT_EQ(benchmark.exit_code, 1);
   EXPECT_EQ(benchmark.err.substr(0, 75), "robosim_bench: there is no subcommand 'foo' of robosim_bench; known are: sp");
