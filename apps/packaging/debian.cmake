@@ -22,6 +22,7 @@ set(CPACK_PACKAGE_NAME robosim)
 set(CPACK_PACKAGE_VENDOR "RoboSim developers")
 # Builders of packages for others set their own address.
 set(CPACK_PACKAGE_CONTACT "RoboSim developers <robosim@example.org>" CACHE STRING "Maintainer of the Debian packages")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")  # each component has its own
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -30,7 +31,8 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1~deb${debian_number})
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS $<TARGET_FILE_DIR:robosim_shared>)
+# CPack does not evaluate generator expressions.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_BINARY_DIR}/apps/robosim)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(full_version ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 
@@ -49,9 +51,11 @@ set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SECTION science)
 # Fonts for names on pictures, and software rendering for cameras and views.
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri")
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SUGGESTS "librobosim-dev, mrpt-apps, python3-robosim")
-# Also makes the control files shlibs and triggers, which runs ldconfig.
-set(CPACK_DEBIAN_ROBOSIM_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_ROBOSIM_PACKAGE_GENERATE_SHLIBS_POLICY "=")
+# CPack runs ldconfig in maintainer scripts only; Debian's tools expect a trigger.
+file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
+set(CPACK_DEBIAN_ROBOSIM_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 
 set(CPACK_COMPONENT_ROBOSIM-DEV_DESCRIPTION "simulator of cooperating mobile robots - development files
 ${about}
