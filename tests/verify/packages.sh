@@ -28,6 +28,7 @@ cp "$project"/build/packages/*.deb "$root/srv/"
 
 "$project/tests/chroot.sh" "$root" su - student -c 'set -eux
   robosim --version
+  cp -r /usr/share/robosim/worlds .
   robosim run worlds/maze_20x20.xml --record maze.rawlog --picture maze.png --csv maze.csv
   robosim replay maze.rawlog --check worlds/maze_20x20.xml
   robosim check worlds/opho2_1.xml
