@@ -20,10 +20,10 @@ TRAINING_SEEDS = range(1, 33)
 TEST_SEEDS = range(100_001, 100_101)  # mazes that training never uses
 OBSERVATIONS = ("sonar", "heat", "stalled")
 HIDDEN = 12
-PAIRS = 24
-STEPS = 600  # of each candidate in each maze, 60 s of simulated time
+PAIRS = 16
+STEPS = 400  # of each candidate in each maze, 40 s of simulated time
 SIGMA = 0.1
-RATE = 0.1
+RATE = 0.3
 TIME_LIMIT_S = 600  # of a test
 WIN_DISTANCE_M = 0.5  # between robot and gold; the default of world files
 
@@ -58,7 +58,7 @@ def train(minutes, threads):
     mazes = [robosim.World.generate("maze", seed=seed, **MAZE) for seed in TRAINING_SEEDS]
     candidates = 2 * PAIRS
     env = robosim.VectorEnv(mazes, num_envs=candidates * len(mazes), observations=OBSERVATIONS, threads=threads,
-                            reward={"win": 1, "forward": 0.01, "stall": -0.002}, max_steps=STEPS)
+                            reward={"win": 1, "heat": 0.02, "forward": 0.01, "stall": -0.002}, max_steps=STEPS)
     inputs = env.single_observation_space.shape[0] + 1
     mean = rng.normal(0, 0.1, Policy.size(inputs)).astype(np.float32)
     momentum = np.zeros_like(mean)
