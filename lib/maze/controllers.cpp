@@ -20,13 +20,12 @@ ControllerRegistry own() {
        [](const ControllerSetup& setup, const ParameterValues& parameters) -> Made {
          return std::make_unique<GoldFinder>(setup, GoldFinderOptions{parameters["heat_threshold_celsius"]});
        }});
-  registry.add({"wander",
-                "Drives about at random and avoids what is near.",
-                {},
-                {},
-                [](const ControllerSetup& setup, const ParameterValues&) -> Made {
-                  return std::make_unique<Wander>(setup);
-                }});
+  registry.add(
+      {"wander",
+       "Drives about at random and avoids what is near.",
+       {},
+       {},
+       [](const ControllerSetup& setup, const ParameterValues&) -> Made { return std::make_unique<Wander>(setup); }});
   registry.add({"wall_follower",
                 "Follows the wall on its right.",
                 {SensorKind::sonar},

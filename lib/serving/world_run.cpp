@@ -84,9 +84,7 @@ void WorldRun::stepped(std::size_t late) {
   run_->outputs.observe(run_->run.environment());
 }
 
-bool WorldRun::isOver() const {
-  return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time());
-}
+bool WorldRun::isOver() const { return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time()); }
 
 void WorldRun::ends(const RunReport& report) {
   run_->report = report;
@@ -109,9 +107,7 @@ void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
   ++number_;
 }
 
-EndedBy WorldRun::endedByItself() const {
-  return robosim::endedByItself(run_->run);
-}
+EndedBy WorldRun::endedByItself() const { return robosim::endedByItself(run_->run); }
 
 void WorldRun::finish(EndedBy ended_by) { run_->finish(ended_by); }
 
