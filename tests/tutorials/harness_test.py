@@ -1,0 +1,54 @@
+"""Tests of run_tutorial.py on small pages."""
+import tempfile
+import unittest
+from pathlib import Path
+
+from page import PageError, missing_line
+from run_tutorial import run_page
+
+
+def run(text):
+    with tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / "page.md"
+        page.write_text(text, encoding="utf-8")
+        run_page(page, Path("/usr"))
+
+
+class RunTutorialTest(unittest.TestCase):
+    def test_executes_blocks_in_order_in_one_folder(self):
+        run("File `a/b.txt`:\n\n```text\nhello\n```\n```sh\ncat a/b.txt\n```\n```console\nhello\n```\n"
+            "```python\nx = open('a/b.txt').read()\n```\n```python\nprint(x)\n```\n```text\nhel…\n```\n")
+
+    def test_reports_the_line_of_a_failing_command_with_its_output(self):
+        with self.assertRaisesRegex(PageError, r"page.md:4: the block ended with exit code 1.*\nbefore\n$"):
+            run("# T\n\n```sh\necho before\nfalse\necho after\n```\n")
+
+    def test_reports_the_line_of_an_exception(self):
+        with self.assertRaisesRegex(PageError, r'(?s)page.md:2: the block raised.*page.md", line 3, in <module>.*ValueError'):
+            run("```python\nx = 1\nraise ValueError(x)\n```\n")
+
+    def test_reports_output_that_differs(self):
+        with self.assertRaisesRegex(PageError, r"page.md:5: the output lacks the line '2 robots'"):
+            run("```sh\necho 3 robots\n```\n```console\n2 robots\n```\n")
+
+    def test_reports_blocks_that_are_not_executed(self):
+        with self.assertRaisesRegex(PageError, "page.md:1: a block of 'cpp' is not executed"):
+            run("```cpp\nint main() {}\n```\n")
+        with self.assertRaisesRegex(PageError, "page.md:1: the block does not end"):
+            run("```sh\ntrue\n")
+
+    def test_keeps_background_processes_for_later_blocks_and_reports_those_left(self):
+        run("```sh\nsleep 1000 & echo $! >pid\n```\n```sh\nkill $(cat pid); tail -f /dev/null --pid $(cat pid)\n```\n")
+        with self.assertRaisesRegex(PageError, "page.md:2: a process that this block started runs"):
+            run("```sh\nsleep 1000 &\n```\n")
+
+
+class ExpectedOutputTest(unittest.TestCase):
+    def test_lines_occur_in_order_with_any_text_for_an_ellipsis(self):
+        self.assertIsNone(missing_line("a … c\n…\nz\n", "first\na b c\nmore\nz\n"))
+        self.assertEqual(missing_line("z\na … c\n", "a b c\nz\n"), "a … c")
+        self.assertEqual(missing_line("a\n", "ab\n"), "a")
+
+
+if __name__ == "__main__":
+    unittest.main()
