@@ -2,6 +2,7 @@
 import tempfile
 import unittest
 from pathlib import Path
+from unittest import mock
 
 from page import PageError, missing_line
 from run_tutorial import run_page
@@ -39,7 +40,8 @@ class RunTutorialTest(unittest.TestCase):
 
     def test_keeps_background_processes_for_later_blocks_and_reports_those_left(self):
         run("```sh\nsleep 1000 & echo $! >pid\n```\n```sh\nkill $(cat pid); tail -f /dev/null --pid $(cat pid)\n```\n")
-        with self.assertRaisesRegex(PageError, "page.md:2: a process that this block started runs"):
+        with (mock.patch("run_tutorial.ENDING_S", 0),
+              self.assertRaisesRegex(PageError, "page.md:2: a process that this block started runs")):
             run("```sh\nsleep 1000 &\n```\n")
 
 

@@ -8,16 +8,23 @@ The blocks of the page are processed in order, in an empty temporary folder:
   console, text                         is expected output of the last block executed; '…' stands for any text
 A failure is reported as PAGE:LINE with the output.
 """
+import ctypes
 import json
 import os
 import signal
 import subprocess
 import sys
 import tempfile
+import time
 import uuid
 from pathlib import Path
 
 from page import PageError, blocks_of, missing_line
+
+
+PR_SET_CHILD_SUBREAPER = 36  # <sys/prctl.h>
+# Time for programs that were told to end.
+ENDING_S = 60
 
 
 class Tutorial:
@@ -99,15 +106,29 @@ class Tutorial:
             self._python.stdout.close()
 
     def _end_groups(self):
-        """Ends the background processes; returns the lines of the blocks that started them."""
-        lines = []
-        for group, line in self._groups:
-            try:
+        """Ends the background processes that do not end by themselves; returns the lines of the blocks that started them."""
+        deadline = time.monotonic() + ENDING_S
+        while any(is_running(group) for group, _ in self._groups) and time.monotonic() < deadline:
+            time.sleep(0.05)
+        lines = [line for group, line in self._groups if is_running(group)]
+        for group, _ in self._groups:
+            if is_running(group):
                 os.killpg(group, signal.SIGKILL)
-                lines.append(line)
-            except ProcessLookupError:
-                pass
         return lines
+
+
+def is_running(group):
+    """Whether a process group has a process, after those that have ended are reaped."""
+    try:
+        while os.waitpid(-group, os.WNOHANG)[0]:
+            pass
+    except ChildProcessError:
+        pass
+    try:
+        os.killpg(group, 0)
+        return True
+    except ProcessLookupError:
+        return False
 
 
 def run_page(page, prefix, python_folder="lib/python3/dist-packages"):
@@ -121,6 +142,8 @@ def main(arguments):
         print(__doc__, file=sys.stderr)
         return 2
     page, prefix, *python_folder = arguments
+    # Background processes become children of this one when their block ends, so that they can be reaped.
+    ctypes.CDLL(None).prctl(PR_SET_CHILD_SUBREAPER, 1, 0, 0, 0)
     try:
         run_page(Path(page), Path(prefix), *python_folder)
     except PageError as error:
