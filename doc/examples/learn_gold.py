@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Learns to find gold in mazes that it has not seen, and compares the result with RoboSim's own controllers.
 
-    learn_gold.py [--minutes 10] [--threads 2] [--policy FILE.npz] [--evaluate FILE.npz]
+    learn_gold.py [--minutes 10] [--threads 2] [--policy FILE.npz] [--mazes 100]
 
 The policy is a small recurrent network: 16 sonar ranges, the heat, and whether the robot stalls, to speed and turn rate. It
 learns by an evolution strategy (Salimans et al., "Evolution Strategies as a Scalable Alternative to Reinforcement Learning",
@@ -17,7 +17,7 @@ import robosim
 
 MAZE = dict(columns=6, rows=6, robots=1, types=["pioneer3dx"])
 TRAINING_SEEDS = range(1, 33)
-TEST_SEEDS = range(100_001, 100_101)  # mazes that training never uses
+FIRST_TEST_SEED = 100_001  # of mazes that training never uses
 OBSERVATIONS = ("sonar", "heat", "stalled")
 HIDDEN = 12
 PAIRS = 16
@@ -122,13 +122,14 @@ def seconds_to_gold(seed, controller):
     return np.inf
 
 
-def evaluate(weights, inputs):
+def evaluate(weights, inputs, mazes):
+    seeds = range(FIRST_TEST_SEED, FIRST_TEST_SEED + mazes)
     controllers = {"wander": "wander", "wall_follower": "wall_follower", "gold_finder": "gold_finder",
                    "learned": lambda: Learned(weights, inputs)}
-    print(f"\n{len(TEST_SEEDS)} other mazes, one robot, {TIME_LIMIT_S} s:\n\n"
+    print(f"\n{mazes} other mazes, one robot, {TIME_LIMIT_S} s:\n\n"
           "| controller | found | median time to the gold [s] | 90 % [s] |\n|---|---|---|---|")
     for label, controller in controllers.items():
-        times = np.sort([seconds_to_gold(seed, controller) for seed in TEST_SEEDS])
+        times = np.sort([seconds_to_gold(seed, controller) for seed in seeds])
         median, most = (f"{times[int(np.ceil(share * len(times))) - 1]:.1f}" for share in (0.5, 0.9))
         print(f"| {label} | {np.isfinite(times).mean():.0%} | {median} | {most} |", flush=True)
 
@@ -139,14 +140,15 @@ def main():
     parser.add_argument("--threads", type=int, default=2, help="threads of the engine (default 2)")
     parser.add_argument("--policy", default="gold_policy.npz", help="file for the learned policy")
     parser.add_argument("--evaluate", metavar="FILE", help="only evaluate the policy of this file")
+    parser.add_argument("--mazes", type=int, default=100, help="number of mazes for the comparison (default 100)")
     arguments = parser.parse_args()
     if arguments.evaluate:
         stored = np.load(arguments.evaluate)
-        evaluate(stored["weights"], int(stored["inputs"]))
+        evaluate(stored["weights"], int(stored["inputs"]), arguments.mazes)
         return
     weights, inputs = train(arguments.minutes, arguments.threads)
     np.savez(arguments.policy, weights=weights, inputs=inputs)
-    evaluate(weights, inputs)
+    evaluate(weights, inputs, arguments.mazes)
 
 
 if __name__ == "__main__":
