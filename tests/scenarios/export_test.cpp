@@ -253,7 +253,8 @@ TEST(PfLocalization, FindsADriftingRobotOnAnExportedGridmap) {
   const Ended path = runProgram("replay '" + (folder / "run.rawlog").string() + "' --ground-truth '" +
                                 (folder / "truth.txt").string() + "'");
   ASSERT_EQ(path.exit_code, 0) << path.err;
-  const ToolRun localized = runTool("pf-localization '" ROBOSIM_SOURCE_DIR "/doc/examples/slam/pf-localization.ini'", folder);
+  const ToolRun localized =
+      runTool("pf-localization '" ROBOSIM_SOURCE_DIR "/doc/examples/slam/pf-localization.ini'", folder);
   ASSERT_EQ(localized.exit_code, 0) << localized.output;
 
   TPose2D start, end, odom_from_end;
