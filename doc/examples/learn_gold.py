@@ -23,7 +23,7 @@ HIDDEN = 12
 PAIRS = 16
 STEPS = 400  # of each candidate in each maze, 40 s of simulated time
 SIGMA = 0.1
-RATE = 0.12
+RATE = 0.2
 TIME_LIMIT_S = 600  # of a test
 WIN_DISTANCE_M = 0.5  # between robot and gold; the default of world files
 
