@@ -32,12 +32,12 @@ void warnOfPartialStep(double time_s, double period_s);
 /// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
 void addRobotOptions(CLI::App& command, WorldChanges& changes);
 
-/// Adds `--controller`, which accepts a ControllerChoice::text().
+/// Adds `--controller`, which accepts a TypeChoice::text().
 /// @param also a further value to accept
 CLI::Option* addControllerOption(CLI::App& command, std::string& controller, const std::string& help,
                                  const std::string& also = "");
 
-/// Adds `--observer`, repeatable, which accepts a ControllerChoice::text() of an observer.
+/// Adds `--observer`, repeatable, which accepts a TypeChoice::text() of an observer.
 CLI::Option* addObserverOption(CLI::App& command, std::vector<std::string>& observers, const std::string& help);
 
 /// Adds `--reconnect-timeout SECONDS`: how long a client reconnects after its connection breaks.

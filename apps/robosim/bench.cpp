@@ -16,6 +16,7 @@
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "base/xml_element.h"
+#include "replay/csv_field.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "run/output_files.h"
@@ -34,17 +35,16 @@ struct BenchArguments {
   std::string csv;
 };
 
-LoadedWorld loadedWorld(const std::string& file, const BenchArguments& arguments, const std::string& controller) {
-  const std::uint64_t seed = arguments.sweep.seed;
-  return arguments.changes.isNone()
-             ? loadWorldToRun(file, controller, seed)
-             : loadWorldToRun(withChanges(readWorldSource(file), arguments.changes, seed), controller);
-}
-
 /// A world for all controllers. @throws ConfigError also for a world without gold, when it is needed
 LoadedWorld worldFor(const std::string& file, const BenchArguments& arguments) {
-  LoadedWorld loaded;
-  for (const auto& controller : arguments.sweep.controllers) loaded = loadedWorld(file, arguments, controller);
+  WorldSource source = readWorldSource(file);
+  source.seed = arguments.sweep.seed;
+  source = withChanges(source, arguments.changes, arguments.sweep.seed);
+  const auto& controllers = arguments.sweep.controllers;
+  LoadedWorld loaded = loadWorldToRun(source, controllers.front());
+  ErrorList errors;
+  for (const auto& controller : controllers) checkControllers(loaded, file, controller, errors);
+  errors.throwIfAny();
   const auto is_gold = [](const WorldObject& object) { return object.body.heat_celsius > 0; };
   if (arguments.is_about_gold && std::none_of(loaded.world.objects.begin(), loaded.world.objects.end(), is_gold)) {
     throw ConfigError(file + ": has no gold; give an object a <hot> above 0, or use robosim bench metrics");
@@ -118,13 +118,6 @@ std::vector<std::string> row(const SweepGroup& group, const Columns& columns) {
   return cells;
 }
 
-std::string quoted(const std::string& cell) {
-  if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-  std::string text = "\"";
-  for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return text + "\"";
-}
-
 /// One line per run.
 std::string csvOf(const std::vector<SweepGroup>& groups, const std::vector<Metric>& metrics) {
   const auto or_empty = [](const std::optional<double>& s) { return s ? fixed(*s, 3) : ""; };
@@ -135,8 +128,8 @@ std::string csvOf(const std::vector<SweepGroup>& groups, const std::vector<Metri
   csv << '\n';
   for (const auto& group : groups) {
     for (const auto& run : group.runs) {
-      csv << quoted(group.world) << ',' << quoted(group.controller) << ',' << run.seed << ','
-          << (run.gold.found_s ? 1 : 0) << ',' << quoted(run.gold.found_by.value_or("")) << ','
+      csv << csvField(group.world) << ',' << csvField(group.controller) << ',' << run.seed << ','
+          << (run.gold.found_s ? 1 : 0) << ',' << csvField(run.gold.found_by.value_or("")) << ','
           << or_empty(run.gold.found_s) << ',' << or_empty(run.gold.all_halted_s) << ',' << fixed(run.sim_time_s, 3)
           << ',' << fixed(run.driven_m, 3) << ',' << run.stalls << ',' << run.messages << ',' << run.digest;
       for (const auto& metric : run.metrics) csv << ',' << (std::isfinite(metric.value) ? toText(metric.value) : "");

@@ -60,8 +60,7 @@ void checkDeclared(std::span<const Parameter> declared, const std::string& of_ty
   }
 }
 
-ParameterValues valuesOf(std::span<const Parameter> declared, const ControllerChoice& choice,
-                         const std::string& of_type) {
+ParameterValues valuesOf(std::span<const Parameter> declared, const TypeChoice& choice, const std::string& of_type) {
   const auto& given = choice.parameters;
   for (auto it = given.begin(); it != given.end(); ++it) {
     if (!parameterNamed(declared, it->first)) {

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "base/controller_choice.h"
+#include "base/type_choice.h"
 
 namespace robosim {
 
@@ -38,7 +38,6 @@ void checkDeclared(std::span<const Parameter> declared, const std::string& of_ty
 
 /// The default values, replaced by those of a choice.
 /// @throws ConfigError for a parameter that is unknown, given twice or out of bounds
-ParameterValues valuesOf(std::span<const Parameter> declared, const ControllerChoice& choice,
-                         const std::string& of_type);
+ParameterValues valuesOf(std::span<const Parameter> declared, const TypeChoice& choice, const std::string& of_type);
 
 }  // namespace robosim

@@ -20,6 +20,7 @@ TEST(Robot, ReadsTheFirstSensorOfEachKind) {
   EXPECT_EQ(robot.laser()[0].range_m, 4.f);
   EXPECT_EQ(robot.heat(), 7.);
   EXPECT_EQ(*robot.measurement(SensorKind::heat), Measurement(Scalar{7}));
+  EXPECT_EQ(robot.measurement(robot.sensor(SensorKind::heat)->label), robot.measurement(SensorKind::heat));
   EXPECT_EQ(robot.odometry().odom_from_robot.y, 2);
   EXPECT_EQ(robot.sensor(SensorKind::heat)->range_max_m, 3);
 }
@@ -31,6 +32,7 @@ TEST(Robot, ReturnsNoReadingForAMissingSensor) {
   EXPECT_TRUE(robot.bumper().empty());
   EXPECT_EQ(robot.compass(), std::nullopt);
   EXPECT_EQ(robot.measurement(SensorKind::values), nullptr);
+  EXPECT_EQ(robot.measurement("range_and_bearing"), nullptr);
   EXPECT_EQ(robot.sensor(SensorKind::compass), nullptr);
 }
 

@@ -4,13 +4,13 @@
 #include <utility>
 #include <vector>
 
-#include "base/controller_choice.h"
 #include "base/error_list.h"
+#include "base/type_choice.h"
 #include "control/parameters.h"
 
 namespace robosim {
 
-/// Known types of controllers or observers. A choice of one is a text as of ControllerChoice: "wander",
+/// Known types of controllers or observers. A choice of one is a text as of TypeChoice: "wander",
 /// "flocking cohesion=0.3".
 /// @tparam Type ControllerType, ObserverType
 template <typename Type>
@@ -34,7 +34,7 @@ class TypeRegistry {
   }
   /// Finds the type of a choice. @throws ConfigError with the known names when there is none
   const Type& typeOf(const std::string& choice) const {
-    const std::string name = ControllerChoice::parse(choice).name;
+    const std::string name = TypeChoice::parse(choice, Type::kKind).name;
     if (const Type* type = find(name)) return *type;
     std::string known;
     for (const auto& type : types_) known += (known.empty() ? "" : ", ") + type.name;
@@ -44,7 +44,7 @@ class TypeRegistry {
   /// @throws ConfigError for an unknown type, and a parameter that is unknown, given twice or out of bounds
   ParameterValues parametersOf(const std::string& choice) const {
     const Type& type = typeOf(choice);
-    return valuesOf(type.parameters, ControllerChoice::parse(choice), ofType(type.name));
+    return valuesOf(type.parameters, TypeChoice::parse(choice, Type::kKind), ofType(type.name));
   }
   /// Calls the type's `make` with a setup and the choice's values. @throws ConfigError
   auto make(const std::string& choice, const typename Type::Setup& setup) const {

@@ -49,12 +49,15 @@ std::vector<TPose2D> RandomStarts::draw(std::uint64_t seed) const {
   return starts;
 }
 
-void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed) {
-  const std::vector<TPose2D> starts = RandomStarts(world, fleet).draw(seed);
+void setStartPoses(Fleet& fleet, std::span<const TPose2D> starts) {
   for (std::size_t i = 0; i < starts.size(); ++i) {
     fleet.robots[i].world_from_start = starts[i];
     fleet.robots[i].body.world_from_body = starts[i];
   }
+}
+
+void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed) {
+  setStartPoses(fleet, RandomStarts(world, fleet).draw(seed));
 }
 
 }  // namespace robosim

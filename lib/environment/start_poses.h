@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,9 @@ class RandomStarts {
   double radius_m_ = 0;
   std::vector<mrpt::math::TPoint2D> places_;
 };
+
+/// Moves the robots of a fleet, in its order. @param starts one for each robot
+void setStartPoses(Fleet& fleet, std::span<const mrpt::math::TPose2D> starts);
 
 /// Moves every robot of the fleet to a random start pose (RandomStarts).
 void shuffleStartPoses(const World& world, Fleet& fleet, std::uint64_t seed);

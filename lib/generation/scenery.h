@@ -19,7 +19,7 @@ struct Scenery {
 struct TeamOptions {
   int robots = 8;                                          ///< 0 to 1,000,000
   std::vector<std::string> models{"pioneer3dx", "scout"};  ///< robot types, used in turn; not empty
-  std::string controller = "gold_finder";  ///< as ControllerChoice::text(); empty: the program's default
+  std::string controller = "gold_finder";                  ///< as TypeChoice::text(); empty: the program's default
   bool has_gold = true;
 };
 

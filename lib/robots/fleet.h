@@ -19,7 +19,7 @@ struct FleetRobot {
   std::shared_ptr<const RobotModel> model;
   mrpt::math::TPose2D world_from_start;
   Body body;               ///< at the start; other robots' sensors detect this shape
-  std::string controller;  ///< as ControllerChoice::text(); empty: the program's default
+  std::string controller;  ///< as TypeChoice::text(); empty: the program's default
 };
 
 /// Robots of a world, in the world's order.
@@ -33,7 +33,7 @@ constexpr std::size_t kWorldBeamsMax = 50'000'000;     ///< beams of all robots'
 constexpr std::size_t kWorldModelRaysMax = 2'000'000;  ///< Sensor::rayCount() of all robot models, each counted once
 ///@}
 
-/// Checks a controller of a world file, given as ControllerChoice::text(). @throws ConfigError
+/// Checks a controller of a world file, given as TypeChoice::text(). @throws ConfigError
 using ControllerCheck = std::function<void(const std::string& controller)>;
 
 /// Makes the model of each placed robot and checks its start. Adds to `errors`: unknown models, faulty sensors,

@@ -17,16 +17,16 @@ namespace robosim {
 
 struct RunOptions {
   EnvironmentOptions environment;
-  /// For all robots, as ControllerChoice::text(); empty: as given in the world, else kDefaultController.
+  /// For all robots, as TypeChoice::text(); empty: as given in the world, else kDefaultController.
   std::string controller;
-  std::vector<std::string> observers = {};  ///< as ControllerChoice::text()
+  std::vector<std::string> observers = {};  ///< as TypeChoice::text()
   bool observers_log = true;                ///< whether ObserverSetup::log prints
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
 constexpr const char* kDefaultController = "gold_finder";
 
-/// Checks name and parameters of a controller, given as ControllerChoice::text(). @throws ConfigError
+/// Checks name and parameters of a controller, given as TypeChoice::text(). @throws ConfigError
 void checkController(const std::string& controller);
 
 /// Makes the controller of a robot.
@@ -35,7 +35,7 @@ void checkController(const std::string& controller);
 std::unique_ptr<Controller> makeController(const std::string& choice, const ControllerSetup& setup,
                                            const std::string& robot);
 
-/// A robot's controller, as ControllerChoice::text().
+/// A robot's controller, as TypeChoice::text().
 /// @param in_world that given in the world; empty for none
 /// @param instead replaces it if not empty
 std::string controllerOf(const std::string& in_world, const std::string& instead);
@@ -98,7 +98,7 @@ class LocalRun {
   struct LocalRobot {
     LocalHardware hardware;
     Robot robot;
-    std::string controller_name;  ///< as ControllerChoice::text()
+    std::string controller_name;  ///< as TypeChoice::text()
     std::unique_ptr<Controller> controller;
     LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c,
                const Command& last = {})

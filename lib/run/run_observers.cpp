@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "base/controller_choice.h"
 #include "base/log.h"
 #include "base/text_table.h"
+#include "base/type_choice.h"
 
 namespace robosim {
 namespace {
@@ -28,7 +28,7 @@ void checkObservers(const std::vector<std::string>& choices) {
   std::vector<std::string> names;
   for (const auto& choice : choices) {
     observers().parametersOf(choice);
-    names.push_back(ControllerChoice::parse(choice).name);
+    names.push_back(TypeChoice::parse(choice).name);
     if (std::count(names.begin(), names.end(), names.back()) > 1) {
       throw ConfigError("observer '" + names.back() + "' is given twice; keep one");
     }
@@ -38,7 +38,7 @@ void checkObservers(const std::vector<std::string>& choices) {
 RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging) {
   checkObservers(choices);
   for (const auto& choice : choices) {
-    const std::string name = ControllerChoice::parse(choice).name;
+    const std::string name = TypeChoice::parse(choice).name;
     ObserverSetup setup;
     setup.seed = seed;
     setup.log = [](const std::string&) {};

@@ -7,13 +7,13 @@
 
 namespace robosim {
 
-/// Checks names and parameters of observers, given as ControllerChoice::text(). @throws ConfigError
+/// Checks names and parameters of observers, given as TypeChoice::text(). @throws ConfigError
 void checkObservers(const std::vector<std::string>& choices);
 
 /// The observers of one run.
 class RunObservers {
  public:
-  /// @param choices as ControllerChoice::text(), each at most once
+  /// @param choices as TypeChoice::text(), each at most once
   /// @param is_logging whether ObserverSetup::log prints
   /// @throws ConfigError for an unknown observer or an invalid parameter
   /// @throws ObserverError for an exception of an observer's constructor

@@ -95,6 +95,12 @@ TEST(RunObservers, AreRejectedWhenUnknownOrGivenTwice) {
   EXPECT_THROW(checkObservers({"coverage cell_m=0"}), ConfigError);
   EXPECT_THROW(checkObservers({"counting", "counting end_step=1"}), ConfigError);
   EXPECT_NO_THROW(checkObservers({"counting", "coverage"}));
+  try {
+    checkObservers({"coverage 3"});
+    FAIL() << "no exception";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(), "observer 'coverage': '3' is no parameter; write PARAMETER=VALUE");
+  }
 }
 
 }  // namespace

@@ -5,8 +5,8 @@
 #include <optional>
 #include <sstream>
 
-#include "base/controller_choice.h"
 #include "base/parallel_executor.h"
+#include "base/type_choice.h"
 #include "environment/start_poses.h"
 
 namespace robosim {
@@ -22,11 +22,12 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
 }
 
 /// @return nullopt when interrupted
-std::optional<RunSummary> oneRun(const LoadedWorld& world, const SweepOptions& options, const std::string& controller,
-                                 std::uint64_t seed, const std::function<bool()>& is_interrupted) {
+std::optional<RunSummary> oneRun(const LoadedWorld& world, const RandomStarts& starts, const SweepOptions& options,
+                                 const std::string& controller, std::uint64_t seed,
+                                 const std::function<bool()>& is_interrupted) {
   const auto start = std::chrono::steady_clock::now();
   LoadedWorld shuffled = world;
-  shuffleStartPoses(shuffled.world, shuffled.fleet, seed);
+  setStartPoses(shuffled.fleet, starts.draw(seed));
   RunOptions run_options;
   run_options.environment = {.seed = seed, .period_s = options.period_s, .threads = 1};
   run_options.controller = controller;
@@ -52,10 +53,10 @@ std::optional<RunSummary> oneRun(const LoadedWorld& world, const SweepOptions& o
 }  // namespace
 
 std::vector<std::string> expandedChoices(const std::string& choice) {
-  const ControllerChoice parsed = ControllerChoice::parse(choice);
-  std::vector<ControllerChoice> all{{parsed.name, {}}};
+  const TypeChoice parsed = TypeChoice::parse(choice);
+  std::vector<TypeChoice> all{{parsed.name, {}}};
   for (const auto& [name, values] : parsed.parameters) {
-    std::vector<ControllerChoice> longer;
+    std::vector<TypeChoice> longer;
     const auto parts = splitAtCommas(values);
     if (all.size() * parts.size() > kChoicesMax) {
       throw ConfigError("'" + choice + "' stands for more than 10,000 combinations of values; list fewer values");
@@ -77,7 +78,9 @@ std::vector<SweepGroup> sweep(const std::vector<LoadedWorld>& worlds, const Swee
                               const std::function<bool()>& is_interrupted,
                               const std::function<void(std::size_t done)>& progress) {
   std::vector<SweepGroup> groups;
+  std::vector<RandomStarts> starts;  // by world
   for (const auto& world : worlds) {
+    starts.emplace_back(world.world, world.fleet);
     for (const auto& controller : options.controllers) groups.push_back({world.world.name, controller, {}});
   }
   std::vector<std::optional<RunSummary>> runs(groups.size() * options.runs);
@@ -86,8 +89,9 @@ std::vector<SweepGroup> sweep(const std::vector<LoadedWorld>& worlds, const Swee
   ParallelExecutor(options.threads).forEach(runs.size(), 1, [&](std::size_t i) {
     if (is_interrupted()) return;
     const std::size_t group = i / options.runs;
-    runs[i] = oneRun(worlds[group / options.controllers.size()], options, groups[group].controller,
-                     options.seed + i % options.runs, is_interrupted);
+    const std::size_t world = group / options.controllers.size();
+    runs[i] = oneRun(worlds[world], starts[world], options, groups[group].controller, options.seed + i % options.runs,
+                     is_interrupted);
     const std::lock_guard lock(progress_mutex);
     progress(++done);
   });

@@ -14,7 +14,7 @@ std::vector<std::string> expandedChoices(const std::string& choice);
 
 /// Many independent runs: each controller in each world, with several seeds.
 struct SweepOptions {
-  std::vector<std::string> controllers{""};  ///< of all robots, as ControllerChoice::text(); "": those of the world
+  std::vector<std::string> controllers{""};  ///< of all robots, as TypeChoice::text(); "": those of the world
   std::vector<std::string> observers;        ///< of each run; they do not log
   std::uint64_t seed = 1;                    ///< of the first run, incremented by 1 for each further run
   std::size_t runs = 20;                     ///< of each controller in each world, with different start poses

@@ -71,7 +71,7 @@ struct RobotPlacement {
   std::optional<std::array<float, 3>> color;  ///< instead of the model's, when `body` is absent
   std::vector<XmlElement>
       sensors;             ///< 2005's <sensor> elements and those inside <sensors>, in file units, not yet interpreted
-  std::string controller;  ///< as ControllerChoice::text(), not yet checked; empty: the program's default
+  std::string controller;  ///< as TypeChoice::text(), not yet checked; empty: the program's default
   SourceLine controller_line;
   std::string neighbour;  ///< empty: none
   SourceLine line;

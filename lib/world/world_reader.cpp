@@ -1,20 +1,19 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <list>
 #include <string>
 #include <unordered_map>
-#include <unordered_set>
 #include <utility>
 #include <vector>
 
-#include "base/controller_choice.h"
 #include "base/label.h"
 #include "base/portable_pose.h"
 #include "base/printable_text.h"
+#include "base/type_choice.h"
 #include "base/xml_parser.h"
 #include "base/xml_reader.h"
 #include "world/caching_file_provider.h"
+#include "world/included_files.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -28,7 +27,7 @@ constexpr double kUnitMax_m = 1000;
 class WorldReader {
  public:
   WorldReader(const XmlElement& root, const std::string& file, const FileProvider& files, ErrorList& errors)
-      : root_(root, file, errors), files_(files), errors_(errors) {
+      : root_(root, file, errors), files_(files), errors_(errors), includes_(files, errors) {
     world_.name = std::filesystem::path(file).stem().string();
   }
 
@@ -51,9 +50,10 @@ class WorldReader {
  private:
   void readSurface(XmlReader& surface) {
     world_.surface_type = surface.word("type", "smooth");
-    includeFiles(surface, "");
+    includes_.read(surface);
+    world_.origin.included = includes_.names();
     std::vector<XmlReader*> parts{&surface};
-    for (auto& part : included_surfaces_) parts.push_back(&part);
+    for (auto& part : includes_.surfaces()) parts.push_back(&part);
     for (auto* part : parts) {
       for (auto& map : part->all("map")) readMapElement(map);
     }
@@ -63,64 +63,6 @@ class WorldReader {
       for (auto& scatter : part->all("scatter")) readScatter(scatter);
       part->finish();
     }
-  }
-
-  /// Reads the included files into `included_surfaces_`, each after the one that includes it.
-  /// @param folder of the including file, relative to the world file's; empty, or with a final slash
-  void includeFiles(XmlReader& surface, const std::string& folder) {
-    for (auto& include : surface.all("include")) {
-      const std::string file = include.word("file");
-      include.finish();
-      if (file.empty()) continue;
-      if (const std::string fault = includeError(file); !fault.empty()) {
-        include.errorAt("file", fault);
-        continue;
-      }
-      const std::string name = std::filesystem::path(folder + file).lexically_normal().string();
-      if (!included_once_.insert(name).second) {
-        include.errorAt("file", "is included already, or includes itself; include each file once");
-        continue;
-      }
-      try {
-        std::string text = files_.read(name);
-        included_bytes_ += text.size();
-        if (included_bytes_ > kMaxXmlFileBytes) {
-          include.errorAt("file", "makes the included files larger than " + std::to_string(kMaxXmlFileBytes >> 20) +
-                                      " MiB in total; make them smaller");
-          return;
-        }
-        XmlElement& root = included_roots_.emplace_back(parseXml(std::move(text), files_.pathOf(name)));
-        world_.origin.included.push_back(name);
-        const std::string inner = std::filesystem::path(name).parent_path().string();
-        folder_of_file_.push_back(inner.empty() ? "" : inner + "/");
-        setFile(root, static_cast<int>(world_.origin.included.size()));
-        XmlReader part(root, files_.pathOf(name), errors_);
-        if (part.name() != "surface") {
-          part.error("is not a part of a world; the first element of an included file is <surface>");
-          continue;
-        }
-        includeFiles(included_surfaces_.emplace_back(std::move(part)), folder_of_file_.back());
-      } catch (const UnreadableFile& error) {
-        include.errorAt("file", error.what());
-      } catch (const ConfigError& error) {
-        errors_.add(error);
-      }
-    }
-  }
-
-  /// What is wrong with the name of an included file; empty for a valid one.
-  static std::string includeError(const std::string& file) {
-    const std::filesystem::path path(file);
-    if (path.is_absolute()) return "is an absolute path; only files in the world's folder, or below it, are included";
-    if (std::find(path.begin(), path.end(), "..") != path.end()) {
-      return "contains '..'; only files in the world's folder, or below it, are included";
-    }
-    return path.extension() == kIncludedExtension ? "" : "must end in .xml";
-  }
-
-  static void setFile(XmlElement& element, int file) {
-    element.line.file = file;
-    for (auto& child : element.children) setFile(child, file);
   }
 
   void readSize(XmlReader& surface) {
@@ -164,9 +106,7 @@ class WorldReader {
     map.file = reader.word("file");
     // A map's path is relative to the file that refers to it.
     if (map.line.file > 0 && !map.file.empty() && map.file.front() != '/') {
-      map.file = std::filesystem::path(folder_of_file_[static_cast<std::size_t>(map.line.file - 1)] + map.file)
-                     .lexically_normal()
-                     .string();
+      map.file = std::filesystem::path(includes_.folderOf(map.line.file) + map.file).lexically_normal().string();
     }
     const auto place = [&](const char* tag) { return reader.length(tag, Bounds::any(), world_.unit_m, 0); };
     map.world_from_map = {place("x"), place("y"), reader.number("direction", Bounds::any(), 0)};
@@ -352,14 +292,14 @@ class WorldReader {
     if (found == children.end() || found->attributes.empty()) {
       placement.controller = robot.word("controller", "");
       try {
-        if (!placement.controller.empty()) ControllerChoice::parse(placement.controller);
+        if (!placement.controller.empty()) TypeChoice::parse(placement.controller);
       } catch (const ConfigError& error) {
         robot.errorAt("controller", error.what());
       }
       return;
     }
     XmlReader controller = *robot.child("controller");
-    ControllerChoice choice{controller.word("name"), {}};
+    TypeChoice choice{controller.word("name"), {}};
     for (const auto& [parameter, value] : found->attributes) {
       if (parameter == "name") continue;
       choice.parameters.emplace_back(parameter, controller.word(parameter));
@@ -463,17 +403,13 @@ class WorldReader {
   XmlReader root_;
   const FileProvider& files_;
   ErrorList& errors_;
+  IncludedFiles includes_;  ///< readers refer to them
   World world_;
   std::unordered_map<std::string, SourceLine> line_of_name_;
   std::vector<mrpt::math::TPose2D> starts_;  ///< start poses given by maps, world frame
   std::size_t next_start_ = 0;
   std::vector<std::pair<XmlReader, std::size_t>> neighbours_;  ///< robots with a neighbour, and their index
   std::vector<XmlReader> scatter_readers_;                     ///< of World::scatters
-  std::list<XmlElement> included_roots_;                       ///< readers refer to them
-  std::list<XmlReader> included_surfaces_;
-  std::unordered_set<std::string> included_once_;  ///< names
-  std::vector<std::string> folder_of_file_;        ///< of each included file, with a final slash
-  std::size_t included_bytes_ = 0;
 };
 
 /// Clears the line numbers of a world generated around a map, which refer to no file.

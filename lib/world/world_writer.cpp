@@ -2,7 +2,7 @@
 #include <cassert>
 #include <charconv>
 
-#include "base/controller_choice.h"
+#include "base/type_choice.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -114,11 +114,11 @@ class WorldWriter {
       if (robot.color) element.add("color", colorText(*robot.color));
     }
     addSensors(element, robot.sensors);
-    if (!robot.controller.empty()) addController(element, ControllerChoice::parse(robot.controller));
+    if (!robot.controller.empty()) addController(element, TypeChoice::parse(robot.controller));
     if (!robot.neighbour.empty()) element.add("neighbour", robot.neighbour);
   }
 
-  void addController(XmlElement& robot, const ControllerChoice& choice) const {
+  void addController(XmlElement& robot, const TypeChoice& choice) const {
     XmlElement& element = robot.add("controller");
     if (choice.parameters.empty()) {
       element.text = choice.name;
