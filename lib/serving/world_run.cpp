@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "control/controller_error.h"
 #include "recording/recording_error.h"
 #include "robots/world_source.h"
 #include "run/local_run.h"
@@ -95,7 +96,12 @@ void WorldRun::ends(const RunReport& report) {
 std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const {
   try {
     return std::make_unique<Prepared>(load(source, number_ + 1));
-  } catch (const RecordingError& error) {  // of the next run; the current run continues
+    // Errors of the next run, after which the current run continues.
+  } catch (const RecordingError& error) {
+    throw ConfigError(error.what());
+  } catch (const ControllerError& error) {
+    throw ConfigError(error.what());
+  } catch (const ObserverError& error) {
     throw ConfigError(error.what());
   }
 }

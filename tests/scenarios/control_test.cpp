@@ -1,4 +1,5 @@
 // The control panel, as a class and from the command line.
+#include <fstream>
 #include <functional>
 #include <future>
 
@@ -234,6 +235,25 @@ TEST(Control, EndsTheRunIfItsRecordingFailsDuringALoad) {
   const Ended served = serving.program().wait();
   EXPECT_EQ(served.exit_code, 2);
   EXPECT_NE(served.err.find("run.rawlog"), std::string::npos) << served.err;
+}
+
+TEST(Control, ContinuesARunWhenAnObserverThrowsAtTheStartOfTheNext) {
+  const auto folder = emptyFolder();
+  const auto large = folder / "large.xml";
+  std::ofstream(large)
+      << "<world><surface><size><xmin>-200</xmin><xmax>200</xmax><ymin>-200</ymin><ymax>200</ymax></size>"
+         "<object><shape><robot><model>pioneer3dx</model><name>R1</name><x>0</x><y>0</y></robot></shape>"
+         "</object></surface></world>";
+  Serving serving({"--paused", "--controller", "wander", "--observer", "coverage cell_m=0.01"});
+  const Ended load = runProgram("control " + serving.address() + " load '" + large.string() + "'");
+  EXPECT_NE(load.exit_code, 0);
+  EXPECT_NE(load.err.find("observer 'coverage cell_m=0.01' threw an exception: the surface has more than 100 million"),
+            std::string::npos)
+      << load.err;
+  const Ended step = runProgram("control " + serving.address() + " step 3");
+  EXPECT_NE(step.out.find("step 3 (0.3 s): paused"), std::string::npos) << step.out << step.err;
+  runProgram("control " + serving.address() + " stop");
+  EXPECT_EQ(serving.program().wait().exit_code, 0);
 }
 
 TEST(Control, NumbersTheRecordingsOfLaterRuns) {
