@@ -23,7 +23,7 @@ from page import PageError, blocks_of, missing_line
 
 
 PR_SET_CHILD_SUBREAPER = 36  # <sys/prctl.h>
-# Time for programs that were told to end.
+# Time for programs that were asked to end.
 ENDING_S = 60
 
 
