@@ -4,5 +4,5 @@
 
 int main(int argc, char** argv) {
   using namespace robosim;
-  return executeRobosim({addServe, addRobot, addRemote, addGeometry, addControl, addPluginOptions}, argc, argv);
+  return executeRobosim({addServe, addArcos, addRobot, addRemote, addGeometry, addControl, addPluginOptions}, argc, argv);
 }

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <chrono>
 #include <iostream>
 
@@ -13,6 +14,7 @@
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
 #include "robosim/run_arguments.h"
+#include "robosim/serve_arguments.h"
 #include "robosim/subcommands.h"
 #include "server/environment_server.h"
 #include "serving/world_run.h"
@@ -32,29 +34,24 @@ constexpr const char* kServeSession =
     "  robosim serve WORLD --listen 0.0.0.0:3000 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
     "and on the other machine, with cert.pem and the token in a file of mode 600:\n"
     "  robosim control sim.example.org:3000 status --tls-ca cert.pem --token-file token\n"
+    "For programs of ARIA and others that speak ARCOS (doc/arcos.md), in real time:\n"
+    "  robosim serve worlds/open_house.xml --arcos 8101\n"
     "The command load of a control panel starts the next run; its output files are numbered: run_2.rawlog.\n"
     "Exit codes: 0 complete, also when a signal (Ctrl-C, SIGTERM, SIGHUP) has ended it; 3 steps were taken without a\n"
     "robot, or messages were lost; 4 a geometry worker returned wrong results; 1 bad input, 2 run failed. The "
     "summary,\n"
     "--json and the recording name robots and workers.\n";
 
-struct ServeArguments {
-  RunArguments of_run;
-  bool wait_for_robots = false;
-  std::string listen = kDefaultListen;
-  std::string pace = "lockstep";
-  double check_results = 0.01;
-  std::string on_lost_robot;  ///< empty: default according to the pace
-  double step_deadline_s = 1;
-  bool paused = false;
-  StandardServices standard_services;
-  ListenerArguments listener;
-};
+/// ARCOS programs keep real time: their run does, too.
+std::string paceOf(const ServeArguments& arguments) {
+  if (!arguments.pace.empty()) return arguments.pace;
+  return arguments.arcos.empty() ? "lockstep" : "realtime";
+}
 
 /// Policy for lost robots. By default a lockstep run waits for them, and a real-time run continues.
 OnLostRobot lostRobotPolicy(const ServeArguments& arguments) {
   if (arguments.on_lost_robot.empty()) {
-    return arguments.pace == "realtime" ? OnLostRobot::continue_ : OnLostRobot::wait;
+    return paceOf(arguments) == "realtime" ? OnLostRobot::continue_ : OnLostRobot::wait;
   }
   for (const auto policy : {OnLostRobot::wait, OnLostRobot::continue_}) {
     if (arguments.on_lost_robot == nameOf(policy)) return policy;
@@ -84,7 +81,7 @@ ServerOptions serverOptions(const ServeArguments& arguments) {
   options.access = arguments.listener.access(options.log);
   if (!arguments.listener.unprotected) checkExposure(options.listen, options.tls.has_value(), !options.access.isOpen());
   options.step_deadline = std::chrono::milliseconds(std::llround(arguments.step_deadline_s * 1000));
-  options.pace = arguments.pace == "realtime" ? Pace::realtime : Pace::lockstep;
+  options.pace = paceOf(arguments) == "realtime" ? Pace::realtime : Pace::lockstep;
   options.check_results = arguments.check_results;
   options.on_lost_robot = lostRobotPolicy(arguments);
   options.speed = speedNumber(arguments.of_run.speed);
@@ -106,12 +103,60 @@ void logPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
   logInfo("serve", line);
 }
 
+constexpr int kFactoryRobots = 8;
+
+/// The robots of --arcos-factory, "MODEL" or "MODEL:NUMBER". @throws ConfigError
+void addFactoryRobots(const std::string& factory, WorldChanges& changes) {
+  const std::size_t colon = std::min(factory.find(':'), factory.size());
+  int count = kFactoryRobots;
+  if (colon < factory.size()) {
+    const char* const end = factory.data() + factory.size();
+    const auto [stop, error] = std::from_chars(factory.data() + colon + 1, end, count);
+    if (error != std::errc{} || stop != end || count < 1 || count > 10000) {
+      throw ConfigError("--arcos-factory " + factory + ": must be a robot type, optionally with a number from 1 to " +
+                        "10000, as in p3dx or p3dx:20");
+    }
+  }
+  if (changes.random_robots > 0) {
+    throw ConfigError("--arcos-factory and --random-robots both add robots; use one of them");
+  }
+  changes.random_robots = count;
+  changes.random_model = factory.substr(0, colon);
+}
+
+/// @throws ConfigError for options that do not fit
+std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
+  if (arguments.arcos.empty()) {
+    if (!arguments.arcos_factory.empty())
+      throw ConfigError("--arcos-factory needs --arcos with an address, as in 8101");
+    return std::nullopt;
+  }
+  if (paceOf(arguments) != "realtime")
+    throw ConfigError("--arcos needs --pace realtime: ARCOS programs keep real time");
+  ArcosOptions options;
+  options.listen = hostAndPort(arguments.arcos);
+  if (!isLoopback(options.listen) && !arguments.arcos_unprotected) {
+    throw ConfigError("--arcos " + arguments.arcos + ": other machines could drive the robots, because ARCOS has " +
+                      "neither passwords nor encryption; use 127.0.0.1, or add --arcos-unprotected in a network that " +
+                      "you trust");
+  }
+  options.shares_port = !arguments.arcos_factory.empty();
+  const double speed = speedNumber(arguments.of_run.speed);
+  options.speed = speed > 0 ? speed : 1;
+  options.log = [](const std::string& line) { logInfo("serve", line); };
+  return options;
+}
+
+}  // namespace
+
 void serveWorld(const ServeArguments& arguments) {
   const Interrupt interrupt;
-  checkRunArguments(arguments.of_run);
+  RunArguments of_run = arguments.of_run;
+  if (!arguments.arcos_factory.empty()) addFactoryRobots(arguments.arcos_factory, of_run.changes);
+  checkRunArguments(of_run);
   google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
   const ServerOptions options = serverOptions(arguments);
-  WorldRun run({arguments.of_run, arguments.wait_for_robots, arguments.pace == "realtime"});
+  WorldRun run({of_run, arguments.wait_for_robots, options.pace == Pace::realtime, arcosOptions(arguments)});
   EnvironmentServer server(options, run.runInfo());
   logPorts(options, server.ports());
   Served how = Served::interrupted;
@@ -128,7 +173,20 @@ void serveWorld(const ServeArguments& arguments) {
   if (!run.hadAllRobots()) throw Exit{kIncomplete};
 }
 
-}  // namespace
+void addArcosOptions(CLI::App& command, ServeArguments& arguments) {
+  command
+      .add_option("--arcos", arguments.arcos,
+                  "serve robots to programs that speak ARCOS, such as those of ARIA: each robot without a controller "
+                  "whose type has <arcos>, the first on this port, the others on the ports that follow")
+      ->type_name("[HOST:]PORT");
+  command
+      .add_option("--arcos-factory", arguments.arcos_factory,
+                  "add robots of this type at random free places, 8 unless a number is given, and serve all robots on "
+                  "one port: each program gets a robot of its own")
+      ->type_name("TYPE[:NUMBER]");
+  command.add_flag("--arcos-unprotected", arguments.arcos_unprotected,
+                   "allow ARCOS programs from other machines, without passwords or encryption");
+}
 
 void addServe(CLI::App& program) {
   auto* command = addSubcommand(program, "serve");
@@ -141,9 +199,9 @@ void addServe(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--pace", a->pace,
-                   "lockstep: a step waits for every robot; realtime: a late robot keeps its last command")
-      ->check(CLI::IsMember({"lockstep", "realtime"}))
-      ->capture_default_str();
+                   "lockstep: a step waits for every robot; realtime: a late robot keeps its last command. Default: "
+                   "lockstep, or realtime with --arcos")
+      ->check(CLI::IsMember({"lockstep", "realtime"}));
   command
       ->add_option("--step-deadline", a->step_deadline_s,
                    "how long a step waits for a robot before its connection is closed")
@@ -167,6 +225,7 @@ void addServe(CLI::App& program) {
                     "answer gRPC's health checks on every port, for every client, without a token");
   command->add_flag("--reflection", a->standard_services.reflection,
                     "describe the protocol to gRPC tools on every port, for every client, without a token");
+  addArcosOptions(*command, *a);
   addListenerOptions(*command, a->listener);
   command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
   command->callback([a] { serveWorld(*a); });

@@ -33,6 +33,7 @@ inline constexpr std::array kSubcommands{
     Subcommand{"run", "Run a world in this process", "robosim-run"},
     Subcommand{"serve", "Serve a world to robots, viewers, geometry workers and control panels in other processes",
                "robosim-net"},
+    Subcommand{"arcos", "Serve a map to programs of ARIA, as MobileSim does", "robosim-net"},
     Subcommand{"robot", "Run the controllers of robots of a served world", "robosim-net"},
     Subcommand{"remote", "Drive one robot of a team, from a web page or with a joystick", "robosim-net"},
     Subcommand{"geometry", "Compute moves and readings of robots for an environment in another process", "robosim-net"},
@@ -67,6 +68,7 @@ CLI::App* addSubcommand(CLI::App& program, std::string_view name);
 void addRun(CLI::App& program);
 void addRunWithWindow(CLI::App& program);  ///< the same, for `robosim run --view`
 void addServe(CLI::App& program);
+void addArcos(CLI::App& program);
 void addRobot(CLI::App& program);
 void addRemote(CLI::App& program);
 void addGeometry(CLI::App& program);

@@ -40,14 +40,6 @@ std::string encode(const SimInfo& info) {
   return encode(packet_type::sim_info, bytes.bytes());
 }
 
-std::string encodeMapChanged(const std::string& file) {
-  constexpr std::size_t kLongest = kPayloadMax - 3;
-  ByteWriter bytes;
-  bytes.add(std::uint8_t{0}).add(std::uint8_t{1});  // not by a person; loaded
-  bytes.addText(file.substr(0, kLongest));
-  return encode(packet_type::sim_map_changed, bytes.bytes());
-}
-
 std::string encodeSetPose(const SimPose& pose) {
   ByteWriter bytes;
   bytes.add(std::uint8_t{0}).add(pose.x_mm).add(pose.y_mm).add(pose.heading_deg);

@@ -27,9 +27,6 @@ struct SimInfo {
 };
 std::string encode(const SimInfo& info);
 
-/// Notes that a map has been loaded (SIM_MAP_CHANGED).
-std::string encodeMapChanged(const std::string& file);
-
 /// A pose in the units of SIM_SET_POSE.
 struct SimPose {
   std::int32_t x_mm = 0, y_mm = 0, heading_deg = 0;

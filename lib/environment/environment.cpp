@@ -43,16 +43,25 @@ struct Group {
   std::vector<std::uint32_t> robots;
 };
 
+double reachOf(const Sensor& sensor) {
+  double reach_m = 0;
+  if (!sensor.usesNeighbours()) return reach_m;
+  const SensorInfo& info = sensor.info();
+  for (const auto& beam : info.beams) {
+    reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
+  }
+  return reach_m;
+}
+
 double reachOf(const RobotModel& model, double period_s) {
   double reach_m = model.radius_m + model.limits.speed_max_mps * period_s;
-  for (const auto& sensor : model.sensors) {
-    if (!sensor->usesNeighbours()) continue;
-    const SensorInfo& info = sensor->info();
-    for (const auto& beam : info.beams) {
-      reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
-    }
-  }
+  for (const auto& sensor : model.sensors) reach_m = std::max(reach_m, reachOf(*sensor));
   return reach_m + kContactGap_m;
+}
+
+bool isWithin(const Circle& disc, const Bounds2D& area) {
+  const Bounds2D bounds = boundsOf(disc);
+  return area.contains({bounds.x_min, bounds.y_min}) && area.contains({bounds.x_max, bounds.y_max});
 }
 
 std::vector<Group> groupsOf(const Fleet& fleet, double period_s) {
@@ -94,6 +103,7 @@ struct Environment::Impl {
   std::vector<double> base_z_m;          ///< height of each robot's underside
   std::vector<PlanarTransform> frames;   ///< current frames of the robots
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
+  std::uint64_t placements = 0;
 
   Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
       : model(std::move(the_model)),
@@ -174,17 +184,21 @@ struct Environment::Impl {
     return {begin, std::lower_bound(begin, group.robots.end(), range.end)};
   }
 
+  Snapshot snapshot() const {
+    return {.scene = scene,
+            .heat_sources = heat_sources,
+            .world_from_robot = state.world_from_robot,
+            .frames = frames,
+            .last_motion = state.last_motion,
+            .laser_pan_rad = state.laser_pan_rad,
+            .time = state.time,
+            .seed = state.seed,
+            .images = images,
+            .surface = model->world.bounds};
+  }
+
   void sense(RobotRange range, SensorGroup which) {
-    const Snapshot now{.scene = scene,
-                       .heat_sources = heat_sources,
-                       .world_from_robot = state.world_from_robot,
-                       .frames = frames,
-                       .last_motion = state.last_motion,
-                       .laser_pan_rad = state.laser_pan_rad,
-                       .time = state.time,
-                       .seed = state.seed,
-                       .images = images,
-                       .surface = model->world.bounds};
+    const Snapshot now = snapshot();
     for (const auto& group : groups) {
       const auto of_group = within(group, range);
       workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
@@ -197,6 +211,38 @@ struct Environment::Impl {
         }
       });
     }
+  }
+
+  void measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
+    const Snapshot now = snapshot();
+    const double sensor_reach_m = reachOf(sensor) + kContactGap_m;
+    workers.forChunks(robots.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto robot = robots[i];
+        // The reach of the model too, so that its own sensors find the same neighbours in the next step.
+        const double model_reach_m = reachOf(*fleet.robots[robot].model, model->period_s);
+        scene.updateNeighbours(robot, std::max(sensor_reach_m, model_reach_m));
+      }
+      sensor.sense(now, robots.subspan(begin, end - begin), 0, readings);
+    });
+  }
+
+  bool isFree(std::size_t robot, const Circle& disc) const {
+    if (!isWithin(disc, model->world.bounds)) return false;
+    const Solid solid{disc, fleet.robots[robot].body.heights()};
+    std::vector<BodyId> near;
+    scene.findBodies(boundsOf(disc), near);
+    return std::none_of(near.begin(), near.end(), [&](BodyId body) {
+      return body != scene.movingBody(robot) && overlap(solid, scene.solid(body));
+    });
+  }
+
+  bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
+    if (!isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m})) return false;
+    state.world_from_robot[robot] = world_from_robot;
+    ++placements;
+    placeBodies();
+    return true;
   }
 
   void begin() {
@@ -299,6 +345,16 @@ void Environment::send(std::size_t from, const std::string& to, const std::strin
 void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot] = 1; }
 
 void Environment::countDroppedMessages(std::uint64_t messages) { impl_->state.messages_dropped += messages; }
+
+bool Environment::place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
+  return impl_->place(robot, world_from_robot);
+}
+
+std::uint64_t Environment::placements() const { return impl_->placements; }
+
+void Environment::measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
+  impl_->measure(sensor, robots, readings);
+}
 
 void Environment::step() {
   const RobotRange every = impl_->everyRobot();

@@ -92,6 +92,17 @@ class Environment {
   /// Counts messages that a robot's process has not sent because of kMaxMessagesSent.
   void countDroppedMessages(std::uint64_t messages);
 
+  /// Places a robot elsewhere between two steps, as a person does who lifts it. Its speed and odometry are unchanged,
+  /// and the readings are those of the last step.
+  /// @return false, without a change, if the robot would not be entirely on the surface, or would overlap something
+  bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot);
+  /// Number of robots placed so far.
+  std::uint64_t placements() const;
+  /// Measures, in the present state, with a sensor that is not part of the model. It changes no state.
+  /// @param robots in ascending order @param readings by robot: replaces measurement 0, which must be a previous one of
+  /// this sensor or Sensor::blank()
+  void measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings);
+
   void step();
 
   /// @name The phases of a step

@@ -26,7 +26,14 @@ class FreeNames {
     for (const auto& object : world.objects) taken_.insert(object.name);
     for (const auto& robot : world.robots) taken_.insert(robot.name);
   }
-  std::string next() {
+  /// @param wanted empty: the next free one
+  std::string next(const std::string& wanted = {}) {
+    if (!wanted.empty()) {
+      if (!taken_.insert(wanted).second) {
+        throw ConfigError("there are two robots or objects named '" + wanted + "'; use another name");
+      }
+      return wanted;
+    }
     std::string name;
     do name = "Robot" + std::to_string(++last_);
     while (!taken_.insert(name).second);
@@ -38,11 +45,11 @@ class FreeNames {
   int last_ = 0;
 };
 
-RobotPlacement placed(const AddedRobot& robot, std::string name) {
+RobotPlacement placed(const std::string& model, const mrpt::math::TPose2D& world_from_robot, std::string name) {
   RobotPlacement placement;
   placement.name = std::move(name);
-  placement.model = robot.model;
-  placement.world_from_robot = robot.world_from_robot;
+  placement.model = model;
+  placement.world_from_robot = world_from_robot;
   return placement;
 }
 
@@ -62,12 +69,13 @@ Fleet fleetOf(const World& world, const std::string& file, const RobotTypes& typ
 
 void addRobots(const WorldSource& source, const RobotTypes& types, const std::vector<AddedRobot>& robots,
                FreeNames& names, World& world) {
-  if (robots.empty()) return;
   std::string of_options;
   for (const auto& robot : robots) {
-    world.robots.push_back(placed(robot, names.next()));
+    if (!robot.world_from_robot) continue;
+    world.robots.push_back(placed(robot.model, *robot.world_from_robot, names.next(robot.name)));
     of_options += (of_options.empty() ? "" : ", ") + world.robots.back().name;
   }
+  if (of_options.empty()) return;
   try {
     fleetOf(world, source.file, types);
   } catch (const ConfigError& error) {
@@ -81,42 +89,100 @@ void addRobots(const WorldSource& source, const RobotTypes& types, const std::ve
   }
 }
 
+/// The positions in the largest region that is known to be free at which a robot of a type is clear of the others.
+class FreePlaces {
+ public:
+  FreePlaces(const WorldSource& source, const RobotTypes& types, const std::string& model, const World& world)
+      : type_(typeOf(source, types, model)), free_(world, type_.info.radius_m, type_.body.heights()) {
+    free_.blockUnknown(world);
+    cells_ = free_.largestRegion();
+    for (const auto& robot : fleetOf(world, source.file, types).robots) {
+      taken_.push_back({{robot.world_from_start.x, robot.world_from_start.y}, robot.info.radius_m});
+    }
+  }
+
+  /// Takes a random place. @return nullopt when there is none
+  std::optional<mrpt::math::TPoint2D> takeRandom(Rng& rng) {
+    while (!cells_.empty()) {
+      const std::size_t draw = rng.below(static_cast<std::uint32_t>(cells_.size()));
+      const mrpt::math::TPoint2D place = free_.place(cells_[draw]);
+      cells_[draw] = cells_.back();
+      cells_.pop_back();
+      if (take(place)) return place;
+    }
+    return std::nullopt;
+  }
+
+  /// Takes the place nearest to a position. @return nullopt when there is none
+  std::optional<mrpt::math::TPoint2D> takeNearest(const mrpt::math::TPoint2D& to) {
+    const auto distance = [&](std::size_t cell) { return (free_.place(cell) - to).sqrNorm(); };
+    std::stable_sort(cells_.begin(), cells_.end(),
+                     [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
+    for (const std::size_t cell : cells_) {
+      if (take(free_.place(cell))) return free_.place(cell);
+    }
+    return std::nullopt;
+  }
+
+ private:
+  static FleetRobot typeOf(const WorldSource& source, const RobotTypes& types, const std::string& model) {
+    World alone;  // a world with a single robot of the type, to get its model
+    alone.bounds = {-1e6, 1e6, -1e6, 1e6};
+    alone.robots.push_back(placed(model, {}, "robot"));
+    return fleetOf(alone, source.file, types).robots.front();
+  }
+
+  bool take(const mrpt::math::TPoint2D& place) {
+    const bool is_clear = std::none_of(taken_.begin(), taken_.end(), [&](const Circle& other) {
+      return (other.center - place).norm() < other.radius_m + type_.info.radius_m + kContactGap_m;
+    });
+    if (is_clear) taken_.push_back({place, type_.info.radius_m});
+    return is_clear;
+  }
+
+  FleetRobot type_;
+  FreeSpace free_;
+  std::vector<std::size_t> cells_;
+  std::vector<Circle> taken_;
+};
+
+/// Adds the robots without a pose: at `home` if it is free, else as near to it as possible.
+void addRobotsNear(const mrpt::math::TPose2D& home, const WorldSource& source, const RobotTypes& types,
+                   const std::vector<AddedRobot>& robots, FreeNames& names, World& world) {
+  for (const auto& robot : robots) {
+    if (robot.world_from_robot) continue;
+    world.robots.push_back(placed(robot.model, home, names.next(robot.name)));
+    ErrorList errors;
+    buildFleet(world, source.file, types, {}, errors);
+    if (errors.empty()) continue;
+    RobotPlacement added = world.robots.back();
+    world.robots.pop_back();
+    const auto place = FreePlaces(source, types, robot.model, world).takeNearest({home.x, home.y});
+    if (!place) {
+      throw ConfigError("there is no room for robot '" + added.name + "' in " + source.file +
+                        "; use fewer robots, or a larger world");
+    }
+    added.world_from_robot = {place->x, place->y, home.phi};
+    world.robots.push_back(added);
+  }
+}
+
 /// Adds robots at random positions in the largest region that is known to be free, clear of the existing robots.
 void addRandomRobots(const WorldSource& source, const RobotTypes& types, const WorldChanges& changes,
                      std::uint64_t seed, FreeNames& names, World& world) {
   if (changes.random_robots == 0) return;
-  const Fleet fleet = fleetOf(world, source.file, types);
-  World alone;  // a world with a single robot of the type, to get its model
-  alone.bounds = {-1e6, 1e6, -1e6, 1e6};
-  alone.robots.push_back(placed({changes.random_model, {}}, "robot"));
-  const FleetRobot type = fleetOf(alone, source.file, types).robots.front();
-  FreeSpace free(world, type.info.radius_m, type.body.heights());
-  free.blockUnknown(world);
-  std::vector<std::size_t> cells = free.largestRegion();
-  std::vector<Circle> taken;
-  for (const auto& robot : fleet.robots) {
-    taken.push_back({{robot.world_from_start.x, robot.world_from_start.y}, robot.info.radius_m});
-  }
+  FreePlaces places(source, types, changes.random_model, world);
   Rng rng(seed, RandomPurpose::start_pose, 1);
-  int added = 0;
-  while (added < changes.random_robots && !cells.empty()) {
-    const std::size_t draw = rng.below(static_cast<std::uint32_t>(cells.size()));
-    const mrpt::math::TPoint2D place = free.place(cells[draw]);
-    cells[draw] = cells.back();
-    cells.pop_back();
-    const bool is_clear = std::none_of(taken.begin(), taken.end(), [&](const Circle& other) {
-      return (other.center - place).norm() < other.radius_m + type.info.radius_m + kContactGap_m;
-    });
-    if (!is_clear) continue;
-    taken.push_back({place, type.info.radius_m});
-    const mrpt::math::TPose2D start(place.x, place.y, rng.uniform(-M_PI, M_PI));
-    world.robots.push_back(placed({changes.random_model, start}, names.next()));
-    ++added;
+  for (int added = 0; added < changes.random_robots; ++added) {
+    const auto place = places.takeRandom(rng);
+    if (!place) {
+      throw ConfigError("--random-robots " + std::to_string(changes.random_robots) + ": there is room for " +
+                        std::to_string(added) + " robots '" + changes.random_model + "' only in " + source.file +
+                        "; use fewer, or a larger world");
+    }
+    const mrpt::math::TPose2D start(place->x, place->y, rng.uniform(-M_PI, M_PI));
+    world.robots.push_back(placed(changes.random_model, start, names.next()));
   }
-  if (added == changes.random_robots) return;
-  throw ConfigError("--random-robots " + std::to_string(changes.random_robots) + ": there is room for " +
-                    std::to_string(added) + " robots '" + changes.random_model + "' only in " + source.file +
-                    "; use fewer, or a larger world");
 }
 
 void addNoise(std::vector<XmlElement>& sensors) {
@@ -163,7 +229,8 @@ AddedRobot AddedRobot::parse(const std::string& text) {
     begin = end + 1;
   }
   if (numbers.size() != 2 && numbers.size() != 3) throw error();
-  return {text.substr(0, at), {numbers[0], numbers[1], numbers.size() == 3 ? numbers[2] * M_PI / 180 : 0}};
+  const double heading_rad = numbers.size() == 3 ? numbers[2] * M_PI / 180 : 0;
+  return {text.substr(0, at), mrpt::math::TPose2D(numbers[0], numbers[1], heading_rad)};
 }
 
 WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, std::uint64_t seed) {
@@ -173,9 +240,11 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   const RobotTypes types = typesFor(source);
   placeScattered(world, source.file, types, source.seed.value_or(seed), errors);
   errors.throwIfAny();
+  const mrpt::math::TPose2D home = world.robots.empty() ? mrpt::math::TPose2D() : world.robots.front().world_from_robot;
   if (changes.addsRobots() && isMapFile(source.file)) world.robots.clear();
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);
+  addRobotsNear(home, source, types, changes.robots, names, world);
   addRandomRobots(source, types, changes, seed, names, world);
   if (changes.has_random_starts) {
     Fleet fleet = fleetOf(world, source.file, types);

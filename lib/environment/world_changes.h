@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,10 @@ namespace robosim {
 /// A robot to add to a world.
 struct AddedRobot {
   std::string model;
-  mrpt::math::TPose2D world_from_robot;  ///< start [m, rad]
+  /// Start [m, rad]; nullopt: where the first robot of the world or map stands (a map's home), or the free place
+  /// nearest to it.
+  std::optional<mrpt::math::TPose2D> world_from_robot;
+  std::string name = {};  ///< empty: Robot1, Robot2, … as far as these names are free
 
   /// Parses `TYPE@X,Y,HEADING` in metres and degrees; HEADING is optional, default 0.
   /// @throws ConfigError
@@ -29,8 +33,8 @@ struct WorldChanges {
   bool isNone() const { return !addsRobots() && !has_random_starts && !has_noise; }
 };
 
-/// The world with these changes applied, as text, so that another process can build the same run. Added robots are
-/// named Robot1, Robot2, … as far as these names are free; they replace the robot at the start pose of a bare map.
+/// The world with these changes applied, as text, so that another process can build the same run. Added robots replace
+/// the robot at the start pose of a bare map.
 /// @param seed determines the random positions
 /// @throws ConfigError for a faulty world, an unknown type, and a robot that overlaps something
 WorldSource withChanges(const WorldSource&, const WorldChanges&, std::uint64_t seed);

@@ -5,6 +5,7 @@
 
 #include "base/digest.h"
 #include "base/xml_reader.h"
+#include "robots/arcos_parameters_reader.h"
 #include "robots/sensor_names.h"
 #include "sensors/odometry.h"
 #include "sensors/registry.h"
@@ -131,6 +132,7 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   setBody(readBody(body, model.look), model);
   XmlReader limits = root.requiredChild("limits");
   model.limits = readLimits(limits);
+  if (auto element = root.child("arcos")) model.arcos = readArcosParameters(*element);
   if (description.body) setBody(*description.body, model);
   auto sensors = root.child("sensors");
   Mounted mounted(model);

@@ -2,9 +2,11 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "arcos/parameters.h"
 #include "base/error_list.h"
 #include "base/xml_element.h"
 #include "hardware/robot_info.h"
@@ -31,6 +33,7 @@ struct RobotModel {
   std::shared_ptr<const std::vector<SensorInfo>> sensor_infos;  ///< of `sensors`, with unique labels
   /// Hash of the elements that describe the sensors, and thus of all their options; 0 for a model not read from a file.
   std::uint64_t sensors_digest = 0;
+  std::optional<arcos::Parameters> arcos;  ///< nullopt: ARCOS programs cannot drive robots of this type
 };
 
 /// Reads a robot type (worlds/robots/<name>.xml; doc/world_file.md). Adds faults to `errors`.

@@ -13,9 +13,10 @@
 namespace robosim {
 namespace {
 
-void checkToRun(const LoadedWorld& world, const std::string& file, const std::string& instead) {
+void checkToRun(const LoadedWorld& world, const std::string& file, const std::string& instead,
+                const DrivenElsewhere& is_elsewhere = {}) {
   ErrorList errors;
-  checkControllers(world, file, instead, errors);
+  checkControllers(world, file, instead, errors, is_elsewhere);
   errors.throwIfAny();
   if (world.fleet.robots.empty()) throw ConfigError(file + ": has no robots; add at least one");
 }
@@ -66,10 +67,11 @@ std::string controllerOf(const std::string& in_world, const std::string& instead
 }
 
 void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
-                      ErrorList& errors) {
+                      ErrorList& errors, const DrivenElsewhere& is_elsewhere) {
   const std::size_t count = std::min(world.world.robots.size(), world.fleet.robots.size());
   for (std::size_t i = 0; i < count; ++i) {
     const FleetRobot& robot = world.fleet.robots[i];
+    if (is_elsewhere && is_elsewhere(robot)) continue;
     const ControllerType* type = typeOrNull(controllerOf(robot.controller, instead));
     if (!type) continue;  // reported by buildFleet()
     for (const SensorKind kind : type->needs) {
@@ -93,9 +95,9 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead, 
   return world;
 }
 
-LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead) {
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead, const DrivenElsewhere& is_elsewhere) {
   LoadedWorld world = loadWorld(source, checkController);
-  checkToRun(world, source.file, instead);
+  checkToRun(world, source.file, instead, is_elsewhere);
   releaseFreeMemory();
   return world;
 }

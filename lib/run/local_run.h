@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -40,15 +41,19 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
 /// @param instead replaces it if not empty
 std::string controllerOf(const std::string& in_world, const std::string& instead);
 
+/// Whether a robot needs no controller of RoboSim.
+using DrivenElsewhere = std::function<bool(const FleetRobot&)>;
+
 /// Adds an error for each robot that lacks a sensor required by its controller. `world_file` is the file name in
 /// errors.
 void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
-                      ErrorList& errors);
+                      ErrorList& errors, const DrivenElsewhere& is_elsewhere = {});
 
 /// Reads a world to be run: loadWorld() plus checkControllers(); requires at least one robot.
 /// @throws ConfigError with all errors found.
 LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead, std::uint64_t seed = kDefaultSeed);
-LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead);
+LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead,
+                           const DrivenElsewhere& is_elsewhere = {});
 
 /// Times when the gold was found, won and all robots had stopped [simulated s], and by which robot.
 struct GoldOutcome {

@@ -267,6 +267,7 @@ struct EnvironmentServer::Impl {
       executePanelRequests();
       if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
+      run.poll();
       admit();
       if (on_lost_robot == OnLostRobot::fail && robots.isAnyLost()) {
         serving.log("the run ends because of --on-lost-robot fail: lost " + listed(robots.lost()));

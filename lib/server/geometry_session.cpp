@@ -103,6 +103,7 @@ void GeometrySession::reset() {
   }
   report_ = {};
   replica_commands_.assign(serving_.run_info->robot_names.size(), Command{});
+  placements_ = 0;
 }
 
 void GeometrySession::received(Stream& stream, const internal::WorkRequest& message) {
@@ -211,6 +212,9 @@ void GeometrySession::step(Environment& environment) {
   }
   const std::size_t shares = workers.size() + 1;
   for (std::size_t k = 0; k < workers.size(); ++k) workers[k]->share = {n * (k + 1) / shares, n * (k + 2) / shares};
+  if (std::exchange(placements_, environment.placements()) != environment.placements()) {
+    for (const auto& stream : streams_) stream->needs_state = true;
+  }
   internal::ReplicaState state;
   if (std::any_of(workers.begin(), workers.end(), [](const auto& stream) { return stream->needs_state; })) {
     encode(environment.state(), state);

@@ -22,6 +22,9 @@ class ServedRun {
   virtual Environment& environment() = 0;
   /// The part of the run that is served to clients.
   virtual std::shared_ptr<const RunInfo> runInfo() const = 0;
+  /// Called at least every ServingState::kPollInterval, between steps, also while the run is paused: serves clients
+  /// that are not the server's.
+  virtual void poll() {}
   /// Runs the environment's own controllers; called immediately before a step.
   virtual void decide() = 0;
   /// Called after each step, for example to record it. @param late number of robots whose commands were too late

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "control/controller_error.h"
+#include "net/host_port.h"
 #include "recording/recording_error.h"
 #include "robots/world_source.h"
 #include "run/local_run.h"
@@ -15,14 +16,34 @@
 namespace robosim {
 namespace {
 
-/// Robots driven by other processes: all, if the environment waits for them; otherwise those without a controller.
-std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const WorldRunOptions& options) {
+/// Whether ARCOS programs drive a robot.
+bool isDrivenByArcos(const FleetRobot& robot, const WorldRunOptions& options) {
+  return options.arcos && options.of_run.run.controller.empty() && isForArcos(robot);
+}
+
+/// By robot: whether ARCOS programs drive it.
+std::vector<std::uint8_t> arcosFlags(const Fleet& fleet, const WorldRunOptions& options) {
+  std::vector<std::uint8_t> flags;
+  for (const auto& robot : fleet.robots) flags.push_back(isDrivenByArcos(robot, options));
+  return flags;
+}
+
+/// Robots driven by processes that use the protocol of RoboSim: all, if the environment waits for them; otherwise those
+/// without a controller. Not those of ARCOS programs.
+std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const WorldRunOptions& options,
+                                          const std::vector<std::uint8_t>& is_arcos) {
   std::vector<std::uint8_t> networked;
-  for (const auto& robot : fleet.robots) {
-    const bool has_controller = !options.of_run.run.controller.empty() || !robot.controller.empty();
-    networked.push_back(options.wait_for_robots || !has_controller);
+  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
+    const bool has_controller = !options.of_run.run.controller.empty() || !fleet.robots[i].controller.empty();
+    networked.push_back(!is_arcos[i] && (options.wait_for_robots || !has_controller));
   }
   return networked;
+}
+
+/// Robots that this process runs no controller for.
+std::vector<std::uint8_t> either(std::vector<std::uint8_t> a, const std::vector<std::uint8_t>& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] |= b[i];
+  return a;
 }
 
 /// "run.rawlog" → "run_2.rawlog" for the second run; an empty name stays empty.
@@ -40,10 +61,11 @@ class WorldRun::OneRun {
  public:
   OneRun(LoadedWorld world, const WorldSource& source, const WorldRunOptions& options, RunArguments of_this_run)
       : arguments(std::move(of_this_run)),
-        networked(networkedRobots(world.fleet, options)),
-        run(std::move(world), arguments.run, networked),
+        is_arcos(arcosFlags(world.fleet, options)),
+        networked(networkedRobots(world.fleet, options, is_arcos)),
+        run(std::move(world), arguments.run, either(networked, is_arcos)),
         run_info(run.environment(), source, arguments.run.environment.seed, networked),
-        outputs(arguments, run.environment(), noteOf(source, run, arguments.run, networked)) {
+        outputs(arguments, run.environment(), noteOf(source, run, arguments.run, either(networked, is_arcos))) {
     outputs.observe(run.environment());
     if (options.is_realtime) late = 0;
   }
@@ -54,6 +76,7 @@ class WorldRun::OneRun {
   }
 
   RunArguments arguments;
+  std::vector<std::uint8_t> is_arcos;
   std::vector<std::uint8_t> networked;
   LocalRun run;
   RunInfo run_info;
@@ -69,7 +92,9 @@ class WorldRun::Prepared final : public PreparedRun {
   std::shared_ptr<OneRun> run;
 };
 
-WorldRun::WorldRun(WorldRunOptions options) : options_(std::move(options)), run_(load(sourceOf(options_.of_run), 1)) {}
+WorldRun::WorldRun(WorldRunOptions options) : options_(std::move(options)), run_(load(sourceOf(options_.of_run), 1)) {
+  openArcosPorts();
+}
 
 WorldRun::~WorldRun() = default;
 
@@ -77,12 +102,45 @@ Environment& WorldRun::environment() { return run_->run.environment(); }
 
 std::shared_ptr<const RunInfo> WorldRun::runInfo() const { return {run_, &run_->run_info}; }
 
-void WorldRun::decide() { run_->run.decide(); }
+void WorldRun::openArcosPorts() {
+  arcos_.reset();  // closes the ports of the previous run
+  if (!options_.arcos) return;
+  std::vector<std::size_t> robots;
+  for (std::size_t i = 0; i < run_->is_arcos.size(); ++i) {
+    if (run_->is_arcos[i]) robots.push_back(i);
+  }
+  Environment& environment = run_->run.environment();
+  arcos_ = std::make_unique<ArcosServer>(*options_.arcos, environment, robots);
+  if (robots.empty()) {
+    options_.arcos->log("world " + environment.world().name + " has no robots for ARCOS programs");
+  }
+  const std::vector<int> ports = arcos_->ports();
+  if (options_.arcos->shares_port && !ports.empty()) {
+    options_.arcos->log(std::to_string(robots.size()) + " robots for ARCOS programs on " +
+                        withPort(options_.arcos->listen, ports.front()));
+    return;
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    const RobotInfo& robot = environment.fleet().robots[robots[i]].info;
+    options_.arcos->log("robot " + robot.name + " (" + robot.model + ") for ARCOS programs on " +
+                        withPort(options_.arcos->listen, ports[i]));
+  }
+}
+
+void WorldRun::poll() {
+  if (arcos_) arcos_->poll();
+}
+
+void WorldRun::decide() {
+  if (arcos_) arcos_->decide();
+  run_->run.decide();
+}
 
 void WorldRun::stepped(std::size_t late) {
   if (run_->late) *run_->late += late;
   run_->run.noteOutcome();
   run_->outputs.observe(run_->run.environment());
+  if (arcos_) arcos_->stepped();
 }
 
 bool WorldRun::isOver() const { return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time()); }
@@ -108,9 +166,11 @@ std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const 
 
 void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
   run_->finish(EndedBy::control_panel);
+  arcos_.reset();  // uses the run that is replaced
   run_ = static_cast<Prepared&>(*next).run;
   run_->start = std::chrono::steady_clock::now();
   ++number_;
+  openArcosPorts();
 }
 
 EndedBy WorldRun::endedByItself() const { return robosim::endedByItself(run_->run); }
@@ -126,7 +186,8 @@ std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number)
   source.seed = seed = source.seed.value_or(seed);
   of_this_run.record = numbered(of_this_run.record, number);
   of_this_run.picture = numbered(of_this_run.picture, number);
-  LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller);
+  LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller,
+                                     [this](const FleetRobot& robot) { return isDrivenByArcos(robot, options_); });
   return std::make_shared<OneRun>(std::move(world), source, options_, std::move(of_this_run));
 }
 

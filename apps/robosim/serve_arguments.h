@@ -1,0 +1,38 @@
+#pragma once
+#include <string>
+
+#include "net/listen.h"
+#include "net/open_port.h"
+#include "robosim/connection.h"
+#include "run/run_outputs.h"
+
+namespace CLI {
+class App;
+}
+
+namespace robosim {
+
+/// Arguments of `robosim serve`.
+struct ServeArguments {
+  RunArguments of_run;
+  bool wait_for_robots = false;
+  std::string listen = kDefaultListen;
+  std::string pace;  ///< "lockstep" or "realtime"; empty: lockstep, or realtime with ARCOS
+  double check_results = 0.01;
+  std::string on_lost_robot;  ///< empty: default according to the pace
+  double step_deadline_s = 1;
+  bool paused = false;
+  StandardServices standard_services;
+  ListenerArguments listener;
+  std::string arcos;  ///< address for ARCOS programs; empty: none
+  bool arcos_unprotected = false;
+  std::string arcos_factory;  ///< "MODEL" or "MODEL:NUMBER"; empty: a port for each robot
+};
+
+/// Adds --arcos and the options that belong to it.
+void addArcosOptions(CLI::App& command, ServeArguments& arguments);
+
+/// Serves a world until its run is over. @throws ConfigError and others, as `robosim serve`
+void serveWorld(const ServeArguments& arguments);
+
+}  // namespace robosim

@@ -1,0 +1,257 @@
+#include "serving/arcos_server.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <boost/asio.hpp>
+
+#include "arcos/parameters.h"
+#include "control/robot.h"
+#include "environment/local_hardware.h"
+#include "firmware/arcos_board.h"
+#include "firmware/arcos_session.h"
+#include "net/host_port.h"
+#include "serving/arcos_connection.h"
+#include "serving/arcos_lasers.h"
+
+namespace robosim {
+namespace {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+using Clock = ArcosSession::Clock;
+
+constexpr double kRadiansPerDegree = M_PI / 180;
+constexpr double kMm = 1000;
+/// ARIA's programs give up after 8 s without a SIP: they get some while the run is paused, too.
+constexpr std::chrono::seconds kIdleCycle{1};
+
+/// A robot of the run, its board, and the program that drives it.
+struct ServedRobot final : Simulator {
+  ServedRobot(Environment& the_environment, std::size_t robot_index, const ArcosOptions& options)
+      : environment(the_environment),
+        index(robot_index),
+        speed(options.speed),
+        write_log(options.log),
+        hardware(the_environment, robot_index),
+        robot(hardware),
+        board(robot, *the_environment.fleet().robots[robot_index].model->arcos) {}
+
+  const std::string& name() const { return robot.name(); }
+
+  arcos::SimStat stat() const override {
+    const double period_ms = environment.time().period_s * 1000;
+    const auto& pose = environment.state().world_from_robot[index];
+    const auto mm = [](double length_m) { return static_cast<std::int32_t>(std::lround(length_m * kMm)); };
+    return {.interval_ms = static_cast<std::uint16_t>(std::lround(period_ms)),
+            .desired_interval_ms = static_cast<std::uint16_t>(std::clamp(std::round(period_ms / speed), 0.0, 65535.0)),
+            .measured_interval_ms = measured_interval_ms,
+            .x_mm = mm(pose.x),
+            .y_mm = mm(pose.y),
+            .z_mm = 0,
+            .heading_deg = static_cast<std::int32_t>(std::lround(pose.phi / kRadiansPerDegree))};
+  }
+  void setTruePose(const arcos::SimPose& pose) override {
+    placeAt({pose.x_mm / kMm, pose.y_mm / kMm, pose.heading_deg * kRadiansPerDegree});
+  }
+  void resetTruePose() override { placeAt(environment.fleet().robots[index].world_from_start); }
+  std::span<const std::uint16_t> scan() const override { return scan_mm; }
+  void log(const std::string& text) override { write_log("robot " + name() + ": " + text); }
+
+  void placeAt(const mrpt::math::TPose2D& pose) {
+    if (environment.place(index, pose)) {
+      if (connection) connection->session().noteMoved();
+    } else {
+      log("cannot be placed at (" + std::to_string(std::lround(pose.x * kMm)) + ", " +
+          std::to_string(std::lround(pose.y * kMm)) + ") mm: it would overlap something, or the surface's edge");
+    }
+  }
+
+  Environment& environment;
+  std::size_t index;
+  double speed;
+  std::function<void(const std::string&)> write_log;
+  LocalHardware hardware;
+  Robot robot;
+  ArcosBoard board;
+  std::shared_ptr<ArcosConnection> connection;  ///< null without a program
+  std::vector<std::uint16_t> scan_mm;
+  std::uint16_t measured_interval_ms = 0;
+};
+
+tcp::endpoint endpointOf(const std::string& listen) {
+  const HostPort at = HostPort::of(hostAndPort(listen));
+  const std::string host = at.host == "localhost" ? "127.0.0.1" : at.host;
+  boost::system::error_code error;
+  const auto address = asio::ip::make_address(host, error);
+  if (error) throw std::runtime_error("--arcos " + listen + ": '" + at.host + "' is no IP address");
+  return {address, static_cast<std::uint16_t>(std::stoi(at.port))};
+}
+
+tcp::acceptor openAcceptor(asio::io_context& io, tcp::endpoint at) {
+  tcp::acceptor acceptor(io);
+  try {
+    acceptor.open(at.protocol());
+    acceptor.set_option(tcp::acceptor::reuse_address(true));
+    acceptor.bind(at);
+    acceptor.listen();
+  } catch (const boost::system::system_error& error) {
+    const std::string address = withPort(at.address().to_string() + ":0", at.port());
+    throw std::runtime_error("cannot serve ARCOS programs at " + address + ": " + error.code().message() +
+                             "; choose another port with --arcos");
+  }
+  return acceptor;
+}
+
+}  // namespace
+
+struct ArcosServer::Impl {
+  ArcosOptions options;
+  Environment& environment;
+  asio::io_context io;
+  std::vector<std::unique_ptr<ServedRobot>> robots;
+  std::vector<tcp::acceptor> acceptors;  ///< one per robot, or one for all
+  ArcosLasers lasers;
+  std::uint64_t steps_per_cycle;
+  std::uint64_t steps = 0;  ///< since the last cycle
+  Clock::time_point last_cycle = Clock::now(), last_step = Clock::now();
+
+  Impl(const ArcosOptions& the_options, Environment& the_environment, const std::vector<std::size_t>& indices)
+      : options(the_options),
+        environment(the_environment),
+        lasers(the_environment),
+        steps_per_cycle(
+            static_cast<std::uint64_t>(std::max(1.0, std::round(arcos::kCycle_s / the_environment.time().period_s)))) {
+    for (const auto index : indices) {
+      robots.push_back(std::make_unique<ServedRobot>(environment, index, options));
+    }
+    tcp::endpoint at = endpointOf(options.listen);
+    const bool is_fixed = at.port() != 0;
+    const std::size_t ports = options.shares_port ? std::min<std::size_t>(1, robots.size()) : robots.size();
+    for (std::size_t i = 0; i < ports; ++i) {
+      acceptors.push_back(openAcceptor(io, at));
+      if (is_fixed) at.port(static_cast<std::uint16_t>(at.port() + 1));
+    }
+    for (std::size_t i = 0; i < ports; ++i) accept(i);
+  }
+
+  void accept(std::size_t i) {
+    acceptors[i].async_accept([this, i](const boost::system::error_code& error, tcp::socket socket) {
+      if (error == asio::error::operation_aborted) return;
+      if (!error) admit(i, std::move(socket));
+      accept(i);
+    });
+  }
+
+  /// The robot for a program that connects to a port; null if it is taken.
+  ServedRobot* freeRobot(std::size_t port) {
+    if (!options.shares_port) return robots[port]->connection ? nullptr : robots[port].get();
+    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return !robot->connection; });
+    return found == robots.end() ? nullptr : found->get();
+  }
+
+  void admit(std::size_t port, tcp::socket socket) {
+    dropEnded();  // the program before may just have left
+    boost::system::error_code ignored;
+    const auto peer_endpoint = socket.remote_endpoint(ignored);
+    const std::string peer = withPort(peer_endpoint.address().to_string(ignored) + ":0", peer_endpoint.port());
+    ServedRobot* robot = freeRobot(port);
+    if (!robot) {
+      options.log("refused " + peer + ": " +
+                  (options.shares_port ? "all " + std::to_string(robots.size()) + " robots have a program"
+                                       : "robot " + robots[port]->name() + " has a program already"));
+      return;  // closes the socket
+    }
+    robot->connection = std::make_shared<ArcosConnection>(std::move(socket), peer, robot->board, *robot);
+    robot->connection->start();
+    options.log("robot " + robot->name() + ": connected, " + peer);
+  }
+
+  void dropEnded() {
+    for (const auto& robot : robots) {
+      if (!robot->connection || robot->connection->endReason().empty()) continue;
+      options.log("robot " + robot->name() + ": disconnected " + robot->connection->peer() + ": " +
+                  robot->connection->endReason());
+      robot->connection->close();
+      robot->connection.reset();
+      robot->board.endSession();
+      // A shared robot is like new for the next program.
+      if (options.shares_port) robot->resetTruePose();
+    }
+  }
+
+  void poll() {
+    io.poll();
+    const auto now = Clock::now();
+    for (const auto& robot : robots) {
+      if (robot->connection) robot->connection->poll(now);
+    }
+    dropEnded();
+    if (now - last_cycle > kIdleCycle) sendCycle(now);
+  }
+
+  void decide() {
+    poll();
+    const auto now = Clock::now();
+    for (const auto& robot : robots) {
+      if (robot->connection) {
+        robot->connection->session().beforeStep(now);
+      } else {
+        robot->board.update(false);
+      }
+    }
+  }
+
+  void stepped() {
+    const auto now = Clock::now();
+    const auto interval_ms = std::chrono::duration_cast<std::chrono::milliseconds>(now - last_step).count();
+    last_step = now;
+    for (const auto& robot : robots) {
+      robot->measured_interval_ms = static_cast<std::uint16_t>(std::min<std::int64_t>(interval_ms, 65535));
+    }
+    if (++steps >= steps_per_cycle) sendCycle(now);
+  }
+
+  void sendCycle(Clock::time_point now) {
+    steps = 0;
+    last_cycle = now;
+    std::vector<ArcosLasers::Request> requests;
+    for (const auto& robot : robots) {
+      if (!robot->connection || !robot->connection->session().isOpen()) continue;
+      const arcos::LaserRequest& laser = robot->connection->session().laser();
+      if (laser.form == arcos::LaserRequest::Form::off) continue;
+      requests.push_back({static_cast<std::uint32_t>(robot->index), laser, &robot->scan_mm});
+    }
+    lasers.measure(requests);
+    for (const auto& robot : robots) {
+      if (robot->connection) robot->connection->sendCycle();
+    }
+  }
+};
+
+ArcosServer::ArcosServer(const ArcosOptions& options, Environment& environment, const std::vector<std::size_t>& robots)
+    : impl_(std::make_unique<Impl>(options, environment, robots)) {}
+
+ArcosServer::~ArcosServer() = default;
+
+std::vector<int> ArcosServer::ports() const {
+  std::vector<int> ports;
+  for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
+    ports.push_back(impl_->acceptors[impl_->options.shares_port ? 0 : i].local_endpoint().port());
+  }
+  return ports;
+}
+
+std::size_t ArcosServer::clients() const {
+  return static_cast<std::size_t>(
+      std::count_if(impl_->robots.begin(), impl_->robots.end(), [](const auto& robot) { return robot->connection; }));
+}
+
+void ArcosServer::poll() { impl_->poll(); }
+void ArcosServer::decide() { impl_->decide(); }
+void ArcosServer::stepped() { impl_->stepped(); }
+
+bool isForArcos(const FleetRobot& robot) { return robot.model->arcos && robot.controller.empty(); }
+
+}  // namespace robosim

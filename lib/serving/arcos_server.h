@@ -1,0 +1,54 @@
+#pragma once
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "environment/environment.h"
+
+namespace robosim {
+
+struct ArcosOptions {
+  std::string listen = "127.0.0.1:8101";  ///< "host:port" of the first robot; the others have the ports that follow.
+                                          ///< With port 0 the system chooses each
+  bool shares_port = false;               ///< one port, at which each program gets a robot that no other has
+  double speed = 1;                       ///< simulated seconds per second, for SIMSTAT
+  std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
+};
+
+/// Serves robots of a run to programs that speak ARCOS, such as those of ARIA (doc/arcos.md). Each robot is driven by
+/// an ArcosBoard; programs get its packets after each cycle of 0.1 s of simulated time. A program that floods, stalls,
+/// or sends what is no packet loses its own connection only.
+///
+/// All functions are called by the thread that steps the environment; none of them waits.
+class ArcosServer {
+ public:
+  /// Opens the ports. @param environment must outlive this @param robots indices; their types have arcos::Parameters
+  /// @throws std::runtime_error when a port is in use, with the address and how to fix it
+  ArcosServer(const ArcosOptions& options, Environment& environment, const std::vector<std::size_t>& robots);
+  ~ArcosServer();
+  ArcosServer(const ArcosServer&) = delete;
+  ArcosServer& operator=(const ArcosServer&) = delete;
+
+  /// TCP port of each robot, in the order of the constructor.
+  std::vector<int> ports() const;
+  std::size_t clients() const;
+
+  /// Accepts programs, receives and answers. To be called often, at least every kPollInterval.
+  void poll();
+  static constexpr std::chrono::milliseconds kPollInterval{10};
+  /// Commands the robots, immediately before a step.
+  void decide();
+  /// Sends the packets of a cycle, after a step.
+  void stepped();
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Whether an ARCOS program may drive a robot: its type has arcos::Parameters, and it has no controller.
+bool isForArcos(const FleetRobot& robot);
+
+}  // namespace robosim
