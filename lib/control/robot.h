@@ -50,6 +50,18 @@ class Robot {
   /// Description of the first sensor of a kind; null for a robot without it.
   const SensorInfo* sensor(SensorKind kind) const;
   bool stalled() const { return readings().stalled; }
+  /// State of the base beyond its sensors; all absent for a robot that is simulated.
+  BaseState baseState() const {
+    const BaseLink* base = hardware_.base();
+    return base ? base->baseState() : BaseState{};
+  }
+  /// Switch the motors and sonars of a robot whose base has a controller (Hardware::base()); without effect otherwise.
+  void enableMotors(bool on) {
+    if (BaseLink* base = hardware_.base()) base->enableMotors(on);
+  }
+  void enableSonar(bool on) {
+    if (BaseLink* base = hardware_.base()) base->enableSonar(on);
+  }
 
   void drive(double speed_mps, double turn_radps);
   void panLaser(double pan_rad);  ///< [-π/2, π/2]

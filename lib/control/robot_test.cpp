@@ -134,6 +134,25 @@ TEST(Robot, IgnoresCheckWinOnHardwareWithoutAReferee) {
   EXPECT_FALSE(robot.readings().is_too_far);
 }
 
+TEST(Robot, HasNoBaseStateOnHardwareWithoutABaseController) {
+  BareHardware hardware;
+  Robot robot(hardware);
+  robot.enableMotors(false);
+  robot.enableSonar(false);
+  EXPECT_EQ(robot.baseState(), BaseState{});
+}
+
+TEST(Robot, SwitchesMotorsAndSonarsOfItsBase) {
+  FakeHardware hardware;
+  hardware.base_link.emplace();
+  Robot robot(hardware);
+  EXPECT_EQ(robot.baseState().motors_enabled, true);
+  robot.enableMotors(false);
+  robot.enableSonar(false);
+  EXPECT_EQ(robot.baseState().motors_enabled, false);
+  EXPECT_FALSE(hardware.base_link->sonar_on);
+}
+
 TEST(Echo, RequiresARangeBelowTheSensorsMaximum) {
   // 8.1 has no exact float: the reading of a sensor without an echo must not count as an echo through rounding.
   SensorInfo sensor;

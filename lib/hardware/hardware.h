@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "hardware/base_link.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/referee_link.h"
@@ -31,6 +32,8 @@ class Hardware {
   /// The referee of this robot's contest; null, the default, for hardware without one, whose readings then name no
   /// winner. Robot::checkWin() has no effect without a referee, so that a controller's source does not depend on it.
   virtual RefereeLink* referee() { return nullptr; }
+  /// The controller of this robot's base; null, the default, for a simulated robot.
+  virtual BaseLink* base() { return nullptr; }
 };
 
 }  // namespace robosim

@@ -18,6 +18,7 @@ class RemoteControlRobot::ControllersView final : public Hardware {
   }
   void send(const std::string& to, const std::string& text) override { hardware_.send(to, text); }
   RefereeLink* referee() override { return hardware_.referee(); }
+  BaseLink* base() override { return hardware_.base(); }
 
   const Command& lastCommand() const { return command_; }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +14,16 @@
 #include "hardware/hardware.h"
 
 namespace robosim {
+
+/// Test double of a base's controller: the motors are switched at once.
+struct FakeBase : BaseLink {
+  BaseState baseState() const override { return state; }
+  void enableMotors(bool on) override { state.motors_enabled = on; }
+  void enableSonar(bool on) override { sonar_on = on; }
+
+  BaseState state{.motors_enabled = true};
+  bool sonar_on = true;
+};
 
 /// Test double of a robot without a world: it executes commands within its limits, and its readings are set by the
 /// test. Sonar i of `sonars` points along i · 360°/sonars, counter-clockwise from straight ahead.
@@ -45,6 +56,7 @@ class FakeHardware : public Hardware, public RefereeLink {
   void command(const Command& command) override { command_ = command; }
   void send(const std::string& to, const std::string& text) override { sent.push_back({info_.name, to, text}); }
   RefereeLink* referee() override { return this; }
+  BaseLink* base() override { return base_link ? &*base_link : nullptr; }
   void checkWin() override { ++win_checks; }
 
   const Command& lastCommand() const { return command_; }
@@ -96,6 +108,7 @@ class FakeHardware : public Hardware, public RefereeLink {
   std::function<void(FakeHardware&)> sense;  ///< called at the end of each step
   std::vector<RobotMessage> sent;
   std::vector<std::string> robot_names{"fake"};  ///< of the run
+  std::optional<FakeBase> base_link;             ///< none, as a simulated robot, until the test adds it
   int win_checks = 0;                            ///< number of CheckWin requests
 
   static constexpr double kRadius_m = 0.25;
