@@ -6,6 +6,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "arcos/bumpers.h"
 #include "arcos/bytes.h"
 #include "arcos/command.h"
 #include "base/portable_math.h"
@@ -32,9 +33,6 @@ Integer rounded(double value) {
 std::uint16_t wrapped(double length_m, double unit_mm) {
   return static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(length_m * kMm / unit_mm)));
 }
-
-/// Bit of bumper `i` in the bytes of a SIP, whose bit 0 is the stall of a wheel.
-std::uint8_t bumperBit(int i) { return static_cast<std::uint8_t>(2u << i); }
 
 }  // namespace
 
@@ -188,15 +186,10 @@ void ArcosBoard::addBumpers(Sip& sip) const {
   const auto& pressed = robot_.bumper();
   for (std::size_t i = 0; i < pressed.size(); ++i) {
     if (!pressed[i]) continue;
-    // Clockwise from the left: front bumpers from +90° to -90°, rear ones from there to -270°.
-    const double from_left_rad = mrpt::math::wrapTo2Pi(M_PI_2 - bumper->beams[i].robot_from_beam.yaw);
-    const bool is_front = from_left_rad <= M_PI;
-    const int count = is_front ? parameters_.front_bumpers : parameters_.rear_bumpers;
-    if (count == 0) continue;
-    const double along = (is_front ? from_left_rad : from_left_rad - M_PI) / M_PI;
-    auto& bits = is_front ? sip.stall_right : sip.stall_left;
-    bits |= bumperBit(std::min(static_cast<int>(along * count), count - 1));
-    if (bumper_stall_ & (is_front ? 1 : 2)) {
+    const auto place = arcos::bumperAt(bumper->beams[i].robot_from_beam.yaw, parameters_);
+    auto& bits = place.is_front ? sip.stall_right : sip.stall_left;
+    bits |= place.bit;
+    if (bumper_stall_ & (place.is_front ? 1 : 2)) {
       sip.stall_left |= Sip::kStalled;
       sip.stall_right |= Sip::kStalled;
     }

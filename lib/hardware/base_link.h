@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <string>
 
 namespace robosim {
 
@@ -11,6 +12,7 @@ struct BaseState {
   std::optional<bool> left_stalled = {};  ///< by wheel; Readings::stalled is for the body as a whole
   std::optional<bool> right_stalled = {};
   std::optional<double> charge_percent = {};  ///< state of charge of the battery, [0, 100]
+  std::string stop_reason = {};  ///< why the robot stands whatever is commanded, "the battery is low"; empty if not
   bool operator==(const BaseState&) const = default;
 };
 

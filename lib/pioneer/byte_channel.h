@@ -1,0 +1,31 @@
+#pragma once
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+namespace robosim {
+
+/// The connection with a robot is lost. The message states which, why, and what to do.
+class RobotLinkError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Two-way stream of bytes to a robot, with its clock.
+class ByteChannel {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  virtual ~ByteChannel() = default;
+  /// Waits for bytes. @return those that have arrived; empty when none has within the time
+  /// @throws RobotLinkError when the connection has ended
+  virtual std::string read(Clock::duration timeout) = 0;
+  /// @throws RobotLinkError when the connection has ended
+  virtual void write(std::string_view bytes) = 0;
+  virtual Clock::time_point now() const { return Clock::now(); }
+  /// "tcp:127.0.0.1:8101", for messages.
+  virtual const std::string& name() const = 0;
+};
+
+}  // namespace robosim

@@ -1,0 +1,114 @@
+// The log of a ByteChannel: logChannel(), and the channel that replays one.
+#include <fstream>
+#include <iomanip>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "base/error_list.h"
+#include "pioneer/open_channel.h"
+#include "pioneer/replayed_channel.h"
+
+namespace robosim {
+namespace {
+
+constexpr const char* kFirstLine = "RoboSim ARCOS log 1";
+
+class LoggedChannel final : public ByteChannel {
+ public:
+  LoggedChannel(std::unique_ptr<ByteChannel> channel, const std::string& file)
+      : channel_(std::move(channel)), file_name_(file), file_(file), start_(channel_->now()) {
+    file_ << kFirstLine << '\n';
+    if (!file_.flush()) throw ConfigError(file + ": cannot be written; choose another file for --arcos-log");
+  }
+
+  std::string read(Clock::duration timeout) override {
+    std::string bytes = channel_->read(timeout);
+    if (!bytes.empty()) log('<', bytes);
+    return bytes;
+  }
+  void write(std::string_view bytes) override {
+    log('>', bytes);
+    channel_->write(bytes);
+  }
+  Clock::time_point now() const override { return channel_->now(); }
+  const std::string& name() const override { return channel_->name(); }
+
+ private:
+  void log(char direction, std::string_view bytes) {
+    const std::chrono::duration<double> since = now() - start_;
+    std::ostringstream line;
+    line << std::fixed << std::setprecision(4) << since.count() << ' ' << direction << std::hex << std::setfill('0');
+    for (const char byte : bytes) line << ' ' << std::setw(2) << unsigned{static_cast<unsigned char>(byte)};
+    file_ << line.str() << '\n';
+    if (!file_.flush()) throw RobotLinkError(file_name_ + ": cannot be written; free some space");
+  }
+
+  std::unique_ptr<ByteChannel> channel_;
+  std::string file_name_;
+  std::ofstream file_;
+  Clock::time_point start_;
+};
+
+/// Plays a log: what the robot sent, each part when it is read. Its clock is that of the log.
+class ReplayedChannel final : public ByteChannel {
+ public:
+  explicit ReplayedChannel(const std::string& file) : name_("replay:" + file), file_name_(file), file_(file) {
+    std::string first;
+    if (!std::getline(file_, first) || first != kFirstLine) {
+      throw ConfigError(file + ":1: is no log of --arcos-log: its first line is not '" + kFirstLine + "'");
+    }
+  }
+
+  std::string read(Clock::duration) override {
+    std::string line;
+    while (std::getline(file_, line)) {
+      ++line_number_;
+      if (auto bytes = receivedIn(line)) return *bytes;
+    }
+    throw RobotLinkError(file_name_ + ": the log has ended");
+  }
+  void write(std::string_view) override {}
+  Clock::time_point now() const override {
+    return Clock::time_point{} + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s_));
+  }
+  const std::string& name() const override { return name_; }
+
+ private:
+  /// The bytes of a line; nullopt for those that were sent. @throws ConfigError
+  std::optional<std::string> receivedIn(const std::string& line) {
+    std::istringstream words(line);
+    double time_s = 0;
+    std::string direction;
+    if (!(words >> time_s >> direction) || (direction != "<" && direction != ">")) fail();
+    time_s_ = time_s;
+    std::string bytes;
+    for (std::string word; words >> word;) {
+      unsigned byte = 0;
+      std::istringstream digits(word);
+      if (word.size() != 2 || !(digits >> std::hex >> byte)) fail();
+      bytes.push_back(static_cast<char>(byte));
+    }
+    if (direction == ">") return std::nullopt;
+    return bytes;
+  }
+  [[noreturn]] void fail() const {
+    throw ConfigError(file_name_ + ":" + std::to_string(line_number_) +
+                      ": is no line of an ARCOS log; it must be as in '0.1000 < fa fb 03 00 00 00'");
+  }
+
+  std::string name_, file_name_;
+  std::ifstream file_;
+  int line_number_ = 1;
+  double time_s_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<ByteChannel> logChannel(std::unique_ptr<ByteChannel> channel, const std::string& file) {
+  return std::make_unique<LoggedChannel>(std::move(channel), file);
+}
+
+std::unique_ptr<ByteChannel> replayChannel(const std::string& file) { return std::make_unique<ReplayedChannel>(file); }
+
+}  // namespace robosim
