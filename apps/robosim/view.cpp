@@ -136,7 +136,7 @@ void addView(CLI::App& program) {
       ->type_name("ADDRESS|FILE")
       ->required();
   addRobotOptions(*command, a->changes);
-  command->add_option("--seed", a->seed, "seed of the positions of --random-robots; 0 to 2^64 - 1")
+  command->add_option("--seed", a->seed, "worlds: seed of the places of --random-robots and <scatter>; 0 to 2^64 - 1")
       ->check(seedNumber())
       ->type_name("NUMBER")
       ->capture_default_str();
