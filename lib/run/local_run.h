@@ -89,7 +89,7 @@ class LocalRun {
   const GoldOutcome& gold() const { return gold_; }
   const RunObservers& observers() const { return observers_; }
   /// Whether the run has reached an end of its own: all robots have halted, or an observer ends it.
-  bool isOver() const { return gold_.all_halted_s.has_value() || !observers_.endReason().empty(); }
+  bool isOver() const { return gold_.all_halted_s.has_value() || observers_.end(); }
   /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
   /// random number. Assumed for robots driven by another process.
   bool dependsOnSeed() const;

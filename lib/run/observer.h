@@ -37,6 +37,12 @@ struct ObserverSetup {
   std::function<void(const std::string& line)> log;
 };
 
+/// The end of a run by an observer.
+struct ObserverEnd {
+  std::string observer;  ///< its name
+  std::string reason;    ///< Observer::endReason()
+};
+
 /// A kind of observer.
 struct ObserverType {
   using Setup = ObserverSetup;

@@ -1,6 +1,7 @@
 #include "run/run_observers.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/log.h"
 #include "base/text_table.h"
@@ -55,11 +56,11 @@ RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_
 void RunObservers::observe(const Environment& environment) {
   now_s_ = environment.time().seconds();
   for (const auto& one : observers_) {
-    const std::string reason = guarded(one.choice, [&] {
+    std::string reason = guarded(one.choice, [&] {
       one.observer->observe(environment);
       return one.observer->endReason();
     });
-    if (end_reason_.empty() && !reason.empty()) end_reason_ = one.name + ": " + reason;
+    if (!end_ && !reason.empty()) end_ = {one.name, std::move(reason)};
   }
 }
 

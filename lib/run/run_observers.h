@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,8 @@ class RunObservers {
 
   /// Lets all observe the present state. @throws ObserverError
   void observe(const Environment& environment);
-  /// "OBSERVER: reason" of the first observer that ends the run; empty to continue.
-  const std::string& endReason() const { return end_reason_; }
+  /// The first observer that ends the run; nullopt to continue.
+  const std::optional<ObserverEnd>& end() const { return end_; }
   /// The metrics of all, "OBSERVER.METRIC". @throws ObserverError
   std::vector<Metric> metrics() const;
 
@@ -34,7 +35,7 @@ class RunObservers {
     std::unique_ptr<Observer> observer;
   };
   double now_s_ = 0;  ///< simulated time of the present observation, for log lines
-  std::string end_reason_;
+  std::optional<ObserverEnd> end_;
   std::vector<Named> observers_;
 };
 

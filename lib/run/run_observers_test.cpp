@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "run/local_run.h"
 #include "run/run_summary.h"
@@ -68,6 +69,11 @@ TEST(RunObservers, EndARunWithAReasonInItsSummary) {
   summary.ended_by = endedByItself(run);
   EXPECT_NE(summary.text().find("ended by counting: counted enough"), std::string::npos) << summary.text();
   EXPECT_NE(summary.text().find("counting.calls"), std::string::npos);
+  EXPECT_EQ(summary.json()["ended_by"], "observer");
+  EXPECT_EQ(summary.json()["ended_by_observer"], "counting");
+  EXPECT_EQ(summary.json()["end_reason"], "counted enough");
+  summary.ended_by = EndedBy::interrupt;
+  EXPECT_TRUE(summary.json()["ended_by_observer"].is_null()) << "what it would end is over already";
 }
 
 TEST(RunObservers, DoNotChangeARun) {

@@ -40,8 +40,9 @@ nlohmann::ordered_json orNull(const std::optional<T>& value) {
 constexpr const char* kSeedHadNoEffect =
     " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
 
-/// @param observer_end RunObservers::endReason()
-std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::string& observer_end) {
+/// @param observer_end RunObservers::end()
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why,
+                       const std::optional<ObserverEnd>& observer_end) {
   std::string text = "no gold found";
   if (gold.won_by) {
     text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
@@ -54,7 +55,9 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::string& 
   if (why == EndedBy::control_panel) text += "; ended from a control panel";
   if (why == EndedBy::robot_lost) text += "; ended because a robot was lost";
   if (why == EndedBy::window_closed) text += "; ended by closing the window";
-  if (why == EndedBy::observer) text += "; ended by " + observer_end;
+  if (why == EndedBy::observer && observer_end) {
+    text += "; ended by " + observer_end->observer + ": " + observer_end->reason;
+  }
   return text;
 }
 
@@ -80,7 +83,7 @@ RunSummary RunSummary::of(const LocalRun& run) {
   summary.messages = state.messages_delivered;
   summary.messages_dropped = state.messages_dropped;
   summary.metrics = run.observers().metrics();
-  summary.observer_end = run.observers().endReason();
+  summary.observer_end = run.observers().end();
   return summary;
 }
 
@@ -89,6 +92,7 @@ nlohmann::ordered_json RunSummary::json() const {
   for (const auto& metric : metrics) {
     by_name[metric.name] = std::isfinite(metric.value) ? nlohmann::ordered_json(metric.value) : nullptr;
   }
+  const bool is_ended_by_observer = ended_by == EndedBy::observer && observer_end;
   return {{"world", world},
           {"seed", seed},
           {"depends_on_seed", depends_on_seed},
@@ -98,6 +102,8 @@ nlohmann::ordered_json RunSummary::json() const {
           {"wall_s", wall_s},
           {"real_time_factor", realTimeFactor()},
           {"ended_by", nameOf(ended_by)},
+          {"ended_by_observer", is_ended_by_observer ? nlohmann::ordered_json(observer_end->observer) : nullptr},
+          {"end_reason", is_ended_by_observer ? nlohmann::ordered_json(observer_end->reason) : nullptr},
           {"digest", digest},
           {"gold_found", gold.found_s.has_value()},
           {"gold_found_by", orNull(gold.found_by)},

@@ -34,7 +34,7 @@ struct RunSummary {
   std::optional<std::uint64_t> late;   ///< robot-steps whose command came too late; nullopt for a lockstep run
   std::optional<RunReport> report;     ///< of a served run
   std::vector<Metric> metrics;         ///< of the observers
-  std::string observer_end;            ///< RunObservers::endReason()
+  std::optional<ObserverEnd> observer_end;  ///< RunObservers::end()
 
   /// Fills the fields derived from the run; the caller sets the rest.
   static RunSummary of(const LocalRun& run);
