@@ -240,9 +240,13 @@ void addCheck(CLI::App& program) {
   };
   auto* command = addSubcommand(program, "check");
   auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")->required();
+  command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")
+      ->transform(inputFile())
+      ->required();
   addRobotOptions(*command, arguments->additions.changes);
-  command->add_option("--seed", arguments->additions.seed, "seed of the positions of --random-robots; 0 to 2^64 - 1")
+  command
+      ->add_option("--seed", arguments->additions.seed,
+                   "seed of the places of --random-robots and <scatter>; 0 to 2^64 - 1")
       ->check(seedNumber())
       ->type_name("NUMBER")
       ->capture_default_str();

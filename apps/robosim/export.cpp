@@ -19,6 +19,7 @@
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
+#include "robots/world_source.h"
 #include "run/output_files.h"
 #include "world/map_writer.h"
 
@@ -32,6 +33,7 @@ struct ExportArguments {
   std::vector<std::string> outs;
   std::optional<double> resolution_m;  ///< default: that of the map, else of MapExtent
   std::vector<double> heights_m;       ///< empty, or minimum and maximum
+  std::optional<std::uint64_t> seed;   ///< of random places; default: kDefaultSeed
 };
 
 /// Files to be written, by path: some formats consist of two files.
@@ -41,7 +43,9 @@ using Files = std::map<fs::path, std::string>;
 class Source {
  public:
   Source(const ExportArguments& arguments, Progress& progress)
-      : arguments_(arguments), progress_(progress), loaded_(loadWorld(arguments.world, {})) {}
+      : arguments_(arguments),
+        progress_(progress),
+        loaded_(loadWorld(arguments.world, {}, arguments.seed.value_or(kDefaultSeed))) {}
 
   const LoadedWorld& loaded() const { return loaded_; }
 
@@ -209,8 +213,8 @@ std::vector<RecordingOutput> recordingOutputs(const ExportArguments& arguments) 
       throw ConfigError(out + ": can be made of a world only, but " + what + "; export it by another command");
     outputs.push_back({out, *format});
   }
-  if (arguments.resolution_m || !arguments.heights_m.empty()) {
-    throw ConfigError(what + "; --resolution and --heights are for maps of a world");
+  if (arguments.resolution_m || !arguments.heights_m.empty() || arguments.seed) {
+    throw ConfigError(what + "; --resolution, --heights and --seed are for worlds");
   }
   return outputs;
 }
@@ -271,6 +275,7 @@ void addExport(CLI::App& program) {
       ->add_option("WORLD", arguments->world,
                    "world file or map file; or a rawlog, recorded by RoboSim or another program, for .csv, .npz, .png, "
                    ".svg and .pdf")
+      ->transform(inputFile())
       ->type_name("FILE")
       ->required();
   command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")
@@ -292,6 +297,10 @@ void addExport(CLI::App& program) {
       ->check(numberIn(-1000, 1000))
       ->type_name("LOW HIGH")
       ->expected(2);
+  command->add_option("--seed", arguments->seed, "seed of the places of <scatter>, as for 'robosim run'; 0 to 2^64 - 1")
+      ->check(seedNumber())
+      ->type_name("NUMBER")
+      ->default_str(std::to_string(kDefaultSeed));
   command->footer(formatsHelp());
   command->callback([arguments] { exportFiles(*arguments); });
 }

@@ -139,9 +139,10 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
       ->type_name("FILE")
       ->check(fileName());
   auto has_view = std::make_shared<bool>(false);
-  command->add_flag(std::string(kViewOption), *has_view,
-                    "show the run in a window, in real time unless --speed is given, until it is closed; keys as for "
-                    "'robosim view'");
+  command->add_flag(
+      std::string(kViewOption), *has_view,
+      "show the run in a window, in real time unless --speed is given; closing the window ends the run, and "
+      "the window stays open after the run has ended; keys as for 'robosim view'");
   command->footer(controllersHelp);
   command->callback([arguments, window, command, has_view] {
     const bool has_speed = command->count("--speed") > 0;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/data_folders.h"
 #include "base/error_list.h"
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
@@ -104,7 +105,8 @@ void checkTimes(const ViewArguments& a, const ViewSource& source) {
   refuse(*times.from_s > *duration_s, from, "the recording ends at " + brief(*duration_s) + " s");
 }
 
-void view(const ViewArguments& a) {
+void view(ViewArguments a) {
+  if (const auto file = findDataFile(a.source)) a.source = file->string();
   const Size size = sizeFrom(a.size);
   if (!a.offscreen.empty()) {
     checkOffscreenFile(a.offscreen);
@@ -112,7 +114,7 @@ void view(const ViewArguments& a) {
   }
   const auto connect_options = [connection = a.connection](const std::string& address) mutable {
     connection.environment = address;
-    return connection.connectOptions();
+    return connection.awaitServer(connection.connectOptions(), "view");
   };
   const auto source = openView(a.source, connect_options, a.changes, a.seed);
   refuseOverwriting(source->inputs(), {a.offscreen});
@@ -131,12 +133,14 @@ void addView(CLI::App& program) {
   auto* command = addSubcommand(program, "view");
   auto a = std::make_shared<ViewArguments>();
   command
-      ->add_option("SOURCE", a->source,
-                   "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program")
+      ->add_option(
+          "SOURCE", a->source,
+          "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program; shipped "
+          "files also by name alone: maze_20x20")
       ->type_name("ADDRESS|FILE")
       ->required();
   addRobotOptions(*command, a->changes);
-  command->add_option("--seed", a->seed, "seed of the positions of --random-robots; 0 to 2^64 - 1")
+  command->add_option("--seed", a->seed, "worlds: seed of the places of --random-robots and <scatter>; 0 to 2^64 - 1")
       ->check(seedNumber())
       ->type_name("NUMBER")
       ->capture_default_str();
@@ -169,6 +173,7 @@ void addView(CLI::App& program) {
       ->check(numberIn(1, 120))
       ->capture_default_str();
   addSecurityOptions(*command, a->connection);
+  addConnectTimeout(*command, a->connection);
   command->footer(
       "In the window:\n"
       "  left drag      move (2D), turn (3D)        wheel      zoom\n"

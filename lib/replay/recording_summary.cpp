@@ -138,13 +138,14 @@ nlohmann::ordered_json asJson(const Contents& contents, const ReplayArguments& a
   return json;
 }
 
-/// "all_halted, Pioneer1 has won, digest …"
+/// "all_halted, Pioneer1 has won, digest …" or "observer coverage: 90.1 % covered, digest …"
 std::string endIn(const nlohmann::ordered_json& outcome) {
   const auto of = [&](const char* key) {
     const auto found = outcome.find(key);
     return found != outcome.end() && found->is_string() ? found->get<std::string>() : "";
   };
   std::string text = of("ended_by");
+  if (!of("ended_by_observer").empty()) text += " " + of("ended_by_observer") + ": " + of("end_reason");
   if (!of("won_by").empty()) text += ", " + of("won_by") + " has won";
   if (!of("gold_found_by").empty()) text += ", gold found by " + of("gold_found_by");
   const auto clients = outcome.find("clients");

@@ -171,6 +171,7 @@ class Scatterer {
     }
     RobotPlacement& copy = world_.robots.emplace_back(std::get<RobotPlacement>(scatter.copied));
     copy.name = scatter.nameOf(number);
+    copy.neighbour = scatter.neighbourOf(number);
     copy.world_from_robot = pose;
     if (copy.body) copy.body->world_from_body = pose;
   }

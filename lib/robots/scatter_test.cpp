@@ -108,6 +108,20 @@ TEST(Scatter, NumbersTheNames) {
   EXPECT_EQ(world.objects[1].name, "Pillar2");
 }
 
+TEST(Scatter, LinksRobotsToARing) {
+  World world = square();
+  Scatter robots;
+  robots.count = 3;
+  robots.copied = robotOf("scout", "Scout", 0);
+  robots.has_neighbour_ring = true;
+  world.scatters = {robots};
+  world = placed(world);
+  ASSERT_EQ(world.robots.size(), 3u);
+  for (const auto& [i, neighbour] : {std::pair{0u, "Scout2"}, {1u, "Scout3"}, {2u, "Scout1"}}) {
+    EXPECT_EQ(world.robots[i].neighbour, neighbour);
+  }
+}
+
 TEST(Scatter, FreePlacesAvoidClosedPocketsAndOtherAreas) {
   // A wall at x = 0 divides the square; its larger part in the area is on the right.
   World world = square();

@@ -74,9 +74,9 @@ class LocalRun {
 
   /// What fork() does with robots that LocalRun does not run the controllers of.
   enum class Elsewhere { refuse, keep };
-  /// A run that continues from the present state, independently of this one and without observers.
+  /// A run that continues from the present state, independently of this one.
   /// @throws ConfigError naming the robot and its controller when the controller has no Controller::clone(), or when
-  /// another process drives the robot and `elsewhere` is refuse
+  /// another process drives the robot and `elsewhere` is refuse; naming an observer that has no Observer::clone()
   std::unique_ptr<LocalRun> fork(Elsewhere elsewhere = Elsewhere::refuse) const;
 
   /// Runs every controller, then takes one time step.
@@ -94,7 +94,7 @@ class LocalRun {
   const GoldOutcome& gold() const { return gold_; }
   const RunObservers& observers() const { return observers_; }
   /// Whether the run has reached an end of its own: all robots have halted, or an observer ends it.
-  bool isOver() const { return gold_.all_halted_s.has_value() || !observers_.endReason().empty(); }
+  bool isOver() const { return gold_.all_halted_s.has_value() || observers_.end(); }
   /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
   /// random number. Assumed for robots driven by another process.
   bool dependsOnSeed() const;

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,13 +19,19 @@ class RunObservers {
   /// @throws ConfigError for an unknown observer or an invalid parameter
   /// @throws ObserverError for an exception of an observer's constructor
   RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging = true);
+  /// Copies that continue independently, for a fork of the run.
+  struct Fork {
+    const RunObservers& original;
+  };
+  /// @throws ConfigError naming an observer that cannot be copied
+  explicit RunObservers(Fork fork);
   RunObservers(const RunObservers&) = delete;
   RunObservers& operator=(const RunObservers&) = delete;
 
   /// Lets all observe the present state. @throws ObserverError
   void observe(const Environment& environment);
-  /// "OBSERVER: reason" of the first observer that ends the run; empty to continue.
-  const std::string& endReason() const { return end_reason_; }
+  /// The first observer that ends the run; nullopt to continue.
+  const std::optional<ObserverEnd>& end() const { return end_; }
   /// The metrics of all, "OBSERVER.METRIC". @throws ObserverError
   std::vector<Metric> metrics() const;
 
@@ -33,8 +40,12 @@ class RunObservers {
     std::string choice, name;
     std::unique_ptr<Observer> observer;
   };
+  ObserverSetup setupOf(const std::string& name);
+
+  std::uint64_t seed_;
+  bool is_logging_;
   double now_s_ = 0;  ///< simulated time of the present observation, for log lines
-  std::string end_reason_;
+  std::optional<ObserverEnd> end_;
   std::vector<Named> observers_;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "run/local_run.h"
 #include "run/run_summary.h"
@@ -68,6 +69,38 @@ TEST(RunObservers, EndARunWithAReasonInItsSummary) {
   summary.ended_by = endedByItself(run);
   EXPECT_NE(summary.text().find("ended by counting: counted enough"), std::string::npos) << summary.text();
   EXPECT_NE(summary.text().find("counting.calls"), std::string::npos);
+  EXPECT_EQ(summary.json()["ended_by"], "observer");
+  EXPECT_EQ(summary.json()["ended_by_observer"], "counting");
+  EXPECT_EQ(summary.json()["end_reason"], "counted enough");
+  summary.ended_by = EndedBy::interrupt;
+  EXPECT_TRUE(summary.json()["ended_by_observer"].is_null()) << "what it would end is over already";
+}
+
+TEST(RunObservers, ContinueInAForkFromTheSameState) {
+  RunOptions options;
+  options.controller = "wander";
+  options.observers = {"coverage cell_m=0.1 end_percent=90"};
+  LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", "wander"), options);
+  for (int i = 0; i < 50; ++i) run.step();
+  const auto fork = run.fork();
+  const double until_fork = run.observers().metrics()[0].value;
+  for (int i = 0; i < 50; ++i) fork->step();
+  EXPECT_EQ(run.observers().metrics()[0].value, until_fork);
+  EXPECT_GT(fork->observers().metrics()[0].value, until_fork);
+  for (int i = 0; i < 50; ++i) run.step();
+  EXPECT_EQ(fork->observers().metrics()[0].value, run.observers().metrics()[0].value);
+}
+
+TEST(RunObservers, AreNamedWhenTheyCannotBeForked) {
+  const LocalRun run = runWith({"counting end_step=9"});
+  try {
+    run.fork();
+    FAIL() << "no exception";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "observer 'counting end_step=9': has no clone(), so that its run cannot be forked; add "
+                 "Observer::clone() to it, or run without it");
+  }
 }
 
 TEST(RunObservers, DoNotChangeARun) {

@@ -40,8 +40,8 @@ nlohmann::ordered_json orNull(const std::optional<T>& value) {
 constexpr const char* kSeedHadNoEffect =
     " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
 
-/// @param observer_end RunObservers::endReason()
-std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::string& observer_end) {
+/// @param observer_end RunObservers::end()
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional<ObserverEnd>& observer_end) {
   std::string text = "no gold found";
   if (gold.won_by) {
     text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
@@ -54,7 +54,9 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::string& 
   if (why == EndedBy::control_panel) text += "; ended from a control panel";
   if (why == EndedBy::robot_lost) text += "; ended because a robot was lost";
   if (why == EndedBy::window_closed) text += "; ended by closing the window";
-  if (why == EndedBy::observer) text += "; ended by " + observer_end;
+  if (why == EndedBy::observer && observer_end) {
+    text += "; ended by " + observer_end->observer + ": " + observer_end->reason;
+  }
   return text;
 }
 
@@ -63,6 +65,22 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::string& 
 EndedBy endedByItself(const LocalRun& run) {
   if (run.gold().all_halted_s) return EndedBy::all_halted;
   return run.isOver() ? EndedBy::observer : EndedBy::time_limit;
+}
+
+nlohmann::ordered_json metricsJson(const std::vector<Metric>& metrics) {
+  auto by_name = nlohmann::ordered_json::object();
+  for (const auto& metric : metrics) {
+    by_name[metric.name] = std::isfinite(metric.value) ? nlohmann::ordered_json(metric.value) : nullptr;
+  }
+  return by_name;
+}
+
+Rows metricRows(const std::vector<Metric>& metrics) {
+  Rows rows;
+  for (const auto& metric : metrics) {
+    rows.push_back({metric.name, std::isfinite(metric.value) ? fixed(metric.value, 3) : "none"});
+  }
+  return rows;
 }
 
 RunSummary RunSummary::of(const LocalRun& run) {
@@ -80,15 +98,12 @@ RunSummary RunSummary::of(const LocalRun& run) {
   summary.messages = state.messages_delivered;
   summary.messages_dropped = state.messages_dropped;
   summary.metrics = run.observers().metrics();
-  summary.observer_end = run.observers().endReason();
+  summary.observer_end = run.observers().end();
   return summary;
 }
 
 nlohmann::ordered_json RunSummary::json() const {
-  auto by_name = nlohmann::ordered_json::object();
-  for (const auto& metric : metrics) {
-    by_name[metric.name] = std::isfinite(metric.value) ? nlohmann::ordered_json(metric.value) : nullptr;
-  }
+  const bool is_ended_by_observer = ended_by == EndedBy::observer && observer_end;
   return {{"world", world},
           {"seed", seed},
           {"depends_on_seed", depends_on_seed},
@@ -98,6 +113,8 @@ nlohmann::ordered_json RunSummary::json() const {
           {"wall_s", wall_s},
           {"real_time_factor", realTimeFactor()},
           {"ended_by", nameOf(ended_by)},
+          {"ended_by_observer", is_ended_by_observer ? nlohmann::ordered_json(observer_end->observer) : nullptr},
+          {"end_reason", is_ended_by_observer ? nlohmann::ordered_json(observer_end->reason) : nullptr},
           {"digest", digest},
           {"gold_found", gold.found_s.has_value()},
           {"gold_found_by", orNull(gold.found_by)},
@@ -110,7 +127,7 @@ nlohmann::ordered_json RunSummary::json() const {
           {"messages", messages},
           {"messages_dropped", messages_dropped},
           {"late", orNull(late)},
-          {"metrics", by_name},
+          {"metrics", metricsJson(metrics)},
           {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
 }
 
@@ -126,9 +143,7 @@ std::string RunSummary::text() const {
   if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
   rows.push_back({"seed", std::to_string(seed) + (depends_on_seed ? "" : kSeedHadNoEffect)});
   rows.push_back({"digest", digest});
-  for (const auto& metric : metrics) {
-    rows.push_back({metric.name, std::isfinite(metric.value) ? fixed(metric.value, 3) : "none"});
-  }
+  for (auto& row : metricRows(metrics)) rows.push_back(std::move(row));
   std::string sentence = sentenceOn(gold, ended_by, observer_end);
   if (report) {
     addClients(*report, rows);

@@ -119,7 +119,8 @@ TEST(Include, ReadsFromDisk) {
 TEST(ScatterElement, IsWrittenAsRead) {
   Lines faults;
   const World world = read(
-      "<scatter count='3' pattern='grid' xmin='0' gap='0.5' direction='1'><robot model='scout' name='S'/></scatter>"
+      "<scatter count='3' pattern='grid' xmin='0' gap='0.5' direction='1' neighbours='ring'>"
+      "<robot model='scout' name='S'/></scatter>"
       "<scatter count='5' pattern='ring' radius='4'><primitive><cube><name>Box</name><z>1</z><length>1</length>"
       "<width>0.5</width><height>2</height></cube></primitive></scatter>",
       {}, faults);
@@ -151,6 +152,34 @@ TEST(ScatterElement, ReportsFaults) {
   EXPECT_NE(
       faultsWithFiles("<scatter count='2' xmin='3' xmax='2'>" + robot + "</scatter>").at(0).find("without extent"),
       std::string::npos);
+}
+
+TEST(ScatterElement, GivesCopiesTheSameNeighbourOrARing) {
+  Lines faults;
+  const World world = read(
+      "<scatter count='3' neighbours='ring'><robot model='scout' name='S'/></scatter>"
+      "<scatter count='2'><robot model='scout' name='T' neighbour='S2'/></scatter>"
+      "<scatter count='1' neighbours='ring'><robot model='scout' name='Alone'/></scatter>",
+      {}, faults);
+  EXPECT_EQ(faults, Lines{});
+  ASSERT_EQ(world.scatters.size(), 3u);
+  EXPECT_EQ(world.scatters[0].neighbourOf(1), "S2");
+  EXPECT_EQ(world.scatters[0].neighbourOf(3), "S1");
+  EXPECT_EQ(world.scatters[1].neighbourOf(2), "S2");
+  EXPECT_EQ(world.scatters[2].neighbourOf(1), "") << "a robot is not its own neighbour";
+}
+
+TEST(ScatterElement, ReportsInvalidNeighbours) {
+  const auto fault = [](const std::string& settings, const std::string& neighbour) {
+    return faultsWithFiles("<scatter count='2'" + settings + "><robot model='scout' name='S' neighbour='" + neighbour +
+                           "'/></scatter>");
+  };
+  EXPECT_EQ(fault("", "Ann"), Lines{"worlds/w.xml:1: <robot neighbour=\"Ann\">: is not the name of a robot; the robots "
+                                    "are: S1, S2"});
+  EXPECT_EQ(fault("", "S2"), Lines{"worlds/w.xml:1: <robot neighbour=\"S2\">: is one of the copies themselves; name "
+                                   "another robot, or drop it and add neighbours=\"ring\" to the <scatter>"});
+  EXPECT_NE(fault(" neighbours='ring'", "S2").at(0).find("is given beside neighbours=\"ring\" of the <scatter>"),
+            std::string::npos);
 }
 
 }  // namespace

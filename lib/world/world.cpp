@@ -24,6 +24,12 @@ std::string Scatter::nameOf(int number) const {
   return std::visit([](const auto& it) { return it.name; }, copied) + std::to_string(number);
 }
 
+std::string Scatter::neighbourOf(int number) const {
+  const auto* robot = std::get_if<RobotPlacement>(&copied);
+  if (!robot || !has_neighbour_ring) return robot ? robot->neighbour : "";
+  return count == 1 ? "" : nameOf(number % count + 1);
+}
+
 std::string World::fileOf(const SourceLine& line, const std::string& world_file) const {
   if (line.file == 0) return world_file;
   const auto& included_name = origin.included[static_cast<std::size_t>(line.file - 1)];

@@ -96,12 +96,15 @@ struct Scatter {
   double gap_m = 0;                     ///< minimum distance to each other and to anything else, >= 0
   std::optional<double> direction_rad;  ///< nullopt: random
   std::variant<RobotPlacement, WorldObject>
-      copied;  ///< its name is followed by the number: 1, 2, …; its pose is unused
+      copied;                       ///< its name is followed by the number: 1, 2, …; its pose is unused
+  bool has_neighbour_ring = false;  ///< robots: each has the next as its neighbour, and the last has the first
   SourceLine line;
   bool operator==(const Scatter&) const = default;
 
   /// Name of the copy with this number.
   std::string nameOf(int number) const;
+  /// Name of the neighbour of the copy with this number; empty: none.
+  std::string neighbourOf(int number) const;
 };
 
 /// Maximum number of scattered robots and objects in a world; bounds the memory that a short file takes.

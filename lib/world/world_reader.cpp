@@ -2,32 +2,34 @@
 #include <cctype>
 #include <cmath>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "base/label.h"
 #include "base/portable_pose.h"
-#include "base/printable_text.h"
-#include "base/type_choice.h"
 #include "base/xml_parser.h"
 #include "base/xml_reader.h"
 #include "world/caching_file_provider.h"
 #include "world/included_files.h"
+#include "world/placement_reader.h"
+#include "world/scatter_reader.h"
 #include "world/world_file.h"
 
 namespace robosim {
 namespace {
 
-using Color = std::array<float, 3>;
-
 /// Maximum length unit; files use kilometres at most.
 constexpr double kUnitMax_m = 1000;
 
+/// Reads the elements of a world file, except those of its robots and objects.
 class WorldReader {
  public:
   WorldReader(const XmlElement& root, const std::string& file, const FileProvider& files, ErrorList& errors)
-      : root_(root, file, errors), files_(files), errors_(errors), includes_(files, errors) {
+      : root_(root, file, errors),
+        files_(files),
+        errors_(errors),
+        includes_(files, errors),
+        placements_(world_, root_.file()),
+        scatters_(world_, placements_) {
     world_.name = std::filesystem::path(file).stem().string();
   }
 
@@ -40,14 +42,16 @@ class WorldReader {
     world_.win_distance_m = root_.length("win_distance", Bounds::positive(), world_.unit_m, kWinDistance_m);
     XmlReader surface = root_.requiredChild("surface");
     readSurface(surface);
-    nameScattered();
+    scatters_.checkNames();
     if (auto communication = root_.child("communication")) readCommunication(*communication);
     root_.finish();
-    checkNeighbours();
+    placements_.checkNeighbours();
     return std::move(world_);
   }
 
  private:
+  using Place = PlacementReader::Place;
+
   void readSurface(XmlReader& surface) {
     world_.surface_type = surface.word("type", "smooth");
     includes_.read(surface);
@@ -60,7 +64,7 @@ class WorldReader {
     readSize(surface);
     for (auto* part : parts) {
       for (auto& object : part->all("object")) readObject(object);
-      for (auto& scatter : part->all("scatter")) readScatter(scatter);
+      for (auto& scatter : part->all("scatter")) scatters_.read(scatter);
       part->finish();
     }
   }
@@ -111,12 +115,12 @@ class WorldReader {
     const auto place = [&](const char* tag) { return reader.length(tag, Bounds::any(), world_.unit_m, 0); };
     map.world_from_map = {place("x"), place("y"), reader.number("direction", Bounds::any(), 0)};
     map.height_m = reader.length("height", Bounds::positive(), world_.unit_m, map.height_m);
-    if (const auto color = readColor(reader)) map.color = *color;
+    if (const auto color = PlacementReader::readColor(reader)) map.color = *color;
     try {
       if (errors_.count() == faults) readMapSettings(reader, mapFormatOf(map.file), map.reading);
       reader.finish();
       if (errors_.count() == faults) map.plan = readMap(map.file, files_, map.reading);
-      for (const auto& start : map.plan.starts) starts_.push_back(portable::compose(map.world_from_map, start));
+      for (const auto& start : map.plan.starts) placements_.addStart(portable::compose(map.world_from_map, start));
     } catch (const ConfigError& error) {
       for (const auto& fault : error.errors()) addMapError(reader, map.file, fault);
     }
@@ -163,241 +167,14 @@ class WorldReader {
     auto robot = shape.child("robot");
     if (!primitive && !robot) shape.error("contains neither a <primitive> nor a <robot>; add one");
     if (primitive && robot) robot->error("is given beside a <primitive>; put each in its own <object>");
-    if (primitive) world_.objects.push_back(readPrimitive(*primitive, Place::given));
-    if (robot) world_.robots.push_back(readRobot(*robot, Place::given));
+    if (primitive) world_.objects.push_back(placements_.readPrimitive(*primitive, Place::given));
+    if (robot) world_.robots.push_back(placements_.readRobot(*robot, Place::given));
     shape.finish();
     object.finish();
   }
 
-  void readScatter(XmlReader& reader) {
-    Scatter scatter;
-    scatter.line = reader.line();
-    const double count = reader.number("count", {1, kScatteredMax});
-    if (count != std::floor(count)) reader.errorAt("count", "must be a whole number");
-    scatter.count = std::max(1, static_cast<int>(count));
-    using enum ScatterPattern;
-    scatter.pattern = reader.choice<ScatterPattern>(
-        "pattern", {{"uniform", uniform}, {"free", free}, {"grid", grid}, {"ring", ring}}, uniform);
-    if (scatter.pattern == ring) {
-      scatter.ring_center = {reader.length("x", Bounds::any(), world_.unit_m, 0),
-                             reader.length("y", Bounds::any(), world_.unit_m, 0)};
-      scatter.ring_radius_m = length(reader, "radius", Bounds::positive());
-    } else {
-      readArea(reader, scatter);
-    }
-    scatter.gap_m = reader.length("gap", Bounds::notNegative(), world_.unit_m, 0);
-    if (reader.has("direction")) scatter.direction_rad = reader.number("direction", Bounds::any());
-    auto primitive = reader.child("primitive");
-    auto robot = reader.child("robot");
-    if (!primitive && !robot) reader.error("contains neither a <primitive> nor a <robot> to scatter; add one");
-    if (primitive && robot) robot->error("is given beside a <primitive>; put each in its own <scatter>");
-    if (primitive) scatter.copied = readPrimitive(*primitive, Place::scattered);
-    if (robot) scatter.copied = readRobot(*robot, Place::scattered);
-    reader.finish();
-    scatter_readers_.push_back(reader);
-    world_.scatters.push_back(std::move(scatter));
-  }
-
-  void readArea(XmlReader& reader, Scatter& scatter) {
-    if (!reader.has("xmin") && !reader.has("xmax") && !reader.has("ymin") && !reader.has("ymax")) return;
-    const Bounds2D& all = world_.bounds;
-    const auto side = [&](const char* name, double otherwise_m) {
-      return reader.length(name, Bounds::any(), world_.unit_m, otherwise_m);
-    };
-    scatter.area = {side("xmin", all.x_min), side("xmax", all.x_max), side("ymin", all.y_min), side("ymax", all.y_max)};
-    if (scatter.area->x_min >= scatter.area->x_max || scatter.area->y_min >= scatter.area->y_max) {
-      reader.error("has an area without extent; xmin must be below xmax, and ymin below ymax");
-    }
-  }
-
-  /// Checks that the names of all copies are free. Comes last, so that a conflict is reported at the <scatter>.
-  void nameScattered() {
-    std::size_t total = 0;
-    for (std::size_t i = 0; i < world_.scatters.size(); ++i) {
-      const Scatter& scatter = world_.scatters[i];
-      XmlReader& reader = scatter_readers_[i];
-      total += static_cast<std::size_t>(scatter.count);
-      if (total > kScatteredMax) {
-        reader.errorAt("count", "makes more than " + std::to_string(kScatteredMax) +
-                                    " scattered robots and objects; use smaller counts");
-        return;
-      }
-      for (int k = 1; k <= scatter.count; ++k) {
-        const std::string name = scatter.nameOf(k);
-        const auto [first, is_new] = line_of_name_.emplace(name, reader.line());
-        if (is_new) continue;
-        reader.error("'" + quotable(name) + "' is taken already, " + lineText(first->second, reader.line()) +
-                     "; scatter with another <name>");
-        break;
-      }
-    }
-  }
-
-  /// Whether the place of a robot or an object is given, or that of a <scatter>.
-  enum class Place { given, scattered };
-
-  WorldObject readPrimitive(XmlReader& primitive, Place place) {
-    WorldObject object;
-    object.line = primitive.line();
-    if (auto solid = solidIn(primitive)) {
-      object.line = solid->line();
-      object.name = place == Place::given ? readName(*solid) : solid->word("name");
-      object.body = readBody(*solid, place);
-      object.stationary = solid->flag("stationary", true);
-      solid->finish();
-    } else {
-      primitive.error("contains neither a <cylinder> nor a <cube>; add one");
-    }
-    primitive.finish();
-    return object;
-  }
-
-  RobotPlacement readRobot(XmlReader& robot, Place place) {
-    RobotPlacement placement;
-    placement.line = robot.line();
-    placement.model = robot.word("model", "");
-    if (auto solid = solidIn(robot)) {
-      placement.name = readRobotName(*solid, place);
-      placement.body = readBody(*solid, place);
-      placement.world_from_robot = placement.body->world_from_body;
-      solid->flag("stationary", false);  // 2005 files set it for robots too; ignored
-      solid->finish();
-    } else if (robot.has("model")) {
-      placement.name = readRobotName(robot, place);
-      if (place == Place::given) placement.world_from_robot = readPlace(robot);
-      placement.color = readColor(robot);
-    } else {
-      robot.error("has no body; add a <cylinder> or <cube>, or a <model> that has one");
-    }
-    for (const auto& sensor : robot.all("sensor")) placement.sensors.push_back(sensor.element());
-    if (auto sensors = robot.child("sensors")) {
-      for (const auto& sensor : sensors->all()) placement.sensors.push_back(sensor.element());
-      sensors->finish();
-    }
-    readController(robot, placement);
-    if (place == Place::given) {
-      placement.neighbour = robot.word("neighbour", "");
-      if (!placement.neighbour.empty()) neighbours_.emplace_back(robot, world_.robots.size());
-    }
-    robot.finish();
-    return placement;
-  }
-
-  /// <controller>NAME</controller>, or <controller name="NAME" PARAMETER="VALUE"…/>.
-  void readController(XmlReader& robot, RobotPlacement& placement) {
-    const auto& children = robot.element().children;
-    const auto found = std::find_if(children.begin(), children.end(),
-                                    [](const XmlElement& child) { return child.name == "controller"; });
-    placement.controller_line = found == children.end() ? robot.line() : found->line;
-    if (found == children.end() || found->attributes.empty()) {
-      placement.controller = robot.word("controller", "");
-      try {
-        if (!placement.controller.empty()) TypeChoice::parse(placement.controller);
-      } catch (const ConfigError& error) {
-        robot.errorAt("controller", error.what());
-      }
-      return;
-    }
-    XmlReader controller = *robot.child("controller");
-    TypeChoice choice{controller.word("name"), {}};
-    for (const auto& [parameter, value] : found->attributes) {
-      if (parameter == "name") continue;
-      choice.parameters.emplace_back(parameter, controller.word(parameter));
-      if (value.find_first_of(" \t\n") != std::string::npos) controller.errorAt(parameter, "must be a single number");
-    }
-    controller.finish();
-    placement.controller = choice.text();
-  }
-
-  /// The <cylinder> or <cube> inside; nullopt if there is none.
-  std::optional<XmlReader> solidIn(XmlReader& owner) {
-    auto cylinder = owner.child("cylinder");
-    auto cube = owner.child("cube");
-    if (cylinder && cube) cube->error("is given beside a <cylinder>; keep one");
-    return cylinder ? cylinder : cube;
-  }
-
-  Body readBody(XmlReader& solid, Place place) {
-    Body body;
-    if (solid.name() == "cylinder") {
-      body.shape = Cylinder{length(solid, "radius", Bounds::positive())};
-    } else {
-      const double length_m = length(solid, "length", Bounds::positive());
-      body.shape = Cube{length_m, length(solid, "width", Bounds::positive())};
-    }
-    if (place == Place::given) body.world_from_body = readPose(solid);
-    body.center_z_m = length(solid, "z");
-    body.height_m = length(solid, "height", Bounds::positive());
-    if (const auto color = readColor(solid)) body.color = *color;
-    body.heat_celsius = solid.number("hot", Bounds::notNegative(), 0);
-    return body;
-  }
-
-  /// A robot without a position gets the next start pose that a map gives.
-  mrpt::math::TPose2D readPlace(XmlReader& robot) {
-    if (robot.has("x") || robot.has("y") || next_start_ == starts_.size()) return readPose(robot);
-    mrpt::math::TPose2D start = starts_[next_start_++];
-    start.phi = robot.number("direction", Bounds::any(), start.phi);
-    return start;
-  }
-
-  mrpt::math::TPose2D readPose(XmlReader& reader) {
-    const double x = length(reader, "x");
-    const double y = length(reader, "y");
-    return {x, y, reader.number("direction", Bounds::any(), 0)};
-  }
-
-  std::optional<Color> readColor(XmlReader& reader) {
-    const auto rgb = reader.numbers("color", 3, {0, 1}, {});
-    if (rgb.empty()) return std::nullopt;
-    return Color{static_cast<float>(rgb[0]), static_cast<float>(rgb[1]), static_cast<float>(rgb[2])};
-  }
-
-  std::string readName(XmlReader& reader) {
-    std::string name = reader.word("name");
-    if (name.empty()) return name;
-    const auto [first, is_new] = line_of_name_.emplace(name, reader.line());
-    if (!is_new) {
-      reader.errorAt("name", "is taken already, " + lineText(first->second, reader.line()) +
-                                 "; give each object and robot a name of its own");
-    }
-    return name;
-  }
-
-  /// "in line 5", or "in line 5 of FILE" when this is another file than that of the reported line.
-  std::string lineText(const SourceLine& line, const SourceLine& reported) const {
-    const std::string text = "in line " + std::to_string(line.number);
-    return line.file == reported.file ? text : text + " of " + world_.fileOf(line, root_.file());
-  }
-
-  std::string readRobotName(XmlReader& reader, Place place) {
-    std::string name = place == Place::given ? readName(reader) : reader.word("name");
-    const std::string longest = place == Place::given ? name : name + std::to_string(kScatteredMax);
-    if (const std::string fault = robotNameError(longest); !fault.empty()) reader.errorAt("name", fault);
-    return name;
-  }
-
   double length(XmlReader& reader, const char* tag, Bounds bounds = Bounds::any()) {
     return reader.length(tag, bounds, world_.unit_m);
-  }
-
-  void checkNeighbours() {
-    std::vector<std::string> names;
-    for (const auto& robot : world_.robots) names.push_back(robot.name);
-    for (const auto& scatter : world_.scatters) {
-      if (!std::holds_alternative<RobotPlacement>(scatter.copied) || neighbours_.empty()) continue;
-      for (int k = 1; k <= scatter.count; ++k) names.push_back(scatter.nameOf(k));
-    }
-    const std::unordered_set<std::string> known(names.begin(), names.end());
-    const std::string fix = "; the robots are: " + listed(names);
-    for (auto& [reader, index] : neighbours_) {
-      const RobotPlacement& robot = world_.robots[index];
-      if (robot.neighbour == robot.name) {
-        reader.errorAt("neighbour", "is the robot itself; name another one, or drop it");
-      } else if (!known.contains(robot.neighbour)) {
-        reader.errorAt("neighbour", "is not the name of a robot" + fix);
-      }
-    }
   }
 
   XmlReader root_;
@@ -405,11 +182,8 @@ class WorldReader {
   ErrorList& errors_;
   IncludedFiles includes_;  ///< readers refer to them
   World world_;
-  std::unordered_map<std::string, SourceLine> line_of_name_;
-  std::vector<mrpt::math::TPose2D> starts_;  ///< start poses given by maps, world frame
-  std::size_t next_start_ = 0;
-  std::vector<std::pair<XmlReader, std::size_t>> neighbours_;  ///< robots with a neighbour, and their index
-  std::vector<XmlReader> scatter_readers_;                     ///< of World::scatters
+  PlacementReader placements_;
+  ScatterReader scatters_;
 };
 
 /// Clears the line numbers of a world generated around a map, which refer to no file.

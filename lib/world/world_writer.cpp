@@ -69,6 +69,7 @@ class WorldWriter {
       addLength(element, "ymax", scatter.area->y_max);
     }
     addLength(element, "gap", scatter.gap_m);
+    if (scatter.has_neighbour_ring) element.add("neighbours", "ring");
     if (scatter.direction_rad) element.add("direction", toText(*scatter.direction_rad));
     if (const auto* robot = std::get_if<RobotPlacement>(&scatter.copied)) {
       addRobot(element.add("robot"), *robot, Place::scattered);

@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "rendering/plan.h"
+#include "robots/fleet.h"
+#include "robots/world_source.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/serving.h"
 
@@ -40,6 +43,23 @@ TEST(ScatteredWorld, IsLoadedWithTheSeedOfTheLoad) {
   const Ended ended = serving.program().wait();
   EXPECT_NE(ended.out.find(digestOf(std::string("run ") + kSwarm + " --time 5 --seed 7")), std::string::npos)
       << ended.out << ended.err;
+}
+
+TEST(ScatteredWorld, IsExportedWithTheSeedOfARun) {
+  const auto folder = emptyFolder();
+  const auto plan = [&](const std::string& seed) {
+    const auto file = folder / "plan.svg";
+    const Ended ended = runProgram(std::string("export ") + kSwarm + " " + quoted(file) + seed);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return textOf(file);
+  };
+  const auto planOfRun = [](std::uint64_t seed) {
+    const LoadedWorld loaded = loadWorld(std::string(ROBOSIM_SOURCE_DIR "/") + kSwarm, {}, seed);
+    return planPicture(requirePictureFormat("plan.svg"), loaded.world, loaded.fleet, startOf(loaded.fleet));
+  };
+  EXPECT_EQ(plan(" --seed 7"), planOfRun(7));
+  EXPECT_EQ(plan(""), planOfRun(1));
+  EXPECT_NE(planOfRun(7), planOfRun(1));
 }
 
 TEST(ScatteredWorld, RefusesToOverwriteAnIncludedFile) {
