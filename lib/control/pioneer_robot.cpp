@@ -21,25 +21,9 @@ constexpr double kHalfTrack_mm = 178.6;
 constexpr double kMoveDone_mm = 40;
 constexpr double kHeadingDone_deg = 3;
 
-/// Whether `deg` lies in the counter-clockwise interval from `from_deg` to `to_deg`.
-bool isBetween(double deg, double from_deg, double to_deg) {
-  const auto upwards = [from_deg](double angle) {
-    const double rest = std::fmod(angle - from_deg, 360);
-    return rest < 0 ? rest + 360 : rest;
-  };
-  if (to_deg - from_deg >= 360) return true;
-  return upwards(deg) <= upwards(to_deg);
-}
-
 int toMm(double range_m) { return static_cast<int>(std::lround(range_m * kMmPerM)); }
 
 }  // namespace
-
-double PioneerPose::findDistanceTo(const PioneerPose& other) const { return portable::hypot(other.x - x, other.y - y); }
-
-double PioneerPose::findAngleTo(const PioneerPose& other) const {
-  return portable::atan2(other.y - y, other.x - x) * kDegPerRad;
-}
 
 PioneerRobot::PioneerRobot(Robot& robot) : robot_(robot), drive_(robot) {}
 
@@ -213,7 +197,7 @@ int PioneerRobot::getClosestSonarNumber(double from_deg, double to_deg) const {
   int closest = -1;
   for (int i = 0; i < getNumSonar(); ++i) {
     const auto& mount = robot_.sensor(SensorKind::sonar)->beams[static_cast<std::size_t>(i)].robot_from_beam;
-    if (!isBetween(mount.yaw * kDegPerRad, from_deg, to_deg)) continue;
+    if (!Math::angleBetween(mount.yaw * kDegPerRad, from_deg, to_deg)) continue;
     if (closest < 0 || getSonarRange(i) < getSonarRange(closest)) closest = i;
   }
   return closest;
@@ -248,7 +232,8 @@ double PioneerRobot::nearestEcho(const Accept& accept, double if_none) const {
 
 double PioneerRobot::checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double if_none) const {
   return nearestEcho(
-      [&](double x, double y) { return isBetween(portable::atan2(y, x) * kDegPerRad, from_deg, to_deg); }, if_none);
+      [&](double x, double y) { return Math::angleBetween(portable::atan2(y, x) * kDegPerRad, from_deg, to_deg); },
+      if_none);
 }
 
 double PioneerRobot::checkRangeDevicesCurrentBox(double x1, double y1, double x2, double y2, double if_none) const {

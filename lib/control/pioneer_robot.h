@@ -9,19 +9,10 @@
 #include "control/action.h"
 #include "control/blocking_controller.h"
 #include "control/motion_profile.h"
+#include "control/pioneer_pose.h"
 #include "control/robot.h"
 
 namespace robosim {
-
-/// A pose in ARIA's units: x, y [mm], th [deg], within (-180, 180].
-struct PioneerPose {
-  double x = 0, y = 0, th = 0;
-  double getX() const { return x; }
-  double getY() const { return y; }
-  double getTh() const { return th; }
-  double findDistanceTo(const PioneerPose& other) const;  ///< [mm]
-  double findAngleTo(const PioneerPose& other) const;     ///< direction towards `other` [deg]
-};
 
 /// One sonar's echo in ARIA's units.
 struct PioneerSonarReading {
