@@ -1,16 +1,11 @@
 #include "control/pioneer_pose.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/portable_math.h"
+#include "control/pioneer_units.h"
 
 namespace robosim {
-namespace {
-
-constexpr double kDegPerRadian = 180 / std::numbers::pi;
-
-}  // namespace
 
 double Math::fixAngle(double deg) {
   if (-180 < deg && deg <= 180) return deg;
@@ -18,8 +13,8 @@ double Math::fixAngle(double deg) {
   return fixed == -180 ? 180 : fixed;
 }
 
-double Math::degToRad(double deg) { return deg / kDegPerRadian; }
-double Math::radToDeg(double rad) { return rad * kDegPerRadian; }
+double Math::degToRad(double deg) { return deg / kDegPerRad; }
+double Math::radToDeg(double rad) { return rad * kDegPerRad; }
 double Math::sin(double deg) { return portable::sin(degToRad(deg)); }
 double Math::cos(double deg) { return portable::cos(degToRad(deg)); }
 double Math::atan2(double y, double x) { return radToDeg(portable::atan2(y, x)); }
