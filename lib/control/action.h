@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,11 +27,23 @@ class ActionDesired {
   void setVel(double mm_ps, double strength = MAX_STRENGTH);
   /// A turn relative to the present heading [deg].
   void setDeltaHeading(double deg, double strength = MAX_STRENGTH);
+  /// A heading in the frame of PioneerRobot::getPose() [deg]; the resolver turns it into a turn by the smaller angle.
+  void setHeading(double deg, double strength = MAX_STRENGTH);
   void setRotVel(double deg_ps, double strength = MAX_STRENGTH);
   /// Maximum forward speed. The lowest of several limits applies, regardless of priority.
   void setMaxVel(double mm_ps);
   /// Maximum backward speed, negative. The limit nearest to 0 applies, regardless of priority.
   void setMaxNegVel(double mm_ps);
+  /// Maximum turn speed, to either side. The lowest of several limits applies, regardless of priority.
+  void setMaxRotVel(double deg_ps);
+  /// @name Accelerations [mm/s², deg/s²] for this step in place of the robot's, limited by the hardware
+  /// Of several actions, the lowest acceleration and the highest deceleration apply. @param value positive
+  ///@{
+  void setTransAccel(double value) { trans_accel_ = value; }
+  void setTransDecel(double value) { trans_decel_ = value; }
+  void setRotAccel(double value) { rot_accel_ = value; }
+  void setRotDecel(double value) { rot_decel_ = value; }
+  ///@}
   void reset() { *this = {}; }
 
   double getVel() const { return vel_.value; }
@@ -41,6 +54,18 @@ class ActionDesired {
   double getRotVelStrength() const { return turns_by_speed_ ? turn_.strength : NO_STRENGTH; }
   double getMaxVel() const { return max_vel_; }
   double getMaxNegVel() const { return max_neg_vel_; }
+  double getMaxRotVel() const { return max_rot_vel_; }
+  /// MAX_STRENGTH with a limit, NO_STRENGTH without.
+  double getMaxVelStrength() const { return max_vel_ < kUnlimited ? MAX_STRENGTH : NO_STRENGTH; }
+  double getMaxNegVelStrength() const { return max_neg_vel_ > -kUnlimited ? MAX_STRENGTH : NO_STRENGTH; }
+  double getMaxRotVelStrength() const { return max_rot_vel_ < kUnlimited ? MAX_STRENGTH : NO_STRENGTH; }
+  /// nullopt to leave the robot's.
+  std::optional<double> getTransAccel() const { return trans_accel_; }
+  std::optional<double> getTransDecel() const { return trans_decel_; }
+  std::optional<double> getRotAccel() const { return rot_accel_; }
+  std::optional<double> getRotDecel() const { return rot_decel_; }
+  /// Replaces a desired heading by the turn from the present heading [deg].
+  void accountForRobotHeading(double th_deg);
 
   /// Fills the quantities left open from an action of lower priority.
   void fillFrom(const ActionDesired& lower);
@@ -49,11 +74,14 @@ class ActionDesired {
 
  private:
   void setTurn(double value, double strength, bool by_speed);
+  void limitAsWell(const ActionDesired& other);
 
   static constexpr double kUnlimited = 1e9;
   DesiredChannel vel_, turn_;
   bool turns_by_speed_ = false;  ///< turn_ is a speed [deg/s]; otherwise an angle [deg]
-  double max_vel_ = kUnlimited, max_neg_vel_ = -kUnlimited;
+  bool is_heading_ = false;      ///< turn_ is a heading until accountForRobotHeading()
+  double max_vel_ = kUnlimited, max_neg_vel_ = -kUnlimited, max_rot_vel_ = kUnlimited;
+  std::optional<double> trans_accel_, trans_decel_, rot_accel_, rot_decel_;
 };
 
 /// A behaviour that drives a PioneerRobot together with others, like ARIA's ArAction.
@@ -62,13 +90,23 @@ class Action {
   explicit Action(std::string name) : name_(std::move(name)) {}
   virtual ~Action() = default;
   const std::string& getName() const { return name_; }
+  /// Called by PioneerRobot::addAction().
+  virtual void setRobot(PioneerRobot* robot) { robot_ = robot; }
+  PioneerRobot* getRobot() const { return robot_; }  ///< null before the action is added to a robot
 
-  /// Called once per step. @return the desired motion; a default ActionDesired for none.
+  /// An action that is not active is ignored. All are active at first. An override calls these.
+  virtual void activate() { is_active_ = true; }
+  virtual void deactivate() { is_active_ = false; }
+  bool isActive() const { return is_active_; }
+
+  /// Called once per step while the action is active. @return the desired motion; a default ActionDesired for none.
   /// @param current the result of the actions of higher priority.
   virtual ActionDesired fire(PioneerRobot& robot, const ActionDesired& current) = 0;
 
  private:
   std::string name_;
+  PioneerRobot* robot_ = nullptr;
+  bool is_active_ = true;
 };
 
 /// Resolver of the actions of one robot. The highest priority determines each quantity up to its strength, and each
@@ -80,6 +118,7 @@ class ActionList {
   /// @return false when the action is not in the list.
   bool remove(const Action& action);
   bool empty() const { return entries_.empty(); }
+  void deactivateAll() const;
   /// By name; null when there is none.
   Action* find(const std::string& name) const;
 

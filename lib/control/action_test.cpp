@@ -1,5 +1,7 @@
 #include "control/action.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 #include "control/pioneer_robot.h"
@@ -96,6 +98,89 @@ TEST_F(Actions, LimitSpeedByTheLowestOfAllLimits) {
   list.add(go, 5);
   EXPECT_EQ(list.resolve(pioneer).getMaxVel(), 200);
   EXPECT_EQ(list.resolve(pioneer).getMaxNegVel(), -50);
+}
+
+TEST_F(Actions, TurnToAHeadingByTheSmallerAngle) {
+  ActionDesired desired;
+  desired.setHeading(-170);
+  FixedAction turn("turn", desired);
+  list.add(turn, 1);
+  pioneer.moveTo({.x = 0, .y = 0, .th = 170});
+  EXPECT_NEAR(list.resolve(pioneer).getDeltaHeading(), 20, 1e-9);
+}
+
+TEST_F(Actions, AreIgnoredWhileTheyAreNotActive) {
+  FixedAction high("high", vel(300)), low("low", vel(100));
+  pioneer.addAction(high, 9);
+  EXPECT_EQ(high.getRobot(), &pioneer);
+  list.add(high, 9);
+  list.add(low, 1);
+  high.deactivate();
+  EXPECT_FALSE(high.isActive());
+  EXPECT_EQ(list.resolve(pioneer).getVel(), 100);
+  list.deactivateAll();
+  EXPECT_EQ(list.resolve(pioneer).getVelStrength(), ActionDesired::NO_STRENGTH);
+  high.activate();
+  EXPECT_EQ(list.resolve(pioneer).getVel(), 300);
+}
+
+TEST_F(Actions, ChangeAccelerationsForAStep) {
+  ActionDesired gentle, hard;
+  gentle.setTransAccel(100);
+  gentle.setTransDecel(300);
+  gentle.setMaxRotVel(30);
+  hard.setTransAccel(400);
+  hard.setTransDecel(800);
+  hard.setMaxRotVel(10);
+  hard.setRotVel(90);
+  hard.setVel(900);
+  FixedAction a("a", gentle), b("b", hard);
+  list.add(a, 2);
+  list.add(b, 1);
+  const ActionDesired settled = list.resolve(pioneer);
+  EXPECT_EQ(settled.getTransAccel(), 100);
+  EXPECT_EQ(settled.getTransDecel(), 800);
+  EXPECT_EQ(settled.getMaxRotVel(), 10);
+  EXPECT_EQ(settled.getMaxRotVelStrength(), ActionDesired::MAX_STRENGTH);
+  EXPECT_EQ(settled.getMaxVelStrength(), ActionDesired::NO_STRENGTH);
+  EXPECT_FALSE(settled.getRotAccel());
+
+  pioneer.addAction(a, 2);
+  pioneer.addAction(b, 1);
+  const auto steps = [&](int n) {
+    for (int i = 0; i < n; ++i) {
+      hardware.advance();
+      pioneer.update();
+    }
+  };
+  steps(11);  // commanded in the step before it drives
+  EXPECT_NEAR(pioneer.getVel(), 100, 1e-6);
+  EXPECT_NEAR(pioneer.getRotVel(), 10, 1e-6);
+  EXPECT_EQ(pioneer.getTransAccel(), 500);  // the robot's own
+  pioneer.remAction(a);
+  steps(6);  // one more at 100 mm/s², then five at 400 mm/s²
+  EXPECT_NEAR(pioneer.getVel(), 310, 1e-6);
+}
+
+TEST_F(Actions, AverageDesiresOnceTheirStrengthsSumToOne) {
+  // A plain computation: the priorities' means, each weighted by the strength that those before leave.
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> value(-500, 500), strength(0, 1);
+  for (int round = 0; round < 500; ++round) {
+    std::vector<FixedAction> actions;
+    ActionList several;
+    double left = 1, sum = 0;
+    for (int priority = 5; priority > 0; --priority) {
+      const double v = value(random), s = strength(random);
+      actions.emplace_back("action", vel(v, s));
+      sum += v * std::min(s, left);
+      left -= std::min(s, left);
+    }
+    for (int i = 0; i < 5; ++i) several.add(actions[static_cast<std::size_t>(i)], 5 - i);
+    const ActionDesired settled = several.resolve(pioneer);
+    EXPECT_NEAR(settled.getVelStrength(), 1 - left, 1e-12);
+    EXPECT_NEAR(settled.getVel(), sum / (1 - left), 1e-9);
+  }
 }
 
 TEST_F(Actions, DriveTheRobotUntilDirectMotion) {

@@ -1,53 +1,34 @@
 #include "control/pioneer_robot.h"
 
-#include <bit>
-#include <cmath>
-#include <numbers>
+#include <algorithm>
 #include <stdexcept>
 
-#include <mrpt/math/wrap2pi.h>
-
-#include "base/portable_math.h"
-#include "base/portable_pose.h"
-#include "control/echo.h"
+#include "control/key_handler.h"
 
 namespace robosim {
 namespace {
 
-constexpr double kMmPerM = 1000;
-constexpr double kDegPerRad = 180 / std::numbers::pi;
-/// Half the track [mm] that ARIA assumes for a Pioneer 3-DX: 1 / its DiffConvFactor of 0.0056.
-constexpr double kHalfTrack_mm = 178.6;
-constexpr double kMoveDone_mm = 40;
-constexpr double kHeadingDone_deg = 3;
-
-/// Whether `deg` lies in the counter-clockwise interval from `from_deg` to `to_deg`.
-bool isBetween(double deg, double from_deg, double to_deg) {
-  const auto upwards = [from_deg](double angle) {
-    const double rest = std::fmod(angle - from_deg, 360);
-    return rest < 0 ? rest + 360 : rest;
-  };
-  if (to_deg - from_deg >= 360) return true;
-  return upwards(deg) <= upwards(to_deg);
-}
-
-int toMm(double range_m) { return static_cast<int>(std::lround(range_m * kMmPerM)); }
+/// Result of a range query without any point, as in ARIA.
+constexpr double kNoDevices_mm = 30000;
 
 }  // namespace
 
-double PioneerPose::findDistanceTo(const PioneerPose& other) const { return portable::hypot(other.x - x, other.y - y); }
+PioneerRobot::PioneerRobot(Robot& robot)
+    : PioneerSensors(robot), drive_(robot), way_limits_(drive_.wayLimits()), turn_limits_(drive_.turnLimits()) {}
 
-double PioneerPose::findAngleTo(const PioneerPose& other) const {
-  return portable::atan2(other.y - y, other.x - x) * kDegPerRad;
-}
-
-PioneerRobot::PioneerRobot(Robot& robot) : robot_(robot), drive_(robot) {}
-
-PioneerRobot::PioneerRobot(Robot& robot, StepClock& clock) : robot_(robot), clock_(&clock), drive_(robot) {}
+PioneerRobot::PioneerRobot(Robot& robot, StepClock& clock) : PioneerRobot(robot) { clock_ = &clock; }
 
 void PioneerRobot::update() {
+  announceConnection();
   drive_.update();
-  if (!direct_motion_ && !actions_.empty()) obey(actions_.resolve(*this));
+  odometer_.update(getEncoderPose(), time());
+  if (cycle_ == Cycle::running && stops_if_not_connected_ && !isConnected()) endCycle();
+  if (cycle_ == Cycle::ended) return;
+  devices_.update();
+  sensor_tasks_.run();
+  if (direct_since_s_ && precedence_ms_ > 0 && time() - *direct_since_s_ >= precedence_ms_ / 1000) clearDirectMotion();
+  if (!direct_since_s_ && !actions_.empty()) obey(actions_.resolve(*this));
+  user_tasks_.run();
 }
 
 void PioneerRobot::waitForNextStep() {
@@ -60,213 +41,171 @@ void PioneerRobot::waitForNextStep() {
   update();
 }
 
-void PioneerRobot::run() {
-  while (running_ && isConnected()) waitForNextStep();
+void PioneerRobot::sleep(double ms) {
+  for (std::uint64_t steps = robot_.stepsIn(ms / 1000); steps > 0; --steps) waitForNextStep();
 }
 
-void PioneerRobot::disconnect() {
+void PioneerRobot::runAsync(bool stop_if_not_connected) {
+  announceConnection();
+  stops_if_not_connected_ = stop_if_not_connected;
+  cycle_ = Cycle::running;
+}
+
+void PioneerRobot::run(bool stop_if_not_connected) {
+  runAsync(stop_if_not_connected);
+  waitForRunExit();
+}
+
+PioneerRobot::WaitState PioneerRobot::waitForRunExit(double ms) {
+  const std::uint64_t limit = robot_.stepsIn(ms / 1000);
+  for (std::uint64_t steps = 0; isRunning(); ++steps) {
+    if (stops_if_not_connected_ && !isConnected()) {
+      endCycle();
+      break;
+    }
+    if (ms > 0 && steps == limit) return WAIT_TIMEDOUT;
+    waitForNextStep();
+  }
+  return WAIT_RUN_EXIT;
+}
+
+void PioneerRobot::stopRunning(bool do_disconnect) {
+  if (do_disconnect) disconnect();
+  endCycle();
+}
+
+void PioneerRobot::endCycle() {
+  if (cycle_ == Cycle::ended) return;
+  cycle_ = Cycle::ended;
+  drive_.stop();
+  on_run_exit_.call();
+}
+
+void PioneerRobot::announceConnection() {
+  if (is_announced_ || !isConnected()) return;
+  is_announced_ = true;
+  on_connect_.call();
+}
+
+bool PioneerRobot::blockingConnect() {
+  announceConnection();
+  return isConnected();
+}
+
+bool PioneerRobot::disconnect() {
+  if (!isConnected()) return false;
   robot_.halt();
-  running_ = false;
-}
-
-void PioneerRobot::setVel(double mm_ps) {
-  direct_motion_ = true;
-  drive_.setSpeed(mm_ps / kMmPerM);
-}
-
-void PioneerRobot::setVel2(double left_mm_ps, double right_mm_ps) {
-  direct_motion_ = true;
-  drive_.setSpeed((left_mm_ps + right_mm_ps) / 2 / kMmPerM);
-  drive_.setTurn((right_mm_ps - left_mm_ps) / 2 / kHalfTrack_mm);
-}
-
-void PioneerRobot::setRotVel(double deg_ps) {
-  direct_motion_ = true;
-  drive_.setTurn(deg_ps / kDegPerRad);
-}
-
-void PioneerRobot::setHeading(double deg) {
-  direct_motion_ = true;
-  drive_.turnTo(deg / kDegPerRad - aria_from_odom_.phi);
-}
-
-void PioneerRobot::setDeltaHeading(double deg) {
-  direct_motion_ = true;
-  drive_.turnBy(deg / kDegPerRad);
-}
-
-void PioneerRobot::move(double mm) {
-  direct_motion_ = true;
-  drive_.moveBy(mm / kMmPerM);
-}
-
-void PioneerRobot::stop() {
-  direct_motion_ = true;
-  drive_.stop();
-}
-
-bool PioneerRobot::isMoveDone(double delta_mm) const {
-  return std::abs(drive_.wayToGo()) * kMmPerM <= (delta_mm > 0 ? delta_mm : kMoveDone_mm);
-}
-
-bool PioneerRobot::isHeadingDone(double delta_deg) const {
-  return std::abs(drive_.turnToGo()) * kDegPerRad <= (delta_deg > 0 ? delta_deg : kHeadingDone_deg);
-}
-
-void PioneerRobot::clearDirectMotion() {
-  drive_.stop();
-  direct_motion_ = false;
-}
-
-bool PioneerRobot::limitWay(double AxisLimits::*limit, double value) {
-  if (!(value > 0)) return false;
-  AxisLimits limits = drive_.wayLimits();
-  limits.*limit = value / kMmPerM;
-  drive_.limitWay(limits);
+  on_disconnect_.call();
   return true;
 }
 
-bool PioneerRobot::limitTurn(double AxisLimits::*limit, double value) {
-  if (!(value > 0)) return false;
-  AxisLimits limits = drive_.turnLimits();
-  limits.*limit = value / kDegPerRad;
-  drive_.limitTurn(limits);
-  return true;
+int PioneerRobot::addConnectCB(Functor functor, ListPos::Pos position) {
+  return on_connect_.add(std::move(functor), position);
 }
 
-bool PioneerRobot::setTransVelMax(double mm_ps) { return limitWay(&AxisLimits::speed_max, mm_ps); }
-bool PioneerRobot::setTransAccel(double mm_ps2) { return limitWay(&AxisLimits::accel, mm_ps2); }
-bool PioneerRobot::setTransDecel(double mm_ps2) { return limitWay(&AxisLimits::decel, mm_ps2); }
-bool PioneerRobot::setRotVelMax(double deg_ps) { return limitTurn(&AxisLimits::speed_max, deg_ps); }
-bool PioneerRobot::setRotAccel(double deg_ps2) { return limitTurn(&AxisLimits::accel, deg_ps2); }
-bool PioneerRobot::setRotDecel(double deg_ps2) { return limitTurn(&AxisLimits::decel, deg_ps2); }
-double PioneerRobot::getTransVelMax() const { return drive_.wayLimits().speed_max * kMmPerM; }
-double PioneerRobot::getTransAccel() const { return drive_.wayLimits().accel * kMmPerM; }
-double PioneerRobot::getTransDecel() const { return drive_.wayLimits().decel * kMmPerM; }
-double PioneerRobot::getRotVelMax() const { return drive_.turnLimits().speed_max * kDegPerRad; }
-double PioneerRobot::getRotAccel() const { return drive_.turnLimits().accel * kDegPerRad; }
-double PioneerRobot::getRotDecel() const { return drive_.turnLimits().decel * kDegPerRad; }
-
-PioneerPose PioneerRobot::getPose() const {
-  const mrpt::math::TPose2D pose = portable::compose(aria_from_odom_, robot_.odometry().odom_from_robot);
-  return {pose.x * kMmPerM, pose.y * kMmPerM, mrpt::math::wrapToPi(pose.phi) * kDegPerRad};
+int PioneerRobot::addDisconnectNormallyCB(Functor functor, ListPos::Pos position) {
+  return on_disconnect_.add(std::move(functor), position);
 }
 
-void PioneerRobot::moveTo(const PioneerPose& pose) {
-  const mrpt::math::TPose2D aria_from_robot(pose.x / kMmPerM, pose.y / kMmPerM, pose.th / kDegPerRad);
-  aria_from_odom_ = portable::compose(aria_from_robot, portable::inverse(robot_.odometry().odom_from_robot));
+int PioneerRobot::addRunExitCB(Functor functor, ListPos::Pos position) {
+  return on_run_exit_.add(std::move(functor), position);
 }
 
-double PioneerRobot::getVel() const { return robot_.odometry().speed_mps * kMmPerM; }
-double PioneerRobot::getRotVel() const { return robot_.odometry().turn_radps * kDegPerRad; }
-double PioneerRobot::getLeftVel() const { return getVel() - robot_.odometry().turn_radps * kHalfTrack_mm; }
-double PioneerRobot::getRightVel() const { return getVel() + robot_.odometry().turn_radps * kHalfTrack_mm; }
-double PioneerRobot::getRobotRadius() const { return robot_.info().radius_m * kMmPerM; }
+bool PioneerRobot::addUserTask(const std::string& name, int position, Functor functor) {
+  return user_tasks_.add(name, position, std::move(functor));
+}
 
-void PioneerRobot::acquireSensorReadings(unsigned sensors) {
-  for (const auto& [sensor, kind] :
-       {std::pair{SONAR, SensorKind::sonar}, std::pair{LASER, SensorKind::laser}, std::pair{HEAT, SensorKind::heat}}) {
-    if (!(sensors & sensor)) continue;
-    if (!robot_.sensor(kind)) {
-      throw std::invalid_argument("acquireSensorReadings: robot '" + robot_.name() + "' has no " + nameOf(kind) +
-                                  "; give its model one, or do not ask for it");
-    }
-    requested_in_step_[static_cast<std::size_t>(std::countr_zero(sensor))] = robot_.stepNumber();
+bool PioneerRobot::addSensorInterpTask(const std::string& name, int position, Functor functor) {
+  return sensor_tasks_.add(name, position, std::move(functor));
+}
+
+void PioneerRobot::attachKeyHandler(KeyHandler& keys, bool exit_on_escape) {
+  keys_ = &keys;
+  if (exit_on_escape) keys.addKeyHandler(KeyHandler::ESCAPE, [this] { stopRunning(); });
+  user_tasks_.rem("key handler");
+  user_tasks_.add("key handler", 50, [&keys] { keys.checkKeys(); });
+}
+
+void PioneerRobot::addAction(Action& action, int priority) {
+  actions_.add(action, priority);
+  action.setRobot(this);
+}
+
+void PioneerRobot::moveTo(const PioneerPose& pose, bool do_cumulative) {
+  devices_.applyTransform(PioneerTransform(getPose(), pose), do_cumulative);
+  setPose(pose);
+}
+
+ClosestOfDevices PioneerRobot::currentPolar(double from_deg, double to_deg) const {
+  if (devices_.list().empty()) {
+    const auto between = [&](double x, double y) { return Math::angleBetween(Math::atan2(y, x), from_deg, to_deg); };
+    return {nearestEcho(between), nullptr};
   }
+  return devices_.closest([&, pose = getPose()](const RangeDevice& device) {
+    return device.getCurrentRangeBuffer().getClosestPolar(from_deg, to_deg, pose);
+  });
 }
 
-bool PioneerRobot::isNew(SensorKind kind, unsigned sensor) const {
-  if (!robot_.sensor(kind)) return false;
-  const auto& requested = requested_in_step_[static_cast<std::size_t>(std::countr_zero(sensor))];
-  return !requested || robot_.stepNumber() > *requested;
-}
-
-int PioneerRobot::getSonarRange(int number) const {
-  if (number < 0 || number >= getNumSonar()) return -1;
-  if (!sonar_on_) return toMm(robot_.sensor(SensorKind::sonar)->no_echo_m);
-  return toMm(robot_.sonar()[static_cast<std::size_t>(number)].range_m);
-}
-
-std::optional<PioneerSonarReading> PioneerRobot::getSonarReading(int number) const {
-  if (number < 0 || number >= getNumSonar()) return std::nullopt;
-  const auto i = static_cast<std::size_t>(number);
-  const auto& mount = robot_.sensor(SensorKind::sonar)->beams[i].robot_from_beam;
-  const int range = getSonarRange(number);
-  mrpt::math::TPoint2D local(robot_.sonar()[i].point_m.x, robot_.sonar()[i].point_m.y);
-  if (!sonar_on_) {
-    const auto [sin, cos] = portable::sincos(mount.yaw);
-    local = {mount.x + range / kMmPerM * cos, mount.y + range / kMmPerM * sin};
+ClosestOfDevices PioneerRobot::currentBox(double x1, double y1, double x2, double y2) const {
+  if (devices_.list().empty()) {
+    const auto inside = [&](double x, double y) {
+      return std::min(x1, x2) <= x && x <= std::max(x1, x2) && std::min(y1, y2) <= y && y <= std::max(y1, y2);
+    };
+    return {nearestEcho(inside), nullptr};
   }
-  const mrpt::math::TPoint2D point =
-      portable::compose(portable::compose(aria_from_odom_, robot_.odometry().odom_from_robot), local);
-  return PioneerSonarReading{.range = range,
-                             .x = point.x * kMmPerM,
-                             .y = point.y * kMmPerM,
-                             .local_x = local.x * kMmPerM,
-                             .local_y = local.y * kMmPerM,
-                             .sensor_x = mount.x * kMmPerM,
-                             .sensor_y = mount.y * kMmPerM,
-                             .sensor_th = mount.yaw * kDegPerRad};
+  return devices_.closest([&, pose = getPose()](const RangeDevice& device) {
+    return device.getCurrentRangeBuffer().getClosestBox(x1, y1, x2, y2, pose);
+  });
 }
 
-int PioneerRobot::getClosestSonarNumber(double from_deg, double to_deg) const {
-  int closest = -1;
-  for (int i = 0; i < getNumSonar(); ++i) {
-    const auto& mount = robot_.sensor(SensorKind::sonar)->beams[static_cast<std::size_t>(i)].robot_from_beam;
-    if (!isBetween(mount.yaw * kDegPerRad, from_deg, to_deg)) continue;
-    if (closest < 0 || getSonarRange(i) < getSonarRange(closest)) closest = i;
-  }
-  return closest;
+namespace {
+
+/// A query's result as ARIA returns it.
+double resultOf(const ClosestOfDevices& closest, double if_none, double* angle, PioneerPose* reading_pos,
+                const RangeDevice** device) {
+  if (!closest.point) return if_none;
+  if (angle) *angle = closest.point->angle;
+  if (reading_pos) *reading_pos = closest.point->local;
+  if (device) *device = closest.device;
+  return closest.point->distance;
 }
 
-int PioneerRobot::getClosestSonarRange(double from_deg, double to_deg) const {
-  return getSonarRange(getClosestSonarNumber(from_deg, to_deg));
-}
-
-int PioneerRobot::getLaserRange(int number) const {
-  if (number < 0 || number >= getNumLaser()) return -1;
-  return toMm(robot_.laser()[static_cast<std::size_t>(number)].range_m);
-}
-
-void PioneerRobot::turnLaser(double deg) { robot_.panLaser(deg / kDegPerRad); }
-
-template <typename Accept>
-double PioneerRobot::nearestEcho(const Accept& accept, double if_none) const {
-  double nearest = if_none;
-  const auto look = [&](SensorKind kind) {
-    for (const Echo& echo : robot_.echoes(kind)) {
-      if (!isEcho(*robot_.sensor(kind), echo)) continue;
-      const double x = echo.point_m.x * kMmPerM, y = echo.point_m.y * kMmPerM;
-      const double distance = portable::hypot(x, y);
-      if (distance < nearest && accept(x, y)) nearest = distance;
-    }
-  };
-  if (sonar_on_) look(SensorKind::sonar);
-  look(SensorKind::laser);
-  return nearest;
-}
+}  // namespace
 
 double PioneerRobot::checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double if_none) const {
-  return nearestEcho(
-      [&](double x, double y) { return isBetween(portable::atan2(y, x) * kDegPerRad, from_deg, to_deg); }, if_none);
+  const auto closest = currentPolar(from_deg, to_deg);
+  return closest.point && closest.point->distance < if_none ? closest.point->distance : if_none;
 }
 
 double PioneerRobot::checkRangeDevicesCurrentBox(double x1, double y1, double x2, double y2, double if_none) const {
-  return nearestEcho(
-      [&](double x, double y) {
-        return std::min(x1, x2) <= x && x <= std::max(x1, x2) && std::min(y1, y2) <= y && y <= std::max(y1, y2);
-      },
-      if_none);
+  const auto closest = currentBox(x1, y1, x2, y2);
+  return closest.point && closest.point->distance < if_none ? closest.point->distance : if_none;
 }
 
-void PioneerRobot::obey(const ActionDesired& desired) {
-  const double velocity = desired.getVelStrength() > 0 ? desired.getVel() : 0;
-  drive_.setSpeed(std::clamp(velocity, desired.getMaxNegVel(), desired.getMaxVel()) / kMmPerM);
-  if (desired.getDeltaHeadingStrength() > 0) {
-    drive_.turnBy(desired.getDeltaHeading() / kDegPerRad);
-  } else {
-    drive_.setTurn(desired.getRotVelStrength() > 0 ? desired.getRotVel() / kDegPerRad : 0);
-  }
+double PioneerRobot::checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double* angle,
+                                                   const RangeDevice** device) const {
+  return resultOf(currentPolar(from_deg, to_deg), devices_.maxRange(kNoDevices_mm), angle, nullptr, device);
+}
+
+double PioneerRobot::checkRangeDevicesCurrentBox(double x1, double y1, double x2, double y2, PioneerPose* reading_pos,
+                                                 const RangeDevice** device) const {
+  return resultOf(currentBox(x1, y1, x2, y2), devices_.maxRange(kNoDevices_mm), nullptr, reading_pos, device);
+}
+
+double PioneerRobot::checkRangeDevicesCumulativePolar(double from_deg, double to_deg, double* angle,
+                                                      const RangeDevice** device) const {
+  const auto closest = devices_.closest([&, pose = getPose()](const RangeDevice& each) {
+    return each.getCumulativeRangeBuffer().getClosestPolar(from_deg, to_deg, pose);
+  });
+  return resultOf(closest, devices_.maxRange(kNoDevices_mm), angle, nullptr, device);
+}
+
+double PioneerRobot::checkRangeDevicesCumulativeBox(double x1, double y1, double x2, double y2,
+                                                    PioneerPose* reading_pos, const RangeDevice** device) const {
+  const auto closest = devices_.closest([&, pose = getPose()](const RangeDevice& each) {
+    return each.getCumulativeRangeBuffer().getClosestBox(x1, y1, x2, y2, pose);
+  });
+  return resultOf(closest, devices_.maxRange(kNoDevices_mm), nullptr, reading_pos, device);
 }
 
 }  // namespace robosim

@@ -1,88 +1,108 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include <mrpt/math/TPose2D.h>
-
 #include "control/action.h"
 #include "control/blocking_controller.h"
 #include "control/motion_profile.h"
-#include "control/robot.h"
+#include "control/odometer.h"
+#include "control/pioneer_sensors.h"
+#include "control/range_devices.h"
+#include "control/task_list.h"
 
 namespace robosim {
 
-/// A pose in ARIA's units: x, y [mm], th [deg], within (-180, 180].
-struct PioneerPose {
-  double x = 0, y = 0, th = 0;
-  double getX() const { return x; }
-  double getY() const { return y; }
-  double getTh() const { return th; }
-  double findDistanceTo(const PioneerPose& other) const;  ///< [mm]
-  double findAngleTo(const PioneerPose& other) const;     ///< direction towards `other` [deg]
-};
+class KeyHandler;
 
-/// One sonar's echo in ARIA's units.
-struct PioneerSonarReading {
-  int range = 0;                                     ///< [mm]
-  double x = 0, y = 0;                               ///< of the echo, in the frame of getPose() [mm]
-  double local_x = 0, local_y = 0;                   ///< the same in the robot's frame [mm]
-  double sensor_x = 0, sensor_y = 0, sensor_th = 0;  ///< the sonar in the robot's frame [mm, deg]
-  int getRange() const { return range; }
-  double getX() const { return x; }
-  double getY() const { return y; }
-  double getLocalX() const { return local_x; }
-  double getLocalY() const { return local_y; }
-  double getSensorX() const { return sensor_x; }
-  double getSensorY() const { return sensor_y; }
-  double getSensorTh() const { return sensor_th; }
-};
-
-/// Adapter with the names and units of ARIA (mm, mm/s, deg, deg/s; counter-clockwise positive), and with
-/// acquireSensorReadings() of the 2005 RoboSim. Requires a robot with odometry.
+/// Robot with the names and units of ARIA's ArRobot (mm, mm/s, deg, deg/s; counter-clockwise positive), and with
+/// acquireSensorReadings() of the 2005 RoboSim. Requires a robot with odometry. doc/from_aria.md compares it with ARIA.
 ///
 /// In a Controller: construct one for the robot and call update() at the start of each step. In a BlockingController's
-/// loop: construct it with the clock and call its waitForNextStep(), which calls update().
+/// loop: construct it with the clock and call waitForNextStep(), waitForRunExit(), run() or sleep(), which call
+/// update() once per step.
 ///
-/// As in ARIA, setVel … move are direct motion: they disable the actions until clearDirectMotion().
-class PioneerRobot {
+/// ARIA processes a robot's cycle in a thread of its own (runAsync()). Here a cycle is a time step of the simulation,
+/// and it is processed inside the wait functions, on the program's thread. Nothing runs concurrently: a program
+/// computes in no simulated time, and the same program and seed give the same run. lock() and unlock() therefore do
+/// nothing. A program that computes in a loop without waiting does not end, where in ARIA the robot would continue.
+///
+/// As in ARIA, setVel … move are direct motion: they disable the actions until clearDirectMotion(), or until
+/// setDirectMotionPrecedenceTime().
+class PioneerRobot : public PioneerSensors {
  public:
-  /// @name Sensors for acquireSensorReadings(); may be combined by |
-  ///@{
-  static constexpr unsigned SONAR = 1, LASER = 2, HEAT = 4;
-  ///@}
+  enum WaitState { WAIT_CONNECTED, WAIT_FAILED_CONN, WAIT_RUN_EXIT, WAIT_TIMEDOUT };
 
   /// @throws std::invalid_argument for a robot without odometry.
   explicit PioneerRobot(Robot& robot);
   PioneerRobot(Robot& robot, StepClock& clock);
-  PioneerRobot(const PioneerRobot&) = delete;
-  PioneerRobot& operator=(const PioneerRobot&) = delete;
 
-  /// Processes a new step: continues the direct motion, or else resolves the actions. Call it once per step.
+  /// Processes a new step, in ARIA's order: range devices, sensor interpretation tasks, actions (unless there is direct
+  /// motion), user tasks. Call it once per step.
   void update();
 
   /// @name Running
-  /// Nothing runs concurrently with the controller; lock() and unlock() do nothing and exist for ARIA programs.
   ///@{
   /// @throws std::logic_error for a PioneerRobot that was made without a clock.
   void waitForNextStep();
-  void run();  ///< steps with the actions until stopRunning() or the robot halts
-  void stopRunning() { running_ = false; }
-  bool isRunning() const { return running_; }
+  void sleep(double ms);  ///< waits for the steps that take at least this time, as ArUtil::sleep()
+  /// Starts the cycle, which the wait functions process. A program that only calls update() or waitForNextStep() need
+  /// not call it. @param stop_if_not_connected ends the cycle when the robot halts
+  void runAsync(bool stop_if_not_connected = true);
+  void run(bool stop_if_not_connected = true);  ///< runAsync() and waitForRunExit()
+  /// Ends the cycle: no tasks or actions are processed any more. Without disconnecting, the robot decelerates to rest.
+  void stopRunning(bool do_disconnect = true);
+  bool isRunning() const { return cycle_ == Cycle::running; }
+  /// Processes steps until the cycle has ended, or for this time; 0 for no limit.
+  WaitState waitForRunExit(double ms = 0);
   void lock() {}
   void unlock() {}
+  ///@}
+
+  /// @name Connection
+  /// The robot is connected when it is constructed, and until it halts. The connect callbacks are called once, by the
+  /// first of these functions, runAsync() and update().
+  ///@{
+  bool blockingConnect();
+  bool asyncConnect() { return blockingConnect(); }
+  WaitState waitForConnect() { return blockingConnect() ? WAIT_CONNECTED : WAIT_FAILED_CONN; }
   bool isConnected() const { return robot_.activity() == Activity::active; }
-  void disconnect();  ///< stops the robot permanently
+  bool disconnect();  ///< stops the robot permanently. @return false when it was not connected
+  /// @return the callback's number, by which it is removed
+  int addConnectCB(Functor functor, ListPos::Pos position = ListPos::LAST);
+  bool remConnectCB(int number) { return on_connect_.rem(number); }
+  int addDisconnectNormallyCB(Functor functor, ListPos::Pos position = ListPos::LAST);  ///< called by disconnect()
+  bool remDisconnectNormallyCB(int number) { return on_disconnect_.rem(number); }
+  int addRunExitCB(Functor functor, ListPos::Pos position = ListPos::LAST);  ///< called when the cycle ends
+  bool remRunExitCB(int number) { return on_run_exit_.rem(number); }
+  ///@}
+
+  /// @name Tasks: called once per step, the highest position first
+  /// @return false when there is a task of this name already, or none to remove
+  ///@{
+  bool addUserTask(const std::string& name, int position, Functor functor);
+  bool remUserTask(const std::string& name) { return user_tasks_.rem(name); }
+  bool hasUserTask(const std::string& name) const { return user_tasks_.has(name); }
+  bool addSensorInterpTask(const std::string& name, int position, Functor functor);
+  bool remSensorInterpTask(const std::string& name) { return sensor_tasks_.rem(name); }
+  bool hasSensorInterpTask(const std::string& name) const { return sensor_tasks_.has(name); }
+  ///@}
+
+  /// @name Keys
+  ///@{
+  /// Checks the keys once per step, in the user task "key handler" at position 50, as ARIA does.
+  /// @param keys must outlive this, @param exit_on_escape the Escape key calls stopRunning()
+  void attachKeyHandler(KeyHandler& keys, bool exit_on_escape = true);
+  KeyHandler* getKeyHandler() const { return keys_; }  ///< null for none
   ///@}
 
   /// @name Motors and sonars; both are on at the start
   ///@{
-  void enableMotors() { drive_.enable(true); }
-  void disableMotors() { drive_.enable(false); }
-  bool areMotorsEnabled() const { return drive_.enabled(); }
-  void enableSonar() { sonar_on_ = true; }
-  void disableSonar() { sonar_on_ = false; }  ///< no reading is new; all are without echo
+  void enableMotors() { switchMotors(true); }
+  void disableMotors() { switchMotors(false); }
+  bool areMotorsEnabled() const { return robot_.baseState().motors_enabled.value_or(drive_.enabled()); }
+  void enableSonar() { switchSonar(true); }
+  void disableSonar() { switchSonar(false); }  ///< no reading is new; all are without echo
   bool areSonarsEnabled() const { return sonar_on_; }
   ///@}
 
@@ -95,12 +115,19 @@ class PioneerRobot {
   void setDeltaHeading(double deg);  ///< relative to the present heading
   void move(double mm);              ///< negative: backwards
   void stop();
-  /// Whether move() is within this distance of its end; true without an active move(). 0 means 40 mm.
+  /// Whether move() is within this distance of its end; true without an active move(). 0 means getMoveDoneDist().
   bool isMoveDone(double delta_mm = 0) const;
-  /// The same for setHeading() and setDeltaHeading(). 0 means 3 deg.
+  void setMoveDoneDist(double mm) { move_done_mm_ = mm; }
+  double getMoveDoneDist() const { return move_done_mm_; }
+  /// The same for setHeading() and setDeltaHeading(). 0 means getHeadingDoneDiff().
   bool isHeadingDone(double delta_deg = 0) const;
+  void setHeadingDoneDiff(double deg) { heading_done_deg_ = deg; }
+  double getHeadingDoneDiff() const { return heading_done_deg_; }
   void clearDirectMotion();  ///< enables the actions again
-  bool isDirectMotion() const { return direct_motion_; }
+  bool isDirectMotion() const { return direct_since_s_.has_value(); }
+  /// Time after the last direct motion command until the actions are enabled again; 0, the default, for never.
+  void setDirectMotionPrecedenceTime(double ms) { precedence_ms_ = ms; }
+  double getDirectMotionPrecedenceTime() const { return precedence_ms_; }
   ///@}
 
   /// @name Limits
@@ -118,92 +145,86 @@ class PioneerRobot {
   double getRotVelMax() const;
   double getRotAccel() const;
   double getRotDecel() const;
+  double getAbsoluteMaxTransVel() const;  ///< of the hardware [mm/s]
+  double getAbsoluteMaxRotVel() const;    ///< of the hardware [deg/s]
   ///@}
 
-  /// @name State
+  /// @name Pose and odometer
   ///@{
-  const std::string& getName() const { return robot_.name(); }
-  PioneerPose getPose() const;  ///< by odometry, relative to the start pose or to moveTo()
-  double getX() const { return getPose().x; }
-  double getY() const { return getPose().y; }
-  double getTh() const { return getPose().th; }
-  void moveTo(const PioneerPose& pose);  ///< sets the present pose; getPose() continues from it
-  double getVel() const;
-  double getRotVel() const;
-  double getLeftVel() const;
-  double getRightVel() const;
-  bool isLeftMotorStalled() const { return robot_.stalled(); }  ///< a blocked body stalls both wheels
-  bool isRightMotorStalled() const { return robot_.stalled(); }
-  int getStallValue() const { return robot_.stalled() ? 0x0101 : 0; }  ///< bit 0: left wheel, bit 8: right wheel
-  double getRobotRadius() const;                                       ///< [mm]
-  /// 13.0 V, fully charged, for a robot without a battery sensor.
-  double getBatteryVoltage() const { return robot_.battery().value_or(13.0); }
+  /// Sets the present pose; getPose() continues from it. The range devices' points move with the frame.
+  void moveTo(const PioneerPose& pose, bool do_cumulative = true);
+  double getOdometerDistance() const { return odometer_.distance(); }  ///< driven forwards and backwards [mm]
+  double getOdometerDegrees() const { return odometer_.degrees(); }    ///< turned to either side [deg]
+  double getOdometerTime() const { return odometer_.seconds(); }       ///< [s] since resetOdometer()
+  void resetOdometer() { odometer_.reset(); }
   ///@}
 
-  /// @name Requests (2005)
-  /// A request is answered in the next step; then the readings count as new until they are requested again. All
-  /// readings of a step arrive in one packet; without requests they are new in every step.
+  /// @name Range devices; distances [mm] from the robot's centre
+  /// Without range devices, the queries of current points use the sonar and laser echoes of this step.
   ///@{
-  /// @throws std::invalid_argument when the robot lacks a requested sensor: it would never be answered.
-  void acquireSensorReadings(unsigned sensors);
-  bool isHeatNew() const { return isNew(SensorKind::heat, HEAT); }
-  bool isLaserNew() const { return isNew(SensorKind::laser, LASER); }
-  bool isSonarNew() const { return sonar_on_ && isNew(SensorKind::sonar, SONAR); }
-  bool isSonarNew(int number) const { return isSonarNew() && number >= 0 && number < getNumSonar(); }
-  ///@}
-
-  /// @name Sonar; numbers from 0, in the order of the robot's model
-  ///@{
-  int getNumSonar() const { return static_cast<int>(robot_.sonar().size()); }
-  int getSonarRange(int number) const;                                   ///< [mm]; -1 for no such sonar
-  std::optional<PioneerSonarReading> getSonarReading(int number) const;  ///< nullopt for no such sonar
-  /// The shortest range among the sonars that point between two angles, counter-clockwise from `from_deg` to `to_deg`;
-  /// -1 when there are none.
-  int getClosestSonarRange(double from_deg, double to_deg) const;
-  int getClosestSonarNumber(double from_deg, double to_deg) const;  ///< -1 for none
-  ///@}
-
-  /// @name Laser and heat
-  ///@{
-  int getNumLaser() const { return static_cast<int>(robot_.laser().size()); }
-  int getLaserRange(int number = 0) const;                      ///< [mm]; -1 for no such beam
-  void turnLaser(double deg);                                   ///< pan angle of a turnable laser, in [-90, 90]
-  double getHeat() const { return robot_.heat().value_or(0); }  ///< 0 for a robot without a heat sensor
-  ///@}
-
-  /// @name Sonar and laser combined; distances [mm] from the robot's centre
-  ///@{
-  /// The nearest echo that lies between the two directions, counter-clockwise; `if_none` when there is none.
+  /// @param device must outlive its entry.
+  void addRangeDevice(RangeDevice& device) { devices_.add(device, *this); }
+  bool remRangeDevice(const RangeDevice& device) { return devices_.rem(device); }
+  bool hasRangeDevice(const RangeDevice& device) const { return devices_.has(device); }
+  RangeDevice* findRangeDevice(const std::string& name) const { return devices_.find(name); }
+  const std::vector<RangeDevice*>& getRangeDeviceList() const { return devices_.list(); }
+  /// The nearest point between two directions, counter-clockwise; `if_none` when there is none.
   double checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double if_none = 30000) const;
-  /// The nearest echo within the rectangle between two corners in the robot's frame; `if_none` when there is none.
+  /// The nearest point within the rectangle between two corners in the robot's frame; `if_none` when there is none.
   double checkRangeDevicesCurrentBox(double x1, double y1, double x2, double y2, double if_none = 30000) const;
+  /// The same as in ARIA: without a point, the smallest maximum range of the devices, or 30000 without devices.
+  /// @param angle, reading_pos receive the point's direction [deg] and place in the robot's frame, @param device
+  /// receives the device, null for the echoes of this step. Unchanged when there is no point; may be null.
+  ///@{
+  double checkRangeDevicesCurrentPolar(double from_deg, double to_deg, double* angle,
+                                       const RangeDevice** device = nullptr) const;
+  double checkRangeDevicesCumulativePolar(double from_deg, double to_deg, double* angle = nullptr,
+                                          const RangeDevice** device = nullptr) const;
+  double checkRangeDevicesCurrentBox(double x1, double y1, double x2, double y2, PioneerPose* reading_pos,
+                                     const RangeDevice** device = nullptr) const;
+  double checkRangeDevicesCumulativeBox(double x1, double y1, double x2, double y2, PioneerPose* reading_pos = nullptr,
+                                        const RangeDevice** device = nullptr) const;
+  ///@}
   ///@}
 
   /// @name Actions
   ///@{
   /// @param action must outlive its entry. The highest priority comes first.
-  void addAction(Action& action, int priority) { actions_.add(action, priority); }
+  void addAction(Action& action, int priority);
   bool remAction(const Action& action) { return actions_.remove(action); }
   Action* findAction(const std::string& name) const { return actions_.find(name); }
+  void deactivateActions() { actions_.deactivateAll(); }
   ///@}
 
  private:
-  bool isNew(SensorKind kind, unsigned sensor) const;
+  enum class Cycle { by_caller, running, ended };  ///< by_caller: runAsync() was not called
+
+  void announceConnection();
+  void endCycle();
+  void switchMotors(bool on);
+  void switchSonar(bool on);
+  void beginDirectMotion();
   bool limitWay(double AxisLimits::*limit, double value);
   bool limitTurn(double AxisLimits::*limit, double value);
   void obey(const ActionDesired& desired);
-  template <typename Accept>
-  double nearestEcho(const Accept& accept, double if_none) const;
+  ClosestOfDevices currentPolar(double from_deg, double to_deg) const;
+  ClosestOfDevices currentBox(double x1, double y1, double x2, double y2) const;
 
-  Robot& robot_;
   StepClock* clock_ = nullptr;
   ProfiledDrive drive_;
+  AxisLimits way_limits_, turn_limits_;  ///< as set; an action may change those of the drive
+  Odometer odometer_;
+  RangeDevices devices_;
   ActionList actions_;
-  mrpt::math::TPose2D aria_from_odom_;
-  std::array<std::optional<std::uint64_t>, 3> requested_in_step_;  ///< by SONAR, LASER, HEAT
-  bool sonar_on_ = true;
-  bool direct_motion_ = false;
-  bool running_ = true;
+  TaskList sensor_tasks_, user_tasks_;
+  CallbackList on_connect_, on_disconnect_, on_run_exit_;
+  KeyHandler* keys_ = nullptr;
+  double move_done_mm_ = 40, heading_done_deg_ = 3;
+  std::optional<double> direct_since_s_;  ///< time of the last direct motion command; nullopt without direct motion
+  double precedence_ms_ = 0;
+  Cycle cycle_ = Cycle::by_caller;
+  bool stops_if_not_connected_ = true;
+  bool is_announced_ = false;
 };
 
 }  // namespace robosim

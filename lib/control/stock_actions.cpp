@@ -4,12 +4,8 @@
 #include <cmath>
 #include <utility>
 
-#include <mrpt/math/wrap2pi.h>
-
 namespace robosim {
 namespace {
-
-double wrapDeg(double deg) { return std::remainder(deg, 360); }
 
 /// Clearance [mm] between the robot's edge and the nearest echo between two directions.
 double clearanceBetween(const PioneerRobot& robot, double from_deg, double to_deg) {
@@ -96,7 +92,7 @@ ActionDesired ActionStallRecover::fire(PioneerRobot& robot, const ActionDesired&
   }
   --cycles_left_;
   desired.setVel(clearanceInLane(robot, direction_, 1) > obstacle_distance_ ? direction_ * speed_ : 0);
-  desired.setDeltaHeading(wrapDeg(heading_ - robot.getTh()));
+  desired.setDeltaHeading(Math::subAngle(heading_, robot.getTh()));
   return desired;
 }
 
@@ -123,7 +119,7 @@ ActionDesired ActionGoto::fire(PioneerRobot& robot, const ActionDesired&) {
     state_ = State::achieved;
     return desired;
   }
-  const double off = wrapDeg(pose.findAngleTo(goal_) - pose.th);
+  const double off = Math::subAngle(pose.findAngleTo(goal_), pose.th);
   // Uses half of the maximum deceleration to stop at the goal's edge.
   double speed = std::min(speed_, std::sqrt(robot.getTransDecel() * (distance - close_distance_)) + 20);
   if (std::abs(off) > 60) {

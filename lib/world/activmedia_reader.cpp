@@ -2,18 +2,16 @@
 // and "cairns", named objects with a position. Units are millimetres and degrees.
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 #include <string_view>
 
-#include "base/error_list.h"
+#include "base/activmedia_text.h"
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
 #include "base/printable_text.h"
-#include "base/xml_element.h"
 #include "world/map_reader.h"
 
 namespace robosim {
@@ -26,59 +24,29 @@ using mrpt::math::TPose2D;
 constexpr double kLineWidth_m = 0.002;
 /// Default resolution of points, as in MobileSim.
 constexpr double kDefaultResolution_mm = 20;
-/// Maximum coordinate: 1,000 km from the origin, so that all cells of a millimetre can be counted with 32 bits.
-constexpr double kFarthest_mm = 1e9;
 /// Maximum number of points in a file; several may lie in one cell. Sorting takes 32 bytes per point.
 constexpr std::size_t kMaxPoints = 4 * kMaxMapBoxes;
 
-bool isSame(std::string_view a, std::string_view b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) == std::tolower(static_cast<unsigned char>(y));
-  });
-}
-
-/// Splits a line into words. A word in quotation marks may contain blanks; the marks are removed.
-std::vector<std::string> wordsOf(std::string_view line) {
-  std::vector<std::string> words;
-  std::size_t at = 0;
-  while ((at = line.find_first_not_of(" \t", at)) != std::string_view::npos) {
-    const bool is_quoted = line[at] == '"';
-    const std::size_t begin = is_quoted ? at + 1 : at;
-    const std::size_t end = std::min(line.find_first_of(is_quoted ? "\"" : " \t", begin), line.size());
-    words.emplace_back(line.substr(begin, end - begin));
-    at = std::min(end + (is_quoted ? 1 : 0), line.size());
-  }
-  return words;
-}
-
 class ActivmediaReader {
  public:
-  ActivmediaReader(std::string_view text, const std::string& path) : text_(text), path_(path) {}
+  ActivmediaReader(std::string_view text, const std::string& path) : text_(text, path) {}
 
   FloorPlan read() {
-    readHeader();
-    enum class Section { metadata, lines, points } section = Section::metadata;
-    while (nextLine()) {
-      if (line_.find_first_not_of(" \t") == std::string_view::npos) continue;
-      // Other scanners have sections of their own: <name>_LINES.
-      const std::string_view word = line_.substr(0, line_.find_last_not_of(" \t") + 1);
-      const auto words = wordsOf(line_);
-      if (word.ends_with("LINES")) {
-        section = Section::lines;
-      } else if (word.ends_with("DATA")) {
-        section = Section::points;
-      } else if (section == Section::metadata || words[0].ends_with(':')) {
-        readMetadata(words);
-      } else if (section == Section::lines) {
-        const auto at = numbers<4>("a wall, x1 y1 x2 y2 in millimetres");
+    using Section = ActivmediaText::Section;
+    while (text_.next()) {
+      if (text_.section() == Section::metadata) {
+        readMetadata(text_.words());
+      } else if (text_.section() == Section::lines) {
+        const auto at = text_.readLine();
         addLine(at[0], at[1], at[2], at[3]);
       } else {
         if (points_.size() == kMaxPoints) {
           fail("is a point beyond the " + std::to_string(kMaxPoints) + " that a map may have; use fewer");
         }
-        points_.push_back(numbers<2>("a point, x y in millimetres"));
+        points_.push_back(text_.readPoint());
       }
     }
+    number_ = text_.number();
     addPoints();
     for (const auto& [number, words] : cairns_) {
       number_ = number;
@@ -91,62 +59,10 @@ class ActivmediaReader {
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw ConfigError(path_ + ":" + std::to_string(number_) + ": " + what);
-  }
-
-  bool nextLine() {
-    if (text_.empty()) return false;
-    const std::size_t end = std::min(text_.find('\n'), text_.size());
-    line_ = text_.substr(0, end);
-    text_.remove_prefix(std::min(end + 1, text_.size()));
-    if (line_.ends_with('\r')) line_.remove_suffix(1);
-    ++number_;
-    return true;
-  }
-
-  void readHeader() {
-    const bool is_there = nextLine();
-    const std::string_view word = line_.substr(0, line_.find_last_not_of(" \t") + 1);
-    for (const char* known : {"2D-Map", "2D-Map-Ex", "2D-Map-Ex2", "2D-Map-Ex3", "2D-Map-Ex4"}) {
-      if (is_there && isSame(word, known)) return;
-    }
-    number_ = 1;
-    fail("is not an ActivMedia map: its first line is not 2D-Map");
-  }
-
-  std::optional<double> parsed(std::string_view word) const {
-    double value = 0;
-    const auto [stop, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (error == std::errc::result_out_of_range) value = parseNumber(std::string(word)).value_or(INFINITY);
-    if (error == std::errc::invalid_argument || stop != word.data() + word.size() || !std::isfinite(value))
-      return std::nullopt;
-    return value;
-  }
-
-  /// Parses the first `count` numbers of the line; ignores what follows them.
-  template <std::size_t count>
-  std::array<double, count> numbers(const char* what) const {
-    std::array<double, count> values{};
-    std::string_view rest = line_;
-    for (auto& value : values) {
-      rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
-      const std::string_view word = rest.substr(0, rest.find_first_of(" \t"));
-      const auto number = parsed(word);
-      if (!number) fail("'" + quotable(line_) + "' is not " + what);
-      value = checked(*number);
-      rest.remove_prefix(word.size());
-    }
-    return values;
-  }
-
-  double checked(double mm) const {
-    if (std::abs(mm) > kFarthest_mm) fail("lies more than 1,000 km from the origin; coordinates are in millimetres");
-    return mm;
-  }
+  [[noreturn]] void fail(const std::string& what) const { text_.fail(what, number_ ? number_ : text_.number()); }
 
   void readMetadata(const std::vector<std::string>& words) {
-    const auto value_at = [&](std::size_t i) { return i < words.size() ? parsed(words[i]) : std::nullopt; };
+    const auto value_at = [&](std::size_t i) { return i < words.size() ? text_.parsed(words[i]) : std::nullopt; };
     if (words[0] == "Resolution:") {
       const auto mm = value_at(1);
       if (!mm || *mm < 0 || *mm > kCellMax_m * 1000) {
@@ -157,7 +73,7 @@ class ActivmediaReader {
     } else if (words[0] == "MapInfo:") {
       readMapInfo(words);
     } else if (words[0] == "Cairn:") {
-      cairns_.emplace_back(number_, words);
+      cairns_.emplace_back(text_.number(), words);
     }
   }
 
@@ -167,7 +83,7 @@ class ActivmediaReader {
     bool is_obstacle = false;
     for (const auto& word : words) {
       if (word.starts_with("Name=")) name = word.substr(5);
-      if (isSame(word, "Sim.Obstacle=yes")) is_obstacle = true;
+      if (isSameWord(word, "Sim.Obstacle=yes")) is_obstacle = true;
     }
     if (words.size() > 1 && words[1] == "SectorType" && is_obstacle) obstacles_.insert(name);
   }
@@ -181,9 +97,9 @@ class ActivmediaReader {
     if (!is_home && !is_dock && !is_line && !obstacles_.contains(type)) return;
     if (words.size() < 8) fail("a cairn has a type, x, y, theta, a name, an icon and a label; something is missing");
     const auto number = [&](std::size_t i) {
-      const auto value = parsed(words[i]);
+      const auto value = text_.parsed(words[i]);
       if (!value) fail("'" + quotable(words[i]) + "' of the cairn " + quotable(type) + " is not a number");
-      return checked(*value);
+      return text_.checked(*value, number_);
     };
     const TPose2D pose{number(2) / 1000, number(3) / 1000, number(4) * M_PI / 180};
     if (words.size() < 12) {
@@ -259,10 +175,8 @@ class ActivmediaReader {
     plan_.occupied = merger.finish();
   }
 
-  std::string_view text_;  ///< the unread rest
-  const std::string& path_;
-  std::string_view line_;
-  int number_ = 0;
+  ActivmediaText text_;
+  int number_ = 0;  ///< line of what is read after the end of the file; 0 before
   double resolution_mm_ = kDefaultResolution_mm;
   std::set<std::string> obstacles_;  ///< types of cairns that are obstacles
   /// With their line numbers; read last, because a MapInfo line may follow.

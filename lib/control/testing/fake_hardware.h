@@ -65,6 +65,17 @@ class FakeHardware : public Hardware, public RefereeLink {
   const Odometry& odometry() const { return std::get<Odometry>(readings_.measurements[0]); }
   Odometry& mutableOdometry() { return std::get<Odometry>(readings_.measurements[0]); }
 
+  /// Adds a sensor; before a Robot is constructed. @return its slot
+  std::size_t addSensor(SensorKind kind, const std::vector<double>& beam_yaws_rad, Measurement measurement) {
+    auto sensors = std::make_shared<std::vector<SensorInfo>>(*info_.sensors);
+    SensorInfo added = sensor(kind, 0, 0);
+    for (const double yaw : beam_yaws_rad) added.beams.push_back({{0, 0, 0.2, yaw, 0, 0}});
+    sensors->push_back(added);
+    info_.sensors = sensors;
+    readings_.measurements.push_back(std::move(measurement));
+    return sensors->size() - 1;
+  }
+
   /// Sets the range of the sensor in a slot along its beam; beyond its maximum range: no echo.
   void setRange(std::size_t slot, std::size_t beam, double range_m) {
     const SensorInfo& info = (*info_.sensors)[slot];
