@@ -14,36 +14,35 @@
 #include "remote/remote_port.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
+#include "robosim/robot_arguments.h"
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
 
 namespace robosim {
-namespace {
-
-struct RobotArguments {
-  std::vector<std::string> names;
-  bool separate_processes = false;
-  ConnectionArguments connection;
-  std::string controller;
-  double reconnect_timeout_s = 10;
-  std::string remote_port;
-  ListenerArguments listener;
-  double dead_man_s = 0.5;
-};
 
 void logRobot(const std::string& line) { logInfo("robot", line); }
 
-/// Calls a function that runs a robot's controller, and replaces the controller's exceptions.
-template <typename Step>
-void guarded(const std::string& controller_name, const std::string& robot, const Step& step) {
-  try {
-    step();
-  } catch (const ConnectionError&) {
-    throw;
-  } catch (...) {
-    throwControllerError(controller_name, robot);
+RemotePort::Options portOptions(const RobotArguments& arguments) {
+  RemotePort::Options options;
+  options.listen = hostAndPort(arguments.remote_port);
+  options.tls = arguments.listener.identity();
+  options.access = arguments.listener.access(logRobot);
+  if (!arguments.listener.unprotected) {
+    checkExposure("--remote-port", options.listen, options.tls.has_value(), !options.access.isOpen());
   }
+  options.log = logRobot;
+  return options;
 }
+
+RemoteControlRobot::Options remoteOptions(const RobotArguments& arguments) {
+  RemoteControlRobot::Options options;
+  options.dead_man = std::chrono::duration_cast<DriveCommandFilter::Clock::duration>(
+      std::chrono::duration<double>(arguments.dead_man_s));
+  options.log = logRobot;
+  return options;
+}
+
+namespace {
 
 struct DrivenRobot {
   Robot robot;
@@ -64,19 +63,6 @@ struct RemotelyDrivenRobot {
   }
 };
 
-/// Requires explicit protection of remote control. @throws ConfigError
-RemotePort::Options portOptions(const RobotArguments& arguments) {
-  RemotePort::Options options;
-  options.listen = hostAndPort(arguments.remote_port);
-  options.tls = arguments.listener.identity();
-  options.access = arguments.listener.access(logRobot);
-  if (!arguments.listener.unprotected) {
-    checkExposure("--remote-port", options.listen, options.tls.has_value(), !options.access.isOpen());
-  }
-  options.log = logRobot;
-  return options;
-}
-
 /// The robots of this process with their controllers and, with --remote-port, remote control.
 class RobotProcess {
  public:
@@ -92,7 +78,8 @@ class RobotProcess {
       if (arguments.remote_port.empty()) {
         driven_robots_.push_back({Robot(robots_.robot(i)), name, std::move(controller)});
       } else {
-        addRemote(robots_.robot(i), name, std::move(controller), arguments.dead_man_s);
+        remote_robots_.push_back({name, std::make_unique<RemoteControlRobot>(robots_.robot(i), std::move(controller),
+                                                                             remoteOptions(arguments))});
       }
     }
     if (!arguments.remote_port.empty()) openPort();
@@ -111,16 +98,6 @@ class RobotProcess {
   std::uint64_t stepNumber() { return robots_.robot(0).readings().time.step; }
 
  private:
-  void addRemote(Hardware& hardware, const std::string& controller_name, std::unique_ptr<Controller> controller,
-                 double dead_man_s) {
-    RemoteControlRobot::Options options;
-    options.dead_man =
-        std::chrono::duration_cast<DriveCommandFilter::Clock::duration>(std::chrono::duration<double>(dead_man_s));
-    options.log = logRobot;
-    remote_robots_.push_back(
-        {controller_name, std::make_unique<RemoteControlRobot>(hardware, std::move(controller), options)});
-  }
-
   void openPort() {
     std::vector<RemoteControlRobot*> robots;
     for (auto& remote : remote_robots_) robots.push_back(remote.robot.get());
@@ -163,10 +140,21 @@ void driveInSeparateProcesses(RobotArguments arguments) {
 
 }  // namespace
 
+namespace {
+
+constexpr const char* kRobotExamples =
+    "Examples:\n"
+    "  robosim robot Pioneer1 Scout1                                        (of a served world)\n"
+    "  robosim robot --arcos serial:/dev/ttyUSB0 --controller wander --record run.rawlog    (a real Pioneer)\n"
+    "  robosim robot --arcos tcp:127.0.0.1:8101 --controller wander         (of robosim arcos, or another simulator)\n";
+
+}  // namespace
+
 void addRobot(CLI::App& program) {
   auto* command = addSubcommand(program, "robot");
   auto a = std::make_shared<RobotArguments>();
-  command->add_option("NAME", a->names, "names of robots in the environment's world")->required();
+  command->add_option("NAME", a->names,
+                      "names of robots in the environment's world; with --arcos, a name for the robot, or none");
   auto* separate_processes =
       command->add_flag("--separate-processes", a->separate_processes,
                         "run each robot in a separate process; takes half the time of separately started programs");
@@ -188,7 +176,13 @@ void addRobot(CLI::App& program) {
       ->type_name("SECONDS")
       ->capture_default_str();
   addListenerOptions(*command, a->listener);
-  command->callback([a] { a->separate_processes ? driveInSeparateProcesses(*a) : driveRobots(*a); });
+  addArcosRobotOptions(*command, *a);
+  command->footer(kRobotExamples);
+  command->callback([a] {
+    if (!a->arcos.empty()) return driveArcosRobot(*a);
+    if (a->names.empty()) throw CLI::RequiredError("NAME");
+    a->separate_processes ? driveInSeparateProcesses(*a) : driveRobots(*a);
+  });
 }
 
 }  // namespace robosim

@@ -93,7 +93,7 @@ void addRobots(const WorldSource& source, const RobotTypes& types, const std::ve
 class FreePlaces {
  public:
   FreePlaces(const WorldSource& source, const RobotTypes& types, const std::string& model, const World& world)
-      : type_(typeOf(source, types, model)), free_(world, type_.info.radius_m, type_.body.heights()) {
+      : type_(robotOfType(types, model)), free_(world, type_.info.radius_m, type_.body.heights()) {
     free_.blockUnknown(world);
     cells_ = free_.largestRegion();
     for (const auto& robot : fleetOf(world, source.file, types).robots) {
@@ -125,13 +125,6 @@ class FreePlaces {
   }
 
  private:
-  static FleetRobot typeOf(const WorldSource& source, const RobotTypes& types, const std::string& model) {
-    World alone;  // a world with a single robot of the type, to get its model
-    alone.bounds = {-1e6, 1e6, -1e6, 1e6};
-    alone.robots.push_back(placed(model, {}, "robot"));
-    return fleetOf(alone, source.file, types).robots.front();
-  }
-
   bool take(const mrpt::math::TPoint2D& place) {
     const bool is_clear = std::none_of(taken_.begin(), taken_.end(), [&](const Circle& other) {
       return (other.center - place).norm() < other.radius_m + type_.info.radius_m + kContactGap_m;

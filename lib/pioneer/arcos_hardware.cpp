@@ -98,14 +98,15 @@ void ArcosHardware::describe(ArcosRobotType type) {
   info_.name = options_.name;
   parameters_ = type.parameters;
   if (const auto& config = client_.config()) {
-    const auto limit = [](double& value, double top) {
-      if (top > 0) value = std::min(value, top);
+    // What the robot is configured for, which is often less than it could do.
+    const auto limit = [](double& value, double configured) {
+      if (configured > 0) value = std::min(value, configured);
     };
-    limit(info_.limits.speed_max_mps, config->speed_top / kMm);
-    limit(info_.limits.turn_max_radps, config->turn_top * kRadPerDeg);
-    limit(info_.limits.accel_mps2, config->accel_top / kMm);
-    limit(info_.limits.decel_mps2, config->accel_top / kMm);
-    limit(info_.limits.turn_accel_radps2, config->turn_accel_top * kRadPerDeg);
+    limit(info_.limits.speed_max_mps, config->speed_max / kMm);
+    limit(info_.limits.turn_max_radps, config->turn_max * kRadPerDeg);
+    limit(info_.limits.accel_mps2, config->accel / kMm);
+    limit(info_.limits.decel_mps2, config->decel / kMm);
+    limit(info_.limits.turn_accel_radps2, std::min(config->turn_accel, config->turn_decel) * kRadPerDeg);
   }
   std::vector<SensorInfo> sensors;
   std::vector<std::string> missing{"CheckWin"};
@@ -190,6 +191,15 @@ bool ArcosHardware::isStepComplete() const {
 }
 
 bool ArcosHardware::nextStep() {
+  try {
+    return awaitStep();
+  } catch (const ChannelEnd& end) {
+    options_.log(end.what());
+    return false;
+  }
+}
+
+bool ArcosHardware::awaitStep() {
   sendCommand();
   sips_taken_ = client_.sips();
   scans_taken_ = client_.scans();

@@ -27,7 +27,8 @@ class LaserDevice {
 };
 
 /// A robot that speaks ARCOS: a real Pioneer, or a simulated one. The controllers that drive it are those that drive a
-/// simulated robot; a time step is the cycle of its SIPs, 0.1 s. Usage as NetworkHardware:
+/// simulated robot; a time step is the cycle of its SIPs, 0.1 s. RobotInfo::limits are those that the robot is
+/// configured for. Usage as NetworkHardware:
 ///
 ///     ArcosHardware hardware(openChannel("serial:/dev/ttyUSB0"), options);
 ///     do { … the controller reads and commands hardware … } while (hardware.nextStep());
@@ -66,7 +67,7 @@ class ArcosHardware final : public Hardware, public BaseLink {
   void enableMotors(bool on) override;
   void enableSonar(bool on) override;
 
-  /// Sends the command, and waits for the next readings. @return false when `interrupted`
+  /// Sends the command, and waits for the next readings. @return false when `interrupted`, and at the end of a log
   /// @throws RobotLinkError when the connection is lost, or the robot is silent for kSilenceMax
   bool nextStep();
 
@@ -74,6 +75,7 @@ class ArcosHardware final : public Hardware, public BaseLink {
   void connect();
   void describe(ArcosRobotType type);
   void configure();
+  bool awaitStep();
   void sendCommand();
   void processArrived(const std::string& bytes);
   bool isStepComplete() const;

@@ -12,6 +12,12 @@ class RobotLinkError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The end of a log that is replayed.
+class ChannelEnd : public RobotLinkError {
+ public:
+  using RobotLinkError::RobotLinkError;
+};
+
 /// Two-way stream of bytes to a robot, with its clock.
 class ByteChannel {
  public:

@@ -66,7 +66,7 @@ class ReplayedChannel final : public ByteChannel {
       ++line_number_;
       if (auto bytes = receivedIn(line)) return *bytes;
     }
-    throw RobotLinkError(file_name_ + ": the log has ended");
+    throw ChannelEnd(file_name_ + ": the log has ended");
   }
   void write(std::string_view) override {}
   Clock::time_point now() const override {

@@ -114,6 +114,19 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
   return fleet;
 }
 
+FleetRobot robotOfType(const RobotTypes& types, const std::string& model) {
+  World alone;
+  alone.bounds = {-1e6, 1e6, -1e6, 1e6};
+  RobotPlacement placement;
+  placement.name = "robot";
+  placement.model = model;
+  alone.robots.push_back(placement);
+  ErrorList errors;
+  Fleet fleet = buildFleet(alone, "robot type " + model, types, {}, errors);
+  errors.throwIfAny();
+  return fleet.robots.front();
+}
+
 LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
   ErrorList errors;
   LoadedWorld loaded;

@@ -43,6 +43,9 @@ using ControllerCheck = std::function<void(const std::string& controller)>;
 Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& types,
                  const ControllerCheck& check_controller, ErrorList& errors);
 
+/// A robot of a type, alone, at the origin. @throws ConfigError for an unknown or faulty type
+FleetRobot robotOfType(const RobotTypes& types, const std::string& model);
+
 /// A world and its robots.
 struct LoadedWorld {
   World world;

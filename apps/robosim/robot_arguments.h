@@ -1,0 +1,59 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "control/controller_error.h"
+#include "net/connect.h"
+#include "remote/remote_control_robot.h"
+#include "remote/remote_port.h"
+#include "robosim/connection.h"
+
+namespace CLI {
+class App;
+}
+
+namespace robosim {
+
+/// Arguments of `robosim robot`.
+struct RobotArguments {
+  std::vector<std::string> names;
+  bool separate_processes = false;
+  ConnectionArguments connection;
+  std::string controller;
+  double reconnect_timeout_s = 10;
+  std::string remote_port;
+  ListenerArguments listener;
+  double dead_man_s = 0.5;
+  std::string arcos;       ///< channel to a robot that speaks ARCOS, as openChannel(); empty: a robot of a served world
+  std::string arcos_type;  ///< its robot type; empty: what it reports
+  std::string arcos_log;
+  std::string laser;  ///< serial device of an LMS200; empty: none
+  std::string record;
+};
+
+void logRobot(const std::string& line);
+
+/// Options of the port for remote control; requires explicit protection. @throws ConfigError
+RemotePort::Options portOptions(const RobotArguments& arguments);
+RemoteControlRobot::Options remoteOptions(const RobotArguments& arguments);
+
+/// Calls a function that runs a robot's controller, and replaces the controller's exceptions.
+template <typename Step>
+void guarded(const std::string& controller_name, const std::string& robot, const Step& step) {
+  try {
+    step();
+  } catch (const ConnectionError&) {
+    throw;
+  } catch (...) {
+    throwControllerError(controller_name, robot);
+  }
+}
+
+/// @name A robot that speaks ARCOS (arcos_robot.cpp)
+///@{
+void addArcosRobotOptions(CLI::App& command, RobotArguments& arguments);
+/// Drives the robot until its controller halts it or Ctrl-C. @throws ConfigError @throws RobotLinkError
+void driveArcosRobot(const RobotArguments& arguments);
+///@}
+
+}  // namespace robosim
