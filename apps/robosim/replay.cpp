@@ -8,6 +8,7 @@
 #include "robosim/arguments.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
+#include "run/run_observers.h"
 
 namespace robosim {
 namespace {
@@ -20,12 +21,17 @@ void replay(ReplayArguments arguments) {
       {{"RAWLOG", arguments.rawlog}, {"--output", arguments.output}, {"--ground-truth", arguments.ground_truth}});
   if (!arguments.output.empty()) return writeSelection(arguments);
   if (!arguments.ground_truth.empty()) return writeGroundTruth(arguments);
-  if (arguments.check.empty() && arguments.controller.empty()) {
+  const bool is_repeated = !arguments.check.empty() || !arguments.observers.empty();
+  if (arguments.json && !arguments.check.empty() && arguments.observers.empty()) {
+    throw ConfigError("--json: prints the summary, or the metrics of an --observer; omit it, or add an --observer");
+  }
+  checkObservers(arguments.observers);
+  if (!is_repeated && arguments.controller.empty()) {
     return arguments.print ? printObservations(arguments) : summarise(arguments);
   }
   const RereadableFile rawlog(arguments.rawlog);  // required by both branches, which read it more than once
   arguments.rawlog = rawlog.path().string();
-  if (!arguments.check.empty()) {
+  if (is_repeated) {
     if (!checkRun(arguments)) throw Exit{kRunFailed};
     return;
   }
@@ -90,18 +96,29 @@ void addReplay(CLI::App& program) {
                                      "write the selected observations to this rawlog, with embedded pictures");
   output->type_name("FILE")->check(fileName())->excludes(print)->excludes(truth)->excludes(check)->excludes(controller);
   controller->excludes(print)->excludes(sensor)->excludes(from)->excludes(to);
+  addObserverOption(*command, a->observers,
+                    "repeat the run, check that it is identical, and print the metrics of this observer; in the "
+                    "recorded world, or that of --check")
+      ->excludes(print)
+      ->excludes(controller)
+      ->excludes(robot)
+      ->excludes(sensor)
+      ->excludes(from)
+      ->excludes(to)
+      ->excludes(truth)
+      ->excludes(output);
   check->excludes(print)->excludes(controller)->excludes(robot)->excludes(sensor)->excludes(from)->excludes(to);
-  command->add_flag("--json", a->json, "print the summary as one JSON object")
+  command->add_flag("--json", a->json, "print the summary, or the observers' metrics, as one JSON object")
       ->excludes(print)
       ->excludes(controller)
       ->excludes(truth)
-      ->excludes(output)
-      ->excludes(check);
+      ->excludes(output);
   const std::string examples =
       "Try:  robosim replay run.rawlog --robot Pioneer1 --sensor laser --print --csv > laser.csv\n"
       "      robosim replay run.rawlog --robot Pioneer1 --sensor laser --sensor odometry --output slam.rawlog\n"
+      "      robosim replay run.rawlog --observer \"coverage cell_m=0.25\"\n"
       "To view a recording: robosim view RAWLOG.\n"
-      "Exit codes: 0 success, 1 bad input, 2 --check found a difference.\n\n";
+      "Exit codes: 0 success, 1 bad input, 2 --check or --observer found a difference.\n\n";
   command->footer([examples] { return examples + controllersHelp(); });
   command->callback([a] { replay(*a); });
 }

@@ -10,8 +10,10 @@
 #include "hardware/measurement_fields.h"
 #include "recording/recorded_step.h"
 #include "replay/replay.h"
+#include "run/json_text.h"
 #include "run/local_run.h"
 #include "run/run_note.h"
+#include "run/run_summary.h"
 
 namespace robosim {
 namespace {
@@ -80,15 +82,17 @@ class RunAgain {
  public:
   RunAgain(const ReplayArguments& arguments, const RunNote& note)
       : note_(note),
-        source_(sourceFrom(arguments.check, note.seed)),
-        run_(worldWithControllers(source_, note), options(note), elsewhere(note)),
+        verdict_(arguments.json ? std::cerr : std::cout),
+        source_(sourceFrom(arguments, note)),
+        run_(worldWithControllers(source_, note), options(note, arguments.observers), elsewhere(note)),
         reader_(arguments.rawlog),
         recorded_(reader_, robots(), note.period_s, Pictures::leave_out) {}
 
+  std::vector<Metric> metrics() const { return run_.observers().metrics(); }
   /// @return whether the run is identical
   bool check() {
     if (versionOf(source_) != note_.world_version) {
-      std::cout << "The world has changed since it was recorded (or is another one).\n";
+      verdict_ << "The world has changed since it was recorded (or is another one).\n";
     }
     const Interrupt interrupt;
     Progress progress;
@@ -99,8 +103,8 @@ class RunAgain {
       if (interrupt.isRequested()) throw Interrupted("interrupted; no result");
       if (const auto difference = firstDifference(*now)) {
         const SimTime time = run_.environment().time();
-        std::cout << "Not the same run. It first differs in step " << time.step << " (" << fixed(time.seconds(), 3)
-                  << " s): " << printableText(*difference) << '\n';
+        verdict_ << "Not the same run. It first differs in step " << time.step << " (" << fixed(time.seconds(), 3)
+                 << " s): " << printableText(*difference) << '\n';
         return false;
       }
       if (progress.due()) progress.show("step " + withCommas(steps) + " is the same …");
@@ -112,23 +116,27 @@ class RunAgain {
       throw ConfigError(reader_.readError().value_or("the recording") + "; it has no complete step to compare");
     }
     if (reader_.readError()) {
-      std::cout << printableText(*reader_.readError()) << '\n'
-                << "What there is, " << withCommas(steps) << " steps, is the same.\n";
+      verdict_ << printableText(*reader_.readError()) << '\n'
+               << "What there is, " << withCommas(steps) << " steps, is the same.\n";
       return true;
     }
     return sameDigest(steps);
   }
 
  private:
-  static RunOptions options(const RunNote& note) {
+  static RunOptions options(const RunNote& note, const std::vector<std::string>& observers) {
     RunOptions options;
+    options.observers = observers;
     options.environment.seed = note.seed;
     options.environment.period_s = note.period_s;
     return options;
   }
-  static WorldSource sourceFrom(const std::string& world_file, std::uint64_t seed) {
-    WorldSource source = readWorldSource(world_file);
-    source.seed = seed;
+  static WorldSource sourceFrom(const ReplayArguments& arguments, const RunNote& note) {
+    if (arguments.check.empty() && note.world.text.empty()) {
+      throw ConfigError(arguments.rawlog + ": its world is too large to be stored in it; add --check WORLD");
+    }
+    WorldSource source = arguments.check.empty() ? note.world : readWorldSource(arguments.check);
+    source.seed = note.seed;
     return source;
   }
   /// The recorded controller of each robot.
@@ -213,18 +221,19 @@ class RunAgain {
     const std::string recorded = note && note->outcome.is_object() ? note->outcome.value("digest", "") : "";
     const std::string now = run_.environment().digest();
     if (recorded.empty()) {
-      std::cout << "All " << withCommas(steps) << " steps are the same; the recording has no digest.\n";
+      verdict_ << "All " << withCommas(steps) << " steps are the same; the recording has no digest.\n";
       return true;
     }
     if (recorded != now) {
-      std::cout << "Every reading is the same, but not the digest: recorded " << recorded << ", now " << now << '\n';
+      verdict_ << "Every reading is the same, but not the digest: recorded " << recorded << ", now " << now << '\n';
       return false;
     }
-    std::cout << "The same run: " << withCommas(steps) << " steps, digest " << now << '\n';
+    verdict_ << "The same run: " << withCommas(steps) << " steps, digest " << now << '\n';
     return true;
   }
 
   const RunNote& note_;
+  std::ostream& verdict_;  ///< standard output contains only the JSON object, if there is any
   WorldSource source_;
   LocalRun run_;
   RawlogReader reader_;
@@ -235,7 +244,12 @@ class RunAgain {
 
 bool checkRun(const ReplayArguments& arguments) {
   const RunNote note = RunNote::of(arguments.rawlog);
-  return RunAgain(arguments, note).check();
+  RunAgain run(arguments, note);
+  const bool is_same = run.check();
+  const std::vector<Metric> metrics = run.metrics();
+  if (is_same && arguments.json) std::cout << jsonText({{"metrics", metricsJson(metrics)}}) << std::endl;
+  if (is_same && !arguments.json) std::cout << listing(metricRows(metrics));
+  return is_same;
 }
 
 }  // namespace robosim

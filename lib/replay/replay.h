@@ -12,12 +12,13 @@ struct ReplayArguments {
   std::vector<std::string> sensors;    ///< selected by the second part of the label; empty for all
   std::optional<double> from_s, to_s;  ///< since the recording's first observation
   bool print = false;
-  bool csv = false;          ///< print as comma-separated values
-  std::string ground_truth;  ///< output file
-  std::string output;        ///< rawlog of the selected observations
-  double speed = 0;          ///< of printing: recorded seconds per second; 0: unlimited
-  std::string controller;    ///< of the world of the recording; "recorded": each robot's own
-  std::string check;         ///< a world file
+  bool csv = false;                    ///< print as comma-separated values
+  std::string ground_truth;            ///< output file
+  std::string output;                  ///< rawlog of the selected observations
+  double speed = 0;                    ///< of printing: recorded seconds per second; 0: unlimited
+  std::string controller;              ///< of the world of the recording; "recorded": each robot's own
+  std::string check;                   ///< a world file
+  std::vector<std::string> observers;  ///< of the repeated run, as TypeChoice::text()
   double tolerance = 1e-9;
   bool json = false;
 
@@ -38,8 +39,10 @@ void writeGroundTruth(const ReplayArguments&);
 /// Writes the selected observations to a rawlog.
 /// @throws ConfigError when the selection matches nothing.
 void writeSelection(const ReplayArguments&);
-/// Repeats the run and reports whether it is identical.
+/// Repeats the run, in the world `check` or else the recorded one, and reports whether it is identical and the metrics
+/// of the observers. They see what they would have seen in the recorded run.
 /// @return whether it is
+/// @throws ConfigError when the recording contains no world, and none is given
 bool checkRun(const ReplayArguments&);
 /// Feeds the recorded readings to a controller, and reports where its commands differ from the recorded ones.
 void replayToController(const ReplayArguments&);

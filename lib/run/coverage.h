@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,7 @@ class Coverage : public Observer {
   std::string endReason() const override;
   /// covered_percent; half_covered_s: when 50 % were reached.
   std::vector<Metric> metrics() const override;
+  std::unique_ptr<Observer> clone(const ObserverSetup&) const override { return std::make_unique<Coverage>(*this); }
 
  private:
   double coveredPercent() const;

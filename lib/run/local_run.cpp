@@ -124,7 +124,7 @@ LocalRun::LocalRun(ForkOf original)
                    images_.get()),
       workers_(options_.environment.threads),
       gold_(original.run.gold_),
-      observers_({}, options_.environment.seed) {
+      observers_(RunObservers::Fork{original.run.observers_}) {
   const auto& robots = environment_.fleet().robots;
   auto local = original.run.local_robots_.begin();  // in the world's order
   for (std::size_t i = 0; i < robots.size(); ++i) {

@@ -69,9 +69,9 @@ class LocalRun {
 
   /// What fork() does with robots that LocalRun does not run the controllers of.
   enum class Elsewhere { refuse, keep };
-  /// A run that continues from the present state, independently of this one and without observers.
+  /// A run that continues from the present state, independently of this one.
   /// @throws ConfigError naming the robot and its controller when the controller has no Controller::clone(), or when
-  /// another process drives the robot and `elsewhere` is refuse
+  /// another process drives the robot and `elsewhere` is refuse; naming an observer that has no Observer::clone()
   std::unique_ptr<LocalRun> fork(Elsewhere elsewhere = Elsewhere::refuse) const;
 
   /// Runs every controller, then takes one time step.

@@ -17,6 +17,13 @@ struct Metric {
   double value = 0;  ///< NaN when the run has none, such as the time of an event that did not happen
 };
 
+/// What an observer may use.
+struct ObserverSetup {
+  std::uint64_t seed = 1;  ///< of the run
+  /// Prints a line with the simulated time and the observer's name to standard error.
+  std::function<void(const std::string& line)> log;
+};
+
 /// Watches a run from outside the robots, with access to the true state of the world: computes metrics, ends the run
 /// on a condition of its own, and logs. It cannot change the run.
 class Observer {
@@ -28,13 +35,9 @@ class Observer {
   virtual std::string endReason() const { return {}; }
   /// At the end of the run; always the same names in the same order.
   virtual std::vector<Metric> metrics() const { return {}; }
-};
-
-/// What an observer may use.
-struct ObserverSetup {
-  std::uint64_t seed = 1;  ///< of the run
-  /// Prints a line with the simulated time and the observer's name to standard error.
-  std::function<void(const std::string& line)> log;
+  /// A copy that continues independently from the same state, for a fork of the run. Null, the default, for an observer
+  /// that cannot be copied, whose run cannot be forked. @param setup of the copy
+  virtual std::unique_ptr<Observer> clone(const ObserverSetup& /*setup*/) const { return nullptr; }
 };
 
 /// The end of a run by an observer.

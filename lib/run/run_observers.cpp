@@ -36,21 +36,37 @@ void checkObservers(const std::vector<std::string>& choices) {
   }
 }
 
-RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging) {
+RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging)
+    : seed_(seed), is_logging_(is_logging) {
   checkObservers(choices);
   for (const auto& choice : choices) {
     const std::string name = TypeChoice::parse(choice).name;
-    ObserverSetup setup;
-    setup.seed = seed;
-    setup.log = [](const std::string&) {};
-    if (is_logging) {
-      setup.log = [this, name](const std::string& line) { logInfo(name, "at " + fixed(now_s_, 3) + " s: " + line); };
-    }
+    const ObserverSetup setup = setupOf(name);
     const ParameterValues values = observers().parametersOf(choice);
     auto observer = guarded(choice, [&] { return observers().typeOf(choice).make(setup, values); });
     if (!observer) throw ObserverError("observer '" + choice + "': its type has made none");
     observers_.push_back({choice, name, std::move(observer)});
   }
+}
+
+RunObservers::RunObservers(Fork fork)
+    : seed_(fork.original.seed_),
+      is_logging_(fork.original.is_logging_),
+      now_s_(fork.original.now_s_),
+      end_(fork.original.end_) {
+  for (const auto& one : fork.original.observers_) {
+    auto copy = guarded(one.choice, [&] { return one.observer->clone(setupOf(one.name)); });
+    if (!copy) {
+      throw ConfigError("observer '" + one.choice + "': has no clone(), so that its run cannot be forked; add " +
+                        "Observer::clone() to it, or run without it");
+    }
+    observers_.push_back({one.choice, one.name, std::move(copy)});
+  }
+}
+
+ObserverSetup RunObservers::setupOf(const std::string& name) {
+  if (!is_logging_) return {seed_, [](const std::string&) {}};
+  return {seed_, [this, name](const std::string& line) { logInfo(name, "at " + fixed(now_s_, 3) + " s: " + line); }};
 }
 
 void RunObservers::observe(const Environment& environment) {

@@ -19,6 +19,12 @@ class RunObservers {
   /// @throws ConfigError for an unknown observer or an invalid parameter
   /// @throws ObserverError for an exception of an observer's constructor
   RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging = true);
+  /// Copies that continue independently, for a fork of the run.
+  struct Fork {
+    const RunObservers& original;
+  };
+  /// @throws ConfigError naming an observer that cannot be copied
+  explicit RunObservers(Fork fork);
   RunObservers(const RunObservers&) = delete;
   RunObservers& operator=(const RunObservers&) = delete;
 
@@ -34,6 +40,10 @@ class RunObservers {
     std::string choice, name;
     std::unique_ptr<Observer> observer;
   };
+  ObserverSetup setupOf(const std::string& name);
+
+  std::uint64_t seed_;
+  bool is_logging_;
   double now_s_ = 0;  ///< simulated time of the present observation, for log lines
   std::optional<ObserverEnd> end_;
   std::vector<Named> observers_;

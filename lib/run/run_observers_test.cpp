@@ -76,6 +76,33 @@ TEST(RunObservers, EndARunWithAReasonInItsSummary) {
   EXPECT_TRUE(summary.json()["ended_by_observer"].is_null()) << "what it would end is over already";
 }
 
+TEST(RunObservers, ContinueInAForkFromTheSameState) {
+  RunOptions options;
+  options.controller = "wander";
+  options.observers = {"coverage cell_m=0.1 end_percent=90"};
+  LocalRun run(loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", "wander"), options);
+  for (int i = 0; i < 50; ++i) run.step();
+  const auto fork = run.fork();
+  const double until_fork = run.observers().metrics()[0].value;
+  for (int i = 0; i < 50; ++i) fork->step();
+  EXPECT_EQ(run.observers().metrics()[0].value, until_fork);
+  EXPECT_GT(fork->observers().metrics()[0].value, until_fork);
+  for (int i = 0; i < 50; ++i) run.step();
+  EXPECT_EQ(fork->observers().metrics()[0].value, run.observers().metrics()[0].value);
+}
+
+TEST(RunObservers, AreNamedWhenTheyCannotBeForked) {
+  const LocalRun run = runWith({"counting end_step=9"});
+  try {
+    run.fork();
+    FAIL() << "no exception";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "observer 'counting end_step=9': has no clone(), so that its run cannot be forked; add "
+                 "Observer::clone() to it, or run without it");
+  }
+}
+
 TEST(RunObservers, DoNotChangeARun) {
   LocalRun watched = runWith({"counting", "coverage"}), alone = runWith({});
   for (int i = 0; i < 5; ++i) {

@@ -41,8 +41,7 @@ constexpr const char* kSeedHadNoEffect =
     " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
 
 /// @param observer_end RunObservers::end()
-std::string sentenceOn(const GoldOutcome& gold, EndedBy why,
-                       const std::optional<ObserverEnd>& observer_end) {
+std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional<ObserverEnd>& observer_end) {
   std::string text = "no gold found";
   if (gold.won_by) {
     text = *gold.won_by + " has won after " + fixed(*gold.won_s, 1) + " s";
@@ -68,6 +67,22 @@ EndedBy endedByItself(const LocalRun& run) {
   return run.isOver() ? EndedBy::observer : EndedBy::time_limit;
 }
 
+nlohmann::ordered_json metricsJson(const std::vector<Metric>& metrics) {
+  auto by_name = nlohmann::ordered_json::object();
+  for (const auto& metric : metrics) {
+    by_name[metric.name] = std::isfinite(metric.value) ? nlohmann::ordered_json(metric.value) : nullptr;
+  }
+  return by_name;
+}
+
+Rows metricRows(const std::vector<Metric>& metrics) {
+  Rows rows;
+  for (const auto& metric : metrics) {
+    rows.push_back({metric.name, std::isfinite(metric.value) ? fixed(metric.value, 3) : "none"});
+  }
+  return rows;
+}
+
 RunSummary RunSummary::of(const LocalRun& run) {
   const Environment& environment = run.environment();
   const State& state = environment.state();
@@ -88,10 +103,6 @@ RunSummary RunSummary::of(const LocalRun& run) {
 }
 
 nlohmann::ordered_json RunSummary::json() const {
-  auto by_name = nlohmann::ordered_json::object();
-  for (const auto& metric : metrics) {
-    by_name[metric.name] = std::isfinite(metric.value) ? nlohmann::ordered_json(metric.value) : nullptr;
-  }
   const bool is_ended_by_observer = ended_by == EndedBy::observer && observer_end;
   return {{"world", world},
           {"seed", seed},
@@ -116,7 +127,7 @@ nlohmann::ordered_json RunSummary::json() const {
           {"messages", messages},
           {"messages_dropped", messages_dropped},
           {"late", orNull(late)},
-          {"metrics", by_name},
+          {"metrics", metricsJson(metrics)},
           {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
 }
 
@@ -132,9 +143,7 @@ std::string RunSummary::text() const {
   if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
   rows.push_back({"seed", std::to_string(seed) + (depends_on_seed ? "" : kSeedHadNoEffect)});
   rows.push_back({"digest", digest});
-  for (const auto& metric : metrics) {
-    rows.push_back({metric.name, std::isfinite(metric.value) ? fixed(metric.value, 3) : "none"});
-  }
+  for (auto& row : metricRows(metrics)) rows.push_back(std::move(row));
   std::string sentence = sentenceOn(gold, ended_by, observer_end);
   if (report) {
     addClients(*report, rows);

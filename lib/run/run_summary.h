@@ -4,6 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "base/text_table.h"
 #include "run/local_run.h"
 #include "server/run_report.h"
 
@@ -14,6 +15,11 @@ enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_los
 
 /// Why a run ended that neither a person nor a lost robot has ended: all robots halted, an observer, or the time limit.
 EndedBy endedByItself(const LocalRun& run);
+
+/// By name; null for a metric without a value.
+nlohmann::ordered_json metricsJson(const std::vector<Metric>& metrics);
+/// Lines of a listing().
+Rows metricRows(const std::vector<Metric>& metrics);
 
 /// Result of a run, printed at its end.
 struct RunSummary {
@@ -29,11 +35,11 @@ struct RunSummary {
   GoldOutcome gold;
   double driven_m = 0;  ///< sum over all robots
   std::uint64_t stalls = 0;
-  std::uint64_t messages = 0;          ///< delivered
-  std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits on messages in a step
-  std::optional<std::uint64_t> late;   ///< robot-steps whose command came too late; nullopt for a lockstep run
-  std::optional<RunReport> report;     ///< of a served run
-  std::vector<Metric> metrics;         ///< of the observers
+  std::uint64_t messages = 0;               ///< delivered
+  std::uint64_t messages_dropped = 0;       ///< beyond a robot's limits on messages in a step
+  std::optional<std::uint64_t> late;        ///< robot-steps whose command came too late; nullopt for a lockstep run
+  std::optional<RunReport> report;          ///< of a served run
+  std::vector<Metric> metrics;              ///< of the observers
   std::optional<ObserverEnd> observer_end;  ///< RunObservers::end()
 
   /// Fills the fields derived from the run; the caller sets the rest.
