@@ -9,6 +9,9 @@
 #include <CLI/CLI.hpp>
 
 #include "base/error_list.h"
+#include "base/interrupt.h"
+#include "base/log.h"
+#include "net/first_connection.h"
 #include "net/host_port.h"
 #include "net/private_file.h"
 #include "robosim/arguments.h"
@@ -46,6 +49,13 @@ ConnectOptions ConnectionArguments::connectOptions(double reconnect_timeout_s) c
       std::clamp(reconnect_timeout_s * 1000 / 2, kMinMs, static_cast<double>(options.connect_limit.count()));
   options.connect_limit = std::chrono::milliseconds(static_cast<std::int64_t>(half_ms));
   return options;
+}
+
+ConnectOptions ConnectionArguments::awaitServer(const ConnectOptions& options, const std::string& command) const {
+  const Interrupt interrupt;
+  return waitForServer(options, std::chrono::duration<double>(connect_timeout_s), [&](const std::string& line) {
+    if (reports_waiting) logInfo(command, line);
+  });
 }
 
 ConnectOptions ConnectionArguments::connectOptions() const {
@@ -87,6 +97,15 @@ void addSecurityOptions(CLI::App& command, ConnectionArguments& a) {
   command.add_flag("--send-token-unencrypted", a.send_token_unencrypted,
                    "send the token to other machines without TLS; it can then be intercepted");
   refuseInsecure(command);
+}
+
+void addConnectTimeout(CLI::App& command, ConnectionArguments& a) {
+  command
+      .add_option("--connect-timeout", a.connect_timeout_s,
+                  "how long to wait for an environment that does not listen yet; 0: not at all")
+      ->check(numberIn(0, 1e6))
+      ->type_name("SECONDS")
+      ->capture_default_str();
 }
 
 std::optional<TlsIdentity> ListenerArguments::identity() const {

@@ -23,6 +23,8 @@ struct ControlArguments {
   std::string speed;
   bool watch = false;
   double period_s = 1;
+
+  ConnectOptions connectOptions() const { return connection.awaitServer(connection.connectOptions(), "control"); }
 };
 
 const char* wordFor(v1::RunPhase phase) {
@@ -97,7 +99,7 @@ std::string pageOn(const v1::RunStatus& status) {
 void showLine(const v1::RunStatus& status) { std::cout << lineOn(status) << std::endl; }
 
 void showStatus(const ControlArguments& a) {
-  ControlPanel panel(a.connection.connectOptions());
+  ControlPanel panel(a.connectOptions());
   if (a.watch) {
     panel.watch(std::chrono::duration<double>(a.period_s), showLine);
   } else {
@@ -114,6 +116,7 @@ void addControl(CLI::App& program) {
       ->type_name("HOST:PORT")
       ->capture_default_str();
   addSecurityOptions(*control, a->connection);
+  addConnectTimeout(*control, a->connection);
   control->require_subcommand(1);
   const auto add = [&](const char* name, const char* help, const std::function<void()>& act) {
     auto* command = control->add_subcommand(name, help);
@@ -124,15 +127,16 @@ void addControl(CLI::App& program) {
   using Act = std::function<v1::RunStatus(ControlPanel&)>;
   const auto add_call = [&](const char* name, const char* help, const Act& act) {
     return add(name, help, [a, act] {
-      ControlPanel panel(a->connection.connectOptions());
+      ControlPanel panel(a->connectOptions());
       showLine(act(panel));
     });
   };
 
-  auto* load = add_call("load", "end the run and start another with this world, paused", [a](ControlPanel& panel) {
+  auto* load = add("load", "end the run and start another with this world, paused", [a] {
     WorldSource source = readWorldSource(a->world);
     source.seed = a->seed;
-    return panel.load(source);
+    ControlPanel panel(a->connectOptions());
+    showLine(panel.load(source));
   });
   load->add_option("FILE", a->world, "world file")->required();
   load->add_option("--seed", a->seed, "of the new run, 0 to 2^64 - 1; default: that of 'robosim serve'")

@@ -20,7 +20,9 @@ struct GeometryArguments {
 };
 
 void work(const GeometryArguments& arguments) {
-  GeometryWorker worker(arguments.connection.connectOptions(arguments.reconnect_timeout_s), arguments.threads);
+  const ConnectionArguments& connection = arguments.connection;
+  GeometryWorker worker(connection.awaitServer(connection.connectOptions(arguments.reconnect_timeout_s), "geometry"),
+                        arguments.threads);
   worker.connect();
   std::cout << "computing for the world " << printableText(worker.world().name) << std::endl;
   Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s),
@@ -36,6 +38,7 @@ void addGeometry(CLI::App& program) {
   auto a = std::make_shared<GeometryArguments>();
   addConnectionOptions(*command, a->connection);
   addThreads(*command, a->threads, "number of threads; the run does not depend on it");
+  addConnectTimeout(*command, a->connection);
   addReconnectTimeout(*command, a->reconnect_timeout_s);
   command->callback([a] { work(*a); });
 }

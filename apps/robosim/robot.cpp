@@ -67,7 +67,9 @@ class RobotProcess {
  public:
   explicit RobotProcess(const RobotArguments& arguments)
       : port_options_(arguments.remote_port.empty() ? RemotePort::Options{} : portOptions(arguments)),
-        robots_(arguments.connection.connectOptions(arguments.reconnect_timeout_s), arguments.names) {
+        robots_(arguments.connection.awaitServer(arguments.connection.connectOptions(arguments.reconnect_timeout_s),
+                                                 "robot"),
+                arguments.names) {
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
       const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
       const std::string name = controllerOf(robots_.controller(i), arguments.controller);
@@ -138,6 +140,7 @@ void driveInSeparateProcesses(RobotArguments arguments) {
   const auto mine = forkProcesses(arguments.names.size());
   if (!mine) return;
   arguments.names = {arguments.names[*mine]};
+  arguments.connection.reports_waiting = *mine == 0;
   driveRobots(arguments);
 }
 
@@ -153,6 +156,7 @@ void addRobot(CLI::App& program) {
   addConnectionOptions(*command, a->connection);
   addControllerOption(*command, a->controller, "controller of all these robots, instead of those in the world");
   acceptFormerName(*command, *separate_processes, "--apart");
+  addConnectTimeout(*command, a->connection);
   addReconnectTimeout(*command, a->reconnect_timeout_s);
   command
       ->add_option(

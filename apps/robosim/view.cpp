@@ -112,7 +112,7 @@ void view(const ViewArguments& a) {
   }
   const auto connect_options = [connection = a.connection](const std::string& address) mutable {
     connection.environment = address;
-    return connection.connectOptions();
+    return connection.awaitServer(connection.connectOptions(), "view");
   };
   const auto source = openView(a.source, connect_options, a.changes, a.seed);
   refuseOverwriting(source->inputs(), {a.offscreen});
@@ -169,6 +169,7 @@ void addView(CLI::App& program) {
       ->check(numberIn(1, 120))
       ->capture_default_str();
   addSecurityOptions(*command, a->connection);
+  addConnectTimeout(*command, a->connection);
   command->footer(
       "In the window:\n"
       "  left drag      move (2D), turn (3D)        wheel      zoom\n"

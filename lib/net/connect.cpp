@@ -49,6 +49,7 @@ std::shared_ptr<grpc::Channel> connect(const ConnectOptions& options) {
     throw ConfigError("the token would be sent to " + options.address +
                       " unencrypted; add --tls-ca FILE, or --send-token-unencrypted if the network is trusted");
   }
+  if (options.channel) return options.channel;
   disableDeadlockDetection();
   limitGrpcLog();
   grpc::ChannelArguments arguments;
@@ -65,6 +66,7 @@ std::shared_ptr<grpc::Channel> connect(const ConnectOptions& options) {
   arguments.SetInt(GRPC_ARG_MINIMAL_STACK, 1);
   arguments.SetInt(GRPC_ARG_ENABLE_RETRIES, 0);
   arguments.SetInt(GRPC_ARG_ENABLE_CHANNELZ, 0);
+  if (!options.shares_connections) arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   if (!options.tls) return grpc::CreateCustomChannel(options.address, grpc::InsecureChannelCredentials(), arguments);
   grpc::SslCredentialsOptions trust;
   trust.pem_root_certs = options.trusted_pem;

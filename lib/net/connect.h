@@ -25,6 +25,8 @@ struct ConnectOptions {
   std::chrono::milliseconds keepalive = kKeepalive;  ///< interval of HTTP/2 keepalive pings
   /// Timeout for a TCP connection, and for the diagnosis of a TLS failure. At least 100 ms.
   std::chrono::milliseconds connect_limit{5000};
+  bool shares_connections = true;            ///< uses connections of other channels of this process
+  std::shared_ptr<grpc::Channel> channel{};  ///< to be used by connect(); null: a new one
 };
 
 /// A failed call; the message has the address, the cause and how to fix it.
@@ -44,7 +46,7 @@ class ConnectionError : public std::runtime_error {
   bool is_transient_;
 };
 
-/// Creates a channel to the environment; it connects when first used.
+/// ConnectOptions::channel, or else a new channel to the environment, which connects when first used.
 /// @throws ConfigError for a token that would cross the network unencrypted.
 std::shared_ptr<grpc::Channel> connect(const ConnectOptions& options);
 

@@ -112,6 +112,18 @@ void trust(SSL_CTX* context, const std::string& trusted_pem) {
   }
 }
 
+/// A connection, which does not block; null when there is none until this time.
+Owned<BIO> connectTcp(const std::string& address, Clock::time_point until) {
+  Owned<BIO> tcp(BIO_new_connect(address.c_str()));
+  BIO_set_nbio(tcp.get(), 1);
+  while (BIO_do_connect(tcp.get()) != 1) {
+    const bool is_writable = BIO_should_retry(tcp.get()) != 0 && waitFor(tcp.get(), POLLOUT, until);
+    ERR_clear_error();
+    if (!is_writable) return nullptr;
+  }
+  return tcp;
+}
+
 }  // namespace
 
 TlsIdentity TlsIdentity::read(const std::filesystem::path& certificate_file, const std::filesystem::path& key_file) {
@@ -163,15 +175,14 @@ std::string readTrustedCertificates(const std::filesystem::path& file) {
   return pem;
 }
 
+bool isListening(const std::string& address, std::chrono::milliseconds limit) {
+  return connectTcp(address, Clock::now() + limit) != nullptr;
+}
+
 std::string diagnoseTls(const std::string& address, const std::string& trusted_pem, std::chrono::milliseconds limit) {
   const auto until = Clock::now() + limit;
-  const Owned<BIO> tcp(BIO_new_connect(address.c_str()));
-  BIO_set_nbio(tcp.get(), 1);
-  while (BIO_do_connect(tcp.get()) != 1) {
-    const bool is_writable = BIO_should_retry(tcp.get()) != 0 && waitFor(tcp.get(), POLLOUT, until);
-    ERR_clear_error();
-    if (!is_writable) return "";
-  }
+  const Owned<BIO> tcp = connectTcp(address, until);
+  if (!tcp) return "";
   const Owned<SSL_CTX> context(SSL_CTX_new(TLS_client_method()));
   trust(context.get(), trusted_pem);
   const Owned<SSL> ssl(SSL_new(context.get()));

@@ -26,6 +26,9 @@ struct TlsIdentity {
 /// @throws ConfigError when the file cannot be read or has no certificate.
 std::string readTrustedCertificates(const std::filesystem::path& file);
 
+/// Whether a server accepts a TCP connection. @param limit of the attempt, without the resolution of the host name
+bool isListening(const std::string& address, std::chrono::milliseconds limit);
+
 /// Determines why a TLS handshake with the server at `address` fails: an expired certificate, an issuer that is not
 /// trusted, or another host name. gRPC only reports the failure.
 /// @param trusted_pem as returned by readTrustedCertificates(); empty for the system's authorities

@@ -92,7 +92,7 @@ TEST_F(ErrorTexts, NameAnOptionThatIsGivenByItsFormerName) {
 }
 
 TEST_F(ErrorTexts, AcceptTheFormerNameOfAFlag) {
-  const std::string program = "'" ROBOSIM_PROGRAM "' robot R --environment 127.0.0.1:1 --reconnect-timeout 0 ";
+  const std::string program = "'" ROBOSIM_PROGRAM "' robot R --environment 127.0.0.1:1 --connect-timeout 0 ";
   EXPECT_NE(runCommand(program + "--apart").err.find("no environment answers at 127.0.0.1:1"), std::string::npos);
   EXPECT_NE(runCommand(program + "--apart --remote-port :0").err.find("--separate-processes"), std::string::npos);
 }

@@ -221,7 +221,8 @@ TEST(Mistakes, ReportAnAddressWithoutAServer) {
   for (const std::string& call :
        {"control " + unused_address + " status", "control " + unused_address + " status --watch",
         "robot Pioneer1 --environment " + unused_address, "geometry --environment " + unused_address}) {
-    expectErrorText(call, kFailed, {"no environment answers at 127.0.0.1:1", "is 'robosim serve' running"});
+    expectErrorText(call + " --connect-timeout 0", kFailed,
+                    {"no environment answers at 127.0.0.1:1", "is 'robosim serve' running"});
   }
   expectErrorText("control nonsense status", kBad, {"'nonsense' is no address", "127.0.0.1:3000"});
 }
