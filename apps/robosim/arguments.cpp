@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/data_folders.h"
 #include "base/error_list.h"
 #include "base/log.h"
 #include "base/xml_element.h"
@@ -45,6 +46,20 @@ CLI::Validator seedNumber() {
             return error == std::errc{} && stop == text.data() + text.size()
                        ? ""
                        : text + ": must be a whole number from 0 to 18446744073709551615";
+          },
+          ""};
+}
+
+CLI::Validator inputFile() {
+  return {[](std::string& text) -> std::string {
+            if (text.empty()) return "the file name is empty";
+            std::error_code ignored;  // for broken links, whose reading reports a better error
+            if (const auto found = findDataFile(text)) {
+              text = found->string();
+            } else if (!std::filesystem::exists(std::filesystem::symlink_status(text, ignored))) {
+              throw ConfigError(text + ": no such file; check the path" + searchedText(text));
+            }
+            return "";
           },
           ""};
 }

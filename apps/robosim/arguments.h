@@ -15,6 +15,9 @@ CLI::Validator numberIn(double low, double high);
 CLI::Validator wholeNumberIn(int low, int high);
 /// Accepts a whole number from 0 to 2^64 - 1; CLI11 alone would turn -1 into the largest.
 CLI::Validator seedNumber();
+/// Replaces the name of an input file by findDataFile() (base/data_folders.h).
+/// @throws ConfigError when there is no such file, and nothing with its name
+CLI::Validator inputFile();
 /// Rejects an empty text, as from an unset shell variable.
 CLI::Validator fileName();
 

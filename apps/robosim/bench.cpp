@@ -224,7 +224,7 @@ void addBenchCommand(CLI::App& parent, const std::string& name, const std::strin
   auto* command = parent.add_subcommand(name, help);
   auto a = std::make_shared<BenchArguments>();
   a->is_about_gold = is_about_gold;
-  command->add_option("WORLD", a->worlds, "world files")->type_name("FILE")->required();
+  command->add_option("WORLD", a->worlds, "world files")->type_name("FILE")->transform(inputFile())->required();
   command
       ->add_option("--runs", a->runs, "runs of each controller in each world, with different start poses; 1 to 1000000")
       ->check(wholeNumberIn(1, 1000000))

@@ -240,7 +240,9 @@ void addCheck(CLI::App& program) {
   };
   auto* command = addSubcommand(program, "check");
   auto arguments = std::make_shared<CheckArguments>();
-  command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")->required();
+  command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")
+      ->transform(inputFile())
+      ->required();
   addRobotOptions(*command, arguments->additions.changes);
   command
       ->add_option("--seed", arguments->additions.seed,

@@ -138,7 +138,7 @@ void addControl(CLI::App& program) {
     ControlPanel panel(a->connectOptions());
     showLine(panel.load(source));
   });
-  load->add_option("FILE", a->world, "world file")->required();
+  load->add_option("FILE", a->world, "world file")->transform(inputFile())->required();
   load->add_option("--seed", a->seed, "of the new run, 0 to 2^64 - 1; default: that of 'robosim serve'")
       ->check(seedNumber())
       ->type_name("NUMBER");

@@ -275,6 +275,7 @@ void addExport(CLI::App& program) {
       ->add_option("WORLD", arguments->world,
                    "world file or map file; or a rawlog, recorded by RoboSim or another program, for .csv, .npz, .png, "
                    ".svg and .pdf")
+      ->transform(inputFile())
       ->type_name("FILE")
       ->required();
   command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")

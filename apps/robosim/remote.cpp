@@ -86,6 +86,7 @@ void addRemote(CLI::App& program) {
   auto* command = addSubcommand(program, "remote");
   auto a = std::make_shared<RemoteArguments>();
   command->add_option("ROBOTS", a->robots, "robot list with the address of each robot's program (robot --remote-port)")
+      ->transform(inputFile())
       ->type_name("FILE")
       ->required();
   auto* listen =

@@ -44,6 +44,7 @@ void addReplay(CLI::App& program) {
   auto* command = addSubcommand(program, "replay");
   auto a = std::make_shared<ReplayArguments>();
   command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog, recorded by RoboSim or another program")
+      ->transform(inputFile())
       ->type_name("FILE")
       ->required();
   auto* robot = command->add_option("--robot", a->robots, "select this robot; repeatable");
@@ -86,7 +87,8 @@ void addReplay(CLI::App& program) {
           ->add_option("--check", a->check,
                        "repeat the run of this world with the recorded seed, and report whether it is identical; if "
                        "not, where it first differs")
-          ->type_name("WORLD");
+          ->type_name("WORLD")
+          ->transform(inputFile());
   auto* truth = command->add_option("--ground-truth", a->ground_truth,
                                     "write the true path of one robot to this text file: lines of time [s since 1970], "
                                     "x, y, z [m], yaw, pitch, roll [rad], as MRPT's pf-localization "

@@ -9,7 +9,10 @@
 namespace robosim {
 
 void addRunArguments(CLI::App& command, RunArguments& a) {
-  command.add_option("WORLD", a.world, "world file or map file")->type_name("FILE")->required();
+  command.add_option("WORLD", a.world, "world file or map file; a shipped one also by name alone: maze_20x20")
+      ->type_name("FILE")
+      ->transform(inputFile())
+      ->required();
   addRobotOptions(command, a.changes);
   command.add_flag("--random-starts", a.changes.has_random_starts,
                    "move every robot to a random pose that it can reach from its start");

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/data_folders.h"
 #include "base/error_list.h"
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
@@ -104,7 +105,8 @@ void checkTimes(const ViewArguments& a, const ViewSource& source) {
   refuse(*times.from_s > *duration_s, from, "the recording ends at " + brief(*duration_s) + " s");
 }
 
-void view(const ViewArguments& a) {
+void view(ViewArguments a) {
+  if (const auto file = findDataFile(a.source)) a.source = file->string();
   const Size size = sizeFrom(a.size);
   if (!a.offscreen.empty()) {
     checkOffscreenFile(a.offscreen);
@@ -131,8 +133,10 @@ void addView(CLI::App& program) {
   auto* command = addSubcommand(program, "view");
   auto a = std::make_shared<ViewArguments>();
   command
-      ->add_option("SOURCE", a->source,
-                   "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program")
+      ->add_option(
+          "SOURCE", a->source,
+          "address of a running environment (HOST:PORT), a world file, a map, or a rawlog of any program; shipped "
+          "files also by name alone: maze_20x20")
       ->type_name("ADDRESS|FILE")
       ->required();
   addRobotOptions(*command, a->changes);

@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <link.h>
 
+#include "base/error_list.h"
 #include "base/program_folder.h"
 
 namespace robosim {
@@ -36,6 +37,41 @@ std::filesystem::path shareFolder() {
     if (fs::is_directory(prefix / "share" / "robosim", none)) return prefix / "share" / "robosim";
   }
   return folder.parent_path() / "share" / "robosim";
+}
+
+std::vector<fs::path> dataFolders() {
+  std::vector<fs::path> folders;
+  for (const auto& folder : worldFolders()) {
+    if (folder.is_from_environment) folders.push_back(folder.path);
+  }
+  const fs::path share = shareFolder();
+  for (const char* kind : {"worlds", "maps", "rawlogs"}) folders.push_back(share / kind);
+  folders.push_back(share);
+  return folders;
+}
+
+std::optional<fs::path> findDataFile(const fs::path& file) {
+  std::vector<fs::path> names{file};
+  if (file.has_filename() && !file.has_extension()) names.push_back(file.string() + ".xml");
+  std::vector<fs::path> folders{""};
+  if (file.is_relative()) {
+    for (auto& folder : dataFolders()) folders.push_back(std::move(folder));
+  }
+  for (const auto& folder : folders) {
+    for (const auto& name : names) {
+      std::error_code none;
+      const fs::file_status status = fs::status(folder / name, none);
+      if (fs::exists(status) && !fs::is_directory(status)) return folder / name;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string searchedText(const fs::path& file) {
+  if (file.is_absolute()) return "";
+  std::vector<std::string> folders;
+  for (const auto& folder : dataFolders()) folders.push_back(folder.string());
+  return "; searched are also " + listed(folders) + " (ROBOSIM_PATH adds folders)";
 }
 
 std::vector<WorldFolder> worldFolders() {

@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace robosim {
@@ -19,5 +21,18 @@ struct WorldFolder {
 /// Folders searched for robot types, after the one of the world file: those in the environment variable ROBOSIM_PATH,
 /// separated by colons, then worlds/ of shareFolder().
 std::vector<WorldFolder> worldFolders();
+
+/// Folders searched for input files that are not where their path says: those in ROBOSIM_PATH, then worlds/, maps/ and
+/// rawlogs/ of shareFolder(), and shareFolder() itself.
+std::vector<std::filesystem::path> dataFolders();
+
+/// Finds an input file: the file itself or, for a relative path, below one of dataFolders(). Where the name has no
+/// ending, also finds it with ".xml" appended.
+/// @return nullopt if there is none
+std::optional<std::filesystem::path> findDataFile(const std::filesystem::path& file);
+
+/// Names dataFolders() for an error message: "; searched are also FOLDER, … (ROBOSIM_PATH adds folders)". Empty for an
+/// absolute path, for which no folder is searched.
+std::string searchedText(const std::filesystem::path& file);
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #include <filesystem>
 
+#include "base/data_folders.h"
 #include "base/error_list.h"
 #include "base/rereadable_file.h"
 #include "base/xml_element.h"
@@ -35,9 +36,11 @@ std::unique_ptr<ViewSource> openView(const std::string& source,
   const bool looks_like_file = source.find('/') != std::string::npos || source.ends_with(".xml") ||
                                source.ends_with(".rawlog") || isMapFile(source);
   if (looks_like_file)
-    throw ConfigError(source + ": there is no such file; give a world, a map, a rawlog, or HOST:PORT");
+    throw ConfigError(source + ": there is no such file; give a world, a map, a rawlog, or HOST:PORT" +
+                      searchedText(source));
   if (source.find_first_of(":0123456789") == std::string::npos) {
-    throw ConfigError(source + ": is neither a file nor an address; give a world, a map, a rawlog, or HOST:PORT");
+    throw ConfigError(source + ": is neither a file nor an address; give a world, a map, a rawlog, or HOST:PORT" +
+                      searchedText(source));
   }
   refuseChanges(source, changes, "a running environment");
   return viewEnvironment(connect_options(source));

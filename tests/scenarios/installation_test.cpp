@@ -56,6 +56,23 @@ TEST_F(Installation, RunsShippedWorldsAndMapsLikeTheBuild) {
   }
 }
 
+TEST_F(Installation, FindsShippedFilesByNameFromAnyFolder) {
+  for (const std::string& arguments :
+       {std::string("run small_maze --time 1"), std::string("run worlds/small_maze.xml --time 1"),
+        std::string("check lab_map"), std::string("replay rawlogs/opho2_1.rawlog --check opho2_1"),
+        "view lab.yaml --offscreen " + quoted(*folder_ / "lab.png"),
+        "export small_maze " + quoted(*folder_ / "maze.svg")}) {
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.exit_code, 0) << arguments << ": " << ended.err;
+  }
+  const Ended none = run("run no_such_maze");
+  EXPECT_EQ(none.exit_code, 1);
+  EXPECT_NE(none.err.find("no_such_maze: no such file; check the path; searched are also " +
+                          (prefix() / "share" / "robosim" / "worlds").string()),
+            std::string::npos)
+      << none.err;
+}
+
 TEST_F(Installation, FindsItsRobotTypesForWorldsElsewhere) {
   const Ended ended = run("run --time 1 " + quoted(worldWith("scout")));
   EXPECT_EQ(ended.exit_code, 0) << ended.err;

@@ -379,7 +379,8 @@ TEST(Replay, ExtractsSelectedObservationsForStockTools) {
   const std::string options = " --output " + quoted(folder / "part.rawlog") + " " + quoted(folder / "run.rawlog");
   EXPECT_NE(refusal("replay --robot Unknown" + options).find("there are Pioneer1, Scout1"), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(folder / "part.rawlog"));
-  EXPECT_NE(refusal("replay --output run.rawlog run.rawlog").find("is both RAWLOG and --output"), std::string::npos);
+  const std::string same = quoted(folder / "run.rawlog");
+  EXPECT_NE(refusal("replay --output " + same + " " + same).find("is both RAWLOG and --output"), std::string::npos);
 
   const Ended part = runProgram("replay --robot Scout1 --sensor sonar --sensor odometry --from 0.5" + options);
   ASSERT_EQ(part.exit_code, 0) << part.err;

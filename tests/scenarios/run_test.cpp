@@ -105,7 +105,7 @@ struct Mistake {
 
 TEST(Run, RejectsBadInputWithCode1AndAnErrorText) {
   const Mistake mistakes[] = {
-      {"run no_such_world.xml", "no_such_world.xml: no such file; check the path"},
+      {"run no_such_world.xml", "no_such_world.xml: no such file; check the path; searched are also "},
       {"run worlds", "worlds: is a directory; name a file in it"},
       {"run LICENSE", "LICENSE:1: "},
       {"run", "WORLD is required"},
