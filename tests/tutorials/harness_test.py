@@ -38,6 +38,11 @@ class RunTutorialTest(unittest.TestCase):
         with self.assertRaisesRegex(PageError, "page.md:1: the block does not end"):
             run("```sh\ntrue\n")
 
+    def test_skips_blocks_with_a_reason(self):
+        run("<!-- not executed: installs packages -->\n```sh\nfalse\n```\n\n<!-- not executed: in C++ -->\n\n```cpp\nx\n```\n")
+        with self.assertRaisesRegex(PageError, "page.md:3: the block ended with exit code 1"):
+            run("<!-- not executed: -->\n```sh\nfalse\n```\n")
+
     def test_keeps_background_processes_for_later_blocks_and_reports_those_left(self):
         run("```sh\nsleep 1000 & echo $! >pid\n```\n```sh\nkill $(cat pid); tail -f /dev/null --pid $(cat pid)\n```\n")
         with (mock.patch("run_tutorial.ENDING_S", 0),

@@ -1,8 +1,9 @@
-"""Blocks of code of a tutorial in Markdown."""
+"""Blocks of code of a page in Markdown."""
 import re
 from dataclasses import dataclass
 
 _FENCE = re.compile(r"```(\w*)\s*$")
+_NOT_EXECUTED = re.compile(r"<!-- not executed: \S.* -->\s*$")
 _FILE = re.compile(r"File `([^`]+)`:\s*$")
 
 EXECUTED = ("sh", "python")
@@ -22,7 +23,10 @@ class Block:
 
 
 def blocks_of(page):
-    """The blocks of a page (a Path), in order. Raises PageError for a block that no test would cover."""
+    """The blocks of a page (a Path), in order, except those after a comment '<!-- not executed: REASON -->'.
+
+    Raises PageError for a block that no test would cover.
+    """
     blocks = []
     lines = page.read_text(encoding="utf-8").split("\n")
     last_text = ""  # the last line of prose that is not empty
@@ -37,11 +41,16 @@ def blocks_of(page):
         end = next((i for i in range(begin, len(lines)) if lines[i].rstrip() == "```"), None)
         if end is None:
             raise PageError(f"{page}:{index + 1}: the block does not end; add ``` after it")
+        if _NOT_EXECUTED.match(last_text):
+            last_text = ""
+            index = end + 1
+            continue
         file = _FILE.search(last_text)
         block = Block(fence[1], "".join(line + "\n" for line in lines[begin:end]), begin + 1, file[1] if file else "")
         if not block.file and block.language not in EXECUTED + EXPECTED:
             raise PageError(f"{page}:{index + 1}: a block of '{block.language}' is not executed; put a line 'File `NAME`:' "
-                            f"before it, or make it one of {', '.join(EXECUTED + EXPECTED)}")
+                            f"before it, or '<!-- not executed: REASON -->', or make it one of "
+                            f"{', '.join(EXECUTED + EXPECTED)}")
         blocks.append(block)
         last_text = ""
         index = end + 1

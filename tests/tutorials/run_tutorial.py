@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Executes a tutorial: run_tutorial.py PAGE PREFIX [PYTHON_FOLDER], with RoboSim installed in PREFIX.
+"""Executes a tutorial or another page: run_tutorial.py PAGE PREFIX [PYTHON_FOLDER], with RoboSim installed in PREFIX.
 
 The blocks of the page are processed in order, in an empty temporary folder:
   a block after a line 'File `NAME`:'   is written to the file NAME
   sh                                    is executed by bash; it fails with the first command that fails
   python                                is executed by Python; all of a page share their variables
+  a block after '<!-- not executed: REASON -->'  is skipped
   console, text                         is expected output of the last block executed; '…' stands for any text
 A failure is reported as PAGE:LINE with the output.
 """
