@@ -33,19 +33,34 @@ struct RobotArguments {
 
 void logRobot(const std::string& line) { logInfo("robot", line); }
 
+/// Calls a function that runs a robot's controller, and replaces the controller's exceptions.
+template <typename Step>
+void guarded(const std::string& controller_name, const std::string& robot, const Step& step) {
+  try {
+    step();
+  } catch (const ConnectionError&) {
+    throw;
+  } catch (...) {
+    throwControllerError(controller_name, robot);
+  }
+}
+
 struct DrivenRobot {
   Robot robot;
   std::string controller_name;
   std::unique_ptr<Controller> controller;
 
   void step() {
-    try {
-      controller->step(robot);
-    } catch (const ConnectionError&) {
-      throw;
-    } catch (...) {
-      throwControllerError(controller_name, robot.name());
-    }
+    guarded(controller_name, robot.name(), [this] { controller->step(robot); });
+  }
+};
+
+struct RemotelyDrivenRobot {
+  std::string controller_name;
+  std::unique_ptr<RemoteControlRobot> robot;
+
+  void step() {
+    guarded(controller_name, robot->name(), [this] { robot->step(); });
   }
 };
 
@@ -77,7 +92,7 @@ class RobotProcess {
       if (arguments.remote_port.empty()) {
         driven_robots_.push_back({Robot(robots_.robot(i)), name, std::move(controller)});
       } else {
-        addRemote(robots_.robot(i), std::move(controller), arguments.dead_man_s);
+        addRemote(robots_.robot(i), name, std::move(controller), arguments.dead_man_s);
       }
     }
     if (!arguments.remote_port.empty()) openPort();
@@ -87,7 +102,7 @@ class RobotProcess {
     if (robots_.hasAnswered() && !robots_.nextStep()) return;
     do {
       for (auto& driven : driven_robots_) driven.step();
-      for (auto& robot : remote_robots_) robot->step();
+      for (auto& remote : remote_robots_) remote.step();
       if (port_) port_->publish();
     } while (robots_.nextStep());
   }
@@ -96,17 +111,19 @@ class RobotProcess {
   std::uint64_t stepNumber() { return robots_.robot(0).readings().time.step; }
 
  private:
-  void addRemote(Hardware& hardware, std::unique_ptr<Controller> controller, double dead_man_s) {
+  void addRemote(Hardware& hardware, const std::string& controller_name, std::unique_ptr<Controller> controller,
+                 double dead_man_s) {
     RemoteControlRobot::Options options;
     options.dead_man =
         std::chrono::duration_cast<DriveCommandFilter::Clock::duration>(std::chrono::duration<double>(dead_man_s));
     options.log = logRobot;
-    remote_robots_.push_back(std::make_unique<RemoteControlRobot>(hardware, std::move(controller), options));
+    remote_robots_.push_back(
+        {controller_name, std::make_unique<RemoteControlRobot>(hardware, std::move(controller), options)});
   }
 
   void openPort() {
     std::vector<RemoteControlRobot*> robots;
-    for (auto& robot : remote_robots_) robots.push_back(robot.get());
+    for (auto& remote : remote_robots_) robots.push_back(remote.robot.get());
     port_ = std::make_unique<RemotePort>(
         port_options_, RemotePort::Run{robots_.world(), robots_.seed(), robots_.robot(0).readings().time.period_s},
         robots);
@@ -116,7 +133,7 @@ class RobotProcess {
   RemotePort::Options port_options_;
   NetworkHardware robots_;
   std::vector<DrivenRobot> driven_robots_;
-  std::vector<std::unique_ptr<RemoteControlRobot>> remote_robots_;
+  std::vector<RemotelyDrivenRobot> remote_robots_;
   std::unique_ptr<RemotePort> port_;
 };
 

@@ -71,7 +71,16 @@ void CompletionQueueServer::handle(void* tag, bool ok) {
   static_cast<CompletionTag*>(tag)->onCompletion(ok);
 }
 
-void CompletionQueueServer::wake() { wake_alarm_.Set(queue(), std::chrono::system_clock::now(), wake_tag_.tag()); }
+void CompletionQueueServer::wake() {
+  const std::lock_guard lock(wake_mutex_);
+  if (!accepts_wakes_ || std::exchange(is_wake_pending_, true)) return;
+  wake_alarm_.Set(queue(), std::chrono::system_clock::now(), wake_tag_.tag());
+}
+
+void CompletionQueueServer::woke(bool) {
+  const std::lock_guard lock(wake_mutex_);
+  is_wake_pending_ = false;
+}
 
 bool CompletionQueueServer::handleNext(grpc::ServerCompletionQueue& queue) {
   void* tag = nullptr;
@@ -115,6 +124,10 @@ void CompletionQueueServer::pollAll() {
 
 void CompletionQueueServer::close() {
   if (std::exchange(is_closed_, true)) return;
+  {
+    const std::lock_guard lock(wake_mutex_);
+    accepts_wakes_ = false;
+  }
   for (auto& endpoint : endpoints_) endpoint.port.listener.reset();
   std::thread closing([&] {
     const auto until = std::chrono::system_clock::now() + kShutdownGracePeriod;

@@ -72,7 +72,7 @@ class CompletionQueueServer {
   void setAdaptivePolling(bool enabled) { polls_adaptively_ = enabled; }
   /// Locks a mutex while a handler runs, for a server whose calls are also used by another thread.
   void setMutex(std::mutex* mutex) { mutex_ = mutex; }
-  /// Makes waitUntil() check `is_enough`, from any thread; at most once, and before close() is called.
+  /// Makes waitUntil() check `is_enough`. Thread-safe; without effect after close().
   void wake();
 
   /// Accepts no more calls, and waits until the open calls have ended; cancels them after 1 s.
@@ -99,10 +99,7 @@ class CompletionQueueServer {
     std::unique_ptr<grpc::ServerCompletionQueue> queue;
     OpenPort port;
   };
-  /// A completion without effect.
-  struct WakeTag final : CompletionTag {
-    void onCompletion(bool) override {}
-  };
+  void woke(bool ok);
   void waitForEvent(gpr_timespec until);
   void handle(void* tag, bool ok);
   bool handleNext(grpc::ServerCompletionQueue& queue);
@@ -113,7 +110,10 @@ class CompletionQueueServer {
   std::vector<std::size_t> endpoint_of_binding_;  ///< by binding
   std::size_t calls_ = 0;
   std::mutex* mutex_ = nullptr;
-  WakeTag wake_tag_;
+  std::mutex wake_mutex_;  ///< guards the next two members
+  bool is_wake_pending_ = false;
+  bool accepts_wakes_ = true;
+  MemberCompletionTag<CompletionQueueServer> wake_tag_{*this, &CompletionQueueServer::woke};
   grpc::Alarm wake_alarm_;
   bool polls_adaptively_ = true;
   AdaptivePolling polling_;

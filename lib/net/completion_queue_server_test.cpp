@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <future>
+#include <thread>
 
 #include <gtest/gtest.h>
 
@@ -53,6 +54,24 @@ class Client {
   grpc::ClientContext context_;
   std::unique_ptr<grpc::ClientReaderWriter<v1::FrameRequest, v1::Frame>> stream_;
 };
+
+TEST(CompletionQueueServer, IsWokenByOtherThreadsAnyNumberOfTimes) {
+  Service service;
+  CompletionQueueServer queue_server({{"127.0.0.1:0", &service}}, {});
+  const auto timeout = std::chrono::minutes(5);
+  for (int i = 0; i < 100; ++i) {
+    std::atomic<bool> is_done{false};
+    std::thread other([&] {
+      is_done = true;
+      for (int k = 0; k <= i % 3; ++k) queue_server.wake();
+    });
+    queue_server.waitUntil(CompletionQueueServer::Clock::now() + timeout, [&] { return is_done.load(); });
+    EXPECT_TRUE(is_done);
+    other.join();
+  }
+  queue_server.close();
+  queue_server.wake();
+}
 
 TEST(CompletionQueueServer, ServesOtherClientsDuringAFloodOfMessages) {
   Service service;

@@ -6,7 +6,7 @@ namespace robosim {
 
 bool looksLikeRawlog(const std::filesystem::path& file) {
   char first = 0;
-  InputFile(file).read(&first, 1);
+  if (InputFile(file).read(&first, 1) == 0) return file.extension() != ".xml";
   return first != '<' && first != '\n' && first != '\r' && first != '\t' && first != ' ' && first != '\xef';
 }
 

@@ -1,6 +1,8 @@
 #include "server/control_panel_session.h"
 
 #include <algorithm>
+#include <exception>
+#include <future>
 #include <optional>
 #include <utility>
 
@@ -295,7 +297,7 @@ void ControlPanelSession::advanceLoad(RunOperations& operations) {
     }
     return;
   }
-  if (prepared_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  if (!isPrepared()) return;
   const std::shared_ptr<LoadCall> call = std::exchange(load_, nullptr);
   execute(operations, *call);
   prepared_ = {};
@@ -305,10 +307,22 @@ void ControlPanelSession::beginPreparing(RunOperations& operations) {
   serving_.log("control panel " + load_->peer() + ": loads a world of " + std::to_string(load_->pieces.bytes()) +
                " bytes; the current run continues until it is built");
   const auto pieces = std::make_shared<WorldPieces>(std::move(load_->pieces));
-  prepared_ = std::async(std::launch::async, [pieces, prepare = operations.prepare] {
-    const WorldSource source = pieces->takeSource();
-    return prepare(source);
+  std::promise<std::unique_ptr<PreparedRun>> prepared;
+  prepared_ = prepared.get_future();
+  building_ = std::async(std::launch::async, [pieces, prepare = operations.prepare, prepared = std::move(prepared),
+                                              queue_server = serving_.queue_server]() mutable {
+    try {
+      const WorldSource source = pieces->takeSource();
+      prepared.set_value(prepare(source));
+    } catch (...) {
+      prepared.set_exception(std::current_exception());
+    }
+    queue_server->wake();
   });
+}
+
+bool ControlPanelSession::isPrepared() const {
+  return prepared_.valid() && prepared_.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
 void ControlPanelSession::execute(RunOperations& operations) {

@@ -51,8 +51,11 @@ class ControlPanelSession final : public ControlPanelService {
   void execute(RunOperations& operations);
   /// Sends the last status to watchers, before the run's end ends all calls.
   void publishLast(RunOperations& operations);
-  /// Whether a world is being built, which another thread does; execute() must be called soon after it is complete.
-  bool isPreparing() const { return prepared_.valid(); }
+  /// Whether a world has been built, and awaits execute(). The thread that builds it ends the wait of
+  /// ServingState::queue_server.
+  bool isPrepared() const;
+  /// Waits for that thread. Call it before ServingState::queue_server is destroyed.
+  void finishPreparing() { building_ = {}; }
 
  private:
   class Call;
@@ -75,10 +78,10 @@ class ControlPanelSession final : public ControlPanelService {
   ServingState& serving_;
   std::vector<std::shared_ptr<Call>> calls_;  ///< not yet executed
   std::vector<std::shared_ptr<Watcher>> watchers_;
-  std::vector<std::shared_ptr<Call>> steppers_;  ///< executed; answered after their last step
-  std::shared_ptr<LoadCall> load_;               ///< the call that sends a world, or whose world is being built
-  std::future<std::unique_ptr<PreparedRun>>
-      prepared_;  ///< the run being built for load_; the destructor joins the thread
+  std::vector<std::shared_ptr<Call>> steppers_;         ///< executed; answered after their last step
+  std::shared_ptr<LoadCall> load_;                      ///< the call that sends a world, or whose world is being built
+  std::future<std::unique_ptr<PreparedRun>> prepared_;  ///< the run being built for load_
+  std::future<void> building_;                          ///< the thread that builds it; the destructor joins it
 };
 
 }  // namespace robosim

@@ -118,7 +118,10 @@ struct EnvironmentServer::Impl {
     panels.open(queue_server.queuesFor(3));
   }
 
-  ~Impl() { close(); }
+  ~Impl() {
+    close();
+    panels.finishPreparing();
+  }
 
   void resetSessions(std::shared_ptr<const RunInfo> run_info) {
     serving.run_info = std::move(run_info);
@@ -215,6 +218,9 @@ struct EnvironmentServer::Impl {
     return waited_for->empty();
   }
 
+  /// Whether something is pending that is executed between steps.
+  bool mustAct() const { return serving.wake_requested || panels.isPrepared(); }
+
   /// Waits for the robots' answers and for the step's time, for at most ServingState::kPollInterval.
   /// @return whether it is time to step
   bool isTimeToStep() {
@@ -226,7 +232,7 @@ struct EnvironmentServer::Impl {
     queue_server.setAdaptivePolling(robots.processes() < processors);
     const auto until_due = due - serving.now();
     serving.pollUntil(until_due > Clock::duration::zero() ? until_due : ServingState::kPollInterval,
-                      [&] { return serving.wake_requested || is_time(); });
+                      [&] { return mustAct() || is_time(); });
     return is_time();
   }
 
@@ -273,10 +279,7 @@ struct EnvironmentServer::Impl {
         return Served::robot_lost;
       }
       if (!areRobotsConnected() || !run_control.mayStep()) {
-        // The thread that builds a world does not end the wait.
-        constexpr std::chrono::milliseconds kPreparingInterval{1};
-        serving.pollUntil(panels.isPreparing() ? kPreparingInterval : ServingState::kPollInterval,
-                          [&] { return serving.wake_requested; });
+        serving.pollUntil(ServingState::kPollInterval, [&] { return mustAct(); });
         due = serving.now();
         rate.rest(due);
         continue;

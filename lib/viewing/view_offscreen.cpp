@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +12,7 @@
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "rendering/picture_format.h"
 #include "rendering/png_file.h"
 #include "viewing/video_file.h"
 #include "viewing/view_outputs.h"
@@ -112,10 +115,14 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
 
 }  // namespace
 
-bool isVideo(const std::string& file) { return fs::path(file).extension() == ".mp4"; }
+bool isVideo(const std::string& file) {
+  std::string ending = fs::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending == ".mp4";
+}
 
 void checkOffscreenFile(const std::string& file) {
-  if (!isVideo(file) && fs::path(file).extension() != ".png") {
+  if (!isVideo(file) && pictureFormatOf(file) != PictureFormat::png) {
     throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or .mp4, for a video");
   }
   checkWritable(file);

@@ -294,5 +294,14 @@ TEST(PfLocalization, FindsADriftingRobotOnAnExportedGridmap) {
   EXPECT_LT(last_error_m, 0.2);
 }
 
+TEST(Export, ReportsAnEmptyWorldFileAsAWorld) {
+  const auto folder = emptyFolder();
+  std::ofstream(folder / "empty.xml").flush();
+  const Ended ended = runProgram("export " + quoted(folder / "empty.xml") + " " + quoted(folder / "plan.svg"));
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_NE(ended.err.find("empty.xml:1: "), std::string::npos) << ended.err;
+  EXPECT_EQ(ended.err.find("rawlog"), std::string::npos) << ended.err;
+}
+
 }  // namespace
 }  // namespace robosim

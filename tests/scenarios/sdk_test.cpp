@@ -147,21 +147,45 @@ TEST_F(Sdk, AnObserverEndsARunAndReportsItsMetrics) {
   EXPECT_GE(summary["metrics"]["alignment.end_alignment_percent"], 1);
 }
 
-TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
-  const std::string program = (*folder_ / "prefix" / "bin" / "robosim").string();
+/// `robosim serve` of the flock's world, which waits for its robots.
+class FlockServer {
+ public:
+  FlockServer(const std::string& program, const fs::path& project)
+      : serve_(program,
+               {"serve", (project / "flock.xml").string(), "--plugin", (project / "build" / "libflocking.so").string(),
+                "--listen", ":0", "--wait-for-robots", "--time", "1"}) {
+    serve_.waitForError("listening on ");
+    const std::string log = serve_.error();
+    const auto at = log.find("listening on ") + 13;
+    address_ = log.substr(at, log.find_first_of(" \n", at) - at);
+  }
 
-  StartedProgram serve(program, {"serve", (project() / "flock.xml").string(), "--plugin",
-                                 (project() / "build" / "libflocking.so").string(), "--listen", ":0",
-                                 "--wait-for-robots", "--time", "1"});
-  serve.waitForError("listening on ");
-  const std::string log = serve.error();
-  const auto at = log.find("listening on ") + 13;
+  const std::string& address() const { return address_; }
+  Ended wait() { return serve_.wait(); }
+
+ private:
+  StartedProgram serve_;
+  std::string address_;
+};
+
+TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
+  FlockServer server((*folder_ / "prefix" / "bin" / "robosim").string(), project());
   std::string names;
   for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
-  const Ended robots = run("robot" + names + " --environment " + log.substr(at, log.find_first_of(" \n", at) - at) +
-                           " " + plugin("flocking"));
+  const Ended robots = run("robot" + names + " --environment " + server.address() + " " + plugin("flocking"));
   EXPECT_EQ(robots.exit_code, 0) << robots.err;
-  EXPECT_EQ(serve.wait().exit_code, 0);
+  EXPECT_EQ(server.wait().exit_code, 0);
+}
+
+TEST_F(Sdk, AnExceptionOfAControllerUnderRemoteControlNamesItAndItsRobot) {
+  FlockServer server((*folder_ / "prefix" / "bin" / "robosim").string(), project());
+  std::string names;
+  for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
+  const Ended robots = run("robot" + names + " --remote-port 127.0.0.1:0 --controller failing --environment " +
+                           server.address() + " " + plugin("flocking") + " " + plugin("failing"));
+  EXPECT_EQ(robots.exit_code, 2) << robots.out;
+  EXPECT_NE(robots.err.find("robot 'R1': its controller failing threw an exception: lost the flock"), std::string::npos)
+      << robots.err;
 }
 
 }  // namespace

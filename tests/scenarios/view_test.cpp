@@ -51,6 +51,14 @@ TEST(View, WritesAPictureOfAWorldFromAboveToScale) {
   for (const double outside : {6.9, 9.1}) EXPECT_FALSE(isBlue(atMetres(picture, outside, 8))) << outside;
 }
 
+TEST(View, AcceptsAnEndingInCapitals) {
+  const auto folder = emptyFolder();
+  const Ended view =
+      runProgram("view " + quoted(writeHall(folder)) + " --size 648x648 --offscreen " + quoted(folder / "hall.PNG"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_EQ(cv::imread((folder / "hall.PNG").string()).size(), cv::Size(648, 648));
+}
+
 TEST(View, WritesPicturesFromAboveAndFromARobot) {
   const auto folder = emptyFolder();
   const Ended view = runProgram("view " + quoted(writeHall(folder)) +
