@@ -103,6 +103,8 @@ void StartedProgram::readOutput() {
   for (bool has_ended = false; !has_ended;) {
     poll(waits.data(), waits.size(), -1);
     has_ended = waits[2].revents != 0;
+    // Its output would be lost, as if it had written none.
+    if ((waits[2].revents & POLLNVAL) != 0) ADD_FAILURE() << "the descriptor of a started program was closed by others";
     for (std::size_t i = 0; i < 2; ++i) {
       std::array<char, 65536> bytes;
       ssize_t count = 0;

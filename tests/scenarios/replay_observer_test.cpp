@@ -1,4 +1,6 @@
 // `robosim replay --observer`: the metrics of a recorded run.
+#include <fstream>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -13,7 +15,8 @@ using nlohmann::json;
 TEST(ReplayObserver, ReportsTheMetricsOfTheRecordedRun) {
   const auto rawlog = quoted(emptyFolder() / "run.rawlog");
   const Ended run = runProgram(
-      "run worlds/opho2_1.xml --time 30 --seed 3 --random-starts --json --observer 'coverage cell_m=0.25' --record " +
+      "run worlds/opho2_1.xml --controller wander --time 30 --seed 3 --random-starts --json --observer 'coverage "
+      "cell_m=0.25' --record " +
       rawlog);
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const json metrics = json::parse(run.out)["metrics"];
@@ -36,10 +39,14 @@ TEST(ReplayObserver, PrintsMetricsBelowTheVerdict) {
 TEST(ReplayObserver, ReportsNoMetricsOfAnotherRun) {
   const auto folder = emptyFolder();
   const auto rawlog = quoted(folder / "run.rawlog");
-  ASSERT_EQ(runProgram("run worlds/small_maze.xml --time 5 --record " + rawlog).exit_code, 0);
-  const auto changed = quoted(folder / "changed.xml");
-  ASSERT_EQ(runCommand("sed 's/<hot>[0-9.]*/<hot>30/' worlds/small_maze.xml > " + changed).exit_code, 0);
-  const Ended other = runProgram("replay " + rawlog + " --observer coverage --json --check " + changed);
+  ASSERT_EQ(runProgram("run worlds/opho2_1.xml --time 100 --record " + rawlog).exit_code, 0);
+  std::string hotter = textOf(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml");
+  const auto at = hotter.find("<hot>20");
+  ASSERT_NE(at, std::string::npos);
+  hotter.replace(at, 7, "<hot>21");
+  std::ofstream(folder / "hotter.xml") << hotter;
+  const Ended other =
+      runProgram("replay " + rawlog + " --observer coverage --json --check " + quoted(folder / "hotter.xml"));
   EXPECT_EQ(other.exit_code, 2) << other.err;
   EXPECT_EQ(other.out, "");
   EXPECT_NE(other.err.find("Not the same run. It first differs in step "), std::string::npos) << other.err;
