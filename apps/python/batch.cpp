@@ -142,9 +142,15 @@ void bindBatch(py::module_& module) {
   const auto make = [](const std::vector<std::shared_ptr<PythonWorld>>& worlds, std::size_t num_envs,
                        std::size_t agents, std::vector<std::string> observations, const py::dict& reward,
                        double period_s, std::uint32_t max_steps, bool random_starts, int threads, std::uint64_t seed) {
-    BatchOptions options{num_envs,          agents,   std::move(observations),
-                         weightsOf(reward), period_s, max_steps,
-                         random_starts,     threads,  seed};
+    BatchOptions options{.environments = num_envs,
+                         .agents = agents,
+                         .observations = std::move(observations),
+                         .reward = weightsOf(reward),
+                         .period_s = period_s,
+                         .steps_max = max_steps,
+                         .has_random_starts = random_starts,
+                         .threads = threads,
+                         .seed = seed};
     const py::gil_scoped_release no_python;
     return makeBatch(worlds, std::move(options));
   };

@@ -117,6 +117,7 @@ struct EnvironmentBatch::Impl {
     world->model = std::make_shared<const Model>(
         Model{std::move(loaded.world), std::move(loaded.fleet), options.seed, options.period_s});
     world->start = initialState(*world->model);
+    if (!options.has_digests) world->start.digest.reset();
     worlds.push_back(std::move(world));
   }
 

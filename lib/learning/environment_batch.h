@@ -41,6 +41,7 @@ class EnvironmentBatch {
   std::size_t agentCount() const;  ///< of each environment
   const ObservationLayout& layout() const;
   std::size_t observationSize() const { return layout().size(); }  ///< number of values per agent
+  /// It has a digest if BatchOptions::has_digests.
   const Environment& environment(std::size_t i) const;
 
   /// Gives environment i the seed `seed` + i; its next episode is the first of that seed.
