@@ -9,6 +9,7 @@ from ._errors import ConfigError, ControllerError, Error, RecordingError
 _MODULE_OF = {
     "World": "_robosim",
     "WorldBuilder": "world_builder",
+    "WorldGenerator": "_robosim",
     "Simulation": "_robosim",
     "Robot": "_robosim",
     "VectorEnv": "vector_env",

@@ -100,6 +100,13 @@ class World:
     def plan(self) -> NDArray[np.uint8]: ...
     def _repr_svg_(self) -> str: ...
 
+class WorldGenerator:
+    def __init__(self, kind: Literal["maze", "cave", "office", "open"], *, robots: int = 1, types: Sequence[str] = ...,
+                 controller: str = "", gold: bool = True, **options: float) -> None: ...
+    @property
+    def kind(self) -> str: ...
+    def generate(self, seed: int) -> World: ...
+
 class WorldBuilder:
     def __init__(self, x_m: tuple[float, float] = (-10, 10), y_m: tuple[float, float] = (-10, 10)) -> None: ...
     def box(self, name: str, x_m: float, y_m: float, *, length_m: float, width_m: float, height_m: float = 0.6,
@@ -248,7 +255,7 @@ class AutoresetMode(Enum):
     SAME_STEP = "SameStep"
     DISABLED = "Disabled"
 
-_Worlds: TypeAlias = World | _File | Sequence[World | _File]
+_Worlds: TypeAlias = World | _File | Sequence[World | _File] | WorldGenerator
 
 class VectorEnv:
     metadata: dict[str, Any]
@@ -266,6 +273,8 @@ class VectorEnv:
                  random_starts: bool = True, threads: int = 1, seed: int = 1) -> None: ...
     @property
     def observation_parts(self) -> dict[str, slice]: ...
+    @property
+    def world_seeds(self) -> NDArray[np.uint64]: ...
     def reset(self, *, seed: int | Sequence[int | None] | None = None, options: dict[str, Any] | None = None
               ) -> tuple[NDArray[np.float32], dict[str, Any]]: ...
     def step(self, actions: ArrayLike) -> tuple[NDArray[np.float32], NDArray[np.float64], NDArray[np.bool_],
@@ -291,9 +300,11 @@ class ParallelEnv:
     agents: list[str]
     observation_spaces: dict[str, Box]
     action_spaces: dict[str, Box]
-    def __init__(self, world: World | _File, robots: int = 0, observations: str | Iterable[str] = ...,
+    def __init__(self, world: World | _File | WorldGenerator, robots: int = 0, observations: str | Iterable[str] = ...,
                  reward: Mapping[str, float] | None = None, max_steps: int = 1000, period_s: float = 0.1,
                  random_starts: bool = True, seed: int = 1) -> None: ...
+    @property
+    def world_seed(self) -> int: ...
     @property
     def num_agents(self) -> int: ...
     @property
