@@ -81,6 +81,15 @@ class RemoteRobotsTest(unittest.TestCase):
                 pass
             self.assertEqual(json.loads(server.finish())["steps"], 3)
 
+    def test_receive_pictures_of_cameras(self):
+        text = scene.text().replace("pioneer3dx</model><name>R2", "pioneer3dx_camera</model><name>R2")
+        with Serving(text) as server, robosim.RemoteRobots(server.address, ["R1", "R2"]) as robots:
+            while not robots.picture("R2"):
+                self.assertTrue(robots.step())
+            self.assertEqual(robots.picture("R2")[:3], b"\xff\xd8\xff")  # a JPEG file
+            self.assertEqual(robots.readings("camera").shape[0], 2)
+            self.assertEqual(robots.readings("sonar").shape, (2, 16))
+
     def test_one_robot_may_be_given_by_its_name(self):
         with Serving(scene.text(1)) as server, robosim.RemoteRobots(server.address, "R1") as robots:
             self.assertEqual(robots.names, ("R1",))

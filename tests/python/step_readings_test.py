@@ -76,6 +76,17 @@ class StepReadingsTest(unittest.TestCase):
         self.assertTrue(np.may_share_memory(numbers, np.frombuffer(data, np.uint8)))
         self.assertEqual(numbers.tolist(), [[[0, 10]], [[1, 11]], [[2, 12]], [[3, 13]]])
 
+    def test_without_a_measurement_are_empty(self):
+        step = v1.StepReadings(step=5)
+        for index in range(4):
+            robot = step.robots.add(stalled=index == 1)
+            robot.measurements.add(floats=[index], step=5, is_new=True)
+            robot.measurements.add()
+        read = StepReadings(v1.DriveResponse(readings=step).SerializeToString(), StepDecoder([2], [np.arange(4)]))
+        self.assertEqual(read.numbers(0, 0, 1).tolist(), [[[0]], [[1]], [[2]], [[3]]])
+        self.assertEqual(read.numbers(0, 1, 1).shape, (4, 0, 1))
+        self.assertEqual(read.stalled.tolist(), [False, True, False, False])
+
     def test_skip_fields_of_later_versions(self):
         later = b"\x78\x01" + b"\x7a\x02ab" + b"\x79" + bytes(8) + b"\x7d" + bytes(4)  # field 15 of every wire type
         measurement = sensors_pb2.Measurement(floats=[1, 2], step=1).SerializeToString() + later

@@ -223,6 +223,8 @@ class StepReadings:
         field, first, size = layouts.numbers[sensor]
         dtype = _TYPES[field]
         shape = (len(begins), size // (dtype.itemsize * width), width)
+        if size == 0:
+            return _read_only(np.empty(shape, dtype))
         distance = int(begins[1] - begins[0]) if len(begins) > 1 else 0
         if len(begins) < 3 or (begins[1:] - begins[:-1] == distance).all():
             return np.ndarray(shape, dtype, self._data, int(begins[0]) + first,
