@@ -5,7 +5,8 @@ from ._learning import Results, make_batch, spaces_of
 class ParallelEnv:
     """The robots of a world as agents that act at the same time, with the interface of pettingzoo.ParallelEnv.
 
-    world: World or file, or a WorldGenerator, which makes a new world for each episode. robots: the first robots of the world, which are the agents; 0: all.
+    world: World or file, or a WorldGenerator, which makes a new world for each episode.
+    robots: the first robots of the world, which are the agents; 0: all.
     Other arguments, observations (float32, shape (size,)), actions (shape (2,)) and rewards are those of VectorEnv.
     All agents' episodes end together. Observations are copies.
     """
