@@ -80,6 +80,8 @@ find_package(Python3 REQUIRED COMPONENTS Interpreter)
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON3-ROBOSIM_PACKAGE_DEPENDS
     "robosim (= ${full_version}), python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+# Of robosim.RemoteRobots and robosim.v1.
+set(CPACK_DEBIAN_PYTHON3-ROBOSIM_PACKAGE_RECOMMENDS "python3-grpcio, python3-protobuf")
 
 # SOURCE_DATE_EPOCH, which ./dev package sets to the date of the last commit, replaces the present time.
 string(TIMESTAMP changelog_date "%a, %d %b %Y %H:%M:%S +0000" UTC)

@@ -4,12 +4,14 @@
 #include <atomic>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "array_arguments.h"
+#include "generated_world.h"
 #include "learning/environment_batch.h"
 #include "python_errors.h"
 #include "python_world.h"
@@ -22,7 +24,9 @@ namespace py = pybind11;
 /// A batch that one thread at a time may use.
 class PythonBatch {
  public:
-  PythonBatch(std::vector<LoadedWorld> worlds, BatchOptions options) : batch_(std::move(worlds), std::move(options)) {}
+  /// @param worlds std::vector<LoadedWorld>, or EnvironmentBatch::MakeWorld
+  template <typename Worlds>
+  PythonBatch(Worlds worlds, BatchOptions options) : batch_(std::move(worlds), std::move(options)) {}
 
   const EnvironmentBatch& batch() const { return batch_; }
   py::ssize_t environments() const { return static_cast<py::ssize_t>(batch_.options().environments); }
@@ -72,6 +76,15 @@ std::unique_ptr<PythonBatch> makeBatch(const std::vector<std::shared_ptr<PythonW
   std::vector<LoadedWorld> loaded;
   for (const auto& world : worlds) loaded.push_back(world->loaded);
   return std::make_unique<PythonBatch>(std::move(loaded), std::move(options));
+}
+
+/// Seed of each environment's generated world: uint64, shape (num_envs,).
+py::array_t<std::uint64_t> worldSeedsOf(const PythonBatch& of) {
+  py::array_t<std::uint64_t> seeds(of.environments());
+  for (py::ssize_t i = 0; i < of.environments(); ++i) {
+    seeds.mutable_at(i) = of.batch().worldSeed(static_cast<std::size_t>(i));
+  }
+  return seeds;
 }
 
 py::array_t<float> boundsOf(const PythonBatch& of, std::vector<float> ObservationPart::*bound) {
@@ -139,14 +152,26 @@ void step(PythonBatch& of, const py::object& actions, py::array observations, py
 }  // namespace
 
 void bindBatch(py::module_& module) {
-  const auto make = [](const std::vector<std::shared_ptr<PythonWorld>>& worlds, std::size_t num_envs,
-                       std::size_t agents, std::vector<std::string> observations, const py::dict& reward,
-                       double period_s, std::uint32_t max_steps, bool random_starts, int threads, std::uint64_t seed) {
-    BatchOptions options{num_envs,          agents,   std::move(observations),
-                         weightsOf(reward), period_s, max_steps,
-                         random_starts,     threads,  seed};
+  using Worlds = std::variant<std::shared_ptr<PythonGenerator>, std::vector<std::shared_ptr<PythonWorld>>>;
+  const auto make = [](const Worlds& worlds, std::size_t num_envs, std::size_t agents,
+                       std::vector<std::string> observations, const py::dict& reward, double period_s,
+                       std::uint32_t max_steps, bool random_starts, int threads, std::uint64_t seed) {
+    BatchOptions options{.environments = num_envs,
+                         .agents = agents,
+                         .observations = std::move(observations),
+                         .reward = weightsOf(reward),
+                         .period_s = period_s,
+                         .steps_max = max_steps,
+                         .has_random_starts = random_starts,
+                         .threads = threads,
+                         .seed = seed};
     const py::gil_scoped_release no_python;
-    return makeBatch(worlds, std::move(options));
+    if (const auto* given = std::get_if<std::vector<std::shared_ptr<PythonWorld>>>(&worlds)) {
+      return makeBatch(*given, std::move(options));
+    }
+    return std::make_unique<PythonBatch>(
+        EnvironmentBatch::MakeWorld(std::get<std::shared_ptr<PythonGenerator>>(worlds)->forEpisodes()),
+        std::move(options));
   };
   py::class_<PythonBatch>(module, "_Batch")
       .def(py::init(make), py::arg("worlds"), py::arg("num_envs"), py::arg("agents"), py::arg("observations"),
@@ -158,6 +183,7 @@ void bindBatch(py::module_& module) {
       .def_property_readonly("parts", partsOf)
       .def_property_readonly("low", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::low); })
       .def_property_readonly("high", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::high); })
+      .def_property_readonly("world_seeds", worldSeedsOf)
       .def("set_seed",
            [](PythonBatch& of, std::size_t environment, std::uint64_t seed) {
              of.exclusively([&](EnvironmentBatch& batch) { batch.setSeed(environment, seed); });

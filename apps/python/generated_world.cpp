@@ -4,6 +4,8 @@
 #include <variant>
 #include <vector>
 
+#include <pybind11/stl.h>
+
 #include "base/error_list.h"
 #include "generation/generators.h"
 #include "python_errors.h"
@@ -50,38 +52,73 @@ void read(const std::string& kind, const std::vector<Option>& options, const py:
   }
 }
 
-Scenery sceneryOf(const std::string& kind, std::uint64_t seed, const py::dict& given) {
+/// @throws ConfigError for an unknown kind; pybind11::type_error for an unknown option and a value that is no number
+WorldGenerator::MakeScenery sceneryMaker(const std::string& kind, const py::dict& given) {
   if (kind == "maze") {
     MazeOptions maze;
     read(kind, {{"columns", &maze.columns}, {"rows", &maze.rows}, {"braid", &maze.braid}, {"cell_m", &maze.cell_m}},
          given);
-    return generateMaze(maze, seed);
+    return [maze](std::uint64_t seed) { return generateMaze(maze, seed); };
   }
   if (kind == "cave") {
     CaveOptions cave;
     read(kind, {{"width_m", &cave.width_m}, {"length_m", &cave.length_m}, {"rock", &cave.rock}}, given);
-    return generateCave(cave, seed);
+    return [cave](std::uint64_t seed) { return generateCave(cave, seed); };
   }
   if (kind == "office") {
     OfficeOptions office;
     read(kind, {{"width_m", &office.width_m}, {"length_m", &office.length_m}, {"room_m", &office.room_m}}, given);
-    return generateOffice(office, seed);
+    return [office](std::uint64_t seed) { return generateOffice(office, seed); };
   }
   if (kind == "open") {
     OpenOptions open;
     read(kind, {{"width_m", &open.width_m}, {"length_m", &open.length_m}, {"clutter", &open.clutter}}, given);
-    return generateOpen(open, seed);
+    return [open](std::uint64_t seed) { return generateOpen(open, seed); };
   }
   throw ConfigError("there is no generator '" + kind + "'; use maze, cave, office or open");
 }
 
+TeamOptions teamOf(int robots, std::vector<std::string> types, std::string controller, bool gold) {
+  return {robots, std::move(types), std::move(controller), gold};
+}
+
 }  // namespace
 
-std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, std::uint64_t seed, const TeamOptions& team,
-                                            const py::dict& options) {
-  Scenery scenery = sceneryOf(kind, seed, options);
+PythonGenerator::PythonGenerator(std::string kind, TeamOptions team, const py::dict& options)
+    : kind_(std::move(kind)), team_(std::move(team)), make_(sceneryMaker(kind_, options)) {}
+
+std::shared_ptr<PythonWorld> PythonGenerator::generate(std::uint64_t seed) const {
+  return PythonWorld::parse(toXml(populated(make_(seed), team_, seed)), kind_ + ".xml", seed);
+}
+
+WorldGenerator PythonGenerator::forEpisodes() const { return {make_, team_, kind_}; }
+
+void bindGenerator(py::module_& module) {
+  py::class_<PythonGenerator, std::shared_ptr<PythonGenerator>>(
+      module, "WorldGenerator",
+      "Random worlds that differ in their seed only. A VectorEnv or ParallelEnv takes a new one for each episode.\n\n"
+      "The arguments are those of World.generate().")
+      .def(py::init([](std::string kind, int robots, std::vector<std::string> types, std::string controller, bool gold,
+                       const py::kwargs& options) {
+             auto made = std::make_shared<PythonGenerator>(
+                 std::move(kind), teamOf(robots, std::move(types), std::move(controller), gold), options);
+             made->forEpisodes();  // reports faults
+             return made;
+           }),
+           py::arg("kind"), py::kw_only(), py::arg("robots") = 1, py::arg("types") = kGeneratedTypes,
+           py::arg("controller") = "", py::arg("gold") = true)
+      .def("generate", &PythonGenerator::generate, py::arg("seed"), py::call_guard<py::gil_scoped_release>(),
+           "The World of a seed: the same as World.generate(…, seed=seed).")
+      .def_property_readonly("kind", [](const PythonGenerator& of) { return toPython(of.kind()); })
+      .def("__repr__", [](const PythonGenerator& of) { return toPython("<WorldGenerator '" + of.kind() + "'>"); });
+}
+
+std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, std::uint64_t seed, int robots,
+                                            std::vector<std::string> types, std::string controller, bool gold,
+                                            const py::kwargs& options) {
+  const PythonGenerator made(kind, teamOf(robots, std::move(types), std::move(controller), gold), options);
   const py::gil_scoped_release no_python;
-  return PythonWorld::parse(toXml(populated(std::move(scenery), team, seed)), kind + ".xml", seed);
+  return made.generate(seed);
 }
 
 }  // namespace robosim

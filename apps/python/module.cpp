@@ -3,6 +3,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "batch.h"
+#include "generated_world.h"
 #include "python_errors.h"
 #include "python_robot.h"
 #include "python_world.h"
@@ -18,6 +19,7 @@ PYBIND11_MODULE(_robosim, module) {
              "Loads a plugin with additional controllers and sensors (doc/sdk.md). Raises ConfigError.");
   robosim::bindDescriptions(module);
   robosim::bindWorld(module);
+  robosim::bindGenerator(module);
   robosim::bindRobot(module);
   robosim::bindSimulation(module);
   robosim::bindBatch(module);

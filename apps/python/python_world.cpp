@@ -70,10 +70,6 @@ void bindWorld(py::module_& module) {
     const py::gil_scoped_release no_python;
     return PythonWorld::parse(std::move(bytes), folder / (name + ".xml"), seed);
   };
-  const auto generate = [](const std::string& kind, std::uint64_t seed, int robots, std::vector<std::string> types,
-                           std::string controller, bool gold, const py::kwargs& options) {
-    return generatedWorld(kind, seed, {robots, std::move(types), std::move(controller), gold}, options);
-  };
   py::class_<PythonWorld, std::shared_ptr<PythonWorld>>(
       module, "World", "A world with its robots, as read from a file or generated. It does not change.")
       .def_static("load", &PythonWorld::load, py::arg("file"), py::arg("seed") = kDefaultSeed,
@@ -83,9 +79,9 @@ void bindWorld(py::module_& module) {
       .def_static("parse", parse, py::arg("text"), py::arg("folder") = fs::path("."), py::arg("name") = "world",
                   py::arg("seed") = kDefaultSeed,
                   "Parses the text of a world file, whose maps and included files are relative to folder.")
-      .def_static("generate", generate, py::arg("kind"), py::kw_only(), py::arg("seed") = kDefaultSeed,
-                  py::arg("robots") = 1, py::arg("types") = std::vector<std::string>{"pioneer3dx"},
-                  py::arg("controller") = "", py::arg("gold") = true,
+      .def_static("generate", generatedWorld, py::arg("kind"), py::kw_only(), py::arg("seed") = kDefaultSeed,
+                  py::arg("robots") = 1, py::arg("types") = kGeneratedTypes, py::arg("controller") = "",
+                  py::arg("gold") = true,
                   "Generates a random world; equal arguments give equal worlds.\n\n"
                   "kind and its options: 'maze' (columns, rows, braid, cell_m), 'cave' (width_m, length_m, rock),\n"
                   "'office' (width_m, length_m, room_m), 'open' (width_m, length_m, clutter).\n"

@@ -8,6 +8,7 @@
 #include "base/text_table.h"
 #include "generation/generators.h"
 #include "learning/environment_batch.h"
+#include "learning/world_generator.h"
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
 #include "robosim_bench/process.h"
@@ -20,6 +21,7 @@ namespace {
 
 constexpr std::size_t kRobots = 1000;    ///< of the run that batches are compared with, and agents of a batch
 constexpr std::uint32_t kEpisode = 500;  ///< steps of an episode
+constexpr std::uint32_t kMazeEpisodes[] = {500, 5000};
 constexpr const char* kWorkloadsOfLearning[] = {"sonar", "laser"};
 constexpr std::size_t kTeams[] = {1, 10, 100};
 constexpr std::uint64_t kWorlds = 8;  ///< of a batch
@@ -27,7 +29,9 @@ constexpr std::uint64_t kWorlds = 8;  ///< of a batch
 /// A batch with its arrays, and random actions that it takes in turn.
 class BatchRun {
  public:
-  BatchRun(std::vector<LoadedWorld> worlds, const BatchOptions& options)
+  /// @param worlds std::vector<LoadedWorld>, or EnvironmentBatch::MakeWorld
+  template <typename Worlds>
+  BatchRun(Worlds worlds, const BatchOptions& options)
       : batch_(std::move(worlds), options), agents_(options.environments * batch_.agentCount()) {
     observations_.resize(agents_ * batch_.observationSize());
     rewards_.resize(agents_);
@@ -86,26 +90,45 @@ nlohmann::json compare(const Workload& workload, std::size_t team, double min_s)
           {"ratio", costs[0].cpu_s / costs[1].cpu_s}};
 }
 
-LoadedWorld generatedMaze(std::uint64_t seed) {
+WorldGenerator mazes() {
   MazeOptions maze;
   maze.columns = maze.rows = 6;
   TeamOptions team;
   team.robots = 1;
   team.models = {"pioneer3dx"};
-  LoadedWorld made{populated(generateMaze(maze, seed), team, seed), {}};
-  ErrorList errors;
-  made.fleet = buildFleet(made.world, "maze.xml", robotTypesIn(robotTypeFolders("maze.xml")), {}, errors);
-  errors.throwIfAny();
-  return made;
+  return {[maze](std::uint64_t seed) { return generateMaze(maze, seed); }, team, "maze"};
+}
+
+std::vector<LoadedWorld> hundredMazes() {
+  const WorldGenerator make = mazes();
+  std::vector<LoadedWorld> worlds;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) worlds.push_back(make(seed));
+  return worlds;
+}
+
+/// A new maze for each episode, beside episodes in a hundred mazes.
+nlohmann::json compareGenerated(std::uint32_t episode, double min_s) {
+  BatchOptions options;
+  options.environments = kRobots;
+  options.steps_max = episode;
+  BatchRun fixed(hundredMazes(), options), generated(mazes(), options);
+  options.has_random_starts = false;
+  BatchRun at_its_start(mazes(), options);
+  const Contender contenders[] = {{.work = [&fixed] { return fixed.step(); }},
+                                  {.work = [&generated] { return generated.step(); }},
+                                  {.work = [&at_its_start] { return at_its_start.step(); }}};
+  const std::vector<Cost> costs = measureAlternately(contenders, min_s);
+  return {{"episode", episode},
+          {"fixed_steps_per_s", 1 / costs[0].cpu_s},
+          {"generated_steps_per_s", 1 / costs[1].cpu_s},
+          {"generated_start_steps_per_s", 1 / costs[2].cpu_s}};
 }
 
 nlohmann::json memoryOf(std::size_t environments) {
   const Memory before = Memory::now();
-  std::vector<LoadedWorld> worlds;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) worlds.push_back(generatedMaze(seed));
   BatchOptions options;
   options.environments = environments;
-  BatchRun batch(std::move(worlds), options);
+  BatchRun batch(hundredMazes(), options);
   for (int i = 0; i < 20; ++i) batch.step();
   return {{"worlds", environments}, {"held_mb", Memory::now().resident_mb - before.resident_mb}};
 }
@@ -137,6 +160,9 @@ void benchLearn(const LearnArguments& arguments) {
           runInChildProcess([&] { return compare(workloadNamed(name), team, arguments.min_s); }));
     }
   }
+  for (const std::uint32_t episode : kMazeEpisodes) {
+    figures["mazes"].push_back(runInChildProcess([&] { return compareGenerated(episode, arguments.min_s); }));
+  }
   figures["memory"] = runInChildProcess([] { return memoryOf(4096); });
   if (arguments.as_json) {
     std::cout << figures.dump(2) << '\n';
@@ -148,8 +174,14 @@ void benchLearn(const LearnArguments& arguments) {
                     withCommas(static_cast<std::uint64_t>(of["agent_steps_per_s"])),
                     withCommas(static_cast<std::uint64_t>(of["robot_steps_per_s"])), fixed(of["ratio"], 2)});
   }
-  std::cout << table(rows) << "Per second of processor time, one thread; episodes of " << kEpisode
-            << " steps, including resets.\n"
+  Rows of_mazes{{"steps of an episode in a maze", "100 mazes", "a new maze for each episode", "and its own start"}};
+  for (const auto& of : figures["mazes"]) {
+    const auto speed = [&of](const char* name) { return withCommas(static_cast<std::uint64_t>(of[name])); };
+    of_mazes.push_back({withCommas(of["episode"]), speed("fixed_steps_per_s"), speed("generated_steps_per_s"),
+                        speed("generated_start_steps_per_s")});
+  }
+  std::cout << table(rows) << table(of_mazes) << "Agent-steps per second of processor time, one thread; episodes of "
+            << kEpisode << " steps, including resets.\n"
             << withCommas(figures["memory"]["worlds"]) << " worlds of 100 generated mazes hold "
             << fixed(figures["memory"]["held_mb"], 0) << " MB.\n";
 }

@@ -269,7 +269,7 @@ struct Environment::Impl {
       if (!state.winner) decideWinner();
       std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
     }
-    state.digest.add(state, workers);
+    if (state.digest) state.digest->add(state, workers);
   }
 
   void decideWinner() {
@@ -385,6 +385,10 @@ bool Environment::allHalted() const {
          std::none_of(activity.begin(), activity.end(), [](Activity a) { return a == Activity::active; });
 }
 
-std::string Environment::digest() const { return impl_->state.digest.text(); }
+std::string Environment::digest() const {
+  if (impl_->state.digest) return impl_->state.digest->text();
+  throw std::invalid_argument(
+      "this run computes no digest; start it from a state with a digest, as initialState() has");
+}
 
 }  // namespace robosim

@@ -123,6 +123,7 @@ class Environment {
   /// Whether every robot has halted or found the gold.
   bool allHalted() const;
   /// Hash over all states and readings of all steps so far.
+  /// @throws std::invalid_argument when the state has no digest
   std::string digest() const;
 
  private:

@@ -62,7 +62,9 @@ void addRobot(Bytes& bytes, const State& state, std::size_t i) {
 
 }  // namespace
 
-RunDigest::RunDigest(std::size_t robots) : of_chunk_((robots + kDigestChunk - 1) / kDigestChunk) {}
+std::size_t RunDigest::chunkCountOf(std::size_t robots) { return (robots + kDigestChunk - 1) / kDigestChunk; }
+
+RunDigest::RunDigest(std::size_t robots) : of_chunk_(chunkCountOf(robots)) {}
 
 void RunDigest::add(const State& state, const ParallelExecutor& workers) {
   workers.forChunks(state.world_from_robot.size(), kDigestChunk, [&](std::size_t begin, std::size_t end) {

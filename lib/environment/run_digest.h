@@ -20,6 +20,7 @@ class RunDigest {
   void add(const State& state, const ParallelExecutor& workers);
   std::string text() const;
   std::size_t chunkCount() const { return of_chunk_.size(); }
+  static std::size_t chunkCountOf(std::size_t robots);
 
   /// Appends chunkCount() times Digest::kSavedBytes bytes.
   void save(std::string& out) const;

@@ -34,6 +34,11 @@ std::size_t sizeOf(const Measurement& measurement) {
   return std::visit([](const auto& of_kind) { return sizeOf(of_kind); }, measurement);
 }
 
+/// Whether the digest is of as many robots as the state.
+bool digestFits(const State& state) {
+  return !state.digest || state.digest->chunkCount() == RunDigest::chunkCountOf(state.readings.size());
+}
+
 }  // namespace
 
 State initialState(const Model& model) {
@@ -62,7 +67,7 @@ bool haveSameShape(const State& a, const State& b) {
     return std::equal(x.measurements.begin(), x.measurements.end(), y.measurements.begin(), y.measurements.end(),
                       same_measurement);
   };
-  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && a.digest.chunkCount() == b.digest.chunkCount() &&
+  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && digestFits(a) && digestFits(b) &&
          std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
 }
 

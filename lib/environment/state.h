@@ -38,11 +38,12 @@ struct State {
   std::uint64_t stalls = 0;           ///< number of robot-steps so far that were clipped or refused
   std::uint64_t messages_delivered = 0;
   std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far
-  RunDigest digest;                    ///< of all steps so far
+  /// Of all steps so far; nullopt: none is computed, which saves its cost in each step. restore() keeps that choice.
+  std::optional<RunDigest> digest;
   bool operator==(const State&) const = default;
 };
 
-/// State before the first measurement: robots at rest at their starts, blank readings.
+/// State before the first measurement: robots at rest at their starts, blank readings, a digest of no steps.
 State initialState(const Model&);
 
 /// Whether two states have the same time step, number of robots, and kinds and sizes of measurements, as all states of

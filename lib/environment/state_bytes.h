@@ -9,9 +9,9 @@ namespace robosim {
 
 /// @file
 /// A State as bytes, to be stored in a file or sent to another process. Format, little-endian: magic (16 bytes),
-/// version (u32), number of all bytes (u64), digestOf(Model) (u64), contents, and the XXH3-64 hash of all bytes before
-/// it. The checksum detects damage, not manipulation; forged contents are memory-safe, and may describe an impossible
-/// run.
+/// version (u32), number of all bytes (u64), digestOf(Model) (u64), contents, which end with the digest if the state
+/// has one, and the XXH3-64 hash of all bytes before it. The checksum detects damage, not manipulation; forged contents
+/// are memory-safe, and may describe an impossible run.
 
 /// Saves a state between two steps.
 std::string toBytes(const Model& model, const State& state);

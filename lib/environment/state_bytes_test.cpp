@@ -54,6 +54,15 @@ TEST(StateBytes, RoundTripEveryPartOfAState) {
   }
 }
 
+TEST(StateBytes, RoundTripAStateWithoutADigest) {
+  ProbeRun run(1);
+  run.step();
+  const Model& model = *run.environment().model();
+  State state = run.environment().state();
+  state.digest.reset();
+  EXPECT_EQ(stateFromBytes(model, toBytes(model, state)), state);
+}
+
 TEST(StateBytes, RefuseEveryDamagedByte) {
   Saved saved;
   ASSERT_EQ(errorOf(*saved.model, saved.bytes), "");

@@ -42,7 +42,7 @@ TEST(State, ContinuesBitForBitFromARandomStepOfARandomRun) {
 
     const auto expect_same_end = [&](Environment& other, const char* how) {
       for (std::uint32_t i = saved_at; i < kSteps; ++i) run.step(other);
-      EXPECT_EQ(other.digest(), end.digest.text()) << how << ", seed " << seed << ", saved at step " << saved_at;
+      EXPECT_EQ(other.digest(), end.digest->text()) << how << ", seed " << seed << ", saved at step " << saved_at;
       EXPECT_EQ(other.state(), end) << how << ", seed " << seed << ", saved at step " << saved_at;
     };
     environment.restore(saved);
@@ -90,6 +90,36 @@ TEST(State, HasTheSeedOfARestartSoThatAnyEnvironmentContinuesIt) {
   environment.restart(start);
   for (int i = 0; i < 20; ++i) run.step();
   EXPECT_NE(environment.digest(), other->digest()) << "noise does not depend on the seed";
+}
+
+TEST(State, WithoutADigestContinuesTheSameRunAndComputesNone) {
+  ProbeRun run(1);
+  for (int i = 0; i < 10; ++i) run.step();
+  State start = run.environment().state();
+  start.digest.reset();
+  const auto other = run.another();
+  other->restore(start);
+  for (int i = 0; i < 10; ++i) {
+    run.step();
+    run.step(*other);
+  }
+  State end = run.environment().state();
+  end.digest.reset();
+  EXPECT_EQ(other->state(), end);
+  try {
+    other->digest();
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(),
+                 "this run computes no digest; start it from a state with a digest, as initialState() has");
+  }
+}
+
+TEST(State, RefusesADigestOfAnotherNumberOfRobots) {
+  const auto run = smallRun();
+  State state = run->state();
+  state.digest = RunDigest(1000);
+  EXPECT_THROW(run->restore(state), std::invalid_argument);
 }
 
 TEST(State, TenThousandForksOfARunDependOnlyOnTheirCommands) {
@@ -150,6 +180,7 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { ++s.messages_delivered; },
       [](State& s) { ++s.messages_dropped; },
       [](State& s) { s.digest = RunDigest(ProbeRun::kRobots); },
+      [](State& s) { s.digest.reset(); },
   };
   EXPECT_EQ(State(state), state);
   for (std::size_t i = 0; i < std::size(changes); ++i) {

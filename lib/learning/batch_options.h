@@ -26,6 +26,7 @@ struct BatchOptions {
   std::uint32_t steps_max = 1000;  ///< an episode of so many steps is truncated; > 0
   bool has_random_starts = true;   ///< each episode starts at random poses (RandomStarts); else at the world's
   int threads = 1;                 ///< does not affect the results
+  bool has_digests = false;        ///< whether Environment::digest() of the environments is computed in each step
   std::uint64_t seed = 1;
 };
 

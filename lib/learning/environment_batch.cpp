@@ -8,36 +8,22 @@
 #include "base/error_list.h"
 #include "base/parallel_executor.h"
 #include "base/random.h"
-#include "environment/start_poses.h"
+#include "learning/batch_world.h"
 
 namespace robosim {
 namespace {
 
 constexpr std::size_t kActionSize = 2;
 
-/// Constant data that all environments of a world share.
-struct SharedWorld {
-  std::shared_ptr<const Model> model;
-  State start;  ///< before the first measurement
-  std::optional<RandomStarts> random_starts;
-  std::vector<int> heat_slots;  ///< by agent: measurement of its first heat sensor; -1 for none
-};
-
 /// An environment of the batch and its present episode.
 struct Episode {
   std::unique_ptr<Environment> environment;
-  const SharedWorld* world = nullptr;
+  std::shared_ptr<const BatchWorld> world;
   std::uint64_t seed = 0;
-  std::uint64_t number = 0;  ///< of episodes since the seed was set
-  bool is_over = true;       ///< the next step starts the next episode
+  std::uint64_t number = 0;      ///< of episodes since the seed was set
+  std::uint64_t world_seed = 0;  ///< of a generated world
+  bool is_over = true;           ///< the next step starts the next episode
 };
-
-int heatSlotOf(const RobotInfo& robot) {
-  for (std::size_t slot = 0; slot < robot.sensors->size(); ++slot) {
-    if ((*robot.sensors)[slot].kind == SensorKind::heat) return static_cast<int>(slot);
-  }
-  return -1;
-}
 
 double heatOf(const State& state, std::size_t robot, int slot) {
   if (slot < 0) return 0;
@@ -70,58 +56,37 @@ void checkOptions(const BatchOptions& options) {
 
 struct EnvironmentBatch::Impl {
   BatchOptions options;
-  std::vector<std::unique_ptr<SharedWorld>> worlds;
-  std::size_t agents = 0;
-  std::optional<ObservationLayout> layout;
+  MakeWorld make_world;  ///< of each episode; null: the environments keep their worlds
+  BatchAgents agents;
   std::vector<Episode> episodes;
   ParallelExecutor workers;
 
-  Impl(std::vector<LoadedWorld> loaded, BatchOptions the_options)
-      : options(std::move(the_options)), workers(options.threads) {
-    for (auto& world : loaded) addWorld(std::move(world));
-    episodes.resize(options.environments);
-    workers.forEach(episodes.size(), 1, [this](std::size_t i) {
-      Episode& episode = episodes[i];
-      episode.world = worlds[i % worlds.size()].get();
-      episode.seed = options.seed + i;
-      episode.environment = std::make_unique<Environment>(episode.world->model, episode.world->start);
+  Impl(std::vector<LoadedWorld> loaded, BatchOptions the_options, MakeWorld make)
+      : options(std::move(the_options)),
+        make_world(std::move(make)),
+        agents(agentsOf(loaded.front(), options)),
+        episodes(options.environments),
+        workers(options.threads) {
+    std::vector<std::shared_ptr<const BatchWorld>> worlds;
+    for (auto& world : loaded) worlds.push_back(makeBatchWorld(std::move(world), options, agents));
+    workers.forEach(episodes.size(), 1, [&](std::size_t i) {
+      episodes[i].seed = options.seed + i;
+      enter(episodes[i], worlds[i % worlds.size()]);
     });
   }
 
-  void addWorld(LoadedWorld loaded) {
-    const std::string name = "world '" + loaded.world.name + "'";
-    const std::size_t robots = loaded.fleet.robots.size();
-    if (robots == 0) throw ConfigError(name + " has no robots; add at least one");
-    if (options.agents > robots) {
-      throw ConfigError(name + " has " + std::to_string(robots) + " robots, but " + std::to_string(options.agents) +
-                        " agents are required; use fewer agents");
-    }
-    const std::size_t of_this = options.agents == 0 ? robots : options.agents;
-    if (agents == 0) agents = of_this;
-    if (of_this != agents) {
-      throw ConfigError(name + " has " + std::to_string(robots) + " robots, but the first world has " +
-                        std::to_string(agents) + "; give the number of agents, or worlds with equal teams");
-    }
-    auto world = std::make_unique<SharedWorld>();
-    for (std::size_t i = 0; i < agents; ++i) {
-      const RobotInfo& robot = loaded.fleet.robots[i].info;
-      const ObservationLayout observed(robot, options.observations);
-      if (!layout) layout = observed;
-      if (!observed.isCompatible(*layout)) {
-        throw ConfigError(name + ": robot '" + robot.name +
-                          "' observes other numbers than the first agent; use agents " + "of one robot type");
-      }
-      world->heat_slots.push_back(heatSlotOf(robot));
-    }
-    if (options.has_random_starts) world->random_starts.emplace(loaded.world, loaded.fleet);
-    world->model = std::make_shared<const Model>(
-        Model{std::move(loaded.world), std::move(loaded.fleet), options.seed, options.period_s});
-    world->start = initialState(*world->model);
-    worlds.push_back(std::move(world));
+  static void enter(Episode& episode, std::shared_ptr<const BatchWorld> world) {
+    episode.environment = std::make_unique<Environment>(world->model, world->start);
+    episode.world = std::move(world);
   }
 
   void startEpisode(Episode& episode) const {
+    episode.is_over = true;  // also when the world cannot be made
     const std::uint64_t seed = episodeSeed(episode.seed, episode.number++);
+    if (make_world) {
+      enter(episode, makeBatchWorld(make_world(seed), options, agents));
+      episode.world_seed = seed;
+    }
     State start = episode.world->start;
     if (episode.world->random_starts) start.world_from_robot = episode.world->random_starts->draw(seed);
     start.seed = seed;
@@ -130,16 +95,16 @@ struct EnvironmentBatch::Impl {
   }
 
   void observe(std::size_t i, std::span<float> observations) const {
-    const std::size_t size = layout->size();
+    const std::size_t size = agents.layout.size();
     const State& state = episodes[i].environment->state();
-    for (std::size_t agent = 0; agent < agents; ++agent) {
-      layout->write(state, agent, observations.subspan((i * agents + agent) * size, size));
+    for (std::size_t agent = 0; agent < agents.count; ++agent) {
+      agents.layout.write(state, agent, observations.subspan((i * agents.count + agent) * size, size));
     }
   }
 
   void step(std::size_t i, std::span<const float> actions, const BatchResults& results) {
     Episode& episode = episodes[i];
-    const auto rewards = results.rewards.subspan(i * agents, agents);
+    const auto rewards = results.rewards.subspan(i * agents.count, agents.count);
     results.terminated[i] = results.truncated[i] = 0;
     if (episode.is_over) {
       startEpisode(episode);
@@ -149,8 +114,8 @@ struct EnvironmentBatch::Impl {
     Environment& environment = *episode.environment;
     const State& state = environment.state();
     const RewardWeights& weights = options.reward;
-    for (std::size_t agent = 0; agent < agents; ++agent) {
-      const float* action = &actions[(i * agents + agent) * kActionSize];
+    for (std::size_t agent = 0; agent < agents.count; ++agent) {
+      const float* action = &actions[(i * agents.count + agent) * kActionSize];
       const MotionLimits& limit = episode.world->model->fleet.robots[agent].info.limits;
       Command command;
       command.speed_mps = std::clamp(static_cast<double>(action[0]), -1.0, 1.0) * limit.speed_max_mps;
@@ -161,7 +126,7 @@ struct EnvironmentBatch::Impl {
     }
     environment.step();
     const bool is_won = state.winner.has_value();
-    for (std::size_t agent = 0; agent < agents; ++agent) {
+    for (std::size_t agent = 0; agent < agents.count; ++agent) {
       rewards[agent] += weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]) +
                         weights.win * (is_won ? 1 : 0) + weights.forward * state.last_motion[agent].length_m +
                         weights.stall * state.stalled[agent] + weights.step;
@@ -176,8 +141,8 @@ struct EnvironmentBatch::Impl {
     const auto bad = std::find_if(actions.begin(), actions.end(), [](float a) { return !std::isfinite(a); });
     if (bad == actions.end()) return;
     const auto index = static_cast<std::size_t>(bad - actions.begin());
-    throw std::invalid_argument("the action of agent " + std::to_string(index / kActionSize % agents) +
-                                " in environment " + std::to_string(index / kActionSize / agents) +
+    throw std::invalid_argument("the action of agent " + std::to_string(index / kActionSize % agents.count) +
+                                " in environment " + std::to_string(index / kActionSize / agents.count) +
                                 " is not finite; actions are fractions in [-1, 1]");
   }
 };
@@ -185,14 +150,24 @@ struct EnvironmentBatch::Impl {
 EnvironmentBatch::EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options) {
   checkOptions(options);
   if (worlds.empty()) throw ConfigError("a batch requires at least one world");
-  impl_ = std::make_unique<Impl>(std::move(worlds), std::move(options));
+  impl_ = std::make_unique<Impl>(std::move(worlds), std::move(options), nullptr);
 }
+
+EnvironmentBatch::EnvironmentBatch(MakeWorld make, BatchOptions options) {
+  checkOptions(options);
+  std::vector<LoadedWorld> first;
+  first.push_back(make(episodeSeed(options.seed, 0)));
+  impl_ = std::make_unique<Impl>(std::move(first), std::move(options), std::move(make));
+}
+
 EnvironmentBatch::~EnvironmentBatch() = default;
 
 const BatchOptions& EnvironmentBatch::options() const { return impl_->options; }
-std::size_t EnvironmentBatch::agentCount() const { return impl_->agents; }
-const ObservationLayout& EnvironmentBatch::layout() const { return *impl_->layout; }
+std::size_t EnvironmentBatch::agentCount() const { return impl_->agents.count; }
+const ObservationLayout& EnvironmentBatch::layout() const { return impl_->agents.layout; }
 const Environment& EnvironmentBatch::environment(std::size_t i) const { return *impl_->episodes.at(i).environment; }
+
+std::uint64_t EnvironmentBatch::worldSeed(std::size_t i) const { return impl_->episodes.at(i).world_seed; }
 
 void EnvironmentBatch::setSeed(std::uint64_t seed) {
   for (std::size_t i = 0; i < impl_->episodes.size(); ++i) setSeed(i, seed + i);
@@ -206,7 +181,7 @@ void EnvironmentBatch::setSeed(std::size_t environment, std::uint64_t seed) {
 
 void EnvironmentBatch::reset(std::span<float> observations, std::span<const std::uint8_t> which) {
   requireSize("the array of observations", observations.size(),
-              impl_->episodes.size() * impl_->agents * observationSize());
+              impl_->episodes.size() * agentCount() * observationSize());
   if (!which.empty()) requireSize("the selection of environments", which.size(), impl_->episodes.size());
   impl_->workers.forEach(impl_->episodes.size(), 4, [&](std::size_t i) {
     if (!which.empty() && !which[i]) return;
@@ -217,7 +192,7 @@ void EnvironmentBatch::reset(std::span<float> observations, std::span<const std:
 
 void EnvironmentBatch::step(std::span<const float> actions, const BatchResults& results) {
   const std::size_t environments = impl_->episodes.size();
-  const std::size_t robots = environments * impl_->agents;
+  const std::size_t robots = environments * agentCount();
   requireSize("the array of actions", actions.size(), robots * kActionSize);
   requireSize("the array of observations", results.observations.size(), robots * observationSize());
   requireSize("the array of rewards", results.rewards.size(), robots);

@@ -1,7 +1,7 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,12 +27,21 @@ struct BatchResults {
 /// truncated after a number of steps.
 ///
 /// The results depend on the options and actions only, bit for bit, for any number of threads. An episode's start
-/// poses, noise and lost messages depend on the seed of its environment and on the number of the episode.
+/// poses, noise and lost messages, and its world if that is generated, depend on the seed of its environment and on the
+/// number of the episode.
 class EnvironmentBatch {
  public:
+  /// Makes the world of an episode, which depends on the seed only; may be called from several threads at once.
+  using MakeWorld = std::function<LoadedWorld(std::uint64_t seed)>;
+
   /// @throws ConfigError for options out of range, worlds whose robots differ in number, and agents whose observations
   /// differ in size or bounds
   EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options);
+  /// Every episode of every environment has a world of its own (such as WorldGenerator makes). Before the first reset()
+  /// all environments have the world of the first one's first episode.
+  /// @throws ConfigError also for a world that cannot be made, here and when an episode starts; that environment's next
+  /// step or reset then tries its next episode
+  EnvironmentBatch(MakeWorld make, BatchOptions options);
   ~EnvironmentBatch();
   EnvironmentBatch(const EnvironmentBatch&) = delete;
   EnvironmentBatch& operator=(const EnvironmentBatch&) = delete;
@@ -41,7 +50,11 @@ class EnvironmentBatch {
   std::size_t agentCount() const;  ///< of each environment
   const ObservationLayout& layout() const;
   std::size_t observationSize() const { return layout().size(); }  ///< number of values per agent
+  /// It has a digest if BatchOptions::has_digests. The reference is valid until the next episode if worlds are
+  /// generated.
   const Environment& environment(std::size_t i) const;
+  /// Seed of the generated world of environment i's present episode; 0 before the first reset, and for given worlds.
+  std::uint64_t worldSeed(std::size_t i) const;
 
   /// Gives environment i the seed `seed` + i; its next episode is the first of that seed.
   void setSeed(std::uint64_t seed);

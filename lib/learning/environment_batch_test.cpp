@@ -118,6 +118,24 @@ TEST(EnvironmentBatch, GivesTheSameBatchForAnyNumberOfThreads) {
   }
 }
 
+TEST(EnvironmentBatch, ComputesDigestsOnRequestOnly) {
+  const auto batch_with = [](bool has_digests) {
+    BatchOptions options = poseOptions(1);
+    options.has_digests = has_digests;
+    auto batch = std::make_unique<EnvironmentBatch>(worldsOf(worldWithGold()), options);
+    Arrays arrays(*batch);
+    batch->reset(arrays.observations);
+    for (int i = 0; i < 3; ++i) batch->step(std::vector<float>{1, 0}, arrays.results());
+    return batch;
+  };
+  const auto with = batch_with(true), without = batch_with(false);
+  State same = with->environment(0).state();
+  same.digest.reset();
+  EXPECT_EQ(without->environment(0).state(), same);
+  EXPECT_EQ(with->environment(0).digest().size(), 16u);
+  EXPECT_THROW(without->environment(0).digest(), std::invalid_argument);
+}
+
 TEST(EnvironmentBatch, StartsEpisodesAtRandomPosesThatDependOnTheSeed) {
   EnvironmentBatch batch(worldsOf(worldWithGold()), poseOptions(3, true));
   Arrays arrays(batch);

@@ -112,7 +112,8 @@ ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<s
 bool ObservationLayout::isCompatible(const ObservationLayout& other) const {
   return std::equal(parts_.begin(), parts_.end(), other.parts_.begin(), other.parts_.end(),
                     [](const ObservationPart& a, const ObservationPart& b) {
-                      return a.name == b.name && a.size == b.size && a.low == b.low && a.high == b.high;
+                      return a.name == b.name && a.slot == b.slot && a.size == b.size && a.low == b.low &&
+                             a.high == b.high;
                     });
 }
 

@@ -37,7 +37,7 @@ class ObservationLayout {
 
   std::span<const ObservationPart> parts() const { return parts_; }
   std::size_t size() const { return size_; }
-  /// Whether observations have the same parts of the same size.
+  /// Whether observations have the same parts of the same size and bounds, measured by the same sensors.
   bool isCompatible(const ObservationLayout& other) const;
   /// Writes the observation of a robot. @param out of size()
   void write(const State& state, std::size_t robot, std::span<float> out) const;

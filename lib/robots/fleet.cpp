@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <unordered_map>
 
 #include <mrpt/math/wrap2pi.h>
@@ -80,6 +81,11 @@ FleetRobot made(const RobotPlacement& placement, std::shared_ptr<const RobotMode
   return robot;
 }
 
+RobotStart startOf(const RobotPlacement& placement, const FleetRobot& robot) {
+  const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
+  return {placement.name, placement.line, disc, robot.body.heights(), robot.body.solid().outline};
+}
+
 }  // namespace
 
 Fleet buildFleet(const World& world, const std::string& world_file, const RobotTypes& types,
@@ -106,9 +112,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
       break;
     }
     fleet.robots.push_back(made(placement, std::move(model)));
-    const FleetRobot& robot = fleet.robots.back();
-    const Circle disc{{robot.world_from_start.x, robot.world_from_start.y}, robot.model->radius_m};
-    starts.push_back({placement.name, placement.line, disc, robot.body.heights(), robot.body.solid().outline});
+    starts.push_back(startOf(placement, fleet.robots.back()));
   }
   if (are_poses_valid) checkStarts(world, starts, world_file, errors);
   return fleet;
@@ -125,17 +129,34 @@ FleetRobot robotOfType(const RobotTypes& types, const std::string& model) {
   Fleet fleet = buildFleet(alone, "robot type " + model, types, {}, errors);
   errors.throwIfAny();
   return fleet.robots.front();
-}
 
-LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
-  ErrorList errors;
-  LoadedWorld loaded;
-  loaded.world = readWorld(file, errors);
-  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
-  placeScattered(loaded.world, file.string(), types, seed, errors);
-  loaded.fleet = buildFleet(loaded.world, file.string(), types, check_controller, errors);
-  errors.throwIfAny();
-  return loaded;
-}
+  Fleet buildFleet(const World& world, const std::string& world_file, const Fleet& alike, ErrorList& errors) {
+    if (world.robots.size() != alike.robots.size()) {
+      throw std::invalid_argument("a world of " + std::to_string(world.robots.size()) +
+                                  " robots cannot have the models of " + std::to_string(alike.robots.size()));
+    }
+    Fleet fleet;
+    std::vector<RobotStart> starts;
+    fleet.robots.reserve(world.robots.size());
+    starts.reserve(world.robots.size());
+    for (std::size_t i = 0; i < world.robots.size(); ++i) {
+      fleet.robots.push_back(made(world.robots[i], alike.robots[i].model));
+      starts.push_back(startOf(world.robots[i], fleet.robots.back()));
+    }
+    checkStarts(world, starts, world_file, errors);
+    return fleet;
+  }
+
+  LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller,
+                        std::uint64_t seed) {
+    ErrorList errors;
+    LoadedWorld loaded;
+    loaded.world = readWorld(file, errors);
+    const RobotTypes types = robotTypesIn(robotTypeFolders(file));
+    placeScattered(loaded.world, file.string(), types, seed, errors);
+    loaded.fleet = buildFleet(loaded.world, file.string(), types, check_controller, errors);
+    errors.throwIfAny();
+    return loaded;
+  }
 
 }  // namespace robosim

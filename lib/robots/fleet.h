@@ -46,6 +46,12 @@ Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& 
 /// A robot of a type, alone, at the origin. @throws ConfigError for an unknown or faulty type
 FleetRobot robotOfType(const RobotTypes& types, const std::string& model);
 
+/// Makes the fleet of a world whose robots have, one by one, the types, bodies and sensors of those of another world,
+/// without reading any robot type. Adds to `errors` robots at starts as above.
+/// @param alike fleet of the other world, whose models are shared
+/// @throws std::invalid_argument for another number of robots
+Fleet buildFleet(const World&, const std::string& world_file, const Fleet& alike, ErrorList& errors);
+
 /// A world and its robots.
 struct LoadedWorld {
   World world;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "learning/environment_batch.h"
 #include "robosim_bench/ray_caster.h"
 #include "robosim_bench/workloads.h"
 #include "run/local_run.h"
@@ -20,6 +21,39 @@ InstructionWork robots(const char* workload) {
   for (int i = 0; i < kWarmUpSteps; ++i) run->step();
   return {.units = static_cast<double>(kRobots) * kSteps, .work = [run] {
             for (int i = 0; i < kSteps; ++i) run->step();
+          }};
+}
+
+/// 50 worlds of one robot each, after some warm-up steps.
+InstructionWork batch() {
+  constexpr std::size_t kWorlds = 50;
+  constexpr int kSteps = 50;
+  struct Batch {
+    EnvironmentBatch environments;
+    std::vector<float> actions, observations;
+    std::vector<double> rewards;
+    std::vector<std::uint8_t> terminated, truncated;
+
+    Batch(std::vector<LoadedWorld> worlds, const BatchOptions& options)
+        : environments(std::move(worlds), options),
+          actions(2 * kWorlds, 0.3f),
+          observations(kWorlds * environments.observationSize()),
+          rewards(kWorlds),
+          terminated(kWorlds),
+          truncated(kWorlds) {
+      environments.reset(observations);
+    }
+    void step() { environments.step(actions, {observations, rewards, terminated, truncated}); }
+  };
+  std::vector<LoadedWorld> worlds;
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) worlds.push_back(makeWorldToRun(workloadNamed("laser"), 1, seed));
+  BatchOptions options;
+  options.environments = kWorlds;
+  options.observations = {"laser", "odometry"};
+  const auto made = std::make_shared<Batch>(std::move(worlds), options);
+  for (int i = 0; i < 10; ++i) made->step();
+  return {.units = static_cast<double>(kWorlds) * kSteps, .work = [made] {
+            for (int i = 0; i < kSteps; ++i) made->step();
           }};
 }
 
@@ -59,6 +93,7 @@ constexpr InstructionLoad kLoads[] = {
     {"sector", "robot-step", [] { return robots("sector"); }},
     {"laser", "robot-step", [] { return robots("laser"); }},
     {"infrared", "robot-step", [] { return robots("infrared"); }},
+    {"batch of laser", "agent-step", batch},
     {"rays, scans to 8 m", "ray", [] { return rays(&RayCaster::castScans, 8); }},
     {"rays, scans to 20 m", "ray", [] { return rays(&RayCaster::castScans, 20); }},
     {"rays, single rays to 8 m", "ray", [] { return rays(&RayCaster::castSingles, 8); }},

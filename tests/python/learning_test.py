@@ -97,6 +97,35 @@ class VectorEnvTest(unittest.TestCase):
             of_one = rewards if of_one is None else of_one
             np.testing.assert_array_equal(rewards, of_one)
 
+    def test_generates_a_world_for_each_episode(self):
+        mazes = robosim.WorldGenerator("maze", columns=3, rows=3)
+        env = robosim.VectorEnv(mazes, 3, observations=("sonar",), random_starts=False, max_steps=5)
+        self.assertEqual(env.world_seeds.tolist(), [0, 0, 0])
+        observations, _ = env.reset(seed=1)
+        seeds = env.world_seeds
+        self.assertEqual(len(set(seeds.tolist())), 3)
+        for observed, seed in zip(observations, seeds):
+            with robosim.Simulation(mazes.generate(int(seed)), controller="none") as simulation:
+                np.testing.assert_array_equal(simulation.readings("sonar")[0], observed)
+        for _ in range(6):
+            env.step(np.zeros((3, 2)))
+        self.assertTrue(set(seeds.tolist()).isdisjoint(env.world_seeds.tolist()))
+        env.reset(seed=1)
+        np.testing.assert_array_equal(env.world_seeds, seeds)
+
+    def test_gives_the_same_generated_episodes_for_any_number_of_threads(self):
+        of_one = None
+        for threads in (1, 3):
+            env = robosim.VectorEnv(robosim.WorldGenerator("maze", columns=3, rows=3), 7, threads=threads, max_steps=9)
+            env.reset(seed=1)
+            env.action_space.seed(1)
+            observed = [env.step(env.action_space.sample())[0].copy() for _ in range(25)]
+            of_one = observed if of_one is None else of_one
+            np.testing.assert_array_equal(observed, of_one)
+
+    def test_conforms_with_generated_worlds(self):
+        robosim.check_env(robosim.VectorEnv(robosim.WorldGenerator("cave", width_m=8, length_m=8), 3, max_steps=7))
+
     def test_reports_misuse_and_stays_usable(self):
         env = at_the_start()
         with self.assertRaisesRegex(RuntimeError, r"call reset\(\) before the first step"):
@@ -135,6 +164,15 @@ class ParallelEnvTest(unittest.TestCase):
     def test_conforms(self):
         world = robosim.World.generate("maze", columns=3, rows=3, robots=3)
         robosim.check_env(robosim.ParallelEnv(world, observations=("sonar", "odometry"), max_steps=30))
+
+    def test_generates_a_world_for_each_episode(self):
+        env = robosim.ParallelEnv(robosim.WorldGenerator("maze", columns=3, rows=3, robots=2))
+        env.reset(seed=1)
+        first = env.world_seed
+        env.reset()
+        self.assertNotEqual(env.world_seed, first)
+        env.reset(seed=1)
+        self.assertEqual(env.world_seed, first)
 
     def test_ends_the_episode_of_all_agents(self):
         env = robosim.ParallelEnv(scene.world(2), observations="pose", random_starts=False, max_steps=2,

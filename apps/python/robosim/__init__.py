@@ -4,11 +4,12 @@ The engine and NumPy are loaded when they are first used, so that `import robosi
 """
 import importlib
 
-from ._errors import ConfigError, ControllerError, Error, RecordingError
+from ._errors import ConfigError, ControllerError, Error, RecordingError, RemoteError
 
 _MODULE_OF = {
     "World": "_robosim",
     "WorldBuilder": "world_builder",
+    "WorldGenerator": "_robosim",
     "Simulation": "_robosim",
     "Robot": "_robosim",
     "VectorEnv": "vector_env",
@@ -16,6 +17,7 @@ _MODULE_OF = {
     "ParallelEnv": "parallel_env",
     "Box": "spaces",
     "check_env": "conformance",
+    "RemoteRobots": "remote",
     "read_rawlog": "recording",
     "Recording": "recording",
     "Controller": "controller",
@@ -27,7 +29,7 @@ _MODULE_OF = {
     "__version__": "_robosim",
 }
 
-__all__ = ["ConfigError", "ControllerError", "Error", "RecordingError",
+__all__ = ["ConfigError", "ControllerError", "Error", "RecordingError", "RemoteError",
            *(name for name in _MODULE_OF if not name.startswith("__"))]
 
 

@@ -8,6 +8,8 @@ from .spaces import Box
 
 
 def _worlds_of(worlds):
+    if isinstance(worlds, _robosim.WorldGenerator):
+        return worlds
     if isinstance(worlds, (_robosim.World, str, os.PathLike)):
         worlds = [worlds]
     return [world if isinstance(world, _robosim.World) else _robosim.World.load(world) for world in worlds]

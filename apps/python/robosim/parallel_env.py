@@ -5,7 +5,8 @@ from ._learning import Results, make_batch, spaces_of
 class ParallelEnv:
     """The robots of a world as agents that act at the same time, with the interface of pettingzoo.ParallelEnv.
 
-    world: World or file. robots: the first robots of the world, which are the agents; 0: all.
+    world: World or file, or a WorldGenerator, which makes a new world for each episode.
+    robots: the first robots of the world, which are the agents; 0: all.
     Other arguments, observations (float32, shape (size,)), actions (shape (2,)) and rewards are those of VectorEnv.
     All agents' episodes end together. Observations are copies.
     """
@@ -23,6 +24,12 @@ class ParallelEnv:
             self.observation_spaces[agent], self.action_spaces[agent] = spaces_of(self._batch, ())
         self._results = Results(self._batch, 1)
         self._has_episode = False
+
+    @property
+    def world_seed(self):
+        """Seed of the generated world; 0 before the first reset, and of a world that is not generated."""
+        self._require_open()
+        return int(self._batch.world_seeds[0])
 
     @property
     def num_agents(self):

@@ -18,7 +18,8 @@ class AutoresetMode(Enum):
 class VectorEnv:
     """Many environments that step together in this process, with the semantics of gymnasium.vector.VectorEnv 1.0.
 
-    worlds: World or file, or a list of them; environment i is of world i modulo their number.
+    worlds: World or file, or a list of them; environment i is of world i modulo their number. Or a WorldGenerator: each
+        episode has a new world, which depends on the environment's seed and the number of the episode.
     num_envs: number of environments.
     robots: the first robots of each world, which are the agents; others stand still. 0: all robots.
     observations: parts of an observation: kinds of sensors, "stalled", "pose" (Simulation.readings() lists them).
@@ -67,6 +68,13 @@ class VectorEnv:
     def observation_parts(self):
         """Slice of an observation by the name of its part."""
         return {name: slice(begin, end) for name, begin, end in self._batch.parts}
+
+    @property
+    def world_seeds(self):
+        """Seed of each environment's generated world: uint64, shape (num_envs,); WorldGenerator.generate(seed) makes
+        it again. 0 before the first reset, and of worlds that are not generated."""
+        self._require_open()
+        return self._batch.world_seeds
 
     def reset(self, *, seed=None, options=None):
         """Begins a new episode in every environment; returns observations and infos.
