@@ -129,34 +129,34 @@ FleetRobot robotOfType(const RobotTypes& types, const std::string& model) {
   Fleet fleet = buildFleet(alone, "robot type " + model, types, {}, errors);
   errors.throwIfAny();
   return fleet.robots.front();
+}
 
-  Fleet buildFleet(const World& world, const std::string& world_file, const Fleet& alike, ErrorList& errors) {
-    if (world.robots.size() != alike.robots.size()) {
-      throw std::invalid_argument("a world of " + std::to_string(world.robots.size()) +
-                                  " robots cannot have the models of " + std::to_string(alike.robots.size()));
-    }
-    Fleet fleet;
-    std::vector<RobotStart> starts;
-    fleet.robots.reserve(world.robots.size());
-    starts.reserve(world.robots.size());
-    for (std::size_t i = 0; i < world.robots.size(); ++i) {
-      fleet.robots.push_back(made(world.robots[i], alike.robots[i].model));
-      starts.push_back(startOf(world.robots[i], fleet.robots.back()));
-    }
-    checkStarts(world, starts, world_file, errors);
-    return fleet;
+Fleet buildFleet(const World& world, const std::string& world_file, const Fleet& alike, ErrorList& errors) {
+  if (world.robots.size() != alike.robots.size()) {
+    throw std::invalid_argument("a world of " + std::to_string(world.robots.size()) +
+                                " robots cannot have the models of " + std::to_string(alike.robots.size()));
   }
+  Fleet fleet;
+  std::vector<RobotStart> starts;
+  fleet.robots.reserve(world.robots.size());
+  starts.reserve(world.robots.size());
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    fleet.robots.push_back(made(world.robots[i], alike.robots[i].model));
+    starts.push_back(startOf(world.robots[i], fleet.robots.back()));
+  }
+  checkStarts(world, starts, world_file, errors);
+  return fleet;
+}
 
-  LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller,
-                        std::uint64_t seed) {
-    ErrorList errors;
-    LoadedWorld loaded;
-    loaded.world = readWorld(file, errors);
-    const RobotTypes types = robotTypesIn(robotTypeFolders(file));
-    placeScattered(loaded.world, file.string(), types, seed, errors);
-    loaded.fleet = buildFleet(loaded.world, file.string(), types, check_controller, errors);
-    errors.throwIfAny();
-    return loaded;
-  }
+LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
+  ErrorList errors;
+  LoadedWorld loaded;
+  loaded.world = readWorld(file, errors);
+  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
+  placeScattered(loaded.world, file.string(), types, seed, errors);
+  loaded.fleet = buildFleet(loaded.world, file.string(), types, check_controller, errors);
+  errors.throwIfAny();
+  return loaded;
+}
 
 }  // namespace robosim

@@ -1,0 +1,367 @@
+// The simulated controller board of an ARCOS robot, driven by packets.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "arcos/command.h"
+#include "arcos/config_packet.h"
+#include "arcos/laser_packets.h"
+#include "arcos/simulator_packets.h"
+#include "arcos/sip.h"
+#include "arcos/testing/hex.h"
+#include "tests/scenarios/simulated_arcos_robot.h"
+
+namespace robosim {
+namespace {
+
+namespace command = arcos::command;
+using arcos::encodeCommand;
+using arcos::Sip;
+
+/// A program that sends commands and keeps what the robot answers.
+struct Program {
+  explicit Program(const std::string& type = "p3dx", const mrpt::math::TPose2D& start = {}, double room_m = 0)
+      : robot(type, start, room_m) {
+    send(encodeCommand(command::sync0));
+    send(encodeCommand(command::sync1));
+    send(encodeCommand(command::sync2));
+    send(encodeCommand(command::open, 1));
+    packets.clear();
+  }
+  void send(const std::string& bytes) { read(robot.session().receive(bytes, robot.now())); }
+  /// @return the SIP after the last step
+  const Sip& steps(int count) {
+    for (int i = 0; i < count; ++i) {
+      robot.session().receive(keeps_alive ? encodeCommand(command::pulse) : "", robot.now());
+      robot.session().beforeStep(robot.now());
+      robot.environment().step();
+      robot.wait(std::chrono::milliseconds(100));
+      read(robot.session().cycle());
+    }
+    return sip;
+  }
+  /// One step, whose scan the simulator measures too.
+  void stepWithScan() {
+    const auto channel = robot.channel();
+    read(channel->read({}));
+  }
+  void read(const std::string& bytes) {
+    reader.add(bytes);
+    while (auto packet = reader.next()) {
+      packets.push_back(*packet);
+      if (auto decoded = arcos::decodeSip(*packet)) sip = *decoded;
+    }
+  }
+  const arcos::Packet* packet(std::uint8_t id) const {
+    for (const auto& each : packets) {
+      if (each.id == id) return &each;
+    }
+    return nullptr;
+  }
+
+  SimulatedArcosRobot robot;
+  arcos::PacketReader reader;
+  std::vector<arcos::Packet> packets;
+  Sip sip;
+  bool keeps_alive = true;
+};
+
+constexpr double kUnit_mm = 0.485;
+
+TEST(ArcosBoard, AnswersTheHandshakeWithItsNameAndNothingElse) {
+  SimulatedArcosRobot robot("p3dx");
+  auto& session = robot.session();
+  EXPECT_EQ(arcos::hex(session.receive(encodeCommand(command::sync0), robot.now())), "fa fb 03 00 00 00");
+  robot.step();
+  EXPECT_EQ(session.cycle(), "") << "no SIP before OPEN";
+  EXPECT_EQ(arcos::hex(session.receive(encodeCommand(command::sync1), robot.now())), "fa fb 03 01 00 01");
+  EXPECT_EQ(arcos::hex(session.receive(encodeCommand(command::sync2), robot.now())),
+            "fa fb 1a 02 4d 6f 62 69 6c 65 53 69 6d 00 50 69 6f 6e 65 65 72 00 70 33 64 78 00 93 45");
+  EXPECT_EQ(session.cycle(), "");
+  EXPECT_EQ(session.receive(encodeCommand(command::open, 1), robot.now()), "");
+  EXPECT_NE(session.cycle(), "");
+}
+
+TEST(ArcosBoard, AcceptsANewSync0AtAnyPointOfTheHandshake) {
+  SimulatedArcosRobot robot("p3dx");
+  auto& session = robot.session();
+  for (const auto& before : {std::string(), encodeCommand(command::sync0), encodeCommand(command::sync1),
+                             encodeCommand(command::sync2), encodeCommand(command::config, 1)}) {
+    session.receive(before, robot.now());
+    EXPECT_EQ(arcos::hex(session.receive(encodeCommand(command::sync0), robot.now())), "fa fb 03 00 00 00");
+  }
+}
+
+TEST(ArcosBoard, ReportsAStandingRobotWithMotorsAndSonarOn) {
+  Program program;
+  program.steps(1);
+  EXPECT_EQ(program.sip.flags, Sip::kMotorsOn | Sip::kSonarOn);
+  EXPECT_FALSE(program.sip.is_moving);
+  EXPECT_EQ(program.sip.battery, 130);
+  EXPECT_EQ(program.sip.sonars.size(), 16u);
+  EXPECT_EQ(program.sip.sonars[0].range, 5000) << "no echo";
+  EXPECT_EQ(program.sip.x, 0);
+}
+
+TEST(ArcosBoard, AcceleratesTo300MillimetresPerSecondIn10Cycles) {
+  Program program;
+  program.send(encodeCommand(command::vel, 300));
+  EXPECT_EQ(program.steps(1).speed_left, 30) << "0.3 m/s² for 0.1 s";
+  EXPECT_EQ(program.steps(9).speed_left, 300);
+  EXPECT_EQ(program.sip.speed_right, 300);
+  // 0.03 + 0.06 + … + 0.30 m/s, 0.1 s each
+  EXPECT_NEAR(program.sip.x * kUnit_mm, 165, kUnit_mm);
+  EXPECT_TRUE(program.sip.is_moving);
+}
+
+TEST(ArcosBoard, ReportsOdometryModulo16Bits) {
+  Program program;
+  program.send(encodeCommand(command::vel, -300));
+  program.steps(10);
+  EXPECT_EQ(program.sip.x, static_cast<std::uint16_t>(-std::lround(165 / kUnit_mm)));
+}
+
+TEST(ArcosBoard, DrivesASignedDistanceAndStops) {
+  for (const int distance_mm : {500, 2000, -1000}) {
+    Program program;
+    program.send(encodeCommand(command::move, distance_mm));
+    program.steps(120);
+    EXPECT_NEAR(program.robot.truePose().x * 1000, distance_mm, 1) << distance_mm;
+    EXPECT_FALSE(program.sip.is_moving);
+  }
+}
+
+TEST(ArcosBoard, TurnsToAHeadingTheShorterWayRound) {
+  Program program;
+  program.send(encodeCommand(command::head, 170));
+  program.steps(60);
+  EXPECT_NEAR(program.robot.truePose().phi, 170 * M_PI / 180, 1e-6);
+  program.send(encodeCommand(command::head, -170));
+  EXPECT_GT(program.steps(1).turn_rate, 0) << "counter-clockwise over 180°";
+  program.steps(30);
+  EXPECT_NEAR(program.robot.truePose().phi, -170 * M_PI / 180, 1e-6);
+  EXPECT_EQ(program.sip.heading, std::lround(-170.0 / 360 * 4096));
+  program.send(encodeCommand(command::dhead, -20));
+  program.steps(30);
+  EXPECT_NEAR(program.robot.truePose().phi, 170 * M_PI / 180, 1e-6);
+}
+
+TEST(ArcosBoard, TurnsAtTheRateOfRvelAndOfTwoWheelSpeeds) {
+  Program program;
+  program.send(encodeCommand(command::rvel, -10));
+  EXPECT_EQ(program.steps(5).turn_rate, -100) << "0.1 °/s";
+  // 300 and 100 mm/s: left in the high byte, in units of 20 mm/s.
+  program.send(encodeCommand(command::vel2, 0x0F05));
+  program.steps(20);
+  EXPECT_EQ(program.sip.speed_left, 300);
+  EXPECT_EQ(program.sip.speed_right, 100);
+  EXPECT_NEAR(program.sip.turn_rate / 10.0, -32, 0.2);
+  // -100 and 100 mm/s: the combined value is negative.
+  program.send(encodeCommand(command::vel2, static_cast<std::int16_t>(0xFB05)));
+  program.steps(20);
+  EXPECT_EQ(program.sip.speed_left, -100);
+  EXPECT_EQ(program.sip.speed_right, 100);
+}
+
+TEST(ArcosBoard, UsesTheLimitsOfTheProgram) {
+  Program program;
+  program.send(encodeCommand(command::setv, 200) + encodeCommand(command::seta, 1000) +
+               encodeCommand(command::seta, -500) + encodeCommand(command::vel, 400));
+  EXPECT_EQ(program.steps(1).speed_left, 100) << "1 m/s² for 0.1 s";
+  EXPECT_EQ(program.steps(5).speed_left, 200);
+  program.send(encodeCommand(command::stop));
+  EXPECT_EQ(program.steps(1).speed_left, 150) << "0.5 m/s² for 0.1 s";
+}
+
+TEST(ArcosBoard, StopsAtTheMaximumDecelerationInAnEmergency) {
+  Program program;
+  program.send(encodeCommand(command::vel, 300));
+  program.steps(10);
+  program.send(encodeCommand(command::estop) + encodeCommand(command::vel, 300));
+  EXPECT_EQ(program.steps(1).speed_left, 100) << "2 m/s² for 0.1 s: motion is ignored until it stands";
+  EXPECT_EQ(program.steps(2).speed_left, 0);
+  program.send(encodeCommand(command::vel, 300));
+  EXPECT_EQ(program.steps(1).speed_left, 30);
+}
+
+TEST(ArcosBoard, StandsWhileItsMotorsAreDisabled) {
+  Program program;
+  program.send(encodeCommand(command::vel, 300));
+  program.steps(10);
+  program.send(encodeCommand(command::enable, 0) + encodeCommand(command::vel, 300));
+  program.steps(5);
+  EXPECT_FALSE(program.sip.is_moving);
+  EXPECT_EQ(program.sip.flags & Sip::kMotorsOn, 0);
+  program.send(encodeCommand(command::enable, 1));
+  program.steps(5);
+  EXPECT_FALSE(program.sip.is_moving) << "it waits for a new command";
+  program.send(encodeCommand(command::vel, 300));
+  EXPECT_TRUE(program.steps(1).is_moving);
+}
+
+TEST(ArcosBoard, StopsWhenItHasHeardNothingFor2Seconds) {
+  Program program;
+  program.send(encodeCommand(command::vel, 300));
+  program.keeps_alive = false;
+  program.steps(19);
+  EXPECT_EQ(program.sip.speed_left, 300);
+  program.steps(15);
+  EXPECT_EQ(program.sip.speed_left, 0);
+  program.send(encodeCommand(command::pulse));
+  EXPECT_EQ(program.steps(3).speed_left, 0) << "it waits for a new command";
+}
+
+TEST(ArcosBoard, SwitchesItsSonarsOffAndOn) {
+  Program program;
+  program.send(encodeCommand(command::sonar, 0));
+  program.steps(1);
+  EXPECT_EQ(program.sip.flags, Sip::kMotorsOn);
+  EXPECT_TRUE(program.sip.sonars.empty());
+  program.send(encodeCommand(command::sonar, 1));
+  EXPECT_EQ(program.steps(1).sonars.size(), 16u);
+}
+
+// The exact ranges along the axes of the sonars of a p3dx in the middle of a square room of 5 m.
+TEST(ArcosBoard, MeasuresSonarAlongTheAxesInASquareRoom) {
+  Program program("p3dx", {}, 5);
+  program.steps(1);
+  std::vector<int> ranges_mm;
+  for (const auto& sonar : program.sip.sonars) ranges_mm.push_back(sonar.range);
+  EXPECT_EQ(ranges_mm, (std::vector<int>{2364, 3108, 2716, 2370, 2370, 2716, 3108, 2364, 2364, 3108, 2613, 2280, 2280,
+                                         2613, 3108, 2364}));
+}
+
+// The laser of a p3dx is 18 mm ahead of its centre: 2482 mm from the wall ahead, 2500 mm from those at the sides.
+TEST(ArcosBoard, ScansARoomFromTheRightToTheLeftAtTheRequestedResolution) {
+  for (const int increment : {100, 50, 33}) {
+    Program program("p3dx", {}, 5);
+    program.send(encodeCommand(command::old_laser_start, -90) + encodeCommand(command::old_laser_end, 90) +
+                 encodeCommand(command::old_laser_increment, increment) + encodeCommand(command::old_laser_enable, 2));
+    arcos::ScanAssembler assembler;
+    program.packets.clear();
+    program.stepWithScan();
+    for (const auto& packet : program.packets) assembler.add(packet);
+    const auto& scan = assembler.scan();
+    ASSERT_EQ(scan.size(), 18000u / static_cast<unsigned>(increment) + 1);
+    EXPECT_EQ(scan.front(), 2500);
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+      const double angle = (-90 + static_cast<double>(i) * increment / 100) * M_PI / 180;
+      const double ahead = std::cos(angle) > 1e-9 ? 2482 / std::cos(angle) : 1e9;
+      const double aside = std::abs(std::sin(angle)) > 1e-9 ? 2500 / std::abs(std::sin(angle)) : 1e9;
+      EXPECT_NEAR(scan[i], std::min(ahead, aside), 0.51) << i;
+    }
+  }
+}
+
+TEST(ArcosBoard, ReportsTheStallAndTheBumpersThatTouchAWall) {
+  Program program("p3dx", {}, 5);
+  program.send(encodeCommand(command::vel, 300));
+  program.steps(100);
+  EXPECT_EQ(program.sip.stall_left & Sip::kStalled, 1);
+  EXPECT_EQ(program.sip.stall_right & Sip::kStalled, 1);
+  // Five segments of 36° in front, counted from the left from bit 1: the third one is straight ahead.
+  EXPECT_NE(program.sip.stall_right & 0x08, 0);
+  EXPECT_EQ(program.sip.stall_left & ~Sip::kStalled, 0) << "no contact behind";
+  program.send(encodeCommand(command::vel, -300));
+  program.steps(5);
+  EXPECT_EQ(program.sip.stall_left, 0);
+  EXPECT_EQ(program.sip.stall_right, 0);
+}
+
+TEST(ArcosBoard, SetsItsOdometryWithoutMoving) {
+  Program program("p3dx", {1, 2, 0.5});
+  program.send(encodeCommand(command::vel, 300));
+  program.steps(10);
+  program.send(encodeCommand(command::stop));
+  program.steps(20);
+  const auto before = program.robot.truePose();
+  program.send(encodeCommand(command::seto));
+  program.steps(1);
+  EXPECT_EQ(program.sip.x, 0);
+  EXPECT_EQ(program.sip.y, 0);
+  EXPECT_EQ(program.sip.heading, 0);
+  program.send(arcos::encode(command::seto, std::string("\xE8\x03\x00\x00\x5A\x00", 6)));  // 1000 mm, 0, 90°
+  program.steps(1);
+  EXPECT_EQ(program.sip.x, std::lround(1000 / kUnit_mm));
+  EXPECT_EQ(program.sip.heading, 1024);
+  EXPECT_EQ(program.robot.truePose(), before);
+}
+
+TEST(ArcosBoard, PlacesTheTrueRobotWithoutChangingItsOdometry) {
+  Program program;
+  program.send(arcos::encodeSetPose({500, 600, 90}));
+  program.steps(1);
+  EXPECT_NEAR(program.robot.truePose().x, 0.5, 1e-9);
+  EXPECT_NEAR(program.robot.truePose().y, 0.6, 1e-9);
+  EXPECT_EQ(program.sip.x, 0);
+  EXPECT_EQ(program.sip.heading, 0);
+  program.send(arcos::encode(command::sim_reset));
+  program.steps(1);
+  EXPECT_NEAR(program.robot.truePose().x, 0, 1e-9);
+}
+
+TEST(ArcosBoard, AnswersRequestsOnceOrInEachCycle) {
+  Program program;
+  program.send(encodeCommand(command::config));
+  ASSERT_TRUE(program.packet(arcos::packet_type::config));
+  const auto config = arcos::decodeConfig(*program.packet(arcos::packet_type::config));
+  ASSERT_TRUE(config);
+  EXPECT_EQ(config->serial, "SIM");
+  EXPECT_EQ(config->subclass, "p3dx");
+  EXPECT_EQ(config->speed_top, 2200);
+  EXPECT_EQ(config->turn_top, 500);
+  EXPECT_EQ(config->accel, 300);
+  const std::vector<std::pair<std::uint8_t, std::uint8_t>> requests{{command::encoder, arcos::packet_type::encoder},
+                                                                    {command::io_request, arcos::packet_type::io},
+                                                                    {command::sim_stat, arcos::packet_type::sim_stat}};
+  for (const auto& [id, type] : requests) {
+    const auto count = [&program, type = type](int mode_steps) {
+      program.packets.clear();
+      program.steps(mode_steps);
+      return std::count_if(program.packets.begin(), program.packets.end(),
+                           [type](const auto& packet) { return packet.id == type; });
+    };
+    program.send(encodeCommand(id, 1));
+    EXPECT_EQ(count(3), 1) << int{id};
+    program.send(encodeCommand(id, 2));
+    EXPECT_EQ(count(3), 3) << int{id};
+    program.send(encodeCommand(id, 0));
+    EXPECT_EQ(count(3), 0) << int{id};
+  }
+}
+
+TEST(ArcosBoard, IgnoresUnknownCommandsAndWrongArguments) {
+  Program program;
+  for (int id = 0; id < 256; ++id) {
+    if (id == command::close) continue;
+    program.send(arcos::encode(static_cast<std::uint8_t>(id), "xy"));
+  }
+  program.steps(2);
+  EXPECT_EQ(program.robot.session().endReason(), "");
+  EXPECT_FALSE(program.sip.is_moving);
+}
+
+TEST(ArcosBoard, EndsTheSessionOnRequestAndForGarbage) {
+  Program polite;
+  polite.send(encodeCommand(command::close, 1));
+  EXPECT_EQ(polite.robot.session().endReason(), "it has closed the session");
+  Program noisy;
+  noisy.send(std::string(5000, 'x'));
+  EXPECT_EQ(noisy.robot.session().endReason(), "it sends bytes that are no ARCOS packets");
+  Program flooding;
+  std::string flood;
+  for (int i = 0; i < 2001; ++i) flood += encodeCommand(command::pulse);
+  flooding.send(flood);
+  EXPECT_EQ(flooding.robot.session().endReason(), "it sends more than 2000 commands in a cycle");
+  Program silent;
+  silent.robot.wait(std::chrono::seconds(61));
+  silent.send("");
+  EXPECT_EQ(silent.robot.session().endReason(), "it has sent nothing for a minute");
+  SimulatedArcosRobot slow("p3dx");
+  slow.wait(std::chrono::seconds(11));
+  slow.session().receive("", slow.now());
+  EXPECT_EQ(slow.session().endReason(), "it has not completed the handshake in time");
+}
+
+}  // namespace
+}  // namespace robosim
