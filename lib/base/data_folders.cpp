@@ -52,7 +52,7 @@ std::vector<fs::path> dataFolders() {
 
 std::optional<fs::path> findDataFile(const fs::path& file) {
   std::vector<fs::path> names{file};
-  if (file.has_filename() && !file.has_extension()) names.push_back(file.string() + ".xml");
+  if (file.has_filename() && !file.has_extension()) names.emplace_back(file.string() + ".xml");
   std::vector<fs::path> folders{""};
   if (file.is_relative()) {
     for (auto& folder : dataFolders()) folders.push_back(std::move(folder));

@@ -30,7 +30,7 @@ bool isConnected(grpc::Channel& channel, Clock::time_point until) {
 
 ConnectOptions waitForServer(ConnectOptions options, std::chrono::duration<double> timeout,
                              const std::function<void(const std::string&)>& log) {
-  if (timeout <= timeout.zero()) return options;
+  if (timeout.count() <= 0) return options;
   const auto until = Clock::now() + std::chrono::duration_cast<Clock::duration>(timeout);
   {
     // The channel is not used after a failure: its next attempt would wait for gRPC's back-off, and a call would fail
