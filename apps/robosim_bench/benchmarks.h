@@ -5,6 +5,7 @@ namespace robosim {
 
 /// @name The benchmarks, one file each; each function adds a subcommand to the program
 ///@{
+void addArcosBenchmark(CLI::App& program);
 void addCameraBenchmark(CLI::App& program);
 void addLearnBenchmark(CLI::App& program);
 void addMapsBenchmark(CLI::App& program);

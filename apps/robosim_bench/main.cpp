@@ -17,5 +17,6 @@ int main(int argc, char** argv) {
   robosim::addViewBenchmark(program);
   robosim::addMapsBenchmark(program);
   robosim::addLearnBenchmark(program);
+  robosim::addArcosBenchmark(program);
   return robosim::execute(program, argc, argv);
 }

@@ -70,6 +70,8 @@ class ArcosHardware final : public Hardware, public BaseLink {
   /// Sends the command, and waits for the next readings. @return false when `interrupted`, and at the end of a log
   /// @throws RobotLinkError when the connection is lost, or the robot is silent for kSilenceMax
   bool nextStep();
+  /// Number of SIPs received. Several that arrive together are one step.
+  std::uint64_t sips() const { return client_.sips(); }
 
  private:
   void connect();

@@ -19,8 +19,8 @@ using arcos::encodeCommand;
 using arcos::Sip;
 
 /// A program that sends commands and keeps what the robot answers.
-struct Program {
-  explicit Program(const std::string& type = "p3dx", const mrpt::math::TPose2D& start = {}, double room_m = 0)
+struct BoardProgram {
+  explicit BoardProgram(const std::string& type = "p3dx", const mrpt::math::TPose2D& start = {}, double room_m = 0)
       : robot(type, start, room_m) {
     send(encodeCommand(command::sync0));
     send(encodeCommand(command::sync1));
@@ -93,7 +93,7 @@ TEST(ArcosBoard, AcceptsANewSync0AtAnyPointOfTheHandshake) {
 }
 
 TEST(ArcosBoard, ReportsAStandingRobotWithMotorsAndSonarOn) {
-  Program program;
+  BoardProgram program;
   program.steps(1);
   EXPECT_EQ(program.sip.flags, Sip::kMotorsOn | Sip::kSonarOn);
   EXPECT_FALSE(program.sip.is_moving);
@@ -104,7 +104,7 @@ TEST(ArcosBoard, ReportsAStandingRobotWithMotorsAndSonarOn) {
 }
 
 TEST(ArcosBoard, AcceleratesTo300MillimetresPerSecondIn10Cycles) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::vel, 300));
   EXPECT_EQ(program.steps(1).speed_left, 30) << "0.3 m/s² for 0.1 s";
   EXPECT_EQ(program.steps(9).speed_left, 300);
@@ -115,7 +115,7 @@ TEST(ArcosBoard, AcceleratesTo300MillimetresPerSecondIn10Cycles) {
 }
 
 TEST(ArcosBoard, ReportsOdometryModulo16Bits) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::vel, -300));
   program.steps(10);
   EXPECT_EQ(program.sip.x, static_cast<std::uint16_t>(-std::lround(165 / kUnit_mm)));
@@ -123,7 +123,7 @@ TEST(ArcosBoard, ReportsOdometryModulo16Bits) {
 
 TEST(ArcosBoard, DrivesASignedDistanceAndStops) {
   for (const int distance_mm : {500, 2000, -1000}) {
-    Program program;
+    BoardProgram program;
     program.send(encodeCommand(command::move, distance_mm));
     program.steps(120);
     EXPECT_NEAR(program.robot.truePose().x * 1000, distance_mm, 1) << distance_mm;
@@ -132,7 +132,7 @@ TEST(ArcosBoard, DrivesASignedDistanceAndStops) {
 }
 
 TEST(ArcosBoard, TurnsToAHeadingTheShorterWayRound) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::head, 170));
   program.steps(60);
   EXPECT_NEAR(program.robot.truePose().phi, 170 * M_PI / 180, 1e-6);
@@ -147,7 +147,7 @@ TEST(ArcosBoard, TurnsToAHeadingTheShorterWayRound) {
 }
 
 TEST(ArcosBoard, TurnsAtTheRateOfRvelAndOfTwoWheelSpeeds) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::rvel, -10));
   EXPECT_EQ(program.steps(5).turn_rate, -100) << "0.1 °/s";
   // 300 and 100 mm/s: left in the high byte, in units of 20 mm/s.
@@ -164,7 +164,7 @@ TEST(ArcosBoard, TurnsAtTheRateOfRvelAndOfTwoWheelSpeeds) {
 }
 
 TEST(ArcosBoard, UsesTheLimitsOfTheProgram) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::setv, 200) + encodeCommand(command::seta, 1000) +
                encodeCommand(command::seta, -500) + encodeCommand(command::vel, 400));
   EXPECT_EQ(program.steps(1).speed_left, 100) << "1 m/s² for 0.1 s";
@@ -174,7 +174,7 @@ TEST(ArcosBoard, UsesTheLimitsOfTheProgram) {
 }
 
 TEST(ArcosBoard, StopsAtTheMaximumDecelerationInAnEmergency) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::vel, 300));
   program.steps(10);
   program.send(encodeCommand(command::estop) + encodeCommand(command::vel, 300));
@@ -185,7 +185,7 @@ TEST(ArcosBoard, StopsAtTheMaximumDecelerationInAnEmergency) {
 }
 
 TEST(ArcosBoard, StandsWhileItsMotorsAreDisabled) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::vel, 300));
   program.steps(10);
   program.send(encodeCommand(command::enable, 0) + encodeCommand(command::vel, 300));
@@ -200,7 +200,7 @@ TEST(ArcosBoard, StandsWhileItsMotorsAreDisabled) {
 }
 
 TEST(ArcosBoard, StopsWhenItHasHeardNothingFor2Seconds) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::vel, 300));
   program.keeps_alive = false;
   program.steps(19);
@@ -212,7 +212,7 @@ TEST(ArcosBoard, StopsWhenItHasHeardNothingFor2Seconds) {
 }
 
 TEST(ArcosBoard, SwitchesItsSonarsOffAndOn) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::sonar, 0));
   program.steps(1);
   EXPECT_EQ(program.sip.flags, Sip::kMotorsOn);
@@ -223,7 +223,7 @@ TEST(ArcosBoard, SwitchesItsSonarsOffAndOn) {
 
 // The exact ranges along the axes of the sonars of a p3dx in the middle of a square room of 5 m.
 TEST(ArcosBoard, MeasuresSonarAlongTheAxesInASquareRoom) {
-  Program program("p3dx", {}, 5);
+  BoardProgram program("p3dx", {}, 5);
   program.steps(1);
   std::vector<int> ranges_mm;
   for (const auto& sonar : program.sip.sonars) ranges_mm.push_back(sonar.range);
@@ -234,7 +234,7 @@ TEST(ArcosBoard, MeasuresSonarAlongTheAxesInASquareRoom) {
 // The laser of a p3dx is 18 mm ahead of its centre: 2482 mm from the wall ahead, 2500 mm from those at the sides.
 TEST(ArcosBoard, ScansARoomFromTheRightToTheLeftAtTheRequestedResolution) {
   for (const int increment : {100, 50, 33}) {
-    Program program("p3dx", {}, 5);
+    BoardProgram program("p3dx", {}, 5);
     program.send(encodeCommand(command::old_laser_start, -90) + encodeCommand(command::old_laser_end, 90) +
                  encodeCommand(command::old_laser_increment, increment) + encodeCommand(command::old_laser_enable, 2));
     arcos::ScanAssembler assembler;
@@ -254,7 +254,7 @@ TEST(ArcosBoard, ScansARoomFromTheRightToTheLeftAtTheRequestedResolution) {
 }
 
 TEST(ArcosBoard, ReportsTheStallAndTheBumpersThatTouchAWall) {
-  Program program("p3dx", {}, 5);
+  BoardProgram program("p3dx", {}, 5);
   program.send(encodeCommand(command::vel, 300));
   program.steps(100);
   EXPECT_EQ(program.sip.stall_left & Sip::kStalled, 1);
@@ -269,7 +269,7 @@ TEST(ArcosBoard, ReportsTheStallAndTheBumpersThatTouchAWall) {
 }
 
 TEST(ArcosBoard, SetsItsOdometryWithoutMoving) {
-  Program program("p3dx", {1, 2, 0.5});
+  BoardProgram program("p3dx", {1, 2, 0.5});
   program.send(encodeCommand(command::vel, 300));
   program.steps(10);
   program.send(encodeCommand(command::stop));
@@ -288,7 +288,7 @@ TEST(ArcosBoard, SetsItsOdometryWithoutMoving) {
 }
 
 TEST(ArcosBoard, PlacesTheTrueRobotWithoutChangingItsOdometry) {
-  Program program;
+  BoardProgram program;
   program.send(arcos::encodeSetPose({500, 600, 90}));
   program.steps(1);
   EXPECT_NEAR(program.robot.truePose().x, 0.5, 1e-9);
@@ -301,7 +301,7 @@ TEST(ArcosBoard, PlacesTheTrueRobotWithoutChangingItsOdometry) {
 }
 
 TEST(ArcosBoard, AnswersRequestsOnceOrInEachCycle) {
-  Program program;
+  BoardProgram program;
   program.send(encodeCommand(command::config));
   ASSERT_TRUE(program.packet(arcos::packet_type::config));
   const auto config = arcos::decodeConfig(*program.packet(arcos::packet_type::config));
@@ -331,7 +331,7 @@ TEST(ArcosBoard, AnswersRequestsOnceOrInEachCycle) {
 }
 
 TEST(ArcosBoard, IgnoresUnknownCommandsAndWrongArguments) {
-  Program program;
+  BoardProgram program;
   for (int id = 0; id < 256; ++id) {
     if (id == command::close) continue;
     program.send(arcos::encode(static_cast<std::uint8_t>(id), "xy"));
@@ -342,18 +342,18 @@ TEST(ArcosBoard, IgnoresUnknownCommandsAndWrongArguments) {
 }
 
 TEST(ArcosBoard, EndsTheSessionOnRequestAndForGarbage) {
-  Program polite;
+  BoardProgram polite;
   polite.send(encodeCommand(command::close, 1));
   EXPECT_EQ(polite.robot.session().endReason(), "it has closed the session");
-  Program noisy;
+  BoardProgram noisy;
   noisy.send(std::string(5000, 'x'));
   EXPECT_EQ(noisy.robot.session().endReason(), "it sends bytes that are no ARCOS packets");
-  Program flooding;
+  BoardProgram flooding;
   std::string flood;
   for (int i = 0; i < 2001; ++i) flood += encodeCommand(command::pulse);
   flooding.send(flood);
   EXPECT_EQ(flooding.robot.session().endReason(), "it sends more than 2000 commands in a cycle");
-  Program silent;
+  BoardProgram silent;
   silent.robot.wait(std::chrono::seconds(61));
   silent.send("");
   EXPECT_EQ(silent.robot.session().endReason(), "it has sent nothing for a minute");

@@ -1,0 +1,291 @@
+// Programs that speak ARCOS over TCP: their sessions, and what misbehaving ones can do.
+#include "serving/arcos_server.h"
+
+#include <boost/asio.hpp>
+#include <gtest/gtest.h>
+
+#include "arcos/command.h"
+#include "arcos/simulator_packets.h"
+#include "arcos/sip.h"
+#include "environment/testing/small_world.h"
+#include "robots/fleet.h"
+#include "robots/robot_types.h"
+#include "tests/scenarios/program.h"
+#include "tests/scenarios/wait.h"
+
+namespace robosim {
+namespace {
+
+namespace command = arcos::command;
+using arcos::encodeCommand;
+using boost::asio::ip::tcp;
+
+/// A world with robots of the type p3dx in a row, served on ports that the system chooses.
+struct ServedRobots {
+  explicit ServedRobots(int robots, bool shares_port = false) {
+    World world = emptyWorld(20);
+    Fleet fleet;
+    const FleetRobot type = robotOfType(robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), "p3dx");
+    std::vector<std::size_t> indices;
+    for (int i = 0; i < robots; ++i) {
+      FleetRobot robot = type;
+      robot.info.name = "P" + std::to_string(i + 1);
+      robot.world_from_start = {-10.0 + 2 * i, 0, 0};
+      robot.body.world_from_body = robot.world_from_start;
+      fleet.robots.push_back(robot);
+      indices.push_back(static_cast<std::size_t>(i));
+    }
+    environment = std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
+    ArcosOptions options;
+    options.listen = "127.0.0.1:0";
+    options.shares_port = shares_port;
+    options.log = [this](const std::string& line) { log += line + '\n'; };
+    server = std::make_unique<ArcosServer>(options, *environment, indices);
+  }
+  void step() {
+    server->decide();
+    environment->step();
+    server->stepped();
+  }
+
+  std::string log;
+  std::unique_ptr<Environment> environment;
+  std::unique_ptr<ArcosServer> server;
+};
+
+/// A program: its socket, and the packets that it has received.
+class TcpProgram {
+ public:
+  TcpProgram(ServedRobots& served, int port) : served_(served), socket_(io_) {
+    socket_.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
+    socket_.non_blocking(true);
+  }
+  void send(const std::string& bytes) { boost::asio::write(socket_, boost::asio::buffer(bytes)); }
+  /// Lets the server work until a packet arrives. @return an empty one when the server has closed the connection
+  arcos::Packet next() {
+    std::optional<arcos::Packet> packet;
+    waitUntil("a packet arrives", [&] {
+      served_.server->poll();
+      receive();
+      packet = reader_.next();
+      return packet || is_closed_;
+    });
+    return packet.value_or(arcos::Packet{});
+  }
+  bool isClosed() {
+    waitUntil("the server closes the connection", [&] {
+      served_.server->poll();
+      receive();
+      return is_closed_;
+    });
+    return is_closed_;
+  }
+  void open() {
+    for (const auto id : {command::sync0, command::sync1, command::sync2}) {
+      send(encodeCommand(id));
+      EXPECT_EQ(next().id, id);
+    }
+    send(encodeCommand(command::open, 1) + encodeCommand(command::config, 1));
+    EXPECT_EQ(next().id, arcos::packet_type::config);
+  }
+  /// The SIP of the next step.
+  arcos::Sip step() {
+    served_.step();
+    for (;;) {
+      const auto packet = next();
+      if (const auto sip = arcos::decodeSip(packet)) return *sip;
+      if (is_closed_) return {};
+    }
+  }
+  void close() { socket_.close(); }
+
+ private:
+  void receive() {
+    std::array<char, 4096> bytes;
+    boost::system::error_code error;
+    const std::size_t size = socket_.read_some(boost::asio::buffer(bytes), error);
+    reader_.add({bytes.data(), size});
+    is_closed_ = error && error != boost::asio::error::would_block;
+  }
+
+  ServedRobots& served_;
+  boost::asio::io_context io_;
+  tcp::socket socket_;
+  arcos::PacketReader reader_;
+  bool is_closed_ = false;
+};
+
+TEST(ArcosServer, DrivesEachRobotByTheProgramAtItsPort) {
+  ServedRobots served(2);
+  TcpProgram first(served, served.server->ports()[0]), second(served, served.server->ports()[1]);
+  first.open();
+  second.open();
+  first.send(encodeCommand(command::vel, 300));
+  second.send(encodeCommand(command::rvel, 20));
+  // Both commands are in the server's sockets, so that the next step executes them.
+  EXPECT_EQ(first.step().speed_left, 30);
+  EXPECT_GT(served.environment->state().turn_radps[1], 0);
+  EXPECT_EQ(served.environment->state().speed_mps[1], 0);
+  EXPECT_EQ(served.server->clients(), 2u);
+}
+
+TEST(ArcosServer, RefusesASecondProgramAtAnOccupiedRobotAtOnce) {
+  ServedRobots served(1);
+  TcpProgram first(served, served.server->ports()[0]);
+  first.open();
+  TcpProgram second(served, served.server->ports()[0]);
+  EXPECT_TRUE(second.isClosed());
+  EXPECT_NE(served.log.find("robot P1 has a program already"), std::string::npos) << served.log;
+  EXPECT_EQ(first.step().flags & arcos::Sip::kMotorsOn, 1) << "the first one continues";
+}
+
+TEST(ArcosServer, FreesARobotWhoseProgramHasEndedAndStopsIt) {
+  ServedRobots served(1);
+  for (int round = 0; round < 3; ++round) {
+    TcpProgram program(served, served.server->ports()[0]);
+    program.open();
+    program.send(encodeCommand(command::vel, 300));
+    EXPECT_EQ(program.step().speed_left, 30);
+    if (round == 0) program.send(encodeCommand(command::close, 1));
+    program.close();
+    waitUntil("the robot is free", [&] {
+      served.server->poll();
+      return served.server->clients() == 0;
+    });
+    for (int i = 0; i < 5; ++i) served.step();
+    EXPECT_EQ(served.environment->state().speed_mps[0], 0);
+  }
+  TcpProgram next(served, served.server->ports()[0]);
+  next.open();
+  EXPECT_EQ(next.step().x, 0) << "odometry begins at 0 in each session";
+}
+
+TEST(ArcosServer, GivesEachProgramARobotOfItsOwnAtASharedPort) {
+  ServedRobots served(2, true);
+  const int port = served.server->ports()[0];
+  EXPECT_EQ(served.server->ports()[1], port);
+  TcpProgram first(served, port), second(served, port);
+  first.open();
+  second.open();
+  first.send(encodeCommand(command::vel, 300));
+  first.step();
+  EXPECT_EQ(std::count(served.environment->state().speed_mps.begin(), served.environment->state().speed_mps.end(), 0),
+            1);
+  TcpProgram third(served, port);
+  EXPECT_TRUE(third.isClosed());
+  EXPECT_NE(served.log.find("all 2 robots have a program"), std::string::npos) << served.log;
+  first.close();
+  waitUntil("a robot is free", [&] {
+    served.server->poll();
+    return served.server->clients() == 1;
+  });
+  for (int i = 0; i < 5; ++i) served.step();
+  EXPECT_EQ(served.environment->state().world_from_robot[0].x, -10) << "it is back at its start";
+  TcpProgram fourth(served, port);
+  fourth.open();
+}
+
+TEST(ArcosServer, LosesOnlyTheConnectionsOfMisbehavingPrograms) {
+  ServedRobots served(4);
+  const auto ports = served.server->ports();
+  TcpProgram good(served, ports[0]), garbage(served, ports[1]), flooding(served, ports[2]), slow(served, ports[3]);
+  good.open();
+  garbage.open();
+  flooding.open();
+  slow.open();
+  garbage.send(std::string(8000, '\xFA'));
+  EXPECT_TRUE(garbage.isClosed());
+  std::string flood;
+  for (int i = 0; i < 5000; ++i) flood += encodeCommand(command::pulse);
+  flooding.send(flood);
+  EXPECT_TRUE(flooding.isClosed());
+  // The widest scan, which this program does not receive.
+  slow.send(encodeCommand(command::old_laser_start, -180) + encodeCommand(command::old_laser_end, 180) +
+            encodeCommand(command::old_laser_increment, 10) + encodeCommand(command::old_laser_enable, 2));
+  for (int i = 0; i < 1000; ++i) {
+    good.send(encodeCommand(command::vel, 100));
+    if (i % 10 == 0) slow.send(encodeCommand(command::pulse));
+    ASSERT_NE(good.step().flags, 0) << i;
+  }
+  EXPECT_EQ(good.step().speed_left, 100);
+  EXPECT_LE(served.server->clients(), 2u);
+}
+
+TEST(ArcosServer, SendsSipsOfAPausedRunToo) {
+  ServedRobots served(1);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  // The run takes no steps; the server sends the state every second.
+  EXPECT_TRUE(arcos::decodeSip(program.next()));
+}
+
+TEST(ArcosServer, PlacesARobotOnlyWhereItIsFree) {
+  ServedRobots served(2);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  program.send(arcos::encodeSetPose({5000, 6000, 90}));
+  program.step();
+  EXPECT_NEAR(served.environment->state().world_from_robot[0].x, 5, 1e-9);
+  EXPECT_NEAR(served.environment->state().world_from_robot[0].phi, M_PI / 2, 1e-9);
+  program.send(arcos::encodeSetPose({-8000, 100, 0}));  // on the second robot
+  program.step();
+  EXPECT_NEAR(served.environment->state().world_from_robot[0].x, 5, 1e-9);
+  EXPECT_NE(served.log.find("robot P1: cannot be placed at (-8000, 100) mm"), std::string::npos) << served.log;
+  program.send(arcos::encode(command::sim_reset));
+  program.step();
+  EXPECT_NEAR(served.environment->state().world_from_robot[0].x, -10, 1e-9);
+}
+
+TEST(ArcosServer, NamesAPortThatIsInUse) {
+  ServedRobots served(1);
+  ArcosOptions options;
+  options.listen = "127.0.0.1:" + std::to_string(served.server->ports()[0]);
+  try {
+    ArcosServer(options, *served.environment, {0});
+    ADD_FAILURE() << "no error";
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string(error.what()), "cannot serve ARCOS programs at " + options.listen +
+                                             ": Address already in use; choose another port with --arcos");
+  }
+}
+
+// The programs: a served map, a robot driven over its port and recorded, and errors of arguments.
+TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
+  const auto folder = emptyFolder();
+  StartedProgram server({"arcos", "maps/office.map", "--port", "18411", "--listen", "127.0.0.1:0"});
+  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18411");
+  StartedProgram robot({"robot", "--arcos", "tcp:127.0.0.1:18411", "--controller", "wander", "--record",
+                        (folder / "run.rawlog").string(), "--arcos-log", (folder / "arcos.log").string()});
+  robot.waitForError("connected to MobileSim (p3dx)");
+  waitUntil("some cycles are logged", [&] { return textOf(folder / "arcos.log").size() > 50000; });
+  robot.interrupt();
+  const Ended ended = robot.wait();
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.out.find("drove for "), std::string::npos);
+  server.interrupt();
+  EXPECT_EQ(server.wait().exit_code, 0);
+  EXPECT_EQ(runProgram("replay " + quoted(folder / "run.rawlog")).exit_code, 0);
+  const Ended replay = runProgram("robot --arcos replay:" + quoted(folder / "arcos.log") + " --controller wander");
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_EQ(replay.out, ended.out) << "the same cycles";
+}
+
+TEST(ArcosPrograms, ExplainWrongArguments) {
+  const auto error_of = [](const std::string& arguments) { return runProgram(arguments).err; };
+  const auto contains = [](const std::string& text, const std::string& part) {
+    EXPECT_NE(text.find(part), std::string::npos) << text;
+  };
+  contains(error_of("serve worlds/open_house.xml --arcos 0.0.0.0:18412"), "ARCOS has neither passwords nor encryption");
+  contains(error_of("serve worlds/open_house.xml --arcos 18412 --pace lockstep"), "--arcos needs --pace realtime");
+  contains(error_of("serve worlds/open_house.xml --arcos-factory p3dx"), "--arcos-factory needs --arcos");
+  contains(error_of("serve worlds/open_house.xml --arcos 18412 --arcos-factory p3dx:x"), "optionally with a number");
+  contains(error_of("arcos maps/office.map -r nothing"), "there is no robot type 'nothing'");
+  contains(error_of("arcos maps/office.map -r p3dx:"), "must be a robot type, optionally with a name");
+  contains(error_of("arcos maps/office.map --start x"), "in millimetres and degrees");
+  contains(error_of("robot --arcos tcp:127.0.0.1:1"), "--arcos needs --controller");
+  contains(error_of("robot --arcos tcp:127.0.0.1:1 --controller wander"), "Connection refused");
+  contains(error_of("robot"), "NAME is required");
+}
+
+}  // namespace
+}  // namespace robosim
