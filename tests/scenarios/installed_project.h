@@ -27,11 +27,13 @@ class InstalledProject {
             " -DCMAKE_PREFIX_PATH=" + quoted(prefix()) + " && " ROBOSIM_CMAKE " --build " + quoted(folder() / "build"));
   }
 
-  std::filesystem::path folder() const { return *temporary_ / example_; }
+  std::filesystem::path folder() const { return temporary_ / example_; }
   /// The installed program.
-  std::string program() const { return (prefix() / "bin" / "robosim").string(); }
+  std::filesystem::path program() const { return prefix() / "bin" / "robosim"; }
   /// Built shared library of a plugin.
-  std::string library(const std::string& plugin) const { return (folder() / "build" / ("lib" + plugin + ".so")); }
+  std::filesystem::path library(const std::string& plugin) const {
+    return folder() / "build" / ("lib" + plugin + ".so");
+  }
   /// Runs the installed program in the project's folder.
   /// @param input command whose output is its standard input: "printf x"
   Ended run(const std::string& arguments, const std::string& input = "true") const {
@@ -39,7 +41,7 @@ class InstalledProject {
   }
 
  private:
-  std::filesystem::path prefix() const { return *temporary_ / "prefix"; }
+  std::filesystem::path prefix() const { return temporary_ / "prefix"; }
   static void succeed(const std::string& command) {
     const Ended ended = runCommand(command);
     if (ended.exit_code != 0) throw std::runtime_error(command + ": " + ended.out + ended.err);

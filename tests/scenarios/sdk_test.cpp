@@ -128,9 +128,9 @@ TEST_F(Sdk, AnObserverEndsARunAndReportsItsMetrics) {
 }
 
 TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
-  StartedProgram serve(installed_->program(),
-                       {"serve", (project() / "flock.xml").string(), "--plugin", installed_->library("flocking"),
-                        "--listen", ":0", "--wait-for-robots", "--time", "1"});
+  StartedProgram serve(installed_->program().string(), {"serve", (project() / "flock.xml").string(), "--plugin",
+                                                        installed_->library("flocking").string(), "--listen", ":0",
+                                                        "--wait-for-robots", "--time", "1"});
   serve.waitForError("listening on ");
   const std::string log = serve.error();
   const auto at = log.find("listening on ") + 13;
