@@ -35,9 +35,11 @@ class InstalledProject {
     return folder() / "build" / ("lib" + plugin + ".so");
   }
   /// Runs the installed program in the project's folder.
-  /// @param input command whose output is its standard input: "printf x"
-  Ended run(const std::string& arguments, const std::string& input = "true") const {
-    return runCommand("cd " + quoted(folder()) + " && " + input + " | " + quoted(program()) + " " + arguments);
+  /// @param input command whose output is the program's standard input: "printf x"; empty for no input
+  Ended run(const std::string& arguments, const std::string& input = "") const {
+    // In parentheses, because runCommand() redirects the input of the last command.
+    return runCommand("(cd " + quoted(folder()) + " && " + (input.empty() ? "" : input + " | ") + quoted(program()) +
+                      " " + arguments + ")");
   }
 
  private:
