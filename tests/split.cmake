@@ -18,5 +18,6 @@ endif()
 set(ROBOSIM_MODULES_TESTED_TWICE geometry environment recording)
 # Files of tests/scenarios, without _test.cpp, that run in Release.
 set(ROBOSIM_RELEASE_SCENARIOS
-  bench_parts bench_speed bench_views check digest error_texts export installation instructions laser_grid libraries lockstep
-  output_files printed_text python_robot rawlogs reverse_proxy run sdk security shared_step slam standstill table1 world_changes)
+  aria_examples bench_parts bench_speed bench_views check digest error_texts export installation instructions laser_grid
+  libraries lockstep output_files printed_text python_robot rawlogs reverse_proxy run sdk security shared_step slam standstill
+  table1 world_changes)

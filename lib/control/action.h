@@ -90,9 +90,9 @@ class Action {
   explicit Action(std::string name) : name_(std::move(name)) {}
   virtual ~Action() = default;
   const std::string& getName() const { return name_; }
-  /// Called by PioneerRobot::addAction().
+  /// Called by PioneerRobot::addAction(), and with null by remAction().
   virtual void setRobot(PioneerRobot* robot) { robot_ = robot; }
-  PioneerRobot* getRobot() const { return robot_; }  ///< null before the action is added to a robot
+  PioneerRobot* getRobot() const { return robot_; }  ///< null while the action belongs to no robot
 
   /// An action that is not active is ignored. All are active at first. An override calls these.
   virtual void activate() { is_active_ = true; }

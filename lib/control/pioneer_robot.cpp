@@ -131,6 +131,17 @@ void PioneerRobot::addAction(Action& action, int priority) {
   action.setRobot(this);
 }
 
+bool PioneerRobot::remAction(Action& action) {
+  if (!actions_.remove(action)) return false;
+  action.setRobot(nullptr);
+  return true;
+}
+
+bool PioneerRobot::remAction(const std::string& name) {
+  Action* action = findAction(name);
+  return action && remAction(*action);
+}
+
 void PioneerRobot::moveTo(const PioneerPose& pose, bool do_cumulative) {
   devices_.applyTransform(PioneerTransform(getPose(), pose), do_cumulative);
   setPose(pose);

@@ -191,7 +191,8 @@ class PioneerRobot : public PioneerSensors {
   ///@{
   /// @param action must outlive its entry. The highest priority comes first.
   void addAction(Action& action, int priority);
-  bool remAction(const Action& action) { return actions_.remove(action); }
+  bool remAction(Action& action);  ///< @return false when it is not in the list
+  bool remAction(const std::string& name);
   Action* findAction(const std::string& name) const { return actions_.find(name); }
   void deactivateActions() { actions_.deactivateAll(); }
   ///@}

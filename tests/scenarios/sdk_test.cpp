@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "base/temporary_directory.h"
-#include "tests/scenarios/program.h"
+#include "tests/scenarios/installed_project.h"
 
 namespace robosim {
 namespace {
@@ -17,28 +16,15 @@ namespace fs = std::filesystem;
 class Sdk : public testing::Test {
  protected:
   void SetUp() override {
-    if (folder_) return;
-    folder_ = std::make_unique<TemporaryDirectory>();
-    for (const std::string component : {"robosim", "robosim-dev"}) {
-      succeed(ROBOSIM_CMAKE " --install '" ROBOSIM_BUILD_DIR "' --component " + component + " --prefix " +
-              quoted(*folder_ / "prefix"));
-    }
-    fs::copy(ROBOSIM_SOURCE_DIR "/doc/examples/flocking", project(), fs::copy_options::recursive);
-    buildFaultyPlugins();
-    succeed(ROBOSIM_CMAKE " -S " + quoted(project()) + " -B " + quoted(project() / "build") + " -DCMAKE_PREFIX_PATH=" +
-            quoted(*folder_ / "prefix") + " && " ROBOSIM_CMAKE " --build " + quoted(project() / "build"));
+    if (!installed_) installed_ = std::make_unique<InstalledProject>("flocking", buildFaultyPlugins);
   }
-  static void TearDownTestSuite() { folder_.reset(); }
+  static void TearDownTestSuite() { installed_.reset(); }
 
-  static void succeed(const std::string& command) {
-    const Ended ended = runCommand(command);
-    ASSERT_EQ(ended.exit_code, 0) << ended.out << ended.err;
-  }
   /// Appends plugins with one fault each to the project.
-  static void buildFaultyPlugins() {
-    std::ofstream cmake(project() / "CMakeLists.txt", std::ios::app);
+  static void buildFaultyPlugins(const fs::path& folder) {
+    std::ofstream cmake(folder / "CMakeLists.txt", std::ios::app);
     const auto add = [&](const std::string& name, const std::string& source) {
-      std::ofstream(project() / (name + ".cpp")) << source;
+      std::ofstream(folder / (name + ".cpp")) << source;
       cmake << "robosim_add_plugin(" << name << " " << name << ".cpp)\n";
     };
     add("nothing", "int x;\n");
@@ -59,24 +45,18 @@ ROBOSIM_PLUGIN(registry) {
 })");
   }
 
-  static fs::path project() { return *folder_ / "flocking"; }
-  static std::string plugin(const std::string& name) {
-    return "--plugin " + quoted(project() / "build" / ("lib" + name + ".so"));
-  }
-  /// Runs the installed program in the example's folder.
-  static Ended run(const std::string& arguments) {
-    return runCommand("cd " + quoted(project()) + " && " + quoted(*folder_ / "prefix" / "bin" / "robosim") + " " +
-                      arguments);
-  }
+  static fs::path project() { return installed_->folder(); }
+  static std::string plugin(const std::string& name) { return "--plugin " + quoted(installed_->library(name)); }
+  static Ended run(const std::string& arguments) { return installed_->run(arguments); }
   static void expectRefusal(const std::string& arguments, const std::string& reason) {
     const Ended ended = run("run flock.xml --time 1 " + arguments);
     EXPECT_EQ(ended.exit_code, 1) << arguments;
     EXPECT_NE(ended.err.find(reason), std::string::npos) << ended.err;
   }
 
-  static std::unique_ptr<TemporaryDirectory> folder_;
+  static std::unique_ptr<InstalledProject> installed_;
 };
-std::unique_ptr<TemporaryDirectory> Sdk::folder_;
+std::unique_ptr<InstalledProject> Sdk::installed_;
 
 TEST_F(Sdk, PluginsWorkInEverySubcommandThatRunsControllers) {
   const std::string flocking = plugin("flocking");
@@ -111,7 +91,7 @@ TEST_F(Sdk, PluginsAreLoadedFromTheFoldersOfThePath) {
   fs::create_directory(project() / "plugins");
   fs::copy(project() / "build" / "libflocking.so", project() / "plugins");
   const Ended ended = runCommand("cd " + quoted(project()) + " && ROBOSIM_PLUGIN_PATH=plugins " +
-                                 quoted(*folder_ / "prefix" / "bin" / "robosim") + " check flock.xml");
+                                 quoted(installed_->program()) + " check flock.xml");
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
   expectRefusal("", "anemometer");  // no world makes the program load code
 }
@@ -150,10 +130,9 @@ TEST_F(Sdk, AnObserverEndsARunAndReportsItsMetrics) {
 /// `robosim serve` of the flock's world, which waits for its robots.
 class FlockServer {
  public:
-  FlockServer(const std::string& program, const fs::path& project)
-      : serve_(program,
-               {"serve", (project / "flock.xml").string(), "--plugin", (project / "build" / "libflocking.so").string(),
-                "--listen", ":0", "--wait-for-robots", "--time", "1"}) {
+  FlockServer(const std::string& program, const fs::path& project, const fs::path& library)
+      : serve_(program, {"serve", (project / "flock.xml").string(), "--plugin", library.string(), "--listen", ":0",
+                         "--wait-for-robots", "--time", "1"}) {
     serve_.waitForError("listening on ");
     const std::string log = serve_.error();
     const auto at = log.find("listening on ") + 13;
@@ -169,7 +148,7 @@ class FlockServer {
 };
 
 TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
-  FlockServer server((*folder_ / "prefix" / "bin" / "robosim").string(), project());
+  FlockServer server(installed_->program().string(), project(), installed_->library("flocking"));
   std::string names;
   for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
   const Ended robots = run("robot" + names + " --environment " + server.address() + " " + plugin("flocking"));
@@ -178,7 +157,7 @@ TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
 }
 
 TEST_F(Sdk, AnExceptionOfAControllerUnderRemoteControlNamesItAndItsRobot) {
-  FlockServer server((*folder_ / "prefix" / "bin" / "robosim").string(), project());
+  FlockServer server(installed_->program().string(), project(), installed_->library("flocking"));
   std::string names;
   for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
   const Ended robots = run("robot" + names + " --remote-port 127.0.0.1:0 --controller failing --environment " +

@@ -22,7 +22,7 @@ void ActionGroup::addAction(Action& action, int priority) {
   actions_.push_back(&action);
 }
 
-bool ActionGroup::remAction(const Action& action) {
+bool ActionGroup::remAction(Action& action) {
   if (std::erase(actions_, &action) == 0) return false;
   robot_.remAction(action);
   std::erase_if(owned_, [&](const auto& owned) { return owned.get() == &action; });
@@ -30,7 +30,7 @@ bool ActionGroup::remAction(const Action& action) {
 }
 
 void ActionGroup::removeActions() {
-  for (const Action* action : actions_) robot_.remAction(*action);
+  for (Action* action : actions_) robot_.remAction(*action);
   actions_.clear();
   owned_.clear();
 }

@@ -28,8 +28,8 @@ class ActionGroup {
     owned_.push_back(std::move(action));
     return added;
   }
-  bool remAction(const Action& action);  ///< @return false when it is not in the group
-  void removeActions();                  ///< removes all from the robot, and destroys those that it owns
+  bool remAction(Action& action);  ///< @return false when it is not in the group
+  void removeActions();            ///< removes all from the robot, and destroys those that it owns
   void activate();
   void activateExclusive();  ///< deactivates all other actions of the robot
   void deactivate();

@@ -32,6 +32,11 @@ void ActionKeydrive::space() {
   was_overruled_ = false;
 }
 
+void ActionKeydrive::setRobot(PioneerRobot* robot) {
+  Action::setRobot(robot);
+  keys_.release();
+}
+
 void ActionKeydrive::deactivate() {
   Action::deactivate();
   keys_.release();

@@ -13,6 +13,7 @@ class ActionKeydrive : public Action {
                           double vel_increment = 25, double turn_increment = 8);
   void setSpeeds(double trans_vel_max, double turn_amount_max);
   void setIncrements(double vel_increment, double turn_increment);
+  void setRobot(PioneerRobot* robot) override;
   void deactivate() override;
   ActionDesired fire(PioneerRobot& robot, const ActionDesired& current) override;
 

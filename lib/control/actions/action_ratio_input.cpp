@@ -80,13 +80,13 @@ RatioInputKeydrive::~RatioInputKeydrive() {
 }
 
 void RatioInputKeydrive::fire() {
-  if (!input_.getRobot()) return;
+  const PioneerRobot* robot = input_.getRobot();
   const auto accelerate = [this](double change) { trans_ = std::clamp(trans_ + change, -100.0, 100.0); };
-  keys_.claim(input_.getRobot()->getKeyHandler(), {{KeyHandler::UP, [=, this] { accelerate(increment_); }},
-                                                   {KeyHandler::DOWN, [=, this] { accelerate(-increment_); }},
-                                                   {KeyHandler::LEFT, [this] { rot_ = kKeyTurn_percent; }},
-                                                   {KeyHandler::RIGHT, [this] { rot_ = -kKeyTurn_percent; }},
-                                                   {KeyHandler::SPACE, [this] { stop(); }}});
+  keys_.claim(robot ? robot->getKeyHandler() : nullptr, {{KeyHandler::UP, [=, this] { accelerate(increment_); }},
+                                                         {KeyHandler::DOWN, [=, this] { accelerate(-increment_); }},
+                                                         {KeyHandler::LEFT, [this] { rot_ = kKeyTurn_percent; }},
+                                                         {KeyHandler::RIGHT, [this] { rot_ = -kKeyTurn_percent; }},
+                                                         {KeyHandler::SPACE, [this] { stop(); }}});
   input_.setRatios(trans_, rot_, 100);
   rot_ = 0;
 }

@@ -127,6 +127,18 @@ TEST_F(DriveActions, KeysAreReleasedByDeactivation) {
   EXPECT_TRUE(keys->hasKeyHandler(KeyHandler::UP));
 }
 
+TEST_F(DriveActions, KeysAreReleasedByRemoval) {
+  ActionKeydrive action;
+  type(times(9, "."));
+  pioneer.addAction(action, 50);
+  steps(1);
+  EXPECT_TRUE(keys->hasKeyHandler(KeyHandler::UP));
+  EXPECT_FALSE(pioneer.remAction("joydrive"));
+  EXPECT_TRUE(pioneer.remAction("keydrive"));
+  EXPECT_FALSE(keys->hasKeyHandler(KeyHandler::UP));
+  EXPECT_EQ(action.getRobot(), nullptr);
+}
+
 TEST_F(DriveActions, JoystickDrivesWhileAButtonIsPressed) {
   ActionJoydrive action(&joystick);
   EXPECT_FALSE(action.joystickInited());
@@ -241,7 +253,8 @@ TEST_F(DriveActions, GroupsRemoveTheirActionsWhenTheyAreDestroyed) {
     group.addAction(action, 10);
     EXPECT_EQ(pioneer.findAction("mine"), &action);
     EXPECT_EQ(group.getActionList().size(), 1u);
-    EXPECT_FALSE(group.remAction(ActionStop()));
+    ActionStop other;
+    EXPECT_FALSE(group.remAction(other));
   }
   EXPECT_EQ(pioneer.findAction("mine"), nullptr);
 }
