@@ -43,6 +43,9 @@ using ControllerCheck = std::function<void(const std::string& controller)>;
 Fleet buildFleet(const World&, const std::string& world_file, const RobotTypes& types,
                  const ControllerCheck& check_controller, ErrorList& errors);
 
+/// Whether any robot has a camera, which makes an ImageSource necessary.
+bool hasCamera(const Fleet& fleet);
+
 /// A world and its robots.
 struct LoadedWorld {
   World world;

@@ -4,8 +4,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "environment/run_report.h"
 #include "run/local_run.h"
-#include "server/run_report.h"
 
 namespace robosim {
 

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "run/run_outputs.h"
+#include "outputs/run_outputs.h"
 #include "run/run_summary.h"
 #include "server/served_run.h"
 

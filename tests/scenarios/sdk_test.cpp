@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/temporary_directory.h"
+#include "robosim/subcommands.h"
 #include "tests/scenarios/program.h"
 
 namespace robosim {
@@ -147,21 +148,57 @@ TEST_F(Sdk, AnObserverEndsARunAndReportsItsMetrics) {
   EXPECT_GE(summary["metrics"]["alignment.end_alignment_percent"], 1);
 }
 
-TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
-  const std::string program = (*folder_ / "prefix" / "bin" / "robosim").string();
-
-  StartedProgram serve(program, {"serve", (project() / "flock.xml").string(), "--plugin",
-                                 (project() / "build" / "libflocking.so").string(), "--listen", ":0",
-                                 "--wait-for-robots", "--time", "1"});
+/// Serves flock.xml for a second to robots in another process; both programs have its types.
+void serveToRobots(const fs::path& project, StartedProgram serve, const std::string& robot) {
   serve.waitForError("listening on ");
   const std::string log = serve.error();
   const auto at = log.find("listening on ") + 13;
   std::string names;
   for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
-  const Ended robots = run("robot" + names + " --environment " + log.substr(at, log.find_first_of(" \n", at) - at) +
-                           " " + plugin("flocking"));
+  const Ended robots = runCommand("cd " + quoted(project) + " && " + robot + names + " --environment " +
+                                  log.substr(at, log.find_first_of(" \n", at) - at));
   EXPECT_EQ(robots.exit_code, 0) << robots.err;
   EXPECT_EQ(serve.wait().exit_code, 0);
+}
+
+const std::vector<std::string> kServeOptions{"--listen", ":0", "--wait-for-robots", "--time", "1"};
+
+TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
+  const fs::path program = *folder_ / "prefix" / "bin" / "robosim";
+  std::vector<std::string> arguments{"serve", (project() / "flock.xml").string(), "--plugin",
+                                     (project() / "build" / "libflocking.so").string()};
+  arguments.insert(arguments.end(), kServeOptions.begin(), kServeOptions.end());
+  serveToRobots(project(), StartedProgram(program.string(), arguments),
+                quoted(program) + " robot " + plugin("flocking"));
+}
+
+TEST_F(Sdk, AnOwnProgramServesAWorldToItself) {
+  const fs::path program = project() / "build" / "flocking";
+  std::vector<std::string> arguments{"serve", (project() / "flock.xml").string()};
+  arguments.insert(arguments.end(), kServeOptions.begin(), kServeOptions.end());
+  serveToRobots(project(), StartedProgram(program.string(), arguments), quoted(program) + " robot");
+}
+
+TEST_F(Sdk, AnOwnProgramHasAllSubcommands) {
+  const std::string program = "cd " + quoted(project()) + " && build/flocking ";
+  const Ended help = runCommand(program + "--help");
+  for (const auto& subcommand : kSubcommands) {
+    EXPECT_NE(help.out.find(std::string("\n  ") + subcommand.name + " "), std::string::npos) << help.out;
+    const Ended own = runCommand(program + subcommand.name + " --help");
+    EXPECT_EQ(own.exit_code, 0) << own.err;
+    EXPECT_NE(own.out.find(std::string("robosim ") + subcommand.name), std::string::npos) << own.out;
+  }
+  const Ended view = runCommand(program + "view flock.xml --offscreen view.png");
+  EXPECT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_TRUE(fs::exists(project() / "view.png"));
+}
+
+TEST_F(Sdk, APluginNeedsTheEngineAndTheRecordingOnly) {
+  const Ended readelf = runCommand("readelf --dynamic " + quoted(project() / "build" / "libflocking.so"));
+  ASSERT_EQ(readelf.exit_code, 0) << readelf.err;
+  for (const char* library : {"rendering", "maps", "program", "serving", "viewing"}) {
+    EXPECT_EQ(readelf.out.find(std::string("librobosim-") + library), std::string::npos) << readelf.out;
+  }
 }
 
 }  // namespace
