@@ -12,7 +12,7 @@ VERSION = re.search(r"project\(robosim VERSION (\S+)", (SOURCE / "CMakeLists.txt
 
 
 class CMakeBuild(build_ext):
-    """Compiles the target robosim_python, and installs the package with librobosim and its data."""
+    """Compiles the target robosim_python, and installs the package with the libraries and the data."""
 
     def build_extension(self, ext):
         build = SOURCE / "build" / "wheel"

@@ -7,7 +7,7 @@ if(NOT HELP2MAN)
 endif()
 
 get_cmake_property(CPACK_COMPONENTS_ALL COMPONENTS)
-list(FILTER CPACK_COMPONENTS_ALL INCLUDE REGEX "^(robosim|robosim-dev|python3-robosim)$")
+list(FILTER CPACK_COMPONENTS_ALL INCLUDE REGEX "^(librobosim|librobosim-extra|robosim|robosim-data|robosim-dev|python3-robosim)$")
 
 # 0.1.0-1~deb12 for Debian 12, so that an upgrade of Debian replaces the package by that of the next release.
 file(STRINGS /etc/os-release release REGEX "^(VERSION_ID|VERSION_CODENAME)=")
@@ -41,31 +41,68 @@ cameras, heat and other sensors, and with radio messages, in a common world
 and in fixed time steps. A run is reproducible bit for bit. It is recorded as
 a rawlog for the Mobile Robot Programming Toolkit (MRPT).")
 
+# What each package needs from Debian decides the division (doc/decisions/shared_library.md).
+set(soversion ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(engine_package librobosim${soversion})
+set(extra_package librobosim-extra${soversion})
+
+set(CPACK_COMPONENT_LIBROBOSIM_DESCRIPTION "simulator of cooperating mobile robots - engine
+${about}
+
+This package contains the library librobosim: the engine, sensors, controllers
+and runs, without maps, recordings, pictures and networks.")
+set(CPACK_DEBIAN_LIBROBOSIM_PACKAGE_NAME ${engine_package})
+set(CPACK_DEBIAN_LIBROBOSIM_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBROBOSIM_PACKAGE_RECOMMENDS "robosim-data")
+
+set(CPACK_COMPONENT_LIBROBOSIM-EXTRA_DESCRIPTION "simulator of cooperating mobile robots - maps, recordings, pictures
+${about}
+
+This package contains the libraries for maps, recordings, pictures and the
+subcommands of robosim that need no network.")
+set(CPACK_DEBIAN_LIBROBOSIM-EXTRA_PACKAGE_NAME ${extra_package})
+set(CPACK_DEBIAN_LIBROBOSIM-EXTRA_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_LIBROBOSIM-EXTRA_PACKAGE_DEPENDS "${engine_package} (= ${full_version})")
+# Fonts for names on pictures, and software rendering for cameras and views.
+set(CPACK_DEBIAN_LIBROBOSIM-EXTRA_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri, robosim-data")
+
+set(CPACK_COMPONENT_ROBOSIM-DATA_DESCRIPTION "simulator of cooperating mobile robots - data
+${about}
+
+This package contains worlds, robot types, maps and recordings.")
+set(CPACK_DEBIAN_ROBOSIM-DATA_PACKAGE_NAME robosim-data)
+set(CPACK_DEBIAN_ROBOSIM-DATA_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_ROBOSIM-DATA_PACKAGE_ARCHITECTURE all)
+
 set(CPACK_COMPONENT_ROBOSIM_DESCRIPTION "simulator of cooperating mobile robots
 ${about}
 
-This package contains the program robosim, the library librobosim, worlds,
-robot types, maps, recordings and the documentation.")
+This package contains the program robosim, the libraries of its subcommands
+with a network or windows, and the documentation.")
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_NAME robosim)
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SECTION science)
-# Fonts for names on pictures, and software rendering for cameras and views.
-set(CPACK_DEBIAN_ROBOSIM_PACKAGE_RECOMMENDS "fonts-dejavu-core, libegl1, libgl1-mesa-dri")
+set(CPACK_DEBIAN_ROBOSIM_PACKAGE_DEPENDS
+    "${extra_package} (= ${full_version}), robosim-data (= ${full_version})")
 set(CPACK_DEBIAN_ROBOSIM_PACKAGE_SUGGESTS "librobosim-dev, mrpt-apps, python3-robosim")
 # CPack runs ldconfig in maintainer scripts only; Debian's tools expect a trigger.
 file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-set(CPACK_DEBIAN_ROBOSIM_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+foreach(component ROBOSIM LIBROBOSIM LIBROBOSIM-EXTRA)
+  set(CPACK_DEBIAN_${component}_PACKAGE_CONTROL_EXTRA ${CMAKE_CURRENT_BINARY_DIR}/triggers)
+endforeach()
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY "=")
 
 set(CPACK_COMPONENT_ROBOSIM-DEV_DESCRIPTION "simulator of cooperating mobile robots - development files
 ${about}
 
-This package contains the headers of librobosim, its CMake package and an
-example, for controllers, sensors and observers in projects of your own.")
+This package contains the headers of the libraries, their CMake package and
+an example, for controllers, sensors and observers in projects of your own.")
 set(CPACK_DEBIAN_ROBOSIM-DEV_PACKAGE_NAME librobosim-dev)
 set(CPACK_DEBIAN_ROBOSIM-DEV_PACKAGE_SECTION libdevel)
 # robosimConfig.cmake finds mrpt-obs. The headers of rendering include those of OpenCV.
-set(CPACK_DEBIAN_ROBOSIM-DEV_PACKAGE_DEPENDS "robosim (= ${full_version}), libmrpt-obs-dev")
+set(CPACK_DEBIAN_ROBOSIM-DEV_PACKAGE_DEPENDS
+    "${engine_package} (= ${full_version}), ${extra_package} (= ${full_version}), libmrpt-obs-dev")
+set(CPACK_DEBIAN_ROBOSIM-DEV_PACKAGE_RECOMMENDS "robosim")
 set(CPACK_DEBIAN_ROBOSIM-DEV_PACKAGE_SUGGESTS "cmake, g++")
 
 set(CPACK_COMPONENT_PYTHON3-ROBOSIM_DESCRIPTION "simulator of cooperating mobile robots - Python module
@@ -79,7 +116,8 @@ set(CPACK_DEBIAN_PYTHON3-ROBOSIM_PACKAGE_SECTION python)
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON3-ROBOSIM_PACKAGE_DEPENDS
-    "robosim (= ${full_version}), python3 (>= 3.${Python3_VERSION_MINOR}), python3 (<< 3.${next_minor}), python3-numpy")
+    "${extra_package} (= ${full_version}), robosim-data (= ${full_version}), python3 (>= 3.${Python3_VERSION_MINOR}), \
+python3 (<< 3.${next_minor}), python3-numpy")
 # Of robosim.RemoteRobots and robosim.v1.
 set(CPACK_DEBIAN_PYTHON3-ROBOSIM_PACKAGE_RECOMMENDS "python3-grpcio, python3-protobuf")
 

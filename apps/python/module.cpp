@@ -4,6 +4,7 @@
 
 #include "batch.h"
 #include "generated_world.h"
+#include "outputs/standard_parts.h"
 #include "python_errors.h"
 #include "python_robot.h"
 #include "python_world.h"
@@ -14,6 +15,7 @@
 PYBIND11_MODULE(_robosim, module) {
   namespace py = pybind11;
   module.attr("__version__") = ROBOSIM_VERSION;
+  robosim::useStandardParts();
   robosim::registerErrors();
   module.def("load_plugin", &robosim::loadPlugin, py::arg("file"),
              "Loads a plugin with additional controllers and sensors (doc/sdk.md). Raises ConfigError.");

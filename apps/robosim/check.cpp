@@ -8,8 +8,8 @@
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "base/xml_parser.h"
+#include "control/robot_list.h"
 #include "environment/world_changes.h"
-#include "remote/robot_list.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
@@ -17,7 +17,7 @@
 #include "robots/scatter.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
-#include "world/map_writer.h"
+#include "world/raster.h"
 #include "world/world_file.h"
 
 namespace robosim {

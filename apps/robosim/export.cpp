@@ -12,6 +12,7 @@
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "maps/map_writer.h"
 #include "recording/rawlog_file.h"
 #include "rendering/plan.h"
 #include "rendering/stock_scene.h"
@@ -21,7 +22,7 @@
 #include "robots/fleet.h"
 #include "robots/world_source.h"
 #include "run/output_files.h"
-#include "world/map_writer.h"
+#include "world/raster.h"
 
 namespace robosim {
 namespace {

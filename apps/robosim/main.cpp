@@ -1,6 +1,5 @@
 // The command `robosim`: starts the executable that contains the requested subcommand. It links no library of its own,
 // so that --help, --version and errors appear at once.
-#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -35,22 +34,11 @@ int start(const char* part, char** argv) {
   return kRunFailed;
 }
 
-/// The executable for the arguments.
-const char* partFor(const Subcommand& subcommand, int argc, char** argv) {
-  const bool is_run = subcommand.name == std::string_view("run");
-  return is_run && std::find(argv + 2, argv + argc, kViewOption) != argv + argc ? subcommandNamed("view")->part
-                                                                                : subcommand.part;
-}
-
-void addAll(CLI::App& program) {
-  for (const auto& subcommand : kSubcommands) addSubcommand(program, subcommand.name);
-}
-
 }  // namespace
 }  // namespace robosim
 
 int main(int argc, char** argv) {
   const robosim::Subcommand* subcommand = argc > 1 ? robosim::subcommandNamed(argv[1]) : nullptr;
   if (subcommand) return robosim::start(robosim::partFor(*subcommand, argc, argv), argv);
-  return robosim::executeRobosim({robosim::addAll}, argc, argv);
+  return robosim::executeRobosim({robosim::addNames}, argc, argv);
 }

@@ -1,23 +1,64 @@
 #include "robosim/robosim_main.h"
 
 #include <iostream>
+#include <stdexcept>
+#include <string>
 
+#include <dlfcn.h>
+
+#include "outputs/standard_parts.h"
 #include "robosim/plugin_options.h"
 #include "robosim/program.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {
+namespace {
+
+using AddSubcommands = void (*)(CLI::App& program);
+
+/// A function of a library that this program does not link, because loading it takes longer than most runs need to
+/// start.
+AddSubcommands functionIn(const std::string& library, const char* name) {
+  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) throw std::runtime_error(std::string(dlerror()) + "; install all of RoboSim");
+  const auto function = reinterpret_cast<AddSubcommands>(dlsym(handle, name));
+  if (!function) throw std::runtime_error(library + ": has no function " + name + "; install RoboSim again");
+  return function;
+}
+
+void addRunSubcommands(CLI::App& program) {
+  for (const auto add :
+       {addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addObservers, addBench}) {
+    add(program);
+  }
+}
+
+AddSubcommands subcommandsFor(int argc, char** argv) {
+  const Subcommand* subcommand = argc > 1 ? subcommandNamed(argv[1]) : nullptr;
+  if (!subcommand) return addNames;
+  const std::string_view part = partFor(*subcommand, argc, argv);
+  if (part == "robosim-net") return functionIn("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
+  if (part == "robosim-view")
+    return functionIn("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
+  return addRunSubcommands;
+}
+
+}  // namespace
 
 int robosimMain(int argc, char** argv, const Registry& registry) {
   try {
     addToProgram(registry);
+    useStandardParts();
   } catch (const std::exception& error) {
     std::cerr << "robosim: " << error.what() << '\n';
     return kBadInput;
   }
-  return executeRobosim({addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addObservers,
-                         addBench, addPluginOptions},
-                        argc, argv);
+  try {
+    return executeRobosim({subcommandsFor(argc, argv), addPluginOptions}, argc, argv);
+  } catch (const std::exception& error) {
+    std::cerr << "robosim: " << error.what() << '\n';
+    return kRunFailed;
+  }
 }
 
 }  // namespace robosim

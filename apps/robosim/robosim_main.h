@@ -3,9 +3,7 @@
 
 namespace robosim {
 
-/// The program `robosim` with the subcommands run, replay, check, export, generate, controllers, sensors, observers
-/// and bench, and
-/// with additional types: an alternative to a plugin.
+/// The program `robosim` with additional types: an alternative to a plugin.
 ///
 ///     int main(int argc, char** argv) {
 ///       robosim::Registry registry;
@@ -13,7 +11,8 @@ namespace robosim {
 ///       return robosim::robosimMain(argc, argv, registry);
 ///     }
 ///
-/// Prints errors, also those of the registry, to standard error.
+/// Has all subcommands. Those that use a network or windows are in the libraries robosim-serving and robosim-viewing,
+/// which are loaded when one of them is requested. Prints errors, also those of the registry, to standard error.
 /// @return the exit code of the process
 int robosimMain(int argc, char** argv, const Registry& registry);
 

@@ -12,6 +12,7 @@
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "outputs/run_outputs.h"
 #include "recording/recording_error.h"
 #include "replay/run_tables.h"
 #include "robosim/arguments.h"
@@ -20,7 +21,6 @@
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
 #include "run/output_files.h"
-#include "run/run_outputs.h"
 
 namespace robosim {
 namespace {

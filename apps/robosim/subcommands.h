@@ -24,7 +24,7 @@ struct Exit {
 struct Subcommand {
   const char* name;
   const char* help;
-  const char* part;  ///< the executable that contains it
+  const char* part;  ///< the executable for it: robosim-run, robosim-net, robosim-view
 };
 
 /// All subcommands, in the order of the help text. They are divided among executables by the libraries that they need,
@@ -56,6 +56,12 @@ constexpr std::string_view kViewOption = "--view";
 
 /// The entry of kSubcommands with this name; null when there is none.
 const Subcommand* subcommandNamed(std::string_view name);
+
+/// Subcommand::part for the arguments of a program.
+const char* partFor(const Subcommand& subcommand, int argc, char** argv);
+
+/// Adds all subcommands, without options, for the help text.
+void addNames(CLI::App& program);
 
 /// Adds a subcommand of kSubcommands, without options.
 /// @return the subcommand, owned by `program`

@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 
+#include "outputs/standard_parts.h"
 #include "robosim/program.h"
 #include "robosim_bench/benchmarks.h"
 
@@ -18,5 +19,6 @@ int main(int argc, char** argv) {
   robosim::addMapsBenchmark(program);
   robosim::addLearnBenchmark(program);
   robosim::addArcosBenchmark(program);
+  robosim::useStandardParts();
   return robosim::execute(program, argc, argv);
 }

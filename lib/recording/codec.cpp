@@ -1,34 +1,29 @@
 #include "recording/codec.h"
 
+#include "hardware/added_codecs.h"
 #include "recording/codecs.h"
 #include "recording/recording_error.h"
 
 namespace robosim {
-namespace {
 
-std::vector<const Codec*>& allCodecs() {
-  static std::vector<const Codec*> codecs{
-      &scanCodec(),          // CObservation2DRangeScan: lasers with evenly spaced beams
-      &rangeCodec(),         // CObservationRange: all other sensors that measure echoes
-      &heatCodec(),          // CObservationGasSensors
-      &compassCodec(),       // CObservationIMU
-      &batteryCodec(),       // CObservationBatteryState
-      &bumperCodec(),        // CObservationRawDAQ
-      &odometryCodec(),      // CObservationOdometry
-      &imageCodec(),         // CObservationImage
-      &blobCodec(),          // CObservationRawDAQ
-      &beaconCodec(),        // CObservationBeaconRanges
-      &bearingRangeCodec(),  // CObservationBearingRange: range_and_bearing
-      &valuesCodec(),        // CObservationRawDAQ: all other values
-  };
-  return codecs;
+std::vector<const Codec*> codecs() {
+  std::vector<const Codec*> all = addedCodecs();
+  all.insert(all.end(), {
+                            &scanCodec(),          // CObservation2DRangeScan: lasers with evenly spaced beams
+                            &rangeCodec(),         // CObservationRange: all other sensors that measure echoes
+                            &heatCodec(),          // CObservationGasSensors
+                            &compassCodec(),       // CObservationIMU
+                            &batteryCodec(),       // CObservationBatteryState
+                            &bumperCodec(),        // CObservationRawDAQ
+                            &odometryCodec(),      // CObservationOdometry
+                            &imageCodec(),         // CObservationImage
+                            &blobCodec(),          // CObservationRawDAQ
+                            &beaconCodec(),        // CObservationBeaconRanges
+                            &bearingRangeCodec(),  // CObservationBearingRange: range_and_bearing
+                            &valuesCodec(),        // CObservationRawDAQ: all other values
+                        });
+  return all;
 }
-
-}  // namespace
-
-std::span<const Codec* const> codecs() { return allCodecs(); }
-
-void addCodec(const Codec& codec) { allCodecs().insert(allCodecs().begin(), &codec); }
 
 void refuse(const mrpt::obs::CObservation& observation, const SensorInfo& sensor, const std::string& why) {
   throw RecordingError("recorded observation \"" + observation.sensorLabel + "\" (" +

@@ -1,5 +1,5 @@
 #pragma once
-#include <span>
+#include <vector>
 
 #include "recording/codec.h"
 
@@ -22,11 +22,8 @@ const Codec& bearingRangeCodec();
 const Codec& valuesCodec();
 ///@}
 
-/// All codecs; valid until addCodec() is called. The first one that encodes a sensor's measurements is used.
-std::span<const Codec* const> codecs();
-/// Adds a codec from outside RoboSim, before the first recording is opened; it comes before all others. It must stay
-/// valid.
-void addCodec(const Codec& codec);
+/// All codecs, addedCodecs() first. The first one that encodes a sensor's measurements is used.
+std::vector<const Codec*> codecs();
 
 /// The codec of a sensor's measurements.
 const Codec& codecOf(const SensorInfo&);

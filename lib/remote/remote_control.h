@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "control/robot_list.h"
 #include "remote/primary_queue.h"
 #include "remote/robot_link.h"
-#include "remote/robot_list.h"
 
 namespace robosim {
 

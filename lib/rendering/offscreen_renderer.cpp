@@ -7,6 +7,7 @@
 #include <mrpt/opengl/COpenGLScene.h>
 #include <opencv2/imgcodecs.hpp>
 
+#include "rendering/blob_search.h"
 #include "rendering/picture_target.h"
 #include "rendering/render_thread.h"
 #include "rendering/shaders.h"
@@ -98,6 +99,11 @@ void OffscreenRenderer::take(const CameraView& camera, std::span<const TPose2D> 
   }
 }
 
+std::vector<Blob> OffscreenRenderer::findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors,
+                                               unsigned pixels_min) {
+  return robosim::findBlobs(jpeg, colors, pixels_min);
+}
+
 cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& world_from_camera,
                                    std::span<const TPose2D> world_from_robot) {
   cv::Mat drawn;
@@ -130,12 +136,8 @@ cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_
   return depths;
 }
 
-bool hasCamera(const Fleet& fleet) {
-  return std::any_of(fleet.robots.begin(), fleet.robots.end(), [](const FleetRobot& robot) {
-    const auto& sensors = *robot.info.sensors;
-    return std::any_of(sensors.begin(), sensors.end(),
-                       [](const SensorInfo& s) { return s.kind == SensorKind::camera; });
-  });
+std::unique_ptr<ImageSource> makeOffscreenRenderer(const World& world, const Fleet& fleet) {
+  return std::make_unique<OffscreenRenderer>(world, fleet);
 }
 
 }  // namespace robosim

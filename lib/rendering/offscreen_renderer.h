@@ -22,6 +22,8 @@ class OffscreenRenderer : public ImageSource {
 
   void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
             std::span<const std::uint32_t> robots, std::span<std::string> jpegs) override;
+  std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors,
+                              unsigned pixels_min) override;
 
   /// @name Rendering from any pose
   /// @param camera its size and field of view; x of `world_from_camera` is along the optical axis, z up
@@ -39,7 +41,7 @@ class OffscreenRenderer : public ImageSource {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether any robot has a camera, which makes an OffscreenRenderer necessary.
-bool hasCamera(const Fleet& fleet);
+/// For setImageSourceMaker() (run/local_run.h). @throws ConfigError when this machine has no OpenGL.
+std::unique_ptr<ImageSource> makeOffscreenRenderer(const World& world, const Fleet& fleet);
 
 }  // namespace robosim

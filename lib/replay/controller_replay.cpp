@@ -8,11 +8,11 @@
 #include "base/text_table.h"
 #include "control/controller_error.h"
 #include "control/replayed_hardware.h"
+#include "outputs/run_note.h"
 #include "recording/recorded_step.h"
 #include "replay/replay.h"
 #include "replay/value_text.h"
 #include "run/local_run.h"
-#include "run/run_note.h"
 
 namespace robosim {
 namespace {

@@ -2,10 +2,10 @@
 
 #include <mrpt/obs/CObservationComment.h>
 
+#include "outputs/run_note.h"
 #include "recording/observation_times.h"
 #include "recording/rawlog_reader.h"
 #include "replay/recorded_sensors.h"
-#include "run/run_note.h"
 
 namespace robosim {
 

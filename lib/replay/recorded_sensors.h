@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "hardware/robot_info.h"
-#include "run/run_note.h"
+#include "outputs/run_note.h"
 
 namespace robosim {
 

@@ -8,10 +8,10 @@
 #include <mrpt/obs/CObservation.h>
 
 #include "base/label.h"
+#include "outputs/run_note.h"
 #include "rendering/drawn_run.h"
 #include "rendering/picture_format.h"
 #include "robots/fleet.h"
-#include "run/run_note.h"
 
 namespace robosim {
 

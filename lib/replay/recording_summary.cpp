@@ -18,6 +18,7 @@
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "outputs/run_note.h"
 #include "recording/rawlog_reader.h"
 #include "replay/observation_csv.h"
 #include "replay/recorded_sensors.h"
@@ -25,7 +26,6 @@
 #include "replay/selection.h"
 #include "replay/value_text.h"
 #include "run/json_text.h"
-#include "run/run_note.h"
 
 namespace robosim {
 namespace {

@@ -8,11 +8,11 @@
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "hardware/measurement_fields.h"
+#include "outputs/run_note.h"
 #include "recording/recorded_step.h"
 #include "replay/replay.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
-#include "run/run_note.h"
 #include "run/run_summary.h"
 
 namespace robosim {

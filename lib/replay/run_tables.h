@@ -7,9 +7,9 @@
 
 #include "base/temporary_directory.h"
 #include "environment/environment.h"
+#include "outputs/run_note.h"
 #include "recording/rawlog_writer.h"
 #include "replay/export_recording.h"
-#include "run/run_note.h"
 
 namespace robosim {
 

@@ -148,6 +148,14 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
   return fleet;
 }
 
+bool hasCamera(const Fleet& fleet) {
+  return std::any_of(fleet.robots.begin(), fleet.robots.end(), [](const FleetRobot& robot) {
+    const auto& sensors = *robot.info.sensors;
+    return std::any_of(sensors.begin(), sensors.end(),
+                       [](const SensorInfo& s) { return s.kind == SensorKind::camera; });
+  });
+}
+
 LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
   ErrorList errors;
   LoadedWorld loaded;

@@ -52,6 +52,9 @@ FleetRobot robotOfType(const RobotTypes& types, const std::string& model);
 /// @throws std::invalid_argument for another number of robots
 Fleet buildFleet(const World&, const std::string& world_file, const Fleet& alike, ErrorList& errors);
 
+/// Whether any robot has a camera, which makes an ImageSource necessary.
+bool hasCamera(const Fleet& fleet);
+
 /// A world and its robots.
 struct LoadedWorld {
   World world;

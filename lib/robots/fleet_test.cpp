@@ -11,7 +11,6 @@
 
 #include "base/data_folders.h"
 #include "base/testing/test_folder.h"
-#include "base/xml_parser.h"
 #include "robots/robot_type_folders_text.h"
 #include "world/world_file.h"
 
@@ -212,82 +211,6 @@ TEST_F(WorldFolder, AHundredThousandRobotsLoadWithOneModel) {
   const LoadedWorld loaded = loadWorld(write("w.xml", text + "</surface></world>"), nullptr);
   ASSERT_EQ(loaded.fleet.robots.size(), 100'000u);
   EXPECT_EQ(loaded.fleet.robots.front().model, loaded.fleet.robots.back().model);
-}
-
-TEST(Worlds, ShippedWorldsLoadAndRoundTrip) {
-  int worlds = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kWorlds)) {
-    if (entry.path().extension() != ".xml") continue;
-    SCOPED_TRACE(entry.path());
-    ++worlds;
-    const LoadedWorld loaded = loadWorld(entry.path(), nullptr);
-    EXPECT_FALSE(loaded.fleet.robots.empty());
-    ErrorList errors;
-    EXPECT_EQ(parseWorld(toXml(loaded.world), entry.path().string(), filesOnDisk(entry.path()), errors), loaded.world);
-    EXPECT_EQ(errors.errors(), Lines{});
-  }
-  EXPECT_GE(worlds, 4);
-}
-
-TEST(Worlds, World2005LoadsUnchanged) {
-  const LoadedWorld loaded = loadWorld(ROBOSIM_SOURCE_DIR "/tests/data/legacy_world.xml", nullptr);
-  ASSERT_EQ(loaded.fleet.robots.size(), 1u);
-  const RobotInfo& finder = loaded.fleet.robots[0].info;
-  EXPECT_EQ(finder.name, "Finder1");
-  Lines labels;
-  for (const auto& sensor : *finder.sensors) labels.push_back(sensor.label);
-  EXPECT_EQ(labels, (Lines{"heat", "sonar", "laser", "odometry"}));
-  EXPECT_EQ(finder.sensors->at(1).beams.size(), 16u);
-  EXPECT_EQ(finder.sensors->at(1).no_echo_m, 16);
-  EXPECT_EQ(finder.sensors->at(2).no_echo_m, 21);
-}
-
-TEST(Worlds, ExamplesInTheirDocumentationLoad) {
-  std::ifstream in(ROBOSIM_SOURCE_DIR "/doc/world_file.md");
-  const std::string doc{std::istreambuf_iterator<char>(in), {}};
-  const std::string fence = "```xml\n";
-  ErrorList errors;
-  int examples = 0;
-  const auto text = [](const XmlElement& e) { return toXml(e).substr(toXml(e).find("<" + e.name)); };
-  for (auto begin = doc.find(fence); begin != std::string::npos; begin = doc.find(fence, begin)) {
-    begin += fence.size();
-    const XmlElement example = parseXml(doc.substr(begin, doc.find("```", begin) - begin), "doc");
-    ++examples;
-    if (example.name == "world") {
-      EXPECT_EQ(fleetOf(toXml(example), errors).robots.size(), 1u);
-    } else if (example.name == "robot") {
-      EXPECT_EQ(modelOf(example, "tortoise.xml", {}, errors).sensors.size(), 2u);
-    } else if (example.name == "sensors") {
-      XmlElement type = readXmlFile(kWorlds / "robots" / "pioneer3dx.xml");
-      std::find_if(type.children.begin(), type.children.end(), [](const auto& e) {
-        return e.name == "sensors";
-      })->children = example.children;
-      EXPECT_EQ(modelOf(type, "pioneer3dx.xml", {}, errors).sensors.size(), 2u);
-    } else if (example.name == "map") {
-      const auto beside = kWorlds / "some.xml";
-      const std::string world = "<world><surface>" + text(example) + "</surface></world>";
-      EXPECT_EQ(parseWorld(world, beside.string(), filesOnDisk(beside), errors).maps.size(), 1u);
-    } else if (example.name == "scatter") {
-      const World world = parseWorld(
-          "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/>" + text(example) + "</surface></world>",
-          "w.xml", errors);
-      EXPECT_EQ(world.scatters.at(0).count, 20);
-    }
-  }
-  EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 7);
-}
-
-TEST(Worlds, ShippedRobotTypesLoad) {
-  int types = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(kWorlds / "robots")) {
-    ErrorList errors;
-    const RobotModel model = readRobotModel(entry.path(), errors);
-    EXPECT_EQ(errors.errors(), Lines{});
-    EXPECT_FALSE(model.help.empty()) << entry.path();
-    ++types;
-  }
-  EXPECT_GE(types, 2);
 }
 
 TEST(Fleet, RejectsTheRobotThatExceedsTheBeamLimit) {

@@ -2,10 +2,24 @@
 
 #include <gtest/gtest.h>
 
+#include "world/map_reader.h"
+
 namespace robosim {
 namespace {
 
-TEST(WorldSource, OfATextHasTheFilesThatItsFileWouldHave) {
+/// Reads files of maps, for which this test has no formats.
+class WorldSourceWithMaps : public testing::Test {
+ protected:
+  void SetUp() override {
+    setMapReaders({.read = [](const std::string& name, const FileProvider& files, const MapReading&) {
+      files.read(name);
+      return FloorPlan();
+    }});
+  }
+  void TearDown() override { setMapReaders({}); }
+};
+
+TEST_F(WorldSourceWithMaps, OfATextHasTheFilesThatItsFileWouldHave) {
   const std::string file = ROBOSIM_SOURCE_DIR "/worlds/lab_map.xml";
   const WorldSource of_file = readWorldSource(file);
   const WorldSource of_text = worldSourceOf(of_file.text, ROBOSIM_SOURCE_DIR "/worlds/not_written.xml");
@@ -14,7 +28,7 @@ TEST(WorldSource, OfATextHasTheFilesThatItsFileWouldHave) {
   EXPECT_EQ(versionOf(of_text), versionOf(of_file));
 }
 
-TEST(WorldSource, OfATextReportsMissingMapsByFileAndLine) {
+TEST_F(WorldSourceWithMaps, OfATextReportsMissingMapsByFileAndLine) {
   try {
     worldSourceOf(
         "<world><surface><size><xmin>0</xmin><xmax>1</xmax><ymin>0</ymin><ymax>1</ymax></size>\n"

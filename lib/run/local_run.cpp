@@ -8,7 +8,6 @@
 
 #include "control/controller_error.h"
 #include "maze/controllers.h"
-#include "rendering/offscreen_renderer.h"
 
 namespace robosim {
 namespace {
@@ -29,9 +28,18 @@ void releaseFreeMemory() {
 #endif
 }
 
+ImageSourceMaker& imageSourceMaker() {
+  static ImageSourceMaker maker = nullptr;
+  return maker;
+}
+
 std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world) {
   if (!hasCamera(world.fleet)) return nullptr;
-  return std::make_unique<OffscreenRenderer>(world.world, world.fleet);
+  if (!imageSourceMaker())
+    throw ConfigError(
+        "robots have cameras, but this program cannot render pictures; it must call "
+        "setImageSourceMaker(makeOffscreenRenderer), of the library robosim::rendering");
+  return imageSourceMaker()(world.world, world.fleet);
 }
 
 const ControllerType* typeOrNull(const std::string& controller) {
@@ -58,6 +66,8 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
     throw ControllerError("controller '" + choice + "' of robot '" + robot + "': its type has made none");
   return controller;
 }
+
+void setImageSourceMaker(ImageSourceMaker maker) { imageSourceMaker() = maker; }
 
 void checkController(const std::string& controller) { controllers().parametersOf(controller); }
 

@@ -13,6 +13,7 @@
 #include "robots/fleet.h"
 #include "robots/world_source.h"
 #include "run/run_observers.h"
+#include "sensors/image_source.h"
 
 namespace robosim {
 
@@ -55,6 +56,12 @@ LoadedWorld loadWorldToRun(const std::string& file, const std::string& instead, 
 LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead,
                            const DrivenElsewhere& is_elsewhere = {});
 
+/// Makes the ImageSource of a run in which robots have cameras.
+using ImageSourceMaker = std::unique_ptr<ImageSource> (*)(const World&, const Fleet&);
+/// Sets the maker of this process, before its first run: that of the library robosim::rendering,
+/// makeOffscreenRenderer(). Without one, runs with cameras are refused.
+void setImageSourceMaker(ImageSourceMaker maker);
+
 /// Times when the gold was found, won and all robots had stopped [simulated s], and by which robot.
 struct GoldOutcome {
   std::optional<std::string> found_by;
@@ -68,7 +75,8 @@ struct GoldOutcome {
 class LocalRun {
  public:
   /// @param elsewhere by robot: whether it is driven by another process; empty for none
-  /// @throws ConfigError for an unknown controller or observer, and for cameras on a machine without OpenGL.
+  /// @throws ConfigError for an unknown controller or observer, and for cameras without an
+  /// ImageSourceMaker or on a machine without OpenGL.
   /// @throws ControllerError, ObserverError for an exception of one's constructor
   LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere = {});
 

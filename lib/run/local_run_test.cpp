@@ -55,5 +55,26 @@ TEST(LocalRun, ForksRobotsThatAreDrivenElsewhereOnRequestOnly) {
   EXPECT_EQ(fork->environment().state(), run.environment().state());
 }
 
+TEST(LocalRun, RefusesCamerasWithoutAnImageSourceMaker) {
+  WorldSource source;
+  source.file = "w.xml";
+  source.text =
+      "<world><surface><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size><object><shape><robot>"
+      "<model>eye</model><name>R</name><x>0</x><y>0</y><direction>0</direction></robot></shape></object></surface></"
+      "world>";
+  source.robot_types["eye"] = {
+      "eye.xml",
+      "<robot name='eye' help='Sees.'><body radius_m='0.2' height_m='0.3'/><limits speed_max_mps='1' accel_mps2='1' "
+      "decel_mps2='1' turn_max_degps='9' turn_accel_degps2='9'/><sensors><camera/></sensors></robot>"};
+  try {
+    LocalRun(loadWorldToRun(source, "still"), {});
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "robots have cameras, but this program cannot render pictures; it must call "
+                 "setImageSourceMaker(makeOffscreenRenderer), of the library robosim::rendering");
+  }
+}
+
 }  // namespace
 }  // namespace robosim

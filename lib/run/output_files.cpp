@@ -2,7 +2,7 @@
 
 #include "base/error_list.h"
 #include "robots/robot_types.h"
-#include "world/map_files.h"
+#include "world/map_reader.h"
 
 namespace robosim {
 namespace {

@@ -1,7 +1,6 @@
 #include "run/registry.h"
 
 #include "maze/controllers.h"
-#include "recording/codecs.h"
 
 namespace robosim {
 
@@ -13,7 +12,7 @@ void addToProgram(const Registry& registry) {
   addSensorTypes(registry.sensors);
   controllers() = std::move(all);
   observers() = std::move(all_observers);
-  for (const Codec* codec : registry.codecs) addCodec(*codec);
+  for (const Codec* codec : registry.codecs) addedCodecs().insert(addedCodecs().begin(), codec);
 }
 
 }  // namespace robosim

@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "control/controller_registry.h"
-#include "recording/codec.h"
+#include "hardware/added_codecs.h"
 #include "run/observer.h"
 #include "sensors/registry.h"
 
@@ -13,6 +13,7 @@ struct Registry {
   ControllerRegistry controllers;
   std::vector<SensorType> sensors;
   /// How measurements of the kind SensorKind::values are recorded, if not as CObservationRawDAQ; each must stay valid.
+  /// Codecs are classes of the library robosim::recording (recording/codec.h).
   std::vector<const Codec*> codecs = {};
   ObserverRegistry observers = {};
 };

@@ -2,7 +2,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/text_table.h"
-#include "server/run_report.h"
+#include "environment/run_report.h"
 
 namespace robosim {
 

@@ -5,8 +5,8 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "base/text_table.h"
+#include "environment/run_report.h"
 #include "run/local_run.h"
-#include "server/run_report.h"
 
 namespace robosim {
 

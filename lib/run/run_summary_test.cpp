@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "run/run_outputs.h"
-
 namespace robosim {
 namespace {
 
@@ -23,16 +21,6 @@ TEST(RunSummary, ReportsEveryCorruptedMessage) {
   summary.report->corrupted_messages = 1;
   EXPECT_NE(summary.text().find("corrupted  1 messages of geometry workers, discarded"), std::string::npos)
       << summary.text();
-}
-
-TEST(RunArguments, EndARunAtItsTimeLimit) {
-  RunArguments arguments;
-  arguments.time_s = 0.3;  // 3 · 0.1 is slightly more
-  EXPECT_FALSE(arguments.timeIsUp({2, 0.1}));
-  EXPECT_TRUE(arguments.timeIsUp({3, 0.1}));
-  arguments.time_s = 0.7;  // 7 · 0.1 is slightly more
-  EXPECT_FALSE(arguments.timeIsUp({6, 0.1}));
-  EXPECT_TRUE(arguments.timeIsUp({7, 0.1}));
 }
 
 }  // namespace

@@ -36,8 +36,4 @@ struct BlobFinderOptions {
 std::unique_ptr<Sensor> makeBlobFinder(const BlobFinderOptions&,
                                        std::span<const std::shared_ptr<const Sensor>> mounted);
 
-/// The largest blob of each colour in a picture. Finds none in bytes that are not a JPEG file.
-/// @throws nothing
-std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors, unsigned pixels_min);
-
 }  // namespace robosim

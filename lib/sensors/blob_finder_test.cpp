@@ -1,111 +1,28 @@
 #include "sensors/blob_finder.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {
 
-const cv::Scalar kGold(26, 204, 255), kDarkGold(10, 80, 100), kRed(20, 20, 200), kRosy(70, 20, 200), kBlue(200, 60, 20);
-
-/// A grey picture with rectangles, as a JPEG file.
-struct Painting {
-  cv::Mat picture{240, 320, CV_8UC3, cv::Scalar(140, 140, 140)};
-
-  Painting& with(const cv::Rect& where, const cv::Scalar& color) {
-    cv::rectangle(picture, where, color, cv::FILLED);
-    return *this;
-  }
-  std::string jpeg(int quality = 90) const {
-    std::vector<unsigned char> bytes;
-    cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-    return {bytes.begin(), bytes.end()};
-  }
-};
-
-TargetColor gold() { return {.name = "gold", .hue_rad = 47 * M_PI / 180}; }
-TargetColor red() { return {.name = "red", .hue_rad = 0}; }
-
-Blob only(const std::string& jpeg, const TargetColor& color, unsigned pixels_min = 4) {
-  const auto blobs = findBlobs(jpeg, {color}, pixels_min);
-  EXPECT_EQ(blobs.size(), 1u);
-  return blobs.at(0);
-}
-
-/// Tolerance for JPEG, which blurs colours along edges by a pixel or two.
-void expectAt(const Blob& blob, const cv::Rect& where) {
-  EXPECT_NEAR(blob.left_px, where.x, 2);
-  EXPECT_NEAR(blob.top_px, where.y, 2);
-  EXPECT_NEAR(blob.width_px, where.width, 3);
-  EXPECT_NEAR(blob.height_px, where.height, 3);
-  EXPECT_NEAR(blob.x_px, where.x + (where.width - 1) / 2.0, 1);
-  EXPECT_NEAR(blob.y_px, where.y + (where.height - 1) / 2.0, 1);
-  EXPECT_NEAR(blob.pixels, where.area(), 0.1 * where.area() + 8);
-}
-
-TEST(BlobFinder, FindsABlobAndItsPosition) {
-  const cv::Rect where(100, 60, 40, 90);
-  const Blob blob = only(Painting().with(where, kGold).jpeg(), gold());
-  EXPECT_EQ(blob.color, "gold");
-  expectAt(blob, where);
-}
-
-TEST(BlobFinder, FindsAColourInTheShade) {
-  const cv::Rect where(100, 60, 40, 90);
-  expectAt(only(Painting().with(where, kDarkGold).jpeg(), gold()), where);
-}
-
-TEST(BlobFinder, ReportsTheLargestBlob) {
-  const cv::Rect large(200, 100, 50, 50);
-  expectAt(only(Painting().with({20, 20, 30, 30}, kGold).with(large, kGold).jpeg(), gold()), large);
-}
-
-TEST(BlobFinder, FindsEachColourAmongOthers) {
-  const cv::Rect golden(20, 20, 60, 60), reddish(150, 90, 80, 40);
-  const auto blobs = findBlobs(
-      Painting().with(golden, kGold).with(reddish, kRed).with({240, 180, 60, 40}, kBlue).jpeg(), {red(), gold()}, 4);
-  ASSERT_EQ(blobs.size(), 2u);
-  expectAt(blobs[0], reddish);
-  expectAt(blobs[1], golden);
-}
-
-TEST(BlobFinder, FindsRedOnBothSidesOfHueZero) {
-  const cv::Rect where(100, 60, 60, 60);
-  expectAt(only(Painting().with(where, kRosy).jpeg(), red()), where);                    // a hue of −17°
-  expectAt(only(Painting().with(where, cv::Scalar(20, 60, 200)).jpeg(), red()), where);  // of +13°
-}
-
-TEST(BlobFinder, ReportsAnEmptyBlobForAGreyPicture) {
-  EXPECT_EQ(only(Painting().jpeg(), gold()), Blob{.color = "gold"});
-}
-
-TEST(BlobFinder, IgnoresSmallBlobs) {
-  const std::string jpeg = Painting().with({100, 60, 5, 5}, kGold).jpeg(100);
-  EXPECT_GT(only(jpeg, gold(), 4).pixels, 10u);
-  EXPECT_EQ(only(jpeg, gold(), 100).pixels, 0u);
-}
-
-TEST(BlobFinder, FindsNothingInInvalidPictures) {
-  EXPECT_EQ(only("", gold()).pixels, 0u);
-  EXPECT_EQ(only("\xFF\xD8 no picture \xFF\xD9", gold()).pixels, 0u);
-}
-
-/// A camera that always returns the same picture.
-class OnePicture : public ImageSource {
+/// ImageSource whose pictures contain their camera's width, which is also the width of the blobs found in them.
+class WidthImages : public ImageSource {
  public:
-  explicit OnePicture(std::string jpeg) : jpeg_(std::move(jpeg)) {}
-  void take(const CameraView&, std::span<const mrpt::math::TPose2D>, std::span<const std::uint32_t>,
+  void take(const CameraView& camera, std::span<const mrpt::math::TPose2D>, std::span<const std::uint32_t>,
             std::span<std::string> jpegs) override {
-    for (auto& jpeg : jpegs) jpeg = jpeg_;
+    for (auto& jpeg : jpegs) jpeg = std::to_string(camera.info.width_px);
   }
-
- private:
-  std::string jpeg_;
+  std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors,
+                              unsigned pixels_min) override {
+    std::vector<Blob> blobs;
+    for (const auto& color : colors) {
+      blobs.push_back({.color = color.name, .pixels = pixels_min});
+      blobs.back().width_px = static_cast<std::uint32_t>(std::stoul(jpeg));
+    }
+    return blobs;
+  }
 };
 
 /// Two cameras and a blob finder on one of them, in the order of `xml`; returns the last sensor's measurements over
@@ -147,11 +64,11 @@ TEST(BlobFinder, UsesTheCameraWithTheGivenLabel) {
   Mounted mounted({"<camera label='left' width_px='100' rate_hz='5'/>", "<camera label='right'/>", kFinder});
   EXPECT_EQ(mounted.info().camera.width_px, 100u);
   EXPECT_EQ(mounted.info().colors, std::vector<std::string>{"gold"});
-  OnePicture images(Painting().with({100, 60, 40, 90}, kGold).jpeg());
+  WidthImages images;
   const Blobs seen = mounted.sense(2, images);
   EXPECT_TRUE(seen.taken);
   ASSERT_EQ(seen.of_color.size(), 1u);
-  expectAt(seen.of_color[0], {100, 60, 40, 90});
+  EXPECT_EQ(seen.of_color[0], (Blob{.color = "gold", .pixels = 4, .width_px = 100}));
   // Its camera takes a picture every second step; the other camera's pictures are ignored.
   EXPECT_EQ(mounted.sense(3, images), (Blobs{false, {{.color = "gold"}}}));
 }

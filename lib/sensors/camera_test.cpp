@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sensors/blob_finder.h"
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
@@ -19,6 +20,7 @@ class FakeImages : public ImageSource {
     poses.assign(world_from_robot.begin(), world_from_robot.end());
     for (std::size_t i = 0; i < robots.size(); ++i) jpegs[i] = "robot " + std::to_string(robots[i]);
   }
+  std::vector<Blob> findBlobs(const std::string&, const std::vector<TargetColor>&, unsigned) override { return {}; }
 
   int calls = 0;
   CameraView view;

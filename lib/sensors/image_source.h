@@ -2,10 +2,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/TPose3D.h>
 
+#include "hardware/measurement.h"
 #include "hardware/sensor_info.h"
 
 namespace robosim {
@@ -17,7 +19,9 @@ struct CameraView {
   int jpeg_quality = 85;                  ///< [1, 100]
 };
 
-/// Interface that renders the pictures of cameras. One source serves all cameras of a run.
+struct TargetColor;  // sensors/blob_finder.h
+
+/// Interface that renders and searches the pictures of cameras. One source serves all cameras of a run.
 class ImageSource {
  public:
   virtual ~ImageSource() = default;
@@ -27,6 +31,11 @@ class ImageSource {
   /// @param jpegs one per element of `robots`; replaced by the bytes of a JPEG file
   virtual void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
                     std::span<const std::uint32_t> robots, std::span<std::string> jpegs) = 0;
+
+  /// The largest blob of each colour in a picture of take(). Thread-safe.
+  /// @param pixels_min smaller blobs are ignored
+  virtual std::vector<Blob> findBlobs(const std::string& jpeg, const std::vector<TargetColor>& colors,
+                                      unsigned pixels_min) = 0;
 };
 
 }  // namespace robosim

@@ -8,12 +8,12 @@
 #include <string>
 
 #include "environment/environment.h"
+#include "environment/run_report.h"
 #include "net/access.h"
 #include "net/connect.h"
 #include "net/listen.h"
 #include "net/open_port.h"
 #include "net/tls.h"
-#include "server/run_report.h"
 #include "server/served_run.h"
 #include "server/serving_state.h"
 

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "environment/environment.h"
+#include "environment/run_report.h"
 #include "net/stream_session.h"
 #include "robosim/internal/geometry.grpc.pb.h"
 #include "server/result_samples.h"
-#include "server/run_report.h"
 #include "server/serving_state.h"
 
 namespace robosim {

@@ -4,9 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "environment/environment.h"
-#include "robots/world_source.h"
-
 namespace robosim {
 namespace {
 
@@ -44,26 +41,6 @@ TEST(PlausibleEchoes, RefusePointsThatAreNotAtTheRange) {
     EXPECT_NE(faultOf(Echoes{{2, {x_m, 0, 0}}}, sonar()), "") << x_m;
   }
   EXPECT_NE(faultOf(Echoes{{0.2f, {0.5f, 0, 0}}}, sonar()), "");
-}
-
-TEST(PlausibleEchoes, AcceptMeasurementsInTheShippedWorlds) {
-  for (const char* file : {"small_maze.xml", "open_100.xml", "courtyard_and_office.xml", "maze_20x20.xml"}) {
-    LoadedWorld world = loadWorld(std::string(ROBOSIM_SOURCE_DIR "/worlds/") + file, {});
-    Environment environment(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
-    for (std::size_t i = 0; i < environment.robotCount(); ++i) {
-      environment.setCommand(i, {0.4, 0.3, 0.5f, Activity::active});
-    }
-    for (int step = 0; step < 20; ++step) environment.step();
-    for (std::size_t i = 0; i < environment.robotCount(); ++i) {
-      const auto& sensors = environment.fleet().robots[i].model->sensors;
-      for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
-        if (sensors[slot]->sensesInHostProcess()) continue;
-        EXPECT_EQ(faultOf(std::get<Echoes>(environment.state().readings[i].measurements[slot]), sensors[slot]->info()),
-                  "")
-            << file;
-      }
-    }
-  }
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "environment/run_report.h"
 #include "hardware/command.h"
 #include "server/run_info.h"
-#include "server/run_report.h"
 
 namespace robosim {
 

@@ -3,9 +3,9 @@
 #include <memory>
 
 #include "environment/environment.h"
+#include "environment/run_report.h"
 #include "robots/world_source.h"
 #include "server/run_info.h"
-#include "server/run_report.h"
 
 namespace robosim {
 

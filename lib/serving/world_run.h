@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "run/run_outputs.h"
+#include "outputs/run_outputs.h"
 #include "run/run_summary.h"
 #include "server/served_run.h"
 #include "serving/arcos_server.h"

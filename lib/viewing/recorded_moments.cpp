@@ -4,9 +4,9 @@
 
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "outputs/run_note.h"
 #include "recording/recorded_step.h"
 #include "recording/recording_error.h"
-#include "run/run_note.h"
 #include "viewing/foreign_recording.h"
 
 namespace robosim {

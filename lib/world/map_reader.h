@@ -1,5 +1,7 @@
 #pragma once
+#include <filesystem>
 #include <string>
+#include <vector>
 
 #include "world/file_provider.h"
 #include "world/floor_plan.h"
@@ -28,17 +30,20 @@ struct MapReading {
   bool operator==(const MapReading&) const = default;
 };
 
-/// Reads a map.
+/// Reads a map, by MapReaders::read.
 /// @param name a FileProvider name
 /// @throws ConfigError with the fault and its location: a line of the file, or a field of its header
 FloorPlan readMap(const std::string& name, const FileProvider& files, const MapReading& reading);
 
-/// @name For readMap(): one format each
-/// `path` names the file in errors.
-///@{
-OccupancyGrid readGridmap(const std::string& bytes, const std::string& path, const OccupancyThresholds& thresholds);
-OccupancyGrid readRosMap(const std::string& name, const FileProvider& files);
-FloorPlan readActivmediaMap(const std::string& text, const std::string& path);
-///@}
+/// The regular files that a map consists of: its own, and the picture that the .yaml of a ROS map refers to.
+std::vector<std::filesystem::path> filesOfMap(const std::filesystem::path& map);
+
+/// Functions of the library robosim::maps, which depends on libraries for pictures, YAML and MRPT's maps.
+struct MapReaders {
+  FloorPlan (*read)(const std::string& name, const FileProvider& files, const MapReading& reading) = nullptr;
+  std::vector<std::filesystem::path> (*files)(const std::filesystem::path& map) = nullptr;
+};
+/// Sets the functions for this process, before the first world is read. Without them, worlds with maps are refused.
+void setMapReaders(const MapReaders& readers);
 
 }  // namespace robosim

@@ -1,3 +1,5 @@
+#include "world/raster.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -7,7 +9,6 @@
 #include "base/error_list.h"
 #include "base/portable_pose.h"
 #include "base/xml_element.h"
-#include "world/map_writer.h"
 
 namespace robosim {
 namespace {

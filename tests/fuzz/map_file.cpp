@@ -2,12 +2,13 @@
 // is the content. A .yaml file refers to a small image.
 #include <algorithm>
 
+#include "maps/map_formats.h"
 #include "tests/fuzz/fuzz.h"
-#include "world/map_reader.h"
 
 using namespace robosim;
 
 int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  useMapFormats();
   const std::string input(reinterpret_cast<const char*>(data), size);
   const std::size_t end = std::min(input.find('\n'), input.size());
   const std::string name = input.substr(0, end);

@@ -19,7 +19,7 @@
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
 #include "tests/stock_tools.h"
-#include "world/map_writer.h"
+#include "world/raster.h"
 
 namespace robosim {
 namespace {

@@ -1,4 +1,7 @@
-// Shared libraries that each subcommand loads: what a subcommand does not use must not delay its start.
+// Shared libraries that each subcommand loads: what a subcommand does not use must not delay its start. RoboSim's own
+// are layers (doc/decisions/shared_library.md).
+#include <array>
+#include <map>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -21,8 +24,27 @@ std::string librariesOf(const std::string& executable) {
   return ldd.out;
 }
 
-/// The shared library that programs and plugins use.
-const std::filesystem::path kLibrary = ROBOSIM_BUILD_DIR "/apps/robosim/librobosim.so";
+/// RoboSim's shared libraries, lowest first. Each may need only libraries before it.
+constexpr std::array kLibraries{"robosim",         "robosim-maps",    "robosim-recording", "robosim-rendering",
+                                "robosim-program", "robosim-serving", "robosim-viewing"};
+/// The libraries of others that the engine needs, besides those of the language and of sanitizers.
+const std::set<std::string> kNeededByEngine{"expat", "fmt", "mrpt-core", "spdlog", "tbb", "tinyxml2", "xxhash"};
+
+std::filesystem::path fileOf(const std::string& library) {
+  return ROBOSIM_BUILD_DIR "/apps/robosim/lib" + library + ".so";
+}
+
+/// Names of the libraries that a file needs itself.
+std::set<std::string> neededBy(const std::filesystem::path& file) {
+  const Ended readelf = runCommand("readelf --dynamic " + quoted(file));
+  EXPECT_EQ(readelf.exit_code, 0) << readelf.err;
+  const std::regex needed(R"(\(NEEDED\).*\[lib(.*?)\.so)");
+  std::set<std::string> names;
+  for (std::sregex_iterator found(readelf.out.begin(), readelf.out.end(), needed), end; found != end; ++found) {
+    names.insert((*found)[1]);
+  }
+  return names;
+}
 
 /// The functions and variables that a file defines, except inline ones.
 std::set<std::string> definitionsIn(const std::filesystem::path& file, const std::string& options) {
@@ -53,62 +75,79 @@ TEST(Libraries, OfSubcommandsWithoutNetworkIncludeNeitherGrpcNorWindows) {
   }
 }
 
-TEST(Libraries, OfSubcommandsWithoutNetworkAreTheseOnly) {
-  // MRPT's pictures, which its observations refer to, need OpenCV; OpenGL and fonts are used when a picture is drawn.
-  const std::set<std::string> allowed{"OpenGL",
-                                      "asan",
-                                      "c",
-                                      "cairo",
-                                      "crypto",
-                                      "expat",
-                                      "fmt",
-                                      "fontconfig",
-                                      "freetype",
-                                      "gcc_s",
-                                      "isal",
-                                      "m",
-                                      "mrpt-core",
-                                      "mrpt-img",
-                                      "mrpt-io",
-                                      "mrpt-maps",
-                                      "mrpt-math",
-                                      "mrpt-obs",
-                                      "mrpt-opengl",
-                                      "mrpt-poses",
-                                      "mrpt-rtti",
-                                      "mrpt-serialization",
-                                      "mrpt-system",
-                                      "octomap",
-                                      "octomath",
-                                      "opencv_core",
-                                      "opencv_imgcodecs",
-                                      "opencv_imgproc",
-                                      "spdlog",
-                                      "stdc++",
-                                      "tbb",
-                                      "tinyxml2",
-                                      "ubsan",
-                                      "xxhash",
-                                      "yaml-cpp",
-                                      "z"};
-  const Ended readelf = runCommand("readelf --dynamic " + quoted(kLibrary));
-  ASSERT_EQ(readelf.exit_code, 0) << readelf.err;
-  const std::regex needed(R"(\(NEEDED\).*\[lib(.*?)\.so)");
-  int count = 0;
-  for (std::sregex_iterator found(readelf.out.begin(), readelf.out.end(), needed), end; found != end;
-       ++found, ++count) {
-    EXPECT_EQ(allowed.count((*found)[1]), 1u) << (*found)[1];
+TEST(Libraries, DependOnlyOnLibrariesBelowThem) {
+  std::set<std::string> below;
+  for (const std::string library : kLibraries) {
+    const auto needed = neededBy(fileOf(library));
+    EXPECT_EQ(needed.count("robosim"), library == "robosim" ? 0u : 1u) << library;
+    for (const auto& name : needed) {
+      EXPECT_TRUE(!name.starts_with("robosim") || below.count(name)) << library << " needs " << name;
+    }
+    below.insert(library);
   }
-  EXPECT_GT(count, 20);
+}
+
+TEST(Libraries, OfTheEngineAreTheseOnly) {
+  const std::set<std::string> language{"asan", "c", "gcc_s", "m", "stdc++", "ubsan"};
+  for (const auto& name : neededBy(fileOf("robosim"))) {
+    EXPECT_TRUE(language.count(name) || kNeededByEngine.count(name)) << name;
+  }
+}
+
+TEST(Libraries, OfMapsRecordingsPicturesAndSubcommandsWithoutNetworkAreTheseOnly) {
+  // MRPT's pictures, which its observations refer to, need OpenCV; OpenGL and fonts are used when a picture is drawn.
+  std::set<std::string> allowed{"OpenGL",
+                                "asan",
+                                "c",
+                                "cairo",
+                                "crypto",
+                                "fontconfig",
+                                "freetype",
+                                "gcc_s",
+                                "isal",
+                                "m",
+                                "mrpt-img",
+                                "mrpt-io",
+                                "mrpt-maps",
+                                "mrpt-math",
+                                "mrpt-obs",
+                                "mrpt-opengl",
+                                "mrpt-poses",
+                                "mrpt-rtti",
+                                "mrpt-serialization",
+                                "mrpt-system",
+                                "octomap",
+                                "octomath",
+                                "opencv_core",
+                                "opencv_imgcodecs",
+                                "opencv_imgproc",
+                                "stdc++",
+                                "ubsan",
+                                "yaml-cpp",
+                                "z"};
+  allowed.insert(kNeededByEngine.begin(), kNeededByEngine.end());
+  allowed.insert(kLibraries.begin(), kLibraries.end());
+  for (const char* library : {"robosim-maps", "robosim-recording", "robosim-rendering", "robosim-program"}) {
+    for (const auto& name : neededBy(fileOf(library)))
+      EXPECT_EQ(allowed.count(name), 1u) << library << " needs " << name;
+  }
 }
 
 TEST(Libraries, HaveTheOnlyCopyOfWhatProgramsShareWithPlugins) {
-  const auto shared = definitionsIn(kLibrary, "--dynamic");
-  EXPECT_GT(shared.size(), 500u);
-  for (const char* program : {"robosim-run", "robosim-net", "robosim-view"}) {
-    for (const auto& name : definitionsIn(std::filesystem::path(ROBOSIM_PROGRAM).parent_path() / program, "")) {
-      EXPECT_EQ(shared.count(name), 0u) << program << " has its own copy of " << name;
+  std::map<std::string, std::string> owners;
+  const auto add = [&](const std::string& file, const std::set<std::string>& names) {
+    for (const auto& name : names) {
+      const auto [at, is_new] = owners.emplace(name, file);
+      EXPECT_TRUE(is_new) << file << " has its own copy of " << name << ", which is in " << at->second;
     }
+  };
+  for (const char* library : kLibraries) {
+    const auto names = definitionsIn(fileOf(library), "--dynamic");
+    EXPECT_GT(names.size(), 10u) << library;
+    add(library, names);
+  }
+  for (const char* program : {"robosim-run", "robosim-net", "robosim-view"}) {
+    add(program, definitionsIn(std::filesystem::path(ROBOSIM_PROGRAM).parent_path() / program, ""));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "robosim/subcommands.h"
 #include "tests/scenarios/installed_project.h"
 
 namespace robosim {
@@ -127,44 +128,82 @@ TEST_F(Sdk, AnObserverEndsARunAndReportsItsMetrics) {
   EXPECT_GE(summary["metrics"]["alignment.end_alignment_percent"], 1);
 }
 
-/// `robosim serve` of the flock's world, which waits for its robots.
+/// `robosim serve` of the flock's world for a second, which waits for its robots.
 class FlockServer {
  public:
-  FlockServer(const std::string& program, const fs::path& project, const fs::path& library)
-      : serve_(program, {"serve", (project / "flock.xml").string(), "--plugin", library.string(), "--listen", ":0",
-                         "--wait-for-robots", "--time", "1"}) {
+  /// @param plugin as the option --plugin; empty for none
+  FlockServer(const fs::path& program, const fs::path& project, const fs::path& plugin)
+      : serve_(program.string(), arguments(project, plugin)) {
     serve_.waitForError("listening on ");
     const std::string log = serve_.error();
     const auto at = log.find("listening on ") + 13;
     address_ = log.substr(at, log.find_first_of(" \n", at) - at);
   }
 
-  const std::string& address() const { return address_; }
+  /// All robots of the flock, and this server, as arguments of `robosim robot`.
+  std::string robots() const {
+    std::string text;
+    for (int i = 1; i <= 200; ++i) text += " R" + std::to_string(i);
+    return text + " --environment " + address_ + " ";
+  }
   Ended wait() { return serve_.wait(); }
 
  private:
+  static std::vector<std::string> arguments(const fs::path& project, const fs::path& plugin) {
+    std::vector<std::string> words{
+        "serve", (project / "flock.xml").string(), "--listen", ":0", "--wait-for-robots", "--time", "1"};
+    if (!plugin.empty()) words.insert(words.end(), {"--plugin", plugin.string()});
+    return words;
+  }
+
   StartedProgram serve_;
   std::string address_;
 };
 
 TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
-  FlockServer server(installed_->program().string(), project(), installed_->library("flocking"));
-  std::string names;
-  for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
-  const Ended robots = run("robot" + names + " --environment " + server.address() + " " + plugin("flocking"));
+  FlockServer server(installed_->program(), project(), installed_->library("flocking"));
+  const Ended robots = run("robot" + server.robots() + plugin("flocking"));
   EXPECT_EQ(robots.exit_code, 0) << robots.err;
   EXPECT_EQ(server.wait().exit_code, 0);
 }
 
 TEST_F(Sdk, AnExceptionOfAControllerUnderRemoteControlNamesItAndItsRobot) {
-  FlockServer server(installed_->program().string(), project(), installed_->library("flocking"));
-  std::string names;
-  for (int i = 1; i <= 200; ++i) names += " R" + std::to_string(i);
-  const Ended robots = run("robot" + names + " --remote-port 127.0.0.1:0 --controller failing --environment " +
-                           server.address() + " " + plugin("flocking") + " " + plugin("failing"));
+  FlockServer server(installed_->program(), project(), installed_->library("flocking"));
+  const Ended robots = run("robot" + server.robots() + "--remote-port 127.0.0.1:0 --controller failing " +
+                           plugin("flocking") + " " + plugin("failing"));
   EXPECT_EQ(robots.exit_code, 2) << robots.out;
   EXPECT_NE(robots.err.find("robot 'R1': its controller failing threw an exception: lost the flock"), std::string::npos)
       << robots.err;
+}
+
+TEST_F(Sdk, AnOwnProgramServesAWorldToItself) {
+  const fs::path program = project() / "build" / "flocking";
+  FlockServer server(program, project(), "");
+  const Ended robots = runCommand("cd " + quoted(project()) + " && " + quoted(program) + " robot" + server.robots());
+  EXPECT_EQ(robots.exit_code, 0) << robots.err;
+  EXPECT_EQ(server.wait().exit_code, 0);
+}
+
+TEST_F(Sdk, AnOwnProgramHasAllSubcommands) {
+  const std::string program = "cd " + quoted(project()) + " && build/flocking ";
+  const Ended help = runCommand(program + "--help");
+  for (const auto& subcommand : kSubcommands) {
+    EXPECT_NE(help.out.find(std::string("\n  ") + subcommand.name + " "), std::string::npos) << help.out;
+    const Ended own = runCommand(program + subcommand.name + " --help");
+    EXPECT_EQ(own.exit_code, 0) << own.err;
+    EXPECT_NE(own.out.find(std::string("robosim ") + subcommand.name), std::string::npos) << own.out;
+  }
+  const Ended view = runCommand(program + "view flock.xml --offscreen view.png");
+  EXPECT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_TRUE(fs::exists(project() / "view.png"));
+}
+
+TEST_F(Sdk, APluginNeedsTheEngineAndTheRecordingOnly) {
+  const Ended readelf = runCommand("readelf --dynamic " + quoted(installed_->library("flocking")));
+  ASSERT_EQ(readelf.exit_code, 0) << readelf.err;
+  for (const char* library : {"rendering", "maps", "program", "serving", "viewing"}) {
+    EXPECT_EQ(readelf.out.find(std::string("librobosim-") + library), std::string::npos) << readelf.out;
+  }
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <mrpt/obs/CObservationWindSensor.h>
 
 #include "base/portable_math.h"
+#include "recording/codec.h"
 #include "types.h"
 
 namespace {

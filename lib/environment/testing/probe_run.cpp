@@ -2,6 +2,7 @@
 
 #include "base/random.h"
 #include "environment/testing/small_world.h"
+#include "sensors/blob_finder.h"
 
 namespace robosim {
 namespace {
@@ -34,6 +35,12 @@ class PoseImages : public ImageSource {
     for (std::size_t i = 0; i < robots.size(); ++i) {
       jpegs[i] = "\xFF\xD8" + std::to_string(world_from_robot[robots[i]].x) + "\xFF\xD9";
     }
+  }
+  /// Finds none.
+  std::vector<Blob> findBlobs(const std::string&, const std::vector<TargetColor>& colors, unsigned) override {
+    std::vector<Blob> blobs(colors.size());
+    for (std::size_t i = 0; i < colors.size(); ++i) blobs[i].color = colors[i].name;
+    return blobs;
   }
 };
 

@@ -1,8 +1,0 @@
-#include "robosim/plugin_options.h"
-#include "robosim/program.h"
-#include "robosim/subcommands.h"
-
-int main(int argc, char** argv) {
-  using namespace robosim;
-  return executeRobosim({addView, addRunWithWindow, addPluginOptions}, argc, argv);
-}

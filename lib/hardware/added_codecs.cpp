@@ -1,0 +1,10 @@
+#include "hardware/added_codecs.h"
+
+namespace robosim {
+
+std::vector<const Codec*>& addedCodecs() {
+  static std::vector<const Codec*> codecs;
+  return codecs;
+}
+
+}  // namespace robosim

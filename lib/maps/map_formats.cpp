@@ -1,0 +1,62 @@
+#include "maps/map_formats.h"
+
+#include <algorithm>
+
+#include "base/error_list.h"
+#include "maps/picture.h"
+
+namespace robosim {
+namespace {
+
+OccupancyGrid readPictureMap(const std::string& bytes, const std::string& path, const MapReading& reading) {
+  OccupancyGrid grid = gridOf(readPicture(bytes, path, Picture::Alpha::counts),
+                              {.thresholds = reading.thresholds, .negate = reading.negate});
+  grid.cell_m = reading.pixel_m;
+  return grid;
+}
+
+FloorPlan readMapFile(const std::string& name, const FileProvider& files, const MapReading& reading) {
+  const std::string path = files.pathOf(name);
+  const auto checked = [&](FloorPlan plan) {
+    const std::size_t solids = plan.occupied.size() + plan.boxes.size();
+    const std::size_t boxes = std::max(solids, plan.unknown.size());
+    if (boxes <= kMaxMapBoxes) return plan;
+    throw ConfigError(path + (solids == boxes ? ": its occupied" : ": its unknown") +
+                      " cells are so scattered that they make " + std::to_string(boxes) + " boxes; a map may have " +
+                      std::to_string(kMaxMapBoxes) + " at most, so make it smaller, or its cells larger");
+  };
+  OccupancyGrid grid;
+  switch (mapFormatOf(name)) {
+    case MapFormat::activmedia:
+      return checked(readActivmediaMap(files.read(name), path));
+    case MapFormat::gridmap:
+      grid = readGridmap(files.read(name), path, reading.thresholds);
+      break;
+    case MapFormat::ros_yaml:
+      grid = readRosMap(name, files);
+      break;
+    case MapFormat::picture:
+      grid = readPictureMap(files.read(name), path, reading);
+      break;
+  }
+  const double far_m = std::max(grid.columns, grid.rows) * grid.cell_m;
+  if (far_m > kMapReach_m)
+    throw ConfigError(path + ": reaches over more than 10,000 km; its resolution cannot be right");
+  return checked(floorPlanOf(grid, reading.unknown_is_occupied));
+}
+
+std::vector<std::filesystem::path> filesOf(const std::filesystem::path& map) {
+  std::vector<std::filesystem::path> files{map};
+  std::error_code none;
+  if (!isMapFile(map) || mapFormatOf(map) != MapFormat::ros_yaml || !std::filesystem::is_regular_file(map, none)) {
+    return files;
+  }
+  if (const auto picture = pictureOfRosMap(map); !picture.empty()) files.push_back(picture);
+  return files;
+}
+
+}  // namespace
+
+void useMapFormats() { setMapReaders({.read = readMapFile, .files = filesOf}); }
+
+}  // namespace robosim

@@ -1,0 +1,24 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "world/map_reader.h"
+
+namespace robosim {
+
+/// Lets this program read maps of all formats: calls setMapReaders(). To be called before the first world is read.
+void useMapFormats();
+
+/// @name For readMap(): one format each
+/// `path` names the file in errors.
+///@{
+OccupancyGrid readGridmap(const std::string& bytes, const std::string& path, const OccupancyThresholds& thresholds);
+OccupancyGrid readRosMap(const std::string& name, const FileProvider& files);
+FloorPlan readActivmediaMap(const std::string& text, const std::string& path);
+///@}
+
+/// The picture that the .yaml of a ROS map refers to, as a path; empty when the file does not name one.
+std::filesystem::path pictureOfRosMap(const std::filesystem::path& yaml);
+
+}  // namespace robosim

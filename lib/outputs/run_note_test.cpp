@@ -1,0 +1,37 @@
+#include "outputs/run_note.h"
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+TEST(RunNote, RoundTripsTheBytesOfMapFiles) {
+  // Base64 pads the last group of three bytes.
+  for (std::size_t size = 0; size <= 7; ++size) {
+    RunNote note;
+    note.world.file = "folder/w.xml";
+    note.world.text = "<world/>";
+    note.world.files["map.png"] = std::string("\0\xff=\x89PNG", 7).substr(0, size);
+    const auto read = RunNote::parse(note.text());
+    ASSERT_TRUE(read) << size;
+    EXPECT_EQ(read->world.file, "w.xml");
+    EXPECT_EQ(read->world.text, note.world.text);
+    EXPECT_EQ(read->world.files, note.world.files) << size;
+  }
+}
+
+TEST(RunNote, IsRejectedWithATimeStepThatNoRunHas) {
+  const auto is_accepted = [](double period_s) {
+    RunNote note;
+    note.period_s = period_s;
+    return RunNote::parse(note.text()).has_value();
+  };
+  EXPECT_TRUE(is_accepted(1));
+  EXPECT_TRUE(is_accepted(0.001));
+  EXPECT_FALSE(is_accepted(1.001));
+  EXPECT_FALSE(is_accepted(0));
+  EXPECT_FALSE(is_accepted(-0.1));
+}
+
+}  // namespace
+}  // namespace robosim

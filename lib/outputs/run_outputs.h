@@ -1,0 +1,60 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "environment/world_changes.h"
+#include "outputs/run_note.h"
+#include "outputs/tracks.h"
+#include "recording/rawlog_writer.h"
+#include "run/local_run.h"
+#include "run/run_summary.h"
+
+namespace robosim {
+
+/// Settings of a run, local or served.
+struct RunArguments {
+  std::string world;
+  WorldChanges changes;
+  RunOptions run;
+  double time_s = 1800;
+  std::string speed = "max";
+  std::string record;
+  std::string rawlog_format = "obs";
+  std::string record_images = "embedded";
+  std::string picture;
+  bool json = false;
+
+  /// Whether the time limit is reached.
+  bool timeIsUp(const SimTime& now) const;
+};
+
+/// The world given by the arguments, including their changes. @throws ConfigError
+WorldSource sourceOf(const RunArguments& arguments);
+
+/// Output files of a run: rawlog, picture and summary, according to the arguments.
+class RunOutputs {
+ public:
+  /// Opens the recording. @param note first entry of the recording @throws ConfigError
+  RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note);
+
+  /// Records the current step. @throws RecordingError
+  void observe(const Environment& environment);
+  /// Closes the recording of a failed run, keeping what was recorded.
+  void keep(const Environment& environment);
+  /// Closes the recording, draws the picture, and prints the summary, even if the picture cannot be written.
+  /// @param late robot-steps whose command came too late; nullopt for a lockstep run
+  /// @param report of a served run; else nullopt
+  void finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late = {},
+              const std::optional<RunReport>& report = {});
+
+ private:
+  const RunArguments& arguments_;
+  RunNote note_;
+  std::vector<Command> commands_;  ///< of the current step
+  std::unique_ptr<RawlogWriter> recording_;
+  std::unique_ptr<Tracks> tracks_;
+};
+
+}  // namespace robosim
