@@ -81,15 +81,15 @@ TEST(TerminalKeys, ReadsAFileAsAText) {
 TEST(TerminalKeys, ReadsATerminalWithoutEchoAndRestoresIt) {
   int terminal, program;
   ASSERT_EQ(openpty(&terminal, &program, nullptr, nullptr, nullptr), 0);
-  const auto modeOf = [&] {
+  const auto mode_of = [&] {
     termios settings;
     tcgetattr(program, &settings);
     return settings.c_lflag & (ICANON | ECHO | ISIG);
   };
-  const auto before = modeOf();
+  const auto before = mode_of();
   {
     TerminalKeys keys(program);
-    EXPECT_EQ(modeOf(), static_cast<tcflag_t>(ISIG));
+    EXPECT_EQ(mode_of(), static_cast<tcflag_t>(ISIG));
     EXPECT_EQ(keysOf(keys, 1), "|");  // does not block
     ASSERT_EQ(write(terminal, "ab\x1b[A", 5), 5);
     // The kernel passes the bytes on in a thread of its own.
@@ -100,7 +100,7 @@ TEST(TerminalKeys, ReadsATerminalWithoutEchoAndRestoresIt) {
     }
     EXPECT_EQ(keysOf(keys, 2), "abUP||");  // all keys of a step, unlike a text
   }
-  EXPECT_EQ(modeOf(), before);
+  EXPECT_EQ(mode_of(), before);
   close(terminal);
   close(program);
 }

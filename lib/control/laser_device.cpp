@@ -38,7 +38,7 @@ void LaserDevice::processReadings(PioneerRobot& robot) {
 void LaserDevice::addCurrent(const PioneerRobot& robot) {
   current().clear();
   for (int i = 0; i < robot.getNumLaser(); ++i) {
-    const RangePoint point{raw_[static_cast<std::size_t>(i)].x, raw_[static_cast<std::size_t>(i)].y, now_s()};
+    const RangePoint point{raw_[static_cast<std::size_t>(i)].x, raw_[static_cast<std::size_t>(i)].y, now()};
     if (!robot.hasLaserEcho(i)) continue;
     if (gap_current_ > 0 && !getCurrentBuffer().empty()) {
       const RangePoint& last = getCurrentBuffer().front();
@@ -50,8 +50,8 @@ void LaserDevice::addCurrent(const PioneerRobot& robot) {
 
 void LaserDevice::clean(const PioneerRobot& robot) {
   // The half millisecond is for rounding of the time.
-  if (clean_interval_ms_ <= 0 || now_s() - last_clean_s_ < clean_interval_ms_ / 1000 - 0.0005) return;
-  last_clean_s_ = now_s();
+  if (clean_interval_ms_ <= 0 || now() - last_clean_s_ < clean_interval_ms_ / 1000 - 0.0005) return;
+  last_clean_s_ = now();
   const PioneerTransform global_from_robot(robot.getPose());
   for (const SensorReading& beam : raw_) {
     const PioneerPose from = global_from_robot.doTransform({beam.sensor_x, beam.sensor_y, 0});

@@ -47,7 +47,7 @@ TEST(PioneerMap, FindsAnObjectByNameAndType) {
 }
 
 TEST(PioneerMap, ReportsFaultsWithTheirLine) {
-  const auto errorOf = [](const std::string& line) -> std::string {
+  const auto error_of = [](const std::string& line) -> std::string {
     try {
       PioneerMap::parse("2D-Map\n" + line + "\n", "a.map");
     } catch (const ConfigError& error) {
@@ -55,9 +55,9 @@ TEST(PioneerMap, ReportsFaultsWithTheirLine) {
     }
     return "";
   };
-  EXPECT_EQ(errorOf("Cairn: Goal 1 2"),
+  EXPECT_EQ(error_of("Cairn: Goal 1 2"),
             "a.map:2: a cairn has a type, x, y, theta, a name, an icon and a label; something is missing");
-  EXPECT_EQ(errorOf("Cairn: Goal 1 two 3 \"\" ICON \"g\""), "a.map:2: 'two' of the cairn Goal is not a number");
+  EXPECT_EQ(error_of("Cairn: Goal 1 two 3 \"\" ICON \"g\""), "a.map:2: 'two' of the cairn Goal is not a number");
 }
 
 TEST(PioneerMap, ReadsTheShippedMap) {

@@ -66,7 +66,7 @@ std::vector<PioneerSensors::Bumper> PioneerSensors::bumpers(bool front) const {
 }
 
 int PioneerSensors::getStallValue() const {
-  const auto bitsOf = [this](bool front) {
+  const auto bits_of = [this](bool front) {
     const auto segments = bumpers(front);
     int bits = 0;
     for (std::size_t i = 0; i < std::min(segments.size(), kMaxBumperBits); ++i) {
@@ -74,7 +74,7 @@ int PioneerSensors::getStallValue() const {
     }
     return bits;
   };
-  return (isLeftMotorStalled() ? 1 : 0) | bitsOf(false) | ((isRightMotorStalled() ? 1 : 0) | bitsOf(true)) << 8;
+  return (isLeftMotorStalled() ? 1 : 0) | bits_of(false) | ((isRightMotorStalled() ? 1 : 0) | bits_of(true)) << 8;
 }
 
 std::optional<double> PioneerSensors::getBumpDirection(bool front) const {

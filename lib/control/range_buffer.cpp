@@ -73,10 +73,9 @@ std::optional<ClosestPoint> RangeBuffer::getClosestPolar(double from_deg, double
 
 std::optional<ClosestPoint> RangeBuffer::getClosestBox(double x1, double y1, double x2, double y2,
                                                        const PioneerPose& robot) const {
-  const auto [x_min, x_max] = std::minmax(x1, x2);
-  const auto [y_min, y_max] = std::minmax(y1, y2);
+  const auto x = std::minmax(x1, x2), y = std::minmax(y1, y2);
   return closest(robot, [&](const PioneerPose& local) {
-    return x_min <= local.x && local.x <= x_max && y_min <= local.y && local.y <= y_max;
+    return x.first <= local.x && local.x <= x.second && y.first <= local.y && local.y <= y.second;
   });
 }
 

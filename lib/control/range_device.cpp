@@ -16,13 +16,13 @@ double distanceOf(const std::optional<ClosestPoint>& closest, double max_range, 
 
 }  // namespace
 
-double RangeDevice::now_s() const { return robot_ ? robot_->time() : 0; }
+double RangeDevice::now() const { return robot_ ? robot_->time() : 0; }
 
 PioneerPose RangeDevice::pose() const { return robot_ ? robot_->getPose() : PioneerPose{}; }
 
 void RangeDevice::addReading(double x, double y) {
-  current_.addReading({x, y, now_s()});
-  cumulative_.addReading({x, y, now_s()});
+  current_.addReading({x, y, now()});
+  cumulative_.addReading({x, y, now()});
 }
 
 void RangeDevice::update() {
@@ -32,12 +32,12 @@ void RangeDevice::update() {
 
 void RangeDevice::filter() {
   // Half a millisecond is for rounding: an age of the limit itself is not beyond it.
-  if (keep_current_s_ > 0) current_.clearOlderThan(now_s() - keep_current_s_ - 0.0005);
-  if (keep_cumulative_s_ > 0) cumulative_.clearOlderThan(now_s() - keep_cumulative_s_ - 0.0005);
+  if (keep_current_s_ > 0) current_.clearOlderThan(now() - keep_current_s_ - 0.0005);
+  if (keep_cumulative_s_ > 0) cumulative_.clearOlderThan(now() - keep_cumulative_s_ - 0.0005);
   if (keep_cumulative_mm_ > 0) cumulative_.clearFartherThan(pose(), keep_cumulative_mm_);
 }
 
-void RangeDevice::clearCumulativeOlderThan(double ms) { cumulative_.clearOlderThan(now_s() - ms / 1000 - 0.0005); }
+void RangeDevice::clearCumulativeOlderThan(double ms) { cumulative_.clearOlderThan(now() - ms / 1000 - 0.0005); }
 
 void RangeDevice::applyTransform(const PioneerTransform& transform, bool do_cumulative) {
   current_.applyTransform(transform);

@@ -73,7 +73,7 @@ class RangeDevice {
   virtual void processReadings(PioneerRobot&) {}
   RangeBuffer& current() { return current_; }
   RangeBuffer& cumulative() { return cumulative_; }
-  double now_s() const;
+  double now() const;  ///< simulation time [s]; 0 without a robot
 
  private:
   PioneerPose pose() const;

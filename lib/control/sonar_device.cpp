@@ -17,8 +17,8 @@ SonarDevice::SonarDevice(std::size_t current_size, std::size_t cumulative_size, 
 }
 
 void SonarDevice::addReading(double x, double y) {
-  current().addReading({x, y, now_s()});
-  cumulative().replaceNear({x, y, now_s()}, kSonarCumulativeGap_mm);
+  current().addReading({x, y, now()});
+  cumulative().replaceNear({x, y, now()}, kSonarCumulativeGap_mm);
 }
 
 void SonarDevice::processReadings(PioneerRobot& robot) {
