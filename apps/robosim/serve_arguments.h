@@ -4,7 +4,7 @@
 #include "net/listen.h"
 #include "net/open_port.h"
 #include "robosim/connection.h"
-#include "run/run_outputs.h"
+#include "outputs/run_outputs.h"
 
 namespace CLI {
 class App;

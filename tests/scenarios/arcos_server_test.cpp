@@ -203,11 +203,11 @@ TEST(ArcosServer, LosesOnlyTheConnectionsOfMisbehavingPrograms) {
   slow.send(encodeCommand(command::old_laser_start, -180) + encodeCommand(command::old_laser_end, 180) +
             encodeCommand(command::old_laser_increment, 10) + encodeCommand(command::old_laser_enable, 2));
   for (int i = 0; i < 1000; ++i) {
-    good.send(encodeCommand(command::vel, 100));
+    good.send(encodeCommand(command::rvel, 10));
     if (i % 10 == 0) slow.send(encodeCommand(command::pulse));
     ASSERT_NE(good.step().flags, 0) << i;
   }
-  EXPECT_EQ(good.step().speed_left, 100);
+  EXPECT_EQ(good.step().turn_rate, 100) << "0.1 °/s";
   EXPECT_LE(served.server->clients(), 2u);
 }
 

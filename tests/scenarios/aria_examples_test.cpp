@@ -87,5 +87,33 @@ TEST_F(AriaExamples, DriveARobotOfAServerAsInProcess) {
   EXPECT_EQ(served["digest"], summaryOf("--controller aria_goto --time 120")["digest"]);
 }
 
+// The simulated robot behind its ARCOS port, as a real one behind its serial line.
+TEST_F(AriaExamples, DriveARobotThroughArcos) {
+  for (const std::string controller : {"aria_wander", "aria_goto"}) {
+    StartedProgram serve(installed_->program().string(),
+                         {"serve", (installed_->folder() / "room.xml").string(), "--listen", ":0", "--arcos", "0",
+                          "--speed", "10", "--time", "120", "--json"});
+    const std::string announcement = "robot Pioneer (pioneer3dx) for ARCOS programs on ";
+    serve.waitForError("listening on ");
+    const std::string log = serve.error();
+    const auto at = log.find(announcement);
+    ASSERT_NE(at, std::string::npos) << log;
+    const std::string address = log.substr(at + announcement.size(), log.find('\n', at) - at - announcement.size());
+    StartedProgram robot(installed_->program().string(),
+                         {"robot", "--arcos", "tcp:" + address, "--controller", controller, "--plugin",
+                          installed_->library("aria").string()});
+    const auto summary = nlohmann::json::parse(serve.wait().out);
+    const Ended ended = robot.wait();
+    EXPECT_EQ(summary["stalls"], 0) << controller;
+    if (controller == "aria_wander") {
+      EXPECT_GT(summary["driven_m"], 20);
+    } else {  // to its four goals, and then it stands
+      EXPECT_EQ(ended.exit_code, 0) << ended.err;
+      EXPECT_GT(summary["driven_m"], 4 * 2.5 - 1);
+      EXPECT_LT(summary["driven_m"], 4 * 2.5 + 2);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace robosim
