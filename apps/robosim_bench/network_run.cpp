@@ -89,12 +89,6 @@ class RobotProgram {
   std::vector<pid_t> processes_;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Runs in lockstep at maximum speed; measures several windows after one for warm-up.
 class MeasuredRun final : public ServedRun {
  public:

@@ -5,13 +5,14 @@
 #include <ctime>
 
 namespace robosim {
-namespace {
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
   return *middle;
 }
+
+namespace {
 
 Cost oneRound(const Contender& contender, double min_s) {
   Cost spent;

@@ -8,6 +8,9 @@
 
 namespace robosim {
 
+/// @param values at least one
+double median(std::vector<double> values);
+
 /// Clock readings of a process.
 struct Clocks {
   double wall_s = 0;

@@ -18,7 +18,6 @@
 namespace robosim {
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using boost::asio::ip::tcp;
 
 /// Steps a served robot every 0.1 s, as robosim serve does.
@@ -26,10 +25,10 @@ class RealTimeRobot {
  public:
   RealTimeRobot() : environment_(robotAlone("p3dx")), server_(options(), *environment_, {0}) {
     thread_ = std::thread([this] {
-      for (auto due = Clock::now(); !ends_; due += std::chrono::milliseconds(100)) {
-        while (Clock::now() < due) {
+      for (auto due = std::chrono::steady_clock::now(); !ends_; due += std::chrono::milliseconds(100)) {
+        while (std::chrono::steady_clock::now() < due) {
           server_.poll();
-          std::this_thread::sleep_until(std::min(due, Clock::now() + ArcosServer::kPollInterval));
+          std::this_thread::sleep_until(std::min(due, std::chrono::steady_clock::now() + ArcosServer::kPollInterval));
         }
         server_.decide();
         environment_->step();
@@ -84,7 +83,7 @@ class SerialRelay {
  private:
   void relay() {
     constexpr std::size_t kPerTick = 24;  // 960 bytes/s
-    for (auto due = Clock::now(); !ends_; due += std::chrono::milliseconds(25)) {
+    for (auto due = std::chrono::steady_clock::now(); !ends_; due += std::chrono::milliseconds(25)) {
       std::this_thread::sleep_until(due);
       std::array<char, 4096> bytes;
       boost::system::error_code error;
