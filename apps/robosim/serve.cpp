@@ -35,7 +35,7 @@ constexpr const char* kServeSession =
     "and on the other machine, with cert.pem and the token in a file of mode 600:\n"
     "  robosim control sim.example.org:3000 status --tls-ca cert.pem --token-file token\n"
     "For programs of ARIA and others that speak ARCOS (doc/arcos.md), in real time:\n"
-    "  robosim serve worlds/open_house.xml --arcos 8101\n"
+    "  robosim serve worlds/open_house.xml --arcos 8101 --arcos-all\n"
     "The command load of a control panel starts the next run; its output files are numbered: run_2.rawlog.\n"
     "Exit codes: 0 complete, also when a signal (Ctrl-C, SIGTERM, SIGHUP) has ended it; 3 steps were taken without a\n"
     "robot, or messages were lost; 4 a geometry worker returned wrong results; 1 bad input, 2 run failed. The "
@@ -140,6 +140,7 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
                       "neither passwords nor encryption; use 127.0.0.1, or add --arcos-unprotected in a network that " +
                       "you trust");
   }
+  options.has_all = arguments.arcos_all;
   options.shares_port = !arguments.arcos_factory.empty();
   const double speed = speedNumber(arguments.of_run.speed);
   options.speed = speed > 0 ? speed : 1;
@@ -184,6 +185,8 @@ void addArcosOptions(CLI::App& command, ServeArguments& arguments) {
                   "add robots of this type at random free places, 8 unless a number is given, and serve all robots on "
                   "one port: each program gets a robot of its own")
       ->type_name("TYPE[:NUMBER]");
+  command.add_flag("--arcos-all", arguments.arcos_all,
+                   "serve robots with a controller in the world to ARCOS programs, too");
   command.add_flag("--arcos-unprotected", arguments.arcos_unprotected,
                    "allow ARCOS programs from other machines, without passwords or encryption");
 }

@@ -26,6 +26,7 @@ struct ServeArguments {
   ListenerArguments listener;
   std::string arcos;  ///< address for ARCOS programs; empty: none
   bool arcos_unprotected = false;
+  bool arcos_all = false;  ///< also robots with a controller
   std::string arcos_factory;  ///< "MODEL" or "MODEL:NUMBER"; empty: a port for each robot
 };
 

@@ -252,6 +252,8 @@ void ArcosServer::poll() { impl_->poll(); }
 void ArcosServer::decide() { impl_->decide(); }
 void ArcosServer::stepped() { impl_->stepped(); }
 
-bool isForArcos(const FleetRobot& robot) { return robot.model->arcos && robot.controller.empty(); }
+bool isForArcos(const FleetRobot& robot, const ArcosOptions& options) {
+  return robot.model->arcos && (options.has_all || robot.controller.empty());
+}
 
 }  // namespace robosim

@@ -13,6 +13,7 @@ struct ArcosOptions {
   std::string listen = "127.0.0.1:8101";  ///< "host:port" of the first robot; the others have the ports that follow.
                                           ///< With port 0 the system chooses each
   bool shares_port = false;               ///< one port, at which each program gets a robot that no other has
+  bool has_all = false;                   ///< also serve robots that have a controller in the world
   double speed = 1;                       ///< simulated seconds per second, for SIMSTAT
   std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
 };
@@ -48,7 +49,8 @@ class ArcosServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Whether an ARCOS program may drive a robot: its type has arcos::Parameters, and it has no controller.
-bool isForArcos(const FleetRobot& robot);
+/// Whether an ARCOS program may drive a robot: its type has arcos::Parameters, and it has no controller in the world,
+/// unless ArcosOptions::has_all.
+bool isForArcos(const FleetRobot& robot, const ArcosOptions& options);
 
 }  // namespace robosim

@@ -18,7 +18,7 @@ namespace {
 
 /// Whether ARCOS programs drive a robot.
 bool isDrivenByArcos(const FleetRobot& robot, const WorldRunOptions& options) {
-  return options.arcos && options.of_run.run.controller.empty() && isForArcos(robot);
+  return options.arcos && options.of_run.run.controller.empty() && isForArcos(robot, *options.arcos);
 }
 
 /// By robot: whether ARCOS programs drive it.
@@ -112,7 +112,8 @@ void WorldRun::openArcosPorts() {
   Environment& environment = run_->run.environment();
   arcos_ = std::make_unique<ArcosServer>(*options_.arcos, environment, robots);
   if (robots.empty()) {
-    options_.arcos->log("world " + environment.world().name + " has no robots for ARCOS programs");
+    options_.arcos->log("world " + environment.world().name + " has no robots for ARCOS programs: " +
+                        "none of a type with <arcos> is without a controller; --arcos-all serves those with one, too");
   }
   const std::vector<int> ports = arcos_->ports();
   if (options_.arcos->shares_port && !ports.empty()) {

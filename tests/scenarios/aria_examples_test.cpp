@@ -92,7 +92,7 @@ TEST_F(AriaExamples, DriveARobotThroughArcos) {
   for (const std::string controller : {"aria_wander", "aria_goto"}) {
     StartedProgram serve(installed_->program().string(),
                          {"serve", (installed_->folder() / "room.xml").string(), "--listen", ":0", "--arcos", "0",
-                          "--speed", "10", "--time", "120", "--json"});
+                          "--arcos-all", "--speed", "10", "--time", "120", "--json"});
     const std::string announcement = "robot Pioneer (pioneer3dx) for ARCOS programs on ";
     serve.waitForError("listening on ");
     const std::string log = serve.error();
