@@ -16,7 +16,7 @@ constexpr const char* kExamples =
     "  robosim arcos maps/office.map                     (a p3dx at the map's home, on port 8101)\n"
     "  robosim arcos maps/office.map -r p3dx -r p3at:Tom (the second one on port 8102)\n"
     "  robosim arcos maps/office.map -R p3dx             (each program gets a robot, on port 8101)\n"
-    "In another terminal: any program of ARIA, or  robosim view  to watch.\n"
+    "In another terminal: any program of ARIA, or  robosim view localhost:3000  to watch.\n"
     "The same with all options of a served run: robosim serve WORLD --arcos 8101\n";
 
 struct MobileSimArguments {

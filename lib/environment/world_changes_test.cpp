@@ -84,7 +84,7 @@ TEST(WorldChanges, RejectAnOverlappingRobotWithPositionAndReason) {
 TEST(WorldChanges, RejectAnUnknownType) {
   const Lines lines = faults(robots({"rover@3,0"}));
   ASSERT_FALSE(lines.empty());
-  EXPECT_EQ(lines[0].find("square.xml: robot 'Robot2': there is no robot type 'rover'; known are: pioneer3dx"), 0u)
+  EXPECT_EQ(lines[0].find("square.xml: robot 'Robot2': there is no robot type 'rover'; known are: amigo-sh"), 0u)
       << lines[0];
 }
 

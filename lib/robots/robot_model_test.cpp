@@ -242,9 +242,9 @@ TEST(RobotModel, ReportsAllFaultsAtOnce) {
              "r.xml:3: <limits speed_max_mps=\"-1\">: must lie in (0, 100] metres per second; write a number there",
              "r.xml:3: <limits>: <turn_accel_degps2> is missing; add it",
              "r.xml:5: <sonar>: has no mounting pose; add <at x_m=\"…\" y_m=\"…\" z_m=\"…\" angle_deg=\"…\"/>"}));
-  EXPECT_EQ(
-      faultsOf("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
-      Lines{"r.xml:1: <robot>: unknown attribute hue=\"1\"; accepted here are: body, help, limits, name, sensors"});
+  EXPECT_EQ(faultsOf("<robot name='r' hue='1'>" + kBody + kLimits + "</robot>"),
+            Lines{"r.xml:1: <robot>: unknown attribute hue=\"1\"; accepted here are: arcos, body, help, limits, name, "
+                  "sensors"});
 }
 
 TEST(RobotModel, RejectsABodyThatIsBothRoundAndRectangular) {
