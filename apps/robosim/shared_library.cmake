@@ -32,7 +32,8 @@ function(robosim_shared_library name)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${module}>)
   endforeach()
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${ROBOSIM_SOVERSION}
-                        EXPORT_NAME ${export} LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN")
+                        EXPORT_NAME ${export} LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN"
+                        BUILD_WITH_INSTALL_RPATH ON)  # in the build tree, from which a wheel copies them, they lie together, too
   # Without --no-as-needed, the linker would drop a library that only another shared library uses, and then take its functions from
   # the archives.
   target_link_libraries(${target} INTERFACE ${used}
