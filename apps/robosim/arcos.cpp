@@ -57,6 +57,9 @@ void serveMap(MobileSimArguments arguments) {
       serve.arcos.empty() ? std::to_string(arguments.port) : serve.arcos + ":" + std::to_string(arguments.port);
   if (arguments.robots.empty() && serve.arcos_factory.empty()) arguments.robots.push_back("p3dx");
   for (const auto& text : arguments.robots) serve.of_run.changes.robots.push_back(robotOf(text));
+  if (!arguments.start.empty() && arguments.robots.empty()) {
+    throw ConfigError("--start is for the first robot of -r; those of -R stand at random places");
+  }
   if (!arguments.start.empty() && !serve.of_run.changes.robots.empty()) {
     serve.of_run.changes.robots.front().world_from_robot = startOf(arguments.start);
   }

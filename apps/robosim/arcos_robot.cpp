@@ -74,6 +74,7 @@ class ArcosProcess {
                 [this] { remote_ ? remote_->step() : controller_->step(*robot_); });
         if (port_) port_->publish();
       } while (!isHalted() && hardware_.nextStep());
+      hardware_.close();
     } catch (...) {
       if (recording_) recording_->close();
       throw;

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <google/protobuf/stubs/logging.h>
 
+#include "arcos/parameters.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"
@@ -104,6 +105,7 @@ void logPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
 }
 
 constexpr int kFactoryRobots = 8;
+constexpr double kUnlimited_s = 1e9;
 
 /// The robots of --arcos-factory, "MODEL" or "MODEL:NUMBER". @throws ConfigError
 void addFactoryRobots(const std::string& factory, WorldChanges& changes) {
@@ -139,6 +141,10 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
     throw ConfigError("--arcos " + arguments.arcos + ": other machines could drive the robots, because ARCOS has " +
                       "neither passwords nor encryption; use 127.0.0.1, or add --arcos-unprotected in a network that " +
                       "you trust");
+  }
+  const double steps_per_cycle = arcos::kCycle_s / arguments.of_run.run.environment.period_s;
+  if (std::abs(steps_per_cycle - std::round(steps_per_cycle)) > 1e-6 || steps_per_cycle < 0.5) {
+    throw ConfigError("--step must divide the cycle of ARCOS, 0.1 s, as 0.1, 0.05 and 0.02 do");
   }
   options.has_all = arguments.arcos_all;
   options.shares_port = !arguments.arcos_factory.empty();
@@ -231,7 +237,11 @@ void addServe(CLI::App& program) {
   addArcosOptions(*command, *a);
   addListenerOptions(*command, a->listener);
   command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
-  command->callback([a] { serveWorld(*a); });
+  command->callback([a, command] {
+    // Programs drive for as long as they wish.
+    if (!a->arcos.empty() && command->count("--time") == 0) a->of_run.time_s = kUnlimited_s;
+    serveWorld(*a);
+  });
 }
 
 }  // namespace robosim

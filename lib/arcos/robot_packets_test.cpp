@@ -91,6 +91,40 @@ TEST(ArcosConfig, IsReadAsItWasWrittenAndFitsAPacket) {
   EXPECT_EQ(decodeConfig(packetOf(bytes)), config);
 }
 
+// The order of fields of a p3dx, whose packet has 124 bytes with ten characters of name and firmware.
+TEST(ArcosConfig, HasItsFieldsInTheOrderOfTheSpecification) {
+  ConfigPacket config;
+  config.subclass = "p3dx";
+  config.name = "P3DX1";
+  config.turn_top = 500;
+  config.speed_top = 2200;
+  config.turn_accel_top = 600;
+  config.accel_top = 2000;
+  config.has_front_sonar = config.has_rear_sonar = true;
+  config.low_battery_decivolts = 115;
+  config.watchdog_ms = 2000;
+  config.turn_max = 100;
+  config.speed_max = 1000;
+  config.turn_accel = 100;
+  config.turn_decel = 101;
+  config.accel = 300;
+  config.decel = 301;
+  config.front_bumpers = config.rear_bumpers = 5;
+  config.ticks_per_mm = 128;
+  config.firmware = "S.1.0";
+  EXPECT_EQ(hex(encode(config)),
+            "fa fb 79 20 50 69 6f 6e 65 65 72 00 70 33 64 78 00 53 49 4d 00 00 f4 01 98 08 58 02 d0 07 90 01 "
+            "50 33 44 58 31 00 64 00 00 00 00 01 00 01 73 00 ba 40 d0 07 00 00 00 00 00 00 00 00 00 64 00 e8 "
+            "03 64 00 65 00 00 00 00 00 00 00 2c 01 2d 01 00 00 00 00 00 00 05 05 00 28 00 00 00 00 00 00 80 "
+            "00 00 00 53 2e 31 2e 30 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 00 3e ab");
+}
+
+TEST(ArcosSimulator, HasTheFieldsOfItsStateInTheOrderOfTheSpecification) {
+  EXPECT_EQ(hex(encode(SimStat{100, 50, 51, -1234, 5678, 0, -90})),
+            "fa fb 3b 62 00 00 00 00 00 00 64 00 32 00 33 00 2e fb ff ff 2e 16 00 00 00 00 00 00 a6 ff ff ff "
+            "00 00 00 00 00 00 00 00 00 00 00 00 ff ff ff ff 00 00 00 00 00 00 00 00 00 00 00 00 73 c7");
+}
+
 TEST(ArcosLaser, DividesAScanIntoPacketsOf32Readings) {
   std::vector<std::uint16_t> ranges(181);
   for (std::size_t i = 0; i < ranges.size(); ++i) ranges[i] = static_cast<std::uint16_t>(1000 + i);

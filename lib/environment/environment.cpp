@@ -240,6 +240,7 @@ struct Environment::Impl {
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
     if (!isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m})) return false;
     state.world_from_robot[robot] = world_from_robot;
+    state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
     ++placements;
     placeBodies();
     return true;

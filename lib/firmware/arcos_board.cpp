@@ -21,6 +21,8 @@ using arcos::Sip;
 
 constexpr double kRadPerDeg = M_PI / 180;
 constexpr double kMm = 1000;
+/// Stands for a maximum speed of 0, which AxisLimits reads as the hardware's [m/s, rad/s].
+constexpr double kStanding = 1e-9;
 
 /// Rounds to an integer type, clamped to its range.
 template <typename Integer>
@@ -47,7 +49,7 @@ void ArcosBoard::startSession() {
                   parameters_.turn_accel_degps2 * kRadPerDeg};
   drive_.limitWay(way_limits_);
   drive_.limitTurn(turn_limits_);
-  drive_.enable(true);
+  are_motors_on_ = true;
   is_stopping_ = false;
   is_sonar_on_ = true;
   bumper_stall_ = 0;
@@ -86,8 +88,10 @@ void ArcosBoard::execute(const Packet& packet) {
   if (!number) return;
   switch (packet.id) {
     case command::enable:
-      drive_.enable(*number != 0);
-      drive_.stop();
+      if (const bool on = *number != 0; on != are_motors_on_) {
+        are_motors_on_ = on;
+        drive_.stop();
+      }
       break;
     case command::sonar:
       is_sonar_on_ = *number != 0;
@@ -108,7 +112,7 @@ void ArcosBoard::execute(const Packet& packet) {
       setLimit(packet.id, *number);
       break;
     default:
-      if (drive_.enabled() && !is_stopping_) executeMotion(packet.id, *number);
+      if (are_motors_on_ && !is_stopping_) executeMotion(packet.id, *number);
   }
 }
 
@@ -139,13 +143,12 @@ void ArcosBoard::executeMotion(std::uint8_t id, double argument) {
 }
 
 void ArcosBoard::setLimit(std::uint8_t id, double argument) {
-  if (argument == 0) return;
   const bool is_way = id == command::seta || id == command::setv;
   AxisLimits& limits = is_way ? way_limits_ : turn_limits_;
   const double value = std::abs(argument) * (is_way ? 1 / kMm : kRadPerDeg);
   if (id == command::setv || id == command::setrv) {
-    limits.speed_max = value;
-  } else {
+    limits.speed_max = std::max(value, kStanding);
+  } else if (argument != 0) {
     (argument > 0 ? limits.accel : limits.decel) = value;
   }
   drive_.limitWay(way_limits_);
@@ -168,7 +171,7 @@ void ArcosBoard::update(bool is_link_alive) {
   right_mm_ += driven_mm + turned / parameters_.turn_radpmm;
   last_odom_from_robot_ = odom_from_robot;
 
-  if (!is_link_alive) drive_.stop();
+  drive_.enable(are_motors_on_ && is_link_alive);
   const Odometry& motion = robot_.odometry();
   if (is_stopping_ && motion.speed_mps == 0 && motion.turn_radps == 0) is_stopping_ = false;
   // Limits that are not positive are the hardware's.
@@ -213,7 +216,7 @@ Sip ArcosBoard::sip() const {
   sip.battery_decivolts = rounded<std::uint16_t>(batteryVolts() * 10);
   if (robot_.stalled()) sip.stall_left = sip.stall_right = Sip::kStalled;
   addBumpers(sip);
-  if (drive_.enabled()) sip.flags |= Sip::kMotorsOn;
+  if (are_motors_on_) sip.flags |= Sip::kMotorsOn;
   if (is_sonar_on_) sip.flags |= Sip::kSonarOn;
   // Clockwise from the y axis of the world, north, as a compass counts.
   if (const auto heading_rad = robot_.compass()) {

@@ -30,7 +30,8 @@ class ArcosBoard {
   /// Executes a command of the robot, as opposed to the simulator or the session. Others have no effect.
   void execute(const arcos::Packet& command);
   /// Continues the motion for the next time step.
-  /// @param is_link_alive false: the watchdog has expired, and the robot stops until there is a new motion command
+  /// @param is_link_alive false: the watchdog has expired, and the robot stands, at the hardware's deceleration, until
+  /// it is true again; then it continues
   void update(bool is_link_alive);
   /// Sets the odometry to (0, 0, 0).
   void zeroOdometry() { setOdometry({}); }
@@ -55,7 +56,8 @@ class ArcosBoard {
   const arcos::Parameters& parameters_;
   ProfiledDrive drive_;
   AxisLimits way_limits_, turn_limits_;  ///< as set by the program; an emergency stop uses the hardware's
-  bool is_stopping_ = false;             ///< emergency stop: ignores motion until the robot stands
+  bool are_motors_on_ = true;
+  bool is_stopping_ = false;  ///< emergency stop: ignores motion until the robot stands
   bool is_sonar_on_ = true;
   int bumper_stall_ = 0;       ///< 1: front bumpers stall the motors, 2: rear bumpers
   double battery_test_V_ = 0;  ///< 0: the true voltage

@@ -48,7 +48,7 @@ std::string ArcosSession::receive(std::string_view bytes, Clock::time_point now)
     }
   }
   if (reader_.rejectedBytes() > kRejectedBytesMax) end("it sends bytes that are no ARCOS packets");
-  if (!isOpen() && now - connected_at_ > kHandshakeMax) end("it has not completed the handshake in time");
+  if (!isOpen() && now - connected_at_ > kSilenceMax) end("it has not completed the handshake in time");
   if (now - last_packet_ > kSilenceMax) end("it has sent nothing for a minute");
   return answer;
 }
@@ -194,11 +194,11 @@ bool ArcosSession::takes(Stream& stream) {
 }
 
 void ArcosSession::beforeStep(Clock::time_point now) {
+  commands_ = 0;
   board_.update(isOpen() && now - last_packet_ < std::chrono::milliseconds(arcos::kWatchdog_ms));
 }
 
 std::string ArcosSession::cycle() {
-  commands_ = 0;
   if (!isOpen()) return {};
   std::string packets;
   if (takes(sim_stat_)) packets += encode(simulator_.stat());

@@ -19,9 +19,8 @@ class ArcosSession {
 
   /// @name Limits of a well-behaved program
   ///@{
-  static constexpr std::chrono::seconds kHandshakeMax{10};   ///< from the connection to OPEN
-  static constexpr std::chrono::seconds kSilenceMax{60};     ///< without a valid packet
-  static constexpr std::size_t kRejectedBytesMax = 4096;     ///< that are no packet
+  static constexpr std::chrono::seconds kSilenceMax{60};  ///< without a valid packet; also from the connection to OPEN
+  static constexpr std::size_t kRejectedBytesMax = 4096;  ///< that are no packet
   static constexpr std::size_t kCommandsPerCycleMax = 2000;  ///< ARIA sends fewer than 20
   ///@}
 

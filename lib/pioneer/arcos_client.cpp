@@ -47,7 +47,7 @@ std::string ArcosClient::receive(std::string_view bytes, Clock::time_point now) 
   while (const auto packet = reader_.next()) take(*packet, now, answer);
   if (phase_ == Phase::opening && sips_ > 0 && (config_ || now - opened_ >= kConfigWait)) phase_ = Phase::ready;
   if (phase_ != Phase::ready && now - asked_ >= kRetry) {
-    // The robot may not have heard a request, or its answer was lost: begins again, which robots accept at any time.
+    // The robot may not have received a request, or its answer was lost: begins again, which robots accept at any time.
     answer += phase_ == Phase::opening ? open(now) : sync(Phase::sync0, now);
   }
   return answer;

@@ -11,6 +11,7 @@
 #include "arcos/bumpers.h"
 #include "arcos/command.h"
 #include "base/error_list.h"
+#include "base/interrupt.h"
 #include "base/portable_pose.h"
 
 namespace robosim {
@@ -23,6 +24,10 @@ using arcos::Sip;
 constexpr double kRadPerDeg = M_PI / 180;
 constexpr double kMm = 1000;
 constexpr std::chrono::milliseconds kPoll{50};
+constexpr std::chrono::seconds kStopMax{5};  ///< from 1 m/s at 0.3 m/s²: 3.3 s
+constexpr int kLowBatterySips = 5;           ///< the voltage of a robot that accelerates drops for a moment
+constexpr double kBatteryRecovery_V = 0.5;
+constexpr const char* kLowBattery = "the battery is low";
 
 /// Difference of two odometry counts, of which only the low 15 bits count.
 int difference15(std::uint16_t now, std::uint16_t before) {
@@ -68,6 +73,7 @@ ArcosHardware::ArcosHardware(std::unique_ptr<ByteChannel> channel, Options optio
 }
 
 ArcosHardware::~ArcosHardware() {
+  if (is_closed_) return;
   try {
     channel_->write(encodeCommand(command::stop) + encodeCommand(command::enable, 0) +
                     encodeCommand(command::close, 1));
@@ -75,11 +81,27 @@ ArcosHardware::~ArcosHardware() {
   }
 }
 
+void ArcosHardware::close() {
+  is_closed_ = true;
+  channel_->write(encodeCommand(command::stop));
+  const auto start = channel_->now();
+  const std::uint64_t sips = client_.sips();
+  const auto is_standing = [&] {
+    return client_.sips() > sips && client_.sip().speed_left == 0 && client_.sip().speed_right == 0;
+  };
+  try {
+    while (!is_standing() && channel_->now() - start < kStopMax) processArrived(channel_->read(kPoll));
+  } catch (const ChannelEnd&) {  // of a log
+    return;
+  }
+  channel_->write(encodeCommand(command::enable, 0) + encodeCommand(command::close, 1));
+}
+
 void ArcosHardware::connect() {
   const auto start = channel_->now();
   channel_->write(client_.receive({}, start));
   while (!client_.isReady()) {
-    if (options_.interrupted()) throw RobotLinkError("interrupted while connecting to " + channel_->name());
+    if (options_.interrupted()) throw Interrupted("interrupted; not connected to " + channel_->name());
     if (channel_->now() - start > kHandshakeMax) {
       throw RobotLinkError("no robot answers at " + channel_->name() +
                            (client_.subclass().empty() ? "; check that it is on, and its cable or address"
@@ -112,7 +134,11 @@ void ArcosHardware::describe(ArcosRobotType type) {
   std::vector<std::string> missing{"CheckWin"};
   for (const SensorInfo& sensor : *info_.sensors) {
     const bool is_laser = sensor.kind == SensorKind::laser;
-    const bool has_source = !is_laser || options_.laser || client_.isSimulated();
+    // A board without a compass sends 0.
+    const bool has_compass = client_.isSimulated() || client_.sip().compass != 0;
+    const bool has_source = is_laser                             ? options_.laser || client_.isSimulated()
+                            : sensor.kind == SensorKind::compass ? has_compass
+                                                                 : true;
     if (canReport(sensor.kind) && has_source) {
       sensors.push_back(sensor);
     } else {
@@ -273,6 +299,7 @@ void ArcosHardware::takeOdometry() {
 void ArcosHardware::takeSonar(Measurement& measurement) const {
   const auto sensor = std::find_if(info_.sensors->begin(), info_.sensors->end(),
                                    [](const SensorInfo& info) { return info.kind == SensorKind::sonar; });
+  if ((client_.sip().flags & Sip::kSonarOn) == 0) measurement = blankMeasurement(*sensor);  // switched off
   auto& echoes = std::get<Echoes>(measurement);
   for (const Sip::Sonar& sonar : client_.sip().sonars) {
     if (sonar.index < echoes.size()) echoes[sonar.index] = echoAt(*sensor, sonar.index, sonar.range);
@@ -282,7 +309,8 @@ void ArcosHardware::takeSonar(Measurement& measurement) const {
 void ArcosHardware::takeScan(const SensorInfo& laser, Measurement& measurement) {
   const std::vector<std::uint16_t> ranges = options_.laser ? options_.laser->latestScan() : client_.scan();
   auto& echoes = std::get<Echoes>(measurement);
-  if (ranges.size() != echoes.size()) return;  // none yet
+  has_laser_answered_ = !options_.laser || ranges.size() == echoes.size();
+  if (ranges.size() != echoes.size()) return;
   for (std::size_t i = 0; i < echoes.size(); ++i) echoes[i] = echoAt(laser, i, ranges[i]);
 }
 
@@ -308,15 +336,18 @@ void ArcosHardware::takeBaseState() {
   const double low_V = client_.config() && client_.config()->low_battery_decivolts > 0
                            ? client_.config()->low_battery_decivolts / 10.0
                            : parameters_.low_battery_V;
+  const double limit_V = before == kLowBattery ? low_V + kBatteryRecovery_V : low_V;
+  low_battery_sips_ = battery_V > 0 && battery_V < limit_V ? low_battery_sips_ + 1 : 0;
   // The motors take a moment to be enabled after the start.
   const bool had_motors = readings_.time.step > 10;
-  base_.stop_reason = was_silent_                                                 ? "it had sent nothing for a while"
-                      : *base_.estop_pressed                                      ? "the emergency stop is pressed"
-                      : battery_V > 0 && battery_V < low_V                        ? "the battery is low"
+  base_.stop_reason = was_silent_                            ? "the robot had sent nothing for a while"
+                      : *base_.estop_pressed                 ? "the emergency stop is pressed"
+                      : low_battery_sips_ >= kLowBatterySips ? kLowBattery
                       : !*base_.motors_enabled && (had_motors || !motors_wanted_) ? "the motors are disabled"
+                      : !has_laser_answered_                                      ? "the laser scanner does not answer"
                                                                                   : "";
   if (base_.stop_reason == before) return;
-  options_.log(base_.stop_reason.empty() ? "the robot may move again: no longer is it that " + before
+  options_.log(base_.stop_reason.empty() ? "the robot may move again; resolved: " + before
                                          : "the robot stops: " + base_.stop_reason);
 }
 

@@ -22,7 +22,8 @@ struct ArcosRobotType {
 class LaserDevice {
  public:
   virtual ~LaserDevice() = default;
-  /// Ranges [mm] of the beams from right to left, kNoEcho_mm without an echo: the latest scan; empty before the first.
+  /// Ranges [mm] of the beams from right to left, kNoEcho_mm without an echo: the latest scan; empty while there is
+  /// none of the last half second.
   virtual std::vector<std::uint16_t> latestScan() = 0;
 };
 
@@ -35,8 +36,8 @@ class LaserDevice {
 ///
 /// Commands are rounded to whole mm/s and degrees/s; the remainder is added to the next command, so that the rounding
 /// does not accumulate. The robot stands, whatever its controller commands, while the emergency stop is pressed, its
-/// motors are disabled or its battery is low; BaseState::stop_reason and the log state the reason. Without commands it
-/// stops by its own watchdog, within 2 s.
+/// motors are disabled, its battery is low or its laser scanner does not answer; BaseState::stop_reason and the log
+/// state the reason. Without commands it stops by its own watchdog, within 2 s.
 class ArcosHardware final : public Hardware, public BaseLink {
  public:
   struct Options {
@@ -70,6 +71,9 @@ class ArcosHardware final : public Hardware, public BaseLink {
   /// Sends the command, and waits for the next readings. @return false when `interrupted`, and at the end of a log
   /// @throws RobotLinkError when the connection is lost, or the robot is silent for kSilenceMax
   bool nextStep();
+  /// Stops the robot, waits until it stands, and closes the session. The destructor does not wait.
+  /// @throws RobotLinkError when the connection is lost
+  void close();
   /// Number of SIPs received. Several that arrive together are one step.
   std::uint64_t sips() const { return client_.sips(); }
 
@@ -99,6 +103,9 @@ class ArcosHardware final : public Hardware, public BaseLink {
   BaseState base_;
   bool motors_wanted_ = true;
   bool has_simulated_laser_ = false;
+  bool is_closed_ = false;
+  int low_battery_sips_ = 0;                   ///< in a row
+  bool has_laser_answered_ = true;             ///< in the last step
   bool was_silent_ = false;                    ///< for kSilenceWarning before the last step
   double unsent_mmps_ = 0, unsent_degps_ = 0;  ///< rounded off the commands so far
   std::uint64_t sips_taken_ = 0, scans_taken_ = 0;

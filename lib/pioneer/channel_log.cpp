@@ -1,4 +1,5 @@
 // The log of a ByteChannel: logChannel(), and the channel that replays one.
+#include <charconv>
 #include <fstream>
 #include <iomanip>
 #include <optional>
@@ -6,6 +7,7 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "base/log.h"
 #include "pioneer/open_channel.h"
 #include "pioneer/replayed_channel.h"
 
@@ -28,20 +30,23 @@ class LoggedChannel final : public ByteChannel {
     return bytes;
   }
   void write(std::string_view bytes) override {
-    log('>', bytes);
     channel_->write(bytes);
+    log('>', bytes);
   }
   Clock::time_point now() const override { return channel_->now(); }
   const std::string& name() const override { return channel_->name(); }
 
  private:
+  /// A disk that is full ends the log, and not the drive.
   void log(char direction, std::string_view bytes) {
+    if (!file_) return;
     const std::chrono::duration<double> since = now() - start_;
     std::ostringstream line;
     line << std::fixed << std::setprecision(4) << since.count() << ' ' << direction << std::hex << std::setfill('0');
     for (const char byte : bytes) line << ' ' << std::setw(2) << unsigned{static_cast<unsigned char>(byte)};
     file_ << line.str() << '\n';
-    if (!file_.flush()) throw RobotLinkError(file_name_ + ": cannot be written; free some space");
+    if (!file_.flush())
+      logWarning("robot", file_name_ + ": the log ends here, because it cannot be written; free some space");
   }
 
   std::unique_ptr<ByteChannel> channel_;
@@ -81,12 +86,15 @@ class ReplayedChannel final : public ByteChannel {
     double time_s = 0;
     std::string direction;
     if (!(words >> time_s >> direction) || (direction != "<" && direction != ">")) fail();
+    constexpr double kLongest_s = 1e9;
+    if (!(time_s >= time_s_ && time_s <= kLongest_s)) fail();
     time_s_ = time_s;
     std::string bytes;
     for (std::string word; words >> word;) {
       unsigned byte = 0;
-      std::istringstream digits(word);
-      if (word.size() != 2 || !(digits >> std::hex >> byte)) fail();
+      const char* const end = word.data() + word.size();
+      const auto [stop, error] = std::from_chars(word.data(), end, byte, 16);
+      if (word.size() != 2 || error != std::errc{} || stop != end) fail();
       bytes.push_back(static_cast<char>(byte));
     }
     if (direction == ">") return std::nullopt;

@@ -18,6 +18,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 
 constexpr int kDefaultBaud = 9600;
+constexpr std::chrono::seconds kConnectMax{10};
 
 /// A channel over a stream of Asio: a TCP socket or a serial port.
 template <typename Stream>
@@ -99,19 +100,23 @@ std::pair<std::string, int> withNumber(const std::string& text, int otherwise, c
 }
 
 std::unique_ptr<ByteChannel> openTcp(const std::string& at, const std::string& address) {
-  const auto [host, port] = withNumber(at, arcos::kDefaultPort, address);
+  const auto host_port = withNumber(at, arcos::kDefaultPort, address);
   return std::make_unique<AsioChannel<tcp::socket>>(address, [&](asio::io_context& io, tcp::socket& socket) {
-    asio::connect(socket, tcp::resolver(io).resolve(host, std::to_string(port)));
+    boost::system::error_code error = asio::error::timed_out;
+    asio::async_connect(socket, tcp::resolver(io).resolve(host_port.first, std::to_string(host_port.second)),
+                        [&error](const boost::system::error_code& result, const tcp::endpoint&) { error = result; });
+    io.run_for(kConnectMax);
+    if (error) throw boost::system::system_error(error);
     socket.set_option(tcp::no_delay(true));
   });
 }
 
 std::unique_ptr<ByteChannel> openSerial(const std::string& at, const std::string& address) {
-  const auto [device, baud] = withNumber(at, kDefaultBaud, address);
+  const auto line = withNumber(at, kDefaultBaud, address);
   using Port = asio::serial_port;
   return std::make_unique<AsioChannel<Port>>(address, [&](asio::io_context&, Port& port) {
-    port.open(device);
-    port.set_option(Port::baud_rate(static_cast<unsigned>(baud)));
+    port.open(line.first);
+    port.set_option(Port::baud_rate(static_cast<unsigned>(line.second)));
     port.set_option(Port::character_size(8));
     port.set_option(Port::parity(Port::parity::none));
     port.set_option(Port::stop_bits(Port::stop_bits::one));

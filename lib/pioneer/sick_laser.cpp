@@ -1,6 +1,8 @@
 #include "pioneer/sick_laser.h"
 
 #include <algorithm>
+#include <atomic>
+#include <chrono>
 #include <cmath>
 #include <mutex>
 #include <thread>
@@ -22,53 +24,64 @@ std::vector<std::uint16_t> rangesOf(const mrpt::obs::CObservation2DRangeScan& sc
   return ranges;
 }
 
-class SickLaser final : public LaserDevice {
- public:
-  SickLaser(const std::string& device, std::function<void(const std::string&)> log) : log_(std::move(log)) {
-    scanner_.setSerialPort(device);
-    scanner_.setMillimeterMode(true);
-    scanner_.setScanFOV(180);
-    scanner_.setScanResolution(100);
-    try {
-      scanner_.initialize();
-    } catch (const std::exception& error) {
-      throw RobotLinkError("the laser scanner at " + device + " does not answer; check its power, its cable and the " +
-                           "device's permissions (" + error.what() + ")");
-    }
-    thread_ = std::jthread([this](const std::stop_token& stop) { receive(stop); });
-  }
+/// Shared with the thread, which may outlive the laser: MRPT's driver waits without limit for the rest of a scan.
+struct Scanner {
+  std::function<void(const std::string&)> log;
+  mrpt::hwdrivers::CSickLaserSerial driver;
+  std::atomic<bool> ends = false;
+  std::mutex mutex;
+  std::vector<std::uint16_t> scan;
+  std::chrono::steady_clock::time_point scanned_at;
 
-  std::vector<std::uint16_t> latestScan() override {
-    const std::lock_guard lock(mutex_);
-    return scan_;
-  }
-
- private:
-  void receive(const std::stop_token& stop) {
+  void receive() {
     bool has_failed = false;
-    while (!stop.stop_requested()) {
+    while (!ends) {
       bool has_scan = false, hardware_error = false;
-      mrpt::obs::CObservation2DRangeScan scan;
+      mrpt::obs::CObservation2DRangeScan observation;
       try {
-        scanner_.doProcessSimple(has_scan, scan, hardware_error);
+        driver.doProcessSimple(has_scan, observation, hardware_error);
       } catch (const std::exception&) {
         hardware_error = true;
       }
       if (hardware_error != std::exchange(has_failed, hardware_error)) {
-        log_(hardware_error ? "the laser scanner has failed; its last scan remains" : "the laser scanner works again");
+        log(hardware_error ? "the laser scanner has failed" : "the laser scanner works again");
       }
       if (!has_scan) continue;
-      std::vector<std::uint16_t> ranges = rangesOf(scan);
-      const std::lock_guard lock(mutex_);
-      scan_ = std::move(ranges);
+      std::vector<std::uint16_t> ranges = rangesOf(observation);
+      const std::lock_guard lock(mutex);
+      scan = std::move(ranges);
+      scanned_at = std::chrono::steady_clock::now();
     }
   }
+};
 
-  std::function<void(const std::string&)> log_;
-  mrpt::hwdrivers::CSickLaserSerial scanner_;
-  std::mutex mutex_;
-  std::vector<std::uint16_t> scan_;
-  std::jthread thread_;  ///< initialised last: it uses the other members
+class SickLaser final : public LaserDevice {
+ public:
+  SickLaser(const std::string& device, std::function<void(const std::string&)> log) {
+    scanner_->log = std::move(log);
+    scanner_->driver.setSerialPort(device);
+    scanner_->driver.setMillimeterMode(true);
+    scanner_->driver.setScanFOV(180);
+    scanner_->driver.setScanResolution(100);
+    try {
+      scanner_->driver.initialize();
+    } catch (const std::exception& error) {
+      throw RobotLinkError("the laser scanner at " + device + " does not answer; check its power, its cable and the " +
+                           "device's permissions (" + error.what() + ")");
+    }
+    std::thread([scanner = scanner_] { scanner->receive(); }).detach();
+  }
+  ~SickLaser() override { scanner_->ends = true; }
+
+  std::vector<std::uint16_t> latestScan() override {
+    constexpr std::chrono::milliseconds kRecent{500};
+    const std::lock_guard lock(scanner_->mutex);
+    if (std::chrono::steady_clock::now() - scanner_->scanned_at > kRecent) return {};
+    return scanner_->scan;
+  }
+
+ private:
+  std::shared_ptr<Scanner> scanner_ = std::make_shared<Scanner>();
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 namespace robosim {
 
 /// A SICK LMS200 at a serial line of this computer, by MRPT's driver: 181 beams over 180°, in millimetres. Scans are
-/// received by a thread. When the scanner fails, the log states it, and the last scan remains.
+/// received by a thread. When the scanner fails, the log states it, and there is no scan any more.
 /// @param device "/dev/ttyUSB1" @param log takes one line; also called by the thread
 /// @throws RobotLinkError when the scanner does not answer
 std::unique_ptr<LaserDevice> openSickLaser(const std::string& device, std::function<void(const std::string&)> log);

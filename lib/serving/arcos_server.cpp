@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include <boost/asio.hpp>
 
 #include "arcos/parameters.h"
+#include "base/log_limiter.h"
 #include "control/robot.h"
 #include "environment/local_hardware.h"
 #include "firmware/arcos_board.h"
@@ -24,8 +26,9 @@ using Clock = ArcosSession::Clock;
 
 constexpr double kRadiansPerDegree = M_PI / 180;
 constexpr double kMm = 1000;
-/// ARIA's programs give up after 8 s without a SIP: they get some while the run is paused, too.
+/// ARIA's programs end after 8 s without a SIP, so that SIPs are sent while the run is paused, too.
 constexpr std::chrono::seconds kIdleCycle{1};
+constexpr std::chrono::milliseconds kAcceptPause{100};
 
 /// A robot of the run, its board, and the program that drives it.
 struct ServedRobot final : Simulator {
@@ -58,6 +61,12 @@ struct ServedRobot final : Simulator {
   void resetTruePose() override { placeAt(environment.fleet().robots[index].world_from_start); }
   std::span<const std::uint16_t> scan() const override { return scan_mm; }
   void log(const std::string& text) override { write_log("robot " + name() + ": " + text); }
+  /// Puts a robot without a program back to its start once it stands; where that is not free, it stays where it is.
+  void resetOnceStanding() {
+    if (!needs_reset || environment.state().speed_mps[index] != 0 || environment.state().turn_radps[index] != 0) return;
+    needs_reset = false;
+    resetTruePose();
+  }
 
   void placeAt(const mrpt::math::TPose2D& pose) {
     if (environment.place(index, pose)) {
@@ -76,6 +85,7 @@ struct ServedRobot final : Simulator {
   Robot robot;
   ArcosBoard board;
   std::shared_ptr<ArcosConnection> connection;  ///< null without a program
+  bool needs_reset = false;                     ///< before the next program
   std::vector<std::uint16_t> scan_mm;
   std::uint16_t measured_interval_ms = 0;
 };
@@ -107,28 +117,39 @@ tcp::acceptor openAcceptor(asio::io_context& io, tcp::endpoint at) {
 }  // namespace
 
 struct ArcosServer::Impl {
+  LogLimiter limited_log;  ///< of lines that programs can cause
+  Clock::time_point last_report = Clock::now();
   ArcosOptions options;
   Environment& environment;
   asio::io_context io;
   std::vector<std::unique_ptr<ServedRobot>> robots;
   std::vector<tcp::acceptor> acceptors;  ///< one per robot, or one for all
+  std::vector<std::size_t> paused_acceptors;
+  Clock::time_point accept_again;
   ArcosLasers lasers;
   std::uint64_t steps_per_cycle;
   std::uint64_t steps = 0;  ///< since the last cycle
   Clock::time_point last_cycle = Clock::now(), last_step = Clock::now();
 
   Impl(const ArcosOptions& the_options, Environment& the_environment, const std::vector<std::size_t>& indices)
-      : options(the_options),
+      : limited_log(the_options.log),
+        options(the_options),
         environment(the_environment),
         lasers(the_environment),
         steps_per_cycle(
             static_cast<std::uint64_t>(std::max(1.0, std::round(arcos::kCycle_s / the_environment.time().period_s)))) {
+    options.log = [this](const std::string& line) { limited_log.write("ARCOS programs", line); };
     for (const auto index : indices) {
       robots.push_back(std::make_unique<ServedRobot>(environment, index, options));
     }
     tcp::endpoint at = endpointOf(options.listen);
     const bool is_fixed = at.port() != 0;
     const std::size_t ports = options.shares_port ? std::min<std::size_t>(1, robots.size()) : robots.size();
+    if (at.port() + ports > 65536) {
+      throw std::runtime_error(
+          "--arcos " + options.listen + ": " + std::to_string(ports) +
+          " robots need as many ports from this one on, and the last port is 65535; choose a lower one");
+    }
     for (std::size_t i = 0; i < ports; ++i) {
       acceptors.push_back(openAcceptor(io, at));
       if (is_fixed) at.port(static_cast<std::uint16_t>(at.port() + 1));
@@ -139,7 +160,13 @@ struct ArcosServer::Impl {
   void accept(std::size_t i) {
     acceptors[i].async_accept([this, i](const boost::system::error_code& error, tcp::socket socket) {
       if (error == asio::error::operation_aborted) return;
-      if (!error) admit(i, std::move(socket));
+      if (error) {  // of this machine, such as no free descriptor: tries again later
+        options.log("cannot accept a program: " + error.message());
+        paused_acceptors.push_back(i);
+        accept_again = Clock::now() + kAcceptPause;
+        return;
+      }
+      admit(i, std::move(socket));
       accept(i);
     });
   }
@@ -147,7 +174,8 @@ struct ArcosServer::Impl {
   /// The robot for a program that connects to a port; null if it is taken.
   ServedRobot* freeRobot(std::size_t port) {
     if (!options.shares_port) return robots[port]->connection ? nullptr : robots[port].get();
-    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return !robot->connection; });
+    const auto found = std::find_if(robots.begin(), robots.end(),
+                                    [](const auto& robot) { return !robot->connection && !robot->needs_reset; });
     return found == robots.end() ? nullptr : found->get();
   }
 
@@ -176,18 +204,24 @@ struct ArcosServer::Impl {
       robot->connection->close();
       robot->connection.reset();
       robot->board.endSession();
-      // A shared robot is like new for the next program.
-      if (options.shares_port) robot->resetTruePose();
+      robot->needs_reset = options.shares_port;
     }
   }
 
   void poll() {
     io.poll();
     const auto now = Clock::now();
+    if (!paused_acceptors.empty() && now >= accept_again) {
+      for (const auto i : std::exchange(paused_acceptors, {})) accept(i);
+    }
     for (const auto& robot : robots) {
       if (robot->connection) robot->connection->poll(now);
     }
     dropEnded();
+    if (now - last_report > std::chrono::seconds(1)) {
+      last_report = now;
+      limited_log.reportSuppressed();
+    }
     if (now - last_cycle > kIdleCycle) sendCycle(now);
   }
 
@@ -199,6 +233,7 @@ struct ArcosServer::Impl {
         robot->connection->session().beforeStep(now);
       } else {
         robot->board.update(false);
+        robot->resetOnceStanding();
       }
     }
   }

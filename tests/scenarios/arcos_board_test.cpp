@@ -173,6 +173,30 @@ TEST(ArcosBoard, UsesTheLimitsOfTheProgram) {
   EXPECT_EQ(program.steps(1).speed_left, 150) << "0.5 m/s² for 0.1 s";
 }
 
+TEST(ArcosBoard, StandsWithAMaximumSpeedOf0) {
+  BoardProgram program;
+  program.send(encodeCommand(command::vel, 300) + encodeCommand(command::rvel, 40));
+  program.steps(15);
+  program.send(encodeCommand(command::setv, 0) + encodeCommand(command::setrv, 0));
+  program.steps(15);
+  EXPECT_EQ(program.sip.speed_left, 0);
+  EXPECT_EQ(program.sip.turn_rate, 0);
+}
+
+TEST(ArcosBoard, CompletesAMoveWhenItsMotorsAreEnabledAgainOrTheLinkWasSilent) {
+  BoardProgram program;
+  program.send(encodeCommand(command::move, 2000));
+  program.steps(5);
+  program.send(encodeCommand(command::enable, 1));
+  program.steps(10);
+  program.keeps_alive = false;
+  program.steps(30);
+  EXPECT_FALSE(program.sip.is_moving);
+  program.keeps_alive = true;
+  program.steps(120);
+  EXPECT_NEAR(program.robot.truePose().x, 2, 0.001);
+}
+
 TEST(ArcosBoard, StopsAtTheMaximumDecelerationInAnEmergency) {
   BoardProgram program;
   program.send(encodeCommand(command::vel, 300));
@@ -199,16 +223,18 @@ TEST(ArcosBoard, StandsWhileItsMotorsAreDisabled) {
   EXPECT_TRUE(program.steps(1).is_moving);
 }
 
-TEST(ArcosBoard, StopsWhenItHasHeardNothingFor2Seconds) {
+TEST(ArcosBoard, StandsWhenItHasReceivedNothingFor2SecondsAndContinuesWithTheNextPacket) {
   BoardProgram program;
   program.send(encodeCommand(command::vel, 300));
   program.keeps_alive = false;
   program.steps(19);
   EXPECT_EQ(program.sip.speed_left, 300);
+  EXPECT_EQ(program.steps(1).speed_left, 300);
+  EXPECT_EQ(program.steps(1).speed_left, 100) << "the hardware's deceleration: 2 m/s² for 0.1 s";
   program.steps(15);
   EXPECT_EQ(program.sip.speed_left, 0);
-  program.send(encodeCommand(command::pulse));
-  EXPECT_EQ(program.steps(3).speed_left, 0) << "it waits for a new command";
+  program.keeps_alive = true;
+  EXPECT_EQ(program.steps(3).speed_left, 90);
 }
 
 TEST(ArcosBoard, SwitchesItsSonarsOffAndOn) {
@@ -358,7 +384,10 @@ TEST(ArcosBoard, EndsTheSessionOnRequestAndForGarbage) {
   silent.send("");
   EXPECT_EQ(silent.robot.session().endReason(), "it has sent nothing for a minute");
   SimulatedArcosRobot slow("p3dx");
-  slow.wait(std::chrono::seconds(11));
+  slow.session().receive(encodeCommand(command::sync0), slow.now());
+  slow.wait(std::chrono::seconds(59));
+  slow.session().receive(encodeCommand(command::sync1), slow.now());
+  slow.wait(std::chrono::seconds(2));
   slow.session().receive("", slow.now());
   EXPECT_EQ(slow.session().endReason(), "it has not completed the handshake in time");
 }

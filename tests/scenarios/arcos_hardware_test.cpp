@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "arcos/command.h"
+#include "arcos/sip.h"
 #include "base/random.h"
 #include "pioneer/open_channel.h"
 #include "tests/scenarios/program.h"
@@ -118,7 +119,7 @@ TEST(ArcosHardware, StopsAtABatteryThatIsLowAndStatesIt) {
   drive(15);
   EXPECT_GT(robot.environment().state().speed_mps[0], 0.2);
   robot.session().receive(encodeCommand(arcos::command::battest, 110), robot.now());
-  drive(15);
+  drive(20);
   EXPECT_EQ(robot.environment().state().speed_mps[0], 0);
   EXPECT_EQ(hardware.baseState().stop_reason, "the battery is low");
   EXPECT_NE(robot.log_text.find("the robot stops: the battery is low"), std::string::npos);
@@ -126,6 +127,45 @@ TEST(ArcosHardware, StopsAtABatteryThatIsLowAndStatesIt) {
   drive(15);
   EXPECT_GT(robot.environment().state().speed_mps[0], 0.2);
   EXPECT_EQ(hardware.baseState().stop_reason, "");
+}
+
+TEST(ArcosHardware, StopsWhileTheEmergencyStopIsPressedAndStatesIt) {
+  SimulatedArcosRobot robot("pioneer3dx");
+  bool is_pressed = false;
+  const auto with_button = [&is_pressed](const std::string& bytes) {
+    std::string changed;
+    arcos::PacketReader reader;
+    reader.add(bytes);
+    while (const auto packet = reader.next()) {
+      auto sip = arcos::decodeSip(*packet);
+      if (sip && is_pressed) sip->flags |= arcos::Sip::kEstopPressed;
+      changed += sip ? encode(*sip) : encode(*packet);
+    }
+    return changed;
+  };
+  ArcosHardware hardware(robot.channel({}, with_button), robot.options());
+  for (const bool pressed : {false, true, false}) {
+    is_pressed = pressed;
+    for (int i = 0; i < 15; ++i) {
+      hardware.command({.speed_mps = 0.3});
+      ASSERT_TRUE(hardware.nextStep());
+    }
+    EXPECT_EQ(robot.environment().state().speed_mps[0] == 0, pressed);
+    EXPECT_EQ(hardware.baseState().stop_reason, pressed ? "the emergency stop is pressed" : "");
+    EXPECT_EQ(hardware.baseState().estop_pressed, pressed);
+  }
+}
+
+TEST(ArcosHardware, StandsBeforeItClosesTheSession) {
+  SimulatedArcosRobot robot("pioneer3dx");
+  ArcosHardware hardware(robot.channel(), robot.options());
+  for (int i = 0; i < 15; ++i) {
+    hardware.command({.speed_mps = 0.3});
+    ASSERT_TRUE(hardware.nextStep());
+  }
+  hardware.close();
+  EXPECT_NEAR(robot.environment().state().speed_mps[0], 0, 1e-9);
+  EXPECT_EQ(robot.session().endReason(), "it has closed the session");
 }
 
 TEST(ArcosHardware, StopsWhenItsMotorsAreDisabledAndStatesIt) {

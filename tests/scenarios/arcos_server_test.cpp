@@ -167,8 +167,8 @@ TEST(ArcosServer, GivesEachProgramARobotOfItsOwnAtASharedPort) {
   TcpProgram first(served, port), second(served, port);
   first.open();
   second.open();
-  first.send(encodeCommand(command::vel, 300));
-  first.step();
+  first.send(encodeCommand(command::vel, 800));
+  for (int i = 0; i < 10; ++i) first.step();
   EXPECT_EQ(std::count(served.environment->state().speed_mps.begin(), served.environment->state().speed_mps.end(), 0),
             1);
   TcpProgram third(served, port);
@@ -179,8 +179,9 @@ TEST(ArcosServer, GivesEachProgramARobotOfItsOwnAtASharedPort) {
     served.server->poll();
     return served.server->clients() == 1;
   });
-  for (int i = 0; i < 5; ++i) served.step();
+  for (int i = 0; i < 20; ++i) served.step();
   EXPECT_EQ(served.environment->state().world_from_robot[0].x, -10) << "it is back at its start";
+  EXPECT_EQ(served.environment->state().speed_mps[0], 0);
   TcpProgram fourth(served, port);
   fourth.open();
 }
@@ -236,6 +237,27 @@ TEST(ArcosServer, PlacesARobotOnlyWhereItIsFree) {
   EXPECT_NEAR(served.environment->state().world_from_robot[0].x, -10, 1e-9);
 }
 
+TEST(ArcosServer, LimitsTheLogLinesThatAProgramCanCause) {
+  ServedRobots served(1);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  for (int i = 0; i < 5; ++i) {
+    std::string messages;
+    for (int k = 0; k < 1000; ++k) messages += encodeCommand(command::sim_message, "hello");
+    program.send(messages);
+    program.step();
+  }
+  EXPECT_LE(countOf("message: hello", served.log), 60u) << "10 in a second";
+  EXPECT_EQ(served.server->clients(), 1u);
+}
+
+TEST(ArcosServer, NeedsAsManyPortsAsRobots) {
+  ServedRobots served(2);
+  ArcosOptions options;
+  options.listen = "127.0.0.1:65535";
+  EXPECT_THROW(ArcosServer(options, *served.environment, {0, 1}), std::runtime_error);
+}
+
 TEST(ArcosServer, NamesAPortThatIsInUse) {
   ServedRobots served(1);
   ArcosOptions options;
@@ -282,6 +304,8 @@ TEST(ArcosPrograms, ExplainWrongArguments) {
   contains(error_of("arcos maps/office.map -r nothing"), "there is no robot type 'nothing'");
   contains(error_of("arcos maps/office.map -r p3dx:"), "must be a robot type, optionally with a name");
   contains(error_of("arcos maps/office.map --start x"), "in millimetres and degrees");
+  contains(error_of("arcos maps/office.map -R p3dx --start 1,2"), "--start is for the first robot of -r");
+  contains(error_of("serve worlds/open_house.xml --arcos 18412 --step 0.04"), "--step must divide the cycle of ARCOS");
   contains(error_of("robot --arcos tcp:127.0.0.1:1"), "--arcos needs --controller");
   contains(error_of("robot --arcos tcp:127.0.0.1:1 --controller wander"), "Connection refused");
   contains(error_of("robot"), "NAME is required");
