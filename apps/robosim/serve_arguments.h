@@ -3,8 +3,8 @@
 
 #include "net/listen.h"
 #include "net/open_port.h"
-#include "robosim/connection.h"
 #include "outputs/run_outputs.h"
+#include "robosim/connection.h"
 
 namespace CLI {
 class App;
@@ -26,7 +26,7 @@ struct ServeArguments {
   ListenerArguments listener;
   std::string arcos;  ///< address for ARCOS programs; empty: none
   bool arcos_unprotected = false;
-  bool arcos_all = false;  ///< also robots with a controller
+  bool arcos_all = false;     ///< also robots with a controller
   std::string arcos_factory;  ///< "MODEL" or "MODEL:NUMBER"; empty: a port for each robot
 };
 

@@ -65,8 +65,7 @@ TEST_F(ErrorTexts, NameTheFoldersSearchedForARobotType) {
   const Ended ended = runCommand("ROBOSIM_PATH=/none '" ROBOSIM_PROGRAM "' check '" + world.string() + "'");
   EXPECT_EQ(ended.exit_code, 1);
   const std::string shipped = (shareFolder() / "worlds" / "robots").string();
-  EXPECT_NE(ended.out.find("there is no robot type 'tortoise'; known are: amigo-sh, "), std::string::npos)
-      << ended.out;
+  EXPECT_NE(ended.out.find("there is no robot type 'tortoise'; known are: amigo-sh, "), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("robot types are the *.xml files in robots/ beside the world file, in /none/robots, which "
                            "does not exist (ROBOSIM_PATH) and in " +
                            shipped),

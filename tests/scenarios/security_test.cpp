@@ -203,8 +203,9 @@ TEST(Security, SeparatesTheFlagsForTheClientsTokenAndForTheListeningPort) {
        {"remote worlds/teams/small_maze.xml --listen 0.0.0.0:0", "robot Pioneer1 --remote-port 0.0.0.0:0"}) {
     expectErrorText(command + " --send-token-unencrypted", kBad, {"is open to other machines", "--listen-unprotected"});
   }
-  for (const std::string command : {"serve worlds/small_maze.xml", "robot Pioneer1", "remote worlds/teams/small_maze.xml", "geometry",
-                                    "control status", "view 127.0.0.1:3000"}) {
+  for (const std::string command :
+       {"serve worlds/small_maze.xml", "robot Pioneer1", "remote worlds/teams/small_maze.xml", "geometry",
+        "control status", "view 127.0.0.1:3000"}) {
     expectErrorText(command + " --insecure", kBad,
                     {"--insecure is now two options: --send-token-unencrypted", "--listen-unprotected"});
   }
