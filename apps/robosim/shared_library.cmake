@@ -33,7 +33,7 @@ function(robosim_shared_library name)
   endforeach()
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${ROBOSIM_SOVERSION}
                         EXPORT_NAME ${export} LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN"
-                        BUILD_WITH_INSTALL_RPATH ON)  # in the build tree, from which a wheel copies them, they lie together, too
+                        BUILD_RPATH_USE_ORIGIN ON)  # a wheel copies them from the build tree, where they lie together, too
   # Without --no-as-needed, the linker would drop a library that only another shared library uses, and then take its functions from
   # the archives.
   target_link_libraries(${target} INTERFACE ${used}
