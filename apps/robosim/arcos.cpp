@@ -55,7 +55,7 @@ void serveMap(MobileSimArguments arguments) {
   serve.arcos_all = true;
   serve.arcos =
       serve.arcos.empty() ? std::to_string(arguments.port) : serve.arcos + ":" + std::to_string(arguments.port);
-  if (arguments.robots.empty() && serve.arcos_factory.empty()) arguments.robots.push_back("p3dx");
+  if (arguments.robots.empty() && serve.arcos_factory.empty()) arguments.robots.emplace_back("p3dx");
   for (const auto& text : arguments.robots) serve.of_run.changes.robots.push_back(robotOf(text));
   if (!arguments.start.empty() && arguments.robots.empty()) {
     throw ConfigError("--start is for the first robot of -r; those of -R stand at random places");

@@ -17,8 +17,8 @@ struct Parameters {
   int front_bumpers = 0, rear_bumpers = 0;  ///< segments, [0, 7]
   bool has_front_sonar = true, has_rear_sonar = true;
   double encoder_ticks_per_mm = 128;
-  double battery_V = 13;  ///< without a simulated battery
-  double low_battery_V = 11.5;
+  double battery_volts = 13;  ///< without a simulated battery
+  double low_battery_volts = 11.5;
   bool operator==(const Parameters&) const = default;
 };
 

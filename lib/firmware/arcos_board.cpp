@@ -53,7 +53,7 @@ void ArcosBoard::startSession() {
   is_stopping_ = false;
   is_sonar_on_ = true;
   bumper_stall_ = 0;
-  battery_test_V_ = 0;
+  battery_test_volts_ = 0;
   digital_out_ = 0xFF;
   last_odom_from_robot_ = robot_.odometry().odom_from_robot;
   left_mm_ = right_mm_ = 0;
@@ -100,7 +100,7 @@ void ArcosBoard::execute(const Packet& packet) {
       bumper_stall_ = *number;
       break;
     case command::battest:
-      battery_test_V_ = *number / 10.0;
+      battery_test_volts_ = *number / 10.0;
       break;
     case command::digout:
       setOutputs(*number);
@@ -181,7 +181,7 @@ void ArcosBoard::update(bool is_link_alive) {
 }
 
 double ArcosBoard::batteryVolts() const {
-  return battery_test_V_ > 0 ? battery_test_V_ : robot_.battery().value_or(parameters_.battery_V);
+  return battery_test_volts_ > 0 ? battery_test_volts_ : robot_.battery().value_or(parameters_.battery_volts);
 }
 
 void ArcosBoard::addBumpers(Sip& sip) const {
@@ -247,7 +247,7 @@ arcos::ConfigPacket ArcosBoard::config() const {
   config.cycle_ms = rounded<std::uint8_t>(arcos::kCycle_s * 1000);
   config.has_front_sonar = parameters_.has_front_sonar;
   config.has_rear_sonar = parameters_.has_rear_sonar;
-  config.low_battery_decivolts = rounded<std::uint16_t>(parameters_.low_battery_V * 10);
+  config.low_battery_decivolts = rounded<std::uint16_t>(parameters_.low_battery_volts * 10);
   config.watchdog_ms = arcos::kWatchdog_ms;
   config.turn_max = number(parameters_.turn_degps);
   config.speed_max = number(parameters_.speed_mmps);

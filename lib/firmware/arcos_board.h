@@ -59,8 +59,8 @@ class ArcosBoard {
   bool are_motors_on_ = true;
   bool is_stopping_ = false;  ///< emergency stop: ignores motion until the robot stands
   bool is_sonar_on_ = true;
-  int bumper_stall_ = 0;       ///< 1: front bumpers stall the motors, 2: rear bumpers
-  double battery_test_V_ = 0;  ///< 0: the true voltage
+  int bumper_stall_ = 0;           ///< 1: front bumpers stall the motors, 2: rear bumpers
+  double battery_test_volts_ = 0;  ///< 0: the true voltage
   std::uint8_t digital_out_ = 0xFF;
   mrpt::math::TPose2D session_from_odom_;
   mrpt::math::TPose2D last_odom_from_robot_;

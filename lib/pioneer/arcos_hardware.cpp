@@ -26,7 +26,7 @@ constexpr double kMm = 1000;
 constexpr std::chrono::milliseconds kPoll{50};
 constexpr std::chrono::seconds kStopMax{5};  ///< from 1 m/s at 0.3 m/s²: 3.3 s
 constexpr int kLowBatterySips = 5;           ///< the voltage of a robot that accelerates drops for a moment
-constexpr double kBatteryRecovery_V = 0.5;
+constexpr double kBatteryRecoveryVolts = 0.5;
 constexpr const char* kLowBattery = "the battery is low";
 
 /// Difference of two odometry counts, of which only the low 15 bits count.
@@ -332,12 +332,12 @@ void ArcosHardware::takeBaseState() {
   base_.right_stalled = (sip.stall_right & Sip::kStalled) != 0;
   if (sip.charge_percent > 0) base_.charge_percent = sip.charge_percent;
   readings_.stalled = *base_.left_stalled || *base_.right_stalled;
-  const double battery_V = std::max<int>(sip.battery, sip.battery_decivolts) / 10.0;
-  const double low_V = client_.config() && client_.config()->low_battery_decivolts > 0
-                           ? client_.config()->low_battery_decivolts / 10.0
-                           : parameters_.low_battery_V;
-  const double limit_V = before == kLowBattery ? low_V + kBatteryRecovery_V : low_V;
-  low_battery_sips_ = battery_V > 0 && battery_V < limit_V ? low_battery_sips_ + 1 : 0;
+  const double battery_volts = std::max<int>(sip.battery, sip.battery_decivolts) / 10.0;
+  const double low_volts = client_.config() && client_.config()->low_battery_decivolts > 0
+                               ? client_.config()->low_battery_decivolts / 10.0
+                               : parameters_.low_battery_volts;
+  const double limit_volts = before == kLowBattery ? low_volts + kBatteryRecoveryVolts : low_volts;
+  low_battery_sips_ = battery_volts > 0 && battery_volts < limit_volts ? low_battery_sips_ + 1 : 0;
   // The motors take a moment to be enabled after the start.
   const bool had_motors = readings_.time.step > 10;
   base_.stop_reason = was_silent_                            ? "the robot had sent nothing for a while"

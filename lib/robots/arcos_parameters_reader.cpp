@@ -30,8 +30,8 @@ arcos::Parameters readArcosParameters(XmlReader& reader) {
   p.has_front_sonar = reader.flag("has_front_sonar", p.has_front_sonar);
   p.has_rear_sonar = reader.flag("has_rear_sonar", p.has_rear_sonar);
   p.encoder_ticks_per_mm = reader.number("encoder_ticks_per_mm", in_packet, p.encoder_ticks_per_mm);
-  p.battery_V = reader.number("battery_V", Bounds::positive(100), p.battery_V);
-  p.low_battery_V = reader.number("low_battery_V", Bounds::notNegative(100), p.low_battery_V);
+  p.battery_volts = reader.number("battery_volts", Bounds::positive(100), p.battery_volts);
+  p.low_battery_volts = reader.number("low_battery_volts", Bounds::notNegative(100), p.low_battery_volts);
   reader.finish();
   return p;
 }

@@ -99,7 +99,7 @@ tcp::endpoint endpointOf(const std::string& listen) {
   return {address, static_cast<std::uint16_t>(std::stoi(at.port))};
 }
 
-tcp::acceptor openAcceptor(asio::io_context& io, tcp::endpoint at) {
+tcp::acceptor openAcceptor(asio::io_context& io, const tcp::endpoint& at) {
   tcp::acceptor acceptor(io);
   try {
     acceptor.open(at.protocol());
