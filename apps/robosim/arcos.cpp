@@ -82,8 +82,8 @@ void addArcos(CLI::App& program) {
       ->allow_extra_args(false);
   command
       ->add_option("-R,--robot-factory", a->serve.arcos_factory,
-                   "robots of this type at random free places, 8 unless a number is given, on one port: each program "
-                   "gets one")
+                   "a robot of this type for each program that connects, at a random free place, on one port; it "
+                   "leaves with the program. NUMBER: the most at once; default: 32, or as many as there is room for")
       ->type_name("TYPE[:NUMBER]");
   command->add_option("--start", a->start, "start pose of the first robot, in millimetres and degrees")
       ->type_name("X,Y,HEADING");

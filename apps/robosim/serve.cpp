@@ -104,7 +104,8 @@ void logPorts(const ServerOptions& options, const std::array<int, 4>& ports) {
   logInfo("serve", line);
 }
 
-constexpr int kFactoryRobots = 8;
+/// Robots of --arcos-factory without a number, as far as there is room.
+constexpr int kFactoryRobots = 32;
 constexpr double kUnlimited_s = 1e9;
 
 /// The robots of --arcos-factory, "MODEL" or "MODEL:NUMBER". @throws ConfigError
@@ -123,6 +124,7 @@ void addFactoryRobots(const std::string& factory, WorldChanges& changes) {
     throw ConfigError("--arcos-factory and --random-robots both add robots; use one of them");
   }
   changes.random_robots = count;
+  changes.has_fewer_where_full = colon == factory.size();
   changes.random_model = factory.substr(0, colon);
 }
 
@@ -147,7 +149,7 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
     throw ConfigError("--step must divide the cycle of ARCOS, 0.1 s, as 0.1, 0.05 and 0.02 do");
   }
   options.has_all = arguments.arcos_all;
-  options.shares_port = !arguments.arcos_factory.empty();
+  options.is_factory = !arguments.arcos_factory.empty();
   const double speed = speedNumber(arguments.of_run.speed);
   options.speed = speed > 0 ? speed : 1;
   options.log = [](const std::string& line) { logInfo("serve", line); };
@@ -188,8 +190,8 @@ void addArcosOptions(CLI::App& command, ServeArguments& arguments) {
       ->type_name("[HOST:]PORT");
   command
       .add_option("--arcos-factory", arguments.arcos_factory,
-                  "add robots of this type at random free places, 8 unless a number is given, and serve all robots on "
-                  "one port: each program gets a robot of its own")
+                  "serve ARCOS programs on one port: for each, a robot of this type comes to a random free place, and "
+                  "leaves with the program. NUMBER: the most at once; default: 32, or as many as there is room for")
       ->type_name("TYPE[:NUMBER]");
   command.add_flag("--arcos-all", arguments.arcos_all,
                    "serve robots with a controller in the world to ARCOS programs, too");

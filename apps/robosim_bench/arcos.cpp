@@ -1,7 +1,8 @@
 // Robots served to ARCOS programs: the interval of their packets, and the time from a command to the packet that shows
 // it.
 #include <algorithm>
-#include <atomic>
+#include <cmath>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -14,13 +15,12 @@
 
 #include "arcos/command.h"
 #include "arcos/laser_packets.h"
+#include "base/temporary_directory.h"
 #include "base/text_table.h"
 #include "pioneer/arcos_client.h"
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
-#include "robots/fleet.h"
-#include "robots/robot_types.h"
-#include "serving/arcos_server.h"
+#include "robosim_bench/child_program.h"
 
 namespace robosim {
 namespace {
@@ -120,68 +120,49 @@ double cpuSeconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// Robots of the type p3dx on a grid of 3 m.
-std::unique_ptr<Environment> manyRobots(int count) {
-  const FleetRobot type = robotOfType(robotTypesIn(robotTypeFolders(".")), "p3dx");
-  const int columns = static_cast<int>(std::ceil(std::sqrt(count)));
-  constexpr double kApart_m = 3;
-  World world;
-  world.name = "grid";
-  world.bounds = {-kApart_m, columns * kApart_m, -kApart_m, columns * kApart_m};
-  Fleet fleet;
-  for (int i = 0; i < count; ++i) {
-    FleetRobot robot = type;
-    robot.info.name = "R" + std::to_string(i + 1);
-    robot.world_from_start = {i % columns * kApart_m, static_cast<double>(i / columns) * kApart_m, 0};
-    robot.body.world_from_body = robot.world_from_start;
-    fleet.robots.push_back(robot);
-  }
-  return std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
-}
-
-/// Takes a step every 0.1 s until it is stopped, in a thread.
-class ServingThread {
+/// A world file without objects, large enough for the robots.
+class EmptyWorldFile {
  public:
-  ServingThread(Environment& environment, ArcosServer& server)
-      : thread_([this, &environment, &server] { serve(environment, server); }) {}
-  ~ServingThread() {
-    ends_ = true;
-    thread_.join();
+  explicit EmptyWorldFile(int robots) {
+    const int half_m = 5 + 2 * static_cast<int>(std::ceil(std::sqrt(robots)));
+    const std::string low = std::to_string(-half_m), high = std::to_string(half_m);
+    std::ofstream(path()) << "<world><surface><type>smooth</type><size><xmin>" << low << "</xmin><xmax>" << high
+                          << "</xmax><ymin>" << low << "</ymin><ymax>" << high << "</ymax></size></surface></world>";
   }
+  std::string path() const { return (folder_.path() / "empty.xml").string(); }
 
  private:
-  void serve(Environment& environment, ArcosServer& server) {
-    auto due = Clock::now();
-    while (!ends_) {
-      server.poll();
-      std::this_thread::sleep_until(std::min(due, Clock::now() + ArcosServer::kPollInterval));
-      if (Clock::now() < due) continue;
-      server.decide();
-      environment.step();
-      server.stepped();
-      due += std::chrono::milliseconds(100);
-    }
-  }
-
-  std::atomic<bool> ends_ = false;
-  std::thread thread_;
+  TemporaryDirectory folder_;
 };
+
+/// A port on which nobody listens.
+std::uint16_t freePort(asio::io_context& io) {
+  return tcp::acceptor(io, {asio::ip::address_v4::loopback(), 0}).local_endpoint().port();
+}
+
+/// @throws std::runtime_error when no program listens after a minute
+void awaitPort(asio::io_context& io, std::uint16_t port, ChildProgram& server) {
+  for (int i = 0; i < 600; ++i) {
+    boost::system::error_code error;
+    tcp::socket(io).connect({asio::ip::address_v4::loopback(), port}, error);
+    if (!error) return;
+    if (server.hasEnded()) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  }
+  throw std::runtime_error("robosim serve does not listen");
+}
 
 void runFor(asio::io_context& io, double seconds) {
   io.run_for(std::chrono::duration_cast<Clock::duration>(Seconds(seconds)));
 }
 
 nlohmann::ordered_json measure(const ArcosArguments& arguments) {
-  const auto environment = manyRobots(arguments.robots);
-  std::vector<std::size_t> robots(environment->robotCount());
-  for (std::size_t i = 0; i < robots.size(); ++i) robots[i] = i;
-  ArcosOptions options;
-  options.listen = "127.0.0.1:0";
-  options.shares_port = true;
-  ArcosServer server(options, *environment, robots);
-  const auto port = static_cast<std::uint16_t>(server.ports().front());
-  const ServingThread serving(*environment, server);
+  const EmptyWorldFile world(arguments.robots);
   asio::io_context io;
+  const std::uint16_t port = freePort(io);
+  ChildProgram server({"serve", world.path(), "--listen", "127.0.0.1:0", "--arcos", std::to_string(port),
+                       "--arcos-factory", "p3dx:" + std::to_string(arguments.robots + 1)});
+  awaitPort(io, port, server);  // takes a robot for a moment: one more than programs
   std::vector<std::unique_ptr<BenchProgram>> programs;
   for (int i = 0; i < arguments.robots; ++i) programs.push_back(std::make_unique<BenchProgram>(io, port));
   const auto all_ready = [&] {
@@ -191,13 +172,14 @@ nlohmann::ordered_json measure(const ArcosArguments& arguments) {
   if (!all_ready()) throw std::runtime_error("not all programs have completed the handshake within a minute");
   runFor(io, 2);
   for (const auto& program : programs) program->restart();
-  const double cpu_before_s = cpuSeconds();
+  const double cpu_before_s = cpuSeconds(), server_before_s = server.cpuSeconds();
   const auto start = Clock::now();
   while (Seconds(Clock::now() - start).count() < arguments.time_s) {
     for (const auto& program : programs) program->changeSpeed();
     runFor(io, 0.73);  // no multiple of the cycle, so that commands arrive at any time in it
   }
   const double wall_s = Seconds(Clock::now() - start).count(), cpu_s = cpuSeconds() - cpu_before_s;
+  const double server_s = server.cpuSeconds() - server_before_s;
   std::vector<double> intervals, latencies;
   std::uint64_t scans = 0;
   for (const auto& program : programs) {
@@ -215,7 +197,8 @@ nlohmann::ordered_json measure(const ArcosArguments& arguments) {
           {"interval_ms_max", ms(quantile(intervals, 1))},
           {"latency_ms_median", ms(quantile(latencies, 0.5))},
           {"latency_ms_p99", ms(quantile(latencies, 0.99))},
-          {"processors", cpu_s / wall_s}};
+          {"processors_server", server_s / wall_s},
+          {"processors_programs", cpu_s / wall_s}};
 }
 
 void benchArcos(const ArcosArguments& arguments) {
@@ -234,10 +217,10 @@ void benchArcos(const ArcosArguments& arguments) {
 }  // namespace
 
 void addArcosBenchmark(CLI::App& program) {
-  auto* command = program.add_subcommand(
-      "arcos",
-      "Robots with sonar and laser that are driven by ARCOS programs in this process: interval of SIPs, and "
-      "time from a command to the SIP that shows it");
+  auto* command = program.add_subcommand("arcos",
+                                         "Robots with sonar and laser of robosim serve --arcos-factory, driven by "
+                                         "ARCOS programs in this process: interval "
+                                         "of SIPs, and time from a command to the SIP that shows it");
   auto a = std::make_shared<ArcosArguments>();
   command->add_option("--robots", a->robots, "number of robots and programs")
       ->check(wholeNumberIn(1, 10000))

@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
-#include <cstring>
-#include <ctime>
-#include <fstream>
 #include <memory>
 #include <vector>
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error_list.h"
-#include "base/program_folder.h"
+#include "robosim_bench/child_program.h"
 #include "robosim_bench/rounds.h"
 #include "robosim_bench/workloads.h"
 #include "server/environment_server.h"
@@ -30,64 +23,16 @@ constexpr Workload kLoad{
     "<infrared range_min_m='0' range_max_m='0.1'><ring count='30' radius_m='0.25' z_m='0.2'/></infrared>",
     46};
 
-/// Child processes running `robosim robot`; ended with this object.
-class RobotProgram {
- public:
-  /// @param separate_processes one process per robot
-  RobotProgram(const std::vector<std::string>& names, int port, const std::string& trusted_certificate,
-               bool separate_processes) {
-    std::vector<std::string> arguments{"robosim", "robot"};
-    if (separate_processes) arguments.emplace_back("--separate-processes");
-    arguments.insert(arguments.end(), names.begin(), names.end());
-    arguments.insert(arguments.end(), {"--environment", std::to_string(port), "--controller", "wander"});
-    if (!trusted_certificate.empty()) arguments.insert(arguments.end(), {"--tls-ca", trusted_certificate});
-    std::vector<char*> argv;
-    for (auto& word : arguments) argv.push_back(word.data());
-    argv.push_back(nullptr);
-    posix_spawn_file_actions_t quiet;
-    posix_spawn_file_actions_init(&quiet);
-    posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-    const auto robosim = programFolder() / "robosim";
-    const int error = posix_spawn(&id_, robosim.c_str(), &quiet, nullptr, argv.data(), environ);
-    posix_spawn_file_actions_destroy(&quiet);
-    if (error != 0) throw std::runtime_error("cannot start a robot process: " + std::string(std::strerror(error)));
-  }
-  ~RobotProgram() {
-    if (hasEnded()) return;
-    kill(id_, SIGKILL);
-    waitpid(id_, nullptr, 0);
-  }
-  RobotProgram(const RobotProgram&) = delete;
-  RobotProgram& operator=(const RobotProgram&) = delete;
-
-  /// Whether the program has ended; it ends by itself only on an error, which it has printed.
-  bool hasEnded() { return has_ended_ = has_ended_ || waitpid(id_, nullptr, WNOHANG) == id_; }
-
-  /// CPU time of all child processes together, once they are connected.
-  double cpuSeconds() {
-    if (processes_.empty()) findProcesses();
-    double sum_s = 0;
-    for (const auto id : processes_) {
-      clockid_t clock{};
-      timespec time{};
-      if (clock_getcpuclockid(id, &clock) != 0 || clock_gettime(clock, &time) != 0) continue;
-      sum_s += static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-    }
-    return sum_s;
-  }
-
- private:
-  void findProcesses() {
-    const std::string id = std::to_string(id_);
-    std::ifstream made("/proc/" + id + "/task/" + id + "/children");
-    processes_.assign(1, id_);
-    for (pid_t child = 0; made >> child;) processes_.push_back(child);
-  }
-
-  pid_t id_ = 0;
-  bool has_ended_ = false;
-  std::vector<pid_t> processes_;
-};
+/// Arguments of child processes that drive robots. @param separate_processes one process per robot
+std::vector<std::string> robotArguments(const std::vector<std::string>& names, int port,
+                                        const std::string& trusted_certificate, bool separate_processes) {
+  std::vector<std::string> arguments{"robot"};
+  if (separate_processes) arguments.emplace_back("--separate-processes");
+  arguments.insert(arguments.end(), names.begin(), names.end());
+  arguments.insert(arguments.end(), {"--environment", std::to_string(port), "--controller", "wander"});
+  if (!trusted_certificate.empty()) arguments.insert(arguments.end(), {"--tls-ca", trusted_certificate});
+  return arguments;
+}
 
 /// Runs in lockstep at maximum speed; measures several windows after one for warm-up.
 class MeasuredRun final : public ServedRun {
@@ -102,8 +47,8 @@ class MeasuredRun final : public ServedRun {
     const auto& names = run_info_->robot_names;
     const auto each = static_cast<std::ptrdiff_t>(separate_processes ? names.size() : bench_.layout.robots_each);
     for (auto name = names.begin(); name != names.end(); name += each) {
-      programs_.push_back(
-          std::make_unique<RobotProgram>(std::vector(name, name + each), port, bench_.tls_cert, separate_processes));
+      programs_.push_back(std::make_unique<ChildProgram>(
+          robotArguments(std::vector(name, name + each), port, bench_.tls_cert, separate_processes)));
     }
   }
 
@@ -162,7 +107,7 @@ class MeasuredRun final : public ServedRun {
   const NetworkBench& bench_;
   Environment environment_;
   std::shared_ptr<const RunInfo> run_info_;
-  std::vector<std::unique_ptr<RobotProgram>> programs_;
+  std::vector<std::unique_ptr<ChildProgram>> programs_;
   Times window_start_;
   bool is_warm_ = false;
   std::uint64_t steps_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <stdexcept>
 
@@ -99,11 +100,13 @@ struct Environment::Impl {
   MessageRouter message_router;
   Referee referee;
   std::vector<Group> groups;
+  std::vector<std::uint32_t> group_of;  ///< by robot
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< height of each robot's underside
   std::vector<PlanarTransform> frames;   ///< current frames of the robots
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
   std::uint64_t placements = 0;
+  bool has_absent_robots = false;
 
   Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
       : model(std::move(the_model)),
@@ -116,8 +119,12 @@ struct Environment::Impl {
         message_router(namesOf(fleet), model->world.communication),
         referee(model->world),
         groups(groupsOf(fleet, model->period_s)),
+        group_of(fleet.robots.size()),
         paths(fleet.robots.size()),
         frames(fleet.robots.size()) {
+    for (std::uint32_t g = 0; g < groups.size(); ++g) {
+      for (const auto robot : groups[g].robots) group_of[robot] = g;
+    }
     for (const auto& robot : fleet.robots) base_z_m.push_back(robot.body.heights().z_min_m);
     const auto& objects = model->world.objects;
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -132,8 +139,13 @@ struct Environment::Impl {
     if (body.heat_celsius != 0) heat_sources.push_back({center, body.heat_celsius, id});
   }
 
+  bool isAbsent(std::size_t robot) const { return state.activity[robot] == Activity::absent; }
+
   void placeBodies() {
+    has_absent_robots =
+        std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+      if (isAbsent(i)) return scene.remove(i);
       Body body = fleet.robots[i].body;
       body.world_from_body = state.world_from_robot[i];
       frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
@@ -142,15 +154,19 @@ struct Environment::Impl {
     scene.freeze();
     for (auto& source : heat_sources) {
       if (static_cast<std::size_t>(source.body) < scene.stationaryCount()) continue;
-      const auto& pose = state.world_from_robot[scene.movingIndex(source.body)];
+      const std::size_t robot = scene.movingIndex(source.body);
+      const auto& pose = state.world_from_robot[robot];
       source.center = {pose.x, pose.y};
+      source.heat_celsius = isAbsent(robot) ? 0 : fleet.robots[robot].body.heat_celsius;
     }
   }
 
   void takeCommands() {
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       Command& command = state.commands[i];
-      if (state.activity[i] == Activity::active) state.activity[i] = command.activity;
+      if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
+        state.activity[i] = command.activity;
+      }
       command.activity = state.activity[i];
       state.readings[i].inbox.clear();
       state.laser_pan_rad[i] =
@@ -184,6 +200,14 @@ struct Environment::Impl {
     return {begin, std::lower_bound(begin, group.robots.end(), range.end)};
   }
 
+  /// @param kept memory for the result
+  std::span<const std::uint32_t> presentOf(std::span<const std::uint32_t> robots,
+                                           std::vector<std::uint32_t>& kept) const {
+    if (!has_absent_robots) return robots;
+    std::copy_if(robots.begin(), robots.end(), std::back_inserter(kept), [&](auto robot) { return !isAbsent(robot); });
+    return kept;
+  }
+
   Snapshot snapshot() const {
     return {.scene = scene,
             .heat_sources = heat_sources,
@@ -202,7 +226,8 @@ struct Environment::Impl {
     for (const auto& group : groups) {
       const auto of_group = within(group, range);
       workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
-        const auto robots = of_group.subspan(begin, end - begin);
+        std::vector<std::uint32_t> kept;
+        const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
         for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
         for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
           const Sensor& sensor = *group.model->sensors[slot];
@@ -220,8 +245,7 @@ struct Environment::Impl {
       for (std::size_t i = begin; i < end; ++i) {
         const auto robot = robots[i];
         // The reach of the model too, so that its own sensors find the same neighbours in the next step.
-        const double model_reach_m = reachOf(*fleet.robots[robot].model, model->period_s);
-        scene.updateNeighbours(robot, std::max(sensor_reach_m, model_reach_m));
+        scene.updateNeighbours(robot, std::max(sensor_reach_m, groups[group_of[robot]].reach_m));
       }
       sensor.sense(now, robots.subspan(begin, end - begin), 0, readings);
     });
@@ -241,9 +265,35 @@ struct Environment::Impl {
     if (!isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m})) return false;
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
+    if (isAbsent(robot)) rest(robot, Activity::active);
     ++placements;
     placeBodies();
     return true;
+  }
+
+  void remove(std::size_t robot) {
+    if (isAbsent(robot)) return;
+    rest(robot, Activity::absent);
+    ++placements;
+    placeBodies();
+  }
+
+  /// The state of a robot that has neither moved nor measured.
+  void rest(std::size_t robot, Activity activity) {
+    state.speed_mps[robot] = state.turn_radps[robot] = 0;
+    state.last_motion[robot] = {};
+    state.stalled[robot] = 0;
+    state.activity[robot] = activity;
+    state.laser_pan_rad[robot] = 0;
+    state.commands[robot] = {.activity = activity};
+    state.outboxes[robot] = {};
+    state.win_requests[robot] = 0;
+    Readings& readings = state.readings[robot];
+    readings.inbox.clear();
+    readings.stalled = readings.is_too_far = false;
+    readings.laser_pan_rad = 0;
+    const auto& sensors = fleet.robots[robot].model->sensors;
+    for (std::size_t slot = 0; slot < sensors.size(); ++slot) readings.measurements[slot] = sensors[slot]->blank();
   }
 
   void begin() {
@@ -254,8 +304,8 @@ struct Environment::Impl {
 
   /// The phase after all sensing.
   void finish() {
-    const auto delivery =
-        message_router.deliver(state.seed, state.time, state.world_from_robot, state.outboxes, state.readings);
+    const auto delivery = message_router.deliver(state.seed, state.time, state.world_from_robot, state.activity,
+                                                 state.outboxes, state.readings);
     state.messages_delivered += delivery.delivered;
     state.messages_dropped += delivery.dropped;
     sense(everyRobot(), SensorGroup::in_host_process);
@@ -351,6 +401,8 @@ bool Environment::place(std::size_t robot, const mrpt::math::TPose2D& world_from
   return impl_->place(robot, world_from_robot);
 }
 
+void Environment::remove(std::size_t robot) { impl_->remove(robot); }
+
 std::uint64_t Environment::placements() const { return impl_->placements; }
 
 void Environment::measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
@@ -382,8 +434,8 @@ PhaseResults Environment::results() { return {impl_->paths, impl_->move_authoris
 
 bool Environment::allHalted() const {
   const auto& activity = impl_->state.activity;
-  return !activity.empty() &&
-         std::none_of(activity.begin(), activity.end(), [](Activity a) { return a == Activity::active; });
+  return !activity.empty() && std::all_of(activity.begin(), activity.end(),
+                                          [](Activity a) { return a == Activity::halted || a == Activity::found; });
 }
 
 std::string Environment::digest() const {

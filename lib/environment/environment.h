@@ -93,10 +93,13 @@ class Environment {
   void countDroppedMessages(std::uint64_t messages);
 
   /// Places a robot elsewhere between two steps, as a person does who lifts it. Its speed and odometry are unchanged,
-  /// and the readings are those of the last step.
+  /// and the readings are those of the last step. An absent robot becomes active, at rest and with blank readings.
   /// @return false, without a change, if the robot would not be entirely on the surface, or would overlap something
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot);
-  /// Number of robots placed so far.
+  /// Takes a robot out of the world between two steps (Activity::absent): nothing collides with it, senses it or sends
+  /// it messages, its commands have no effect, and its readings are blank.
+  void remove(std::size_t robot);
+  /// Number of calls so far of place() and remove() with an effect.
   std::uint64_t placements() const;
   /// Measures, in the present state, with a sensor that is not part of the model. It changes no state.
   /// @param robots in ascending order @param readings by robot: replaces measurement 0, which must be a previous one of
@@ -120,7 +123,7 @@ class Environment {
   PhaseResults results();        ///< of the phases so far in this step
   ///@}
 
-  /// Whether every robot has halted or found the gold.
+  /// Whether every robot has halted or found the gold. An absent robot may still come.
   bool allHalted() const;
   /// Hash over all states and readings of all steps so far.
   /// @throws std::invalid_argument when the state has no digest

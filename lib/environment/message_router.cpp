@@ -50,13 +50,15 @@ bool MessageRouter::arrives(std::uint64_t seed, SimTime now, std::size_t from, s
 
 MessageRouter::Delivery MessageRouter::deliver(std::uint64_t seed, SimTime now,
                                                std::span<const mrpt::math::TPose2D> world_from_robot,
-                                               std::span<Outbox> outboxes, std::span<Readings> readings) {
+                                               std::span<const Activity> activity, std::span<Outbox> outboxes,
+                                               std::span<Readings> readings) {
   Delivery delivery;
   for (std::size_t from = 0; from < outboxes.size(); ++from) {
     Outbox& outbox = outboxes[from];
     delivery.dropped += std::exchange(outbox.surplus, 0);
     for (std::size_t i = 0; i < outbox.messages.size(); ++i) {
       auto& message = outbox.messages[i];
+      if (activity[message.to] == Activity::absent) continue;
       if (!arrives(seed, now, from, i, message.to, world_from_robot)) continue;
       if (!limits_[message.to].admit(names_[from], names_[message.to], message.text)) {
         ++delivery.dropped;

@@ -12,6 +12,7 @@ struct Fixture {
   std::vector<mrpt::math::TPose2D> poses{{0, 0, 0}, {3, 4, 0}, {100, 0, 0}};
   std::vector<Readings> readings = std::vector<Readings>(3);
   std::vector<Outbox> outboxes = std::vector<Outbox>(3);
+  std::vector<Activity> activity{Activity::active, Activity::active, Activity::active};
   SimTime time;
   std::size_t dropped = 0;  ///< in the last step
   std::uint64_t seed;
@@ -25,7 +26,7 @@ struct Fixture {
   std::size_t step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    const auto delivery = message_router.deliver(seed, time, poses, outboxes, readings);
+    const auto delivery = message_router.deliver(seed, time, poses, activity, outboxes, readings);
     dropped = delivery.dropped;
     return delivery.delivered;
   }

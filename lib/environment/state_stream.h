@@ -70,7 +70,7 @@ class StateReader {
   }
   Activity takeActivity() {
     const auto value = takeNumber<std::uint8_t>();
-    requireContents(value <= static_cast<std::uint8_t>(Activity::found), "an activity is unknown");
+    requireContents(value <= static_cast<std::uint8_t>(Activity::absent), "an activity is unknown");
     return static_cast<Activity>(value);
   }
   std::string takeText(std::size_t bytes_max) {

@@ -137,6 +137,7 @@ Scene::~Scene() = default;
 
 Solid Scene::solid(BodyId body) const { return index_->item(body).solid(); }
 void Scene::place(std::size_t i, const Solid& solid) { index_->moving.set(i, solid); }
+void Scene::remove(std::size_t i) { index_->moving.remove(i); }
 void Scene::freeze() { index_->moving.build(); }
 
 void Scene::updateNeighbours(std::size_t i, double reach_m) {

@@ -45,6 +45,8 @@ class Scene {
 
   /// Sets a moving solid. Takes effect for queries with freeze().
   void place(std::size_t i, const Solid& solid);
+  /// Removes a moving solid from all queries, until place(). Takes effect with freeze().
+  void remove(std::size_t i);
   void freeze();
   /// Updates the neighbours of a moving solid, if necessary: the stationary solids within `reach_m` of its centre, or
   /// the nearest ones if there are very many. May be called for different solids simultaneously.

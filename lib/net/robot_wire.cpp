@@ -122,6 +122,8 @@ v1::Activity encode(Activity activity) {
       return v1::ACTIVITY_HALTED;
     case Activity::found:
       return v1::ACTIVITY_FOUND;
+    case Activity::absent:
+      return v1::ACTIVITY_ABSENT;
   }
   return v1::ACTIVITY_UNSPECIFIED;
 }
@@ -134,6 +136,8 @@ std::optional<Activity> decode(v1::Activity activity) {
       return Activity::halted;
     case v1::ACTIVITY_FOUND:
       return Activity::found;
+    case v1::ACTIVITY_ABSENT:
+      return Activity::absent;
     default:
       return std::nullopt;
   }
@@ -143,7 +147,7 @@ void encode(const Command& command, v1::Command& out) {
   out.set_speed_mps(command.speed_mps);
   out.set_turn_radps(command.turn_radps);
   out.set_laser_pan_rad(command.laser_pan_rad);
-  out.set_activity(encode(command.activity));
+  out.set_activity(encode(command.activity == Activity::absent ? Activity::active : command.activity));
   out.set_by_driver(command.by_driver);
 }
 
@@ -153,7 +157,7 @@ Command decode(const v1::Command& in, std::uint32_t robot) {
   checkFinite(in.laser_pan_rad(), "laser_pan_rad", robot);
   const auto activity =
       in.activity() == v1::ACTIVITY_UNSPECIFIED ? std::optional(Activity::active) : decode(in.activity());
-  if (!activity) {
+  if (!activity || activity == Activity::absent) {
     throw WireError("the command for robot " + std::to_string(robot) + " has the activity " +
                     std::to_string(in.activity()) + "; there are 1 (active), 2 (halted) and 3 (found)");
   }

@@ -74,6 +74,9 @@ std::vector<std::filesystem::path> filesFor(const std::filesystem::path& file, s
   return files;
 }
 
+/// An absent robot has only a status.
+bool isAbsent(const std::optional<Command>& command) { return command && command->activity == Activity::absent; }
+
 void appendPair(RobotSerializer& serializer, const Readings& readings, const std::optional<TPose2D>& truth,
                 const std::optional<Command>& command, ByteArchive& archive) {
   const auto& odometry = std::get<Odometry>(readings.measurements[*serializer.odometry_slot]);
@@ -87,7 +90,11 @@ void appendPair(RobotSerializer& serializer, const Readings& readings, const std
   actions.insert(movement);
 
   mrpt::obs::CSensoryFrame frame;
-  for (const auto& observation : serializer.observations.of(readings, truth)) frame.push_back(observation);
+  if (isAbsent(command)) {
+    serializer.odom_from_robot.reset();
+  } else {
+    for (const auto& observation : serializer.observations.of(readings, truth)) frame.push_back(observation);
+  }
   if (command) {
     for (const auto& observation : serializer.status_record.of(readings, *command)) frame.push_back(observation);
   }
@@ -133,7 +140,7 @@ void RawlogWriter::Impl::record(const Step& step) {
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
     const auto command = step.commands.empty() ? std::nullopt : std::make_optional(step.commands[i]);
     if (format == RawlogFormat::observations) {
-      serializer.observations.write(step.readings[i], truth, outputs[0]->archive);
+      if (!isAbsent(command)) serializer.observations.write(step.readings[i], truth, outputs[0]->archive);
       if (command) serializer.status_record.write(step.readings[i], *command, outputs[0]->archive);
     } else {
       appendPair(serializer, step.readings[i], truth, command, outputs[i]->archive);

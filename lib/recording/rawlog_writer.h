@@ -29,7 +29,7 @@ enum class RawlogImages {
 /// A step's observations are written robot by robot, in the constructor's order; for each robot ground truth, odometry,
 /// the other sensors in their order, then RobotStatusRecord. Of a pair, the action is the odometry's increment since
 /// the previous pair (0 for the first) with MRPT's default motion model, and the frame has all the robot's
-/// observations, including odometry and ground truth.
+/// observations, including odometry and ground truth. An absent robot (Activity::absent) has only its status.
 ///
 /// Everything except copying the readings is done in a worker thread, so that recording hardly slows a run that leaves
 /// a processor idle.

@@ -24,9 +24,8 @@ CObservation::Ptr find(const std::vector<std::pair<std::string, CObservation::Pt
   return at == observations.end() ? nullptr : at->second;
 }
 
-RecordedRobot absent(const RobotInfo& robot, SimTime time) {
+RecordedRobot blank(const RobotInfo& robot, SimTime time) {
   RecordedRobot recorded;
-  recorded.is_absent = true;
   recorded.readings.time = time;
   for (const auto& sensor : *robot.sensors) recorded.readings.measurements.push_back(blankMeasurement(sensor));
   return recorded;
@@ -80,16 +79,17 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
   }
   // The last step of a truncated file may be incomplete.
   if (!lookahead_ && reader_.readError()) return std::nullopt;
-  if (is_absent_.empty()) {
-    for (const auto& observations : by_robot) is_absent_.push_back(observations.empty() ? 1 : 0);
-    if (std::find(is_absent_.begin(), is_absent_.end(), 0) == is_absent_.end()) {
+  if (is_missing_.empty()) {
+    for (const auto& observations : by_robot) is_missing_.push_back(observations.empty() ? 1 : 0);
+    if (std::find(is_missing_.begin(), is_missing_.end(), 0) == is_missing_.end()) {
       throw RecordingError("none of these robots is in the recording; give the world that it was made with");
     }
   }
   std::vector<RecordedRobot> robots;
   for (std::size_t i = 0; i < robots_.size(); ++i) {
-    if (is_absent_[i]) {
-      robots.push_back(absent(robots_[i], {step, period_s_}));
+    if (is_missing_[i]) {
+      robots.push_back(blank(robots_[i], {step, period_s_}));
+      robots.back().is_missing = true;
       continue;
     }
     auto complete = assemble(robots_[i], by_robot[i], step);
@@ -120,6 +120,11 @@ std::optional<RecordedRobot> RecordedSteps::assemble(const RobotInfo& robot, con
     readings.stalled = recorded_status.stalled;
     readings.is_too_far = recorded_status.is_too_far;
     if (recorded_status.has_won) readings.winner = robot.name;
+    if (recorded_status.command.activity == Activity::absent) {
+      RecordedRobot absent = blank(robot, readings.time);
+      absent.command = recorded_status.command;
+      return absent;
+    }
   }
   for (const auto& sensor : *robot.sensors) {
     const auto observation = find(observations, sensor.label);

@@ -16,11 +16,16 @@ namespace robosim {
 struct RecordedRobot {
   /// Whether the recording does not contain this robot (RawlogFormat::sensory_frames has a file for each robot). The
   /// other members are then blank, with a measurement for each sensor.
-  bool is_absent = false;
+  bool is_missing = false;
   Readings readings;
   std::optional<mrpt::math::TPose2D> world_from_robot;  ///< ground truth
-  std::optional<Command> command;                       ///< executed in this step
+  std::optional<Command> command;                       ///< executed in this step; of an absent robot, only that it is
 };
+
+/// Whether the robot was not in the world in this step.
+inline bool isAbsent(const RecordedRobot& robot) {
+  return robot.command && robot.command->activity == Activity::absent;
+}
 
 /// Whether cameras' images are read or left empty. Images are most of a recording's size, and external images may be
 /// unavailable.
@@ -35,8 +40,8 @@ class RecordedSteps {
                 Pictures pictures = Pictures::keep);
 
   /// The next step, with robots in the constructor's order; nullopt at the end. An incomplete step at the end of a
-  /// truncated file is skipped. A robot without observations in the first step is absent in all steps.
-  /// @throws RecordingError for an observation that does not match these robots, or when all robots are absent.
+  /// truncated file is skipped. A robot without observations in the first step is missing in all steps.
+  /// @throws RecordingError for an observation that does not match these robots, or when all robots are missing.
   std::optional<std::vector<RecordedRobot>> next();
 
   static constexpr std::uint64_t kEnd = ~std::uint64_t{0};
@@ -60,7 +65,7 @@ class RecordedSteps {
   std::vector<RobotInfo> robots_;
   double period_s_;
   Pictures pictures_;
-  std::vector<std::uint8_t> is_absent_;  ///< by robot; empty before the first step
+  std::vector<std::uint8_t> is_missing_;  ///< by robot; empty before the first step
   std::string note_;
   mrpt::obs::CObservation::Ptr lookahead_;  ///< first observation of the next step
   std::uint64_t lookahead_position_ = 0;

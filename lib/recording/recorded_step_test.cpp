@@ -161,7 +161,7 @@ TEST_F(RecordedStepsTest, SeekToAnyStepReadBefore) {
       steps.seek(positions[k]);
       const auto step = steps.next();
       ASSERT_TRUE(step) << k;
-      EXPECT_EQ(step->front().is_absent, !has_both);
+      EXPECT_EQ(step->front().is_missing, !has_both);
       if (has_both) {
         EXPECT_EQ(step->front().readings.measurements, written_[k].front().measurements) << k;
       }
@@ -189,10 +189,10 @@ TEST_F(RecordedStepsTest, MarkRobotsWithoutObservationsAsAbsent) {
   for (std::size_t k = 0; k < 2; ++k) {
     const auto step = steps.next();
     ASSERT_TRUE(step);
-    EXPECT_FALSE((*step)[1].is_absent);
+    EXPECT_FALSE((*step)[1].is_missing);
     EXPECT_EQ((*step)[1].readings.measurements, written_[k][1].measurements);
     const RecordedRobot& absent = (*step)[2];
-    EXPECT_TRUE(absent.is_absent);
+    EXPECT_TRUE(absent.is_missing);
     EXPECT_FALSE(absent.world_from_robot);
     EXPECT_FALSE(absent.command);
     ASSERT_EQ(absent.readings.measurements.size(), robots_[2].sensors->size());
@@ -207,8 +207,8 @@ TEST_F(RecordedStepsTest, MarkTheOtherRobotsOfAFileOfPairsAsAbsent) {
   for (std::size_t k = 0; k < 3; ++k) {
     const auto step = steps.next();
     ASSERT_TRUE(step);
-    EXPECT_TRUE((*step)[0].is_absent);
-    EXPECT_FALSE((*step)[1].is_absent);
+    EXPECT_TRUE((*step)[0].is_missing);
+    EXPECT_FALSE((*step)[1].is_missing);
     EXPECT_EQ((*step)[1].readings.measurements, written_[k][1].measurements);
   }
   EXPECT_FALSE(steps.next());

@@ -182,7 +182,7 @@ RobotStatus statusFrom(const CObservation& observation) {
     refuse(observation, "it should hold 5 outputs and 4 inputs");
   }
   const double activity = daq.AOUT_double[kActivity];
-  if (!(activity >= 0 && activity <= static_cast<double>(Activity::found)))
+  if (!(activity >= 0 && activity <= static_cast<double>(Activity::absent)))
     refuse(observation, "there is no such activity");
   RobotStatus status;
   status.command.speed_mps = daq.AOUT_double[kSpeed];

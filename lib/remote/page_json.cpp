@@ -27,6 +27,8 @@ const char* nameOf(Activity activity) {
       return "halted";
     case Activity::found:
       return "found";
+    case Activity::absent:
+      return "absent";
   }
   return "";
 }

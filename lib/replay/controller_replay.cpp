@@ -92,8 +92,8 @@ void replayToController(const ReplayArguments& arguments) {
     if (interrupt.isRequested()) failInterrupted(read_s);
     read_s = step->front().readings.time.seconds();
     for (std::size_t i = 0; i < robots.size(); ++i) {
-      if ((*step)[i].is_absent) robots[i].reset();
-      if (!robots[i]) continue;
+      if ((*step)[i].is_missing) robots[i].reset();
+      if (!robots[i] || isAbsent((*step)[i])) continue;
       // The recorded command of a step was computed from the readings of the previous step.
       if (!first) robots[i]->compare((*step)[i], arguments.tolerance);
       robots[i]->hardware.replay(std::move((*step)[i].readings));

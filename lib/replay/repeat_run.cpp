@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <map>
 
 #include "base/interrupt.h"
 #include "base/printable_text.h"
@@ -98,6 +99,7 @@ class RunAgain {
     Progress progress;
     auto now = recorded_.next();
     if (now) checkDriven(*now);
+    if (now) comeAndGo(*now);
     std::uint64_t steps = 0;
     while (now) {
       if (interrupt.isRequested()) throw Interrupted("interrupted; no result");
@@ -141,7 +143,12 @@ class RunAgain {
   }
   /// The recorded controller of each robot.
   static LoadedWorld worldWithControllers(const WorldSource& source, const RunNote& note) {
-    LoadedWorld world = loadWorldToRun(source, "");
+    std::map<std::string, bool> is_driven;  // by another process, so that it needs no controller
+    const LoadedWorld recorded = loadWorld(source, {});
+    for (std::size_t i = 0; i < std::min(note.controllers.size(), recorded.fleet.robots.size()); ++i) {
+      is_driven[recorded.fleet.robots[i].info.name] = note.controllers[i].empty();
+    }
+    LoadedWorld world = loadWorldToRun(source, "", [&](const FleetRobot& robot) { return is_driven[robot.info.name]; });
     auto& robots = world.fleet.robots;
     if (note.controllers.size() != robots.size()) {
       throw ConfigError(source.file + ": has " + std::to_string(robots.size()) + " robots, and the recording " +
@@ -159,20 +166,20 @@ class RunAgain {
   }
   /// Controllers recompute their commands; commands and messages from other processes are taken from the recording.
   void checkDriven(const std::vector<RecordedRobot>& recorded) const {
-    const auto absent = std::find_if(recorded.begin(), recorded.end(), [](const auto& r) { return r.is_absent; });
+    const auto missing = std::find_if(recorded.begin(), recorded.end(), [](const auto& r) { return r.is_missing; });
     const auto driven = std::find(note_.controllers.begin(), note_.controllers.end(), "");
-    if (absent == recorded.end() || driven == note_.controllers.end()) return;
+    if (missing == recorded.end() || driven == note_.controllers.end()) return;
     const auto& robots = run_.environment().fleet().robots;
     throw ConfigError("robot " + robots[static_cast<std::size_t>(driven - note_.controllers.begin())].info.name +
                       " was driven by another process, and robot " +
-                      robots[static_cast<std::size_t>(absent - recorded.begin())].info.name +
+                      robots[static_cast<std::size_t>(missing - recorded.begin())].info.name +
                       " is not in this recording, so the run cannot be repeated; record with --rawlog-format obs");
   }
   /// That a robot has won is known only from its own recording.
   bool isToldOfWinner(const std::vector<RecordedRobot>& recorded, const std::string& winner) const {
     const auto& robots = run_.environment().fleet().robots;
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-      if (recorded[i].is_absent && robots[i].info.name == winner) return false;
+      if (recorded[i].is_missing && robots[i].info.name == winner) return false;
     }
     return true;
   }
@@ -184,7 +191,7 @@ class RunAgain {
   std::optional<std::string> firstDifference(const std::vector<RecordedRobot>& recorded) const {
     const Environment& environment = run_.environment();
     for (std::size_t i = 0; i < recorded.size(); ++i) {
-      if (recorded[i].is_absent) continue;
+      if (recorded[i].is_missing) continue;
       const auto& robot = environment.fleet().robots[i].info;
       const auto difference =
           differenceOf(recorded[i], robot, environment.state().readings[i], environment.state().world_from_robot[i],
@@ -193,7 +200,19 @@ class RunAgain {
     }
     return std::nullopt;
   }
+  /// Robots that come stand at their start.
+  void comeAndGo(const std::vector<RecordedRobot>& next) {
+    Environment& environment = run_.environment();
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      if (isAbsent(next[i])) {
+        environment.remove(i);
+      } else if (environment.state().activity[i] == Activity::absent) {
+        environment.place(i, environment.fleet().robots[i].world_from_start);
+      }
+    }
+  }
   void step(const std::vector<RecordedRobot>& next) {
+    comeAndGo(next);
     Environment& environment = run_.environment();
     const auto& robots = environment.fleet().robots;
     for (std::size_t i = 0; i < next.size(); ++i) {

@@ -173,6 +173,7 @@ std::string inWords(const Command& command) {
   if (command.laser_pan_rad != 0) text += ", pan " + fixed(command.laser_pan_rad, 3) + " rad";
   if (command.activity == Activity::halted) text += ", halted";
   if (command.activity == Activity::found) text += ", found";
+  if (command.activity == Activity::absent) text += ", absent";
   return text;
 }
 

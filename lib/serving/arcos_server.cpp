@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -61,11 +62,16 @@ struct ServedRobot final : Simulator {
   void resetTruePose() override { placeAt(environment.fleet().robots[index].world_from_start); }
   std::span<const std::uint16_t> scan() const override { return scan_mm; }
   void log(const std::string& text) override { write_log("robot " + name() + ": " + text); }
-  /// Puts a robot without a program back to its start once it stands; where that is not free, it stays where it is.
-  void resetOnceStanding() {
-    if (!needs_reset || environment.state().speed_mps[index] != 0 || environment.state().turn_radps[index] != 0) return;
-    needs_reset = false;
-    resetTruePose();
+  bool isAbsent() const { return environment.state().activity[index] == Activity::absent; }
+  /// Brings an absent robot to its start. @return false if that is not free. A robot that has left in this step stays
+  /// away for one, so that every step shows who is there.
+  bool comes() {
+    return isAbsent() && left_at_step != environment.time().step &&
+           environment.place(index, environment.fleet().robots[index].world_from_start);
+  }
+  void leaves() {
+    environment.remove(index);
+    left_at_step = environment.time().step;
   }
 
   void placeAt(const mrpt::math::TPose2D& pose) {
@@ -85,7 +91,7 @@ struct ServedRobot final : Simulator {
   Robot robot;
   ArcosBoard board;
   std::shared_ptr<ArcosConnection> connection;  ///< null without a program
-  bool needs_reset = false;                     ///< before the next program
+  std::optional<std::uint64_t> left_at_step;
   std::vector<std::uint16_t> scan_mm;
   std::uint16_t measured_interval_ms = 0;
 };
@@ -144,7 +150,7 @@ struct ArcosServer::Impl {
     }
     tcp::endpoint at = endpointOf(options.listen);
     const bool is_fixed = at.port() != 0;
-    const std::size_t ports = options.shares_port ? std::min<std::size_t>(1, robots.size()) : robots.size();
+    const std::size_t ports = options.is_factory ? std::min<std::size_t>(1, robots.size()) : robots.size();
     if (at.port() + ports > 65536) {
       throw std::runtime_error(
           "--arcos " + options.listen + ": " + std::to_string(ports) +
@@ -173,9 +179,8 @@ struct ArcosServer::Impl {
 
   /// The robot for a program that connects to a port; null if it is taken.
   ServedRobot* freeRobot(std::size_t port) {
-    if (!options.shares_port) return robots[port]->connection ? nullptr : robots[port].get();
-    const auto found = std::find_if(robots.begin(), robots.end(),
-                                    [](const auto& robot) { return !robot->connection && !robot->needs_reset; });
+    if (!options.is_factory) return robots[port]->connection ? nullptr : robots[port].get();
+    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return robot->comes(); });
     return found == robots.end() ? nullptr : found->get();
   }
 
@@ -187,8 +192,10 @@ struct ArcosServer::Impl {
     ServedRobot* robot = freeRobot(port);
     if (!robot) {
       options.log("refused " + peer + ": " +
-                  (options.shares_port ? "all " + std::to_string(robots.size()) + " robots have a program"
-                                       : "robot " + robots[port]->name() + " has a program already"));
+                  (options.is_factory ? "all " + std::to_string(robots.size()) +
+                                            " robots have a program, or their starts are not free; give "
+                                            "--arcos-factory a greater number"
+                                      : "robot " + robots[port]->name() + " has a program already"));
       return;  // closes the socket
     }
     robot->connection = std::make_shared<ArcosConnection>(std::move(socket), peer, robot->board, *robot);
@@ -204,7 +211,7 @@ struct ArcosServer::Impl {
       robot->connection->close();
       robot->connection.reset();
       robot->board.endSession();
-      robot->needs_reset = options.shares_port;
+      if (options.is_factory) robot->leaves();
     }
   }
 
@@ -231,9 +238,8 @@ struct ArcosServer::Impl {
     for (const auto& robot : robots) {
       if (robot->connection) {
         robot->connection->session().beforeStep(now);
-      } else {
+      } else if (!robot->isAbsent()) {
         robot->board.update(false);
-        robot->resetOnceStanding();
       }
     }
   }
@@ -273,7 +279,7 @@ ArcosServer::~ArcosServer() = default;
 std::vector<int> ArcosServer::ports() const {
   std::vector<int> ports;
   for (std::size_t i = 0; i < impl_->robots.size(); ++i) {
-    ports.push_back(impl_->acceptors[impl_->options.shares_port ? 0 : i].local_endpoint().port());
+    ports.push_back(impl_->acceptors[impl_->options.is_factory ? 0 : i].local_endpoint().port());
   }
   return ports;
 }

@@ -12,7 +12,8 @@ namespace robosim {
 struct ArcosOptions {
   std::string listen = "127.0.0.1:8101";  ///< "host:port" of the first robot; the others have the ports that follow.
                                           ///< With port 0 the system chooses each
-  bool shares_port = false;               ///< one port, at which each program gets a robot that no other has
+  bool is_factory = false;                ///< one port; the robots are absent, and each program gets one that comes
+                                          ///< to its start, and leaves with the program
   bool has_all = false;                   ///< also serve robots that have a controller in the world
   double speed = 1;                       ///< simulated seconds per second, for SIMSTAT
   std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line

@@ -64,10 +64,19 @@ class WorldRun::OneRun {
         is_arcos(arcosFlags(world.fleet, options)),
         networked(networkedRobots(world.fleet, options, is_arcos)),
         run(std::move(world), arguments.run, either(networked, is_arcos)),
-        run_info(run.environment(), source, arguments.run.environment.seed, networked),
+        run_info(present(run.environment(), options, is_arcos), source, arguments.run.environment.seed, networked),
         outputs(arguments, run.environment(), noteOf(source, run, arguments.run, either(networked, is_arcos))) {
     outputs.observe(run.environment());
     if (options.is_realtime) late = 0;
+  }
+
+  /// The robots of a factory come with their programs.
+  static Environment& present(Environment& environment, const WorldRunOptions& options,
+                              const std::vector<std::uint8_t>& is_arcos) {
+    for (std::size_t i = 0; options.arcos && options.arcos->is_factory && i < is_arcos.size(); ++i) {
+      if (is_arcos[i]) environment.remove(i);
+    }
+    return environment;
   }
 
   void finish(EndedBy ended_by) {
@@ -116,8 +125,8 @@ void WorldRun::openArcosPorts() {
                         "none of a type with <arcos> is without a controller; --arcos-all serves those with one, too");
   }
   const std::vector<int> ports = arcos_->ports();
-  if (options_.arcos->shares_port && !ports.empty()) {
-    options_.arcos->log(std::to_string(robots.size()) + " robots for ARCOS programs on " +
+  if (options_.arcos->is_factory && !ports.empty()) {
+    options_.arcos->log("up to " + std::to_string(robots.size()) + " robots, one for each ARCOS program on " +
                         withPort(options_.arcos->listen, ports.front()));
     return;
   }

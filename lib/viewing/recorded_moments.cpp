@@ -15,7 +15,7 @@ namespace {
 RunSnapshot toSnapshot(std::vector<RecordedRobot> robots) {
   RunSnapshot snapshot;
   for (auto& robot : robots) {
-    if (robot.is_absent) continue;
+    if (robot.is_missing) continue;
     snapshot.step = robot.readings.time.step;
     snapshot.time_s = robot.readings.time.seconds();
     snapshot.robots.push_back({robot.world_from_robot.value_or(mrpt::math::TPose2D()), robot.readings.laser_pan_rad,
@@ -38,7 +38,7 @@ class RobosimRecording final : public RecordedMoments {
       const std::uint64_t place = steps_.position();
       auto step = steps_.next();
       if (!step) break;
-      if (moments_.empty()) leaveOutAbsent(*step);
+      if (moments_.empty()) leaveOutMissing(*step);
       moments_.push_back({toSnapshot(std::move(*step)).time_s, place});
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
@@ -79,9 +79,9 @@ class RobosimRecording final : public RecordedMoments {
   }
 
   /// Robots without entries in the recording are not shown.
-  void leaveOutAbsent(const std::vector<RecordedRobot>& robots) {
+  void leaveOutMissing(const std::vector<RecordedRobot>& robots) {
     std::size_t i = 0;
-    std::erase_if(world_.fleet.robots, [&](const auto&) { return robots[i++].is_absent; });
+    std::erase_if(world_.fleet.robots, [&](const auto&) { return robots[i++].is_missing; });
   }
 
   std::string file_;

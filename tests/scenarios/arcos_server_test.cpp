@@ -22,7 +22,7 @@ using boost::asio::ip::tcp;
 
 /// A world with robots of the type p3dx in a row, served on ports that the system chooses.
 struct ServedRobots {
-  explicit ServedRobots(int robots, bool shares_port = false) {
+  explicit ServedRobots(int robots, bool is_factory = false) {
     World world = emptyWorld(20);
     Fleet fleet;
     const FleetRobot type = robotOfType(robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), "p3dx");
@@ -38,7 +38,10 @@ struct ServedRobots {
     environment = std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
     ArcosOptions options;
     options.listen = "127.0.0.1:0";
-    options.shares_port = shares_port;
+    options.is_factory = is_factory;
+    for (const auto i : indices) {
+      if (is_factory) environment->remove(i);
+    }
     options.log = [this](const std::string& line) { log += line + '\n'; };
     server = std::make_unique<ArcosServer>(options, *environment, indices);
   }
@@ -160,30 +163,36 @@ TEST(ArcosServer, FreesARobotWhoseProgramHasEndedAndStopsIt) {
   EXPECT_EQ(next.step().x, 0) << "odometry begins at 0 in each session";
 }
 
-TEST(ArcosServer, GivesEachProgramARobotOfItsOwnAtASharedPort) {
+TEST(ArcosServer, BringsARobotForEachProgramOfAFactoryAndRemovesItAfterwards) {
   ServedRobots served(2, true);
+  const auto& state = served.environment->state();
   const int port = served.server->ports()[0];
   EXPECT_EQ(served.server->ports()[1], port);
-  TcpProgram first(served, port), second(served, port);
+  served.step();
+  EXPECT_EQ(state.activity, std::vector(2, Activity::absent));
+  TcpProgram first(served, port);
   first.open();
+  EXPECT_EQ(state.activity, (std::vector{Activity::active, Activity::absent}));
+  TcpProgram second(served, port);
   second.open();
   first.send(encodeCommand(command::vel, 800));
   for (int i = 0; i < 10; ++i) first.step();
-  EXPECT_EQ(std::count(served.environment->state().speed_mps.begin(), served.environment->state().speed_mps.end(), 0),
-            1);
+  EXPECT_GT(state.world_from_robot[0].x, -10);
+  EXPECT_EQ(state.speed_mps[1], 0);
   TcpProgram third(served, port);
   EXPECT_TRUE(third.isClosed());
   EXPECT_NE(served.log.find("all 2 robots have a program"), std::string::npos) << served.log;
   first.close();
-  waitUntil("a robot is free", [&] {
+  waitUntil("the robot has left", [&] {
     served.server->poll();
-    return served.server->clients() == 1;
+    return state.activity[0] == Activity::absent;
   });
-  for (int i = 0; i < 20; ++i) served.step();
-  EXPECT_EQ(served.environment->state().world_from_robot[0].x, -10) << "it is back at its start";
-  EXPECT_EQ(served.environment->state().speed_mps[0], 0);
+  served.step();
   TcpProgram fourth(served, port);
   fourth.open();
+  EXPECT_EQ(state.activity[0], Activity::active);
+  EXPECT_EQ(state.world_from_robot[0].x, -10) << "at its start";
+  EXPECT_EQ(fourth.step().x, 0) << "odometry begins at 0";
 }
 
 TEST(ArcosServer, LosesOnlyTheConnectionsOfMisbehavingPrograms) {
@@ -292,6 +301,36 @@ TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
   // The log also has the cycles in which the robot came to rest at the end.
   const auto cycles = [](const std::string& text) { return std::stoi(text.substr(std::string("drove for ").size())); };
   EXPECT_GE(cycles(replay.out), cycles(ended.out));
+}
+
+TEST(ArcosPrograms, GetRobotsOfTheirOwnInARunThatCanBeRepeated) {
+  const auto folder = emptyFolder();
+  const std::string recording = (folder / "run.rawlog").string();
+  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "18413", "--listen", "127.0.0.1:0",
+                         "--record", recording});
+  server.waitForError("up to 3 robots, one for each ARCOS program on 127.0.0.1:18413");
+  const auto start = [&](const std::string& name) {
+    auto robot = std::make_unique<StartedProgram>(std::vector<std::string>{
+        "robot", "--arcos", "tcp:127.0.0.1:18413", "--controller", "wander", "--arcos-log", (folder / name).string()});
+    robot->waitForError("connected to MobileSim (p3dx)");
+    return robot;
+  };
+  const auto end = [&](StartedProgram& robot, const std::string& name) {
+    waitUntil("some cycles are logged", [&] { return textOf(folder / name).size() > 10000; });
+    robot.interrupt();
+    EXPECT_EQ(robot.wait().exit_code, 0);
+  };
+  const auto first = start("first"), second = start("second");
+  end(*first, "first");
+  server.waitForError(": disconnected");
+  const auto third = start("third");
+  end(*third, "third");
+  end(*second, "second");
+  server.interrupt();
+  EXPECT_EQ(server.wait().exit_code, 0);
+  const Ended check = runProgram("replay " + quoted(folder / "run.rawlog") + " --observer coverage");
+  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
+  EXPECT_NE(check.out.find("The same run"), std::string::npos) << check.out;
 }
 
 TEST(ArcosPrograms, ExplainWrongArguments) {

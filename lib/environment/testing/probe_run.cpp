@@ -96,6 +96,9 @@ void ProbeRun::step(Environment& environment) const {
       environment.send(i, nameOf(rng.below(kRobots)), "step " + std::to_string(step));
     }
     if (rng.below(30) == 0) environment.checkWin(i);
+    const bool is_absent = environment.state().activity[i] == Activity::absent;
+    if (!is_absent && rng.below(150) == 0) environment.remove(i);
+    if (is_absent && rng.below(20) == 0) environment.place(i, environment.fleet().robots[i].world_from_start);
   }
   environment.step();
 }

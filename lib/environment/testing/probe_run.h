@@ -8,7 +8,7 @@
 namespace robosim {
 
 /// Random runs for tests, with everything that a State contains: noisy sensors of every kind, pictures, messages that
-/// are lost, stalls, robots that halt, and requests of CheckWin. A run depends on its seed only.
+/// are lost, stalls, robots that halt, leave and come back, and requests of CheckWin. A run depends on its seed only.
 class ProbeRun {
  public:
   static constexpr std::uint32_t kRobots = 9;

@@ -30,18 +30,22 @@ void CenterIndex::chooseCells() {
   centers_ = {kInfinity, -kInfinity, kInfinity, -kInfinity};
   reach_max_m_ = 0;
   double sum_x = 0, sum_y = 0;
+  std::size_t solids = 0;
   for (const GridItem& item : items_) {
+    if (item.isRemoved()) continue;
+    ++solids;
     reach_max_m_ = std::max(reach_max_m_, item.reach());
     centers_ = {std::min(centers_.x_min, item.x), std::max(centers_.x_max, item.x), std::min(centers_.y_min, item.y),
                 std::max(centers_.y_max, item.y)};
     sum_x += item.x;
     sum_y += item.y;
   }
-  if (items_.empty()) return;
-  const auto count = static_cast<double>(items_.size());
+  if (solids == 0) return;
+  const auto count = static_cast<double>(solids);
   const double mean_x = sum_x / count, mean_y = sum_y / count;
   double off_x = 0, off_y = 0;
   for (const GridItem& item : items_) {
+    if (item.isRemoved()) continue;
     off_x += std::abs(item.x - mean_x);
     off_y += std::abs(item.y - mean_y);
   }
@@ -61,6 +65,7 @@ void CenterIndex::build() {
   begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const GridItem& item = items_[i];
+    if (item.isRemoved()) continue;
     cell_[i] = static_cast<std::uint32_t>(cellAt(row(item.y), column(item.x)));
     ++begin_[cell_[i]];
   }
@@ -68,6 +73,7 @@ void CenterIndex::build() {
   for (auto& begin : begin_) begin = sum += begin;  // each cell's end until the entries are filled in
   // Filled from the back, so that each cell's end becomes its begin and its solids keep the order given.
   for (std::size_t i = items_.size(); i-- > 0;) {
+    if (items_[i].isRemoved()) continue;
     entries_[--begin_[cell_[i]]] = {CullDisc::from(items_[i], middle()), static_cast<std::uint32_t>(i)};
   }
 }

@@ -29,9 +29,11 @@ class CenterIndex {
 
   /// Sets a solid. Takes effect with build().
   void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid); }
+  /// Removes a solid from all queries, until set(). Takes effect with build().
+  void remove(std::size_t i) { items_[i] = GridItem::removed(); }
   void build();
 
-  /// The solids, in the order given.
+  /// The solids, in the order given, removed ones included.
   std::span<const GridItem> items() const { return items_; }
   const mrpt::math::TPoint2D& middle() const { return middle_; }
 

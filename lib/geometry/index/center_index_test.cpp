@@ -51,6 +51,11 @@ TEST(CenterIndex, VisitsAllSolidsNearAnAreaOrRayOnce) {
       solids[rng.below(static_cast<std::uint32_t>(count))] = {Circle{{12, -15}, 3}, {0, 2}};
     CenterIndex index(count);
     for (std::size_t i = 0; i < count; ++i) index.set(i, solids[i]);
+    std::vector<std::uint8_t> is_removed(count);
+    for (std::size_t i = 0; i < count; ++i) is_removed[i] = seed % 2 == 0 && rng.below(3) == 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (is_removed[i]) index.remove(i);
+    }
     index.build();
 
     const auto corner = randomPoint(rng, spread.area);
@@ -67,6 +72,11 @@ TEST(CenterIndex, VisitsAllSolidsNearAnAreaOrRayOnce) {
     ASSERT_EQ(std::adjacent_find(along.begin(), along.end()), along.end()) << "seed " << seed;
 
     for (std::uint32_t i = 0; i < count; ++i) {
+      if (is_removed[i]) {
+        ASSERT_FALSE(std::binary_search(found.begin(), found.end(), i)) << "solid " << i << ", seed " << seed;
+        ASSERT_FALSE(std::binary_search(along.begin(), along.end(), i)) << "solid " << i << ", seed " << seed;
+        continue;
+      }
       const Bounds2D bounds = boundsOf(solids[i].outline);
       const bool meets = bounds.x_min <= area.x_max && area.x_min <= bounds.x_max && bounds.y_min <= area.y_max &&
                          area.y_min <= bounds.y_max;

@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "geometry/shapes/solid.h"
 
@@ -15,6 +16,13 @@ struct alignas(64) GridItem {
   HeightSpan heights;
 
   static GridItem from(const Solid&);
+  /// An item that no query finds.
+  static GridItem removed() {
+    GridItem item;
+    item.x = std::numeric_limits<double>::quiet_NaN();
+    return item;
+  }
+  bool isRemoved() const { return std::isnan(x); }
   Solid solid() const;
   bool isCircle() const { return half_width_m == 0; }
   /// Radius [m] of the covering disc about its centre.
