@@ -96,8 +96,8 @@ class Environment {
   /// and the readings are those of the last step. An absent robot becomes active, at rest and with blank readings.
   /// @return false, without a change, if the robot would not be entirely on the surface, or would overlap something
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot);
-  /// Takes a robot out of the world between two steps (Activity::absent): nothing collides with it, senses it or sends
-  /// it messages, its commands have no effect, and its readings are blank.
+  /// Takes a robot out of the world between two steps (Activity::absent): nothing collides with it or senses it, its
+  /// commands and messages have no effect, it receives none, and its readings are blank.
   void remove(std::size_t robot);
   /// Number of calls so far of place() and remove() with an effect.
   std::uint64_t placements() const;

@@ -55,6 +55,7 @@ MessageRouter::Delivery MessageRouter::deliver(std::uint64_t seed, SimTime now,
   Delivery delivery;
   for (std::size_t from = 0; from < outboxes.size(); ++from) {
     Outbox& outbox = outboxes[from];
+    if (activity[from] == Activity::absent) outbox = {};
     delivery.dropped += std::exchange(outbox.surplus, 0);
     for (std::size_t i = 0; i < outbox.messages.size(); ++i) {
       auto& message = outbox.messages[i];

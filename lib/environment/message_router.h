@@ -46,8 +46,8 @@ class MessageRouter {
     std::size_t dropped = 0;  ///< messages beyond the limits of their sender or receiver in one step
   };
   /// Moves the messages of all outboxes to the inboxes of their receivers, ordered by sender and then by time of
-  /// sending. Messages to an absent robot or one out of range, or selected by the loss probability, are lost. Messages
-  /// beyond the sender's kMaxMessagesSent or the receiver's InboxLimit are dropped.
+  /// sending. Messages of and to absent robots, to a robot out of range, or selected by the loss probability, are lost.
+  /// Messages beyond the sender's kMaxMessagesSent or the receiver's InboxLimit are dropped.
   /// @param seed of the loss of messages @pre the inboxes are empty
   Delivery deliver(std::uint64_t seed, SimTime now, std::span<const mrpt::math::TPose2D> world_from_robot,
                    std::span<const Activity> activity, std::span<Outbox> outboxes, std::span<Readings> readings);
