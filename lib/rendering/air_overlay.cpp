@@ -38,9 +38,9 @@ class Projection {
   double focal_px_;
 };
 
-void drawTrail(cv::Mat& picture, const Projection& project, const std::vector<TrailPoint>& trail, const Color& color) {
+void drawPath(cv::Mat& picture, const Projection& project, const PathPart& part, const Color& color) {
   std::optional<cv::Point> before;
-  for (const auto& point : trail) {
+  for (const auto& point : part.points) {
     const auto here = project({point.at.x, point.at.y, 0});
     if (here && before && !point.is_after_gap) cv::line(picture, *before, *here, bgr(color), 2, cv::LINE_AA);
     before = here;
@@ -64,13 +64,12 @@ void drawEchoes(cv::Mat& picture, const Projection& project, const RobotSnapshot
 }  // namespace
 
 void drawAirOverlay(cv::Mat& picture, const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                    const RunSnapshot& snapshot, const Fleet& fleet, const Trails& trails,
+                    const RunSnapshot& snapshot, const Fleet& fleet, const RunPaths& paths,
                     const TopViewLayers& layers) {
   const Projection project(camera, world_from_camera);
   const auto colors = robotColors(fleet);
-  const auto& trail_points = trails.ofRobot();
-  for (std::size_t i = 0; layers.trails && i < trail_points.size() && i < colors.size(); ++i) {
-    drawTrail(picture, project, trail_points[i], colors[i]);
+  for (std::size_t i = 0; layers.paths && i < snapshot.robots.size(); ++i) {
+    drawPath(picture, project, paths.between(i, layers.paths_from_s, snapshot.time_s), colors[i]);
   }
   for (std::size_t i = 0; layers.sensors && i < snapshot.robots.size() && i < colors.size(); ++i) {
     if (snapshot.robots[i].readings) drawEchoes(picture, project, snapshot.robots[i], *fleet.robots[i].info.sensors);

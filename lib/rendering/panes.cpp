@@ -119,17 +119,17 @@ cv::Rect Panes::rectOf(std::size_t pane) const {
           std::max(1, edge(row + 1, rows, height_px_) - kGap_px - top)};
 }
 
-cv::Mat Panes::draw(const RunSnapshot& snapshot, const Trails& trails) {
-  if (panes_.size() == 1) return drawPane(panes_[0], snapshot, trails);
+cv::Mat Panes::draw(const RunSnapshot& snapshot, const RunPaths& paths) {
+  if (panes_.size() == 1) return drawPane(panes_[0], snapshot, paths);
   cv::Mat picture(height_px_, width_px_, CV_8UC3, cv::Scalar(90, 80, 75));
   for (std::size_t i = 0; i < panes_.size(); ++i) {
-    drawPane(panes_[i], snapshot, trails).copyTo(picture(rectOf(i)));
+    drawPane(panes_[i], snapshot, paths).copyTo(picture(rectOf(i)));
   }
   return picture;
 }
 
-cv::Mat Panes::drawPane(const Pane& pane, const RunSnapshot& snapshot, const Trails& trails) {
-  if (!pane.is_3d) return top_view_.draw(snapshot, trails, pane.top, layers_);
+cv::Mat Panes::drawPane(const Pane& pane, const RunSnapshot& snapshot, const RunPaths& paths) {
+  if (!pane.is_3d) return top_view_.draw(snapshot, paths, pane.top, layers_);
   CameraInfo camera;
   camera.width_px = static_cast<std::uint32_t>(pane.top.width_px);
   camera.height_px = static_cast<std::uint32_t>(pane.top.height_px);
@@ -140,7 +140,7 @@ cv::Mat Panes::drawPane(const Pane& pane, const RunSnapshot& snapshot, const Tra
   const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
   cv::Mat picture = draw_3d_(camera, world_from_camera, world_from_robot);
   if (world_.objects.empty() && world_.maps.empty()) {
-    drawAirOverlay(picture, camera, world_from_camera, snapshot, fleet_, trails, layers_);
+    drawAirOverlay(picture, camera, world_from_camera, snapshot, fleet_, paths, layers_);
   }
   return picture;
 }

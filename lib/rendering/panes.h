@@ -7,8 +7,8 @@
 #include <opencv2/core/mat.hpp>
 
 #include "hardware/sensor_info.h"
+#include "rendering/run_paths.h"
 #include "rendering/top_view.h"
-#include "rendering/trails.h"
 
 namespace robosim {
 
@@ -47,7 +47,7 @@ class Panes {
 
   void resize(int width_px, int height_px);
   /// The whole picture, BGR.
-  cv::Mat draw(const RunSnapshot& snapshot, const Trails& trails);
+  cv::Mat draw(const RunSnapshot& snapshot, const RunPaths& paths);
 
   TopViewLayers& layers() { return layers_; }
   /// Flags of the robots whose readings the panes show, by robot; empty for all robots.
@@ -69,7 +69,7 @@ class Panes {
  private:
   cv::Rect rectOf(std::size_t pane) const;
   Pane* paneAt(const mrpt::math::TPoint2D& at, mrpt::math::TPoint2D& pixel_in_pane);
-  cv::Mat drawPane(const Pane& pane, const RunSnapshot& snapshot, const Trails& trails);
+  cv::Mat drawPane(const Pane& pane, const RunSnapshot& snapshot, const RunPaths& paths);
   void fit(Pane& pane, std::size_t index) const;
 
   const World& world_;

@@ -20,6 +20,7 @@ constexpr Color kLaserColor{0.86f, 0.20f, 0.25f};
 constexpr Color kInfraredColor{0.55f, 0.25f, 0.70f};
 constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
 constexpr double kRobotRadiusMin_px = 3;
+constexpr double kPath_px = 1.6;  ///< width
 /// Maximum number of visible robots whose names are drawn.
 constexpr std::size_t kMaxNames = 60;
 
@@ -54,8 +55,8 @@ class Drawing {
         canvas_(std::move(floor)),
         objects_(objects) {}
 
-  cv::Mat draw(const Trails& trails, const TopViewLayers& layers) {
-    if (layers.trails) drawTrails(trails);
+  cv::Mat draw(const RunPaths& paths, const TopViewLayers& layers) {
+    if (layers.paths) drawPaths(paths, layers.paths_from_s);
     if (layers.sensors) drawRanges();
     if (objects_) {
       canvas_.lay(*objects_);
@@ -79,22 +80,56 @@ class Drawing {
            pixel.y < view_.height() + margin_px;
   }
 
-  void drawTrails(const Trails& trails) {
-    for (std::size_t i = 0; i < trails.ofRobot().size() && i < snapshot_.robots.size(); ++i) {
-      std::vector<TPoint2D> path;
-      constexpr double kStride_px = 1.5;
-      const auto draw_path = [&] { canvas_.polyline(path, 1.6, mix(colors_[i], kFloorColor, 0.35f)); };
-      for (const auto& [point, is_after_gap] : trails.ofRobot()[i]) {
-        const TPoint2D pixel = view_.toPixel(point);
-        if (is_after_gap) {
-          draw_path();
-          path.clear();
-        }
-        if (path.empty() || (pixel - path.back()).norm() >= kStride_px) path.push_back(pixel);
-      }
-      path.push_back(pixelOf(snapshot_.robots[i].world_from_robot));
-      draw_path();
+  /// A piece of a path on the picture.
+  struct Stroke {
+    std::size_t robot;
+    std::vector<TPoint2D> points;
+  };
+
+  /// Draws the paths. Where old ones would cover much of the picture (many robots, long runs), they fade towards the
+  /// floor, and only the last seconds keep their full colour.
+  void drawPaths(const RunPaths& paths, double from_s) {
+    constexpr double kRecent_s = 20;
+    constexpr double kBright = 0.04;  // share of the picture that old paths may cover at full opacity
+    constexpr float kPaleness = 0.35f, kPalenessMax = 0.85f;
+    const double recent_from_s = std::max(from_s, snapshot_.time_s - kRecent_s);
+    std::vector<Stroke> old, recent;
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+      addStrokes(old, i, paths.between(i, from_s, recent_from_s), paths.positionAt(i, recent_from_s));
+      const auto& pose = snapshot_.robots[i].world_from_robot;
+      addStrokes(recent, i, paths.between(i, recent_from_s, snapshot_.time_s), TPoint2D(pose.x, pose.y));
     }
+    double length_px = 0;
+    for (const auto& stroke : old) {
+      for (std::size_t k = 1; k < stroke.points.size(); ++k)
+        length_px += (stroke.points[k] - stroke.points[k - 1]).norm();
+    }
+    const double covered = length_px * kPath_px / (1.0 * view_.width() * view_.height());
+    const float paleness =
+        std::clamp(static_cast<float>(1 - kBright / std::max(1e-9, covered)), kPaleness, kPalenessMax);
+    for (const auto& stroke : old)
+      canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, paleness));
+    for (const auto& stroke : recent)
+      canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, kPaleness));
+  }
+
+  /// Adds the visible pieces of a part of a path, which ends at `end` if that is known.
+  void addStrokes(std::vector<Stroke>& strokes, std::size_t robot, const PathPart& part,
+                  const std::optional<TPoint2D>& end) const {
+    constexpr double kStride_px = 1.5;
+    Stroke stroke{robot, {}};
+    const auto finish = [&] {
+      if (stroke.points.size() > 1) strokes.push_back(stroke);
+      stroke.points.clear();
+    };
+    if (part.begin) stroke.points.push_back(view_.toPixel(*part.begin));
+    for (const auto& point : part.points) {
+      const TPoint2D pixel = view_.toPixel(point.at);
+      if (point.is_after_gap) finish();
+      if (stroke.points.empty() || (pixel - stroke.points.back()).norm() >= kStride_px) stroke.points.push_back(pixel);
+    }
+    if (end && !stroke.points.empty()) stroke.points.push_back(view_.toPixel(*end));
+    finish();
   }
 
   /// Draws regions measured as free, with a tint per kind of sensor, and dots at echoes.
@@ -289,12 +324,12 @@ GroundView TopView::groundView(const RunSnapshot& snapshot, const TopViewCamera&
   return {camera.width_px, camera.height_px, center, camera.px_per_m};
 }
 
-cv::Mat TopView::draw(const RunSnapshot& snapshot, const Trails& trails, const TopViewCamera& camera,
+cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
                       const TopViewLayers& layers) {
   const GroundView view = groundView(snapshot, camera);
   if (std::exchange(last_view_, view) != view) {
     static_layers_.reset();
-    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view), nullptr).draw(trails, layers);
+    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view), nullptr).draw(paths, layers);
   }
   if (!static_layers_) {
     Canvas floor = emptyFloor(world_, view);
@@ -303,7 +338,7 @@ cv::Mat TopView::draw(const RunSnapshot& snapshot, const Trails& trails, const T
     Canvas::Layer objects = with_things.differenceFrom(floor);
     static_layers_ = std::make_unique<StaticLayers>(StaticLayers{std::move(floor), std::move(objects)});
   }
-  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects).draw(trails, layers);
+  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects).draw(paths, layers);
 }
 
 std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const RunSnapshot& snapshot, const Fleet& fleet,

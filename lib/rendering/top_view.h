@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "rendering/ground_view.h"
-#include "rendering/trails.h"
+#include "rendering/run_paths.h"
 #include "robots/fleet.h"
 #include "world/world.h"
 
@@ -26,9 +26,10 @@ struct TopViewCamera {
 
 /// Layers of a view from above.
 struct TopViewLayers {
-  bool trails = true;
+  bool paths = true;
   bool sensors = true;  ///< of robots that have readings: sonar fans, laser scans, infrared, heat, bumper
   bool names = true;
+  double paths_from_s = 0;  ///< earlier parts of the paths are not drawn
 };
 
 /// Renders a run from straight above, to scale.
@@ -39,7 +40,7 @@ class TopView {
   ~TopView();
 
   /// BGR, 8 bits.
-  cv::Mat draw(const RunSnapshot& snapshot, const Trails& trails, const TopViewCamera& camera,
+  cv::Mat draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
                const TopViewLayers& layers);
   /// The robot at a pixel, if there is one.
   static std::optional<std::size_t> robotAt(const mrpt::math::TPoint2D& pixel, const RunSnapshot& snapshot,

@@ -22,7 +22,6 @@ void ViewDrawing::make(AbsentRobots absent) {
     };
   }
   panes_ = std::make_unique<Panes>(world.world, world.fleet, std::move(panes), std::move(draw_3d));
-  trails_.clear();
   has_requested_ = false;
 }
 
@@ -31,13 +30,12 @@ cv::Mat ViewDrawing::draw(Size size) {
     make(AbsentRobots::not_followed);
   }
   panes_->resize(size.width_px, size.height_px);
-  trails_.add(source_.snapshot());
   if (auto requested = panes_->requestedReadings(); !has_requested_ || requested != requested_) {
     source_.requestReadings(requested);
     requested_ = std::move(requested);
     has_requested_ = true;
   }
-  return panes_->draw(source_.snapshot(), trails_);
+  return panes_->draw(source_.snapshot(), source_.paths());
 }
 
 }  // namespace robosim

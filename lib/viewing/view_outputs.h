@@ -47,8 +47,6 @@ class ViewDrawing {
   ViewDrawing(ViewSource& source, MakePanes make_panes);
 
   cv::Mat draw(Size size);
-  /// Updates the trails without drawing.
-  void updateTrails() { trails_.add(source_.snapshot()); }
   Panes& panes() { return *panes_; }
 
  private:
@@ -58,7 +56,6 @@ class ViewDrawing {
   MakePanes make_panes_;
   int world_number_ = 0;
   std::unique_ptr<Panes> panes_;
-  Trails trails_;
   std::vector<std::uint8_t> requested_;
   bool has_requested_ = false;
 };

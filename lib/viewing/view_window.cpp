@@ -201,22 +201,9 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
   void seekBy(double seconds) {
     if (!source_.duration()) return;
     safely([this, seconds] {
-      const double time_s = source_.snapshot().time_s + seconds;
-      if (seconds > 0) followTo(time_s);
-      source_.seek(time_s);
+      source_.seek(source_.snapshot().time_s + seconds);
       source_.advance(0);  // the next key event may precede the next repaint
     });
-  }
-  /// Advances through every moment, so that the trails include skipped ones.
-  void followTo(double time_s) {
-    const bool was_paused = source_.isPaused();
-    while (!source_.isOver()) {
-      source_.step();
-      source_.advance(0);
-      if (source_.snapshot().time_s > time_s) break;
-      drawing_.updateTrails();
-    }
-    source_.pause(was_paused);
   }
 
   bool handle(int key) {
@@ -247,7 +234,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         drawing_.panes().showAll();
         break;
       case 'T':
-        toggle(drawing_.panes().layers().trails);
+        toggle(drawing_.panes().layers().paths);
         break;
       case 'V':
         toggle(drawing_.panes().layers().sensors);
