@@ -8,6 +8,7 @@
 
 #include "rendering/canvas.h"
 #include "rendering/ground_painter.h"
+#include "rendering/sensor_colors.h"
 
 namespace robosim {
 namespace {
@@ -15,9 +16,6 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr Color kSonarColor{0.16f, 0.47f, 0.86f};
-constexpr Color kLaserColor{0.86f, 0.20f, 0.25f};
-constexpr Color kInfraredColor{0.55f, 0.25f, 0.70f};
 constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
 constexpr double kRobotRadiusMin_px = 3;
 constexpr double kPath_px = 1.6;  ///< width
@@ -27,12 +25,8 @@ constexpr std::size_t kMaxNames = 60;
 /// Minimum aperture of a drawn fan, which makes beams of zero aperture visible.
 constexpr double kThinBeam_rad = 0.02;
 
-const Color& colorOf(SensorKind kind) {
-  return kind == SensorKind::laser ? kLaserColor : kind == SensorKind::infrared ? kInfraredColor : kSonarColor;
-}
-
-Canvas emptyFloor(const World& world, const GroundView& view) {
-  Canvas canvas(view, kPageColor);
+Canvas emptyFloor(const World& world, const GroundView& view, double scale) {
+  Canvas canvas(view, kPageColor, scale);
   drawFloor(canvas, world.bounds);
   return canvas;
 }
@@ -136,7 +130,7 @@ class Drawing {
   void drawRanges() {
     struct Dot {
       TPoint2D at;
-      const Color* color;
+      Color color;
     };
     std::vector<Dot> dots;
     std::vector<std::vector<TPoint2D>> free[3];
@@ -149,13 +143,13 @@ class Drawing {
       for (std::size_t i = 0; i < echoes.size(); ++i) {
         if (sensor.kind != SensorKind::laser || echoes.size() <= 2) areas.push_back(cone(robot, sensor, i, echoes[i]));
         if (echoes[i].range_m < sensor.range_max_m) {
-          dots.push_back({toPixel(robot, {echoes[i].point_m.x, echoes[i].point_m.y}), &colorOf(sensor.kind)});
+          dots.push_back({toPixel(robot, {echoes[i].point_m.x, echoes[i].point_m.y}), sensorColor(sensor.kind)});
         }
       }
     });
-    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], colorOf(kinds[i]), 0.17f);
+    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], sensorColor(kinds[i]), 0.17f);
     for (const auto& dot : dots) {
-      if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, *dot.color);
+      if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, dot.color);
     }
   }
 
@@ -327,12 +321,12 @@ GroundView TopView::groundView(const RunSnapshot& snapshot, const TopViewCamera&
 cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
                       const TopViewLayers& layers) {
   const GroundView view = groundView(snapshot, camera);
-  if (std::exchange(last_view_, view) != view) {
+  if (std::exchange(last_view_, view) != view || std::exchange(last_scale_, camera.scale) != camera.scale) {
     static_layers_.reset();
-    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view), nullptr).draw(paths, layers);
+    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view, camera.scale), nullptr).draw(paths, layers);
   }
   if (!static_layers_) {
-    Canvas floor = emptyFloor(world_, view);
+    Canvas floor = emptyFloor(world_, view, camera.scale);
     Canvas with_things(floor);
     drawObjectsAndMaps(with_things, world_);
     Canvas::Layer objects = with_things.differenceFrom(floor);

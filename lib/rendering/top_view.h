@@ -13,8 +13,9 @@ namespace robosim {
 
 /// Camera of a view from above.
 struct TopViewCamera {
-  int width_px = 960, height_px = 720;
-  mrpt::math::TPoint2D center;  ///< world frame [m]
+  int width_px = 960, height_px = 720;  ///< before scaling
+  double scale = 1;                     ///< of the picture, with its lines and text
+  mrpt::math::TPoint2D center;          ///< world frame [m]
   double px_per_m = 50;
   std::optional<std::size_t> follow;  ///< the robot kept in the middle; overrides `center`
 
@@ -54,6 +55,7 @@ class TopView {
   const World& world_;
   const Fleet& fleet_;
   GroundView last_view_;
+  double last_scale_ = 1;
   std::unique_ptr<const StaticLayers> static_layers_;  ///< of `last_view_`, created when it is drawn a second time
 };
 
