@@ -253,7 +253,7 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
     if (seen.x < kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);
     // An echo lies on the surface that it was measured on, up to the measurement's error.
-    if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen.x, 0.25)) continue;
+    if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen.x, 0.08)) continue;
     cv::circle(air.picture, rounded(pixel), radius_px, bgr(dot.color), cv::FILLED, cv::LINE_AA);
   }
 }

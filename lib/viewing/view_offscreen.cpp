@@ -116,12 +116,13 @@ void checkOffscreenFile(const std::string& file) {
 }
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                    const std::string& file) {
+                    const std::string& file, const Panes::Look& look) {
   if (isVideo(file) && source.isOver() && !source.duration()) {
     throw ConfigError("--offscreen " + file +
                       ": nothing moves in a world that does not run; ask for a .png, or record a run");
   }
   ViewDrawing drawing(source, make_panes);
+  drawing.panes().look() = look;
   drawing.panes().layers().paths_from_s = times.from_s.value_or(0);
   if (isVideo(file)) {
     writeVideo(source, drawing, size, times, file);
