@@ -24,11 +24,13 @@ class LocalRunView final : public ViewSource {
         world_{run.environment().world(), run.environment().fleet()},
         snapshot_(snapshotOf(run.environment())),
         speed_(speed) {
+    paths_.add(snapshot_);
     observe_();
   }
 
   const LoadedWorld& world() const override { return world_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
+  const RunPaths& paths() const override { return paths_; }
   std::string title() const override { return arguments_.world; }
 
   bool advance(double wall_s) override {
@@ -56,6 +58,8 @@ class LocalRunView final : public ViewSource {
   void take() {
     if (isOver()) return;
     run_.step();
+    paths_.add(run_.environment().time().step, run_.environment().time().seconds(),
+               run_.environment().state().world_from_robot);
     observe_();
   }
   /// Takes the steps that are due after this wall time. Steps that the computer is too slow for are dropped, so that
@@ -78,6 +82,7 @@ class LocalRunView final : public ViewSource {
   const ObserveStep& observe_;
   LoadedWorld world_;
   RunSnapshot snapshot_;
+  RunPaths paths_;
   double speed_;
   double due_s_ = 0;  ///< simulated time that is due, but not yet taken
   bool is_paused_ = false, has_single_step_ = false;

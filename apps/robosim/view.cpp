@@ -28,6 +28,7 @@ struct ViewArguments {
   ViewTimes times;
   std::string offscreen;
   std::string size = "1280x800";
+  Panes::Look look;
 };
 
 std::optional<std::size_t> robotNamed(const std::string& name, const Fleet& fleet, AbsentRobots absent) {
@@ -121,9 +122,9 @@ void view(ViewArguments a) {
   checkTimes(a, *source);
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
   if (a.offscreen.empty()) {
-    showWindow(*source, make_panes, size, a.times);
+    showWindow(*source, make_panes, size, a.times, a.look);
   } else {
-    writeOffscreen(*source, make_panes, size, a.times, a.offscreen);
+    writeOffscreen(*source, make_panes, size, a.times, a.offscreen, a.look);
   }
 }
 
@@ -157,6 +158,14 @@ void addView(CLI::App& program) {
   command->add_option("--size", a->size, "size of the window or the picture, pixels")
       ->type_name("WxH")
       ->capture_default_str();
+  command->add_option("--scale", a->look.scale, "size of text and lines, for large screens and print")
+      ->type_name("FACTOR")
+      ->check(numberIn(0.5, 8))
+      ->capture_default_str();
+  command->add_flag("--antialias", a->look.antialias,
+                    "smooth edges in 3D and in the camera picture; rendering takes about four times as long");
+  command->add_flag("--camera", a->look.camera_inset,
+                    "show the picture of the followed robot's camera, or of the first robot that has one");
   command->add_option("--from", a->times.from_s, "recordings: start at this time")
       ->type_name("SECONDS")
       ->check(numberIn(0, 1e18));
@@ -181,7 +190,9 @@ void addView(CLI::App& program) {
       "  space          pause, resume               s          one step\n"
       "  + -            faster, slower              ← →        5 s back or on, of a recording\n"
       "  f              follow the next robot       0          show everything\n"
-      "  t v n          trails, sensors, names      q, Esc     quit\n"
+      "  t v n          paths, sensors, names       c          camera picture\n"
+      "  F11            full screen                 ?          help\n"
+      "  q, Esc         quit\n"
       "Try:  robosim view worlds/opho2_1.xml --offscreen world.png");
   command->callback([a] { view(*a); });
 }

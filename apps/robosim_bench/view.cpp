@@ -42,10 +42,12 @@ class RunView final : public ViewSource {
 
   const LoadedWorld& world() const override { return world_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
+  const RunPaths& paths() const override { return paths_; }
   std::string title() const override { return title_; }
   bool advance(double) override {
     run_.step();
     snapshot_ = snapshotOf(run_.environment());
+    paths_.add(snapshot_);
     return true;
   }
   bool isOver() const override { return false; }
@@ -55,6 +57,7 @@ class RunView final : public ViewSource {
   LoadedWorld world_;
   LocalRun run_;
   RunSnapshot snapshot_;
+  RunPaths paths_;
 };
 
 std::vector<Pane> panesOf(const Kind& kind, const World& world) {

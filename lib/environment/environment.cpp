@@ -215,6 +215,7 @@ struct Environment::Impl {
             .frames = frames,
             .last_motion = state.last_motion,
             .laser_pan_rad = state.laser_pan_rad,
+            .activity = state.activity,
             .time = state.time,
             .seed = state.seed,
             .images = images,

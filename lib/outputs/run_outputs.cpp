@@ -7,6 +7,7 @@
 #include "rendering/plan.h"
 #include "run/json_text.h"
 #include "run/output_files.h"
+#include "sensors/image_source.h"
 
 namespace robosim {
 namespace {
@@ -21,10 +22,14 @@ std::unique_ptr<RawlogWriter> openRecording(const RunArguments& arguments, const
   return std::make_unique<RawlogWriter>(arguments.record, robots, format, images, note.text());
 }
 
+std::vector<mrpt::math::TPose2D> shownPosesOf(const Environment& environment) {
+  return shownPoses(environment.state().world_from_robot, environment.state().activity);
+}
+
 /// Thrown when the picture cannot be written at the end; not bad input, because the path was checked at the start.
 void draw(const std::string& picture, const Environment& environment, const Tracks& tracks) {
   try {
-    writePlan(picture, environment.world(), environment.fleet(), tracks.points(), environment.state().world_from_robot);
+    writePlan(picture, environment.world(), environment.fleet(), tracks.points(), shownPosesOf(environment));
   } catch (const ConfigError& error) {
     throw std::runtime_error(error.what());
   }
@@ -57,7 +62,7 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
   if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
-  if (tracks_) tracks_->add(state.world_from_robot);
+  if (tracks_) tracks_->add(shownPosesOf(environment));
 }
 
 void RunOutputs::keep(const Environment& environment) {

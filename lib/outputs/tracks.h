@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -12,9 +13,14 @@ class Tracks {
  public:
   explicit Tracks(std::size_t robots) : points_(robots) {}
 
+  /// @param world_from_robot kNotShown for absent robots, whose path begins anew when they come back
   void add(std::span<const mrpt::math::TPose2D> world_from_robot) {
     constexpr double kSpacing_m = 0.05;
     for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (std::isnan(world_from_robot[i].x)) {
+        points_[i].clear();
+        continue;
+      }
       const mrpt::math::TPoint2D now(world_from_robot[i].x, world_from_robot[i].y);
       if (points_[i].empty() || (now - points_[i].back()).norm() >= kSpacing_m) points_[i].push_back(now);
     }

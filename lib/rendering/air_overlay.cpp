@@ -1,80 +1,312 @@
 #include "rendering/air_overlay.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include <opencv2/imgproc.hpp>
 
 #include "rendering/bgr.h"
+#include "rendering/canvas.h"
 #include "rendering/ground_painter.h"
+#include "rendering/sensor_colors.h"
 
 namespace robosim {
 namespace {
 
-constexpr Color kEchoColor{0.86f, 0.20f, 0.25f};
+using mrpt::math::TPoint2D;
+using mrpt::math::TPoint3D;
 
-/// A pinhole camera with square pixels.
-class Projection {
+constexpr double kNearest_m = 0.05;
+constexpr double kPathHeight_m = 0.02;  // above the ground
+constexpr std::size_t kMaxAirNames = 60;
+
+/// A pinhole camera with square pixels, and the depths that it sees.
+class AirView {
  public:
-  Projection(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera)
-      : world_from_camera_(world_from_camera),
-        middle_(camera.width_px / 2.0, camera.height_px / 2.0),
-        focal_px_(camera.focalLength()) {}
+  explicit AirView(const AirPicture& air)
+      : air_(air),
+        middle_(air.camera.width_px / 2.0, air.camera.height_px / 2.0),
+        focal_px_(air.camera.focalLength()) {}
 
-  /// nullopt behind the camera, and for points far outside the picture.
-  std::optional<cv::Point> operator()(const mrpt::math::TPoint3D& world) const {
-    mrpt::math::TPoint3D seen;
-    world_from_camera_.inverseComposePoint(world, seen);
-    constexpr double kNearest_m = 0.05, kMost_px = 20000;
-    if (seen.x < kNearest_m) return std::nullopt;
-    const double x = middle_.x - focal_px_ * seen.y / seen.x, y = middle_.y - focal_px_ * seen.z / seen.x;
-    if (std::abs(x) > kMost_px || std::abs(y) > kMost_px) return std::nullopt;
-    return cv::Point(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
+  /// In the camera's axes: x ahead, y left, z up.
+  TPoint3D seen(const TPoint3D& world) const {
+    TPoint3D point;
+    air_.world_from_camera.inverseComposePoint(world, point);
+    return point;
   }
+  /// @pre seen.x > 0
+  TPoint2D pixel(const TPoint3D& seen) const {
+    return {middle_.x - focal_px_ * seen.y / seen.x, middle_.y - focal_px_ * seen.z / seen.x};
+  }
+  bool isOnPicture(const TPoint2D& pixel) const {
+    return pixel.x >= 0 && pixel.y >= 0 && pixel.x < air_.picture.cols && pixel.y < air_.picture.rows;
+  }
+  /// Whether nothing nearer than `ahead_m` covers a pixel of the picture.
+  bool isVisible(const TPoint2D& pixel, double ahead_m, double slack_m) const {
+    const float depth_m = air_.depth.at<float>(static_cast<int>(pixel.y), static_cast<int>(pixel.x));
+    return depth_m == 0 || ahead_m <= depth_m * 1.01 + slack_m;
+  }
+  double focalLength() const { return focal_px_; }
+  const TPoint2D& middle() const { return middle_; }
 
  private:
-  mrpt::math::TPose3D world_from_camera_;
-  mrpt::math::TPoint2D middle_;
+  const AirPicture& air_;
+  TPoint2D middle_;
   double focal_px_;
 };
 
-void drawTrail(cv::Mat& picture, const Projection& project, const std::vector<TrailPoint>& trail, const Color& color) {
-  std::optional<cv::Point> before;
-  for (const auto& point : trail) {
-    const auto here = project({point.at.x, point.at.y, 0});
-    if (here && before && !point.is_after_gap) cv::line(picture, *before, *here, bgr(color), 2, cv::LINE_AA);
-    before = here;
+cv::Point rounded(const TPoint2D& p) {
+  return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))};
+}
+
+/// Draws one robot's path as pieces of a few pixels, each of them where it is visible.
+class AirPath {
+ public:
+  AirPath(const AirPicture& air, const AirView& view, const Color& color)
+      : air_(air),
+        view_(view),
+        color_(bgr(color)),
+        width_px_(std::max(1, static_cast<int>(std::lround(2 * air.scale)))) {}
+
+  void lineTo(const TPoint2D& at) {
+    const TPoint3D next = view_.seen({at.x, at.y, kPathHeight_m});
+    if (last_) line(*last_, next);
+    last_ = next;
+  }
+  void interrupt() { last_.reset(); }
+
+ private:
+  /// Ends in the camera's axes.
+  void line(TPoint3D from, TPoint3D to) {
+    if (from.x < kNearest_m && to.x < kNearest_m) return;
+    if (from.x < kNearest_m || to.x < kNearest_m) {
+      const TPoint3D cut = from + (to - from) * ((kNearest_m - from.x) / (to.x - from.x));
+      (from.x < kNearest_m ? from : to) = cut;
+    }
+    TPoint2D a = view_.pixel(from);
+    const TPoint2D b = view_.pixel(to);
+    const double right = air_.picture.cols, bottom = air_.picture.rows;
+    if (std::max(a.x, b.x) < 0 || std::max(a.y, b.y) < 0 || std::min(a.x, b.x) > right || std::min(a.y, b.y) > bottom) {
+      return;
+    }
+    constexpr double kPiece_px = 6;
+    const int pieces = std::clamp(static_cast<int>((b - a).norm() / kPiece_px), 1, 2000);
+    for (int i = 1; i <= pieces; ++i) {
+      // Equal steps on the picture are not equal steps in space: 1 / depth is linear there.
+      const TPoint2D end =
+          view_.pixel(from) * (1 - static_cast<double>(i) / pieces) + b * (static_cast<double>(i) / pieces);
+      const TPoint2D center = (a + end) * 0.5;
+      const double share = (i - 0.5) / pieces;
+      const double ahead_m = 1 / ((1 - share) / from.x + share / to.x);
+      if (view_.isOnPicture(center) && view_.isVisible(center, ahead_m, 0.05)) {
+        cv::line(air_.picture, rounded(a), rounded(end), color_, width_px_, cv::LINE_AA);
+      }
+      a = end;
+    }
+  }
+
+  const AirPicture& air_;
+  const AirView& view_;
+  cv::Scalar color_;
+  int width_px_;
+  std::optional<TPoint3D> last_;
+};
+
+void drawPaths(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
+               const std::vector<Color>& colors, const RunPaths& paths, double from_s) {
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    AirPath path(air, view, colors[i]);
+    const PathPart part = paths.between(i, from_s, snapshot.time_s);
+    if (part.begin) path.lineTo(*part.begin);
+    for (const auto& point : part.points) {
+      if (point.is_after_gap) path.interrupt();
+      path.lineTo(point.at);
+    }
+    if (!snapshot.robots[i].isPresent()) continue;
+    const auto& pose = snapshot.robots[i].world_from_robot;
+    if (part.begin || !part.points.empty()) path.lineTo({pose.x, pose.y});
   }
 }
 
-void drawEchoes(cv::Mat& picture, const Projection& project, const RobotSnapshot& robot,
-                const std::vector<SensorInfo>& sensors) {
-  for (std::size_t k = 0; k < sensors.size(); ++k) {
-    const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
-    if (!echoes) continue;
-    for (const auto& echo : *echoes) {
-      if (echo.range_m >= sensors[k].range_max_m) continue;
-      const auto at = robot.world_from_robot.composePoint(mrpt::math::TPoint2D(echo.point_m.x, echo.point_m.y));
-      const auto pixel = project({at.x, at.y, echo.point_m.z});
-      if (pixel) cv::circle(picture, *pixel, 2, bgr(kEchoColor), cv::FILLED, cv::LINE_AA);
+/// Tints horizontal areas at one height, where nothing nearer covers them.
+class AirTint {
+ public:
+  AirTint(const AirPicture& air, const AirView& view, double z_m) : air_(air), view_(view), z_m_(z_m) {}
+
+  /// @param corners world frame
+  void add(const std::vector<TPoint2D>& corners) {
+    std::vector<TPoint3D> ahead;  // the part in front of the camera (Sutherland & Hodgman 1974)
+    TPoint3D last = view_.seen({corners.back().x, corners.back().y, z_m_});
+    for (const auto& corner : corners) {
+      const TPoint3D next = view_.seen({corner.x, corner.y, z_m_});
+      if ((last.x < kNearest_m) != (next.x < kNearest_m)) {
+        ahead.push_back(last + (next - last) * ((kNearest_m - last.x) / (next.x - last.x)));
+      }
+      if (next.x >= kNearest_m) ahead.push_back(next);
+      last = next;
     }
+    std::vector<cv::Point> polygon;
+    for (const auto& point : ahead) {
+      const TPoint2D pixel = view_.pixel(point);
+      constexpr double kMost_px = 20000;
+      polygon.push_back(rounded({std::clamp(pixel.x, -kMost_px, kMost_px), std::clamp(pixel.y, -kMost_px, kMost_px)}));
+    }
+    if (polygon.size() > 2) polygons_.push_back(std::move(polygon));
+  }
+
+  void draw(const Color& color, float opacity) const {
+    cv::Rect area;
+    for (const auto& polygon : polygons_)
+      area = area.empty() ? cv::boundingRect(polygon) : area | cv::boundingRect(polygon);
+    area &= cv::Rect({}, air_.picture.size());
+    if (area.empty()) return;
+    cv::Mat mask = cv::Mat::zeros(area.size(), CV_8U);
+    for (const auto& polygon : polygons_) {
+      cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{polygon}, cv::Scalar(255), cv::LINE_8, 0, -area.tl());
+    }
+    // The plane's 1 / depth is linear in the picture.
+    const auto rotation = air_.world_from_camera.getRotationMatrix();
+    const double above_m = z_m_ - air_.world_from_camera.z;
+    if (std::abs(above_m) < 1e-6) return;
+    const double per_x = -rotation(2, 1) / view_.focalLength() / above_m;
+    const double per_y = -rotation(2, 2) / view_.focalLength() / above_m;
+    const cv::Scalar paint = bgr(color);
+    for (int y = 0; y < area.height; ++y) {
+      const uchar* const covered = mask.ptr<uchar>(y);
+      auto* const pixels = air_.picture.ptr<cv::Vec3b>(y + area.y) + area.x;
+      const float* const depths = air_.depth.ptr<float>(y + area.y) + area.x;
+      const double row = rotation(2, 0) / above_m + per_y * (y + area.y - view_.middle().y);
+      for (int x = 0; x < area.width; ++x) {
+        if (covered[x] == 0) continue;
+        const double inverse = row + per_x * (x + area.x - view_.middle().x);
+        if (depths[x] > 0 && inverse * depths[x] * 1.01 < 1) continue;
+        for (int i = 0; i < 3; ++i)
+          pixels[x][i] = cv::saturate_cast<uchar>(pixels[x][i] + opacity * (paint[i] - pixels[x][i]));
+      }
+    }
+  }
+
+ private:
+  const AirPicture& air_;
+  const AirView& view_;
+  double z_m_;
+  std::vector<std::vector<cv::Point>> polygons_;
+};
+
+/// Free areas of one sensor: the area of a scan, or a cone for each beam; world frame.
+std::vector<std::vector<TPoint2D>> freeAreas(const RobotSnapshot& robot, const SensorInfo& sensor,
+                                             const Echoes& echoes) {
+  const auto to_world = [&](double x, double y) { return robot.world_from_robot.composePoint(TPoint2D(x, y)); };
+  std::vector<std::vector<TPoint2D>> areas;
+  if (sensor.kind == SensorKind::laser && echoes.size() > 2) {
+    const auto& at = sensor.beams.front().robot_from_beam;
+    areas.push_back({to_world(at.x, at.y)});
+    for (const auto& echo : echoes) areas.back().push_back(to_world(echo.point_m.x, echo.point_m.y));
+    return areas;
+  }
+  constexpr double kThin_rad = 0.02;
+  constexpr int kPieces = 6;
+  for (std::size_t i = 0; i < echoes.size(); ++i) {
+    const auto& at = sensor.beams[i].robot_from_beam;
+    const double middle_rad = at.yaw + (sensor.pans ? robot.laser_pan_rad : 0);
+    const double half_rad = std::max(kThin_rad, sensor.beam_width_rad) / 2;
+    areas.push_back({to_world(at.x, at.y)});
+    for (int k = 0; k <= kPieces; ++k) {
+      const double angle_rad = middle_rad + half_rad * (2.0 * k / kPieces - 1);
+      areas.back().push_back(
+          to_world(at.x + echoes[i].range_m * std::cos(angle_rad), at.y + echoes[i].range_m * std::sin(angle_rad)));
+    }
+  }
+  return areas;
+}
+
+void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
+                const std::vector<std::uint8_t>& shown) {
+  std::map<std::pair<SensorKind, double>, AirTint> tints;  // by kind and height
+  struct Dot {
+    TPoint3D at;
+    Color color;
+  };
+  std::vector<Dot> dots;
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    const RobotSnapshot& robot = snapshot.robots[i];
+    if (!robot.readings || !robot.isPresent() || (!shown.empty() && !shown[i])) continue;
+    const auto& sensors = *fleet.robots[i].info.sensors;
+    for (std::size_t k = 0; k < sensors.size(); ++k) {
+      const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
+      if (!echoes || echoes->empty() || sensors[k].beams.empty()) continue;
+      const double z_m = sensors[k].beams.front().robot_from_beam.z;
+      auto& tint = tints.try_emplace({sensors[k].kind, z_m}, air, view, z_m).first->second;
+      for (const auto& area : freeAreas(robot, sensors[k], *echoes)) tint.add(area);
+      for (const auto& echo : *echoes) {
+        if (echo.range_m >= sensors[k].range_max_m) continue;
+        const auto at = robot.world_from_robot.composePoint(TPoint2D(echo.point_m.x, echo.point_m.y));
+        dots.push_back({{at.x, at.y, echo.point_m.z}, sensorColor(sensors[k].kind)});
+      }
+    }
+  }
+  for (const auto& [what, tint] : tints) tint.draw(sensorColor(what.first), 0.17f);
+  const int radius_px = std::max(1, static_cast<int>(std::lround(2 * air.scale)));
+  for (const auto& dot : dots) {
+    const TPoint3D seen = view.seen(dot.at);
+    if (seen.x < kNearest_m) continue;
+    const TPoint2D pixel = view.pixel(seen);
+    // An echo lies on the surface that it was measured on, up to the measurement's error.
+    if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen.x, 0.08)) continue;
+    cv::circle(air.picture, rounded(pixel), radius_px, bgr(dot.color), cv::FILLED, cv::LINE_AA);
+  }
+}
+
+/// Writes the robots' names above them, those of near robots first, without overlaps.
+void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
+                const std::vector<Color>& colors) {
+  struct Label {
+    double ahead_m;
+    TPoint2D foot;
+    std::size_t robot;
+  };
+  std::vector<Label> labels;
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    if (!snapshot.robots[i].isPresent()) continue;
+    const auto& pose = snapshot.robots[i].world_from_robot;
+    const TPoint3D seen = view.seen({pose.x, pose.y, fleet.robots[i].body.heights().z_max_m + 0.12});
+    if (seen.x < 4 * kNearest_m) continue;
+    const TPoint2D pixel = view.pixel(seen);
+    if (view.isOnPicture(pixel)) labels.push_back({seen.x, pixel, i});
+  }
+  if (labels.size() > kMaxAirNames) return;
+  std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.ahead_m < b.ahead_m; });
+  std::vector<cv::Rect> taken;
+  const double text_px = kTextSize_px * air.scale;
+  const Canvas measuring(cv::Mat(1, 1, CV_8UC3));
+  for (const auto& label : labels) {
+    const std::string& name = fleet.robots[label.robot].info.name;
+    const int width = static_cast<int>(std::ceil(measuring.textWidth(name, text_px) + 8 * air.scale));
+    const int height = static_cast<int>(std::ceil(text_px * 1.9));
+    const cv::Rect place(static_cast<int>(label.foot.x) - width / 2, static_cast<int>(label.foot.y) - height, width,
+                         height);
+    if ((place & cv::Rect({}, air.picture.size())) != place ||
+        std::any_of(taken.begin(), taken.end(), [&](const cv::Rect& other) { return !(other & place).empty(); })) {
+      continue;
+    }
+    taken.push_back(place);
+    Canvas canvas(air.picture(place));
+    canvas.text({4 * air.scale, height / 2.0}, name, text_px, mix(colors[label.robot], {0, 0, 0}, 0.35f));
+    canvas.picture().copyTo(air.picture(place));
   }
 }
 
 }  // namespace
 
-void drawAirOverlay(cv::Mat& picture, const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                    const RunSnapshot& snapshot, const Fleet& fleet, const Trails& trails,
-                    const TopViewLayers& layers) {
-  const Projection project(camera, world_from_camera);
+void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fleet& fleet, const RunPaths& paths,
+                    const TopViewLayers& layers, const std::vector<std::uint8_t>& shown) {
+  const AirView view(air);
   const auto colors = robotColors(fleet);
-  const auto& trail_points = trails.ofRobot();
-  for (std::size_t i = 0; layers.trails && i < trail_points.size() && i < colors.size(); ++i) {
-    drawTrail(picture, project, trail_points[i], colors[i]);
-  }
-  for (std::size_t i = 0; layers.sensors && i < snapshot.robots.size() && i < colors.size(); ++i) {
-    if (snapshot.robots[i].readings) drawEchoes(picture, project, snapshot.robots[i], *fleet.robots[i].info.sensors);
-  }
+  if (layers.paths) drawPaths(air, view, snapshot, colors, paths, layers.paths_from_s);
+  if (layers.sensors) drawRanges(air, view, snapshot, fleet, shown);
+  if (layers.names) writeNames(air, view, snapshot, fleet, colors);
 }
 
 }  // namespace robosim

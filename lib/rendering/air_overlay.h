@@ -3,17 +3,25 @@
 #include <opencv2/core/mat.hpp>
 
 #include "hardware/sensor_info.h"
+#include "rendering/run_paths.h"
 #include "rendering/top_view.h"
-#include "rendering/trails.h"
 #include "robots/fleet.h"
 
 namespace robosim {
 
-/// Draws robot trails and echo points onto a rendered 3D picture, without occlusion. Used for worlds of which only the
-/// robots are known: recordings made by other programs.
-/// @param picture BGR, of the camera's size
-/// @param world_from_camera x along the optical axis, z up
-void drawAirOverlay(cv::Mat& picture, const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                    const RunSnapshot& snapshot, const Fleet& fleet, const Trails& trails, const TopViewLayers& layers);
+/// A rendered 3D picture that is drawn onto.
+struct AirPicture {
+  cv::Mat& picture;      ///< BGR, of the camera's size
+  const cv::Mat& depth;  ///< along the optical axis [m], single precision; 0 for the sky; of the camera's size
+  CameraInfo camera;
+  mrpt::math::TPose3D world_from_camera;  ///< x along the optical axis, z up
+  double scale = 1;                       ///< of lines and text
+};
+
+/// Draws paths, measured ranges and names onto a rendered 3D picture. Paths, ranges and echoes are hidden by nearer
+/// things (depth test per pixel, or per piece of a line); names are not.
+/// @param shown flags of the robots whose readings are drawn; empty for all
+void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fleet& fleet, const RunPaths& paths,
+                    const TopViewLayers& layers, const std::vector<std::uint8_t>& shown);
 
 }  // namespace robosim

@@ -18,21 +18,30 @@ constexpr int kShift = 4;  ///< fractional bits of OpenCV's coordinates
 constexpr int kFont = cv::FONT_HERSHEY_DUPLEX;
 constexpr double kFontHeight_px = 22;  ///< of a capital, at scale 1
 
-int fineWidth(double width_px) { return std::max(1, static_cast<int>(std::lround(width_px * kFiner))); }
-int fineRadius(double radius_px) { return static_cast<int>(std::lround(radius_px * kFiner * (1 << kShift))); }
-
 struct TextStyle {
   double scale;
   int thickness;
 };
-TextStyle styleOf(double size_px) {
-  return {size_px * kFiner / kFontHeight_px, std::max(1, static_cast<int>(std::lround(size_px * kFiner / 14)))};
+TextStyle styleOf(double fine_px) {
+  return {fine_px / kFontHeight_px, std::max(1, static_cast<int>(std::lround(fine_px / 14)))};
 }
 
 }  // namespace
 
-Canvas::Canvas(const GroundView& view, const Color& background)
-    : DrawingSurface(view), fine_(view.height() * kFiner, view.width() * kFiner, CV_8UC3, bgr(background)) {}
+Canvas::Canvas(const GroundView& view, const Color& background, double scale)
+    : DrawingSurface(view),
+      finer_(kFiner * scale),
+      fine_(static_cast<int>(std::lround(view.height() * finer_)), static_cast<int>(std::lround(view.width() * finer_)),
+            CV_8UC3, bgr(background)) {}
+
+Canvas::Canvas(const cv::Mat& picture) : DrawingSurface(GroundView(picture.cols, picture.rows, {}, 1)), finer_(kFiner) {
+  cv::resize(picture, fine_, {}, kFiner, kFiner, cv::INTER_NEAREST);
+}
+
+int Canvas::fineWidth(double width_px) const { return std::max(1, static_cast<int>(std::lround(width_px * finer_))); }
+int Canvas::fineRadius(double radius_px) const {
+  return static_cast<int>(std::lround(radius_px * finer_ * (1 << kShift)));
+}
 
 Canvas::Layer Canvas::differenceFrom(const Canvas& ground) const {
   Layer layer{fine_, cv::Mat(fine_.size(), CV_8U)};
@@ -47,8 +56,8 @@ Canvas::Layer Canvas::differenceFrom(const Canvas& ground) const {
 
 cv::Point Canvas::fine(const TPoint2D& pixel) const {
   // Pixel 0 covers the fine pixels 0 and 1, so its centre is at 0.5 in fine pixels.
-  const auto fixed = [](double coordinate) {
-    return static_cast<int>(std::lround((coordinate * kFiner + (kFiner - 1) / 2.0) * (1 << kShift)));
+  const auto fixed = [this](double coordinate) {
+    return static_cast<int>(std::lround((coordinate * finer_ + (finer_ - 1) / 2.0) * (1 << kShift)));
   };
   return {fixed(pixel.x), fixed(pixel.y)};
 }
@@ -64,7 +73,7 @@ std::vector<cv::Point> Canvas::finePolygon(const OrientedBox& box) const {
 }
 
 cv::Rect Canvas::fineRect(const Bounds2D& pixels) const {
-  const auto at = [](double coordinate) { return static_cast<int>(std::lround((coordinate + 0.5) * kFiner)); };
+  const auto at = [this](double coordinate) { return static_cast<int>(std::lround((coordinate + 0.5) * finer_)); };
   return cv::Rect(cv::Point(at(pixels.x_min), at(pixels.y_min)), cv::Point(at(pixels.x_max), at(pixels.y_max))) &
          cv::Rect(0, 0, fine_.cols, fine_.rows);
 }
@@ -80,8 +89,8 @@ void Canvas::disc(const TPoint2D& center, double radius_px, const Color& color) 
 }
 
 void Canvas::dot(const TPoint2D& center, double radius_px, const Color& color) {
-  const cv::Point at(static_cast<int>(std::lround(center.x * kFiner)),
-                     static_cast<int>(std::lround(center.y * kFiner)));
+  const cv::Point at(static_cast<int>(std::lround(center.x * finer_)),
+                     static_cast<int>(std::lround(center.y * finer_)));
   cv::circle(fine_, at, fineWidth(radius_px), bgr(color), cv::FILLED, cv::LINE_8);
 }
 
@@ -108,11 +117,11 @@ void Canvas::glow(const Outline& shape, double reach_px, const Color& color) {
   const auto low = view().toPixel({bounds.x_min, bounds.y_max}), high = view().toPixel({bounds.x_max, bounds.y_min});
   const cv::Rect region = fineRect({low.x - reach_px, high.x + reach_px, low.y - reach_px, high.y + reach_px});
   if (region.empty()) return;  // outside the picture
-  Canvas light(view(), {0, 0, 0});
+  Canvas light(view(), {0, 0, 0}, finer_ / kFiner);
   light.fill(shape, {1, 1, 1});
   light.outline(shape, reach_px * 0.7, {1, 1, 1});
   cv::Mat lit = light.fine_(region);
-  cv::GaussianBlur(lit, lit, {}, reach_px * kFiner * 0.3);
+  cv::GaussianBlur(lit, lit, {}, reach_px * finer_ * 0.3);
   cv::Mat ground = fine_(region);
   const cv::Scalar glow_bgr = bgr(color);
   ground.forEach<cv::Vec3b>([&](cv::Vec3b& pixel, const int* at) {
@@ -156,23 +165,24 @@ void Canvas::tint(std::span<const std::vector<TPoint2D>> polygons, const Color& 
 
 void Canvas::text(const TPoint2D& at, const std::string& text, double size_px, const Color& color) {
   if (needsOutlineFont(text)) {
-    if (const auto drawn = drawOutlineText(text, size_px * kFiner)) return outlineText(at, *drawn, size_px, color);
+    if (const auto drawn = drawOutlineText(text, size_px * finer_)) return outlineText(at, *drawn, size_px, color);
   }
-  const auto [scale, thickness] = styleOf(size_px);
+  const auto [scale, thickness] = styleOf(size_px * finer_);
   // putText() takes whole pixels only.
-  const cv::Point origin(static_cast<int>(std::lround(at.x * kFiner)),
-                         static_cast<int>(std::lround((at.y + size_px / 2) * kFiner)));
-  cv::putText(fine_, text, origin, kFont, scale, bgr({1, 1, 1}), thickness + 3 * kFiner, cv::LINE_AA);
+  const cv::Point origin(static_cast<int>(std::lround(at.x * finer_)),
+                         static_cast<int>(std::lround((at.y + size_px / 2) * finer_)));
+  cv::putText(fine_, text, origin, kFont, scale, bgr({1, 1, 1}), thickness + static_cast<int>(std::lround(3 * finer_)),
+              cv::LINE_AA);
   cv::putText(fine_, text, origin, kFont, scale, bgr(color), thickness, cv::LINE_AA);
 }
 
 void Canvas::outlineText(const TPoint2D& at, const OutlineText& drawn, double size_px, const Color& color) {
-  constexpr int kRim = 3 * kFiner / 2;
+  const int rim_px = static_cast<int>(std::lround(1.5 * finer_));
   cv::Mat coverage, rim;
-  cv::copyMakeBorder(drawn.coverage, coverage, kRim, kRim, kRim, kRim, cv::BORDER_CONSTANT);
-  cv::dilate(coverage, rim, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * kRim + 1, 2 * kRim + 1}));
-  const cv::Point origin(static_cast<int>(std::lround(at.x * kFiner)) - kRim,
-                         static_cast<int>(std::lround((at.y + size_px / 2) * kFiner)) - drawn.baseline_px - kRim);
+  cv::copyMakeBorder(drawn.coverage, coverage, rim_px, rim_px, rim_px, rim_px, cv::BORDER_CONSTANT);
+  cv::dilate(coverage, rim, cv::getStructuringElement(cv::MORPH_ELLIPSE, {2 * rim_px + 1, 2 * rim_px + 1}));
+  const cv::Point origin(static_cast<int>(std::lround(at.x * finer_)) - rim_px,
+                         static_cast<int>(std::lround((at.y + size_px / 2) * finer_)) - drawn.baseline_px - rim_px);
   const cv::Rect wanted(origin, coverage.size());
   const cv::Rect on = wanted & cv::Rect(0, 0, fine_.cols, fine_.rows);
   if (on.empty()) return;
@@ -188,13 +198,13 @@ void Canvas::outlineText(const TPoint2D& at, const OutlineText& drawn, double si
 
 double Canvas::textWidth(const std::string& text, double size_px) const {
   if (needsOutlineFont(text)) {
-    if (const auto drawn = drawOutlineText(text, size_px * kFiner)) {
-      return drawn->coverage.cols / static_cast<double>(kFiner);
+    if (const auto drawn = drawOutlineText(text, size_px * finer_)) {
+      return drawn->coverage.cols / finer_;
     }
   }
-  const auto [scale, thickness] = styleOf(size_px);
+  const auto [scale, thickness] = styleOf(size_px * finer_);
   int below = 0;
-  return cv::getTextSize(text, kFont, scale, thickness, &below).width / static_cast<double>(kFiner);
+  return cv::getTextSize(text, kFont, scale, thickness, &below).width / finer_;
 }
 
 double Canvas::contrast(const Bounds2D& pixels) const {
@@ -205,7 +215,10 @@ double Canvas::contrast(const Bounds2D& pixels) const {
 
 cv::Mat Canvas::picture() const {
   cv::Mat picture;
-  cv::resize(fine_, picture, {view().width(), view().height()}, 0, 0, cv::INTER_AREA);
+  cv::resize(fine_, picture,
+             {static_cast<int>(std::lround(fine_.cols * 1.0 / kFiner)),
+              static_cast<int>(std::lround(fine_.rows * 1.0 / kFiner))},
+             0, 0, cv::INTER_AREA);
   return picture;
 }
 

@@ -16,10 +16,13 @@ struct OutlineText;
 /// than OpenCV alone.
 class Canvas final : public DrawingSurface {
  public:
-  Canvas(const GroundView& view, const Color& background);
+  /// @param scale size of the picture relative to that of the view, including lines and text
+  Canvas(const GroundView& view, const Color& background, double scale = 1);
+  /// A canvas that begins as a copy of a picture, in pixels of it.
+  explicit Canvas(const cv::Mat& picture);
 
   /// Deep copy: the copies share no pixels.
-  Canvas(const Canvas& other) : DrawingSurface(other), fine_(other.fine_.clone()) {}
+  Canvas(const Canvas& other) : DrawingSurface(other), finer_(other.finer_), fine_(other.fine_.clone()) {}
   Canvas(Canvas&&) = default;
 
   /// Difference between two canvases of the same view, which can be composited onto further canvases.
@@ -46,7 +49,7 @@ class Canvas final : public DrawingSurface {
   double textWidth(const std::string& text, double size_px) const override;
   double contrast(const Bounds2D& pixels) const override;
 
-  /// The finished picture.
+  /// The finished picture, of the view's size times the scale.
   cv::Mat picture() const;
 
  private:
@@ -55,6 +58,10 @@ class Canvas final : public DrawingSurface {
   std::vector<cv::Point> finePolygon(const OrientedBox&) const;
   cv::Rect fineRect(const Bounds2D& pixels) const;
 
+  int fineWidth(double width_px) const;
+  int fineRadius(double radius_px) const;
+
+  double finer_;  ///< fine pixels per pixel of the view, in each direction
   cv::Mat fine_;
 };
 

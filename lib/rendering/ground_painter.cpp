@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include <mrpt/core/format.h>
@@ -35,28 +34,9 @@ std::string scaleLabel(double length_m) { return mrpt::format("%g m", length_m);
 
 }  // namespace
 
-Color robotColor(std::size_t robot) {
-  static constexpr Color kFirst[] = {{0.84f, 0.15f, 0.16f}, {0.12f, 0.42f, 0.75f}, {0.17f, 0.57f, 0.22f},
-                                     {0.56f, 0.27f, 0.68f}, {0.93f, 0.46f, 0.05f}, {0.07f, 0.60f, 0.65f},
-                                     {0.83f, 0.22f, 0.58f}, {0.49f, 0.36f, 0.22f}};
-  if (robot < std::size(kFirst)) return kFirst[robot];
-  const double hue = std::fmod(static_cast<double>(robot) * 0.381966, 1) * 6;
-  Color color;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double offset = std::fmod(hue + 2.0 * static_cast<double>(3 - i), 6) - 3;
-    color[i] = static_cast<float>(std::clamp(std::abs(offset) - 1, 0.0, 1.0)) * 0.75f + 0.05f;
-  }
-  return color;
-}
-
 std::vector<Color> robotColors(const Fleet& fleet) {
-  std::map<Color, std::size_t> count;
-  for (const auto& robot : fleet.robots) ++count[robot.body.color];
   std::vector<Color> colors;
-  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    const Color& in_file = fleet.robots[i].body.color;
-    colors.push_back(count[in_file] == 1 ? in_file : robotColor(i));
-  }
+  for (const auto& robot : fleet.robots) colors.push_back(robot.body.color);
   return colors;
 }
 

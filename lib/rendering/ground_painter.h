@@ -18,9 +18,7 @@ inline constexpr Color kGlowColor{1.0f, 0.55f, 0.15f};
 inline constexpr Color kWhite{1, 1, 1};
 inline constexpr double kTextSize_px = 10;  ///< height of a capital
 
-/// Distinguishable colours: eight of a fixed palette first, then hues in steps of the golden angle.
-Color robotColor(std::size_t robot);
-/// By robot: the body colour given in the file where no other robot has the same, else robotColor().
+/// By robot: the colour of its body, as in 3D (robots/robot_colors.h).
 std::vector<Color> robotColors(const Fleet&);
 
 /// Spacing of grid lines [m], a round number.

@@ -80,6 +80,7 @@ void InstancedMesh::render(const RenderContext& rc) const {
   const ViewVolume view(*rc.state);
   for (auto& level : levels_) level.instances.clear();
   for (const MeshInstance& instance : instances_) {
+    if (!isShown(instance)) continue;
     const mrpt::math::TPoint3Df center(instance.x_m, instance.y_m, center_.z);
     if (!view.mayIntersect(center, radius_m_)) continue;
     const float radius_px = levels_.size() > 1 ? view.radiusPx(center, radius_m_) : 0;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -17,6 +18,9 @@ struct MeshInstance {
   std::array<std::uint8_t, 4> paint{255, 255, 255, 255};
 };
 static_assert(sizeof(MeshInstance) == 20);
+
+/// An instance whose position is not a number is not drawn.
+inline bool isShown(const MeshInstance& instance) { return !std::isnan(instance.x_m); }
 
 /// A mesh in OpenGL buffers, drawn for any number of instances by one call.
 class GlMesh {

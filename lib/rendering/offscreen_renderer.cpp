@@ -105,7 +105,7 @@ std::vector<Blob> OffscreenRenderer::findBlobs(const std::string& jpeg, const st
 }
 
 cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& world_from_camera,
-                                   std::span<const TPose2D> world_from_robot) {
+                                   std::span<const TPose2D> world_from_robot, cv::Mat* depth) {
   cv::Mat drawn;
   impl_->thread->run([&](RenderThread::Targets& targets) {
     auto& target = targets.ofSize(camera.width_px, camera.height_px);
@@ -114,25 +114,21 @@ cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& worl
     mrpt::img::CImage picture;
     target.render_RGB(*impl_->scene, picture);
     drawn = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+    if (!depth) return;
+    depth->create(drawn.size(), CV_32F);
+    const auto depths = target.lastDepths();
+    for (int row = 0; row < depth->rows; ++row) {
+      const auto from_bottom = depths.begin() + std::ptrdiff_t{depth->rows - 1 - row} * depth->cols;
+      std::transform(from_bottom, from_bottom + depth->cols, depth->ptr<float>(row), metresAhead);
+    }
   });
   return drawn;
 }
 
 cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_from_camera,
                                  std::span<const TPose2D> world_from_robot) {
-  cv::Mat_<float> depths(static_cast<int>(camera.height_px), static_cast<int>(camera.width_px));
-  impl_->thread->run([&](RenderThread::Targets& targets) {
-    auto& target = targets.ofSize(camera.width_px, camera.height_px);
-    impl_->world->place(world_from_robot);
-    target.setCamera(*impl_->scene, cameraAt(camera, CPose3D(world_from_camera)));
-    mrpt::img::CImage picture;
-    target.render_RGB(*impl_->scene, picture);
-    const auto drawn = target.lastDepths();
-    for (int row = 0; row < depths.rows; ++row) {
-      const auto from_bottom = drawn.begin() + std::ptrdiff_t{depths.rows - 1 - row} * depths.cols;
-      std::transform(from_bottom, from_bottom + depths.cols, depths[row], metresAhead);
-    }
-  });
+  cv::Mat depths;
+  picture(camera, world_from_camera, world_from_robot, &depths);
   return depths;
 }
 

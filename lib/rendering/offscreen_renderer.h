@@ -29,8 +29,9 @@ class OffscreenRenderer : public ImageSource {
   /// @param camera its size and field of view; x of `world_from_camera` is along the optical axis, z up
   ///@{
   /// Blue, green, red, 8 bits each.
+  /// @param depth receives the depths of the same picture, as depth(), if not null
   cv::Mat picture(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                  std::span<const mrpt::math::TPose2D> world_from_robot);
+                  std::span<const mrpt::math::TPose2D> world_from_robot, cv::Mat* depth = nullptr);
   /// Depth of each pixel along the optical axis [m], single precision; 0 for the sky.
   cv::Mat depth(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
                 std::span<const mrpt::math::TPose2D> world_from_robot);

@@ -317,6 +317,24 @@ TEST(OffscreenRenderer, DrawsRobotsAtTheirCurrentPoses) {
   EXPECT_EQ(cv::norm(there, again, cv::NORM_INF), 0);
 }
 
+TEST(OffscreenRenderer, DrawsNoAbsentRobot) {
+  const LoadedWorld loaded = shipped("small_maze.xml");
+  auto poses = starts(loaded.fleet);
+  const TPose2D& second = poses[1];
+  const TPose3D camera = at(second.x - 1, second.y, 0.5, 0, 0.2);
+  OffscreenRenderer renderer(loaded.world, loaded.fleet);
+  const cv::Mat with = renderer.picture(kCamera, camera, poses);
+  poses[1] = kNotShown;
+  const cv::Mat without = renderer.picture(kCamera, camera, poses);
+  Fleet others = loaded.fleet;
+  others.robots.erase(others.robots.begin() + 1);
+  auto other_poses = poses;
+  other_poses.erase(other_poses.begin() + 1);
+  const cv::Mat never = OffscreenRenderer(loaded.world, others).picture(kCamera, camera, other_poses);
+  EXPECT_EQ(cv::norm(without, never, cv::NORM_L1), 0);
+  EXPECT_GT(cv::norm(with, without, cv::NORM_L1), 10000);
+}
+
 TEST(OffscreenRenderer, MarksARobotsHeading) {
   for (const char* model : {"pioneer3dx", "scout"}) {
     const LoadedWorld two = twoOf(model);

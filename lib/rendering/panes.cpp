@@ -3,7 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include <opencv2/imgproc.hpp>
+
 #include "rendering/air_overlay.h"
+#include "rendering/bgr.h"
+#include "rendering/canvas.h"
 #include "rendering/ground_painter.h"
 
 namespace robosim {
@@ -81,24 +85,32 @@ Panes::Panes(const World& world, const Fleet& fleet, std::vector<Pane> panes, Dr
     : world_(world), fleet_(fleet), panes_(std::move(panes)), draw_3d_(std::move(draw_3d)), top_view_(world, fleet) {}
 
 void Panes::resize(int width_px, int height_px) {
-  if (width_px == width_px_ && height_px == height_px_) return;
+  if (width_px == width_px_ && height_px == height_px_ && look_.scale == fitted_scale_) return;
+  fitted_scale_ = look_.scale;
   const bool is_first = width_px_ == 0;
   width_px_ = width_px;
   height_px_ = height_px;
   for (std::size_t i = 0; i < panes_.size(); ++i) {
-    const cv::Rect rect = rectOf(i);
-    panes_[i].top.width_px = rect.width;
-    panes_[i].top.height_px = rect.height;
+    setTopSize(panes_[i], i);
     if (is_first) fit(panes_[i], i);
   }
 }
 
+void Panes::setTopSize(Pane& pane, std::size_t index) const {
+  const cv::Rect rect = rectOf(index);
+  pane.top.scale = look_.scale;
+  pane.top.width_px = std::max(1, static_cast<int>(std::lround(rect.width / look_.scale)));
+  pane.top.height_px = std::max(1, static_cast<int>(std::lround(rect.height / look_.scale)));
+}
+
 void Panes::fit(Pane& pane, std::size_t index) const {
   const cv::Rect rect = rectOf(index);
-  pane.top = TopViewCamera::showing(world_.bounds, rect.width, rect.height);
+  setTopSize(pane, index);
+  pane.top = TopViewCamera::showing(world_.bounds, pane.top.width_px, pane.top.height_px);
+  pane.top.scale = look_.scale;
   pane.top.follow = pane.follow;
   if (pane.follow) {
-    pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(rect.width, rect.height) / kFollowRadius_m);
+    pane.top.px_per_m = std::max(pane.top.px_per_m, std::min(pane.top.width_px, pane.top.height_px) / kFollowRadius_m);
   }
   pane.air = makePane(pane.is_3d, pane.follow, world_).air;
   if (!pane.follow) pane.air.distance_m = distanceToShow(world_, pane.air, rect.width, rect.height);
@@ -119,30 +131,92 @@ cv::Rect Panes::rectOf(std::size_t pane) const {
           std::max(1, edge(row + 1, rows, height_px_) - kGap_px - top)};
 }
 
-cv::Mat Panes::draw(const RunSnapshot& snapshot, const Trails& trails) {
-  if (panes_.size() == 1) return drawPane(panes_[0], snapshot, trails);
-  cv::Mat picture(height_px_, width_px_, CV_8UC3, cv::Scalar(90, 80, 75));
-  for (std::size_t i = 0; i < panes_.size(); ++i) {
-    drawPane(panes_[i], snapshot, trails).copyTo(picture(rectOf(i)));
+cv::Mat Panes::draw(const RunSnapshot& snapshot, const RunPaths& paths) {
+  cv::Mat picture;
+  if (panes_.size() == 1) {
+    picture = drawPane(0, snapshot, paths);
+  } else {
+    picture = cv::Mat(height_px_, width_px_, CV_8UC3, cv::Scalar(90, 80, 75));
+    for (std::size_t i = 0; i < panes_.size(); ++i) drawPane(i, snapshot, paths).copyTo(picture(rectOf(i)));
+  }
+  if (look_.camera_inset) drawInset(picture, snapshot);
+  return picture;
+}
+
+cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const RunPaths& paths) {
+  const Pane& pane = panes_[index];
+  const cv::Rect rect = rectOf(index);
+  if (!pane.is_3d) {
+    cv::Mat picture = top_view_.draw(snapshot, paths, pane.top, layers_);
+    // Scales that are not whole numbers may miss the size by a pixel.
+    if (picture.size() != rect.size()) cv::resize(picture, picture, rect.size(), 0, 0, cv::INTER_LINEAR);
+    return picture;
+  }
+  CameraInfo camera;
+  camera.width_px = static_cast<std::uint32_t>(rect.width);
+  camera.height_px = static_cast<std::uint32_t>(rect.height);
+  camera.field_of_view_rad = pane.air.field_of_view_rad;
+  const TPose2D* ridden = pane.follow ? &snapshot.robots[*pane.follow].world_from_robot : nullptr;
+  const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
+  const bool has_overlay = !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names);
+  cv::Mat depth;
+  cv::Mat picture = render(camera, world_from_camera, snapshot, has_overlay ? &depth : nullptr);
+  if (has_overlay && !depth.empty()) {
+    drawAirOverlay({picture, depth, camera, world_from_camera, look_.scale}, snapshot, fleet_, paths, layers_,
+                   requestedReadings());
   }
   return picture;
 }
 
-cv::Mat Panes::drawPane(const Pane& pane, const RunSnapshot& snapshot, const Trails& trails) {
-  if (!pane.is_3d) return top_view_.draw(snapshot, trails, pane.top, layers_);
-  CameraInfo camera;
-  camera.width_px = static_cast<std::uint32_t>(pane.top.width_px);
-  camera.height_px = static_cast<std::uint32_t>(pane.top.height_px);
-  camera.field_of_view_rad = pane.air.field_of_view_rad;
+cv::Mat Panes::render(CameraInfo camera, const TPose3D& world_from_camera, const RunSnapshot& snapshot,
+                      cv::Mat* depth) {
   std::vector<TPose2D> world_from_robot;
-  for (const auto& robot : snapshot.robots) world_from_robot.push_back(robot.world_from_robot);
-  const TPose2D* ridden = pane.follow ? &world_from_robot[*pane.follow] : nullptr;
-  const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
-  cv::Mat picture = draw_3d_(camera, world_from_camera, world_from_robot);
-  if (world_.objects.empty() && world_.maps.empty()) {
-    drawAirOverlay(picture, camera, world_from_camera, snapshot, fleet_, trails, layers_);
+  for (const auto& robot : snapshot.robots) {
+    world_from_robot.push_back(robot.isPresent() ? robot.world_from_robot : kNotShown);
   }
+  if (!look_.antialias) return draw_3d_(camera, world_from_camera, world_from_robot, depth);
+  const cv::Size size(static_cast<int>(camera.width_px), static_cast<int>(camera.height_px));
+  camera.width_px *= 2;
+  camera.height_px *= 2;
+  cv::Mat picture = draw_3d_(camera, world_from_camera, world_from_robot, depth);
+  cv::resize(picture, picture, size, 0, 0, cv::INTER_AREA);
+  if (depth && !depth->empty()) cv::resize(*depth, *depth, size, 0, 0, cv::INTER_NEAREST);
   return picture;
+}
+
+void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
+  const auto camera_of = [&](std::size_t robot) -> const SensorInfo* {
+    for (const auto& sensor : *fleet_.robots[robot].info.sensors) {
+      if (sensor.kind == SensorKind::camera && !sensor.beams.empty()) return &sensor;
+    }
+    return nullptr;
+  };
+  std::optional<std::size_t> robot;
+  for (const auto& pane : panes_) {
+    if (!robot && pane.follow && camera_of(*pane.follow)) robot = pane.follow;
+  }
+  for (std::size_t i = 0; i < fleet_.robots.size() && !robot; ++i) {
+    if (camera_of(i)) robot = i;
+  }
+  if (!robot) return;
+  const SensorInfo& sensor = *camera_of(*robot);
+  constexpr double kShare = 0.28;  // of the picture's width
+  const int width = std::max(16, static_cast<int>(picture.cols * kShare));
+  CameraInfo camera = sensor.camera;
+  camera.height_px = std::max(1U, camera.height_px * static_cast<unsigned>(width) / std::max(1U, camera.width_px));
+  camera.width_px = static_cast<unsigned>(width);
+  const TPose2D& pose = snapshot.robots[*robot].world_from_robot;
+  const TPose3D world_from_robot(pose.x, pose.y, fleet_.robots[*robot].body.heights().z_min_m, pose.phi, 0, 0);
+  cv::Mat inset = render(camera, world_from_robot + sensor.beams.front().robot_from_beam, snapshot, nullptr);
+  const int border = std::max(1, static_cast<int>(std::lround(3 * look_.scale)));
+  cv::copyMakeBorder(inset, inset, border, border, border, border, cv::BORDER_CONSTANT,
+                     bgr(fleet_.robots[*robot].body.color));
+  const cv::Rect place(picture.cols - inset.cols - 3 * border, 3 * border, inset.cols, inset.rows);
+  if ((place & cv::Rect({}, picture.size())) != place) return;
+  Canvas canvas(inset);
+  const double text_px = kTextSize_px * look_.scale;
+  canvas.text({border + 6 * look_.scale, border + 1.2 * text_px}, fleet_.robots[*robot].info.name, text_px, kInkColor);
+  canvas.picture().copyTo(picture(place));
 }
 
 std::vector<std::uint8_t> Panes::requestedReadings() const {
@@ -158,7 +232,7 @@ Pane* Panes::paneAt(const TPoint2D& at, TPoint2D& pixel_in_pane) {
   for (std::size_t i = 0; i < panes_.size(); ++i) {
     const cv::Rect rect = rectOf(i);
     if (!rect.contains({static_cast<int>(at.x), static_cast<int>(at.y)})) continue;
-    pixel_in_pane = {at.x - rect.x, at.y - rect.y};
+    pixel_in_pane = {(at.x - rect.x) / look_.scale, (at.y - rect.y) / look_.scale};
     return &panes_[i];
   }
   return nullptr;
@@ -169,7 +243,7 @@ void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
   Pane* const pane = paneAt(at, pixel_in_pane);
   if (!pane) return;
   if (!pane->is_3d) {
-    pane->top.center += TPoint2D(-by_px.x, by_px.y) * (1 / pane->top.px_per_m);
+    pane->top.center += TPoint2D(-by_px.x, by_px.y) * (1 / (pane->top.px_per_m * look_.scale));
     return;
   }
   OrbitCamera& air = pane->air;
@@ -180,7 +254,8 @@ void Panes::drag(const TPoint2D& at, const TPoint2D& by_px, Drag how) {
     return;
   }
   // Size of a pixel on the ground at the target's distance.
-  const double per_pixel_m = 2 * air.distance_m * std::tan(air.field_of_view_rad / 2) / pane->top.width_px;
+  const double per_pixel_m =
+      2 * air.distance_m * std::tan(air.field_of_view_rad / 2) / (pane->top.width_px * look_.scale);
   const TPoint2D ahead(-std::cos(air.azimuth_rad), -std::sin(air.azimuth_rad));
   const TPoint2D right(ahead.y, -ahead.x);
   air.target += right * (-by_px.x * per_pixel_m) + ahead * (by_px.y * per_pixel_m / std::sin(air.elevation_rad));

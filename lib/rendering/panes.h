@@ -7,8 +7,8 @@
 #include <opencv2/core/mat.hpp>
 
 #include "hardware/sensor_info.h"
+#include "rendering/run_paths.h"
 #include "rendering/top_view.h"
-#include "rendering/trails.h"
 
 namespace robosim {
 
@@ -39,17 +39,26 @@ Pane makePane(bool is_3d, std::optional<std::size_t> follow, const World& world)
 /// Several views of one run, side by side on a picture.
 class Panes {
  public:
-  /// Renders a 3D pane: BGR, of the camera's size. Called only for 3D panes.
+  /// Renders a 3D pane or an inset: BGR, of the camera's size; if `depth` is not null, with the depths of the picture
+  /// (OffscreenRenderer::picture()). Called only for these.
   using Draw3d = std::function<cv::Mat(const CameraInfo&, const mrpt::math::TPose3D& world_from_camera,
-                                       std::span<const mrpt::math::TPose2D> world_from_robot)>;
+                                       std::span<const mrpt::math::TPose2D> world_from_robot, cv::Mat* depth)>;
+
+  /// Style of the whole picture.
+  struct Look {
+    double scale = 1;           ///< of lines and text, > 0
+    bool antialias = false;     ///< 3D: renders at twice the resolution
+    bool camera_inset = false;  ///< picture of the followed robot's camera, or of the first robot that has one
+  };
 
   Panes(const World& world, const Fleet& fleet, std::vector<Pane> panes, Draw3d draw_3d);
 
   void resize(int width_px, int height_px);
   /// The whole picture, BGR.
-  cv::Mat draw(const RunSnapshot& snapshot, const Trails& trails);
+  cv::Mat draw(const RunSnapshot& snapshot, const RunPaths& paths);
 
   TopViewLayers& layers() { return layers_; }
+  Look& look() { return look_; }
   /// Flags of the robots whose readings the panes show, by robot; empty for all robots.
   std::vector<std::uint8_t> requestedReadings() const;
 
@@ -69,8 +78,12 @@ class Panes {
  private:
   cv::Rect rectOf(std::size_t pane) const;
   Pane* paneAt(const mrpt::math::TPoint2D& at, mrpt::math::TPoint2D& pixel_in_pane);
-  cv::Mat drawPane(const Pane& pane, const RunSnapshot& snapshot, const Trails& trails);
+  cv::Mat drawPane(std::size_t index, const RunSnapshot& snapshot, const RunPaths& paths);
   void fit(Pane& pane, std::size_t index) const;
+  void setTopSize(Pane& pane, std::size_t index) const;
+  cv::Mat render(CameraInfo camera, const mrpt::math::TPose3D& world_from_camera, const RunSnapshot& snapshot,
+                 cv::Mat* depth);
+  void drawInset(cv::Mat& picture, const RunSnapshot& snapshot);
 
   const World& world_;
   const Fleet& fleet_;
@@ -78,6 +91,8 @@ class Panes {
   Draw3d draw_3d_;
   TopView top_view_;
   TopViewLayers layers_;
+  Look look_;
+  double fitted_scale_ = 1;
   int width_px_ = 0, height_px_ = 0;
 };
 

@@ -1,5 +1,7 @@
 #include "rendering/plan.h"
 
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/atomic_file.h"
@@ -41,7 +43,9 @@ void writePlan(const std::filesystem::path& file, const World& world, const Flee
   AtomicFile whole(file);
   DrawnRun run;
   run.paths.assign(paths.begin(), paths.end());
-  run.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
+  for (const auto& pose : world_from_robot) {
+    run.world_from_robot.push_back(std::isnan(pose.x) ? std::nullopt : std::optional(pose));
+  }
   whole.write(planPicture(format, world, fleet, run));
   whole.commit();
 }

@@ -32,7 +32,7 @@ DrawnRun startOf(const Fleet&);
 
 /// Writes the plan of a run as a PNG, SVG or PDF file, according to its name.
 /// @param paths may be empty, as may each path in it: then no paths are drawn
-/// @param world_from_robot final poses
+/// @param world_from_robot final poses; kNotShown (sensors/image_source.h) for absent robots
 /// @throws ConfigError when the file cannot be created, and std::runtime_error when the disk is full; in both cases no
 /// partial file remains.
 void writePlan(const std::filesystem::path& file, const World&, const Fleet&, PlanPaths paths,

@@ -10,6 +10,7 @@
 
 #include "base/testing/file_size_limit.h"
 #include "base/testing/test_folder.h"
+#include "robots/robot_colors.h"
 
 namespace robosim {
 namespace {
@@ -45,6 +46,7 @@ struct Scene10x5 {
       FleetRobot robot;
       robot.info.name = name;
       robot.info.radius_m = 0.3;
+      robot.body.color = paletteColor(fleet.robots.size());
       fleet.robots.push_back(robot);
     }
   }

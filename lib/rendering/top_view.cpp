@@ -8,6 +8,7 @@
 
 #include "rendering/canvas.h"
 #include "rendering/ground_painter.h"
+#include "rendering/sensor_colors.h"
 
 namespace robosim {
 namespace {
@@ -15,23 +16,17 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr Color kSonarColor{0.16f, 0.47f, 0.86f};
-constexpr Color kLaserColor{0.86f, 0.20f, 0.25f};
-constexpr Color kInfraredColor{0.55f, 0.25f, 0.70f};
 constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
 constexpr double kRobotRadiusMin_px = 3;
+constexpr double kPath_px = 1.6;  ///< width
 /// Maximum number of visible robots whose names are drawn.
 constexpr std::size_t kMaxNames = 60;
 
 /// Minimum aperture of a drawn fan, which makes beams of zero aperture visible.
 constexpr double kThinBeam_rad = 0.02;
 
-const Color& colorOf(SensorKind kind) {
-  return kind == SensorKind::laser ? kLaserColor : kind == SensorKind::infrared ? kInfraredColor : kSonarColor;
-}
-
-Canvas emptyFloor(const World& world, const GroundView& view) {
-  Canvas canvas(view, kPageColor);
+Canvas emptyFloor(const World& world, const GroundView& view, double scale) {
+  Canvas canvas(view, kPageColor, scale);
   drawFloor(canvas, world.bounds);
   return canvas;
 }
@@ -54,8 +49,8 @@ class Drawing {
         canvas_(std::move(floor)),
         objects_(objects) {}
 
-  cv::Mat draw(const Trails& trails, const TopViewLayers& layers) {
-    if (layers.trails) drawTrails(trails);
+  cv::Mat draw(const RunPaths& paths, const TopViewLayers& layers) {
+    if (layers.paths) drawPaths(paths, layers.paths_from_s);
     if (layers.sensors) drawRanges();
     if (objects_) {
       canvas_.lay(*objects_);
@@ -79,29 +74,64 @@ class Drawing {
            pixel.y < view_.height() + margin_px;
   }
 
-  void drawTrails(const Trails& trails) {
-    for (std::size_t i = 0; i < trails.ofRobot().size() && i < snapshot_.robots.size(); ++i) {
-      std::vector<TPoint2D> path;
-      constexpr double kStride_px = 1.5;
-      const auto draw_path = [&] { canvas_.polyline(path, 1.6, mix(colors_[i], kFloorColor, 0.35f)); };
-      for (const auto& [point, is_after_gap] : trails.ofRobot()[i]) {
-        const TPoint2D pixel = view_.toPixel(point);
-        if (is_after_gap) {
-          draw_path();
-          path.clear();
-        }
-        if (path.empty() || (pixel - path.back()).norm() >= kStride_px) path.push_back(pixel);
-      }
-      path.push_back(pixelOf(snapshot_.robots[i].world_from_robot));
-      draw_path();
+  /// A piece of a path on the picture.
+  struct Stroke {
+    std::size_t robot;
+    std::vector<TPoint2D> points;
+  };
+
+  /// Draws the paths. Where old ones would cover much of the picture (many robots, long runs), they fade towards the
+  /// floor, and only the last seconds keep their full colour.
+  void drawPaths(const RunPaths& paths, double from_s) {
+    constexpr double kRecent_s = 20;
+    constexpr double kBright = 0.04;  // share of the picture that old paths may cover at full opacity
+    constexpr float kPaleness = 0.35f, kPalenessMax = 0.85f;
+    const double recent_from_s = std::max(from_s, snapshot_.time_s - kRecent_s);
+    std::vector<Stroke> old, recent;
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
+      addStrokes(old, i, paths.between(i, from_s, recent_from_s), paths.positionAt(i, recent_from_s));
+      if (!snapshot_.robots[i].isPresent()) continue;
+      const auto& pose = snapshot_.robots[i].world_from_robot;
+      addStrokes(recent, i, paths.between(i, recent_from_s, snapshot_.time_s), TPoint2D(pose.x, pose.y));
     }
+    double length_px = 0;
+    for (const auto& stroke : old) {
+      for (std::size_t k = 1; k < stroke.points.size(); ++k)
+        length_px += (stroke.points[k] - stroke.points[k - 1]).norm();
+    }
+    const double covered = length_px * kPath_px / (1.0 * view_.width() * view_.height());
+    const float paleness =
+        std::clamp(static_cast<float>(1 - kBright / std::max(1e-9, covered)), kPaleness, kPalenessMax);
+    for (const auto& stroke : old)
+      canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, paleness));
+    for (const auto& stroke : recent)
+      canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, kPaleness));
+  }
+
+  /// Adds the visible pieces of a part of a path, which ends at `end` if that is known.
+  void addStrokes(std::vector<Stroke>& strokes, std::size_t robot, const PathPart& part,
+                  const std::optional<TPoint2D>& end) const {
+    constexpr double kStride_px = 1.5;
+    Stroke stroke{robot, {}};
+    const auto finish = [&] {
+      if (stroke.points.size() > 1) strokes.push_back(stroke);
+      stroke.points.clear();
+    };
+    if (part.begin) stroke.points.push_back(view_.toPixel(*part.begin));
+    for (const auto& point : part.points) {
+      const TPoint2D pixel = view_.toPixel(point.at);
+      if (point.is_after_gap) finish();
+      if (stroke.points.empty() || (pixel - stroke.points.back()).norm() >= kStride_px) stroke.points.push_back(pixel);
+    }
+    if (end && !stroke.points.empty()) stroke.points.push_back(view_.toPixel(*end));
+    finish();
   }
 
   /// Draws regions measured as free, with a tint per kind of sensor, and dots at echoes.
   void drawRanges() {
     struct Dot {
       TPoint2D at;
-      const Color* color;
+      Color color;
     };
     std::vector<Dot> dots;
     std::vector<std::vector<TPoint2D>> free[3];
@@ -114,13 +144,13 @@ class Drawing {
       for (std::size_t i = 0; i < echoes.size(); ++i) {
         if (sensor.kind != SensorKind::laser || echoes.size() <= 2) areas.push_back(cone(robot, sensor, i, echoes[i]));
         if (echoes[i].range_m < sensor.range_max_m) {
-          dots.push_back({toPixel(robot, {echoes[i].point_m.x, echoes[i].point_m.y}), &colorOf(sensor.kind)});
+          dots.push_back({toPixel(robot, {echoes[i].point_m.x, echoes[i].point_m.y}), sensorColor(sensor.kind)});
         }
       }
     });
-    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], colorOf(kinds[i]), 0.17f);
+    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], sensorColor(kinds[i]), 0.17f);
     for (const auto& dot : dots) {
-      if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, *dot.color);
+      if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, dot.color);
     }
   }
 
@@ -128,7 +158,7 @@ class Drawing {
   void forEachRanges(const Visit& visit) const {
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
       const RobotSnapshot& robot = snapshot_.robots[i];
-      if (!robot.readings) continue;
+      if (!robot.readings || !robot.isPresent()) continue;
       const auto& sensors = *fleet_.robots[i].info.sensors;
       for (std::size_t k = 0; k < sensors.size(); ++k) {
         const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
@@ -169,7 +199,7 @@ class Drawing {
     const RobotSnapshot& robot = snapshot_.robots[i];
     const TPoint2D center = pixelOf(robot.world_from_robot);
     const double radius = radiusPx(i);
-    if (!isOnPicture(center, radius + 8)) return;
+    if (!robot.isPresent() || !isOnPicture(center, radius + 8)) return;
     if (robot.stalled) canvas_.disc(center, radius + 3, kStallColor);
     if (robot.activity == Activity::found) canvas_.disc(center, radius + 3.5, kGlowColor);
     const Color color = robot.activity == Activity::active ? colors_[i] : mix(colors_[i], {0.5f, 0.5f, 0.5f}, 0.6f);
@@ -181,7 +211,7 @@ class Drawing {
   void drawTouch() {
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
       const RobotSnapshot& robot = snapshot_.robots[i];
-      if (!robot.readings || !isOnPicture(pixelOf(robot.world_from_robot), 100)) continue;
+      if (!robot.readings || !robot.isPresent() || !isOnPicture(pixelOf(robot.world_from_robot), 100)) continue;
       const auto& info = fleet_.robots[i].info;
       for (std::size_t k = 0; k < info.sensors->size(); ++k) {
         const SensorInfo& sensor = (*info.sensors)[k];
@@ -219,7 +249,7 @@ class Drawing {
     std::vector<std::size_t> seen;
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
       const TPoint2D center = pixelOf(snapshot_.robots[i].world_from_robot);
-      if (!isOnPicture(center, 0)) continue;
+      if (!snapshot_.robots[i].isPresent() || !isOnPicture(center, 0)) continue;
       names.keepClear(center, radiusPx(i), radiusPx(i));
       seen.push_back(i);
     }
@@ -289,27 +319,28 @@ GroundView TopView::groundView(const RunSnapshot& snapshot, const TopViewCamera&
   return {camera.width_px, camera.height_px, center, camera.px_per_m};
 }
 
-cv::Mat TopView::draw(const RunSnapshot& snapshot, const Trails& trails, const TopViewCamera& camera,
+cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
                       const TopViewLayers& layers) {
   const GroundView view = groundView(snapshot, camera);
-  if (std::exchange(last_view_, view) != view) {
+  if (std::exchange(last_view_, view) != view || std::exchange(last_scale_, camera.scale) != camera.scale) {
     static_layers_.reset();
-    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view), nullptr).draw(trails, layers);
+    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view, camera.scale), nullptr).draw(paths, layers);
   }
   if (!static_layers_) {
-    Canvas floor = emptyFloor(world_, view);
+    Canvas floor = emptyFloor(world_, view, camera.scale);
     Canvas with_things(floor);
     drawObjectsAndMaps(with_things, world_);
     Canvas::Layer objects = with_things.differenceFrom(floor);
     static_layers_ = std::make_unique<StaticLayers>(StaticLayers{std::move(floor), std::move(objects)});
   }
-  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects).draw(trails, layers);
+  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects).draw(paths, layers);
 }
 
 std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const RunSnapshot& snapshot, const Fleet& fleet,
                                             const TopViewCamera& camera) {
   const GroundView view = groundView(snapshot, camera);
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    if (!snapshot.robots[i].isPresent()) continue;
     const auto& pose = snapshot.robots[i].world_from_robot;
     const double radius = std::max(6.0, fleet.robots[i].info.radius_m * view.pixelsPerMetre());
     if ((view.toPixel({pose.x, pose.y}) - pixel).norm() <= radius) return i;

@@ -5,7 +5,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "rendering/ground_view.h"
-#include "rendering/trails.h"
+#include "rendering/run_paths.h"
 #include "robots/fleet.h"
 #include "world/world.h"
 
@@ -13,8 +13,9 @@ namespace robosim {
 
 /// Camera of a view from above.
 struct TopViewCamera {
-  int width_px = 960, height_px = 720;
-  mrpt::math::TPoint2D center;  ///< world frame [m]
+  int width_px = 960, height_px = 720;  ///< before scaling
+  double scale = 1;                     ///< of the picture, with its lines and text
+  mrpt::math::TPoint2D center;          ///< world frame [m]
   double px_per_m = 50;
   std::optional<std::size_t> follow;  ///< the robot kept in the middle; overrides `center`
 
@@ -26,9 +27,10 @@ struct TopViewCamera {
 
 /// Layers of a view from above.
 struct TopViewLayers {
-  bool trails = true;
+  bool paths = true;
   bool sensors = true;  ///< of robots that have readings: sonar fans, laser scans, infrared, heat, bumper
   bool names = true;
+  double paths_from_s = 0;  ///< earlier parts of the paths are not drawn
 };
 
 /// Renders a run from straight above, to scale.
@@ -39,7 +41,7 @@ class TopView {
   ~TopView();
 
   /// BGR, 8 bits.
-  cv::Mat draw(const RunSnapshot& snapshot, const Trails& trails, const TopViewCamera& camera,
+  cv::Mat draw(const RunSnapshot& snapshot, const RunPaths& paths, const TopViewCamera& camera,
                const TopViewLayers& layers);
   /// The robot at a pixel, if there is one.
   static std::optional<std::size_t> robotAt(const mrpt::math::TPoint2D& pixel, const RunSnapshot& snapshot,
@@ -53,6 +55,7 @@ class TopView {
   const World& world_;
   const Fleet& fleet_;
   GroundView last_view_;
+  double last_scale_ = 1;
   std::unique_ptr<const StaticLayers> static_layers_;  ///< of `last_view_`, created when it is drawn a second time
 };
 

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "rendering/panes.h"
+#include "robots/robot_colors.h"
 
 namespace robosim {
 namespace {
@@ -35,6 +36,7 @@ struct TopViewTest : testing::Test {
       sonar.beam_width_rad = 0.4;
       sonar.beams = {{{0.5, 0, 0.2, 0, 0, 0}}};
       robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sonar});
+      robot.body.color = paletteColor(fleet.robots.size());
       fleet.robots.push_back(robot);
     }
     snapshot.robots.resize(2);
@@ -50,9 +52,9 @@ struct TopViewTest : testing::Test {
   World world;
   Fleet fleet;
   RunSnapshot snapshot;
-  Trails trails;
+  RunPaths paths;
   TopViewCamera camera = TopViewCamera::showing({0, 10, 0, 5}, 1048, 700);
-  TopViewLayers layers{.trails = true, .sensors = true, .names = false};
+  TopViewLayers layers{.paths = true, .sensors = true, .names = false, .paths_from_s = 0};
 };
 
 TEST_F(TopViewTest, FillsThePictureToScaleWithXToTheRightAndYUp) {
@@ -68,7 +70,7 @@ TEST_F(TopViewTest, FillsThePictureToScaleWithXToTheRightAndYUp) {
 }
 
 TEST_F(TopViewTest, DrawsAnObjectToThePixel) {
-  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   ASSERT_EQ(picture.cols, 1048);
   ASSERT_EQ(picture.rows, 700);
   const cv::Vec3b blue(255, 0, 0);
@@ -81,7 +83,7 @@ TEST_F(TopViewTest, DrawsAnObjectToThePixel) {
 }
 
 TEST_F(TopViewTest, DrawsRobotsWithAHeadingMark) {
-  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   const cv::Vec3b red = at(picture, {5 - 0.3, 2.5});
   EXPECT_GT(red[2], 2 * red[0]) << "the first robot is red";
   EXPECT_EQ(at(picture, {5 + 0.3, 2.5}), cv::Vec3b(255, 255, 255)) << "a white heading mark";
@@ -89,11 +91,24 @@ TEST_F(TopViewTest, DrawsRobotsWithAHeadingMark) {
   EXPECT_NE(at(picture, {8 + 0.3, 4}), cv::Vec3b(255, 255, 255));
 }
 
+TEST_F(TopViewTest, DrawsNoAbsentRobot) {
+  snapshot.robots[0].activity = Activity::absent;
+  Readings readings;
+  readings.measurements = {Echoes{{2, {2.5F, 0, 0.2F}}}};
+  snapshot.robots[0].readings = readings;
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
+  const cv::Vec3b floor = at(picture, {4.53, 1.53});
+  EXPECT_EQ(at(picture, {5 - 0.3, 2.53}), floor);
+  EXPECT_EQ(at(picture, {5 + 0.5 + 1.03, 2.53}), floor);
+  EXPECT_EQ(TopView::robotAt(TopView::groundView(snapshot, camera).toPixel({5, 2.5}), snapshot, fleet, camera),
+            std::nullopt);
+}
+
 TEST_F(TopViewTest, TintsTheFreeSectorOfASonarAndMarksItsEcho) {
   Readings readings;
   readings.measurements = {Echoes{{2, {2.5F, 0, 0.2F}}}};
   snapshot.robots[0].readings = readings;
-  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   const auto is_tinted = [&](const TPoint2D& p) {
     const cv::Vec3b pixel = at(picture, p);
     return pixel[0] > pixel[2] + 10;  // bluish
@@ -106,7 +121,7 @@ TEST_F(TopViewTest, TintsTheFreeSectorOfASonarAndMarksItsEcho) {
   EXPECT_LT(dot[2], 100) << "a dot at the echo";
   layers.sensors = false;
   EXPECT_FALSE([&] {
-    const cv::Vec3b pixel = at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {6.53, 2.53});
+    const cv::Vec3b pixel = at(TopView(world, fleet).draw(snapshot, paths, camera, layers), {6.53, 2.53});
     return pixel[0] > pixel[2] + 10;
   }());
 }
@@ -119,7 +134,7 @@ TEST_F(TopViewTest, TurnsTheFreeSectorOfAPanningSensor) {
   readings.measurements = {Echoes{{2, {0.5F, 2, 0.2F}}}};
   snapshot.robots[0].readings = readings;
   snapshot.robots[0].laser_pan_rad = static_cast<float>(std::numbers::pi / 2);
-  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   const auto is_tinted = [&](const TPoint2D& p) {
     const cv::Vec3b pixel = at(picture, p);
     return pixel[0] > pixel[2] + 10;  // bluish
@@ -131,8 +146,8 @@ TEST_F(TopViewTest, TurnsTheFreeSectorOfAPanningSensor) {
 TEST_F(TopViewTest, DrawsTheWorldWhereItIsAfterTheViewHasMoved) {
   // From the second picture of a view on, the world is drawn from layers.
   const auto second_picture_of = [&](TopView& view) {
-    view.draw(snapshot, trails, camera, layers);
-    return view.draw(snapshot, trails, camera, layers);
+    view.draw(snapshot, paths, camera, layers);
+    return view.draw(snapshot, paths, camera, layers);
   };
   TopView moved(world, fleet), other(world, fleet);
   second_picture_of(moved);
@@ -150,7 +165,7 @@ TEST_F(TopViewTest, TintsTheFreeAreaOfAScanAndMarksItsEchoes) {
   fleet.robots[0].info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{laser});
   snapshot.robots[0].readings.emplace();
   snapshot.robots[0].readings->measurements = {Echoes{{0.9F, {0, 0.9F, 0}}, {1, {1, 0, 0}}, {0.9F, {0, -0.9F, 0}}}};
-  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   const auto is_tinted = [&](const TPoint2D& p) {
     const cv::Vec3b pixel = at(picture, p);
     return pixel[2] > pixel[0] + 10;  // reddish
@@ -168,9 +183,9 @@ TEST_F(TopViewTest, TintsTheFreeAreaOfAScanAndMarksItsEchoes) {
 TEST_F(TopViewTest, AcceptsASensorWithoutMeasurement) {
   snapshot.robots[0].readings.emplace();
   snapshot.robots[0].readings->measurements = {Echoes{}};
-  const cv::Mat silent = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat silent = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   snapshot.robots[0].readings.reset();
-  const cv::Mat without = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat without = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   EXPECT_EQ(cv::norm(silent, without, cv::NORM_INF), 0);
 }
 
@@ -181,7 +196,7 @@ TEST_F(TopViewTest, WritesTheHeatBesideARobot) {
   const auto picture_at = [&](double heat_now) {
     snapshot.robots[0].readings.emplace();
     snapshot.robots[0].readings->measurements = {Scalar{heat_now}};
-    return TopView(world, fleet).draw(snapshot, trails, camera, layers);
+    return TopView(world, fleet).draw(snapshot, paths, camera, layers);
   };
   const cv::Mat cold = picture_at(0), warm = picture_at(7), hot = picture_at(40);
   // Below and to the right of the robot, "heat 7" and "heat 40" at 11 px or so, and nowhere else.
@@ -197,48 +212,31 @@ TEST_F(TopViewTest, WritesTheHeatBesideARobot) {
   EXPECT_GT(ink_of(hot, beside), ink_of(warm, beside)) << "two digits";
 }
 
-TEST_F(TopViewTest, DrawsTrails) {
+TEST_F(TopViewTest, DrawsPaths) {
   RunSnapshot before = snapshot;
   for (int i = 0; i <= 20; ++i) {
     before.step = static_cast<std::uint64_t>(i);
     before.robots[0].world_from_robot = {3 + 0.1 * i, 3.53, 0};
-    trails.add(before);
+    paths.add(before);
   }
   snapshot.robots[0].world_from_robot = {5, 3.53, 0};
-  const cv::Vec3b on_trail = at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {3.75, 3.53});
-  EXPECT_GT(on_trail[2], on_trail[0] + 40) << "reddish, like the robot";
+  const cv::Vec3b on_path = at(TopView(world, fleet).draw(snapshot, paths, camera, layers), {3.75, 3.53});
+  EXPECT_GT(on_path[2], on_path[0] + 40) << "reddish, like the robot";
 }
 
-TEST_F(TopViewTest, TrailsReachTheStartAndRestartAfterRewinding) {
-  Trails few(10);
-  RunSnapshot moment;
-  moment.robots.resize(1);
-  for (std::uint64_t i = 0; i < 100; ++i) {
-    moment.step = i;
-    moment.robots[0].world_from_robot.x = static_cast<double>(i);
-    few.add(moment);
-  }
-  EXPECT_LE(few.ofRobot()[0].size(), 10U);
-  EXPECT_EQ(few.ofRobot()[0].front().at.x, 0);
-  EXPECT_GT(few.ofRobot()[0].back().at.x, 70) << "ten points over 99 m may lie 20 m apart";
-  moment.step = 5;
-  few.add(moment);
-  EXPECT_EQ(few.ofRobot()[0].size(), 1U);
-}
-
-TEST_F(TopViewTest, TrailsHaveGapsAfterSkippedSteps) {
+TEST_F(TopViewTest, PathsHaveGapsAfterSkippedSteps) {
   RunSnapshot before = snapshot;
   const auto come_to = [&](std::uint64_t step, double x) {
     before.step = step;
     before.robots[0].world_from_robot = {x, 3.53, 0};
-    trails.add(before);
+    paths.add(before);
   };
   come_to(0, 1);
   come_to(50, 1.9);  // short enough for a straight line
   come_to(100, 4);   // seek
   come_to(101, 6);   // fast run
   snapshot.robots[0].world_from_robot = {6, 3.53, 0};
-  const cv::Mat picture = TopView(world, fleet).draw(snapshot, trails, camera, layers);
+  const cv::Mat picture = TopView(world, fleet).draw(snapshot, paths, camera, layers);
   const auto is_red = [&](double x) {
     const cv::Vec3b pixel = at(picture, {x, 3.53});
     return pixel[2] > pixel[0] + 40;
@@ -248,21 +246,9 @@ TEST_F(TopViewTest, TrailsHaveGapsAfterSkippedSteps) {
   EXPECT_TRUE(is_red(4.95));
 }
 
-TEST_F(TopViewTest, DrawsThinnedTrailsThatBeginAfterAGap) {
-  Trails few(2);
-  RunSnapshot before = snapshot;
-  for (std::uint64_t i = 0; i < 5; ++i) {
-    before.step = 10 * i;
-    before.robots[0].world_from_robot = {1 + 2.0 * static_cast<double>(i), 3.53, 0};
-    few.add(before);
-    ASSERT_EQ(few.ofRobot()[0].front().is_after_gap, i >= 2);
-    TopView(world, fleet).draw(before, few, camera, layers);
-  }
-}
-
-TEST_F(TopViewTest, UsesTheFilesColoursUnlessTheyAreEqual) {
+TEST_F(TopViewTest, DrawsRobotsInTheColoursOfTheirBodies) {
   const auto color_of = [&](double x, double y) {
-    return at(TopView(world, fleet).draw(snapshot, trails, camera, layers), {x, y});
+    return at(TopView(world, fleet).draw(snapshot, paths, camera, layers), {x, y});
   };
   fleet.robots[0].body.color = {0, 1, 0};
   fleet.robots[1].body.color = {0, 0, 1};
@@ -270,7 +256,28 @@ TEST_F(TopViewTest, UsesTheFilesColoursUnlessTheyAreEqual) {
   EXPECT_GT(green[1], green[2] + 100);
   EXPECT_GT(blue[0], blue[2] + 100);
   fleet.robots[1].body.color = {0, 1, 0};
-  EXPECT_NE(color_of(4.75, 2.5), color_of(8, 3.75)) << "equal robots get different colours";
+  EXPECT_EQ(color_of(4.75, 2.5), color_of(8, 3.75)) << "a team";
+}
+
+TEST_F(TopViewTest, FadesOldPathsWhereTheyCoverThePicture) {
+  RunSnapshot before = snapshot;
+  const auto ride = [&](int lines) {  // boustrophedon, 0.1 s per metre
+    for (int i = 0; i < lines; ++i) {
+      for (const double x : {0.5, 9.5}) {
+        ++before.step;
+        before.time_s += 1;
+        before.robots[0].world_from_robot = {i % 2 == 0 ? x : 10 - x, 1 + 0.02 * i, 0};
+        paths.add(before);
+      }
+    }
+    return at(TopView(world, fleet).draw(before, paths, camera, layers), {5, 1});
+  };
+  snapshot.robots[0].world_from_robot = {9.5, 4.5, 0};
+  const cv::Vec3b few = ride(12);
+  const cv::Vec3b many = ride(100);
+  EXPECT_GT(few[2], few[0] + 60) << "red";
+  EXPECT_GT(many[0], few[0] + 40) << "pale";
+  EXPECT_GT(many[2], many[0] + 8) << "but visible";
 }
 
 TEST_F(TopViewTest, KeepsAFollowedRobotInTheMiddle) {
@@ -299,7 +306,7 @@ TEST_F(TopViewTest, FindsTheRobotAtAPixel) {
 TEST_F(TopViewTest, PanesShareThePictureAndFollowSeparateRobots) {
   Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(false, 0, world)}, {});
   panes.resize(804, 400);
-  const cv::Mat picture = panes.draw(snapshot, trails);
+  const cv::Mat picture = panes.draw(snapshot, paths);
   ASSERT_EQ(picture.size(), cv::Size(804, 400));
   // The right pane, 402 px wide, has the first robot in its middle; the left one shows the whole hall.
   const cv::Vec3b middle = picture.at<cv::Vec3b>(200, 404 + 200 - 20);
@@ -310,7 +317,7 @@ TEST_F(TopViewTest, LastRowOfPanesIsAsWideAsThePicture) {
   const Pane pane = makePane(false, std::nullopt, world);
   Panes panes(world, fleet, {pane, pane, pane}, {});
   panes.resize(804, 804);
-  const cv::Mat picture = panes.draw(snapshot, trails);
+  const cv::Mat picture = panes.draw(snapshot, paths);
   const auto& between = picture.at<cv::Vec3b>(200, 401);
   EXPECT_NE(picture.at<cv::Vec3b>(700, 401), between) << "no gap between panes";
   EXPECT_NE(picture.at<cv::Vec3b>(700, 790), between);
@@ -318,14 +325,14 @@ TEST_F(TopViewTest, LastRowOfPanesIsAsWideAsThePicture) {
 
 TEST_F(TopViewTest, ClickingARobotTurns3dPanesThatFollowToIt) {
   TPose3D world_from_camera;
-  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>) {
+  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>, cv::Mat*) {
     world_from_camera = pose;
     return cv::Mat(static_cast<int>(info.height_px), static_cast<int>(info.width_px), CV_8UC3);
   };
   Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(true, 0, world)}, draw_3d);
   panes.resize(1004, 500);
   const auto distance_to = [&](double x, double y) {
-    panes.draw(snapshot, trails);
+    panes.draw(snapshot, paths);
     return std::hypot(world_from_camera.x - x, world_from_camera.y - y);
   };
   const double behind_m = 4 * std::cos(0.45);  // 4 m away, at the elevation of a pane that follows
@@ -342,7 +349,7 @@ TEST_F(TopViewTest, DraggingPansAndClickingFollowsARobot) {
   panes.drag(bob, {-100, 50}, Panes::Drag::turn);
   // Clicks on the robot at its position after the drag.
   panes.click(bob + TPoint2D(-100, 50), snapshot);
-  const cv::Mat picture = panes.draw(snapshot, trails);
+  const cv::Mat picture = panes.draw(snapshot, paths);
   const auto& blue = picture.at<cv::Vec3b>(349 + 25, 523);
   EXPECT_GT(blue[0], 2 * blue[2]) << "the second robot, which is blue, is in the middle now";
 }
@@ -364,7 +371,7 @@ TEST_F(TopViewTest, Pane3dOfAnySizeInitiallyShowsTheWholeWorld) {
     CameraInfo camera_info;
     mrpt::math::TPose3D world_from_camera;
     Panes panes(world, fleet, {makePane(true, std::nullopt, world)},
-                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>) {
+                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>, cv::Mat*) {
                   camera_info = info;
                   world_from_camera = pose;
                   return cv::Mat(cv::Size(size), CV_8UC3);
@@ -372,7 +379,7 @@ TEST_F(TopViewTest, Pane3dOfAnySizeInitiallyShowsTheWholeWorld) {
     panes.resize(size.width, size.height);
     /// Largest distance of a corner from the picture's centre: 1 is the picture's edge.
     const auto farthest = [&] {
-      panes.draw(snapshot, trails);
+      panes.draw(snapshot, paths);
       double share = 0;
       for (const double x : {0.0, 10.0}) {
         for (const double y : {0.0, 5.0}) {

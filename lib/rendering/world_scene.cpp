@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <tuple>
 
@@ -157,7 +158,11 @@ void WorldScene::place(std::span<const TPose2D> world_from_robot) {
     mesh_instance.cosine = static_cast<float>(std::cos(pose.phi));
     mesh_instance.sine = static_cast<float>(std::sin(pose.phi));
   }
-  for (auto& group : impl_->groups) group.shadows->instances() = group.robots->instances();
+  for (auto& group : impl_->groups) {
+    const auto& robots = group.robots->instances();
+    group.shadows->instances().clear();
+    std::copy_if(robots.begin(), robots.end(), std::back_inserter(group.shadows->instances()), isShown);
+  }
 }
 
 }  // namespace robosim

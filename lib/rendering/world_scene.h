@@ -27,7 +27,7 @@ class WorldScene {
   /// Adds the objects to a scene's main viewport.
   void addTo(mrpt::opengl::COpenGLScene& scene) const;
 
-  /// Sets the pose of each robot, in the fleet's order.
+  /// Sets the pose of each robot, in the fleet's order. A robot at kNotShown (sensors/image_source.h) is not drawn.
   void place(std::span<const mrpt::math::TPose2D> world_from_robot);
 
  private:

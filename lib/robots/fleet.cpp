@@ -7,6 +7,7 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "robots/robot_colors.h"
 #include "robots/robot_model_cache.h"
 #include "robots/scatter.h"
 #include "robots/start_check.h"
@@ -114,6 +115,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const RobotT
     fleet.robots.push_back(made(placement, std::move(model)));
     starts.push_back(startOf(placement, fleet.robots.back()));
   }
+  if (fleet.robots.size() == world.robots.size()) setRobotColors(world, fleet);
   if (are_poses_valid) checkStarts(world, starts, world_file, errors);
   return fleet;
 }
@@ -144,6 +146,7 @@ Fleet buildFleet(const World& world, const std::string& world_file, const Fleet&
     fleet.robots.push_back(made(world.robots[i], alike.robots[i].model));
     starts.push_back(startOf(world.robots[i], fleet.robots.back()));
   }
+  setRobotColors(world, fleet);
   checkStarts(world, starts, world_file, errors);
   return fleet;
 }

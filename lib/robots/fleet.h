@@ -18,7 +18,7 @@ struct FleetRobot {
   RobotInfo info;
   std::shared_ptr<const RobotModel> model;
   mrpt::math::TPose2D world_from_start;
-  Body body;               ///< at the start; other robots' sensors detect this shape
+  Body body;               ///< at the start, in the colour of all views; other robots' sensors detect this shape
   std::string controller;  ///< as TypeChoice::text(); empty: the program's default
 };
 

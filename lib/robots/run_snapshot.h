@@ -18,6 +18,8 @@ struct RobotSnapshot {
   Activity activity = Activity::active;
   std::optional<Readings> readings;  ///< nullopt if not requested
   bool operator==(const RobotSnapshot&) const = default;
+  /// Whether the robot is in the world, and therefore shown.
+  bool isPresent() const { return activity != Activity::absent; }
 };
 
 /// State of a run at a step, from any source: a live run, a recording, or a world's initial state.

@@ -32,7 +32,10 @@ void Coverage::observe(const Environment& environment) {
     }
     visited_.assign(columns_ * rows_, 0);
   }
-  for (const auto& pose : environment.state().world_from_robot) {
+  const State& state = environment.state();
+  for (std::size_t i = 0; i < state.world_from_robot.size(); ++i) {
+    if (state.activity[i] == Activity::absent) continue;
+    const auto& pose = state.world_from_robot[i];
     const std::size_t column = cellOf(pose.x - area.x_min, options_.cell_m, columns_);
     const std::size_t row = cellOf(pose.y - area.y_min, options_.cell_m, rows_);
     std::uint8_t& cell = visited_[row * columns_ + column];

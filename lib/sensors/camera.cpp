@@ -24,7 +24,7 @@ class Camera : public Sensor {
              std::span<Readings> readings) const override {
     std::vector<std::string> jpegs(robots.size());
     if (now.images && takesPicture(view_.info.rate_hz, now.time)) {
-      now.images->take(view_, now.world_from_robot, robots, jpegs);
+      now.images->take(view_, shownPoses(now.world_from_robot, now.activity), robots, jpegs);
     }
     for (std::size_t i = 0; i < robots.size(); ++i) {
       std::get<Image>(readings[robots[i]].measurements[slot]).jpeg = std::move(jpegs[i]);

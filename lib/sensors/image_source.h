@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include <mrpt/math/TPose2D.h>
 #include <mrpt/math/TPose3D.h>
 
+#include "hardware/command.h"
 #include "hardware/measurement.h"
 #include "hardware/sensor_info.h"
 
@@ -19,6 +21,19 @@ struct CameraView {
   int jpeg_quality = 85;                  ///< [1, 100]
 };
 
+/// Pose of a robot that is not in the world: it is not drawn.
+inline const mrpt::math::TPose2D kNotShown{std::numeric_limits<double>::quiet_NaN(), 0, 0};
+
+/// The poses, with kNotShown for absent robots. @param activity by robot, or empty: all are present
+inline std::vector<mrpt::math::TPose2D> shownPoses(std::span<const mrpt::math::TPose2D> world_from_robot,
+                                                   std::span<const Activity> activity) {
+  std::vector<mrpt::math::TPose2D> shown(world_from_robot.begin(), world_from_robot.end());
+  for (std::size_t i = 0; i < activity.size(); ++i) {
+    if (activity[i] == Activity::absent) shown[i] = kNotShown;
+  }
+  return shown;
+}
+
 struct TargetColor;  // sensors/blob_finder.h
 
 /// Interface that renders and searches the pictures of cameras. One source serves all cameras of a run.
@@ -27,7 +42,7 @@ class ImageSource {
   virtual ~ImageSource() = default;
 
   /// Takes a picture with the camera of each of `robots`, all at one instant. Thread-safe.
-  /// @param world_from_robot poses of all robots, in the world's order
+  /// @param world_from_robot poses of all robots, in the world's order; kNotShown for absent ones
   /// @param jpegs one per element of `robots`; replaced by the bytes of a JPEG file
   virtual void take(const CameraView& camera, std::span<const mrpt::math::TPose2D> world_from_robot,
                     std::span<const std::uint32_t> robots, std::span<std::string> jpegs) = 0;

@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/sim_time.h"
 #include "geometry/scene.h"
+#include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
 #include "sensors/image_source.h"
@@ -39,6 +40,7 @@ struct Snapshot {
   std::span<const PlanarTransform> frames;  ///< the same poses, at the height of the robots' undersides
   std::span<const Motion> last_motion;
   std::span<const float> laser_pan_rad;
+  std::span<const Activity> activity = {};  ///< empty: no robot is absent
   SimTime time;
   std::uint64_t seed = 0;
   ImageSource* images = nullptr;  ///< null: cameras take no pictures

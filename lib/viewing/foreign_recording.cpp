@@ -100,6 +100,7 @@ class ForeignRecording final : public RecordedMoments {
 
   const LoadedWorld& world() const override { return world_; }
   const std::vector<double>& times() const override { return times_; }
+  const RunPaths& paths() const override { return paths_; }
   const std::string& readError() const override { return read_error_; }
 
   RunSnapshot at(std::size_t moment) override {
@@ -237,6 +238,14 @@ class ForeignRecording final : public RecordedMoments {
       ends_.back() = i + 1;
     }
     reset();
+    std::vector<TPose2D> poses;
+    for (std::size_t moment = 0; moment < times_.size(); ++moment) {
+      goTo(ends_[moment]);
+      poses.clear();
+      for (const auto& robot : robots_) poses.push_back(robot.world_from_robot);
+      paths_.add(moment, times_[moment], poses);
+    }
+    reset();
   }
 
   /// Initial poses; robots that appear later stand at their first pose from the beginning.
@@ -299,6 +308,7 @@ class ForeignRecording final : public RecordedMoments {
   std::vector<std::size_t> ends_;  ///< end index in observed_ of each moment
   std::size_t end_ = 0;            ///< end index in observed_ of the moment applied to robots_
   LoadedWorld world_;
+  RunPaths paths_;
   std::string read_error_;
 };
 

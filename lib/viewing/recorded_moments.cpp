@@ -39,7 +39,9 @@ class RobosimRecording final : public RecordedMoments {
       auto step = steps_.next();
       if (!step) break;
       if (moments_.empty()) leaveOutMissing(*step);
-      moments_.push_back({toSnapshot(std::move(*step)).time_s, place});
+      const RunSnapshot snapshot = toSnapshot(std::move(*step));
+      paths_.add(snapshot);
+      moments_.push_back({snapshot.time_s, place});
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
     read_error_ = reader_.readError().value_or("");
@@ -53,6 +55,7 @@ class RobosimRecording final : public RecordedMoments {
 
   const LoadedWorld& world() const override { return world_; }
   const std::vector<double>& times() const override { return times_; }
+  const RunPaths& paths() const override { return paths_; }
   const std::string& readError() const override { return read_error_; }
 
   RunSnapshot at(std::size_t moment) override {
@@ -90,6 +93,7 @@ class RobosimRecording final : public RecordedMoments {
   RecordedSteps steps_;
   std::vector<Moment> moments_;
   std::vector<double> times_;
+  RunPaths paths_;
   std::string read_error_;
 };
 

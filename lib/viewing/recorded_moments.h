@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "rendering/run_paths.h"
 #include "robots/run_snapshot.h"
 #include "robots/world_source.h"
 
@@ -20,6 +21,8 @@ class RecordedMoments {
   virtual const std::vector<double>& times() const = 0;
   /// @throws RecordingError when the file has changed.
   virtual RunSnapshot at(std::size_t moment) = 0;
+  /// Paths of the robots through all moments.
+  virtual const RunPaths& paths() const = 0;
   /// Reason for an early end, and what was left out; empty for a complete file.
   virtual const std::string& readError() const = 0;
 };

@@ -13,16 +13,21 @@ ViewDrawing::ViewDrawing(ViewSource& source, MakePanes make_panes)
 void ViewDrawing::make(AbsentRobots absent) {
   const LoadedWorld& world = source_.world();
   auto panes = make_panes_(world, absent);
-  Panes::Draw3d draw_3d;
+  auto renderer = std::make_shared<std::unique_ptr<OffscreenRenderer>>();
   if (std::any_of(panes.begin(), panes.end(), [](const Pane& pane) { return pane.is_3d; })) {
-    auto renderer = std::make_shared<OffscreenRenderer>(world.world, world.fleet);
-    draw_3d = [renderer](const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                         std::span<const mrpt::math::TPose2D> world_from_robot) {
-      return renderer->picture(camera, world_from_camera, world_from_robot);
-    };
+    *renderer = std::make_unique<OffscreenRenderer>(world.world, world.fleet);
   }
-  panes_ = std::make_unique<Panes>(world.world, world.fleet, std::move(panes), std::move(draw_3d));
-  trails_.clear();
+  const Panes::Draw3d draw_3d = [renderer, &world](
+                                    const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
+                                    std::span<const mrpt::math::TPose2D> world_from_robot, cv::Mat* depth) {
+    if (!*renderer) *renderer = std::make_unique<OffscreenRenderer>(world.world, world.fleet);
+    return (*renderer)->picture(camera, world_from_camera, world_from_robot, depth);
+  };
+  const auto layers = panes_ ? panes_->layers() : TopViewLayers{};
+  const auto look = panes_ ? panes_->look() : Panes::Look{};
+  panes_ = std::make_unique<Panes>(world.world, world.fleet, std::move(panes), draw_3d);
+  panes_->layers() = layers;
+  panes_->look() = look;
   has_requested_ = false;
 }
 
@@ -31,13 +36,12 @@ cv::Mat ViewDrawing::draw(Size size) {
     make(AbsentRobots::not_followed);
   }
   panes_->resize(size.width_px, size.height_px);
-  trails_.add(source_.snapshot());
   if (auto requested = panes_->requestedReadings(); !has_requested_ || requested != requested_) {
     source_.requestReadings(requested);
     requested_ = std::move(requested);
     has_requested_ = true;
   }
-  return panes_->draw(source_.snapshot(), trails_);
+  return panes_->draw(source_.snapshot(), source_.paths());
 }
 
 }  // namespace robosim

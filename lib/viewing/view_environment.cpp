@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "client/viewer.h"
+#include "sensors/image_source.h"
 #include "viewing/run_operator.h"
 #include "viewing/view_source.h"
 
@@ -18,6 +19,7 @@ class EnvironmentView final : public ViewSource {
         viewer_(connect_options_, ReadingsSelection{.of_all = true, .of = {}}),
         world_(viewer_.run().world),
         snapshot_(viewer_.run().snapshot) {
+    paths_.add(snapshot_);
     if (viewer_.run().may_operate) operator_ = std::make_unique<RunOperator>(connect_options_);
     waiting_ = std::thread([this] { wait(); });
   }
@@ -29,6 +31,7 @@ class EnvironmentView final : public ViewSource {
   const LoadedWorld& world() const override { return world_; }
   int worldNumber() const override { return world_number_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
+  const RunPaths& paths() const override { return paths_; }
   std::string title() const override { return connect_options_.address; }
 
   bool advance(double) override {
@@ -41,7 +44,10 @@ class EnvironmentView final : public ViewSource {
       world_ = std::move(*next_world_);
       next_world_.reset();
       ++world_number_;
+      paths_.clear();
     }
+    for (const auto& step : next_steps_) paths_.add(step.step, step.time_s, step.world_from_robot);
+    next_steps_.clear();
     return true;
   }
   bool isOver() const override {
@@ -65,13 +71,27 @@ class EnvironmentView final : public ViewSource {
   }
 
  private:
+  /// Poses of a received step, for the paths.
+  struct Step {
+    std::uint64_t step;
+    double time_s;
+    std::vector<mrpt::math::TPose2D> world_from_robot;
+  };
+
   void wait() {
     try {
       while (viewer_.waitForFrame()) {
         RunSnapshot snapshot = viewer_.run().snapshot;
         const std::lock_guard lock(mutex_);
+        if (viewer_.isNewWorld()) {
+          next_world_ = viewer_.run().world;
+          next_steps_.clear();
+        }
+        Step& step = next_steps_.emplace_back(Step{snapshot.step, snapshot.time_s, {}});
+        for (const auto& robot : snapshot.robots) {
+          step.world_from_robot.push_back(robot.isPresent() ? robot.world_from_robot : kNotShown);
+        }
         next_ = std::move(snapshot);
-        if (viewer_.isNewWorld()) next_world_ = viewer_.run().world;
       }
     } catch (...) {
       const std::lock_guard lock(mutex_);
@@ -86,10 +106,12 @@ class EnvironmentView final : public ViewSource {
   LoadedWorld world_;
   int world_number_ = 0;
   RunSnapshot snapshot_;
+  RunPaths paths_;
   std::unique_ptr<RunOperator> operator_;  ///< null for read-only access
 
   mutable std::mutex mutex_;  ///< guards the members below
   std::optional<RunSnapshot> next_;
+  std::vector<Step> next_steps_;  ///< received since the last advance()
   std::optional<LoadedWorld> next_world_;
   bool is_over_ = false;
   std::exception_ptr failure_;

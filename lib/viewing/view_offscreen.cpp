@@ -51,21 +51,8 @@ double endOf(double duration_s, const ViewTimes& times) {
 void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times,
                   const std::string& file) {
   if (const auto duration_s = source.duration()) {
-    // Advances through the preceding moments, however far apart, for the trails.
-    const Interrupt interrupt;
-    Progress progress;
-    const double end_s = endOf(*duration_s, times);
     source.pause(true);
-    source.seek(times.from_s.value_or(0));
-    source.advance(0);
-    while (source.snapshot().time_s < end_s && !source.isOver()) {
-      if (interrupt.isRequested()) throwInterrupted();
-      drawing.updateTrails();
-      if (progress.due()) progress.show(fixed(source.snapshot().time_s, 1) + " of " + fixed(end_s, 1) + " s …");
-      source.step();
-      source.advance(0);
-    }
-    source.seek(end_s);
+    source.seek(endOf(*duration_s, times));
   }
   source.advance(0);
   writePngFile(file, drawing.draw(size));
@@ -129,12 +116,14 @@ void checkOffscreenFile(const std::string& file) {
 }
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                    const std::string& file) {
+                    const std::string& file, const Panes::Look& look) {
   if (isVideo(file) && source.isOver() && !source.duration()) {
     throw ConfigError("--offscreen " + file +
                       ": nothing moves in a world that does not run; ask for a .png, or record a run");
   }
   ViewDrawing drawing(source, make_panes);
+  drawing.panes().look() = look;
+  drawing.panes().layers().paths_from_s = times.from_s.value_or(0);
   if (isVideo(file)) {
     writeVideo(source, drawing, size, times, file);
   } else {

@@ -28,9 +28,11 @@ enum class AbsentRobots { refused, not_followed };
 /// Creates the panes of a world; called again when a run continues with another world.
 using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&, AbsentRobots)>;
 
-/// Opens a window, and returns when it is closed.
+/// Opens a window, and returns when it is closed. When the connection to the environment is lost, the window stays open
+/// and shows the reason.
 /// @throws ConfigError when there is no display.
-void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times);
+void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
+                const Panes::Look& look = {});
 
 bool isVideo(const std::string& file);
 /// @throws ConfigError for a name that ends in neither .png nor .mp4, or a file that cannot be written
@@ -39,7 +41,7 @@ void checkOffscreenFile(const std::string& file);
 /// @throws Interrupted, and std::runtime_error when the disk is full; no file is written then. Exception: an
 /// interrupted video of a live run is kept up to the interruption.
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                    const std::string& file);
+                    const std::string& file, const Panes::Look& look = {});
 
 /// Draws the panes of a source, and recreates them when its world changes.
 class ViewDrawing {
@@ -47,8 +49,6 @@ class ViewDrawing {
   ViewDrawing(ViewSource& source, MakePanes make_panes);
 
   cv::Mat draw(Size size);
-  /// Updates the trails without drawing.
-  void updateTrails() { trails_.add(source_.snapshot()); }
   Panes& panes() { return *panes_; }
 
  private:
@@ -58,7 +58,6 @@ class ViewDrawing {
   MakePanes make_panes_;
   int world_number_ = 0;
   std::unique_ptr<Panes> panes_;
-  Trails trails_;
   std::vector<std::uint8_t> requested_;
   bool has_requested_ = false;
 };

@@ -11,6 +11,7 @@
 #include "environment/environment.h"
 #include "environment/world_changes.h"
 #include "net/connect.h"
+#include "rendering/run_paths.h"
 #include "robots/run_snapshot.h"
 #include "robots/world_source.h"
 
@@ -25,6 +26,8 @@ class ViewSource {
   virtual const LoadedWorld& world() const = 0;
   virtual int worldNumber() const { return 0; }
   virtual const RunSnapshot& snapshot() const = 0;
+  /// Paths of the robots of world(): for a recording, of all of it; else of the steps so far.
+  virtual const RunPaths& paths() const = 0;
   /// Input files of the source.
   virtual std::vector<std::filesystem::path> inputs() const { return {}; }
   /// Title of the window.

@@ -3,6 +3,7 @@
 #include <functional>
 #include <iostream>
 
+#include <GLFW/glfw3.h>
 #include <mrpt/gui/CDisplayWindowGUI.h>
 #include <nanovg.h>
 #include <opencv2/imgproc.hpp>
@@ -13,6 +14,7 @@
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "viewing/view_outputs.h"
+#include "viewing/view_panels.h"
 
 namespace robosim {
 namespace {
@@ -23,7 +25,7 @@ using nanogui::Vector2i;
 
 /// GLFW's codes of keys and buttons, which nanogui forwards.
 constexpr int kPressed = 1, kRepeated = 2, kLeftButton = 0, kRightButton = 1;
-constexpr int kEscape = 256, kRight = 262, kLeft = 263;
+constexpr int kEscape = 256, kRight = 262, kLeft = 263, kF1 = 290, kF11 = 300;
 
 /// Widget that shows the picture at the window's size and forwards mouse input.
 class PictureWidget final : public nanogui::Widget {
@@ -98,14 +100,23 @@ class PictureWidget final : public nanogui::Widget {
 
 class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
  public:
-  ViewWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times)
+  ViewWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
+             const Panes::Look& look)
       : CDisplayWindowGUI("RoboSim: " + printableText(source.title()), static_cast<unsigned>(size.width_px),
                           static_cast<unsigned>(size.height_px)),
         source_(source),
         times_(times),
+        scale_(static_cast<float>(look.scale)),
         drawing_(source, make_panes) {
+    drawing_.panes().look() = look;
+    auto* const theme = new nanogui::Theme(nvgContext());
+    theme->mStandardFontSize = static_cast<int>(16 * scale_);
+    theme->mButtonFontSize = static_cast<int>(16 * scale_);
+    setTheme(theme);
     picture_ = new PictureWidget(this, source_, drawing_, [this] { fail(); });
-    if (source_.canPlay()) addBar();
+    addBar();
+    banner_ = new Banner(this, scale_);
+    help_ = new HelpPanel(this, scale_);
     if (source_.duration()) {
       source_.seek(times.from_s.value_or(0));
       source_.setSpeed(times.speed.value_or(1));
@@ -124,26 +135,54 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
   std::exception_ptr failure() const { return failure_; }
 
  private:
-  /// Creates the buttons and, for a recording, the time slider.
+  /// Creates the toolbar and, for a recording, the time slider.
   void addBar() {
-    bar_ = new nanogui::Window(this, "");
-    bar_->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Horizontal, nanogui::Alignment::Middle, 6, 8));
-    pause_ = bar_->add<nanogui::Button>("Pause");
-    pause_->setFixedWidth(70);
-    pause_->setCallback([this] { togglePause(); });
-    bar_->add<nanogui::Button>("Step")->setCallback([this] { step(); });
-    bar_->add<nanogui::Button>("Slower")->setCallback([this] { changeSpeed(0.5); });
-    bar_->add<nanogui::Button>("Faster")->setCallback([this] { changeSpeed(2); });
+    bar_ = new nanogui::Widget(this);
+    if (source_.canPlay()) {
+      pause_ = addButton("Resume", [this] { togglePause(); });
+      for (auto* const part :
+           {pause_, addButton("Step", [this] { step(); }), addButton("Slower", [this] { changeSpeed(0.5); }),
+            addButton("Faster", [this] { changeSpeed(2); })}) {
+        playing_.push_back(part);
+      }
+    }
+    addButton("Follow", [this] { drawing_.panes().followNext(); });
+    addButton("All", [this] { drawing_.panes().showAll(); });
+    addSwitch("Paths", [this]() -> bool& { return drawing_.panes().layers().paths; });
+    addSwitch("Sensors", [this]() -> bool& { return drawing_.panes().layers().sensors; });
+    addSwitch("Names", [this]() -> bool& { return drawing_.panes().layers().names; });
+    if (hasCamera(source_.world().fleet)) {
+      addSwitch("Camera", [this]() -> bool& { return drawing_.panes().look().camera_inset; });
+    }
+    addButton("Full screen", [this] { toggleFullScreen(); });
+    addButton("?", [this] { toggleHelp(); });
+    status_ = bar_->add<nanogui::Label>("0 s");
     if (source_.duration()) {
-      slider_ = bar_->add<nanogui::Slider>();
-      slider_->setFixedWidth(300);
+      slider_ = new nanogui::Slider(this);
       slider_->setCallback([this](float share) {
         source_.seek(share * *source_.duration());
         picture_->renew();
       });
     }
-    status_ = bar_->add<nanogui::Label>("0 s");
-    status_->setFixedWidth(260);
+  }
+
+  nanogui::Button* addButton(const std::string& text, const std::function<void()>& action) {
+    auto* const button = bar_->add<nanogui::Button>(text);
+    button->setCallback([this, action] {
+      safely(action);
+      picture_->renew();
+    });
+    return button;
+  }
+  /// A button that switches a layer, which keys switch as well.
+  void addSwitch(const std::string& text, const std::function<bool&()>& layer) {
+    auto* const button = bar_->add<nanogui::Button>(text);
+    button->setFlags(nanogui::Button::ToggleButton);
+    button->setChangeCallback([this, layer](bool is_on) {
+      layer() = is_on;
+      picture_->renew();
+    });
+    switches_.emplace_back(button, layer);
   }
 
   /// Called before each repaint.
@@ -152,7 +191,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       const auto now = std::chrono::steady_clock::now();
       const std::chrono::duration<double> since = now - last_;
       last_ = now;
-      if (source_.advance(since.count())) picture_->renew();
+      if (advance(since.count())) picture_->renew();
       if (times_.to_s && source_.duration() && source_.snapshot().time_s >= *times_.to_s) source_.pause(true);
       if (interrupt_.isRequested()) close();
       showStatus();
@@ -160,28 +199,64 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     });
   }
 
-  /// Lays out the picture and the bar below it.
+  /// A lost connection leaves the last picture, with the reason.
+  bool advance(double wall_s) {
+    if (has_lost_connection_) return false;
+    try {
+      return source_.advance(wall_s);
+    } catch (const ConnectionError& error) {
+      has_lost_connection_ = true;
+      logWarning("view", error.what());
+      banner_->show(printableText(error.what()), true);
+      return true;
+    }
+  }
+
+  /// Lays out the picture and, below it, the toolbar, in as many lines as necessary, and the slider.
   void layOut() {
-    constexpr int kGap_px = 6;
-    const int below_px = bar_ ? bar_->height() + 2 * kGap_px : 0;
-    picture_->setPosition(Vector2i(0, 0));
-    picture_->setSize(Vector2i(width(), std::max(0, height() - below_px)));
-    if (bar_) bar_->setPosition(Vector2i(std::max(0, (width() - bar_->width()) / 2), picture_->height() + kGap_px));
+    const int gap_px = std::max(1, static_cast<int>(5 * scale_));
+    int x = gap_px, y = gap_px, line_px = 0;
+    for (auto* const part : bar_->children()) {
+      const Vector2i size = part->preferredSize(nvgContext());
+      if (x > gap_px && x + size.x() > width()) {
+        x = gap_px;
+        y += line_px + gap_px;
+        line_px = 0;
+      }
+      part->setPosition(Vector2i(x, y));
+      part->setSize(size);
+      x += size.x() + gap_px;
+      line_px = std::max(line_px, size.y());
+    }
+    const int bar_px = y + line_px + gap_px, slider_px = slider_ ? static_cast<int>(22 * scale_) : 0;
+    const int picture_px = std::max(0, height() - bar_px - slider_px);
+    for (auto* const part : {static_cast<nanogui::Widget*>(picture_), static_cast<nanogui::Widget*>(banner_),
+                             static_cast<nanogui::Widget*>(help_)}) {
+      part->setPosition(Vector2i(0, 0));
+      part->setSize(Vector2i(width(), picture_px));
+    }
+    banner_->setHeight(0);  // receives no mouse input
+    bar_->setPosition(Vector2i(0, picture_px));
+    bar_->setSize(Vector2i(width(), bar_px));
+    if (!slider_) return;
+    slider_->setPosition(Vector2i(gap_px, picture_px + bar_px));
+    slider_->setSize(Vector2i(std::max(1, width() - 2 * gap_px), slider_px - gap_px));
   }
 
   void showStatus() {
-    if (!status_) return;
     const auto duration_s = source_.duration();
     std::string text = fixed(source_.snapshot().time_s, 1) + " s";
     if (duration_s) text += " of " + fixed(*duration_s, 1) + " s";
     const double speed = source_.speed();
-    text += speed == 0 ? ", at full speed" : ", " + fixed(speed, speed < 1 ? 2 : 0) + " x";
-    // For a recording the remark is long, and has been printed.
-    if (const auto remark = source_.remark(); !remark.empty()) text += "; " + (duration_s ? "not whole" : remark);
+    if (source_.canPlay()) text += speed == 0 ? ", at full speed" : ", " + fixed(speed, speed < 1 ? 2 : 0) + " x";
+    // The remark of a recording is long, and has been printed.
+    if (duration_s && !source_.remark().empty()) text += "; not whole";
     status_->setCaption(text);
-    pause_->setCaption(source_.isPaused() ? "Resume" : "Pause");
-    for (auto* part : bar_->children()) part->setEnabled(source_.canPlay());
+    for (auto& [button, layer] : switches_) button->setPushed(layer());
+    if (pause_) pause_->setCaption(source_.isPaused() ? "Resume" : "Pause");
+    for (auto* const part : playing_) part->setEnabled(source_.canPlay());
     if (slider_) slider_->setValue(static_cast<float>(source_.snapshot().time_s / std::max(1e-9, *duration_s)));
+    if (!has_lost_connection_ && !duration_s) banner_->show(source_.remark(), false);
   }
 
   /// @name Actions of the bar and the keys, if playback can be controlled
@@ -198,25 +273,32 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     safely([&] { source_.setSpeed(speed == 0 ? 1 : std::clamp(speed * factor, 0.01, 1000.0)); });
   }
   ///@}
+  void toggleHelp() { help_->setVisible(!help_->visible()); }
+  void toggleFullScreen() {
+    GLFWwindow* const window = glfwWindow();
+    if (std::exchange(is_full_screen_, !is_full_screen_)) {
+      glfwSetWindowMonitor(window, nullptr, windowed_[0], windowed_[1], windowed_[2], windowed_[3], GLFW_DONT_CARE);
+      return;
+    }
+    glfwGetWindowPos(window, &windowed_[0], &windowed_[1]);
+    glfwGetWindowSize(window, &windowed_[2], &windowed_[3]);
+    GLFWmonitor* const monitor = glfwGetPrimaryMonitor();
+    const GLFWvidmode* const mode = monitor ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode) glfwSetWindowMonitor(window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
   void seekBy(double seconds) {
     if (!source_.duration()) return;
     safely([this, seconds] {
-      const double time_s = source_.snapshot().time_s + seconds;
-      if (seconds > 0) followTo(time_s);
-      source_.seek(time_s);
+      source_.seek(source_.snapshot().time_s + seconds);
       source_.advance(0);  // the next key event may precede the next repaint
     });
   }
-  /// Advances through every moment, so that the trails include skipped ones.
-  void followTo(double time_s) {
-    const bool was_paused = source_.isPaused();
-    while (!source_.isOver()) {
-      source_.step();
-      source_.advance(0);
-      if (source_.snapshot().time_s > time_s) break;
-      drawing_.updateTrails();
-    }
-    source_.pause(was_paused);
+
+  /// '?' is on different keys in different keyboard layouts.
+  bool keyboardCharacterEvent(unsigned codepoint) override {
+    if (codepoint != '?') return CDisplayWindowGUI::keyboardCharacterEvent(codepoint);
+    toggleHelp();
+    return true;
   }
 
   bool handle(int key) {
@@ -247,7 +329,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         drawing_.panes().showAll();
         break;
       case 'T':
-        toggle(drawing_.panes().layers().trails);
+        toggle(drawing_.panes().layers().paths);
         break;
       case 'V':
         toggle(drawing_.panes().layers().sensors);
@@ -255,8 +337,23 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       case 'N':
         toggle(drawing_.panes().layers().names);
         break;
-      case 'Q':
+      case 'C':
+        toggle(drawing_.panes().look().camera_inset);
+        break;
+      case 'H':
+      case kF1:
+        toggleHelp();
+        break;
+      case kF11:
+        toggleFullScreen();
+        break;
       case kEscape:
+        if (help_->visible()) {
+          help_->setVisible(false);
+          break;
+        }
+        [[fallthrough]];
+      case 'Q':
         close();
         break;
       default:
@@ -288,15 +385,23 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
   const Interrupt interrupt_;
   ViewSource& source_;
   ViewTimes times_;
+  float scale_;  ///< of lines and text
   ViewDrawing drawing_;
   // nanogui owns its widgets.
   PictureWidget* picture_ = nullptr;
-  nanogui::Window* bar_ = nullptr;
+  Banner* banner_ = nullptr;
+  HelpPanel* help_ = nullptr;
+  nanogui::Widget* bar_ = nullptr;
   nanogui::Button* pause_ = nullptr;
+  std::vector<nanogui::Button*> playing_;  ///< enabled while the source can play
+  std::vector<std::pair<nanogui::Button*, std::function<bool&()>>> switches_;
   nanogui::Slider* slider_ = nullptr;
   nanogui::Label* status_ = nullptr;
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
   std::exception_ptr failure_;
+  bool has_lost_connection_ = false;
+  bool is_full_screen_ = false;
+  int windowed_[4] = {0, 0, 0, 0};  ///< position and size before full screen
 };
 
 [[noreturn]] void throwNoScreen(const std::string& why) {
@@ -323,11 +428,12 @@ class Nanogui {
 
 }  // namespace
 
-void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times) {
+void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
+                const Panes::Look& look) {
   std::exception_ptr failure;
   try {
     const Nanogui nanogui;
-    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times));
+    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times, look));
     if (const auto remark = source.remark(); !remark.empty()) logWarning("view", remark);
     window->drawAll();
     window->setVisible(true);

@@ -18,6 +18,7 @@ class WorldView final : public ViewSource {
 
   const LoadedWorld& world() const override { return world_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
+  const RunPaths& paths() const override { return paths_; }
   std::vector<std::filesystem::path> inputs() const override { return inputFilesOf(title_, world_.world); }
   std::string title() const override { return title_; }
   bool advance(double) override { return false; }
@@ -27,6 +28,7 @@ class WorldView final : public ViewSource {
   std::string title_;
   LoadedWorld world_;
   RunSnapshot snapshot_;
+  RunPaths paths_;  ///< none
 };
 
 }  // namespace

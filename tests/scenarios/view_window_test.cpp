@@ -48,7 +48,7 @@ fs::path recordHall(const fs::path& folder) {
 }
 
 /// The part of a 900 × 700 window above its bar.
-cv::Mat picturePart(const cv::Mat& screen) { return screen(cv::Rect(0, 0, 900, 640)).clone(); }
+cv::Mat picturePart(const cv::Mat& screen) { return screen(cv::Rect(0, 0, 900, 600)).clone(); }
 
 /// A window of `robosim view`, after its first drawing.
 class Window {
@@ -150,15 +150,15 @@ TEST(ViewWindow, SeeksInARecordingWithTheSlider) {
   const cv::Mat at_15_s = picturePart(window.after("Right"));
   const cv::Mat end = picturePart(window.after("Right"));
   EXPECT_FALSE(areSame(begin, end));
-  // The slider spans about 300 px to 600 px. Dragging beyond its end sets it to its end.
-  const std::string press = "windowfocus mousemove --window %1 450 674 mousedown 1 ";
-  EXPECT_TRUE(window.comesToShow(begin, press + "mousemove --window %1 5 674 mouseup 1"));
-  EXPECT_TRUE(window.comesToShow(end, press + "mousemove --window %1 895 674 mouseup 1"));
+  // The slider has the width of the window. Dragging beyond its end sets it to its end.
+  const std::string press = "windowfocus mousemove --window %1 450 686 mousedown 1 ";
+  EXPECT_TRUE(window.comesToShow(begin, press + "mousemove --window %1 5 686 mouseup 1"));
+  EXPECT_TRUE(window.comesToShow(end, press + "mousemove --window %1 895 686 mouseup 1"));
   const cv::Mat middle =
-      picturePart(window.afterDoing("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1"));
+      picturePart(window.afterDoing("windowfocus mousemove --window %1 450 686 mousedown 1 mouseup 1"));
   for (const cv::Mat& other : {begin, at_15_s, end}) EXPECT_FALSE(areSame(middle, other));
   EXPECT_TRUE(window.comesToShow(end, Screen::keys("Right Right Right"))) << "from 5 s on, or later";
-  window.afterDoing("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1");
+  window.afterDoing("windowfocus mousemove --window %1 450 686 mousedown 1 mouseup 1");
   EXPECT_TRUE(window.comesToShow(begin, Screen::keys("Left Left Left"))) << "from 15 s on, or sooner";
   EXPECT_EQ(window.quit(), 0);
 }
@@ -172,7 +172,7 @@ TEST(ViewWindow, ClosesWithAnErrorWhenReadingFails) {
   Window window(folder, viewOf(rawlog, {"--speed", "0.001", "--size", "900x700", "--from", "299"}));
   // The file is truncated, and then its beginning is shown.
   fs::resize_file(rawlog, 0);
-  const Ended ended = window.endAfter("windowfocus mousemove --window %1 450 674 mousedown 1 mouseup 1");
+  const Ended ended = window.endAfter("windowfocus mousemove --window %1 450 686 mousedown 1 mouseup 1");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(withoutDesktopMessages(ended.err),
             "robosim: " + rawlog.string() + ": has changed since it was opened; open it again\n");

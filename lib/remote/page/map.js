@@ -45,7 +45,7 @@ export class Map2D {
     for (const object of objects) this.#drawObject(g, object);
     robots.forEach((robot, i) => {
       const pose = this.#poses[i];
-      if (!pose) return;
+      if (!pose || pose.activity === 'absent') return;
       g.save();
       g.translate(pose.at[0], pose.at[1]);
       g.rotate(pose.at[2]);
