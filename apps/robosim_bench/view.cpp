@@ -20,9 +20,14 @@ struct Kind {
   const char* name;
   const char* help;
   bool is_2d, is_3d;
+  TopViewLayers layers = {};
+  bool antialias = false;
 };
+constexpr TopViewLayers kNoLayers{.paths = false, .sensors = false, .names = false};
 constexpr Kind kKinds[] = {{"2d", "from above, with sonar fans", true, false},
-                           {"3d", "3D view", false, true},
+                           {"3d", "3D view, robots and objects only", false, true, kNoLayers},
+                           {"3d-paths", "3D view with paths", false, true, {.sensors = false, .names = false}},
+                           {"3d-antialias", "3D view, antialiased", false, true, kNoLayers, true},
                            {"both", "both side by side", true, true}};
 constexpr double kAimFramesPerS = 20;
 
@@ -74,6 +79,8 @@ void benchView(const ViewArguments& arguments) {
   for (const Kind& kind : kKinds) {
     drawings.push_back(std::make_unique<ViewDrawing>(
         source, [&kind](const LoadedWorld& world, AbsentRobots) { return panesOf(kind, world.world); }));
+    drawings.back()->panes().layers() = kind.layers;
+    drawings.back()->panes().look().antialias = kind.antialias;
     contenders.push_back({.work = [&source, &drawing = *drawings.back()] {
       source.advance(0);
       drawing.draw(kSize);

@@ -28,7 +28,8 @@ class AirView {
   explicit AirView(const AirPicture& air)
       : air_(air),
         middle_(air.camera.width_px / 2.0, air.camera.height_px / 2.0),
-        focal_px_(air.camera.focalLength()) {}
+        focal_px_(air.camera.focalLength()),
+        depth_finer_(std::max(1, air.depth.width_px / std::max(1, air.picture.cols))) {}
 
   /// In the camera's axes: x ahead, y left, z up.
   TPoint3D seen(const TPoint3D& world) const {
@@ -45,9 +46,11 @@ class AirView {
   }
   /// Whether nothing nearer than `ahead_m` covers a pixel of the picture.
   bool isVisible(const TPoint2D& pixel, double ahead_m, double slack_m) const {
-    const float depth_m = air_.depth.at<float>(static_cast<int>(pixel.y), static_cast<int>(pixel.x));
+    const float depth_m = depthAt(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     return depth_m == 0 || ahead_m <= depth_m * 1.01 + slack_m;
   }
+  /// [m]; 0 for the sky
+  float depthAt(int x, int y) const { return air_.depth.metresAt(x * depth_finer_, y * depth_finer_); }
   double focalLength() const { return focal_px_; }
   const TPoint2D& middle() const { return middle_; }
 
@@ -55,6 +58,7 @@ class AirView {
   const AirPicture& air_;
   TPoint2D middle_;
   double focal_px_;
+  int depth_finer_;  ///< pixels of the depth buffer per pixel
 };
 
 cv::Point rounded(const TPoint2D& p) {
@@ -85,25 +89,27 @@ class AirPath {
       const TPoint3D cut = from + (to - from) * ((kNearest_m - from.x) / (to.x - from.x));
       (from.x < kNearest_m ? from : to) = cut;
     }
-    TPoint2D a = view_.pixel(from);
-    const TPoint2D b = view_.pixel(to);
+    const TPoint2D a = view_.pixel(from), b = view_.pixel(to);
     const double right = air_.picture.cols, bottom = air_.picture.rows;
     if (std::max(a.x, b.x) < 0 || std::max(a.y, b.y) < 0 || std::min(a.x, b.x) > right || std::min(a.y, b.y) > bottom) {
       return;
     }
     constexpr double kPiece_px = 6;
     const int pieces = std::clamp(static_cast<int>((b - a).norm() / kPiece_px), 1, 2000);
-    for (int i = 1; i <= pieces; ++i) {
+    const TPoint2D piece = (b - a) * (1.0 / pieces);
+    // Draws each run of visible pieces as one line: OpenCV's cost is per line.
+    int first_visible = -1;
+    for (int i = 0; i <= pieces; ++i) {
+      const double share = (i + 0.5) / pieces;
+      const TPoint2D center = a + piece * (i + 0.5);
       // Equal steps on the picture are not equal steps in space: 1 / depth is linear there.
-      const TPoint2D end =
-          view_.pixel(from) * (1 - static_cast<double>(i) / pieces) + b * (static_cast<double>(i) / pieces);
-      const TPoint2D center = (a + end) * 0.5;
-      const double share = (i - 0.5) / pieces;
       const double ahead_m = 1 / ((1 - share) / from.x + share / to.x);
-      if (view_.isOnPicture(center) && view_.isVisible(center, ahead_m, 0.05)) {
-        cv::line(air_.picture, rounded(a), rounded(end), color_, width_px_, cv::LINE_AA);
-      }
-      a = end;
+      const bool is_visible = i < pieces && view_.isOnPicture(center) && view_.isVisible(center, ahead_m, 0.05);
+      if (is_visible && first_visible < 0) first_visible = i;
+      if (is_visible || first_visible < 0) continue;
+      cv::line(air_.picture, rounded(a + piece * first_visible), rounded(a + piece * i), color_, width_px_,
+               cv::LINE_AA);
+      first_visible = -1;
     }
   }
 
@@ -176,12 +182,12 @@ class AirTint {
     for (int y = 0; y < area.height; ++y) {
       const uchar* const covered = mask.ptr<uchar>(y);
       auto* const pixels = air_.picture.ptr<cv::Vec3b>(y + area.y) + area.x;
-      const float* const depths = air_.depth.ptr<float>(y + area.y) + area.x;
       const double row = rotation(2, 0) / above_m + per_y * (y + area.y - view_.middle().y);
       for (int x = 0; x < area.width; ++x) {
         if (covered[x] == 0) continue;
         const double inverse = row + per_x * (x + area.x - view_.middle().x);
-        if (depths[x] > 0 && inverse * depths[x] * 1.01 < 1) continue;
+        const float depth_m = view_.depthAt(x + area.x, y + area.y);
+        if (depth_m > 0 && inverse * depth_m * 1.01 < 1) continue;
         for (int i = 0; i < 3; ++i)
           pixels[x][i] = cv::saturate_cast<uchar>(pixels[x][i] + opacity * (paint[i] - pixels[x][i]));
       }

@@ -3,6 +3,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "hardware/sensor_info.h"
+#include "rendering/depth_buffer.h"
 #include "rendering/run_paths.h"
 #include "rendering/top_view.h"
 #include "robots/fleet.h"
@@ -11,8 +12,8 @@ namespace robosim {
 
 /// A rendered 3D picture that is drawn onto.
 struct AirPicture {
-  cv::Mat& picture;      ///< BGR, of the camera's size
-  const cv::Mat& depth;  ///< along the optical axis [m], single precision; 0 for the sky; of the camera's size
+  cv::Mat& picture;          ///< BGR, of the camera's size
+  const DepthBuffer& depth;  ///< of the picture, or of one a whole number of times as large
   CameraInfo camera;
   mrpt::math::TPose3D world_from_camera;  ///< x along the optical axis, z up
   double scale = 1;                       ///< of lines and text

@@ -20,9 +20,6 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 using mrpt::poses::CPose3D;
 
-/// Near plane and far plane.
-constexpr float kNear_m = 0.02f, kFar_m = 5000;
-
 /// MRPT camera at a pose of RoboSim's camera frame (x forward); MRPT's has z forward and x to the right.
 mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from_camera) {
   mrpt::img::TCamera pinhole;
@@ -37,13 +34,6 @@ mrpt::opengl::CCamera cameraAt(const CameraInfo& info, const CPose3D& world_from
   return camera;
 }
 
-/// Converts a depth buffer value to metres; 0 at the far plane.
-float metresAhead(float depth) {
-  if (depth >= 1) return 0;
-  constexpr double n = kNear_m, f = kFar_m;
-  return static_cast<float>(n * f / (f - depth * (f - n)));
-}
-
 }  // namespace
 
 struct OffscreenRenderer::Impl {
@@ -51,7 +41,7 @@ struct OffscreenRenderer::Impl {
     for (const auto& robot : the_fleet.robots) underside_m.push_back(robot.body.heights().z_min_m);
     thread->run([&](RenderThread::Targets&) {
       scene = std::make_unique<mrpt::opengl::COpenGLScene>();
-      scene->getViewport()->setViewportClipDistances(kNear_m, kFar_m);
+      scene->getViewport()->setViewportClipDistances(kNearPlane_m, kFarPlane_m);
       world.emplace(the_world, the_fleet);
       world->addTo(*scene);
       installShaders(*scene->getViewport());
@@ -105,7 +95,7 @@ std::vector<Blob> OffscreenRenderer::findBlobs(const std::string& jpeg, const st
 }
 
 cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& world_from_camera,
-                                   std::span<const TPose2D> world_from_robot, cv::Mat* depth) {
+                                   std::span<const TPose2D> world_from_robot, DepthBuffer* depth) {
   cv::Mat drawn;
   impl_->thread->run([&](RenderThread::Targets& targets) {
     auto& target = targets.ofSize(camera.width_px, camera.height_px);
@@ -114,21 +104,19 @@ cv::Mat OffscreenRenderer::picture(const CameraInfo& camera, const TPose3D& worl
     mrpt::img::CImage picture;
     target.render_RGB(*impl_->scene, picture);
     drawn = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
-    if (!depth) return;
-    depth->create(drawn.size(), CV_32F);
-    const auto depths = target.lastDepths();
-    for (int row = 0; row < depth->rows; ++row) {
-      const auto from_bottom = depths.begin() + std::ptrdiff_t{depth->rows - 1 - row} * depth->cols;
-      std::transform(from_bottom, from_bottom + depth->cols, depth->ptr<float>(row), metresAhead);
-    }
+    if (depth) *depth = {drawn.cols, drawn.rows, target.lastDepths()};
   });
   return drawn;
 }
 
 cv::Mat OffscreenRenderer::depth(const CameraInfo& camera, const TPose3D& world_from_camera,
                                  std::span<const TPose2D> world_from_robot) {
-  cv::Mat depths;
-  picture(camera, world_from_camera, world_from_robot, &depths);
+  DepthBuffer buffer;
+  picture(camera, world_from_camera, world_from_robot, &buffer);
+  cv::Mat_<float> depths(buffer.height_px, buffer.width_px);
+  for (int y = 0; y < depths.rows; ++y) {
+    for (int x = 0; x < depths.cols; ++x) depths(y, x) = buffer.metresAt(x, y);
+  }
   return depths;
 }
 

@@ -6,6 +6,7 @@
 #include <mrpt/math/TPose3D.h>
 #include <opencv2/core/mat.hpp>
 
+#include "rendering/depth_buffer.h"
 #include "robots/fleet.h"
 #include "sensors/image_source.h"
 #include "world/world.h"
@@ -29,9 +30,9 @@ class OffscreenRenderer : public ImageSource {
   /// @param camera its size and field of view; x of `world_from_camera` is along the optical axis, z up
   ///@{
   /// Blue, green, red, 8 bits each.
-  /// @param depth receives the depths of the same picture, as depth(), if not null
+  /// @param depth receives the depths of the same picture, if not null
   cv::Mat picture(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                  std::span<const mrpt::math::TPose2D> world_from_robot, cv::Mat* depth = nullptr);
+                  std::span<const mrpt::math::TPose2D> world_from_robot, DepthBuffer* depth = nullptr);
   /// Depth of each pixel along the optical axis [m], single precision; 0 for the sky.
   cv::Mat depth(const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
                 std::span<const mrpt::math::TPose2D> world_from_robot);

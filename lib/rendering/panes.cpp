@@ -159,7 +159,7 @@ cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const Ru
   const TPose2D* ridden = pane.follow ? &snapshot.robots[*pane.follow].world_from_robot : nullptr;
   const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
   const bool has_overlay = !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names);
-  cv::Mat depth;
+  DepthBuffer depth;
   cv::Mat picture = render(camera, world_from_camera, snapshot, has_overlay ? &depth : nullptr);
   if (has_overlay && !depth.empty()) {
     drawAirOverlay({picture, depth, camera, world_from_camera, look_.scale}, snapshot, fleet_, paths, layers_,
@@ -169,7 +169,7 @@ cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const Ru
 }
 
 cv::Mat Panes::render(CameraInfo camera, const TPose3D& world_from_camera, const RunSnapshot& snapshot,
-                      cv::Mat* depth) {
+                      DepthBuffer* depth) {
   std::vector<TPose2D> world_from_robot;
   for (const auto& robot : snapshot.robots) {
     world_from_robot.push_back(robot.isPresent() ? robot.world_from_robot : kNotShown);
@@ -180,7 +180,6 @@ cv::Mat Panes::render(CameraInfo camera, const TPose3D& world_from_camera, const
   camera.height_px *= 2;
   cv::Mat picture = draw_3d_(camera, world_from_camera, world_from_robot, depth);
   cv::resize(picture, picture, size, 0, 0, cv::INTER_AREA);
-  if (depth && !depth->empty()) cv::resize(*depth, *depth, size, 0, 0, cv::INTER_NEAREST);
   return picture;
 }
 

@@ -7,6 +7,7 @@
 #include <opencv2/core/mat.hpp>
 
 #include "hardware/sensor_info.h"
+#include "rendering/depth_buffer.h"
 #include "rendering/run_paths.h"
 #include "rendering/top_view.h"
 
@@ -42,7 +43,7 @@ class Panes {
   /// Renders a 3D pane or an inset: BGR, of the camera's size; if `depth` is not null, with the depths of the picture
   /// (OffscreenRenderer::picture()). Called only for these.
   using Draw3d = std::function<cv::Mat(const CameraInfo&, const mrpt::math::TPose3D& world_from_camera,
-                                       std::span<const mrpt::math::TPose2D> world_from_robot, cv::Mat* depth)>;
+                                       std::span<const mrpt::math::TPose2D> world_from_robot, DepthBuffer* depth)>;
 
   /// Style of the whole picture.
   struct Look {
@@ -82,7 +83,7 @@ class Panes {
   void fit(Pane& pane, std::size_t index) const;
   void setTopSize(Pane& pane, std::size_t index) const;
   cv::Mat render(CameraInfo camera, const mrpt::math::TPose3D& world_from_camera, const RunSnapshot& snapshot,
-                 cv::Mat* depth);
+                 DepthBuffer* depth);
   void drawInset(cv::Mat& picture, const RunSnapshot& snapshot);
 
   const World& world_;

@@ -325,7 +325,7 @@ TEST_F(TopViewTest, LastRowOfPanesIsAsWideAsThePicture) {
 
 TEST_F(TopViewTest, ClickingARobotTurns3dPanesThatFollowToIt) {
   TPose3D world_from_camera;
-  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>, cv::Mat*) {
+  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>, DepthBuffer*) {
     world_from_camera = pose;
     return cv::Mat(static_cast<int>(info.height_px), static_cast<int>(info.width_px), CV_8UC3);
   };
@@ -371,7 +371,7 @@ TEST_F(TopViewTest, Pane3dOfAnySizeInitiallyShowsTheWholeWorld) {
     CameraInfo camera_info;
     mrpt::math::TPose3D world_from_camera;
     Panes panes(world, fleet, {makePane(true, std::nullopt, world)},
-                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>, cv::Mat*) {
+                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>, DepthBuffer*) {
                   camera_info = info;
                   world_from_camera = pose;
                   return cv::Mat(cv::Size(size), CV_8UC3);

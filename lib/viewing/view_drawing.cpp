@@ -19,7 +19,7 @@ void ViewDrawing::make(AbsentRobots absent) {
   }
   const Panes::Draw3d draw_3d = [renderer, &world](
                                     const CameraInfo& camera, const mrpt::math::TPose3D& world_from_camera,
-                                    std::span<const mrpt::math::TPose2D> world_from_robot, cv::Mat* depth) {
+                                    std::span<const mrpt::math::TPose2D> world_from_robot, DepthBuffer* depth) {
     if (!*renderer) *renderer = std::make_unique<OffscreenRenderer>(world.world, world.fleet);
     return (*renderer)->picture(camera, world_from_camera, world_from_robot, depth);
   };

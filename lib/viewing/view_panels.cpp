@@ -16,7 +16,7 @@ constexpr std::array<std::pair<const char*, const char*>, 17> kHelp{{{"left drag
                                                                      {"space", "pause, resume"},
                                                                      {"s", "one step"},
                                                                      {"+  -", "faster, slower"},
-                                                                     {"←  →", "5 s back or on, of a recording"},
+                                                                     {"Left, Right", "5 s back or on, of a recording"},
                                                                      {"f", "follow the next robot"},
                                                                      {"0", "show everything"},
                                                                      {"t", "paths"},

@@ -223,7 +223,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         y += line_px + gap_px;
         line_px = 0;
       }
-      part->setPosition(Vector2i(x, y));
+      part->setPosition(Vector2i(x, y + std::max(0, line_px - size.y()) / 2));
       part->setSize(size);
       x += size.x() + gap_px;
       line_px = std::max(line_px, size.y());
@@ -235,7 +235,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       part->setPosition(Vector2i(0, 0));
       part->setSize(Vector2i(width(), picture_px));
     }
-    banner_->setHeight(0);  // receives no mouse input
+    banner_->setHeight(std::min(picture_px, static_cast<int>(130 * scale_)));  // mouse input below it is the picture's
     bar_->setPosition(Vector2i(0, picture_px));
     bar_->setSize(Vector2i(width(), bar_px));
     if (!slider_) return;

@@ -59,7 +59,7 @@ TEST(BenchView, ReportsFramesPerSecondForEachKindOfView) {
     EXPECT_GT(figures["frames_per_s"], 0.0);
     EXPECT_GT(figures["cpu_s_per_frame"], 0.0);
   }
-  EXPECT_EQ(views, (std::vector<std::string>{"2d", "3d", "both"}));
+  EXPECT_EQ(views, (std::vector<std::string>{"2d", "3d", "3d-paths", "3d-antialias", "both"}));
 }
 
 TEST(BenchMaps, EndsOnInterruptWithoutLeavingFiles) {

@@ -214,7 +214,7 @@ TEST(View, OpensAWindowAndClosesOnQ) {
   const auto folder = emptyFolder();
   const auto hall = writeHall(folder);
   const Screen screen;
-  StartedProgram view({"view", hall.string(), "--size", "648x648"});
+  StartedProgram view({"view", hall.string(), "--size", "648x684"});  // 648 x 648 above the toolbar
   // Independent of the window's position, a blue square of 120 px appears.
   const int blue = screen.waitForPixels(12000, isBlue, folder, view);
   EXPECT_NEAR(blue, 120 * 120, 1000) << view.error();
@@ -321,6 +321,23 @@ TEST(View, StaysOpenAfterTheEndOfTheRun) {
   const Ended ended = window.quit();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
   EXPECT_EQ(withoutDesktopMessages(ended.err), "");
+}
+
+TEST(View, StaysOpenWithTheReasonWhenTheServerEnds) {
+  const Screen screen;
+  auto serving = std::make_unique<Serving>(std::vector<std::string>{"--speed", "1", "--controller", "wander"},
+                                           "worlds/opho2_1.xml");
+  StartedProgram view({"view", serving->address(), "--size", "800x600"});
+  const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
+  ASSERT_GE(screen.waitForPixels(100'000, is_lit, emptyFolder(), view), 100'000) << view.error();
+  serving.reset();  // ends the server's process
+  const auto is_red = [](const cv::Vec3b& pixel) { return pixel[2] > 140 && pixel[1] < 60 && pixel[0] < 60; };
+  EXPECT_GE(screen.waitForPixels(20'000, is_red, emptyFolder(), view), 20'000) << "a banner; " << view.error();
+  EXPECT_TRUE(view.isRunning());
+  screen.act(Screen::keys("q"));
+  const Ended ended = view.wait();
+  EXPECT_EQ(ended.exit_code, 0);
+  EXPECT_NE(ended.err.find("robosim view: "), std::string::npos) << "the reason is printed, too: " << ended.err;
 }
 
 TEST(View, ContinuesWithAWorldWithoutTheFollowedRobot) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
@@ -242,8 +243,7 @@ TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
 TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
   const auto folder = emptyFolder();
   const auto hall = writeHallOfTwoBoxes(folder);
-  const std::vector<std::string> how{"--3d", "--size", "600x500"};
-  Window window(folder, viewOf(hall, how));
+  Window window(folder, viewOf(hall, {"--3d", "--size", "600x536"}));  // 500 px above the toolbar
   const auto file = folder / "air.png";
   ASSERT_EQ(
       runProgram("view '" + hall.string() + "' --3d --size 600x500 --offscreen '" + file.string() + "'").exit_code, 0);
@@ -256,6 +256,52 @@ TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
   EXPECT_GT(bluesIn(turned), 1000);
   EXPECT_TRUE(areSame(window.after("0"), window.start()));
   EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, ShowsThePathOfAnyTimeHoweverItWasReached) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  window.after("space");
+  const cv::Mat at_5_s = picturePart(window.after("Right"));
+  window.after("Right Right");
+  EXPECT_TRUE(areSame(picturePart(window.after("Left Left")), at_5_s)) << "after seeking back";
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, ShowsHelpOnAQuestionMark) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const cv::Mat before = window.after("space");
+  const cv::Mat help = window.afterDoing("windowfocus key --window 0 question");
+  EXPECT_GT(cv::norm(help, before, cv::NORM_L1) / static_cast<double>(before.total()), 20) << "a large panel";
+  EXPECT_TRUE(areSame(window.after("Escape"), before)) << "closes the help, not the window";
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, FillsTheScreenOnF11) {
+  const auto folder = emptyFolder();
+  Window window(folder, viewOf(recordHall(folder)));
+  const auto is_black = [](const cv::Mat& picture) { return picture.at<cv::Vec3b>(760, 1015) == cv::Vec3b(0, 0, 0); };
+  ASSERT_TRUE(is_black(window.start())) << "the screen of 1024 x 768 beside the window";
+  EXPECT_FALSE(is_black(window.after("F11")));
+  EXPECT_TRUE(is_black(window.after("F11")));
+  EXPECT_EQ(window.quit(), 0);
+}
+
+TEST(ViewWindow, ScalesTextAndLines) {
+  const auto folder = emptyFolder();
+  const auto hall = writeHallOfTwoBoxes(folder);
+  const auto draw = [&](const std::string& name, const std::string& how) {
+    const auto file = folder / name;
+    const Ended ended = runProgram("view '" + hall.string() + "' --offscreen '" + file.string() + "' " + how);
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+    return cv::imread(file.string());
+  };
+  const cv::Mat small = draw("small.png", "--size 500x400"), large = draw("large.png", "--size 1000x800 --scale 2");
+  ASSERT_EQ(large.size(), cv::Size(1000, 800));
+  cv::Mat reduced;
+  cv::resize(large, reduced, small.size(), 0, 0, cv::INTER_AREA);
+  EXPECT_LT(cv::norm(reduced, small, cv::NORM_L1) / static_cast<double>(3 * small.total()), 3) << "the same, larger";
 }
 
 }  // namespace

@@ -1,0 +1,72 @@
+#include "rendering/air_overlay.h"
+
+#include <gtest/gtest.h>
+
+namespace robosim {
+namespace {
+
+/// A camera 2 m above the ground, 5 m behind the origin, that looks along x, and a robot that came from (0, -1).
+struct AirOverlay : testing::Test {
+  AirOverlay() {
+    camera.width_px = 400;
+    camera.height_px = 300;
+    camera.field_of_view_rad = 1;
+    FleetRobot robot;
+    robot.info.name = "Zoë";
+    robot.body = {Cylinder{0.25}, {0, 0, 0}, 0.2, 0.4, {1, 0, 0}, 0};
+    SensorInfo laser;
+    laser.kind = SensorKind::laser;
+    laser.range_max_m = 8;
+    laser.beams.resize(3, {{0, 0, 0.3, 0, 0, 0}});
+    robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{laser});
+    fleet.robots.push_back(robot);
+    paths.add(0, 0, {{0, -1, 0}});
+    paths.add(1, 0.1, {{0, -0.5, 0}});
+    snapshot.step = 2;
+    snapshot.time_s = 0.2;
+    snapshot.robots.resize(1);
+    snapshot.robots[0].readings.emplace();
+    Echoes echoes(3);
+    for (int i = 0; i < 3; ++i) echoes[static_cast<std::size_t>(i)] = {2, {2, i - 1.0, 0.3}};
+    snapshot.robots[0].readings->measurements.push_back(echoes);
+  }
+
+  /// Number of changed pixels with these layers, behind a wall that fills the picture at this depth; 0 for none.
+  int changed(const TopViewLayers& layers, double wall_m) {
+    cv::Mat picture(300, 400, CV_8UC3, cv::Scalar(200, 200, 200));
+    const cv::Mat before = picture.clone();
+    constexpr double n = kNearPlane_m, f = kFarPlane_m;
+    const float depth_value = wall_m > 0 ? static_cast<float>((f - n * f / wall_m) / (f - n)) : 1;
+    const DepthBuffer depth{400, 300, std::vector<float>(400UL * 300, depth_value)};
+    drawAirOverlay({picture, depth, camera, {-5, 0, 2, 0, 0.35, 0}}, snapshot, fleet, paths, layers, {});
+    cv::Mat differs;
+    cv::absdiff(picture, before, differs);
+    return cv::countNonZero(differs.reshape(1));
+  }
+
+  CameraInfo camera;
+  Fleet fleet;
+  RunSnapshot snapshot;
+  RunPaths paths;
+};
+
+TEST_F(AirOverlay, HidesPathsAndRangesBehindNearerThings) {
+  const TopViewLayers path{.paths = true, .sensors = false, .names = false};
+  EXPECT_GT(changed(path, 0), 100) << "before the sky";
+  EXPECT_GT(changed(path, 20), 100) << "before a far wall";
+  EXPECT_EQ(changed(path, 2), 0) << "behind a near wall";
+  const TopViewLayers ranges{.paths = false, .sensors = true, .names = false};
+  EXPECT_GT(changed(ranges, 20), 1000);
+  EXPECT_EQ(changed(ranges, 2), 0);
+}
+
+TEST_F(AirOverlay, WritesNamesAboveRobotsAlsoBehindThings) {
+  const TopViewLayers names{.paths = false, .sensors = false, .names = true};
+  EXPECT_GT(changed(names, 20), 200);
+  EXPECT_EQ(changed(names, 2), changed(names, 20));
+}
+
+TEST_F(AirOverlay, DrawsNothingWithoutLayers) { EXPECT_EQ(changed({false, false, false}, 20), 0); }
+
+}  // namespace
+}  // namespace robosim
