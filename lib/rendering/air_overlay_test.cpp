@@ -1,6 +1,7 @@
 #include "rendering/air_overlay.h"
 
 #include <gtest/gtest.h>
+#include <opencv2/core.hpp>
 
 namespace robosim {
 namespace {
@@ -27,7 +28,7 @@ struct AirOverlay : testing::Test {
     snapshot.robots.resize(1);
     snapshot.robots[0].readings.emplace();
     Echoes echoes(3);
-    for (int i = 0; i < 3; ++i) echoes[static_cast<std::size_t>(i)] = {2, {2, i - 1.0, 0.3}};
+    for (int i = 0; i < 3; ++i) echoes[static_cast<std::size_t>(i)] = {2, {2, static_cast<float>(i) - 1, 0.3f}};
     snapshot.robots[0].readings->measurements.push_back(echoes);
   }
 
