@@ -76,6 +76,11 @@ class AirPath {
 
   void lineTo(const TPoint2D& at) {
     const TPoint3D next = view_.seen({at.x, at.y, kPathHeight_m});
+    constexpr double kStride_px = 2;
+    if (last_ && last_->x > kNearest_m && next.x > kNearest_m &&
+        (view_.pixel(next) - view_.pixel(*last_)).norm() < kStride_px) {
+      return;
+    }
     if (last_) line(*last_, next);
     last_ = next;
   }

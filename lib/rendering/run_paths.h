@@ -41,7 +41,7 @@ class RunPaths {
   explicit RunPaths(std::size_t max_points = kMaxPoints) : max_points_(max_points) {}
 
   void add(const RunSnapshot& snapshot);
-  /// The same for the poses of a step, kNotShown for absent robots. A time before the last one starts all paths anew.
+  /// The same for the poses of a step, kNotShown for absent robots. A time before the last one starts all paths again.
   void add(std::uint64_t step, double time_s, const std::vector<mrpt::math::TPose2D>& world_from_robot);
   void clear() { of_robot_.clear(); }
 

@@ -97,7 +97,7 @@ TEST(RunPaths, AddsNothingWhileARobotStands) {
   EXPECT_EQ(paths.between(0, 0, 1e9).points.size(), 1U);
 }
 
-TEST(RunPaths, BeginsAnewWhenTimeGoesBack) {
+TEST(RunPaths, BeginsAgainWhenTimeGoesBack) {
   RunPaths paths;
   for (std::uint64_t i = 0; i < 10; ++i) paths.add(i, static_cast<double>(i), {{static_cast<double>(i * i), 0, 0}});
   paths.add(2, 2, {{7, 7, 0}});
