@@ -163,7 +163,7 @@ void addView(CLI::App& program) {
       ->check(numberIn(0.5, 8))
       ->capture_default_str();
   command->add_flag("--antialias", a->look.antialias,
-                    "smooth edges in 3D and in the camera picture; rendering takes about four times as long");
+                    "smooth edges in 3D and in the camera picture; rendering takes about 2.5 times as long");
   command->add_flag("--camera", a->look.camera_inset,
                     "show the picture of the followed robot's camera, or of the first robot that has one");
   command->add_option("--from", a->times.from_s, "recordings: start at this time")
