@@ -11,6 +11,7 @@
 #include "robosim/connection.h"
 #include "robosim/subcommands.h"
 #include "run/output_files.h"
+#include "viewing/video_file.h"
 #include "viewing/view_outputs.h"
 #include "viewing/view_source.h"
 
@@ -152,7 +153,7 @@ void addView(CLI::App& program) {
   command
       ->add_option("--offscreen", a->offscreen,
                    "no window: write a picture (.png) of the start of a world, the end of a recording, or the newest "
-                   "step of a run; or a video (.mp4)")
+                   "step of a run; or a video (.mp4: H.264, .webm: VP9)")
       ->type_name("FILE")
       ->check(fileName());
   command->add_option("--size", a->size, "size of the window or the picture, pixels")

@@ -1,38 +1,45 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 
 #include <opencv2/core/mat.hpp>
-#include <opencv2/videoio.hpp>
 
-#include "base/interrupt.h"
+#include "base/atomic_file.h"
 
 namespace robosim {
 
-/// Writer of an MP4 video. Until commit(), the file is named "<name>.part.mp4"; destruction without commit() removes
-/// it. OpenCV and FFmpeg do not report write errors of frames or of the final index, so commit() verifies the file on
-/// disk.
+/// Whether the name of a file ends in .mp4 or .webm, in upper or lower case.
+bool isVideo(const std::filesystem::path& file);
+
+/// Writer of a video by FFmpeg's libraries: MP4 with H.264 (avc1) and its index in front of the pictures, so that
+/// players start before the file is complete; or WebM with VP9. Pixels are yuv420p in BT.709, with a key frame at least
+/// every two seconds for seeking. Equal pictures give equal bytes with the same version of the libraries. The file
+/// appears under its name only on commit() (AtomicFile).
 class VideoFile {
  public:
-  /// @throws ConfigError when the file cannot be created.
+  /// @param file .mp4 or .webm
+  /// @param fps frames per second
+  /// @throws ConfigError when the file cannot be created, or its encoder is not installed.
+  /// @throws std::runtime_error when the encoder refuses the size or the frame rate.
   VideoFile(const std::filesystem::path& file, int width_px, int height_px, double fps);
   ~VideoFile();
   VideoFile(const VideoFile&) = delete;
   VideoFile& operator=(const VideoFile&) = delete;
 
-  /// Adds a frame, BGR. Drops the last row or column of an odd size, because the codec requires even sizes.
+  /// Adds a frame: BGR, 8 bits, of the given size. Drops the last row or column of an odd size, because the codecs
+  /// require even sizes.
+  /// @throws std::runtime_error when the disk is full, or fails.
   void add(const cv::Mat& picture);
-  /// Completes the file and renames it.
-  /// @throws std::runtime_error when the file is incomplete: the disk is full, or fails.
+  /// Completes the file, waits until it is on the disk, and renames it.
+  /// @throws std::runtime_error as add() does.
   void commit();
 
  private:
-  void checkWhole() const;
+  struct Encoder;
 
-  std::filesystem::path file_, part_;
-  PartialFile partial_;  ///< at part_
-  cv::VideoWriter writer_;
-  std::uint64_t frames_ = 0;
+  AtomicFile file_;
+  std::unique_ptr<Encoder> encoder_;
 };
 
 }  // namespace robosim

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <thread>
 
 #include "base/atomic_file.h"
@@ -65,19 +65,24 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   if (const auto duration_s = source.duration()) {
     const double end_s = endOf(*duration_s, times);
     const double speed = times.speed.value_or(1);
+    // Times are sums and products of rounded numbers, as large as 10⁹ s in recordings with a wrong clock.
+    const double rounding_s = 1e-9 + 4 * std::numeric_limits<double>::epsilon() * end_s;
     LeftOut left_out;
     source.pause(true);
     double begin_s = times.from_s.value_or(0);
     std::uint64_t frame = 0;  // since then
-    for (double t = begin_s; t <= end_s + 1e-9;) {
+    for (double t = begin_s;;) {
       if (interrupt.isRequested()) throwInterrupted();
       source.seek(t);
       source.advance(0);
       video.add(drawing.draw(size));
       if (progress.due()) progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s …");
-      t = begin_s + static_cast<double>(++frame) * speed / times.fps;
+      if (t >= end_s - rounding_s) break;
+      // The last frame shows the end, also when it is less than a period after the frame before.
+      t = std::min(begin_s + static_cast<double>(++frame) * speed / times.fps, end_s);
       if (const double past_s = source.pastGap(t, speed); past_s > t) {
         left_out.add(t, std::min(past_s, end_s));
+        if (past_s > end_s + rounding_s) break;
         t = begin_s = past_s;
         frame = 0;
       }
@@ -102,15 +107,9 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
 
 }  // namespace
 
-bool isVideo(const std::string& file) {
-  std::string ending = fs::path(file).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  return ending == ".mp4";
-}
-
 void checkOffscreenFile(const std::string& file) {
   if (!isVideo(file) && pictureFormatOf(file) != PictureFormat::png) {
-    throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or .mp4, for a video");
+    throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or in .mp4 or .webm, for a video");
   }
   checkWritable(file);
 }

@@ -34,8 +34,7 @@ using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&, AbsentRobo
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
                 const Panes::Look& look = {});
 
-bool isVideo(const std::string& file);
-/// @throws ConfigError for a name that ends in neither .png nor .mp4, or a file that cannot be written
+/// @throws ConfigError for a name that ends in none of .png, .mp4 and .webm, or a file that cannot be written
 void checkOffscreenFile(const std::string& file);
 /// Writes a picture or a video.
 /// @throws Interrupted, and std::runtime_error when the disk is full; no file is written then. Exception: an

@@ -95,7 +95,7 @@ TEST(View, WritesAVideoOfARecording) {
   EXPECT_EQ(frames, 16) << "3 s at twice the speed, 10 a second, and the last one";
   EXPECT_EQ(first.size(), cv::Size(320, 240));
   EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robot has moved";
-  EXPECT_FALSE(fs::exists(folder / "run.mp4.part.mp4"));
+  EXPECT_FALSE(fs::exists(folder / "run.mp4.part"));
 }
 
 TEST(View, EndsAVideoWithItsRecording) {
@@ -145,7 +145,9 @@ TEST(View, ReportsInvalidArguments) {
   };
   EXPECT_NE(error(hall + " --follow Bob --offscreen x.png").find("there is no robot Bob; there is Ann"),
             std::string::npos);
-  EXPECT_NE(error(hall + " --offscreen x.gif").find("must end in .png"), std::string::npos);
+  EXPECT_NE(
+      error(hall + " --offscreen x.gif").find("must end in .png, for a picture, or in .mp4 or .webm, for a video"),
+      std::string::npos);
   EXPECT_NE(error(hall + " --offscreen x.mp4").find("nothing moves in a world that does not run"), std::string::npos);
   EXPECT_NE(error(hall + " --size 10x10 --offscreen x.png").find("--size 10x10: must be"), std::string::npos);
   EXPECT_NE(error(hall + " --view 4d --offscreen x.png").find("--view 4d: must be 2d"), std::string::npos);
@@ -439,14 +441,17 @@ TEST(View, ReportsAFullDiskForAVideo) {
   const auto folder = emptyFolder();
   const auto hall = writeHall(folder);
   ASSERT_EQ(runProgram("run " + quoted(hall) + " --time 3 --record " + quoted(folder / "run.rawlog")).exit_code, 0);
-  for (const char* blocks : {"1", "16"}) {  // of 512 or 1024 bytes: no data, or some frames without the index
-    const Ended full =
-        runCommand("trap '' XFSZ; ulimit -f " + std::string(blocks) + "; '" ROBOSIM_PROGRAM "' view " +
-                   quoted(folder / "run.rawlog") + " --size 640x480 --offscreen " + quoted(folder / "run.mp4"));
-    EXPECT_EQ(full.exit_code, 2) << blocks << full.err;
-    EXPECT_NE(full.err.find("run.mp4: the video could not be written ("), std::string::npos) << full.err;
-    EXPECT_FALSE(fs::exists(folder / "run.mp4"));
-    EXPECT_FALSE(fs::exists(folder / "run.mp4.part.mp4"));
+  for (const std::string name : {"run.mp4", "run.webm"}) {
+    for (const char* blocks : {"1", "16"}) {  // of 512 or 1024 bytes: no data, or some frames without the index
+      const Ended full =
+          runCommand("trap '' XFSZ; ulimit -f " + std::string(blocks) + "; '" ROBOSIM_PROGRAM "' view " +
+                     quoted(folder / "run.rawlog") + " --size 640x480 --offscreen " + quoted(folder / name));
+      EXPECT_EQ(full.exit_code, 2) << blocks << full.err;
+      EXPECT_NE(full.err.find(name + ": the video could not be written ("), std::string::npos) << full.err;
+      EXPECT_NE(full.err.find("); free disk space"), std::string::npos) << full.err;
+      EXPECT_FALSE(fs::exists(folder / name));
+      EXPECT_FALSE(fs::exists(folder / (name + ".part")));
+    }
   }
 }
 
