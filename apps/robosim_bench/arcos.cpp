@@ -135,7 +135,7 @@ class EmptyWorldFile {
   TemporaryDirectory folder_;
 };
 
-/// A port on which nobody listens.
+/// A port on which no program listens.
 std::uint16_t freePort(asio::io_context& io) {
   return tcp::acceptor(io, {asio::ip::address_v4::loopback(), 0}).local_endpoint().port();
 }

@@ -13,7 +13,7 @@ class Tracks {
  public:
   explicit Tracks(std::size_t robots) : points_(robots) {}
 
-  /// @param world_from_robot kNotShown for absent robots, whose path begins anew when they come back
+  /// @param world_from_robot kNotShown for absent robots, whose path begins again when they come back
   void add(std::span<const mrpt::math::TPose2D> world_from_robot) {
     constexpr double kSpacing_m = 0.05;
     for (std::size_t i = 0; i < points_.size(); ++i) {
