@@ -13,6 +13,7 @@
 
 #include "base/random.h"
 #include "geometry/scene.h"
+#include "rendering/blob_search.h"
 #include "sensors/blob_finder.h"
 
 namespace robosim {

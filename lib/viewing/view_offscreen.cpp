@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <limits>
 #include <thread>
@@ -19,8 +18,6 @@
 
 namespace robosim {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// Skips gaps of a recording, which a video omits.
 class LeftOut {

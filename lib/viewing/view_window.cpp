@@ -3,8 +3,8 @@
 #include <functional>
 #include <iostream>
 
-#include <GLFW/glfw3.h>
 #include <mrpt/gui/CDisplayWindowGUI.h>
+#include <nanogui/opengl.h>
 #include <nanovg.h>
 #include <opencv2/imgproc.hpp>
 
