@@ -29,8 +29,8 @@ struct Cuboid {
            other.plan.y_min < plan.y_max && heights.overlaps(other.heights);
   }
   bool contains(const Cuboid& other) const {
-    return plan.contains({other.plan.x_min, other.plan.y_min}) && plan.contains({other.plan.x_max, other.plan.y_max}) &&
-           heights.contains(other.heights.z_min_m) && heights.contains(other.heights.z_max_m);
+    return plan.covers(other.plan) && heights.contains(other.heights.z_min_m) &&
+           heights.contains(other.heights.z_max_m);
   }
   Cuboid shrunk(double by_m) const {
     return {{plan.x_min + by_m, plan.x_max - by_m, plan.y_min + by_m, plan.y_max - by_m},

@@ -19,10 +19,6 @@ bool cover(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min < b.x_max && b.x_min < a.x_max && a.y_min < b.y_max && b.y_min < a.y_max;
 }
 
-bool inside(const Bounds2D& inner, const Bounds2D& outer) {
-  return outer.contains({inner.x_min, inner.y_min}) && outer.contains({inner.x_max, inner.y_max});
-}
-
 constexpr double kScaleGap_px = 10;  ///< between a scale bar and its number
 
 double scaleLength(const GroundView& view) {
@@ -130,7 +126,7 @@ void NameWriter::write(const std::string& name, const TPoint2D& center, double h
   double best_contrast = 0;
   for (const auto& offset : offsets) {
     const Bounds2D place = around(center + offset, width / 2 + 2, height / 2);
-    if (!inside(place, page) ||
+    if (!page.covers(place) ||
         std::any_of(taken_.begin(), taken_.end(), [&](const Bounds2D& other) { return cover(place, other); })) {
       continue;
     }

@@ -14,11 +14,6 @@
 namespace robosim {
 namespace {
 
-bool isWithin(const Circle& disc, const Bounds2D& bounds) {
-  return disc.center.x - disc.radius_m >= bounds.x_min && disc.center.x + disc.radius_m <= bounds.x_max &&
-         disc.center.y - disc.radius_m >= bounds.y_min && disc.center.y + disc.radius_m <= bounds.y_max;
-}
-
 /// Hash grid of the robots checked so far, by the cell of their centres. A cell is as wide as the widest robot, so
 /// overlapping robots are in the same cell or one of the eight neighbours.
 class CheckedRobots {
@@ -124,7 +119,7 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
                  "robot '" + robot.name + "' " + placeOf(robot) + " " + fault);
     };
     const auto line_text = [&](const SourceLine& line) { return lineText(world, line, robot.line, world_file); };
-    if (!isWithin(robot.disc, world.bounds)) {
+    if (!world.bounds.covers(boundsOf(robot.disc))) {
       report("stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>");
       continue;
     }

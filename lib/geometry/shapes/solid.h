@@ -48,6 +48,9 @@ struct Bounds2D {
   bool contains(const mrpt::math::TPoint2D& p) const {
     return x_min <= p.x && p.x <= x_max && y_min <= p.y && p.y <= y_max;
   }
+  bool covers(const Bounds2D& other) const {
+    return contains({other.x_min, other.y_min}) && contains({other.x_max, other.y_max});
+  }
   bool operator==(const Bounds2D&) const = default;
 };
 
