@@ -124,7 +124,7 @@ void addFactoryRobots(const std::string& factory, WorldChanges& changes) {
     throw ConfigError("--arcos-factory and --random-robots both add robots; use one of them");
   }
   changes.random_robots = count;
-  changes.has_fewer_where_full = colon == factory.size();
+  changes.may_add_fewer = colon == factory.size();
   changes.random_model = factory.substr(0, colon);
 }
 

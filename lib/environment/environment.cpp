@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <map>
 #include <stdexcept>
 
-#include "base/portable_math.h"
 #include "environment/message_router.h"
 #include "environment/move_authorisation.h"
 #include "environment/referee.h"
+#include "environment/robot_groups.h"
 #include "environment/run_digest.h"
 #include "robots/differential_drive.h"
 
@@ -37,46 +36,6 @@ enum class SensorGroup { anywhere, in_host_process };
 
 double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
 
-/// Robots with the same model.
-struct Group {
-  const RobotModel* model;
-  double reach_m;  ///< maximum range, from their centres, of a step and of the sensors that use neighbours
-  std::vector<std::uint32_t> robots;
-};
-
-double reachOf(const Sensor& sensor) {
-  double reach_m = 0;
-  if (!sensor.usesNeighbours()) return reach_m;
-  const SensorInfo& info = sensor.info();
-  for (const auto& beam : info.beams) {
-    reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
-  }
-  return reach_m;
-}
-
-double reachOf(const RobotModel& model, double period_s) {
-  double reach_m = model.radius_m + model.limits.speed_max_mps * period_s;
-  for (const auto& sensor : model.sensors) reach_m = std::max(reach_m, reachOf(*sensor));
-  return reach_m + kContactGap_m;
-}
-
-bool isWithin(const Circle& disc, const Bounds2D& area) {
-  const Bounds2D bounds = boundsOf(disc);
-  return area.contains({bounds.x_min, bounds.y_min}) && area.contains({bounds.x_max, bounds.y_max});
-}
-
-std::vector<Group> groupsOf(const Fleet& fleet, double period_s) {
-  std::vector<Group> groups;
-  std::map<const RobotModel*, std::size_t> group_of;
-  for (std::uint32_t i = 0; i < fleet.robots.size(); ++i) {
-    const RobotModel* model = fleet.robots[i].model.get();
-    const auto [found, is_new] = group_of.emplace(model, groups.size());
-    if (is_new) groups.push_back({model, reachOf(*model, period_s), {}});
-    groups[found->second].robots.push_back(i);
-  }
-  return groups;
-}
-
 /// @throws std::invalid_argument for a state of another model than `own`
 void requireSameShape(const State& saved, const State& own) {
   if (haveSameShape(saved, own)) return;
@@ -99,8 +58,7 @@ struct Environment::Impl {
   MoveAuthorisation move_authorisation;
   MessageRouter message_router;
   Referee referee;
-  std::vector<Group> groups;
-  std::vector<std::uint32_t> group_of;  ///< by robot
+  RobotGroups robot_groups;
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< height of each robot's underside
   std::vector<PlanarTransform> frames;   ///< current frames of the robots
@@ -118,13 +76,9 @@ struct Environment::Impl {
         move_authorisation(moversOf(fleet), model->world.bounds),
         message_router(namesOf(fleet), model->world.communication),
         referee(model->world),
-        groups(groupsOf(fleet, model->period_s)),
-        group_of(fleet.robots.size()),
+        robot_groups(fleet, model->period_s),
         paths(fleet.robots.size()),
         frames(fleet.robots.size()) {
-    for (std::uint32_t g = 0; g < groups.size(); ++g) {
-      for (const auto robot : groups[g].robots) group_of[robot] = g;
-    }
     for (const auto& robot : fleet.robots) base_z_m.push_back(robot.body.heights().z_min_m);
     const auto& objects = model->world.objects;
     for (std::size_t i = 0; i < objects.size(); ++i) {
@@ -194,12 +148,6 @@ struct Environment::Impl {
 
   RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
 
-  /// The robots of a group within a range.
-  static std::span<const std::uint32_t> within(const Group& group, RobotRange range) {
-    const auto begin = std::lower_bound(group.robots.begin(), group.robots.end(), range.begin);
-    return {begin, std::lower_bound(begin, group.robots.end(), range.end)};
-  }
-
   /// @param kept memory for the result
   std::span<const std::uint32_t> presentOf(std::span<const std::uint32_t> robots,
                                            std::vector<std::uint32_t>& kept) const {
@@ -224,8 +172,8 @@ struct Environment::Impl {
 
   void sense(RobotRange range, SensorGroup which) {
     const Snapshot now = snapshot();
-    for (const auto& group : groups) {
-      const auto of_group = within(group, range);
+    for (const RobotGroup& group : robot_groups.groups) {
+      const auto of_group = group.within(range);
       workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> kept;
         const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
@@ -246,14 +194,14 @@ struct Environment::Impl {
       for (std::size_t i = begin; i < end; ++i) {
         const auto robot = robots[i];
         // The reach of the model too, so that its own sensors find the same neighbours in the next step.
-        scene.updateNeighbours(robot, std::max(sensor_reach_m, groups[group_of[robot]].reach_m));
+        scene.updateNeighbours(robot, std::max(sensor_reach_m, robot_groups.groupOf(robot).reach_m));
       }
       sensor.sense(now, robots.subspan(begin, end - begin), 0, readings);
     });
   }
 
   bool isFree(std::size_t robot, const Circle& disc) const {
-    if (!isWithin(disc, model->world.bounds)) return false;
+    if (!model->world.bounds.covers(boundsOf(disc))) return false;
     const Solid solid{disc, fleet.robots[robot].body.heights()};
     std::vector<BodyId> near;
     scene.findBodies(boundsOf(disc), near);
@@ -266,21 +214,24 @@ struct Environment::Impl {
     if (!isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m})) return false;
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
-    if (isAbsent(robot)) rest(robot, Activity::active);
+    if (isAbsent(robot)) reset(robot, Activity::active);
     ++placements;
     placeBodies();
     return true;
   }
 
-  void remove(std::size_t robot) {
-    if (isAbsent(robot)) return;
-    rest(robot, Activity::absent);
-    ++placements;
-    placeBodies();
+  void remove(std::span<const std::size_t> robots) {
+    const auto placements_before = placements;
+    for (const std::size_t robot : robots) {
+      if (isAbsent(robot)) continue;
+      reset(robot, Activity::absent);
+      ++placements;
+    }
+    if (placements != placements_before) placeBodies();
   }
 
   /// The state of a robot that has neither moved nor measured.
-  void rest(std::size_t robot, Activity activity) {
+  void reset(std::size_t robot, Activity activity) {
     state.speed_mps[robot] = state.turn_radps[robot] = 0;
     state.last_motion[robot] = {};
     state.stalled[robot] = 0;
@@ -402,7 +353,7 @@ bool Environment::place(std::size_t robot, const mrpt::math::TPose2D& world_from
   return impl_->place(robot, world_from_robot);
 }
 
-void Environment::remove(std::size_t robot) { impl_->remove(robot); }
+void Environment::remove(std::span<const std::size_t> robots) { impl_->remove(robots); }
 
 std::uint64_t Environment::placements() const { return impl_->placements; }
 

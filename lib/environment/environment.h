@@ -96,10 +96,11 @@ class Environment {
   /// and the readings are those of the last step. An absent robot becomes active, at rest and with blank readings.
   /// @return false, without a change, if the robot would not be entirely on the surface, or would overlap something
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot);
-  /// Takes a robot out of the world between two steps (Activity::absent): nothing collides with it or senses it, its
-  /// commands and messages have no effect, it receives none, and its readings are blank.
-  void remove(std::size_t robot);
-  /// Number of calls so far of place() and remove() with an effect.
+  /// Takes robots out of the world between two steps (Activity::absent): nothing collides with them or senses them,
+  /// their commands and messages have no effect, they receive none, and their readings are blank.
+  void remove(std::span<const std::size_t> robots);
+  void remove(std::size_t robot) { remove({&robot, 1}); }
+  /// Number of robots placed or removed so far.
   std::uint64_t placements() const;
   /// Measures, in the present state, with a sensor that is not part of the model. It changes no state.
   /// @param robots in ascending order @param readings by robot: replaces measurement 0, which must be a previous one of

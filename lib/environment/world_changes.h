@@ -24,8 +24,8 @@ struct AddedRobot {
 /// Changes that a run makes to a world.
 struct WorldChanges {
   std::vector<AddedRobot> robots;
-  int random_robots = 0;              ///< number of robots to add at random positions
-  bool has_fewer_where_full = false;  ///< as many of random_robots as there is room for, at least one
+  int random_robots = 0;       ///< number of robots to add at random positions
+  bool may_add_fewer = false;  ///< as many of random_robots as there is room for, at least one
   std::string random_model = "pioneer3dx";
   bool has_random_starts = false;  ///< shuffleStartPoses()
   bool has_noise = false;          ///< adds the data sheet's noise to every sensor that supports noise and has none

@@ -8,7 +8,7 @@ enum class Activity : std::uint8_t {
   active,  ///< working
   halted,  ///< finished
   found,   ///< finished because it found its target (gold, a victim)
-  absent,  ///< not in the world, until Environment::place(): nothing senses it. No effect in a command
+  absent,  ///< not in the world at present, so that nothing senses it; has no effect in a command
 };
 
 /// Command of a controller to its robot for the next time step. Speeds are set points: the robot's limits on speed and

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <map>
 
 #include "base/interrupt.h"
 #include "base/printable_text.h"
@@ -99,7 +98,7 @@ class RunAgain {
     Progress progress;
     auto now = recorded_.next();
     if (now) checkDriven(*now);
-    if (now) comeAndGo(*now);
+    if (now) enterAndLeave(*now);
     std::uint64_t steps = 0;
     while (now) {
       if (interrupt.isRequested()) throw Interrupted("interrupted; no result");
@@ -143,12 +142,10 @@ class RunAgain {
   }
   /// The recorded controller of each robot.
   static LoadedWorld worldWithControllers(const WorldSource& source, const RunNote& note) {
-    std::map<std::string, bool> is_driven;  // by another process, so that it needs no controller
-    const LoadedWorld recorded = loadWorld(source, {});
-    for (std::size_t i = 0; i < std::min(note.controllers.size(), recorded.fleet.robots.size()); ++i) {
-      is_driven[recorded.fleet.robots[i].info.name] = note.controllers[i].empty();
-    }
-    LoadedWorld world = loadWorldToRun(source, "", [&](const FleetRobot& robot) { return is_driven[robot.info.name]; });
+    const auto is_driven_elsewhere = [&](const FleetRobot&, std::size_t i) {
+      return i < note.controllers.size() && note.controllers[i].empty();
+    };
+    LoadedWorld world = loadWorldToRun(source, "", is_driven_elsewhere);
     auto& robots = world.fleet.robots;
     if (note.controllers.size() != robots.size()) {
       throw ConfigError(source.file + ": has " + std::to_string(robots.size()) + " robots, and the recording " +
@@ -200,19 +197,22 @@ class RunAgain {
     }
     return std::nullopt;
   }
-  /// Robots that come stand at their start.
-  void comeAndGo(const std::vector<RecordedRobot>& next) {
+  /// Robots enter the world at their start.
+  void enterAndLeave(const std::vector<RecordedRobot>& next) {
     Environment& environment = run_.environment();
+    std::vector<std::size_t> absent, entering;
     for (std::size_t i = 0; i < next.size(); ++i) {
       if (isAbsent(next[i])) {
-        environment.remove(i);
+        absent.push_back(i);
       } else if (environment.state().activity[i] == Activity::absent) {
-        environment.place(i, environment.fleet().robots[i].world_from_start);
+        entering.push_back(i);
       }
     }
+    environment.remove(absent);
+    for (const std::size_t i : entering) environment.place(i, environment.fleet().robots[i].world_from_start);
   }
   void step(const std::vector<RecordedRobot>& next) {
-    comeAndGo(next);
+    enterAndLeave(next);
     Environment& environment = run_.environment();
     const auto& robots = environment.fleet().robots;
     for (std::size_t i = 0; i < next.size(); ++i) {

@@ -81,7 +81,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
   const std::size_t count = std::min(world.world.robots.size(), world.fleet.robots.size());
   for (std::size_t i = 0; i < count; ++i) {
     const FleetRobot& robot = world.fleet.robots[i];
-    if (is_elsewhere && is_elsewhere(robot)) continue;
+    if (is_elsewhere && is_elsewhere(robot, i)) continue;
     const ControllerType* type = typeOrNull(controllerOf(robot.controller, instead));
     if (!type) continue;  // reported by buildFleet()
     for (const SensorKind kind : type->needs) {

@@ -42,8 +42,8 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
 /// @param instead replaces it if not empty
 std::string controllerOf(const std::string& in_world, const std::string& instead);
 
-/// Whether a robot needs no controller of RoboSim.
-using DrivenElsewhere = std::function<bool(const FleetRobot&)>;
+/// Whether a robot, of this index in the world's order, needs no controller of RoboSim.
+using DrivenElsewhere = std::function<bool(const FleetRobot&, std::size_t index)>;
 
 /// Adds an error for each robot that lacks a sensor required by its controller. `world_file` is the file name in
 /// errors.

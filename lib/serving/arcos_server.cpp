@@ -63,13 +63,13 @@ struct ServedRobot final : Simulator {
   std::span<const std::uint16_t> scan() const override { return scan_mm; }
   void log(const std::string& text) override { write_log("robot " + name() + ": " + text); }
   bool isAbsent() const { return environment.state().activity[index] == Activity::absent; }
-  /// Brings an absent robot to its start. @return false if that is not free. A robot that has left in this step stays
-  /// away for one, so that every step shows who is there.
-  bool comes() {
+  /// Places an absent robot at its start. @return false if that is not free. A robot that has left in this step stays
+  /// absent for one, so that a recording shows that it has left.
+  bool enter() {
     return isAbsent() && left_at_step != environment.time().step &&
            environment.place(index, environment.fleet().robots[index].world_from_start);
   }
-  void leaves() {
+  void leave() {
     environment.remove(index);
     left_at_step = environment.time().step;
   }
@@ -177,10 +177,10 @@ struct ArcosServer::Impl {
     });
   }
 
-  /// The robot for a program that connects to a port; null if it is taken.
-  ServedRobot* freeRobot(std::size_t port) {
+  /// The robot for a program that connects to a port; of a factory, one that enters for it. Null if there is none.
+  ServedRobot* robotFor(std::size_t port) {
     if (!options.is_factory) return robots[port]->connection ? nullptr : robots[port].get();
-    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return robot->comes(); });
+    const auto found = std::find_if(robots.begin(), robots.end(), [](const auto& robot) { return robot->enter(); });
     return found == robots.end() ? nullptr : found->get();
   }
 
@@ -189,7 +189,7 @@ struct ArcosServer::Impl {
     boost::system::error_code ignored;
     const auto peer_endpoint = socket.remote_endpoint(ignored);
     const std::string peer = withPort(peer_endpoint.address().to_string(ignored) + ":0", peer_endpoint.port());
-    ServedRobot* robot = freeRobot(port);
+    ServedRobot* robot = robotFor(port);
     if (!robot) {
       options.log("refused " + peer + ": " +
                   (options.is_factory ? "all " + std::to_string(robots.size()) +
@@ -211,7 +211,7 @@ struct ArcosServer::Impl {
       robot->connection->close();
       robot->connection.reset();
       robot->board.endSession();
-      if (options.is_factory) robot->leaves();
+      if (options.is_factory) robot->leave();
     }
   }
 

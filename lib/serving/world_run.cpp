@@ -64,19 +64,20 @@ class WorldRun::OneRun {
         is_arcos(arcosFlags(world.fleet, options)),
         networked(networkedRobots(world.fleet, options, is_arcos)),
         run(std::move(world), arguments.run, either(networked, is_arcos)),
-        run_info(present(run.environment(), options, is_arcos), source, arguments.run.environment.seed, networked),
+        run_info(run.environment(), source, arguments.run.environment.seed, networked),
         outputs(arguments, run.environment(), noteOf(source, run, arguments.run, either(networked, is_arcos))) {
+    if (options.arcos && options.arcos->is_factory) removeArcosRobots();
     outputs.observe(run.environment());
     if (options.is_realtime) late = 0;
   }
 
-  /// The robots of a factory come with their programs.
-  static Environment& present(Environment& environment, const WorldRunOptions& options,
-                              const std::vector<std::uint8_t>& is_arcos) {
-    for (std::size_t i = 0; options.arcos && options.arcos->is_factory && i < is_arcos.size(); ++i) {
-      if (is_arcos[i]) environment.remove(i);
+  /// The robots of a factory enter the world with their programs.
+  void removeArcosRobots() {
+    std::vector<std::size_t> robots;
+    for (std::size_t i = 0; i < is_arcos.size(); ++i) {
+      if (is_arcos[i]) robots.push_back(i);
     }
-    return environment;
+    run.environment().remove(robots);
   }
 
   void finish(EndedBy ended_by) {
@@ -196,8 +197,9 @@ std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number)
   source.seed = seed = source.seed.value_or(seed);
   of_this_run.record = numbered(of_this_run.record, number);
   of_this_run.picture = numbered(of_this_run.picture, number);
-  LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller,
-                                     [this](const FleetRobot& robot) { return isDrivenByArcos(robot, options_); });
+  LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller, [this](const FleetRobot& robot, std::size_t) {
+    return isDrivenByArcos(robot, options_);
+  });
   return std::make_shared<OneRun>(std::move(world), source, options_, std::move(of_this_run));
 }
 
