@@ -7,7 +7,6 @@
 #include "rendering/plan.h"
 #include "run/json_text.h"
 #include "run/output_files.h"
-#include "sensors/image_source.h"
 
 namespace robosim {
 namespace {
@@ -22,14 +21,19 @@ std::unique_ptr<RawlogWriter> openRecording(const RunArguments& arguments, const
   return std::make_unique<RawlogWriter>(arguments.record, robots, format, images, note.text());
 }
 
-std::vector<mrpt::math::TPose2D> shownPosesOf(const Environment& environment) {
-  return shownPoses(environment.state().world_from_robot, environment.state().activity);
+/// nullopt for absent robots.
+std::vector<std::optional<mrpt::math::TPose2D>> presentPoses(const State& state) {
+  std::vector<std::optional<mrpt::math::TPose2D>> poses(state.world_from_robot.begin(), state.world_from_robot.end());
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (state.activity[i] == Activity::absent) poses[i].reset();
+  }
+  return poses;
 }
 
 /// Thrown when the picture cannot be written at the end; not bad input, because the path was checked at the start.
 void draw(const std::string& picture, const Environment& environment, const Tracks& tracks) {
   try {
-    writePlan(picture, environment.world(), environment.fleet(), tracks.points(), shownPosesOf(environment));
+    writePlan(picture, environment.world(), environment.fleet(), tracks.points(), presentPoses(environment.state()));
   } catch (const ConfigError& error) {
     throw std::runtime_error(error.what());
   }
@@ -62,7 +66,7 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
   if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
-  if (tracks_) tracks_->add(shownPosesOf(environment));
+  if (tracks_) tracks_->add(state.world_from_robot, state.activity);
 }
 
 void RunOutputs::keep(const Environment& environment) {

@@ -1,10 +1,11 @@
 #pragma once
-#include <cmath>
 #include <span>
 #include <vector>
 
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPose2D.h>
+
+#include "hardware/command.h"
 
 namespace robosim {
 
@@ -13,11 +14,11 @@ class Tracks {
  public:
   explicit Tracks(std::size_t robots) : points_(robots) {}
 
-  /// @param world_from_robot kNotShown for absent robots, whose path begins again when they come back
-  void add(std::span<const mrpt::math::TPose2D> world_from_robot) {
+  /// The path of an absent robot begins again when it comes back.
+  void add(std::span<const mrpt::math::TPose2D> world_from_robot, std::span<const Activity> activity) {
     constexpr double kSpacing_m = 0.05;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (std::isnan(world_from_robot[i].x)) {
+      if (activity[i] == Activity::absent) {
         points_[i].clear();
         continue;
       }

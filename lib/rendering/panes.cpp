@@ -171,9 +171,7 @@ cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const Ru
 cv::Mat Panes::render(CameraInfo camera, const TPose3D& world_from_camera, const RunSnapshot& snapshot,
                       DepthBuffer* depth) {
   std::vector<TPose2D> world_from_robot;
-  for (const auto& robot : snapshot.robots) {
-    world_from_robot.push_back(robot.isPresent() ? robot.world_from_robot : kNotShown);
-  }
+  for (const auto& robot : snapshot.robots) world_from_robot.push_back(robot.shownPose());
   if (!look_.antialias) return draw_3d_(camera, world_from_camera, world_from_robot, depth);
   const cv::Size size(static_cast<int>(camera.width_px), static_cast<int>(camera.height_px));
   camera.width_px *= 2;

@@ -1,7 +1,5 @@
 #include "rendering/plan.h"
 
-#include <cmath>
-#include <optional>
 #include <utility>
 
 #include "base/atomic_file.h"
@@ -38,14 +36,12 @@ DrawnRun startOf(const Fleet& fleet) {
 }
 
 void writePlan(const std::filesystem::path& file, const World& world, const Fleet& fleet, PlanPaths paths,
-               std::span<const mrpt::math::TPose2D> world_from_robot) {
+               std::span<const std::optional<mrpt::math::TPose2D>> world_from_robot) {
   const PictureFormat format = requirePictureFormat(file);
   AtomicFile whole(file);
   DrawnRun run;
   run.paths.assign(paths.begin(), paths.end());
-  for (const auto& pose : world_from_robot) {
-    run.world_from_robot.push_back(std::isnan(pose.x) ? std::nullopt : std::optional(pose));
-  }
+  run.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   whole.write(planPicture(format, world, fleet, run));
   whole.commit();
 }

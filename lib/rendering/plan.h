@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -32,11 +33,11 @@ DrawnRun startOf(const Fleet&);
 
 /// Writes the plan of a run as a PNG, SVG or PDF file, according to its name.
 /// @param paths may be empty, as may each path in it: then no paths are drawn
-/// @param world_from_robot final poses; kNotShown (sensors/image_source.h) for absent robots
+/// @param world_from_robot final poses, as DrawnRun::world_from_robot
 /// @throws ConfigError when the file cannot be created, and std::runtime_error when the disk is full; in both cases no
 /// partial file remains.
 void writePlan(const std::filesystem::path& file, const World&, const Fleet&, PlanPaths paths,
-               std::span<const mrpt::math::TPose2D> world_from_robot);
+               std::span<const std::optional<mrpt::math::TPose2D>> world_from_robot);
 
 /// Checks the file name before a long run.
 /// @throws ConfigError when the name does not end in .png, .svg or .pdf, or nothing can be written there.

@@ -34,7 +34,7 @@ struct Scene10x5 {
   World world;
   Fleet fleet;
   std::vector<std::vector<TPoint2D>> paths{{{1.5, 1.25}, {4.5, 1.25}}, {{6.5, 4.25}, {6.5, 4.25}}};
-  std::vector<TPose2D> world_from_robot{{4.5, 1.25, 0}, {6.5, 4.25, std::numbers::pi / 2}};
+  std::vector<std::optional<TPose2D>> world_from_robot{TPose2D(4.5, 1.25, 0), TPose2D(6.5, 4.25, std::numbers::pi / 2)};
 
   Scene10x5() {
     world.name = "scene";
@@ -172,7 +172,7 @@ TEST_F(PlanFile, WritesEachRobotsNameBesideItsDisc) {
   cv::Mat difference;
   cv::absdiff(named, scene.draw(folder_ / "nameless.png"), difference);
   for (const auto& pose : scene.world_from_robot) {
-    const auto pixel = scene.view().toPixel({pose.x, pose.y});
+    const auto pixel = scene.view().toPixel({pose->x, pose->y});
     const cv::Point center(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     const cv::Rect disc(center - cv::Point(24, 24), cv::Size(48, 48)),
         near(center - cv::Point(90, 60), cv::Size(180, 120));
@@ -184,7 +184,7 @@ TEST_F(PlanFile, WritesEachRobotsNameBesideItsDisc) {
 TEST_F(PlanFile, DrawsObjectsOutsideTheBounds) {
   Scene10x5 scene;
   scene.paths[0].push_back({12, 1.25});
-  scene.world_from_robot[0] = {12, 1.25, 0};
+  scene.world_from_robot[0] = TPose2D(12, 1.25, 0);
   const cv::Mat picture = scene.draw(folder_ / "plan.png");
   EXPECT_EQ(picture.cols, 1200);
   EXPECT_TRUE(colorful(scene.at(picture, {11, 1.25})));

@@ -6,8 +6,6 @@
 
 #include <mrpt/math/wrap2pi.h>
 
-#include "sensors/image_source.h"
-
 namespace robosim {
 namespace {
 
@@ -78,7 +76,7 @@ void RunPaths::Path::thin(std::size_t max_points) {
 void RunPaths::add(const RunSnapshot& snapshot) {
   std::vector<mrpt::math::TPose2D> poses;
   poses.reserve(snapshot.robots.size());
-  for (const auto& robot : snapshot.robots) poses.push_back(robot.isPresent() ? robot.world_from_robot : kNotShown);
+  for (const auto& robot : snapshot.robots) poses.push_back(robot.shownPose());
   add(snapshot.step, snapshot.time_s, poses);
 }
 

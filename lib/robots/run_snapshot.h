@@ -7,6 +7,7 @@
 
 #include "hardware/command.h"
 #include "hardware/readings.h"
+#include "sensors/image_source.h"
 
 namespace robosim {
 
@@ -20,6 +21,8 @@ struct RobotSnapshot {
   bool operator==(const RobotSnapshot&) const = default;
   /// Whether the robot is in the world, and therefore shown.
   bool isPresent() const { return activity != Activity::absent; }
+  /// For ImageSource and RunPaths: kNotShown for an absent robot.
+  mrpt::math::TPose2D shownPose() const { return isPresent() ? world_from_robot : kNotShown; }
 };
 
 /// State of a run at a step, from any source: a live run, a recording, or a world's initial state.

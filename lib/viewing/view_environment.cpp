@@ -4,7 +4,6 @@
 #include <thread>
 
 #include "client/viewer.h"
-#include "sensors/image_source.h"
 #include "viewing/run_operator.h"
 #include "viewing/view_source.h"
 
@@ -75,7 +74,7 @@ class EnvironmentView final : public ViewSource {
   struct Step {
     std::uint64_t step;
     double time_s;
-    std::vector<mrpt::math::TPose2D> world_from_robot;
+    std::vector<mrpt::math::TPose2D> world_from_robot;  ///< RobotSnapshot::shownPose()
   };
 
   void wait() {
@@ -88,9 +87,7 @@ class EnvironmentView final : public ViewSource {
           next_steps_.clear();
         }
         Step& step = next_steps_.emplace_back(Step{snapshot.step, snapshot.time_s, {}});
-        for (const auto& robot : snapshot.robots) {
-          step.world_from_robot.push_back(robot.isPresent() ? robot.world_from_robot : kNotShown);
-        }
+        for (const auto& robot : snapshot.robots) step.world_from_robot.push_back(robot.shownPose());
         next_ = std::move(snapshot);
       }
     } catch (...) {
