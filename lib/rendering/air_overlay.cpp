@@ -9,6 +9,7 @@
 
 #include "rendering/bgr.h"
 #include "rendering/canvas.h"
+#include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
 #include "rendering/sensor_colors.h"
 
@@ -20,6 +21,7 @@ using mrpt::math::TPoint3D;
 
 constexpr double kNearest_m = 0.05;
 constexpr double kPathHeight_m = 0.02;  // above the ground
+constexpr double kArcPiece_m = 0.2;     // of a sonar sector's arc
 constexpr std::size_t kMaxAirNames = 60;
 
 /// A pinhole camera with square pixels, and the depths that it sees.
@@ -206,33 +208,6 @@ class AirTint {
   std::vector<std::vector<cv::Point>> polygons_;
 };
 
-/// Free areas of one sensor: the area of a scan, or a cone for each beam; world frame.
-std::vector<std::vector<TPoint2D>> freeAreas(const RobotSnapshot& robot, const SensorInfo& sensor,
-                                             const Echoes& echoes) {
-  const auto to_world = [&](double x, double y) { return robot.world_from_robot.composePoint(TPoint2D(x, y)); };
-  std::vector<std::vector<TPoint2D>> areas;
-  if (sensor.kind == SensorKind::laser && echoes.size() > 2) {
-    const auto& at = sensor.beams.front().robot_from_beam;
-    areas.push_back({to_world(at.x, at.y)});
-    for (const auto& echo : echoes) areas.back().push_back(to_world(echo.point_m.x, echo.point_m.y));
-    return areas;
-  }
-  constexpr double kThin_rad = 0.02;
-  constexpr int kPieces = 6;
-  for (std::size_t i = 0; i < echoes.size(); ++i) {
-    const auto& at = sensor.beams[i].robot_from_beam;
-    const double middle_rad = at.yaw + (sensor.pans ? robot.laser_pan_rad : 0);
-    const double half_rad = std::max(kThin_rad, sensor.beam_width_rad) / 2;
-    areas.push_back({to_world(at.x, at.y)});
-    for (int k = 0; k <= kPieces; ++k) {
-      const double angle_rad = middle_rad + half_rad * (2.0 * k / kPieces - 1);
-      areas.back().push_back(
-          to_world(at.x + echoes[i].range_m * std::cos(angle_rad), at.y + echoes[i].range_m * std::sin(angle_rad)));
-    }
-  }
-  return areas;
-}
-
 void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
                 const std::vector<std::uint8_t>& shown) {
   std::map<std::pair<SensorKind, double>, AirTint> tints;  // by kind and height
@@ -250,7 +225,7 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
       if (!echoes || echoes->empty() || sensors[k].beams.empty()) continue;
       const double z_m = sensors[k].beams.front().robot_from_beam.z;
       auto& tint = tints.try_emplace({sensors[k].kind, z_m}, air, view, z_m).first->second;
-      for (const auto& area : freeAreas(robot, sensors[k], *echoes)) tint.add(area);
+      for (const auto& area : freeAreas(robot, sensors[k], *echoes, kArcPiece_m)) tint.add(area);
       for (const auto& echo : *echoes) {
         if (echo.range_m >= sensors[k].range_max_m) continue;
         const auto at = robot.world_from_robot.composePoint(TPoint2D(echo.point_m.x, echo.point_m.y));

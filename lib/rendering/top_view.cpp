@@ -7,6 +7,7 @@
 #include <mrpt/core/format.h>
 
 #include "rendering/canvas.h"
+#include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
 #include "rendering/sensor_colors.h"
 
@@ -22,8 +23,7 @@ constexpr double kPath_px = 1.6;  ///< width
 /// Maximum number of visible robots whose names are drawn.
 constexpr std::size_t kMaxNames = 60;
 
-/// Minimum aperture of a drawn fan, which makes beams of zero aperture visible.
-constexpr double kThinBeam_rad = 0.02;
+constexpr double kArcPiece_px = 8;  ///< straight piece of a sonar sector's arc
 
 Canvas emptyFloor(const World& world, const GroundView& view, double scale) {
   Canvas canvas(view, kPageColor, scale);
@@ -138,13 +138,13 @@ class Drawing {
     const SensorKind kinds[] = {SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
     forEachRanges([&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
       auto& areas = free[std::find(std::begin(kinds), std::end(kinds), sensor.kind) - std::begin(kinds)];
-      if (sensor.kind == SensorKind::laser && echoes.size() > 2) {
-        areas.push_back(scanArea(robot, sensor, echoes));
+      for (auto& area : freeAreas(robot, sensor, echoes, kArcPiece_px / view_.pixelsPerMetre())) {
+        for (auto& corner : area) corner = view_.toPixel(corner);
+        areas.push_back(std::move(area));
       }
-      for (std::size_t i = 0; i < echoes.size(); ++i) {
-        if (sensor.kind != SensorKind::laser || echoes.size() <= 2) areas.push_back(cone(robot, sensor, i, echoes[i]));
-        if (echoes[i].range_m < sensor.range_max_m) {
-          dots.push_back({toPixel(robot, {echoes[i].point_m.x, echoes[i].point_m.y}), sensorColor(sensor.kind)});
+      for (const auto& echo : echoes) {
+        if (echo.range_m < sensor.range_max_m) {
+          dots.push_back({toPixel(robot, {echo.point_m.x, echo.point_m.y}), sensorColor(sensor.kind)});
         }
       }
     });
@@ -169,30 +169,6 @@ class Drawing {
 
   TPoint2D toPixel(const RobotSnapshot& robot, const TPoint2D& in_robot) const {
     return view_.toPixel(robot.world_from_robot.composePoint(in_robot));
-  }
-
-  std::vector<TPoint2D> scanArea(const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) const {
-    const auto& at = sensor.beams.front().robot_from_beam;
-    std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
-    for (const auto& echo : echoes) area.push_back(toPixel(robot, {echo.point_m.x, echo.point_m.y}));
-    return area;
-  }
-
-  std::vector<TPoint2D> cone(const RobotSnapshot& robot, const SensorInfo& sensor, std::size_t beam,
-                             const Echo& echo) const {
-    const auto& at = sensor.beams[beam].robot_from_beam;
-    const double middle_rad = at.yaw + (sensor.pans ? robot.laser_pan_rad : 0);
-    const double half_rad = std::max(kThinBeam_rad, sensor.beam_width_rad) / 2;
-    std::vector<TPoint2D> area{toPixel(robot, {at.x, at.y})};
-    // Segments of an arc, according to its size on the picture.
-    const double arc_px = 2 * half_rad * echo.range_m * view_.pixelsPerMetre();
-    const int pieces = std::clamp(static_cast<int>(arc_px / 8), 1, 12);
-    for (int i = 0; i <= pieces; ++i) {
-      const double angle_rad = middle_rad - half_rad + 2 * half_rad * i / pieces;
-      area.push_back(
-          toPixel(robot, {at.x + echo.range_m * std::cos(angle_rad), at.y + echo.range_m * std::sin(angle_rad)}));
-    }
-    return area;
   }
 
   void drawRobot(std::size_t i) {
