@@ -5,98 +5,24 @@
 
 #include <mrpt/gui/CDisplayWindowGUI.h>
 #include <nanogui/opengl.h>
-#include <nanovg.h>
-#include <opencv2/imgproc.hpp>
 
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
+#include "viewing/picture_widget.h"
 #include "viewing/view_outputs.h"
 #include "viewing/view_panels.h"
 
 namespace robosim {
 namespace {
 
-using mrpt::math::TPoint2D;
-using nanogui::Vector2f;
 using nanogui::Vector2i;
 
-/// GLFW's codes of keys and buttons, which nanogui forwards.
-constexpr int kPressed = 1, kRepeated = 2, kLeftButton = 0, kRightButton = 1;
+/// GLFW's codes of keys, which nanogui forwards.
+constexpr int kPressed = 1, kRepeated = 2;
 constexpr int kEscape = 256, kRight = 262, kLeft = 263, kF1 = 290, kF11 = 300;
-
-/// Widget that shows the picture at the window's size and forwards mouse input.
-class PictureWidget final : public nanogui::Widget {
- public:
-  /// @param fail called in a handler of an exception thrown during a repaint, which nanogui's loop would ignore
-  PictureWidget(nanogui::Widget* parent, ViewSource& source, ViewDrawing& drawing, std::function<void()> fail)
-      : Widget(parent), source_(source), drawing_(drawing), fail_(std::move(fail)) {}
-
-  /// Requests drawing before the next repaint.
-  void renew() { is_old_ = true; }
-
-  void draw(NVGcontext* context) override {
-    if (mSize.x() < 1 || mSize.y() < 1) return;
-    try {
-      if (is_old_ || drawn_size_ != mSize) upload(context);
-    } catch (...) {
-      return fail_();
-    }
-    const auto paint =
-        nvgImagePattern(context, 0, 0, static_cast<float>(mSize.x()), static_cast<float>(mSize.y()), 0, image_, 1);
-    nvgBeginPath(context);
-    nvgRect(context, 0, 0, static_cast<float>(mSize.x()), static_cast<float>(mSize.y()));
-    nvgFillPaint(context, paint);
-    nvgFill(context);
-  }
-
-  bool mouseButtonEvent(const Vector2i& p, int button, bool down, int) override {
-    if (button == kLeftButton && down) pressed_at_ = p;
-    if (button == kLeftButton && !down && (p - pressed_at_).cwiseAbs().maxCoeff() <= 3) {
-      drawing_.panes().click(at(p), source_.snapshot());
-    }
-    renew();
-    return true;
-  }
-  bool mouseDragEvent(const Vector2i& p, const Vector2i& rel, int button, int) override {
-    // nanogui passes the buttons as bits here.
-    const bool right = (button & (1 << kRightButton)) != 0;
-    drawing_.panes().drag(at(p), TPoint2D(rel.x(), rel.y()), right ? Panes::Drag::pan : Panes::Drag::turn);
-    renew();
-    return true;
-  }
-  bool scrollEvent(const Vector2i& p, const Vector2f& rel) override {
-    drawing_.panes().zoom(at(p), std::pow(1.15, static_cast<double>(rel.y())));
-    renew();
-    return true;
-  }
-
- private:
-  static TPoint2D at(const Vector2i& p) { return {static_cast<double>(p.x()), static_cast<double>(p.y())}; }
-
-  void upload(NVGcontext* context) {
-    cv::Mat rgba;
-    cv::cvtColor(drawing_.draw({mSize.x(), mSize.y()}), rgba, cv::COLOR_BGR2RGBA);
-    if (drawn_size_ != mSize) {
-      if (image_ != 0) nvgDeleteImage(context, image_);
-      image_ = nvgCreateImageRGBA(context, mSize.x(), mSize.y(), 0, rgba.data);
-      drawn_size_ = mSize;
-    } else {
-      nvgUpdateImage(context, image_, rgba.data);
-    }
-    is_old_ = false;
-  }
-
-  ViewSource& source_;
-  ViewDrawing& drawing_;
-  std::function<void()> fail_;
-  int image_ = 0;
-  Vector2i drawn_size_ = Vector2i::Zero();
-  Vector2i pressed_at_ = Vector2i::Zero();
-  bool is_old_ = true;
-};
 
 class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
  public:
