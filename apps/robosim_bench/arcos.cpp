@@ -11,7 +11,6 @@
 #include <CLI/CLI.hpp>
 #include <boost/asio.hpp>
 #include <nlohmann/json.hpp>
-#include <sys/resource.h>
 
 #include "arcos/command.h"
 #include "arcos/laser_packets.h"
@@ -21,6 +20,7 @@
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
 #include "robosim_bench/child_program.h"
+#include "robosim_bench/rounds.h"
 
 namespace robosim {
 namespace {
@@ -111,15 +111,6 @@ double quantile(std::vector<double> values, double share) {
   return values[at];
 }
 
-double cpuSeconds() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) / 1e6;
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
 /// A world file without objects, large enough for the robots.
 class EmptyWorldFile {
  public:
@@ -129,7 +120,7 @@ class EmptyWorldFile {
     std::ofstream(path()) << "<world><surface><type>smooth</type><size><xmin>" << low << "</xmin><xmax>" << high
                           << "</xmax><ymin>" << low << "</ymin><ymax>" << high << "</ymax></size></surface></world>";
   }
-  std::string path() const { return (folder_.path() / "empty.xml").string(); }
+  std::string path() const { return (folder_ / "empty.xml").string(); }
 
  private:
   TemporaryDirectory folder_;
@@ -172,13 +163,13 @@ nlohmann::ordered_json measure(const ArcosArguments& arguments) {
   if (!all_ready()) throw std::runtime_error("not all programs have completed the handshake within a minute");
   runFor(io, 2);
   for (const auto& program : programs) program->restart();
-  const double cpu_before_s = cpuSeconds(), server_before_s = server.cpuSeconds();
+  const double cpu_before_s = Clocks::now().cpu_s, server_before_s = server.cpuSeconds();
   const auto start = Clock::now();
   while (Seconds(Clock::now() - start).count() < arguments.time_s) {
     for (const auto& program : programs) program->changeSpeed();
     runFor(io, 0.73);  // no multiple of the cycle, so that commands arrive at any time in it
   }
-  const double wall_s = Seconds(Clock::now() - start).count(), cpu_s = cpuSeconds() - cpu_before_s;
+  const double wall_s = Seconds(Clock::now() - start).count(), cpu_s = Clocks::now().cpu_s - cpu_before_s;
   const double server_s = server.cpuSeconds() - server_before_s;
   std::vector<double> intervals, latencies;
   std::uint64_t scans = 0;
