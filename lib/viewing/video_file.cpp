@@ -116,7 +116,7 @@ struct VideoFile::Encoder {
     const auto set = [this](const char* option, const char* value) {
       checkEncoding(av_opt_set(context->priv_data, option, value, 0));
     };
-    // Constant quality, at which thin lines and small letters stay sharp.
+    // Constant quality, at which thin lines and small text stay sharp.
     set("crf", is_webm ? "24" : "18");
     if (is_webm) {
       context->bit_rate = 0;

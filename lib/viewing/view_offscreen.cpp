@@ -62,7 +62,7 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   if (const auto duration_s = source.duration()) {
     const double end_s = endOf(*duration_s, times);
     const double speed = times.speed.value_or(1);
-    // Times are sums and products of rounded numbers, as large as 10⁹ s in recordings with a wrong clock.
+    // Rounding errors of times, which are as large as 10⁹ s in recordings with a wrong clock.
     const double rounding_s = 1e-9 + 4 * std::numeric_limits<double>::epsilon() * end_s;
     LeftOut left_out;
     source.pause(true);

@@ -1,6 +1,7 @@
 // `robosim view --offscreen` with .mp4 and .webm: format, frames, and the end of a video. tests/browser/video_test.mjs
 // plays them.
 
+#include <chrono>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
@@ -13,7 +14,11 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/videoio.hpp>
 
+#include "tests/scenarios/foreign_rawlog.h"
+#include "tests/scenarios/panel.h"
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/serving.h"
+#include "tests/scenarios/wait.h"
 
 namespace robosim {
 namespace {
@@ -76,11 +81,12 @@ std::vector<Box> boxesIn(const std::string& file, std::size_t begin, std::size_t
   return boxes;
 }
 
-std::string fourLetters(double code) {
-  const auto number = static_cast<std::uint32_t>(code);
-  std::string letters;
-  for (int i = 0; i < 4; ++i) letters += static_cast<char>(number >> 8 * i & 0xff);
-  return letters;
+/// The characters of a four-character code.
+std::string charactersOf(double number) {
+  const auto fourcc = static_cast<std::uint32_t>(number);
+  std::string code;
+  for (int i = 0; i < 4; ++i) code += static_cast<char>(fourcc >> 8 * i & 0xff);
+  return code;
 }
 
 TEST(Video, OfMp4HasItsIndexFirstAndH264) {
@@ -114,7 +120,7 @@ TEST(Video, HasItsCodecPixelsOf420AndEvenSides) {
     ASSERT_TRUE(video.isOpened()) << name;
     EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 320);
     EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 240);
-    EXPECT_EQ(fourLetters(video.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT)), "I420") << name;
+    EXPECT_EQ(charactersOf(video.get(cv::CAP_PROP_CODEC_PIXEL_FORMAT)), "I420") << name;
     EXPECT_EQ(bytesOf(folder / name).find("V_VP9") != std::string::npos, name == "run.WEBM");
     EXPECT_NEAR(video.get(cv::CAP_PROP_FPS), 20, 1e-6);
   }
@@ -176,6 +182,93 @@ TEST(Video, ShowsEveryCornerOfAPathAtAnySpeed) {
   cv::Mat wide;
   cv::dilate(only_the_ends, wide, cv::Mat(), cv::Point(-1, -1), 2);
   EXPECT_LT(cv::countNonZero(each_step & ~wide), path_px / 100);
+}
+
+TEST(Video, ShowsARecordingFromItsStartToItsEnd) {
+  const auto folder = emptyFolder();
+  recordWandering(folder, "3");
+  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
+                                " --size 320x240 --fps 10 --speed 2 --offscreen " + quoted(folder / "run.mp4"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  cv::VideoCapture video((folder / "run.mp4").string());
+  ASSERT_TRUE(video.isOpened());
+  cv::Mat first, last;
+  int frames = 0;
+  for (cv::Mat frame; video.read(frame); ++frames) {
+    if (frames == 0) first = frame.clone();
+    last = frame.clone();
+  }
+  EXPECT_EQ(frames, 16) << "3 s at twice the speed, 10 a second, and the last one";
+  EXPECT_EQ(first.size(), cv::Size(320, 240));
+  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robot has moved";
+  EXPECT_FALSE(fs::exists(folder / "run.mp4.part"));
+}
+
+TEST(Video, EndsWithItsRecording) {
+  const auto folder = emptyFolder();
+  recordWandering(folder, "1");
+  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
+                                " --size 321x241 --fps 10 --to 100 --offscreen " + quoted(folder / "run.mp4"));
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  const cv::VideoCapture video((folder / "run.mp4").string());
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 320) << "a video has even sides";
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 240);
+  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_COUNT), 11) << "10 a second, and the last one";
+}
+
+TEST(Video, OmitsGapsOfYears) {
+  const auto folder = emptyFolder();
+  writeForeignRawlog(folder / "foreign.rawlog", std::chrono::hours(24 * 365 * 31));
+  const std::string command = "view " + quoted(folder / "foreign.rawlog") + " --size 320x240 --fps 10 --offscreen " +
+                              quoted(folder / "seen.mp4");
+  const Ended part = runProgram(command + " --to 1e6");
+  EXPECT_NE(part.err.find("robosim view: nothing was recorded for 999998.9 s, in a gap at 1.1 s"), std::string::npos)
+      << part.err;
+  const Ended view = runProgram(command);
+  EXPECT_EQ(view.exit_code, 0) << view.err;
+  EXPECT_NE(view.err.find("robosim view: nothing was recorded for 97761599"), std::string::npos) << view.err;
+  EXPECT_NE(view.err.find(" s, in a gap at 1.1 s; omitted from the video"), std::string::npos) << view.err;
+  cv::VideoCapture video((folder / "seen.mp4").string());
+  int frames = 0;
+  for (cv::Mat frame; video.read(frame);) ++frames;
+  EXPECT_EQ(frames, 11 + 99) << "the first moment for a second, and then 9.8 s";
+}
+
+TEST(Video, ReportsAFullDisk) {
+  const auto folder = emptyFolder();
+  recordWandering(folder, "3");
+  for (const std::string name : {"run.mp4", "run.webm"}) {
+    for (const char* blocks : {"1", "16"}) {  // of 512 or 1024 bytes: no data, or some frames without the index
+      const Ended full =
+          runCommand("trap '' XFSZ; ulimit -f " + std::string(blocks) + "; '" ROBOSIM_PROGRAM "' view " +
+                     quoted(folder / "run.rawlog") + " --size 640x480 --offscreen " + quoted(folder / name));
+      EXPECT_EQ(full.exit_code, 2) << blocks << full.err;
+      EXPECT_NE(full.err.find(name + ": the video could not be written ("), std::string::npos) << full.err;
+      EXPECT_NE(full.err.find("); free disk space"), std::string::npos) << full.err;
+      EXPECT_FALSE(fs::exists(folder / name));
+      EXPECT_FALSE(fs::exists(folder / (name + ".part")));
+    }
+  }
+}
+
+TEST(Video, ShowsALiveRunUntilItsEnd) {
+  const auto folder = emptyFolder();
+  Serving serving({"--paused", "--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
+  StartedProgram program(
+      {"view", serving.address(), "--size", "320x240", "--fps", "10", "--offscreen", (folder / "run.mp4").string()});
+  ControlPanel panel({.address = serving.address()});
+  waitUntil("the viewer is connected", [&] { return !program.isRunning() || panel.status().viewers() > 0; });
+  panel.start();
+  const Ended view = program.wait();
+  ASSERT_EQ(view.exit_code, 0) << view.err;
+  cv::VideoCapture video((folder / "run.mp4").string());
+  cv::Mat first, last;
+  for (cv::Mat frame; video.read(frame);) {
+    if (first.empty()) first = frame.clone();
+    last = frame.clone();
+  }
+  ASSERT_EQ(first.size(), cv::Size(320, 240)) << "it ends with the run";
+  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robots have moved";
 }
 
 }  // namespace

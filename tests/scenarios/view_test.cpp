@@ -1,4 +1,4 @@
-// `robosim view`: pictures and videos of worlds, recordings and runs, and a window under Xvfb.
+// `robosim view`: pictures of worlds, recordings and runs, and a window under Xvfb.
 
 #include <cstdlib>
 #include <fstream>
@@ -7,7 +7,6 @@
 #include <malloc.h>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "tests/scenarios/foreign_rawlog.h"
 #include "tests/scenarios/panel.h"
@@ -75,40 +74,6 @@ TEST(View, WritesPicturesFromAboveAndFromARobot) {
   };
   EXPECT_GT(blues({200, 0, 200, 200}), 300) << "the box stands in the upper right quarter, seen from the south";
   EXPECT_EQ(blues({0, 200, 200, 200}), 0);
-}
-
-TEST(View, WritesAVideoOfARecording) {
-  const auto folder = emptyFolder();
-  const auto hall = writeHall(folder);
-  ASSERT_EQ(runProgram("run " + quoted(hall) + " --time 3 --record " + quoted(folder / "run.rawlog")).exit_code, 0);
-  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
-                                " --size 320x240 --fps 10 --speed 2 --offscreen " + quoted(folder / "run.mp4"));
-  ASSERT_EQ(view.exit_code, 0) << view.err;
-  cv::VideoCapture video((folder / "run.mp4").string());
-  ASSERT_TRUE(video.isOpened());
-  cv::Mat first, last;
-  int frames = 0;
-  for (cv::Mat frame; video.read(frame); ++frames) {
-    if (frames == 0) first = frame.clone();
-    last = frame.clone();
-  }
-  EXPECT_EQ(frames, 16) << "3 s at twice the speed, 10 a second, and the last one";
-  EXPECT_EQ(first.size(), cv::Size(320, 240));
-  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robot has moved";
-  EXPECT_FALSE(fs::exists(folder / "run.mp4.part"));
-}
-
-TEST(View, EndsAVideoWithItsRecording) {
-  const auto folder = emptyFolder();
-  const auto hall = writeHall(folder);
-  ASSERT_EQ(runProgram("run " + quoted(hall) + " --time 1 --record " + quoted(folder / "run.rawlog")).exit_code, 0);
-  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
-                                " --size 321x241 --fps 10 --to 100 --offscreen " + quoted(folder / "run.mp4"));
-  ASSERT_EQ(view.exit_code, 0) << view.err;
-  const cv::VideoCapture video((folder / "run.mp4").string());
-  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 320) << "a video has even sides";
-  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 240);
-  EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_COUNT), 11) << "10 a second, and the last one";
 }
 
 TEST(View, UsesLittleMemoryForALongRecording) {
@@ -370,24 +335,6 @@ TEST(View, ShowsARecordingWithAnEarlyFirstTimestamp) {
   EXPECT_TRUE(fs::exists(folder / "seen.png"));
 }
 
-TEST(View, OmitsGapsOfYearsFromAVideo) {
-  const auto folder = emptyFolder();
-  writeForeignRawlog(folder / "foreign.rawlog", std::chrono::hours(24 * 365 * 31));
-  const std::string command = "view " + quoted(folder / "foreign.rawlog") + " --size 320x240 --fps 10 --offscreen " +
-                              quoted(folder / "seen.mp4");
-  const Ended part = runProgram(command + " --to 1e6");
-  EXPECT_NE(part.err.find("robosim view: nothing was recorded for 999998.9 s, in a gap at 1.1 s"), std::string::npos)
-      << part.err;
-  const Ended view = runProgram(command);
-  EXPECT_EQ(view.exit_code, 0) << view.err;
-  EXPECT_NE(view.err.find("robosim view: nothing was recorded for 97761599"), std::string::npos) << view.err;
-  EXPECT_NE(view.err.find(" s, in a gap at 1.1 s; omitted from the video"), std::string::npos) << view.err;
-  cv::VideoCapture video((folder / "seen.mp4").string());
-  int frames = 0;
-  for (cv::Mat frame; video.read(frame);) ++frames;
-  EXPECT_EQ(frames, 11 + 99) << "the first moment for a second, and then 9.8 s";
-}
-
 TEST(View, ShowsARecordingOfAnotherProgram) {
   const auto folder = emptyFolder();
   writeForeignRawlog(folder / "foreign.rawlog");
@@ -415,7 +362,7 @@ TEST(View, ShowsARecordingOfAnotherProgram) {
   EXPECT_GT(reds(end), reds(start) + 50) << "the robot has taken its scan along";
 }
 
-TEST(View, Shows3dScansAndTrailOfARecordingOfAnotherProgram) {
+TEST(View, Shows3dScansAndPathOfARecordingOfAnotherProgram) {
   const auto folder = emptyFolder();
   writeForeignRawlog(folder / "foreign.rawlog");
   const Ended view = runProgram("view " + quoted(folder / "foreign.rawlog") + " --3d --size 600x600 --offscreen " +
@@ -435,44 +382,6 @@ TEST(View, Shows3dScansAndTrailOfARecordingOfAnotherProgram) {
   EXPECT_GT(reds, 181 * 5) << "181 dots, the way, and the robot";
   EXPECT_GT(seen.width, 200) << "they fill the picture";
   EXPECT_GT(seen.height, 200);
-}
-
-TEST(View, ReportsAFullDiskForAVideo) {
-  const auto folder = emptyFolder();
-  const auto hall = writeHall(folder);
-  ASSERT_EQ(runProgram("run " + quoted(hall) + " --time 3 --record " + quoted(folder / "run.rawlog")).exit_code, 0);
-  for (const std::string name : {"run.mp4", "run.webm"}) {
-    for (const char* blocks : {"1", "16"}) {  // of 512 or 1024 bytes: no data, or some frames without the index
-      const Ended full =
-          runCommand("trap '' XFSZ; ulimit -f " + std::string(blocks) + "; '" ROBOSIM_PROGRAM "' view " +
-                     quoted(folder / "run.rawlog") + " --size 640x480 --offscreen " + quoted(folder / name));
-      EXPECT_EQ(full.exit_code, 2) << blocks << full.err;
-      EXPECT_NE(full.err.find(name + ": the video could not be written ("), std::string::npos) << full.err;
-      EXPECT_NE(full.err.find("); free disk space"), std::string::npos) << full.err;
-      EXPECT_FALSE(fs::exists(folder / name));
-      EXPECT_FALSE(fs::exists(folder / (name + ".part")));
-    }
-  }
-}
-
-TEST(View, WritesAVideoOfALiveRun) {
-  const auto folder = emptyFolder();
-  Serving serving({"--paused", "--controller", "wander", "--speed", "10", "--time", "20"}, "worlds/opho2_1.xml");
-  StartedProgram program(
-      {"view", serving.address(), "--size", "320x240", "--fps", "10", "--offscreen", (folder / "run.mp4").string()});
-  ControlPanel panel({.address = serving.address()});
-  waitUntil("the viewer is connected", [&] { return !program.isRunning() || panel.status().viewers() > 0; });
-  panel.start();
-  const Ended view = program.wait();
-  ASSERT_EQ(view.exit_code, 0) << view.err;
-  cv::VideoCapture video((folder / "run.mp4").string());
-  cv::Mat first, last;
-  for (cv::Mat frame; video.read(frame);) {
-    if (first.empty()) first = frame.clone();
-    last = frame.clone();
-  }
-  ASSERT_EQ(first.size(), cv::Size(320, 240)) << "it ends with the run";
-  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robots have moved";
 }
 
 TEST(View, RawLogViewerOpensARecording) {

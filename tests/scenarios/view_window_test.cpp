@@ -143,7 +143,7 @@ TEST(ViewWindow, SeeksInARecordingWithKeys) {
 TEST(ViewWindow, SeeksInARecordingWithTheSlider) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
-  // Without trails, a picture does not depend on how its time was reached.
+  // Without paths, a picture does not depend on how its time was reached.
   window.after("Right");
   window.after("t");
   const cv::Mat begin = picturePart(window.after("Left"));
@@ -197,7 +197,7 @@ TEST(ViewWindow, FollowsARobotAndShowsEverythingAgain) {
   EXPECT_EQ(window.quit(), 0);
 }
 
-TEST(ViewWindow, HidesAndShowsTrailsSensorsAndNames) {
+TEST(ViewWindow, HidesAndShowsPathsSensorsAndNames) {
   const auto folder = emptyFolder();
   Window window(folder, viewOf(recordHall(folder)));
   const cv::Mat all = window.after("Right");
