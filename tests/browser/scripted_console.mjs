@@ -84,7 +84,8 @@ class Script {
         fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (i ? 'halted' : 'found') : 'active', why_stopped: '',
       })),
     });
-    this.send({ type: 'vitals', robots: Object.fromEntries(this.names.map((name, i) => [name, { heat: (i * 1.7) % 6, stalled: i % 4 === 2 }])) });
+    const isUp = (_, i) => i % 7 !== 5;
+    this.send({ type: 'vitals', robots: Object.fromEntries(this.names.map((name, i) => [name, { heat: (i * 1.7) % 6, stalled: i % 4 === 2 }]).filter(isUp)) });
   }
 
   sendMap() {
