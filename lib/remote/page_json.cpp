@@ -160,7 +160,6 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
     team.push_back({{"name", robot.name},
                     {"address", robot.address},
                     {"model", news.info ? news.info->model : ""},
-                    {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""},
                     {"up", news.is_up},
                     {"problem", news.problem},
                     {"fit", robot.isFit()},
@@ -168,7 +167,8 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"driver", news.state.driver},
                     {"is_yours", news.state.is_yours},
                     {"activity", nameOf(news.state.activity)},
-                    {"why_stopped", news.state.why_stopped}});
+                    {"why_stopped", news.state.why_stopped},
+                    {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
     if (!news.state.winner.empty()) winner = news.state.winner;
     if (!news.world.empty()) world = news.world;
   }
@@ -185,7 +185,7 @@ std::string vitalsJson(const std::vector<TeamRobot>& robots) {
   for (const auto& robot : robots) {
     if (!robot.news.is_up) continue;
     const auto heat = heatOf(robot.news);
-    vitals[robot.name] = {{"heat", heat ? Json(rounded(*heat, 0.1)) : Json(nullptr)},
+    vitals[robot.name] = {{"heat", heat ? Json(std::round(*heat * 10) / 10) : Json(nullptr)},
                           {"stalled", robot.news.state.stalled}};
   }
   return textOf({{"type", "vitals"}, {"robots", vitals}});

@@ -55,7 +55,7 @@ class Row {
 
   show(robot, isPrimary, mayDrive) {
     set(this.item, 'className', isPrimary ? 'primary' : '');
-    set(this.swatch, 'className', `swatch lamp-${lampOf(robot)}`);
+    set(this.swatch, 'className', `swatch lamp ${lampOf(robot)}`);
     if (robot.color) this.swatch.style.background = robot.color;
     set(this.state, 'textContent', description(robot));
     set(this.state, 'title', this.state.textContent);
@@ -106,8 +106,9 @@ export class Team {
     const names = new Set(robots.map(({ name }) => name));
     for (const name of this.#rows.keys()) if (!names.has(name)) this.#rows.delete(name);
     const focused = document.activeElement;
-    const isOrdered = rows.length === this.list.children.length - 1 && rows.every((row, i) => this.list.children[i] === row.item);
-    if (!isOrdered) this.list.replaceChildren(...rows.map(({ item }) => item), this.empty);
+    this.empty.remove();
+    const isOrdered = rows.length === this.list.children.length && rows.every((row, i) => this.list.children[i] === row.item);
+    if (!isOrdered) this.list.replaceChildren(...rows.map(({ item }) => item));
     if (focused !== document.activeElement && this.list.contains(focused)) focused.focus();
     this.filter.hidden = robots.length < 5;
     this.#filter();
@@ -127,6 +128,7 @@ export class Team {
       set(row.item, 'hidden', !isShown);
       shown += isShown;
     }
-    set(this.empty, 'hidden', shown > 0);
+    if (shown > 0) this.empty.remove();
+    else if (!this.empty.isConnected) this.list.append(this.empty);
   }
 }
