@@ -124,7 +124,7 @@ class Script {
 
 // A page in one of STATES, which has drawn two updates. `page.script` changes the state.
 export async function visitScripted(browser, state, options = {}) {
-  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
   const page = await context.newPage();
   page.problems = [];
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));

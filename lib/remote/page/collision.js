@@ -1,12 +1,14 @@
 // Reports a collision: the picture flashes; the device vibrates and a tone sounds if the user has enabled them. The edge of
 // the picture stays red as long as the robot is stalled or its bumper is pressed.
 
+const FLASH_MS = 700;
 const VIBRATION_MS = [60, 40, 60];
 const TONE = { hertz: 180, length_s: 0.18, volume: 0.25 };
 
 export class Collision {
   #isInContact = false;
   #audio = null;
+  #timer = 0;
 
   // `vibration`, `sound`: checkboxes of the settings, which this page stores. Vibration is on by default, sound is off: in a
   // laboratory with several consoles nobody could tell which robot has collided.
@@ -20,7 +22,6 @@ export class Collision {
         if (box.checked) this.#report();
       });
     }
-    this.flash.addEventListener('animationend', () => this.flash.classList.remove('on'));
   }
 
   reset() {
@@ -38,6 +39,8 @@ export class Collision {
     this.flash.classList.remove('on');
     void this.flash.offsetWidth;  // restarts the animation
     this.flash.classList.add('on');
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.flash.classList.remove('on'), FLASH_MS);
     this.#report();
   }
 
