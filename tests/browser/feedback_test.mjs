@@ -125,7 +125,7 @@ test('a team of 200 scrolls inside its card, and is filtered by name and state',
   assert.ok((await shown()).every((name) => name.startsWith('Scout1')) && (await shown()).length > 1);
   await page.fill('#team-filter', 'stalled');
   assert.equal((await shown()).length, 43, 'every fourth, except those that are down');
-  await page.fill('#team-filter', 'nobody');
+  await page.fill('#team-filter', 'no such robot');
   assert.ok(await page.isVisible('.team-empty'));
   await page.fill('#team-filter', '');
   const [name, title, isCut] = await page.evaluate(() => { const label = document.querySelector('#team b'); return [label.textContent, label.title, label.scrollWidth > label.clientWidth]; });

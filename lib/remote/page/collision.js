@@ -11,7 +11,7 @@ export class Collision {
   #timer = 0;
 
   // `vibration`, `sound`: checkboxes of the settings, which this page stores. Vibration is on by default, sound is off: in a
-  // laboratory with several consoles nobody could tell which robot has collided.
+  // laboratory with several consoles the tones of different robots would be indistinguishable.
   constructor(flash, vibration, sound) {
     this.flash = flash;
     this.settings = { vibration, sound };
