@@ -4,7 +4,7 @@
 export function layoutOf(width, height) {
   const isWide = width > 1.1 * height;
   if (height < 560 && isWide && width >= 540) return 'compact';
-  if (isWide && height >= 560 && width >= 1200) return 'desk';
+  if (isWide && height >= 560 && width >= 1280) return 'desk';
   if (isWide && height >= 560 && width >= 760) return 'side';
   if (width >= 700 && height >= 820) return 'tablet';
   return 'phone';
