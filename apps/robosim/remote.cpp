@@ -21,13 +21,13 @@ namespace robosim {
 namespace {
 
 constexpr const char* kRemoteSession =
-    "Example: drive through the small maze, in four terminals:\n"
-    "  robosim serve worlds/small_maze.xml --wait-for-robots --speed 1 --step 0.02\n"
+    "Example: drive through a maze, in four terminals:\n"
+    "  robosim serve open_house --wait-for-robots --speed 1 --step 0.02\n"
     "  robosim robot Pioneer1 --remote-port 9001\n"
-    "  robosim robot Scout1 --remote-port 9002\n"
-    "  robosim remote worlds/teams/small_maze.xml      (then open the address that it prints)\n"
+    "  robosim robot Scout1 Pioneer2 --remote-port 9002\n"
+    "  robosim remote worlds/teams/open_house.xml      (then open the address that it prints)\n"
     "The page explains driving with keyboard, gamepad or touch. With a local joystick no page is needed:\n"
-    "  robosim remote worlds/teams/small_maze.xml --joystick 0\n"
+    "  robosim remote worlds/teams/open_house.xml --joystick 0\n"
     "For access from other machines, add a certificate and tokens:\n"
     "  robosim remote ROBOTS.xml --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
     "Open https://HOST:8443/#token=TOKEN to drive; a token with the role viewer permits viewing only.\n";

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +28,7 @@ struct RobotInfo {
   double height_m = 0;
   MotionLimits limits;
   std::shared_ptr<const std::vector<SensorInfo>> sensors;  ///< shared by all robots of a model
+  std::optional<std::uint32_t> color_rgb{};                ///< 0xRRGGBB, as in all views; nullopt if unknown
 };
 
 }  // namespace robosim

@@ -189,6 +189,7 @@ void encode(const RemoteState& state, v1::RobotState& out) {
   out.set_why_stopped(state.why_stopped);
   out.set_winner(state.winner);
   out.set_win_refusals(state.win_refusals);
+  out.set_stalled(state.stalled);
 }
 
 RemoteState decode(const v1::RobotState& in) {
@@ -199,8 +200,8 @@ RemoteState decode(const v1::RobotState& in) {
   if (!std::isfinite(in.speed_mps()) || !std::isfinite(in.turn_radps())) {
     throw WireError("a robot whose command is not finite");
   }
-  return {in.autonomous(), in.driver(),      in.is_yours(), in.speed_mps(),   in.turn_radps(),
-          *activity,       in.why_stopped(), in.winner(),   in.win_refusals()};
+  return {in.autonomous(), in.driver(),      in.is_yours(), in.speed_mps(),    in.turn_radps(),
+          *activity,       in.why_stopped(), in.winner(),   in.win_refusals(), in.stalled()};
 }
 
 }  // namespace robosim

@@ -54,6 +54,7 @@ struct RemoteState {
   std::string why_stopped{};       ///< why its driver's last command is not executed; empty when it is
   std::string winner{};            ///< the robot that has won, upon which all halt; empty while there is none
   std::uint32_t win_refusals = 0;  ///< number of its CheckWin requests made too far from the gold
+  bool stalled = false;            ///< its last motion was clipped
   bool operator==(const RemoteState&) const = default;
 };
 

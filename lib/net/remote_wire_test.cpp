@@ -91,7 +91,8 @@ TEST(RemoteWire, RoundTripsARobotState) {
                           .activity = Activity::halted,
                           .why_stopped = "why",
                           .winner = "Scout1",
-                          .win_refusals = 3};
+                          .win_refusals = 3,
+                          .stalled = true};
   v1::RobotState message;
   encode(state, message);
   EXPECT_EQ(decode(message), state);

@@ -114,6 +114,7 @@ void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::Rob
   out.set_world_robot(robot.world_robot);
   out.set_controller(robot.controller);
   out.set_next_answer(robot.next_answer);
+  if (info.color_rgb) out.set_color_rgb(*info.color_rgb);
 }
 
 using SensorSets = std::vector<std::shared_ptr<const std::vector<SensorInfo>>>;
@@ -127,10 +128,13 @@ RobotsWelcome::Robot decode(const v1::RobotDescription& in, const SensorSets& se
                             .turn_accel_radps2 = in.turn_accel_radps2()};
   checkFinite({in.radius_m(), in.height_m(), limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
                limits.decel_mps2, limits.turn_accel_radps2});
-  return {{in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()]},
-          in.world_robot(),
-          in.controller(),
-          in.next_answer()};
+  std::optional<std::uint32_t> color_rgb;
+  if (in.has_color_rgb()) color_rgb = in.color_rgb() & 0xffffff;
+  return {
+      {in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()], color_rgb},
+      in.world_robot(),
+      in.controller(),
+      in.next_answer()};
 }
 
 }  // namespace

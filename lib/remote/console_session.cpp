@@ -6,6 +6,9 @@
 namespace robosim {
 namespace {
 
+/// Minimum between two messages with the heat and stall of all robots.
+constexpr std::chrono::seconds kVitalsPeriod{1};
+
 constexpr std::array kAnswerNames{"heat", "laser", "sonar"};
 static_assert(kAnswerNames.size() == std::tuple_size_v<decltype(RobotNews::answers)>);
 
@@ -71,6 +74,7 @@ ConsoleActions ConsoleSession::update(const Inputs& inputs, Time now) {
   reportEvents();
   reportAnswers();
   publishTeam();
+  publishVitals(now);
   is_news |= takeMap(inputs.map);
   checkDeadlines(now);
   wakePages(is_news, now);
@@ -236,6 +240,15 @@ void ConsoleSession::publishTeam() {
     return page.second.is_admitted && !page.second.is_leaving;
   }));
   if (!feed_.team.set(teamJson(robots_, lock_))) return;
+  for (const auto& [id, page] : pages_) {
+    if (page.is_admitted) act(WakePage{id});
+  }
+}
+
+void ConsoleSession::publishVitals(Time now) {
+  if (robots_.empty() || now - vitals_published_ < kVitalsPeriod) return;
+  vitals_published_ = now;
+  if (!feed_.vitals.set(vitalsJson(robots_))) return;
   for (const auto& [id, page] : pages_) {
     if (page.is_admitted) act(WakePage{id});
   }

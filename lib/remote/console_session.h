@@ -125,6 +125,7 @@ class ConsoleSession {
   bool takeRobots(const std::vector<TeamRobot>& robots);
   bool takeMap(const std::shared_ptr<const MapView>& map);
   void publishTeam();
+  void publishVitals(Time now);
   void watchMap();
   void wakePages(bool is_news, Time now);
   ///@}
@@ -148,6 +149,7 @@ class ConsoleSession {
   std::optional<PendingSwitch> pending_switch_;
   bool is_map_watched_ = false;
   ConsoleFeed feed_;
+  Time vitals_published_{};
   ConsoleActions actions_;  ///< of the current event
 };
 

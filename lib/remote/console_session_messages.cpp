@@ -33,6 +33,8 @@ void ConsoleSession::handle(Page& page, const PageMessage& message, Time now) {
       return handleHello(page, message);
     case Type::ack:
       return acknowledge(page, message.number, now);
+    case Type::ping:
+      return reply(page, pongJson(message.number));
     case Type::live:
       return page.outbox.subscribeSensors(message.on);
     case Type::map:

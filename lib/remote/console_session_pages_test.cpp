@@ -23,6 +23,22 @@ TEST_F(ConsoleSessionTest, WelcomesAPageAndSendsTheTeam) {
   EXPECT_TRUE(received(page, R"({"type":"robot","name":"Ann")"));
 }
 
+TEST_F(ConsoleSessionTest, RepliesToAPing) {
+  const PageId ada = console.join("", "Ada");
+  console.send(ada, R"({"type":"ping","number":12})");
+  EXPECT_TRUE(received(ada, R"({"type":"pong","number":12})"));
+}
+
+TEST_F(ConsoleSessionTest, SendsHeatAndStallAtMostOncePerSecond) {
+  const PageId ada = console.join("", "Ada");
+  console.tick(1s);
+  console.row.back().news.state.stalled = true;
+  console.tick(900ms);
+  EXPECT_FALSE(received(ada, R"("stalled":true)"));
+  console.tick(100ms);
+  EXPECT_TRUE(received(ada, R"("stalled":true)"));
+}
+
 TEST_F(ConsoleSessionTest, SendsNothingBeforeTheHello) {
   const PageId page = console.open();
   console.step();

@@ -17,6 +17,7 @@ using Primary = MessageRule::Primary;
 constexpr std::array<MessageRule, PageMessage::kTypes> kRules{{
     {Type::hello, Right::none, Page::any, Primary::any},
     {Type::ack, Right::none, Page::admitted, Primary::any},
+    {Type::ping, Right::none, Page::admitted, Primary::any},
     {Type::live, Right::none, Page::admitted, Primary::any},
     {Type::map, Right::look, Page::admitted, Primary::any},
     {Type::req_heat, Right::none, Page::admitted, Primary::any},

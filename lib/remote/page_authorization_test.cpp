@@ -41,16 +41,16 @@ struct PageAuthorizationTest : testing::Test {
 TEST_F(PageAuthorizationTest, PermitsEachMessageToTheRolesOfTheTable) {
   // viewer, robot Ann, robot Bob, robot Ann Bob, operator, geometry; the primary is Ann
   const std::map<Type, std::string> table{
-      {Type::hello, "yes yes yes yes yes yes"},       {Type::ack, "yes yes yes yes yes yes"},
-      {Type::live, "yes yes yes yes yes yes"},        {Type::map, "yes no no no yes no"},
-      {Type::req_heat, "yes yes yes yes yes yes"},    {Type::req_laser, "yes yes yes yes yes yes"},
-      {Type::req_sonar, "yes yes yes yes yes yes"},   {Type::take, "no yes no yes yes no"},
-      {Type::release, "yes yes yes yes yes yes"},     {Type::drive, "no yes no yes yes no"},
-      {Type::accelerate, "no yes no yes yes no"},     {Type::decelerate, "no yes no yes yes no"},
-      {Type::turn_left, "no yes no yes yes no"},      {Type::turn_right, "no yes no yes yes no"},
-      {Type::stop, "no yes no yes yes no"},           {Type::alive, "no yes no yes yes no"},
-      {Type::check_win, "no yes no yes yes no"},      {Type::autonomous, "no yes no yes yes no"},
-      {Type::switch_primary, "no yes no yes yes no"},
+      {Type::hello, "yes yes yes yes yes yes"},     {Type::ack, "yes yes yes yes yes yes"},
+      {Type::ping, "yes yes yes yes yes yes"},      {Type::live, "yes yes yes yes yes yes"},
+      {Type::map, "yes no no no yes no"},           {Type::req_heat, "yes yes yes yes yes yes"},
+      {Type::req_laser, "yes yes yes yes yes yes"}, {Type::req_sonar, "yes yes yes yes yes yes"},
+      {Type::take, "no yes no yes yes no"},         {Type::release, "yes yes yes yes yes yes"},
+      {Type::drive, "no yes no yes yes no"},        {Type::accelerate, "no yes no yes yes no"},
+      {Type::decelerate, "no yes no yes yes no"},   {Type::turn_left, "no yes no yes yes no"},
+      {Type::turn_right, "no yes no yes yes no"},   {Type::stop, "no yes no yes yes no"},
+      {Type::alive, "no yes no yes yes no"},        {Type::check_win, "no yes no yes yes no"},
+      {Type::autonomous, "no yes no yes yes no"},   {Type::switch_primary, "no yes no yes yes no"},
   };
   for (const Type type : pageMessageTypes()) {
     ASSERT_TRUE(table.contains(type)) << "add a row for " << nameOf(type);

@@ -1,6 +1,8 @@
 #include "remote/page_json.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <nlohmann/json.hpp>
 
@@ -34,6 +36,12 @@ const char* nameOf(Activity activity) {
 }
 
 Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
+
+std::string hexOf(std::uint32_t rgb) {
+  std::string text = "#";
+  for (int shift = 20; shift >= 0; shift -= 4) text += "0123456789abcdef"[rgb >> shift & 15];
+  return text;
+}
 
 std::string hexOf(const std::array<float, 3>& color) {
   std::string text = "#";
@@ -104,12 +112,30 @@ Json jsonOf(const RemoteState& state) {
   return {{"autonomous", state.autonomous},       {"driver", state.driver},
           {"is_yours", state.is_yours},           {"speed_mps", fine(state.speed_mps)},
           {"turn_radps", fine(state.turn_radps)}, {"activity", nameOf(state.activity)},
-          {"why_stopped", state.why_stopped}};
+          {"why_stopped", state.why_stopped},     {"win_refusals", state.win_refusals}};
+}
+
+/// The newest heat reading: of the primary, in its update; of the others, in the answer to a request.
+std::optional<double> heatOf(const RobotNews& news) {
+  const auto& answer = news.answers[0];
+  if (news.update && (!answer || answer->step < news.update->readings.time.step)) {
+    const auto& sensors = *news.info->sensors;
+    const auto found = std::find_if(sensors.begin(), sensors.end(),
+                                    [](const SensorInfo& sensor) { return sensor.kind == SensorKind::heat; });
+    if (found == sensors.end()) return std::nullopt;
+    const auto& measured = news.update->readings.measurements[static_cast<std::size_t>(found - sensors.begin())];
+    const auto* scalar = std::get_if<Scalar>(&measured);
+    return scalar ? std::optional<double>(scalar->value) : std::nullopt;
+  }
+  const auto* scalar = answer && answer->has_sensor ? std::get_if<Scalar>(&answer->measurement) : nullptr;
+  return scalar ? std::optional<double>(scalar->value) : std::nullopt;
 }
 
 }  // namespace
 
 std::string welcomeJson(std::uint64_t page) { return textOf({{"type", "welcome"}, {"you", page}}); }
+
+std::string pongJson(std::uint64_t number) { return textOf({{"type", "pong"}, {"number", number}}); }
 
 std::string refusedJson(const std::string& text) { return textOf({{"type", "refused"}, {"text", text}}); }
 
@@ -141,7 +167,8 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"driver", news.state.driver},
                     {"is_yours", news.state.is_yours},
                     {"activity", nameOf(news.state.activity)},
-                    {"why_stopped", news.state.why_stopped}});
+                    {"why_stopped", news.state.why_stopped},
+                    {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
     if (!news.state.winner.empty()) winner = news.state.winner;
     if (!news.world.empty()) world = news.world;
   }
@@ -151,6 +178,17 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                  {"control_lock", {{"holder", lock.holder}, {"name", lock.name}}},
                  {"pages", lock.pages},
                  {"winner", winner}});
+}
+
+std::string vitalsJson(const std::vector<TeamRobot>& robots) {
+  Json vitals = Json::object();
+  for (const auto& robot : robots) {
+    if (!robot.news.is_up) continue;
+    const auto heat = heatOf(robot.news);
+    vitals[robot.name] = {{"heat", heat ? Json(std::round(*heat * 10) / 10) : Json(nullptr)},
+                          {"stalled", robot.news.state.stalled}};
+  }
+  return textOf({{"type", "vitals"}, {"robots", vitals}});
 }
 
 std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const RobotPicture* picture,

@@ -15,6 +15,8 @@ namespace robosim {
 
 /// The page's hello was accepted; the page's id.
 std::string welcomeJson(std::uint64_t page);
+/// Reply to a page's ping of that number.
+std::string pongJson(std::uint64_t number);
 /// The page's token is not valid. @param text for the user
 std::string refusedJson(const std::string& text);
 
@@ -28,6 +30,9 @@ struct ControlLock {
   std::size_t pages = 0;  ///< number of admitted pages
 };
 std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lock);
+
+/// Heat and stall of each robot by its name, at most once per second.
+std::string vitalsJson(const std::vector<TeamRobot>& robots);
 
 /// A step of the primary robot; `with_sensors` includes sonar, laser, infrared and heat.
 std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const RobotPicture* picture,

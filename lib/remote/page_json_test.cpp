@@ -42,5 +42,40 @@ TEST(PageJson, HasRangesAndHeatOnRequestOnly) {
   EXPECT_EQ(measurements, Json::parse("[null, null, 0.5]"));
 }
 
+TEST(PageJson, HasHeatAndStallOfEveryConnectedRobot) {
+  std::vector<SensorInfo> sensors(1);
+  sensors[0].kind = SensorKind::heat;
+  RobotInfo info;
+  info.sensors = std::make_shared<const std::vector<SensorInfo>>(sensors);
+  std::vector<TeamRobot> team(4);
+  const char* names[] = {"Ann", "Bob", "Cid", "Dan"};
+  for (std::size_t i = 0; i < team.size(); ++i) {
+    team[i].name = names[i];
+    team[i].news.is_up = i < 3;
+    team[i].news.info = std::make_shared<const RobotInfo>(info);
+  }
+  RobotUpdate update;  // of the primary
+  update.readings.time = {20, 0.1};
+  update.readings.measurements = {Scalar{7.26}};
+  team[0].news.update = std::make_shared<const RobotUpdate>(update);
+  RobotAnswer answer{.step = 19, .sensor = 0, .has_sensor = true, .measurement = Scalar{1.5}};
+  team[0].news.answers[0] = std::make_shared<const RobotAnswer>(answer);  // older than the update
+  team[1].news.answers[0] = std::make_shared<const RobotAnswer>(answer);
+  team[1].news.state.stalled = true;
+  EXPECT_EQ(Json::parse(vitalsJson(team)), Json::parse(R"({"type": "vitals", "robots": {
+      "Ann": {"heat": 7.3, "stalled": false}, "Bob": {"heat": 1.5, "stalled": true},
+      "Cid": {"heat": null, "stalled": false}}})"));
+}
+
+TEST(PageJson, HasTheColoursOfRobots) {
+  std::vector<TeamRobot> team(2);
+  RobotInfo info;
+  info.color_rgb = 0x01abF0;
+  team[0].news.info = std::make_shared<const RobotInfo>(info);
+  const Json robots = Json::parse(teamJson(team, {}))["robots"];
+  EXPECT_EQ(robots[0]["color"], "#01abf0");
+  EXPECT_EQ(robots[1]["color"], "");
+}
+
 }  // namespace
 }  // namespace robosim

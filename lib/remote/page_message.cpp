@@ -23,6 +23,7 @@ struct Syntax {
 constexpr std::array<Syntax, PageMessage::kTypes> kSyntax{{
     {Type::hello, "hello", {"protocol", "name", "token"}},
     {Type::ack, "ack", {"number"}},
+    {Type::ping, "ping", {"number"}},
     {Type::live, "live", {"on"}},
     {Type::map, "map", {"on"}},
     {Type::req_heat, "req_heat"},

@@ -16,6 +16,7 @@ struct PageMessage {
   enum class Type : std::uint8_t {
     hello,           ///< protocol, name, token: the first message
     ack,             ///< number: an update has been drawn
+    ping,            ///< number: requests a pong, to measure the round trip
     live,            ///< on: sensors' readings with every update, not only on request
     map,             ///< on: true poses, seen from above
     req_heat,        ///< requests one reading
@@ -34,7 +35,7 @@ struct PageMessage {
     autonomous,      ///< on: the primary's own controller drives
     switch_primary,  ///< "switch": to `robot`, or to the next
   };
-  static constexpr std::size_t kTypes = 19;
+  static constexpr std::size_t kTypes = 20;
 
   Type type = Type::hello;
   std::uint32_t protocol = 0;

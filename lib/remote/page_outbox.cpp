@@ -54,6 +54,7 @@ WebMessagePtr PageOutbox::next(ConsoleFeed& feed, bool is_admitted, Time now) {
   if (!is_admitted) return nullptr;
   if (std::exchange(robot_, feed.robot.version) != feed.robot.version) return feed.robot.message;
   if (std::exchange(team_, feed.team.version) != feed.team.version) return feed.team.message;
+  if (std::exchange(vitals_, feed.vitals.version) != feed.vitals.version) return feed.vitals.message;
   if (isUpdateDue(feed, now)) return nextUpdate(feed, now);
   return subscription_.map && feed.poses ? nextOfMap(feed, now) : nullptr;
 }

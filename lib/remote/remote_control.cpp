@@ -13,6 +13,8 @@ constexpr auto kPause = 1s;
 constexpr auto kPauseAfterRefusal = 5s;
 /// Maximum time for which the primary waits for secondaries that neither connect nor fail.
 constexpr auto kSecondariesWithin = 3s;
+/// Between two requests for the heat of the secondary robots.
+constexpr auto kHeatPeriod = 1s;
 
 std::size_t primaryOf(const std::vector<RobotAddress>& list) {
   const auto found = std::find_if(list.begin(), list.end(), [](const RobotAddress& robot) { return robot.primary; });
@@ -57,6 +59,20 @@ void RemoteControl::tick() {
     const auto pause = member.link.news().was_refused ? kPauseAfterRefusal : kPause;
     if (!member.connected || (member.failed && now - *member.failed >= pause)) connect(member, !is_primary);
     if (is_primary) has_connected_primary_ = true;
+  }
+  requestHeat(now);
+}
+
+/// Of the secondary robots, whose updates are not subscribed to.
+void RemoteControl::requestHeat(Clock::time_point now) {
+  if (now - heat_requested_ < kHeatPeriod) return;
+  heat_requested_ = now;
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    if (i == primaries_.primary()) continue;
+    const RobotNews news = members_[i]->link.news();
+    const auto is_heat = [](const SensorInfo& sensor) { return sensor.kind == SensorKind::heat; };
+    if (!news.is_up || std::none_of(news.info->sensors->begin(), news.info->sensors->end(), is_heat)) continue;
+    members_[i]->link.send({.type = RemoteType::req_heat});
   }
 }
 

@@ -13,7 +13,7 @@ namespace robosim {
 
 /// Remote control of a team of robots (2005: RemoteControl), independent of the input device. Connects to the secondary
 /// robots first and sets them autonomous, then to the primary, which waits for its driver. Subscribes to the primary's
-/// updates, and reconnects robots once per second. Not thread-safe.
+/// updates, requests the heat of the others once per second, and reconnects robots once per second. Not thread-safe.
 class RemoteControl {
  public:
   using Clock = std::chrono::steady_clock;
@@ -54,6 +54,7 @@ class RemoteControl {
   Robot robotAt(std::size_t index) const;
   void connect(TeamMember& member, bool autonomous);
   bool areSecondariesSettled() const;
+  void requestHeat(Clock::time_point now);
   void makePrimary(std::size_t index);
   void claimPrimary();
 
@@ -61,6 +62,7 @@ class RemoteControl {
   std::vector<std::unique_ptr<TeamMember>> members_;  ///< in the list's order
   PrimaryQueue primaries_;
   Clock::time_point started_;
+  Clock::time_point heat_requested_{};
   bool has_connected_primary_ = false;
 };
 

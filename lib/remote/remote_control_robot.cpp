@@ -92,6 +92,7 @@ void RemoteControlRobot::step() {
   state_.winner = readings.winner;
   if (!readings.winner.empty()) state_.activity = readings.winner == name() ? Activity::found : Activity::halted;
   if (readings.is_too_far) ++state_.win_refusals;
+  state_.stalled = readings.stalled;
 }
 
 void RemoteControlRobot::take(const std::string& driver, bool autonomous) {

@@ -68,6 +68,16 @@ TEST_F(RemoteControlTest, ConnectsThePrimaryLast) {
   EXPECT_FALSE(control->robots()[1].news.is_up);
 }
 
+TEST_F(RemoteControlTest, RequestsTheHeatOfSecondaryRobots) {
+  const auto control = start();
+  const auto answer = [&](std::size_t i) { return control->robots()[i].news.answers[0]; };
+  wait(*control, [&] { return answer(1) && answer(2); });
+  const auto first = answer(1)->step;
+  wait(*control, [&] { return answer(1)->step > first; });  // repeatedly
+  EXPECT_TRUE(answer(1)->has_sensor);
+  EXPECT_EQ(answer(0), nullptr) << "the primary's is in its updates";
+}
+
 TEST_F(RemoteControlTest, SteersOnlyThePrimary) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });

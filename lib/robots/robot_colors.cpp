@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 
 namespace robosim {
@@ -9,6 +10,13 @@ namespace {
 
 bool hasOwnColor(const RobotPlacement& placement) {
   return placement.body ? placement.body->color != Body{}.color : placement.color.has_value();
+}
+
+/// 0xRRGGBB
+std::uint32_t rgbOf(const std::array<float, 3>& color) {
+  std::uint32_t rgb = 0;
+  for (const float part : color) rgb = rgb << 8 | static_cast<std::uint32_t>(part * 255 + 0.5F);
+  return rgb;
 }
 
 }  // namespace
@@ -35,6 +43,7 @@ void setRobotColors(const World& world, Fleet& fleet) {
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
     auto& color = fleet.robots[i].body.color;
     if (!hasOwnColor(world.robots[i]) && count[color] > 1) color = paletteColor(i);
+    fleet.robots[i].info.color_rgb = rgbOf(color);
   }
 }
 

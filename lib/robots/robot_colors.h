@@ -12,7 +12,8 @@ std::array<float, 3> paletteColor(std::size_t robot);
 
 /// Decides the colour of each robot of a fleet, for all views, plans, camera pictures and the console: the colour given
 /// in the world file; else that of the type, if no other robot without a colour has the same; else paletteColor(). A
-/// body of 2005 in the default grey counts as one without a colour. Sets FleetRobot::body.color.
+/// body of 2005 in the default grey counts as one without a colour. Sets FleetRobot::body.color
+/// and info.color_rgb.
 void setRobotColors(const World& world, Fleet& fleet);
 
 }  // namespace robosim

@@ -20,13 +20,15 @@ export async function openBrowser() {
 }
 
 // A user with a separate page that has all panels open. Errors of the page are collected.
-export async function visit(browser, url, { name, init, ...options } = {}) {
+// `onPage` is called with the page before it is loaded.
+export async function visit(browser, url, { name, init, onPage, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, ...options });
   context.setDefaultTimeout(TIMEOUT_MS);
   if (name) await context.addInitScript((text) => localStorage.setItem('name', text), name);
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.problems = [];
+  onPage?.(page);
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
   page.on('pageerror', (error) => page.problems.push(error.message));
   await page.goto(url);

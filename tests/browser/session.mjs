@@ -67,11 +67,11 @@ export class Session {
   programs = [];
 
   // `world`: a file; `robots`: their names, the first is the primary; `speed`: simulated seconds per second.
-  // Further arguments for each program.
-  static async open({ world, robots, speed = 1, serve = [], robot = [], remote = [] }) {
+  // `is_one_process`: one program runs all robots. Further arguments for each program.
+  static async open({ world, robots, speed = 1, is_one_process = false, serve = [], robot = [], remote = [] }) {
     const session = new Session();
     try {
-      await session.#start({ world, robots, speed, serve, robot, remote });
+      await session.#start({ world, robots, speed, is_one_process, serve, robot, remote });
       return session;
     } catch (error) {
       await session.close();
@@ -88,13 +88,14 @@ export class Session {
     return program;
   }
 
-  async #start({ world, robots, speed, serve, robot, remote }) {
+  async #start({ world, robots, speed, is_one_process, serve, robot, remote }) {
     this.serve = this.start('serve', world, '--wait-for-robots', '--listen', ':0', '--speed', speed, '--step', 0.02,
       '--on-lost-robot', 'continue', ...serve);
     this.address = (await this.serve.says(/listening on (\S+)/))[1];
     this.robotArguments = robot;
     const ports = {};
-    for (const name of robots) this.startRobot(name);
+    const shared = is_one_process ? this.start('robot', ...robots, '--environment', this.address, '--remote-port', 0, ...robot) : null;
+    for (const name of robots) this.robots[name] = shared ?? this.startRobot(name);
     for (const name of robots) ports[name] = await this.#portOf(name);
     this.ports = ports;
     this.truth = new Truth(this.address);

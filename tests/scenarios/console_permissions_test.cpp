@@ -127,6 +127,7 @@ const std::map<std::string, Example>& examples() {
   static const std::map<std::string, Example> all{
       {"hello", {R"({"type":"hello","protocol":1})", [](Team&, TestPage& p) { return p.countOf("welcome") > 1; }}},
       {"ack", {R"({"type":"ack","number":0})", nullptr}},
+      {"ping", {R"({"type":"ping","number":7})", [](Team&, TestPage& p) { return p.has(R"("pong","number":7)"); }}},
       {"live", {R"({"type":"live","on":false})", nullptr}},
       {"map", {R"({"type":"map","on":true})", [](Team& t, TestPage&) { return t.map.is_watched.load(); }}},
       {"take", {R"({"type":"take"})", [](Team&, TestPage& p) { return hasControl(p); }}},

@@ -4,8 +4,10 @@ export class Camera {
   #next = null;
   #isBusy = false;
 
-  constructor(canvas, placeholder) {
+  // `onDrawn` is called for each picture
+  constructor(canvas, placeholder, onDrawn) {
     this.canvas = canvas;
+    this.onDrawn = onDrawn;
     this.placeholder = placeholder;
   }
 
@@ -39,6 +41,7 @@ export class Camera {
         canvas.dataset.step = step;
         canvas.dataset.drawnAt = performance.timeOrigin + performance.now();
         this.#showText('');
+        this.onDrawn();
       } catch {
         this.#showText('A picture could not be decoded');
       }

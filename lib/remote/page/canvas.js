@@ -5,7 +5,7 @@ let colors = {};
 
 function readColors() {
   const style = getComputedStyle(document.documentElement);
-  const names = ['text', 'muted', 'line', 'grid', 'surface', 'raised', 'accent', 'bad', 'gold', 'sonar', 'laser', 'robot', 'heat', 'good'];
+  const names = ['text', 'muted', 'line', 'grid', 'surface', 'raised', 'accent', 'bad', 'gold', 'sonar', 'laser', 'robot', 'heat', 'good', 'gold-mark'];
   colors = Object.fromEntries(names.map((name) => [name, style.getPropertyValue(`--${name}`).trim()]));
 }
 
@@ -16,7 +16,13 @@ export function color(name) {
   return colors[name];
 }
 
-// Clears a canvas: {g, width, height} in CSS pixels; null while it is not visible.
+// Calls `redraw` when the size of a canvas changes, before the browser displays that: a drawing is never stretched.
+export function redrawOnResize(canvases, redraw) {
+  const observer = new ResizeObserver(redraw);
+  for (const canvas of canvases) observer.observe(canvas);
+}
+
+// Clears a canvas: {g, width, height} in CSS pixels, and the size of the page's text (rem); null while it is not visible.
 export function begin(canvas) {
   const { clientWidth: width, clientHeight: height } = canvas;
   if (!width || !height) return null;
@@ -26,8 +32,9 @@ export function begin(canvas) {
   const g = canvas.getContext('2d');
   g.setTransform(ratio, 0, 0, ratio, 0, 0);
   g.clearRect(0, 0, width, height);
-  g.font = '11px system-ui, sans-serif';
-  return { g, width, height };
+  const rem = parseFloat(getComputedStyle(document.documentElement).fontSize);
+  g.font = `${0.72 * rem}px system-ui, "Noto Sans", "DejaVu Sans", sans-serif`;
+  return { g, width, height, rem };
 }
 
 // A robot seen from above, at the origin with its front along x.

@@ -8,16 +8,21 @@ const HOT = 1;
 export class Heat {
   #history = [];  // [time [s], heat]
 
-  constructor(label, canvas) {
+  // `onPicture`: {gauge, label, bar} on the picture
+  constructor(label, canvas, onPicture) {
     this.label = label;
+    this.onPicture = onPicture;
     this.canvas = canvas;
-    this.top = 10;  // value at the top edge
+    this.top = 10;  // value at the top edge, and of the full bar
   }
 
   reset(hasSensor) {
     this.#history = [];
     this.top = 10;
     this.label.textContent = hasSensor ? '–' : 'none';
+    this.onPicture.gauge.hidden = !hasSensor;
+    this.onPicture.label.textContent = '–';
+    this.onPicture.bar.style.width = '0';
     this.draw();
   }
 
@@ -28,6 +33,10 @@ export class Heat {
     this.top = Math.max(10, ...this.#history.map(([, value]) => value));
     this.label.textContent = heat.toFixed(1);
     this.label.classList.toggle('hot', heat > HOT);
+    const { gauge, label, bar } = this.onPicture;
+    label.textContent = this.label.textContent;
+    bar.style.width = `${(100 * heat) / this.top}%`;
+    gauge.classList.toggle('hot', heat > HOT);
   }
 
   draw() {

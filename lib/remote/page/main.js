@@ -1,16 +1,22 @@
 // The console's page: connects the console's messages, the user's inputs and the parts of the page.
 
 import { Camera } from './camera.js';
+import { redrawOnResize } from './canvas.js';
+import { Collision } from './collision.js';
 import { Drive } from './drive.js';
+import { makeFullScreen } from './full_screen.js';
 import { Heat } from './heat.js';
+import { watchLayout } from './layout.js';
 import { Link } from './link.js';
 import { Map2D } from './map.js';
 import { Pad } from './pad.js';
 import { Radar } from './radar.js';
 import { clock, Readings } from './readings.js';
-import { makeTabs } from './tabs.js';
-import { showTeam } from './team.js';
+import { Signals } from './signals.js';
+import { Tabs } from './tabs.js';
+import { Team } from './team.js';
 import { makeTurnButton } from './turn_button.js';
+import { Verdict } from './verdict.js';
 
 const $ = (id) => document.getElementById(id);
 const ANSWER_S = 5;  // for which an answer to a request is displayed
@@ -32,9 +38,13 @@ const link = new Link(() => {
 });
 const hasControl = () => link.isOpen && state.team?.control_lock.holder === state.you;
 const drive = new Drive(link, hasControl);
-const camera = new Camera($('camera'), $('no-camera'));
+const signals = new Signals(link, $('latency'), $('fps'));
+const camera = new Camera($('camera'), $('no-camera'), () => signals.pictureDrawn());
 const radar = new Radar($('radar'));
-const heat = new Heat($('heat'), $('heat-history'));
+const heat = new Heat($('heat'), $('heat-history'), { gauge: $('hud-heat-gauge'), label: $('hud-heat'), bar: $('hud-heat-bar') });
+const collision = new Collision($('flash'), $('feedback-vibration'), $('feedback-sound'));
+const verdict = new Verdict($('verdict'));
+const members = new Team($('team'), $('team-filter'), (name) => link.send('switch', { robot: name }));
 const map = new Map2D($('map-card'), $('map'), $('map-note'));
 const readings = new Readings();
 const pad = new Pad($('pad'), $('pad-knob'), drive);
@@ -81,9 +91,15 @@ link.addEventListener('team', ({ detail: team }) => {
 link.addEventListener('robot', ({ detail: robot }) => {
   Object.assign(state, { robot, update: null });
   readings.reset(robot);
-  $('robot-name').textContent = robot.name;
+  $('robot-name').textContent = $('robot-name').title = robot.name;
   $('robot-model').textContent = robot.model;
   const find = (kind) => robot.sensors.find((sensor) => sensor.kind === kind);
+  showColor();
+  document.body.dataset.camera = find('camera') ? 'some' : 'none';
+  tabs.refresh();
+  signals.setCamera(Boolean(find('camera')));
+  collision.reset();
+  verdict.reset();
   camera.reset(robot.name, find('camera') ?? null);
   radar.reset(robot);
   heat.reset(Boolean(find('heat')));
@@ -123,6 +139,7 @@ link.addEventListener('answer', ({ detail: answer }) => {
 });
 
 link.addEventListener('note', ({ detail }) => note(detail.text, detail.warning));
+link.addEventListener('vitals', ({ detail }) => members.setVitals(detail.robots));
 link.addEventListener('map', ({ detail }) => map.set(detail));
 link.addEventListener('poses', ({ detail }) => {
   map.setPoses(detail.robots);
@@ -143,6 +160,7 @@ function setUpdate(update) {
   if (!state.robot || update.robot !== state.robot.name) return;
   state.update = update;
   readings.set(update);
+  verdict.set(update.robot, update.state.win_refusals);
   drive.setCommanded(update.state.speed_mps / state.robot.speed_max_mps);
   update.measurements.forEach((measurement, slot) => {
     if (measurement === null) return;
@@ -151,6 +169,7 @@ function setUpdate(update) {
     if (kind === 'bumper') radar.setBumper(slot, measurement);
     if (kind === 'odometry') radar.setPose(measurement);
   });
+  collision.set(update.stalled || radar.isBumperPressed);
 }
 
 function draw() {
@@ -181,13 +200,22 @@ function showWho() {
   // A page with the control lock but without the robot may request it again. The lock may be released if others watch.
   const mayTake = hasControl() ? !primary.driver && !primary.is_yours && primary.up : lock.holder === 0;
   const mayRelease = hasControl() && !mayTake && pages > 1;
-  $('control').textContent = mayRelease ? 'Release control' : 'Take control';
+  $('control').firstElementChild.textContent = mayRelease ? 'Release' : 'Take';
   $('control').dataset.message = mayRelease ? 'release' : 'take';
   $('control').hidden = !mayTake && !mayRelease;
 }
 
 function showMembers() {
-  showTeam($('team'), state.team.robots, hasControl(), (name) => link.send('switch', { robot: name }));
+  members.show(state.team.robots, hasControl());
+  showColor();
+}
+
+// The robot's colour, which is the same in the list, on the map, and beside the picture.
+function showColor() {
+  const shown = state.team?.robots.find(({ name }) => name === state.robot?.name);
+  if (!shown?.color) return;
+  $('robot-color').style.background = shown.color;
+  radar.color = shown.color;
 }
 
 function showMode() {
@@ -258,9 +286,13 @@ function showAnswer(text) {
 
 const isMapOn = () => $('map-toggle').getAttribute('aria-pressed') === 'true';
 function toggleMap() {
-  const on = !isMapOn();
+  setMap(!isMapOn());
+}
+function setMap(on) {
+  if (on === isMapOn()) return;
   $('map-toggle').setAttribute('aria-pressed', String(on));
   $('map-card').hidden = !on;
+  tabs.setMap(on);
   link.send('map', { on });
 }
 const toggleAutonomous = () => {
@@ -281,6 +313,7 @@ $('stop').addEventListener('click', () => drive.stop());
 $('autonomous').addEventListener('click', toggleAutonomous);
 $('next').addEventListener('click', nextRobot);
 $('map-toggle').addEventListener('click', toggleMap);
+const toggleFullScreen = makeFullScreen($('fullscreen'));
 $('control').addEventListener('click', () => link.send($('control').dataset.message));
 $('won-close').addEventListener('click', () => { $('won').hidden = true; });
 $('limit').addEventListener('input', () => {
@@ -304,6 +337,7 @@ drive.addEventListener('key', ({ detail: key }) => {
   if (key === 'n') nextRobot();
   if (key === 'r') toggleAutonomous();
   if (key === 'm') toggleMap();
+  if (key === 'f') toggleFullScreen();
   if (key === '?') openHelp();
 });
 
@@ -324,14 +358,15 @@ $('login-form').addEventListener('submit', () => {
   link.connect();
 });
 
-makeTabs(draw);
+const tabs = new Tabs(draw, () => { if (document.body.dataset.layout !== 'desk') setMap(false); });
 
 const redraw = () => {
   radar.draw();
   heat.draw();
   map.draw(state.team?.robots[0]?.name);
 };
-addEventListener('resize', redraw);
+redrawOnResize([$('radar'), $('heat-history'), $('map')], redraw);
+watchLayout((layout) => tabs.setLayout(layout));
 matchMedia('(prefers-color-scheme: dark)').addEventListener('change', redraw);
 camera.reset('The robot', {});
 link.connect();

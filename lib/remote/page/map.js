@@ -1,6 +1,7 @@
 // Map of the true poses of all robots. Drivers normally use readings only, so that the map is shown only on request.
 
 import { begin, color, drawRobot } from './canvas.js';
+import { placeLabels } from './labels.js';
 
 export class Map2D {
   #map = null;
@@ -61,13 +62,37 @@ export class Map2D {
       g.restore();
     });
     g.restore();
+    this.#drawNames(area, unit, primary);
+  }
+
+  // Names beside the robots; where there is no place for all, the primary's has precedence.
+  #drawNames({ g, width, height, rem }, unit, primary) {
+    const { x_m: [left, right], y_m: [bottom, top], robots } = this.#map;
+    const markers = robots.flatMap(({ name, radius_m }, i) => {
+      const at = this.#poses[i]?.at;
+      if (!at) return [];
+      const x = width / 2 + unit * (at[0] - (left + right) / 2);
+      const y = height / 2 - unit * (at[1] - (bottom + top) / 2);
+      return [{ name, x, y, radius: Math.max(radius_m * unit, 5) + (name === primary ? 4 : 1), isFirst: name === primary }];
+    });
+    g.textBaseline = 'middle';
+    g.lineJoin = 'round';
+    g.lineWidth = 3;
+    g.strokeStyle = color('surface');
+    g.fillStyle = color('text');
+    const labels = placeLabels(markers, (text) => g.measureText(text).width, 0.85 * rem, { width, height });
+    for (const { text, x, y } of labels) {
+      g.strokeText(text, x, y);
+      g.fillText(text, x, y);
+    }
+    this.canvas.dataset.names = JSON.stringify(labels.map(({ name }) => name));
   }
 
   #drawObject(g, object) {
     g.save();
     g.translate(object.at[0], object.at[1]);
     g.rotate(object.at[2]);
-    g.fillStyle = object.hot ? color('gold') : color('muted');
+    g.fillStyle = object.hot ? color('gold-mark') : color('muted');
     g.beginPath();
     if (object.radius_m) g.arc(0, 0, object.radius_m, 0, 2 * Math.PI);
     else g.rect(-object.length_m / 2, -object.width_m / 2, object.length_m, object.width_m);

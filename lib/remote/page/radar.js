@@ -16,6 +16,8 @@ export class Radar {
   #trail = [];  // positions by odometry [m]
   #pose = null;
 
+  color = '';  // of the robot; empty as long as it is unknown
+
   constructor(canvas) {
     this.canvas = canvas;
     this.scale = 2;
@@ -44,6 +46,9 @@ export class Radar {
   setBumper(slot, pressed) {
     this.#bumper = { beams: this.#robot.sensors[slot].beams, width: this.#robot.sensors[slot].beam_width_rad, pressed };
   }
+  get isBumperPressed() {
+    return Boolean(this.#bumper?.pressed.some(Boolean));
+  }
   setPose(odometry) {
     this.#pose = odometry;
     const last = this.#trail.at(-1);
@@ -58,32 +63,38 @@ export class Radar {
   draw() {
     const area = begin(this.canvas);
     if (!area) return;
-    const { g, width, height } = area;
-    const unit = Math.min(width, height) / 2 / this.scale_m;  // pixels a metre
+    const { g, width, height, rem } = area;
+    const reach = Math.min(width, height) / 2;
+    const unit = (reach - 1) / this.scale_m;  // pixels a metre
     g.save();
     g.translate(width / 2, height / 2);
-    this.#drawGrid(g, unit, Math.min(width, height) / 2);
+    g.beginPath();
+    g.arc(0, 0, reach, 0, 2 * Math.PI);
+    g.clip();
+    g.fillStyle = color('raised');
+    g.fill();
+    this.#drawGrid(g, unit, reach, rem);
     if (this.#robot) {
       // The robot's frame: x up, y to the left, in metres.
       g.transform(0, -unit, -unit, 0, 0, 0);
       this.#drawTrail(g, unit);
       this.#robot.sensors.forEach((sensor, slot) => this.#drawRanges(g, unit, sensor, this.#ranges.get(slot)));
       this.#drawBumper(g);
-      drawRobot(g, this.#robot.radius_m, color('surface'), color('robot'), 2 / unit);
+      drawRobot(g, this.#robot.radius_m, this.color || color('surface'), color('robot'), 2 / unit);
     }
     g.restore();
   }
 
-  #drawGrid(g, unit, reach) {
+  #drawGrid(g, unit, reach, rem) {
     const step = this.scale_m <= 1 ? 0.5 : this.scale_m <= 4 ? 1 : this.scale_m <= 8 ? 2 : 4;
     g.strokeStyle = color('grid');
     g.fillStyle = color('muted');
     g.lineWidth = 1;
     for (let r = step; r <= this.scale_m; r += step) {
       g.beginPath();
-      g.arc(0, 0, r * unit - 0.5, 0, 2 * Math.PI);
+      g.arc(0, 0, r * unit, 0, 2 * Math.PI);
       g.stroke();
-      g.fillText(`${r} m`, 4, -r * unit + 12);
+      g.fillText(`${r} m`, 0.25 * rem, -r * unit + 0.85 * rem);
     }
     g.beginPath();
     g.moveTo(0, -reach);

@@ -1,0 +1,87 @@
+// The page at every size and in every state: nothing overlaps, all that drives is visible, and axe-core finds no violation of
+// accessibility rules in the light and in the dark theme. ROBOSIM_VERIFY=1 (./dev verify) tests all combinations.
+
+import assert from 'node:assert/strict';
+import { createRequire } from 'node:module';
+import { readFileSync } from 'node:fs';
+import { after, before, test } from 'node:test';
+
+import { openBrowser } from './browser.mjs';
+import { violations } from './page_geometry.mjs';
+import { STATES, visitScripted } from './scripted_console.mjs';
+
+const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const TESTS_ALL = Boolean(process.env.ROBOSIM_VERIFY);
+// In CSS pixels; 640x400 is 1280x800 at 200 % zoom.
+const SIZES = [
+  [360, 640], [390, 844], [844, 390], [667, 375], [768, 1024], [1024, 768], [1366, 650], [1280, 800], [640, 400], [1920, 1080], [3840, 2160],
+];
+// Where layouts begin and end.
+const EDGES = [[760, 568], [965, 640], [966, 640], [1279, 568], [1280, 568], [700, 820], [699, 900], [320, 568], [540, 320], [760, 560], [1280, 559]];
+const TABS = ['#tab-range', '#tab-team', '#tab-state', '#tab-notes'];
+
+let browser;
+before(async () => { browser = await openBrowser(); });
+after(async () => { await browser?.close(); });
+
+async function resize(page, [width, height]) {
+  await page.setViewportSize({ width, height });
+  await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+}
+
+// Violations at a size are collected in `all`, so that a failed test lists every one.
+async function check(page, what, all) {
+  for (const found of await page.evaluate(violations)) all.push(`${what}: ${found}`);
+}
+
+async function checkAccessibility(page, what, all) {
+  if (!(await page.evaluate(() => Boolean(window.axe)))) await page.evaluate(AXE);
+  const found = await page.evaluate(async () => {
+    const { violations: list } = await window.axe.run(document, { resultTypes: ['violations'] });
+    return list.map(({ id, help, nodes }) => `${id} (${help}): ${nodes.slice(0, 3).map(({ target, failureSummary }) => `${target.join(' ')}: ${failureSummary.split('\n')[1]?.trim()}`).join('; ')}`);
+  });
+  for (const each of found) all.push(`${what}: ${each}`);
+}
+
+// Every size: the page as it opens, then each of its panels. The sample inspects accessibility at two sizes and one theme of each.
+Object.keys(STATES).forEach((state, k) => {
+  test(`${state}: no overlap, and no violation of accessibility rules, at every size`, async () => {
+    const page = await visitScripted(browser, state);
+    const all = [];
+    const inspected = TESTS_ALL ? SIZES : [SIZES[k % SIZES.length], SIZES[(k + 5) % SIZES.length]];
+    for (const size of SIZES) {
+      await resize(page, size);
+      const what = `${size.join('x')}, ${state}`;
+      await check(page, what, all);
+      for (const colorScheme of inspected.includes(size) ? ['light', 'dark'] : []) {
+        if (!TESTS_ALL && (colorScheme === 'dark') !== (k % 2 === 0)) continue;
+        await page.emulateMedia({ colorScheme });
+        await checkAccessibility(page, `${what}, ${colorScheme}`, all);
+      }
+      if (STATES[state].has_map) continue;
+      for (const tab of TABS) {
+        if (!(await page.isVisible(tab)) || (await page.getAttribute(tab, 'aria-selected')) === 'true') continue;
+        await page.click(tab);
+        await check(page, `${what}, ${tab}`, all);
+        if (TESTS_ALL) await checkAccessibility(page, `${what}, ${tab}`, all);
+      }
+    }
+    assert.deepEqual([...all, ...page.problems], []);
+    await page.context().close();
+  });
+});
+
+test('no overlap at the sizes between', async () => {
+  const page = await visitScripted(browser, 'watching');
+  const all = [];
+  const step = TESTS_ALL ? 20 : 150;
+  for (const height of TESTS_ALL ? [568, 640, 720, 820, 900, 1080] : [568, 640, 820]) {
+    for (let width = 320; width <= 2600; width += step) await resize(page, [width, height]).then(() => check(page, `${width}x${height}`, all));
+  }
+  for (let height = 320; height < 560; height += TESTS_ALL ? 10 : 60) {
+    for (let width = 560; width <= 1500; width += TESTS_ALL ? 20 : 235) await resize(page, [width, height]).then(() => check(page, `${width}x${height}`, all));
+  }
+  for (const size of EDGES) await resize(page, size).then(() => check(page, size.join('x'), all));
+  assert.deepEqual(all, []);
+  await page.context().close();
+});

@@ -1,0 +1,142 @@
+// A console without programs: the page from lib/remote/page, and a script in place of its WebSocket, so that every state of
+// the page can be shown at every size within milliseconds. The messages are those of lib/remote/page_json.h.
+
+import { readFileSync } from 'node:fs';
+import { extname, join } from 'node:path';
+
+import { FOLDER } from './program.mjs';
+
+const ORIGIN = 'http://console.test';
+const TYPES = { '.html': 'text/html; charset=utf-8', '.css': 'text/css', '.js': 'text/javascript', '.svg': 'image/svg+xml' };
+const [, CSP] = readFileSync(join(FOLDER, 'lib/remote/web_answer.cpp'), 'utf8').match(/"Content-Security-Policy",\s*((?:"[^"]*"\s*)+)/);
+const HEADERS = { 'content-security-policy': CSP.replace(/"\s*"/g, '').replaceAll('"', '').trim() };
+const JPEG = readFileSync(join(FOLDER, 'doc/images/camera.jpg'));
+const LONG_NAME = 'The_robot_with_the_longest_name_of_the_team_which_is_'.padEnd(120, 'abcdefghij_');
+
+const colorOf = (i) => `#${((Math.sin(i + 1) * 0x7fffff + 0x7fffff) & 0xffffff).toString(16).padStart(6, '0')}`;
+
+function beams(count, from, to, radius) {
+  return Array.from({ length: count }, (_, i) => {
+    const yaw = from + ((to - from) * i) / Math.max(1, count - 1);
+    return [radius * Math.cos(yaw), radius * Math.sin(yaw), yaw];
+  });
+}
+
+function sensors(hasCamera) {
+  const sensor = (kind, more) => ({ kind, label: kind, beams: [], range_max_m: 5, no_echo_mm: 5000, beam_width_rad: 0.35, pans: false, ...more });
+  return [
+    sensor('sonar', { beams: beams(16, -Math.PI, 0.875 * Math.PI, 0.2) }),
+    sensor('laser', { beams: beams(181, -Math.PI / 2, Math.PI / 2, 0), range_max_m: 8, no_echo_mm: 8000 }),
+    ...(hasCamera ? [sensor('camera', { width_px: 320, height_px: 240 })] : []),
+    sensor('heat'), sensor('bumper', { beams: beams(12, -Math.PI, Math.PI, 0.27) }), sensor('odometry'), sensor('compass'), sensor('battery'),
+  ];
+}
+
+// States that the page must show: the changes to the messages of a robot that is driven.
+export const STATES = {
+  driving: {},
+  watching: { holder: 2 },
+  down: { is_down: true },
+  over: { winner: 'Pioneer1' },
+  stalled: { is_stalled: true },
+  'no camera': { has_camera: false },
+  '30 robots': { robots: 30, has_map: true },
+  '200 robots': { robots: 200, has_long_names: true },
+};
+
+class Script {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_stalled = false, has_camera = true, has_long_names = false }) {
+    Object.assign(this, { socket, holder, is_down, winner, is_stalled, has_camera, step: 6000 });
+    this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
+    socket.onMessage((text) => this.receive(JSON.parse(text)));
+  }
+
+  send(message) {
+    this.socket.send(JSON.stringify(message));
+  }
+
+  receive({ type, number, on }) {
+    if (type === 'ping') this.send({ type: 'pong', number });
+    if (type === 'hello') this.welcome();
+    if (type === 'map' && on) this.sendMap();
+    if (type === 'ack' && number === this.updates) this.sendUpdate();  // at the page's own rate
+  }
+
+  welcome() {
+    this.send({ type: 'welcome', you: 1 });
+    this.send({
+      type: 'robot', name: this.names[0], model: 'pioneer3dx_driven', radius_m: 0.267, speed_max_mps: 1, turn_max_radps: 1.74, period_s: 0.02,
+      sensors: sensors(this.has_camera),
+    });
+    this.sendTeam();
+    this.send({ type: 'note', text: 'Pioneer1 is too far from the gold to have won.', warning: true });
+    this.updates = 0;
+    this.sendUpdate();
+  }
+
+  sendTeam() {
+    this.send({
+      type: 'team', world: 'open_house', pages: 2, winner: this.winner,
+      control_lock: { holder: this.holder, name: this.holder === 1 ? 'Ada' : 'Bea Sommerfeld' },
+      robots: this.names.map((name, i) => ({
+        name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !(this.is_down && i === 0) && i % 7 !== 5,
+        problem: (this.is_down && i === 0) || i % 7 === 5 ? `no robot answers at 127.0.0.1:${9001 + i}; is 'robosim robot ${name} --remote-port …' running?` : '',
+        fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (i ? 'halted' : 'found') : 'active', why_stopped: '',
+      })),
+    });
+    const isUp = (_, i) => i % 7 !== 5;
+    this.send({ type: 'vitals', robots: Object.fromEntries(this.names.map((name, i) => [name, { heat: (i * 1.7) % 6, stalled: i % 4 === 2 }]).filter(isUp)) });
+  }
+
+  sendMap() {
+    const side = Math.ceil(Math.sqrt(this.names.length));
+    this.send({
+      type: 'map', name: 'open_house', x_m: [-6, 6], y_m: [-4.5, 4.5],
+      objects: [{ at: [0, -4.4, 0], length_m: 12, width_m: 0.1, radius_m: 0, color: '#8c755e', hot: false }, { at: [3, 1, 0], length_m: 0, width_m: 0, radius_m: 0.2, color: '#ffcc1a', hot: true }],
+      robots: this.names.map((name, i) => ({ name, radius_m: 0.25, color: colorOf(i) })),
+    });
+    this.send({
+      type: 'poses', step: this.step,
+      robots: this.names.map((_, i) => ({ at: [-5 + (10 * (i % side)) / side, -4 + (8 * Math.floor(i / side)) / side, i], activity: 'active' })),
+    });
+  }
+
+  sendUpdate() {
+    if (this.is_down && this.updates > 0) return;
+    ++this.updates;
+    this.step += 2;
+    const time_s = this.step * 0.02;
+    const measured = {
+      sonar: Array.from({ length: 16 }, (_, i) => (i % 5 === 0 ? 5000 : 900 + 350 * (i % 6))), laser: Array.from({ length: 181 }, (_, i) => Math.round(1800 + 900 * Math.sin(i / 14))),
+      camera: null, heat: 3 + 2 * Math.sin(time_s / 4), bumper: Array(12).fill(0).map((_, i) => (this.is_stalled && i === 6 ? 1 : 0)),
+      odometry: { x_m: 0.4 * time_s, y_m: Math.sin(time_s / 3), heading_rad: 0.3, speed_mps: 0.42, turn_radps: -0.35 }, compass: 0.3, battery: 12.61,
+    };
+    const json = Buffer.from(JSON.stringify({
+      type: 'update', robot: this.names[0], step: this.step, time_s, stalled: this.is_stalled, laser_pan_rad: 0,
+      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? 1 : 0 },
+      measurements: sensors(this.has_camera).map(({ kind }) => measured[kind]), ...(this.has_camera ? { picture_step: this.step } : {}),
+    }));
+    const length = Buffer.alloc(4);
+    length.writeUInt32LE(json.length);
+    this.socket.send(Buffer.concat([length, json, ...(this.has_camera ? [JPEG] : [])]));
+  }
+}
+
+// A page in one of STATES, which has drawn two updates. `page.script` changes the state.
+export async function visitScripted(browser, state, options = {}) {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
+  const page = await context.newPage();
+  page.problems = [];
+  page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));
+  page.on('pageerror', (error) => page.problems.push(error.message));
+  await page.route(`${ORIGIN}/**`, (route) => {
+    const path = new URL(route.request().url()).pathname;
+    const file = join(FOLDER, 'lib/remote/page', path === '/' ? 'index.html' : path);
+    return route.fulfill({ body: readFileSync(file), headers: { ...HEADERS, 'content-type': TYPES[extname(file)] } });
+  });
+  await page.routeWebSocket(`${ORIGIN.replace('http', 'ws')}/**`, (socket) => { page.script = new Script(socket, STATES[state]); });
+  await page.goto(ORIGIN);
+  await page.waitForFunction(() => document.body.dataset.step > 0);
+  if (STATES[state].has_map) await page.click('#map-toggle');
+  return page;
+}
