@@ -40,6 +40,7 @@ class UpdateMessages {
 struct ConsoleFeed {
   VersionedMessage robot;  ///< the primary's description
   VersionedMessage team;
+  VersionedMessage run;  ///< the environment's
   RobotNews primary;
   UpdateMessages updates;
   VersionedMessage map;                  ///< world of the map

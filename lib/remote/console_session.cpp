@@ -71,6 +71,7 @@ ConsoleActions ConsoleSession::update(const Inputs& inputs, Time now) {
   reportEvents();
   reportAnswers();
   publishTeam();
+  takeRun(inputs.run);
   is_news |= takeMap(inputs.map);
   checkDeadlines(now);
   wakePages(is_news, now);
@@ -241,6 +242,17 @@ void ConsoleSession::publishTeam() {
   }
 }
 
+void ConsoleSession::takeRun(const RunView& run) {
+  const std::string former_problem = std::exchange(run_, run).restart_problem;
+  if (!run.restart_problem.empty() && run.restart_problem != former_problem) {
+    noteToAll(noteJson("The next run could not be started: " + run.restart_problem, true));
+  }
+  if (!feed_.run.set(runJson(run))) return;
+  for (const auto& [id, page] : pages_) {
+    if (page.is_admitted) act(WakePage{id});
+  }
+}
+
 /// @return whether the map has changed
 bool ConsoleSession::takeMap(const std::shared_ptr<const MapView>& map) {
   if (!is_map_watched_ || !map || map == feed_.poses) return false;
@@ -264,7 +276,7 @@ void ConsoleSession::watchMap() {
 void ConsoleSession::wakePages(bool is_news, Time now) {
   if (lock_.holder != 0) act(WakePage{lock_.holder});
   for (const auto& [id, page] : pages_) {
-    if (is_news || page.outbox.isUpdateDue(feed_, now)) act(WakePage{id});
+    if (is_news || page.outbox.isUpdateDue(feed_, now) || page.outbox.isPulseDue(now)) act(WakePage{id});
   }
 }
 
