@@ -133,8 +133,8 @@ export class Drive extends EventTarget {
 
   #stopKeyDown(event) {
     if (!event.repeat) {
+      this.hold(`key:${event.code}`, {});  // first, so that the stop is latched until its release
       this.stop();
-      this.hold(`key:${event.code}`, {});
     }
     // Besides, a text field receives the space, and Esc closes a dialog.
     if (event.code !== 'Space' || takesText(event.target)) return;
