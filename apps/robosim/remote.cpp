@@ -7,6 +7,7 @@
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"
+#include "client/run_monitor.h"
 #include "client/viewer_map.h"
 #include "control/robot_list.h"
 #include "net/host_port.h"
@@ -54,6 +55,7 @@ void openConsole(const RemoteArguments& arguments) {
   const auto team = readTeam(arguments.robots);
   const ConnectOptions connect_options = arguments.connection.connectOptions();
   ViewerMap map(connect_options);
+  RunMonitor run(connect_options);
   Console::Options options;
   options.listen = hostAndPort(arguments.listen);
   options.tls = arguments.listener.identity();
@@ -63,6 +65,7 @@ void openConsole(const RemoteArguments& arguments) {
   }
   options.control.connect_options = connect_options;
   options.map = &map;
+  options.run = &run;
   options.log = log;
   Console console(options, team);
   log("the console is at " + std::string(options.tls ? "https" : "http") + "://" +
@@ -95,7 +98,7 @@ void addRemote(CLI::App& program) {
       ->add_option(
           "--joystick", a->joystick,
           "drive with this joystick, 0 for the first, without a page: the stick steers; button 1 switches to the "
-          "next robot, 2 checks win, 3 accelerates, 4 decelerates")
+          "next robot, 2 checks win, 3 accelerates, 4 decelerates, every other button stops")
       ->check(wholeNumberIn(0, 31))
       ->type_name("N")
       ->excludes(listen);

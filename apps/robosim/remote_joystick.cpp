@@ -102,6 +102,7 @@ void driveByJoystick(RemoteControl& control, int number, const std::function<boo
   };
   bool has_stick = false;
   bool has_reported = false;
+  std::string last_why_stopped;
   while (!interrupted()) {
     const auto now = Clock::now();
     control.tick();
@@ -110,16 +111,20 @@ void driveByJoystick(RemoteControl& control, int number, const std::function<boo
     const auto stick = joystick.read();
     if (!has_reported || has_stick != stick.has_value()) {
       has_stick = stick.has_value();
+      // Afterwards nothing is sent, so that the robot's dead man's switch also stops it.
+      if (!has_stick) control.send({.type = RemoteType::stop, .why = "the joystick is disconnected"});
       report(has_stick ? device + " drives " + robots.front().name
                        : "no " + device + " (/dev/input/js" + std::to_string(number) +
                              "): connect a joystick and check its read permission; the robot stands still");
     }
     has_reported = true;
-    // Without a joystick nothing is sent, so that the robot's dead man's switch stops it.
     if (!stick) driver = JoystickDriver();
+    const std::string why_stopped = robots.front().news.state.why_stopped;
+    if (why_stopped != last_why_stopped && !why_stopped.empty()) driver.latch();
+    last_why_stopped = why_stopped;
     if (stick && robots.front().news.info) {
       const auto output = driver.convert(*stick, robots.front().news.info->limits, now);
-      control.send(output.order);
+      if (output.order) control.send(*output.order);
       if (output.checks_win) control.send({.type = RemoteType::check_win});
       if (output.switches) {
         const bool done = control.switchPrimary();

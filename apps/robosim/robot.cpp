@@ -11,6 +11,7 @@
 #include "net/host_port.h"
 #include "net/listen.h"
 #include "net/reconnector.h"
+#include "net/tls.h"
 #include "remote/remote_port.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
@@ -94,6 +95,8 @@ class RobotProcess {
     } while (robots_.nextStep());
   }
   void rejoin() { robots_.rejoin(); }
+  /// Address of the port for remote control; empty without one.
+  std::string remoteAddress() const { return port_ ? withPort(port_options_.listen, port_->port()) : ""; }
   std::size_t unconfirmedMessages() const { return robots_.unconfirmedMessages(); }
   std::uint64_t stepNumber() { return robots_.robot(0).readings().time.step; }
 
@@ -114,8 +117,13 @@ class RobotProcess {
   std::unique_ptr<RemotePort> port_;
 };
 
-void driveRobots(const RobotArguments& arguments) {
-  google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
+bool isServed(const RobotArguments& arguments) {
+  const ConnectOptions options = arguments.connection.connectOptions(arguments.reconnect_timeout_s);
+  return isListening(options.address, options.connect_limit);
+}
+
+/// Drives the robots in the current run. @return the address of the port for remote control, for the next run
+std::string driveInOneRun(const RobotArguments& arguments) {
   RobotProcess process(arguments);
   Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s), logRobot);
   try {
@@ -127,6 +135,13 @@ void driveRobots(const RobotArguments& arguments) {
     throw;
   }
   std::cout << "the run is over after " << process.stepNumber() << " steps" << std::endl;
+  return process.remoteAddress();
+}
+
+void driveRobots(RobotArguments arguments) {
+  google::protobuf::SetLogHandler(nullptr);  // parse errors are logged by this program
+  arguments.remote_port = driveInOneRun(arguments);
+  while (arguments.joins_next_run && isServed(arguments)) arguments.remote_port = driveInOneRun(arguments);
 }
 
 /// Runs each robot in a separate process.
@@ -161,6 +176,8 @@ void addRobot(CLI::App& program) {
   addConnectionOptions(*command, a->connection);
   addControllerOption(*command, a->controller, "controller of all these robots, instead of those in the world");
   acceptFormerName(*command, *separate_processes, "--apart");
+  command->add_flag("--join-next-run", a->joins_next_run,
+                    "after the end of a run, drive in the next one that the environment serves, with a new controller");
   addConnectTimeout(*command, a->connection);
   addReconnectTimeout(*command, a->reconnect_timeout_s);
   command

@@ -21,6 +21,7 @@ struct RobotArguments {
   ConnectionArguments connection;
   std::string controller;
   double reconnect_timeout_s = 10;
+  bool joins_next_run = false;
   std::string remote_port;
   ListenerArguments listener;
   double dead_man_s = 0.5;

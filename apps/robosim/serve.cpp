@@ -87,6 +87,7 @@ ServerOptions serverOptions(const ServeArguments& arguments) {
   options.on_lost_robot = lostRobotPolicy(arguments);
   options.speed = speedNumber(arguments.of_run.speed);
   options.is_paused = arguments.paused;
+  options.awaits_next_run = arguments.await_next_run;
   options.standard_services = arguments.standard_services;
   return options;
 }
@@ -232,6 +233,8 @@ void addServe(CLI::App& program) {
       ->type_name("FRACTION")
       ->capture_default_str();
   command->add_flag("--paused", a->paused, "start paused, until a control panel sends start");
+  command->add_flag("--await-next-run", a->await_next_run,
+                    "after the end of a run, keep serving until a control panel loads the next world or sends stop");
   command->add_flag("--health", a->standard_services.health,
                     "answer gRPC's health checks on every port, for every client, without a token");
   command->add_flag("--reflection", a->standard_services.reflection,

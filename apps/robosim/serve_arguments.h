@@ -22,6 +22,7 @@ struct ServeArguments {
   std::string on_lost_robot;  ///< empty: default according to the pace
   double step_deadline_s = 1;
   bool paused = false;
+  bool await_next_run = false;
   StandardServices standard_services;
   ListenerArguments listener;
   std::string arcos;  ///< address for ARCOS programs; empty: none

@@ -78,6 +78,10 @@ struct Console::Impl final : public WebPageHandler {
     control.switchTo(action.robot);
     return true;
   }
+  bool operator()(const RestartRun&) {
+    if (options.run) options.run->restart();
+    return false;
+  }
   bool operator()(const WatchMap& action) {
     is_map_watched = action.watched;
     if (options.map) options.map->setWatched(action.watched);
@@ -103,6 +107,7 @@ struct Console::Impl final : public WebPageHandler {
     ConsoleSession::Inputs inputs;
     inputs.robots = control.robots();
     if (options.map && is_map_watched) inputs.map = options.map->newest();
+    if (options.run) inputs.run = options.run->newest();
     inputs.access_version = options.access.refresh();
     return session.update(inputs, now());
   }

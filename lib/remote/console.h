@@ -9,6 +9,7 @@
 #include "net/tls.h"
 #include "remote/map_view.h"
 #include "remote/remote_control.h"
+#include "remote/run_view.h"
 
 namespace robosim {
 
@@ -23,6 +24,7 @@ class Console {
     Access access;                                                            ///< rights by token
     RemoteControl::Options control;                                           ///< all but `on_news`
     MapSource* map = nullptr;                                                 ///< must outlive this; null for no map
+    RunSource* run = nullptr;                                                 ///< must outlive this; null if unknown
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
   };
 

@@ -40,6 +40,9 @@ struct SwitchPrimary {
   std::string robot;
 };
 
+/// Starts the environment's world again, after its run has ended.
+struct RestartRun {};
+
 /// Starts or stops the map, which is fetched only while a page shows it.
 struct WatchMap {
   bool watched;
@@ -57,7 +60,7 @@ struct WriteAudit {
 };
 
 using ConsoleAction = std::variant<WakePage, DisconnectPage, SendOrder, SetDriver, SetAutonomous, SwitchPrimary,
-                                   WatchMap, WriteLog, WriteAudit>;
+                                   RestartRun, WatchMap, WriteLog, WriteAudit>;
 using ConsoleActions = std::vector<ConsoleAction>;
 
 }  // namespace robosim

@@ -41,6 +41,7 @@ struct ConsoleFeed {
   VersionedMessage robot;  ///< the primary's description
   VersionedMessage team;
   VersionedMessage vitals;  ///< of the team's robots
+  VersionedMessage run;     ///< the environment's
   RobotNews primary;
   UpdateMessages updates;
   VersionedMessage map;                  ///< world of the map

@@ -75,6 +75,7 @@ ConsoleActions ConsoleSession::update(const Inputs& inputs, Time now) {
   reportAnswers();
   publishTeam();
   publishVitals(now);
+  takeRun(inputs.run);
   is_news |= takeMap(inputs.map);
   checkDeadlines(now);
   wakePages(is_news, now);
@@ -234,24 +235,35 @@ void ConsoleSession::reportAnswers() {
   }
 }
 
+void ConsoleSession::wakeAdmittedPages() {
+  for (const auto& [id, page] : pages_) {
+    if (page.is_admitted) act(WakePage{id});
+  }
+}
+
 void ConsoleSession::publishTeam() {
   if (robots_.empty()) return;  // not before the first update()
   lock_.pages = static_cast<std::size_t>(std::count_if(pages_.begin(), pages_.end(), [](const auto& page) {
     return page.second.is_admitted && !page.second.is_leaving;
   }));
   if (!feed_.team.set(teamJson(robots_, lock_))) return;
-  for (const auto& [id, page] : pages_) {
-    if (page.is_admitted) act(WakePage{id});
-  }
+  wakeAdmittedPages();
 }
 
 void ConsoleSession::publishVitals(Time now) {
   if (robots_.empty() || now - vitals_published_ < kVitalsPeriod) return;
   vitals_published_ = now;
   if (!feed_.vitals.set(vitalsJson(robots_))) return;
-  for (const auto& [id, page] : pages_) {
-    if (page.is_admitted) act(WakePage{id});
+  wakeAdmittedPages();
+}
+
+void ConsoleSession::takeRun(const RunView& run) {
+  const std::string former_problem = std::exchange(run_, run).restart_problem;
+  if (!run.restart_problem.empty() && run.restart_problem != former_problem) {
+    noteToAll(noteJson("The next run could not be started: " + run.restart_problem, true));
   }
+  if (!feed_.run.set(runJson(run))) return;
+  wakeAdmittedPages();
 }
 
 /// @return whether the map has changed
@@ -277,7 +289,7 @@ void ConsoleSession::watchMap() {
 void ConsoleSession::wakePages(bool is_news, Time now) {
   if (lock_.holder != 0) act(WakePage{lock_.holder});
   for (const auto& [id, page] : pages_) {
-    if (is_news || page.outbox.isUpdateDue(feed_, now)) act(WakePage{id});
+    if (is_news || page.outbox.isUpdateDue(feed_, now) || page.outbox.isPulseDue(now)) act(WakePage{id});
   }
 }
 

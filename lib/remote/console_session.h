@@ -18,6 +18,7 @@
 #include "remote/page_authorization.h"
 #include "remote/page_json.h"
 #include "remote/page_outbox.h"
+#include "remote/run_view.h"
 #include "remote/team_events.h"
 
 namespace robosim {
@@ -46,6 +47,7 @@ class ConsoleSession {
     std::vector<TeamRobot> robots;       ///< in the order of the queue: the primary first; not empty
     std::shared_ptr<const MapView> map;  ///< the newest; null without a map, or while it is not watched
     std::uint64_t access_version = 0;    ///< of Access::refresh()
+    RunView run{};
   };
 
   /// @param access rights by token
@@ -99,6 +101,7 @@ class ConsoleSession {
   void checkWin(Page& page, Time now);
   void setAutonomous(Page& page, bool autonomous);
   void switchPrimary(Page& page, const std::string& robot);
+  void playAgain(Page& page);
   void deny(Page& page, const PageMessage& message, const std::string& why);
   ///@}
 
@@ -123,7 +126,9 @@ class ConsoleSession {
   void reportEvents();
   void reportAnswers();
   bool takeRobots(const std::vector<TeamRobot>& robots);
+  void takeRun(const RunView& run);
   bool takeMap(const std::shared_ptr<const MapView>& map);
+  void wakeAdmittedPages();
   void publishTeam();
   void publishVitals(Time now);
   void watchMap();
@@ -148,6 +153,7 @@ class ConsoleSession {
   OrderLimiter orders_;
   std::optional<PendingSwitch> pending_switch_;
   bool is_map_watched_ = false;
+  RunView run_;
   ConsoleFeed feed_;
   Time vitals_published_{};
   ConsoleActions actions_;  ///< of the current event

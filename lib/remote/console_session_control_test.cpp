@@ -297,6 +297,62 @@ TEST_F(ConsoleSessionTest, ReportsTheWinnerOnceAndCheckWinThatFailed) {
   EXPECT_EQ(std::count(console.log.begin(), console.log.end(), "Ann has won"), 1);
 }
 
+TEST_F(ConsoleSessionTest, StartsTheNextRunOnceAfterTheEndOfTheCurrentOne) {
+  const PageId ada = driver();
+  console.send(ada, R"({"type":"play_again"})");
+  EXPECT_EQ(console.restarts, 0u) << "the run is not over";
+  console.run.phase = RunView::Phase::ended;
+  console.run.may_restart = true;
+  console.update();
+  EXPECT_TRUE(received(ada, R"("phase":"ended","problem":"","absent":[],"may_restart":true,"is_restarting":false)"));
+  const PageId bea = console.join("", "Bea");
+  console.send(bea, R"({"type":"play_again"})");
+  EXPECT_EQ(console.restarts, 0u) << "without the control lock";
+  console.send(ada, R"({"type":"play_again"})");
+  console.run.is_restarting = true;
+  console.update();
+  console.send(ada, R"({"type":"play_again"})");
+  EXPECT_EQ(console.restarts, 1u);
+  EXPECT_TRUE(console.hasLogged("play again (page of Ada)"));
+  console.run.is_restarting = false;
+  console.run.restart_problem = "the world is invalid";
+  console.update();
+  for (const PageId page : {ada, bea}) {
+    EXPECT_TRUE(received(page, "The next run could not be started: the world is invalid"));
+  }
+}
+
+TEST_F(ConsoleSessionTokensTest, StartsTheNextRunOnlyForOperators) {
+  console.run.may_restart = true;
+  console.update();
+  const PageId ada = driver("Ada", kAnnAndBob);
+  EXPECT_TRUE(received(ada, R"("may_operate":false)"));
+  console.send(ada, R"({"type":"play_again"})");
+  EXPECT_TRUE(received(ada, "Your token does not permit starting a run."));
+  EXPECT_EQ(console.restarts, 0u);
+  EXPECT_EQ(holder(), ada) << "it may still drive";
+  console.send(ada, R"({"type":"release"})");
+  const PageId olga = driver("Olga", kOperator);
+  EXPECT_TRUE(received(olga, R"("may_operate":true)"));
+  console.send(olga, R"({"type":"play_again"})");
+  EXPECT_EQ(console.restarts, 1u);
+}
+
+TEST_F(ConsoleSessionTest, OfTeamsThatAreUpReportsTheWinnerOfTheirRunOnly) {
+  const PageId ada = driver();
+  for (auto& robot : console.row) {
+    robot.news.state.winner = "Ann";
+    robot.news.is_up = false;  // the run is over
+  }
+  console.update();
+  EXPECT_TRUE(received(ada, R"("winner":"Ann")"));
+  console.row[1].news.state.winner.clear();
+  console.row[1].news.is_up = true;  // in the next run
+  console.update();
+  console.read(ada);
+  EXPECT_NE(console.page(ada).texts.back().find(R"("winner":"")"), std::string::npos);
+}
+
 TEST_F(ConsoleSessionTest, ShowsAnotherDriverOfTheRobot) {
   const PageId ada = console.join();
   console.row.front().news.state.driver = "another console";

@@ -66,6 +66,8 @@ void ConsoleSession::handle(Page& page, const PageMessage& message, Time now) {
       return setAutonomous(page, message.on);
     case Type::switch_primary:
       return switchPrimary(page, message.robot);
+    case Type::play_again:
+      return playAgain(page);
   }
 }
 
@@ -91,7 +93,7 @@ void ConsoleSession::handleHello(Page& page, const PageMessage& message) {
   }
   page.name = message.name.empty() ? "Page " + std::to_string(page.id) : message.name;
   if (!std::exchange(page.is_admitted, true)) audit(page, "join");
-  reply(page, welcomeJson(page.id));
+  reply(page, welcomeJson(page.id, mayOperate(access_, page.client)));
   publishTeam();
 }
 
@@ -159,6 +161,12 @@ void ConsoleSession::switchPrimary(Page& page, const std::string& robot) {
   orders_.clear();
   pending_switch_ = {page.id, target->name};
   act(SwitchPrimary{target->name});
+}
+
+void ConsoleSession::playAgain(Page& page) {
+  if (!run_.may_restart || run_.is_restarting) return;
+  audit(page, "play again");
+  act(RestartRun{});
 }
 
 /// Informs a page that its token does not permit a message, and releases the control lock if the token no longer

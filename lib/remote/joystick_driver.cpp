@@ -23,26 +23,59 @@ bool JoystickDriver::isPressed(const StickState& state, std::size_t button, bool
   return true;
 }
 
+/// Whether a button that stops has been pressed since the last call.
+bool JoystickDriver::stops(const StickState& state) {
+  constexpr std::size_t first = 4;  // index of button 5
+  const std::vector<bool> before = std::move(stop_pressed_);
+  stop_pressed_.assign(state.buttons.size() - std::min(state.buttons.size(), first), false);
+  bool is_new = false;
+  for (std::size_t i = 0; i < stop_pressed_.size(); ++i) {
+    stop_pressed_[i] = state.buttons[first + i];
+    is_new |= stop_pressed_[i] && !(i < before.size() && before[i]);
+  }
+  return is_new;
+}
+
+bool JoystickDriver::isNeutral(double speed, double turn) const {
+  const bool is_stop_held = std::find(stop_pressed_.begin(), stop_pressed_.end(), true) != stop_pressed_.end();
+  return speed == 0 && turn == 0 && !pressed_[3] && !pressed_[4] && !is_stop_held;
+}
+
 JoystickDriver::Output JoystickDriver::convert(const StickState& state, const MotionLimits& limits,
                                                Clock::time_point now) {
-  Output output;
+  Output output{.order = RemoteOrder{}};
   output.switches = isPressed(state, 1, false, now);
   output.checks_win = isPressed(state, 2, false, now);
   const bool accelerates = isPressed(state, 3, true, now);
   const bool decelerates = isPressed(state, 4, true, now);
   const double speed = -shaped(state.y);
   const double turn = -shaped(state.x);
-  is_neutral_ = speed == 0 && turn == 0 && !pressed_[3] && !pressed_[4];
-  if (is_neutral_) is_latched_ = false;
-  if (is_latched_) return output;
-  if (accelerates || decelerates) {
-    // The robot executes one order per step: the stick's order follows at the next call.
-    output.order.type = accelerates ? RemoteType::accelerate : RemoteType::decelerate;
+  const bool is_stop = stops(state);
+  is_neutral_ = isNeutral(speed, turn);
+  if (!is_neutral_ || output.switches || output.checks_win) input_ = now;
+  if (is_stop) {
+    latch();
+    output.order->type = RemoteType::stop;
     return output;
   }
-  if (std::exchange(steers_speed_, speed != 0) || speed != 0) output.order.speed_mps = speed * limits.speed_max_mps;
-  if (std::exchange(steers_turn_, turn != 0) || turn != 0) output.order.turn_radps = turn * limits.turn_max_radps;
-  if (output.order.speed_mps || output.order.turn_radps) output.order.type = RemoteType::drive;
+  if (is_neutral_) is_latched_ = false;
+  if (input_ && now - *input_ >= kPresence) {
+    input_.reset();
+    latch();
+    output.order = RemoteOrder{.type = RemoteType::stop, .why = "received no joystick input for 5 s"};
+    return output;
+  }
+  if (!input_) output.order.reset();
+  if (is_latched_ || !input_) return output;
+  if (accelerates || decelerates) {
+    // The robot executes one order per step: the stick's order follows at the next call.
+    output.order->type = accelerates ? RemoteType::accelerate : RemoteType::decelerate;
+    return output;
+  }
+  RemoteOrder& order = *output.order;
+  if (std::exchange(steers_speed_, speed != 0) || speed != 0) order.speed_mps = speed * limits.speed_max_mps;
+  if (std::exchange(steers_turn_, turn != 0) || turn != 0) order.turn_radps = turn * limits.turn_max_radps;
+  if (order.speed_mps || order.turn_radps) order.type = RemoteType::drive;
   return output;
 }
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <chrono>
 #include <optional>
+#include <vector>
 
 #include "hardware/robot_info.h"
 #include "net/remote_wire.h"
@@ -10,19 +11,22 @@
 namespace robosim {
 
 /// Converts a joystick's state to orders. The stick sets speed and turn; of the buttons, counted from 1 as in 2005, 1
-/// switches to the next robot, 2 requests CheckWin, 3 accelerates and 4 decelerates. Time is a parameter. The console's
-/// page follows the same rules (page/motion.js).
+/// switches to the next robot, 2 requests CheckWin, 3 accelerates and 4 decelerates; every other button stops the
+/// robot. Time is a parameter. The console's page follows the same rules (page/motion.js, page/gamepad.js).
 ///
-/// Motion is latched initially, and by latch() unless all inputs were neutral: no order moves the robot until the stick
-/// is in its dead zone and buttons 3 and 4 are released, all at the same time.
+/// A stop latches, as does latch(); motion is also latched initially: no order moves the robot until the stick is in
+/// its dead zone and all buttons from 3 on are released, all at the same time.
+///
+/// A robot that cruises (a speed set by buttons 3 and 4, stick centred) is stopped kPresence after the last input.
 class JoystickDriver {
  public:
   using Clock = std::chrono::steady_clock;
   static constexpr double kDeadZone = 0.12;                 ///< fraction of the stick's range
   static constexpr std::chrono::milliseconds kRepeat{250};  ///< of buttons 3 and 4 while held
+  static constexpr std::chrono::seconds kPresence{5};       ///< for which a robot cruises without an input
 
   struct Output {
-    RemoteOrder order;  ///< to send now: steering, or ALIVE
+    std::optional<RemoteOrder> order;  ///< to send now: steering, a stop, or ALIVE; nullopt while nobody is present
     bool checks_win = false;
     bool switches = false;
   };
@@ -30,7 +34,7 @@ class JoystickDriver {
   /// To be called about 20 times per second. Returns the stick's order each time, and its release once.
   Output convert(const StickState& state, const MotionLimits& limits, Clock::time_point now);
 
-  /// Before another robot is driven.
+  /// Before another robot is driven, and when the robot has stopped for a reason of its own.
   void latch();
 
   /// Fraction of the robot's maximum for a deflection: 0 in the dead zone, with a low gain near it.
@@ -39,10 +43,15 @@ class JoystickDriver {
  private:
   bool isPressed(const StickState& state, std::size_t button, bool repeats, Clock::time_point now);
 
+  bool stops(const StickState& state);
+  bool isNeutral(double speed, double turn) const;
+
   std::array<std::optional<Clock::time_point>, 5> pressed_;  ///< by button: time of its last order
+  std::vector<bool> stop_pressed_;                           ///< by index among the buttons that stop
   bool steers_speed_ = false, steers_turn_ = false;
   bool is_neutral_ = false;  ///< at the last call
   bool is_latched_ = true;
+  std::optional<Clock::time_point> input_;  ///< time of the last input; nullopt once the person is absent
 };
 
 }  // namespace robosim

@@ -1,5 +1,7 @@
 #include "remote/joystick_driver.h"
 
+#include <random>
+
 #include <gtest/gtest.h>
 
 namespace robosim {
@@ -31,22 +33,22 @@ class JoystickDriverTest : public testing::Test {
 };
 
 TEST_F(JoystickDriverTest, TheStickPushedAwayDrivesAndPushedLeftTurnsLeft) {
-  const auto ahead = convert(0, -1).order;
+  const auto ahead = *convert(0, -1).order;
   EXPECT_EQ(ahead.type, RemoteType::drive);
   EXPECT_EQ(ahead.speed_mps, 2);
   EXPECT_EQ(ahead.turn_radps, std::nullopt) << "the turn is unchanged";
-  const auto left = convert(-1, 0).order;
+  const auto left = *convert(-1, 0).order;
   EXPECT_EQ(left.speed_mps, 0) << "the stick is centred";
   EXPECT_EQ(left.turn_radps, 1);
 }
 
 TEST_F(JoystickDriverTest, ReleasingTheStickStopsTheRobotOnceThenSendsAlive) {
   convert(1, 1);
-  const auto stop = convert(0.1, -0.1).order;
+  const auto stop = *convert(0.1, -0.1).order;
   EXPECT_EQ(stop.type, RemoteType::drive);
   EXPECT_EQ(stop.speed_mps, 0);
   EXPECT_EQ(stop.turn_radps, 0);
-  EXPECT_EQ(convert(0, 0).order.type, RemoteType::alive);
+  EXPECT_EQ(convert(0, 0).order->type, RemoteType::alive);
 }
 
 TEST_F(JoystickDriverTest, HasALowGainOutsideTheDeadZone) {
@@ -58,8 +60,8 @@ TEST_F(JoystickDriverTest, HasALowGainOutsideTheDeadZone) {
 
 TEST_F(JoystickDriverTest, Buttons2To4AreThoseOf2005) {
   EXPECT_TRUE(convert(0, 0, {false, true, false, false}).checks_win);
-  EXPECT_EQ(convert(0, 0, {false, false, true, false}).order.type, RemoteType::accelerate);
-  EXPECT_EQ(convert(0, 0, {false, false, false, true}).order.type, RemoteType::decelerate);
+  EXPECT_EQ(convert(0, 0, {false, false, true, false}).order->type, RemoteType::accelerate);
+  EXPECT_EQ(convert(0, 0, {false, false, false, true}).order->type, RemoteType::decelerate);
   EXPECT_TRUE(convert(0, 0, {true}).switches);
 }
 
@@ -69,35 +71,99 @@ TEST_F(JoystickDriverTest, AHeldButtonCausesOneOrderAndSpeedButtonsRepeatFourTim
   for (int i = 0; i < 20; ++i) {  // a second
     const auto now = convert(0, 0, {true, false, true});
     switches += now.switches ? 1 : 0;
-    accelerates += now.order.type == RemoteType::accelerate ? 1 : 0;
+    accelerates += now.order && now.order->type == RemoteType::accelerate ? 1 : 0;
   }
   EXPECT_EQ(switches, 1);
   EXPECT_EQ(accelerates, 4);
 }
 
 TEST_F(JoystickDriverTest, DoesNotMoveAnotherRobotBeforeStickAndButtonsAreReleased) {
-  EXPECT_EQ(convert(0, -1).order.type, RemoteType::drive);
+  EXPECT_EQ(convert(0, -1).order->type, RemoteType::drive);
   driver_.latch();
-  EXPECT_EQ(convert(0, -1).order.type, RemoteType::alive);
-  EXPECT_EQ(convert(0, 0, {false, false, true}).order.type, RemoteType::alive) << "button 3 is pressed";
-  EXPECT_EQ(convert(0, 0).order.type, RemoteType::alive);
-  EXPECT_EQ(convert(0, -1).order.speed_mps, 2);
-  EXPECT_EQ(convert(0, 0, {false, false, true}).order.type, RemoteType::accelerate);
+  EXPECT_EQ(convert(0, -1).order->type, RemoteType::alive);
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::alive) << "button 3 is pressed";
+  EXPECT_EQ(convert(0, 0).order->type, RemoteType::alive);
+  EXPECT_EQ(convert(0, -1).order->speed_mps, 2);
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::accelerate);
 }
 
 TEST_F(JoystickDriverTest, MovesAnotherRobotAtOnceWhenAllInputsWereNeutral) {
   driver_.latch();
-  EXPECT_EQ(convert(0, -1).order.speed_mps, 2);
+  EXPECT_EQ(convert(0, -1).order->speed_mps, 2);
+}
+
+TEST_F(JoystickDriverTest, EveryButtonFromTheFifthOnStopsAndLatchesUntilAllInputsWereNeutral) {
+  for (std::size_t button = 5; button <= 12; ++button) {
+    SCOPED_TRACE(button);
+    EXPECT_EQ(convert(0, -1).order->type, RemoteType::drive);
+    std::vector<bool> buttons(12, false);
+    buttons[button - 1] = true;
+    EXPECT_EQ(convert(0, -1, buttons).order->type, RemoteType::stop);
+    EXPECT_EQ(convert(0, -1, buttons).order->type, RemoteType::alive) << "one stop for each press";
+    EXPECT_EQ(convert(0, -1).order->type, RemoteType::alive) << "the stick is deflected";
+    EXPECT_EQ(convert(0, 0, buttons).order->type, RemoteType::stop);
+    buttons[2] = true;
+    EXPECT_EQ(convert(0, 0, buttons).order->type, RemoteType::alive) << "a button that accelerates is held";
+    EXPECT_EQ(convert(0, 0).order->type, RemoteType::alive);
+  }
+}
+
+TEST_F(JoystickDriverTest, StopsACruisingRobotFiveSecondsAfterTheLastInput) {
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::accelerate);
+  for (int i = 1; i < 100; ++i) EXPECT_EQ(convert(0, 0).order->type, RemoteType::alive) << i;
+  const auto stop = *convert(0, 0).order;
+  EXPECT_EQ(stop.type, RemoteType::stop);
+  EXPECT_EQ(stop.why, "received no joystick input for 5 s");
+  EXPECT_EQ(convert(0, 0).order, std::nullopt) << "nobody is present";
+  EXPECT_EQ(convert(0, -1).order->type, RemoteType::drive);
+}
+
+TEST_F(JoystickDriverTest, NoMotionFollowsAStopInRandomSequencesBeforeAllInputsWereNeutral) {
+  std::mt19937 random(19);
+  const auto below = [&](unsigned bound) { return random() % bound; };
+  std::vector<bool> buttons(6, false);
+  double x = 0, y = 0;
+  bool is_latched = false;
+  int motions = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    switch (below(6)) {
+      case 0:
+        buttons[below(6)].flip();
+        break;
+      case 1:
+        x = below(3) - 1.0;
+        break;
+      case 2:
+        y = below(3) - 1.0;
+        break;
+      case 3:
+        x = y = 0;
+        buttons.assign(6, false);
+        break;
+      default:
+        break;
+    }
+    const auto order = convert(x, y, buttons).order;
+    if (x == 0 && y == 0 && buttons == std::vector<bool>{buttons[0], buttons[1], false, false, false, false}) {
+      is_latched = false;
+    }
+    const bool is_motion = order && (order->type == RemoteType::drive || order->type == RemoteType::accelerate ||
+                                     order->type == RemoteType::decelerate);
+    ASSERT_FALSE(is_latched && is_motion) << "event " << i;
+    if (order && order->type == RemoteType::stop) is_latched = true;
+    motions += is_motion ? 1 : 0;
+  }
+  EXPECT_GT(motions, 100'000);
 }
 
 TEST_F(JoystickDriverTest, IsLatchedInitially) {
   driver_ = JoystickDriver();
-  EXPECT_EQ(convert(-1, 0).order.type, RemoteType::alive) << "deflected initially";
+  EXPECT_EQ(convert(-1, 0).order->type, RemoteType::alive) << "deflected initially";
 }
 
 TEST_F(JoystickDriverTest, AcceleratesWhileTheStickTurns) {
-  EXPECT_EQ(convert(-1, 0, {false, false, true}).order.type, RemoteType::accelerate);
-  const auto next = convert(-1, 0, {false, false, true}).order;
+  EXPECT_EQ(convert(-1, 0, {false, false, true}).order->type, RemoteType::accelerate);
+  const auto next = *convert(-1, 0, {false, false, true}).order;
   EXPECT_EQ(next.type, RemoteType::drive);
   EXPECT_EQ(next.turn_radps, 1);
   EXPECT_EQ(next.speed_mps, std::nullopt) << "unchanged after button 3";

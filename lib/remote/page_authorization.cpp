@@ -35,6 +35,7 @@ constexpr std::array<MessageRule, PageMessage::kTypes> kRules{{
     {Type::check_win, Right::drive_primary, Page::holds_lock, Primary::settled},
     {Type::autonomous, Right::drive_primary, Page::holds_lock, Primary::settled},
     {Type::switch_primary, Right::drive_primary_and_target, Page::holds_lock, Primary::settled},
+    {Type::play_again, Right::operate, Page::holds_lock, Primary::any},
 }};
 
 constexpr bool isRuleAtItsIndex() {
@@ -51,6 +52,9 @@ std::string denial(const Access& access, const Identity& client, const PageState
   if (right == Right::none) return "";
   if (right == Right::look) {
     return mayLook(access, client) ? "" : "Your token does not permit the map, which shows true poses.";
+  }
+  if (right == Right::operate) {
+    return mayOperate(access, client) ? "" : "Your token does not permit starting a run.";
   }
   if (!mayDrive(access, client, state.primary)) {
     return mayLook(access, client) ? "Your token permits watching, not driving."
@@ -82,6 +86,10 @@ bool mayLook(const Access& access, const Identity& client) { return access.check
 
 bool mayDrive(const Access& access, const Identity& client, const std::string& robot) {
   return access.check(client, robosim::Right::drive, std::span(&robot, 1)).ok();
+}
+
+bool mayOperate(const Access& access, const Identity& client) {
+  return access.check(client, robosim::Right::operate).ok();
 }
 
 bool mayJoin(const Access& access, const Identity& client) {

@@ -15,6 +15,7 @@ struct MessageRule {
     look,                      ///< true poses: the right to watch the run
     drive_primary,             ///< the right to drive the primary robot
     drive_primary_and_target,  ///< the right to drive the primary robot and the one that becomes primary
+    operate,                   ///< the right to control the run
   };
   /// State of the page.
   enum class Page {
@@ -63,6 +64,7 @@ Authorization authorize(const Access& access, const Identity& client, const Page
 ///@{
 bool mayLook(const Access& access, const Identity& client);
 bool mayDrive(const Access& access, const Identity& client, const std::string& robot);
+bool mayOperate(const Access& access, const Identity& client);
 /// Whether a page with this token is admitted at all.
 bool mayJoin(const Access& access, const Identity& client);
 ///@}

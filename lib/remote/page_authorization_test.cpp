@@ -51,6 +51,7 @@ TEST_F(PageAuthorizationTest, PermitsEachMessageToTheRolesOfTheTable) {
       {Type::turn_right, "no yes no yes yes no"},   {Type::stop, "no yes no yes yes no"},
       {Type::alive, "no yes no yes yes no"},        {Type::check_win, "no yes no yes yes no"},
       {Type::autonomous, "no yes no yes yes no"},   {Type::switch_primary, "no yes no yes yes no"},
+      {Type::play_again, "no no no no yes no"},
   };
   for (const Type type : pageMessageTypes()) {
     ASSERT_TRUE(table.contains(type)) << "add a row for " << nameOf(type);
@@ -111,7 +112,7 @@ TEST_F(PageAuthorizationTest, IgnoresDrivingWithoutTheControlLock) {
   state.holds_lock = false;
   EXPECT_EQ(typesWith(Result::ignored, state),
             (std::set<std::string>{"release", "drive", "accelerate", "decelerate", "turn_left", "turn_right", "stop",
-                                   "alive", "check_win", "autonomous", "switch"}));
+                                   "alive", "check_win", "autonomous", "switch", "play_again"}));
 }
 
 TEST_F(PageAuthorizationTest, IgnoresDrivingDuringASwitchButNeverAStop) {

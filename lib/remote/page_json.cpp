@@ -35,6 +35,24 @@ const char* nameOf(Activity activity) {
   return "";
 }
 
+const char* nameOf(RunView::Phase phase) {
+  switch (phase) {
+    case RunView::Phase::unknown:
+      return "unknown";
+    case RunView::Phase::gone:
+      return "gone";
+    case RunView::Phase::waiting:
+      return "waiting";
+    case RunView::Phase::paused:
+      return "paused";
+    case RunView::Phase::running:
+      return "running";
+    case RunView::Phase::ended:
+      return "ended";
+  }
+  return "";
+}
+
 Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
 
 std::string hexOf(std::uint32_t rgb) {
@@ -133,7 +151,9 @@ std::optional<double> heatOf(const RobotNews& news) {
 
 }  // namespace
 
-std::string welcomeJson(std::uint64_t page) { return textOf({{"type", "welcome"}, {"you", page}}); }
+std::string welcomeJson(std::uint64_t page, bool may_operate) {
+  return textOf({{"type", "welcome"}, {"you", page}, {"may_operate", may_operate}});
+}
 
 std::string pongJson(std::uint64_t number) { return textOf({{"type", "pong"}, {"number", number}}); }
 
@@ -155,6 +175,8 @@ std::string robotJson(const RobotInfo& robot, double period_s) {
 std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lock) {
   Json team = Json::array();
   std::string winner, world;
+  const bool is_any_up =
+      std::any_of(robots.begin(), robots.end(), [](const TeamRobot& robot) { return robot.news.is_up; });
   for (const auto& robot : robots) {
     const RobotNews& news = robot.news;
     team.push_back({{"name", robot.name},
@@ -169,7 +191,8 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"activity", nameOf(news.state.activity)},
                     {"why_stopped", news.state.why_stopped},
                     {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
-    if (!news.state.winner.empty()) winner = news.state.winner;
+    // Robots that have left keep the winner of their run, and those of the next run have none.
+    if (news.is_up == is_any_up && !news.state.winner.empty()) winner = news.state.winner;
     if (!news.world.empty()) world = news.world;
   }
   return textOf({{"type", "team"},
@@ -205,6 +228,7 @@ std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const 
                {"step", readings.time.step},
                {"time_s", rounded(readings.time.seconds(), 1e-3)},
                {"stalled", readings.stalled},
+               {"driven_m", fine(update.driven_m)},
                {"laser_pan_rad", fine(readings.laser_pan_rad)},
                {"state", jsonOf(update.state)},
                {"measurements", measurements}};
@@ -220,6 +244,17 @@ std::string answerJson(const char* sensor, const RobotAnswer& answer) {
   }
   return textOf(message);
 }
+
+std::string runJson(const RunView& run) {
+  return textOf({{"type", "run"},
+                 {"phase", nameOf(run.phase)},
+                 {"problem", run.problem},
+                 {"absent", run.absent},
+                 {"may_restart", run.may_restart},
+                 {"is_restarting", run.is_restarting}});
+}
+
+std::string pulseJson() { return textOf({{"type", "pulse"}}); }
 
 std::string mapJson(const MapView& map) {
   if (!map.world) return textOf({{"type", "map"}, {"problem", map.problem}});

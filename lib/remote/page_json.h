@@ -6,6 +6,7 @@
 
 #include "remote/map_view.h"
 #include "remote/robot_news.h"
+#include "remote/run_view.h"
 
 namespace robosim {
 
@@ -13,8 +14,8 @@ namespace robosim {
 /// Messages of the console to a page, as JSON (protocol: doc/remote_control.md). Lengths are in metres and angles in
 /// radians; ranges are in whole millimetres, to keep the messages short.
 
-/// The page's hello was accepted; the page's id.
-std::string welcomeJson(std::uint64_t page);
+/// The page's hello was accepted; the page's id. @param may_operate whether its token permits to control the run
+std::string welcomeJson(std::uint64_t page, bool may_operate);
 /// Reply to a page's ping of that number.
 std::string pongJson(std::uint64_t number);
 /// The page's token is not valid. @param text for the user
@@ -39,6 +40,11 @@ std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const 
                        bool with_sensors);
 /// The requested reading of one sensor.
 std::string answerJson(const char* sensor, const RobotAnswer& answer);
+
+/// State of the environment's run.
+std::string runJson(const RunView& run);
+/// Sent when there is nothing else to send, so that silence means a broken connection.
+std::string pulseJson();
 
 std::string mapJson(const MapView& map);
 std::string posesJson(const MapView& map);

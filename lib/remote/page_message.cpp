@@ -41,6 +41,7 @@ constexpr std::array<Syntax, PageMessage::kTypes> kSyntax{{
     {Type::check_win, "check_win"},
     {Type::autonomous, "autonomous", {"on"}},
     {Type::switch_primary, "switch", {"robot"}},
+    {Type::play_again, "play_again"},
 }};
 
 constexpr bool isEntryAtItsIndex() {

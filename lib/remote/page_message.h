@@ -34,8 +34,9 @@ struct PageMessage {
     check_win,       ///< requests CheckWin
     autonomous,      ///< on: the primary's own controller drives
     switch_primary,  ///< "switch": to `robot`, or to the next
+    play_again,      ///< loads and starts the world again after the end of the run
   };
-  static constexpr std::size_t kTypes = 20;
+  static constexpr std::size_t kTypes = 21;
 
   Type type = Type::hello;
   std::uint32_t protocol = 0;

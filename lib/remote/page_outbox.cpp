@@ -46,6 +46,13 @@ bool PageOutbox::isUpdateDue(const ConsoleFeed& feed, Time now) const {
 }
 
 WebMessagePtr PageOutbox::next(ConsoleFeed& feed, bool is_admitted, Time now) {
+  WebMessagePtr message = nextNews(feed, is_admitted, now);
+  if (!message && is_admitted && isPulseDue(now)) message = textMessage(pulseJson());
+  if (message) spoken_ = now;
+  return message;
+}
+
+WebMessagePtr PageOutbox::nextNews(ConsoleFeed& feed, bool is_admitted, Time now) {
   if (!queue_.empty()) {
     WebMessagePtr message = std::move(queue_.front());
     queue_.pop_front();
@@ -55,6 +62,7 @@ WebMessagePtr PageOutbox::next(ConsoleFeed& feed, bool is_admitted, Time now) {
   if (std::exchange(robot_, feed.robot.version) != feed.robot.version) return feed.robot.message;
   if (std::exchange(team_, feed.team.version) != feed.team.version) return feed.team.message;
   if (std::exchange(vitals_, feed.vitals.version) != feed.vitals.version) return feed.vitals.message;
+  if (std::exchange(run_, feed.run.version) != feed.run.version) return feed.run.message;
   if (isUpdateDue(feed, now)) return nextUpdate(feed, now);
   return subscription_.map && feed.poses ? nextOfMap(feed, now) : nullptr;
 }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <deque>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "remote/console_feed.h"
@@ -20,6 +21,8 @@ namespace robosim {
 ///   all pages share. A page that reads slowly receives fewer updates, and pictures that were superseded are dropped.
 /// - At most kMaxUnacknowledged updates are sent ahead of the page's acknowledgements. A page that acknowledges none
 ///   for kAckWithin is to be disconnected.
+/// - After kPulsePeriod without a message a pulse is due, so that the page can distinguish silence from a broken
+///   connection.
 ///
 /// Time is a parameter.
 class PageOutbox {
@@ -32,6 +35,7 @@ class PageOutbox {
   static constexpr std::chrono::seconds kAckWithin{6};
   static constexpr std::chrono::milliseconds kUpdatePeriod{33};  ///< minimum, between updates without a new picture
   static constexpr std::chrono::milliseconds kPosesPeriod{100};  ///< minimum
+  static constexpr std::chrono::milliseconds kPulsePeriod{250};  ///< maximum time without a message
 
   /// What the page has subscribed to.
   struct Subscription {
@@ -55,6 +59,9 @@ class PageOutbox {
   /// Whether next() returns an update once the queue is empty.
   bool isUpdateDue(const ConsoleFeed& feed, Time now) const;
 
+  /// Whether next() returns a pulse if there is no other message.
+  bool isPulseDue(Time now) const { return spoken_ && now - *spoken_ >= kPulsePeriod; }
+
   /// The next message to send; null for none. To be called when the connection accepts a message, so that outdated
   /// state is never sent.
   /// @param is_admitted whether the page receives the feed, besides its queue
@@ -64,6 +71,7 @@ class PageOutbox {
   std::uint64_t unacknowledged() const { return sent_ - acknowledged_; }
 
  private:
+  WebMessagePtr nextNews(ConsoleFeed& feed, bool is_admitted, Time now);
   WebMessagePtr nextUpdate(ConsoleFeed& feed, Time now);
   WebMessagePtr nextOfMap(const ConsoleFeed& feed, Time now);
 
@@ -71,11 +79,12 @@ class PageOutbox {
   Subscription subscription_;
   /// @name State already sent
   ///@{
-  std::uint64_t robot_ = 0, team_ = 0, vitals_ = 0, map_ = 0;  ///< versions
+  std::uint64_t robot_ = 0, team_ = 0, vitals_ = 0, run_ = 0, map_ = 0;  ///< versions
   std::shared_ptr<const RobotUpdate> update_;
   std::shared_ptr<const RobotPicture> picture_;
   std::shared_ptr<const MapView> poses_;
   Time update_sent_, poses_sent_;
+  std::optional<Time> spoken_;  ///< time of the last message
   ///@}
   std::uint64_t sent_ = 0, acknowledged_ = 0;  ///< updates
   Time waiting_since_;                         ///< time of the last acknowledgement, or of the first update after it

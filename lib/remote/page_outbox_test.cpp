@@ -63,6 +63,24 @@ TEST_F(PageOutboxTest, DropsNotesWhen50MessagesAreQueued) {
   EXPECT_TRUE(outbox.reply("a reply is not dropped"));
 }
 
+TEST_F(PageOutboxTest, SendsAPulseAfter250MillisecondsWithoutAMessage) {
+  outbox.reply("welcome");
+  next();
+  now += 249ms;
+  EXPECT_FALSE(outbox.isPulseDue(now));
+  EXPECT_EQ(next(), "");
+  now += 1ms;
+  EXPECT_TRUE(outbox.isPulseDue(now));
+  EXPECT_EQ(next(false), "") << "not admitted";
+  EXPECT_EQ(next(), R"({"type":"pulse"})");
+  EXPECT_EQ(next(), "");
+  now += 200ms;
+  feed.team.set("team");
+  EXPECT_EQ(next(), "team");
+  now += 200ms;
+  EXPECT_EQ(next(), "") << "the team was a sign of life, too";
+}
+
 TEST_F(PageOutboxTest, SendsOnlyTheNewestStateAndOnce) {
   feed.team.set("old team");
   feed.robot.set("robot");
@@ -86,7 +104,7 @@ TEST_F(PageOutboxTest, SendsAtMostThreeUpdatesAheadOfAcknowledgements) {
   for (int i = 0; i < 10; ++i) {
     step();
     now += 1s;
-    EXPECT_EQ(next(), i < 3 ? "update" : "");
+    EXPECT_EQ(next(), i < 3 ? "update" : R"({"type":"pulse"})");
   }
   EXPECT_TRUE(outbox.acknowledge(1, now));
   EXPECT_EQ(outbox.unacknowledged(), 2u);
@@ -157,7 +175,7 @@ TEST_F(PageOutboxTest, SendsTheMapOnlyToSubscribers) {
   EXPECT_NE(next().find("poses"), std::string::npos);
   outbox.subscribeMap(false);
   showMap("other");
-  now += 1s;
+  now += 200ms;  // longer than between two poses
   EXPECT_EQ(next(), "");
   outbox.subscribeMap(true);
   EXPECT_EQ(next(), R"({"map":"other"})");

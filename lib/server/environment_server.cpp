@@ -82,6 +82,8 @@ struct EnvironmentServer::Impl {
   GeometrySession geometry;
   ControlPanelSession panels{serving};
   OnLostRobot on_lost_robot;
+  bool awaits_next_run;
+  bool has_run_ended = false;  ///< the run is over, and the next one is awaited
   std::optional<std::vector<std::string>>
       waited_for;         ///< robots not yet connected at the last check; nullopt: not checked
   Clock::time_point due;  ///< time of the next step
@@ -92,6 +94,7 @@ struct EnvironmentServer::Impl {
   Impl(const ServerOptions& options, std::shared_ptr<const RunInfo> run_info)
       : geometry(serving, ResultSamples(options.check_results, randomSecret())),
         on_lost_robot(options.on_lost_robot),
+        awaits_next_run(options.awaits_next_run),
         queue_server({{options.listen.viewers, &viewers},
                       {options.listen.robots, &robots},
                       {options.listen.geometry, &geometry},
@@ -149,7 +152,7 @@ struct EnvironmentServer::Impl {
   /// Replaces the run that is served. The old RunInfo stays alive until the sessions have switched to the new one.
   void replace(ServedRun& run, std::unique_ptr<PreparedRun> next) {
     const auto previous_run_info = run.runInfo();
-    run.ends(report());
+    if (!std::exchange(has_run_ended, false)) run.ends(report());
     run.replace(std::move(next));
     resetSessions(run.runInfo());
     areRobotsConnected();
@@ -161,10 +164,10 @@ struct EnvironmentServer::Impl {
     const bool waits = !waited_for || !waited_for->empty();
     const bool is_running = !waits && run_control.mayStep();
     status.Clear();
-    status.set_phase(serving.is_over ? v1::RUN_PHASE_ENDED
-                     : waits         ? v1::RUN_PHASE_WAITING
-                     : is_running    ? v1::RUN_PHASE_RUNNING
-                                     : v1::RUN_PHASE_PAUSED);
+    status.set_phase(serving.is_over || run.isOver() ? v1::RUN_PHASE_ENDED
+                     : waits                         ? v1::RUN_PHASE_WAITING
+                     : is_running                    ? v1::RUN_PHASE_RUNNING
+                                                     : v1::RUN_PHASE_PAUSED);
     status.set_world(run_info.environment.world().name);
     status.set_world_version(run_info.world_version);
     status.set_step(state.time.step);
@@ -260,6 +263,13 @@ struct EnvironmentServer::Impl {
     rate.note(serving.now());
   }
 
+  /// Reports the end of a run after which the server awaits the next one.
+  void endOnce(ServedRun& run) {
+    if (std::exchange(has_run_ended, true)) return;
+    run.ends(report());
+    serving.log("the run is over; waiting for a control panel to load the next world, or to stop");
+  }
+
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
     operations.prepare = [&run](const WorldSource& source) { return run.prepare(source); };
     operations.replace = [&](std::unique_ptr<PreparedRun> next) { replace(run, std::move(next)); };
@@ -267,7 +277,7 @@ struct EnvironmentServer::Impl {
     operations.describe = [&](v1::RunStatus& status) { describe(run, status); };
     admit();
     areRobotsConnected();  // so that a status requested first is correct
-    while (!run.isOver()) {
+    while (awaits_next_run || !run.isOver()) {
       serving.wake_requested = false;
       serving.checkSessions();
       executePanelRequests();
@@ -275,6 +285,11 @@ struct EnvironmentServer::Impl {
       if (interrupted()) return Served::interrupted;
       run.poll();
       admit();
+      if (run.isOver()) {
+        endOnce(run);
+        serving.pollUntil(ServingState::kPollInterval, [&] { return mustAct(); });
+        continue;
+      }
       if (on_lost_robot == OnLostRobot::fail && robots.isAnyLost()) {
         serving.log("the run ends because of --on-lost-robot fail: lost " + listed(robots.lost()));
         return Served::robot_lost;
@@ -314,8 +329,9 @@ std::array<int, 4> EnvironmentServer::ports() const {
 
 Served EnvironmentServer::serve(ServedRun& run, const std::function<bool()>& interrupted) {
   const Served how = impl_->serve(run, interrupted);
-  run.ends(impl_->report());
+  const RunReport report = impl_->report();
   impl_->close();
+  if (!impl_->has_run_ended) run.ends(report);
   return how;
 }
 

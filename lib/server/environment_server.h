@@ -33,6 +33,7 @@ struct ServerOptions {
   std::chrono::milliseconds load_deadline{60'000};  ///< maximum time for a control panel to send a world
   double speed = 0;                                 ///< simulated seconds per second; 0: unlimited, in lockstep only
   bool is_paused = false;
+  bool awaits_next_run = false;  ///< after the end of a run, waits for a control panel to load another world or to stop
   std::function<void(const std::string&)> log = [](const std::string&) {};          ///< receives one line
   std::function<ServingState::Clock::time_point()> now = ServingState::Clock::now;  ///< clock for deadlines
 };

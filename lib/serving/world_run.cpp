@@ -81,6 +81,7 @@ class WorldRun::OneRun {
   }
 
   void finish(EndedBy ended_by) {
+    if (std::exchange(is_finished, true)) return;
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     outputs.finish(run, wall.count(), ended_by, late, report);
   }
@@ -94,6 +95,7 @@ class WorldRun::OneRun {
   RunReport report;
   std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+  bool is_finished = false;  ///< its outputs are written
 };
 
 class WorldRun::Prepared final : public PreparedRun {
@@ -160,6 +162,7 @@ void WorldRun::ends(const RunReport& report) {
   run_->report = report;
   had_all_robots_ = had_all_robots_ && report.hasAllRobots();
   is_trusted_ = is_trusted_ && report.isTrusted();
+  if (isOver()) finish(endedByItself());
 }
 
 std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const {

@@ -39,7 +39,7 @@ class WorldRun final : public ServedRun {
 
   /// Why a run ended that neither a person nor a lost robot has ended: all robots halted, or the time limit.
   EndedBy endedByItself() const;
-  /// Writes the outputs of the current run, and prints its summary.
+  /// Writes the outputs of the current run, and prints its summary; once for each run.
   void finish(EndedBy ended_by);
   /// Closes the recording of a failed run, keeping what was recorded.
   void keep();

@@ -40,7 +40,7 @@ export async function visit(browser, url, { name, init, onPage, ...options } = {
 // previous page connected.)
 export async function takeControl(page) {
   await page.waitForFunction(() => {
-    if (document.querySelector('#status').textContent === 'You drive') return !document.querySelector('#accelerate').disabled;
+    if (!document.querySelector('#accelerate').disabled) return true;
     const button = document.querySelector('#control');
     if (!button.hidden) button.click();
     return false;

@@ -1,22 +1,22 @@
-// Motion commands of the page without a browser: lib/remote/page/motion.js.
+// Motion commands of the page without a browser: lib/remote/page/motion.js. Random sequences: motion_property_test.mjs.
 
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 
-const source = readFileSync(new URL('../../lib/remote/page/motion.js', import.meta.url), 'utf8');
-const { heldKey, heldTurn, Motion, PRESENCE_MS, shaped } = await import(`data:text/javascript,${encodeURIComponent(source)}`);
+import { pageModule } from './page_module.mjs';
 
-const ROUNDS = process.env.ROBOSIM_VERIFY ? 20_000 : 500;
-const NO_BUTTONS = Array.from({ length: 4 }, () => ({ pressed: false }));
+const { heldKey, heldTurn, Motion, PRESENCE_MS } = await pageModule('motion.js');
+const { shaped } = await pageModule('gamepad.js');
+
+const NO_BUTTONS = Array.from({ length: 12 }, () => ({ pressed: false }));
 const pad = (x, y, pressed = []) => ({ axes: [x, y], buttons: NO_BUTTONS.map((_, i) => ({ pressed: pressed.includes(i + 1) })) });
 const isMotion = ({ type }) => ['drive', 'accelerate', 'decelerate', 'turn_left', 'turn_right'].includes(type);
 const flat = (messages) => messages.map(({ type, members }) => ({ type, ...members }));
 
-function ready() {
+function ready(gamepad = null) {
   const motion = new Motion();
-  motion.enable(true);
-  motion.tick(0, null);
+  motion.setGate('control', true, 0);
+  motion.tick(0, gamepad);
   return motion;
 }
 
@@ -40,7 +40,7 @@ test('each motion key commands its direction', () => {
 
 test("the gamepad's buttons 1 to 4 switch, check, accelerate and decelerate; the last two repeat while held", () => {
   for (const [button, type, repeats] of [[1, 'switch', false], [2, 'check_win', false], [3, 'accelerate', true], [4, 'decelerate', true]]) {
-    const motion = ready();
+    const motion = ready(pad(0, 0));
     const times = [];
     for (let t = 50; t <= 550; t += 50) {
       if (motion.tick(t, pad(0, 0, [button])).some((message) => message.type === type)) times.push(t);
@@ -50,18 +50,18 @@ test("the gamepad's buttons 1 to 4 switch, check, accelerate and decelerate; the
 });
 
 test('the top speed applies to keys, pad, gamepad and accelerate', () => {
-  const motion = ready();
-  motion.limit = 0.2;
+  const motion = ready(pad(0, 0));
+  motion.setLimit(0.2, 0);
   assert.deepEqual(flat(motion.hold('key:KeyS', heldKey('KeyS'), 1)), [{ type: 'drive', speed: -0.2 }]);
   motion.release('key:KeyS', 2);
   assert.deepEqual(flat(motion.hold('pad', { speed: 0.5, turn: -0.4 }, 3)), [{ type: 'drive', speed: 0.1, turn: -0.4 }]);
   motion.release('pad', 4);
   assert.deepEqual(flat(motion.tick(50, pad(0, -1))), [{ type: 'drive', speed: 0.2 }]);
   motion.tick(100, pad(0, 0));
-  motion.setCommanded(0.1);
-  assert.deepEqual(flat(motion.order('accelerate', 110)), [{ type: 'accelerate' }], 'to 0.2');
-  assert.deepEqual(flat(motion.order('accelerate', 120)), [], '0.3 is more than the top speed');
-  assert.deepEqual(flat(motion.order('decelerate', 130)), [{ type: 'decelerate' }]);
+  motion.setCommanded(0.1, 2000);
+  assert.deepEqual(flat(motion.order('accelerate', 2110)), [{ type: 'accelerate' }], 'to 0.2');
+  assert.deepEqual(flat(motion.order('accelerate', 2120)), [], '0.3 is more than the top speed');
+  assert.deepEqual(flat(motion.order('decelerate', 2130)), [{ type: 'decelerate' }]);
 });
 
 for (const [what, hold, release] of [
@@ -71,7 +71,7 @@ for (const [what, hold, release] of [
   ['the stick', (m, t) => m.tick(t, pad(0, -1)), (m, t) => m.tick(t, pad(0, 0))],
 ]) {
   test(`after a stop, ${what} that is still held commands nothing until released`, () => {
-    const motion = ready();
+    const motion = ready(what === 'the stick' ? pad(0, 0) : null);
     const gamepad = what === 'the stick' ? pad(0, -1) : null;
     assert.ok(hold(motion, 1).some(isMotion));
     assert.deepEqual(flat(motion.stop(2)), [{ type: 'stop' }]);
@@ -96,7 +96,7 @@ test('a second pointer on a turn button has no lasting effect', () => {
 test('without control no input moves the robot, nor do inputs held when control is granted', () => {
   const motion = new Motion();
   assert.deepEqual(motion.hold('key:KeyW', heldKey('KeyW'), 1), []);
-  motion.enable(true);
+  motion.setGate('control', true, 0);
   assert.ok(!motion.tick(50, null).some(isMotion));
   motion.release('key:KeyW', 60);
   assert.ok(motion.hold('key:KeyW', heldKey('KeyW'), 70).some(isMotion));
@@ -134,72 +134,102 @@ test('a stick has a dead zone and a progressive response', () => {
   assert.equal(shaped(NaN), 0);
 });
 
-// Random inputs and a reference state: which are held, and whether all were neutral since the last stop.
-function randomOf(seed) {
-  let state = seed >>> 0;
-  return (n) => {
-    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
-    return Math.floor((state / 2 ** 32) * n);
-  };
+test('a gamepad that is deflected when it is connected commands nothing until released', () => {
+  const motion = ready();
+  assert.ok(!motion.tick(50, pad(0, -1)).some(isMotion));
+  assert.ok(!motion.tick(100, pad(0, -1)).some(isMotion));
+  motion.tick(150, pad(0, 0));
+  assert.ok(motion.tick(200, pad(0, -1)).some(isMotion));
+});
+
+test('every gamepad button from the fifth on stops, and is not neutral while pressed', () => {
+  for (let button = 5; button <= 12; ++button) {
+    const motion = ready(pad(0, 0));
+    assert.ok(motion.tick(50, pad(0, -1)).some(isMotion));
+    assert.deepEqual(flat(motion.tick(100, pad(0, -1, [button]))), [{ type: 'stop' }], `${button}`);
+    assert.ok(!motion.tick(150, pad(0, 0, [button])).some(isMotion));
+    assert.deepEqual(motion.inputs, [`gamepad:${button}`]);
+    assert.ok(!motion.tick(200, pad(0, -1, [button])).some(isMotion), 'the button is held');
+    motion.tick(250, pad(0, 0));
+    assert.ok(motion.tick(300, pad(0, -1)).some(isMotion));
+  }
+});
+
+test('a gamepad that is disconnected stops the robot', () => {
+  const motion = ready(pad(0, 0));
+  motion.tick(50, pad(0, -1));
+  assert.deepEqual(flat(motion.tick(100, null)), [{ type: 'stop', why: 'has lost its gamepad' }]);
+});
+
+for (const [gate, why] of [
+  ['focus', 'has lost the focus'], ['visible', 'is hidden'], ['link', 'has received nothing from the console for 2 s'],
+]) {
+  test(`when the page ${why}, it stops the robot, sends no alive, and drives on only after all inputs were neutral`, () => {
+    const motion = ready(pad(0, 0));
+    motion.hold('pad:1', { speed: 1, turn: 0 }, 1);
+    motion.tick(50, pad(0, -1));
+    assert.deepEqual(flat(motion.setGate(gate, false, 60)), [{ type: 'stop', why }]);
+    assert.deepEqual(motion.setGate(gate, false, 61), [], 'once');
+    for (let t = 100; t < 1000; t += 50) assert.ok(!motion.tick(t, pad(0, -1)).some(isMotion));
+    motion.setGate(gate, true, 1000);
+    assert.ok(!motion.tick(1050, pad(0, -1)).some(isMotion), 'the stick is still deflected');
+    motion.tick(1100, pad(0, 0));
+    assert.ok(motion.tick(1150, pad(0, -1)).some(isMotion));
+  });
 }
 
-test(`in ${ROUNDS} random sequences no motion follows a stop, or a loss of the robot, before all inputs were neutral`, () => {
-  let motions = 0;
-  for (let round = 0; round < ROUNDS; ++round) {
-    const random = randomOf(round);
-    const motion = new Motion();
-    const held = new Set();
-    let gamepad = pad(0, 0);
-    let polled = gamepad;
-    let isEnabled = false;
-    let isLatched = true;
-    let now = 0;
-    const isNeutral = () => held.size === 0 && polled.axes.every((axis) => Math.abs(axis) < 0.12) && !polled.buttons[2].pressed && !polled.buttons[3].pressed;
-    const ids = ['key:KeyW', 'key:KeyA', 'key:Space', 'pad', 'turn_left:1', 'turn_left:2'];
-    const commands = { 'key:KeyW': heldKey('KeyW'), 'key:KeyA': heldKey('KeyA'), 'key:Space': {}, pad: { speed: 1, turn: 1 }, 'turn_left:1': heldTurn(1), 'turn_left:2': heldTurn(1) };
-    for (let step = 0; step < 60; ++step) {
-      now += random(120);
-      if (isEnabled && isNeutral()) isLatched = false;
-      const id = ids[random(ids.length)];
-      let messages = [];
-      switch (random(9)) {
-        case 0:
-          messages = motion.hold(id, commands[id], now);
-          held.add(id);
-          break;
-        case 1: case 2: case 3:
-          messages = motion.release(id, now);
-          held.delete(id);
-          break;
-        case 4:
-          messages = motion.stop(now);
-          isLatched = true;
-          break;
-        case 5:
-          gamepad = random(4) ? pad(0, 0) : pad(random(3) - 1, random(3) - 1, random(2) ? [3] : []);
-          break;
-        case 6:
-          messages = motion.order(['accelerate', 'turn_left'][random(2)], now);
-          break;
-        case 7:
-          isEnabled = random(4) !== 0;
-          motion.enable(isEnabled);
-          if (!isEnabled) {
-            isLatched = true;
-            for (const one of held) if (!one.startsWith('key:')) held.delete(one);
-          }
-          break;
-        default:
-          polled = gamepad;
-          if (isEnabled && isNeutral()) isLatched = false;
-          messages = motion.tick(now, gamepad);
-      }
-      if (isLatched) assert.ok(!messages.some(isMotion), `round ${round}, step ${step}: ${JSON.stringify(messages)}`);
-      motions += messages.filter(isMotion).length;
-      for (const { members } of messages) {
-        assert.ok(Math.abs(members.speed ?? 0) <= motion.limit + 1e-9, 'within the top speed');
-      }
-    }
+test('a page without the focus sends neither alive nor orders of a gamepad, but its stop', () => {
+  const motion = ready(pad(0, 0));
+  motion.setGate('focus', false, 10);
+  assert.deepEqual(motion.tick(500, pad(0, -1, [1, 3])), []);
+  assert.deepEqual(flat(motion.tick(550, pad(0, -1, [1, 3, 6]))), [{ type: 'stop' }]);
+});
+
+test('a suspended page stops the robot when it continues', () => {
+  const motion = ready();
+  motion.hold('key:KeyW', heldKey('KeyW'), 1);
+  motion.tick(50, null);
+  assert.deepEqual(flat(motion.tick(2100, null)), [{ type: 'stop', why: 'was suspended' }]);
+  assert.ok(!motion.tick(2150, null).some(isMotion));
+});
+
+test('a repeated key whose press was not reported stops the robot and is not neutral', () => {
+  const motion = ready();
+  motion.hold('pad:1', { speed: 1, turn: 0 }, 1);
+  assert.deepEqual(flat(motion.find('key:KeyW', 20)), [{ type: 'stop' }]);
+  motion.release('pad:1', 30);
+  assert.ok(!motion.hold('pad:1', { speed: 1, turn: 0 }, 40).some(isMotion));
+  motion.release('pad:1', 50);
+  motion.release('key:KeyW', 60);
+  assert.ok(motion.hold('pad:1', { speed: 1, turn: 0 }, 70).some(isMotion));
+});
+
+test('a lower top speed slows a cruising robot down', () => {
+  const motion = ready();
+  for (const t of [10, 20, 30]) motion.order('accelerate', t);
+  assert.deepEqual(flat(motion.setLimit(0.2, 40)), [{ type: 'drive', speed: 0.2 }]);
+  assert.deepEqual(flat(motion.setLimit(0.1, 50)), [{ type: 'drive', speed: 0.1 }]);
+  motion.stop(60);
+  assert.deepEqual(motion.setLimit(0.05, 70), []);
+});
+
+test('a report of the robot that is older than the last order does not let it exceed the top speed', () => {
+  const motion = ready();
+  motion.setLimit(0.2, 0);
+  for (const t of [10, 40]) {
+    assert.equal(motion.order('accelerate', t).length, 1);
+    motion.setCommanded(0, t + 10);
   }
-  assert.ok(motions > ROUNDS, 'the sequences do move the robot');
+  assert.deepEqual(motion.order('accelerate', 70), []);
+});
+
+test('a stop ends the cruise, and the end of a cruise is announced', () => {
+  const motion = ready();
+  assert.equal(motion.cruiseEnds(0), null);
+  motion.order('accelerate', 1000);
+  assert.equal(motion.cruiseEnds(3000), PRESENCE_MS - 2000);
+  motion.noteInput(3000);
+  assert.equal(motion.cruiseEnds(3000), PRESENCE_MS);
+  motion.stop(3100);
+  assert.equal(motion.cruiseEnds(3100), null);
 });

@@ -50,7 +50,7 @@ export function violations() {
   // Parts of the page. On the picture, what lies on it does not overlap either.
   const isCompact = document.body.dataset.layout === 'compact';
   const isPictureOnly = document.body.dataset.camera !== 'none';
-  const parts = all(`.bar, ${isCompact ? '' : '.banner, .won, .trouble, '}.card, .tabs, .pad, .keys, .acts, .limit${isCompact || !isPictureOnly ? '' : ', .view'}`);
+  const parts = all(`.bar, ${isCompact ? '' : '.banner, '}.card, .tabs, .pad, .keys, .acts, .limit${isCompact || !isPictureOnly ? '' : ', .view'}`);
   const isBehind = (element) => isCompact && !isPictureOnly && element.matches('.range');  // panels open above it
   parts.forEach((a, i) => {
     for (const b of parts.slice(i + 1)) {

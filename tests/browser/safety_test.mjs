@@ -79,7 +79,7 @@ test('the console is suspended and resumed: the robot stands still until command
   session.console.signal('SIGSTOP');
   await stops(/Ann stops: no message from Ada for 3 s/);
   await session.truth.standstill('Ann');
-  await shows('#mode', 'no update for');
+  await shows('#banner', 'The console does not answer.');
   session.console.signal('SIGCONT');
   await shows('#mode', 'stopped: no message from Ada');
   await session.truth.standstill('Ann', 25);
@@ -91,12 +91,12 @@ test('the console ends: the robot stops, and the page reports it and reconnects'
   session.console.signal('SIGKILL');
   await stops(/Ann stops: its remote control has disconnected/);
   await session.truth.standstill('Ann');
-  await shows('#trouble', 'No connection to the console');
+  await shows('#banner', 'No connection to the console');
   await session.console.ended();
   await page.keyboard.up('ArrowLeft');
   await session.startConsole();
   await takeControl(page);
-  await page.waitForSelector('#trouble', { state: 'hidden' });
+  await page.waitForSelector('#banner', { state: 'hidden' });
   await hold();
 });
 

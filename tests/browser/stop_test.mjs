@@ -140,3 +140,30 @@ test('the top speed applies to the gamepad', async () => {
   await session.truth.standstill('Ann');
   await page.fill('#limit', '60');
 });
+
+for (const [what, act] of [
+  ['the loss of the window\'s focus', () => page.evaluate(() => dispatchEvent(new Event('blur')))],
+  ['leaving full screen', async () => {
+    await page.evaluate(() => document.documentElement.requestFullscreen());
+    await forget();
+    await page.evaluate(() => document.exitFullscreen());
+  }],
+  ['a gamepad button', async () => {
+    await page.evaluate(() => { emulatedGamepad.buttons[5].pressed = true; });
+    await wasSent(['stop']);
+    await page.evaluate(() => { emulatedGamepad.buttons[5].pressed = false; });
+  }],
+]) {
+  test(`${what} stops, and the stick that is still held has no effect`, async () => {
+    await moveStick(page, 0, 0);
+    await aliveOften(5);
+    await forget();
+    await moveStick(page, 0, 1);
+    await wasSent(['drive']);
+    await forget();
+    await act();
+    await assertNoMotionAfterStop();
+    await session.truth.standstill('Ann');
+    await moveStick(page, 0, 0);
+  });
+}

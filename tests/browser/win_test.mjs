@@ -54,7 +54,7 @@ async function driveTo(x, y) {
 test('CheckWin fails far from the gold', async () => {
   await page.keyboard.press('c');
   await shows('#notes', 'Pioneer1 is too far from the gold to have won.');
-  assert.ok(await page.isHidden('#won'));
+  assert.ok(await page.isHidden('#banner'));
 });
 
 test('CheckWin succeeds at the gold, and all outputs report it', async () => {
@@ -69,8 +69,8 @@ test('CheckWin succeeds at the gold, and all outputs report it', async () => {
   }
   await page.click('#check-win');
 
-  await page.waitForSelector('#won', { state: 'visible' });
-  assert.match(await page.textContent('#won'), /Pioneer1\s+has won\. All robots have halted\./);
+  await page.waitForSelector('#banner[data-cause="won"]', { state: 'visible' });
+  assert.match(await page.textContent('#banner-text'), /^Pioneer1 has won after \d+:\d\d\.\d and \d+\.\d m\. All robots have halted\.$/);
   await session.serve.ended();
   const summary = JSON.parse(session.serve.output);
   assert.equal(summary.won_by, 'Pioneer1');

@@ -43,6 +43,13 @@ struct NoMap final : MapSource {
   std::shared_ptr<const MapView> view = std::make_shared<MapView>();
 };
 
+/// A run that is over, and records whether a page was permitted to start the next one.
+struct FinishedRun final : RunSource {
+  RunView newest() override { return {.phase = RunView::Phase::ended, .may_restart = true}; }
+  void restart() override { is_restarted = true; }
+  std::atomic<bool> is_restarted{false};
+};
+
 /// A console with Ann, the primary, and Bob.
 class Team {
  public:
@@ -55,6 +62,7 @@ class Team {
     options.listen = "127.0.0.1:0";
     options.access = Access::parse(kTokens, "tokens");
     options.map = &map;
+    options.run = &run;
     console_ = std::make_unique<Console>(options, list);
     thread_ = std::thread([this] { console_->serve([this] { return is_over_.load(); }); });
   }
@@ -80,6 +88,7 @@ class Team {
 
   TestRobot ann{"Ann"}, bob{"Bob"};
   NoMap map;
+  FinishedRun run;
 
  private:
   std::atomic<bool> is_over_{false};
@@ -147,6 +156,7 @@ const std::map<std::string, Example>& examples() {
       {"switch", {R"({"type":"switch"})", [](Team&, TestPage& p) { return primaryOf(p) == "Bob"; }}},
       {"switch to the next robot",
        {R"({"type":"switch","robot":"Bob"})", [](Team&, TestPage& p) { return primaryOf(p) == "Bob"; }}},
+      {"play_again", {R"({"type":"play_again"})", [](Team& t, TestPage&) { return t.run.is_restarted.load(); }}},
       {"req_heat", {R"({"type":"req_heat"})", answers("heat")}},
       {"req_laser", {R"({"type":"req_laser"})", answers("laser")}},
       {"req_sonar",
@@ -164,7 +174,7 @@ std::string stateOf(Team& team) {
     text += state.driver + (state.autonomous ? " autonomous " : " driven ") + std::to_string(command.speed_mps) + " " +
             std::to_string(command.turn_radps) + " " + std::to_string(robot->hardware->win_checks) + "\n";
   }
-  return text + (team.map.is_watched ? "map" : "");
+  return text + (team.map.is_watched ? "map" : "") + (team.run.is_restarted ? "restarted" : "");
 }
 
 /// Waits until preceding messages have reached the primary: an answer follows them.

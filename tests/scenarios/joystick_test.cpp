@@ -99,6 +99,15 @@ class JoystickDrive : public testing::Test {
     while (!holds(viewer_.run().snapshot.robots[robot].world_from_robot))
       ASSERT_TRUE(viewer_.waitForFrame()) << "the run has ended";
   }
+  /// Waits until a robot has stood for 50 frames, which is longer than the joystick's orders are apart.
+  void waitUntilStill(std::size_t robot) {
+    auto last = at(robot);
+    for (int frames = 0; frames < 50; ++frames) {
+      const auto now = at(robot);
+      if (now != last) frames = 0;
+      last = now;
+    }
+  }
   mrpt::math::TPose2D at(std::size_t robot) {
     viewer_.waitForFrame();
     return viewer_.run().snapshot.robots[robot].world_from_robot;
@@ -134,6 +143,17 @@ TEST_F(JoystickDrive, DrivesSwitchesAndIsRecorded) {
   stick.press(4);
   waitUntil(0, [&](const auto& pose) { return std::cos(before.phi) * (pose.x - before.x) < -0.05; });
   stick.release(4);
+
+  // A stop is latched: the stick has no effect until it has been centred.
+  stick.moveAxis(kY, kAway);
+  waitUntil(0, [&, x = at(0).x](const auto& pose) { return std::abs(pose.x - x) > 0.1; });
+  stick.press(5);
+  stick.release(5);
+  waitUntilStill(0);
+  stick.moveAxis(kY, 0);
+  stick.moveAxis(kX, kLeft);
+  waitUntil(0, [&, phi = at(0).phi](const auto& pose) { return std::abs(pose.phi - phi) > 0.1; });
+  stick.moveAxis(kX, 0);
 
   stick.press(1);
   remote.waitForError("joystick 0 drives Scout1");

@@ -1,4 +1,5 @@
-// Passes the page's inputs (keyboard, drive pad, buttons, gamepad) to Motion, and sends the messages that it returns.
+// Passes the page's inputs (keyboard, drive pad, buttons, gamepad) and the state of window and connection to Motion, and
+// sends the messages that it returns.
 
 import { heldKey, Motion } from './motion.js';
 
@@ -7,65 +8,95 @@ const STOP_KEYS = new Set(['Space', 'Escape']);
 const ORDER_KEYS = { '+': 'accelerate', '=': 'accelerate', '-': 'decelerate', c: 'check_win' };
 
 const takesText = (element) => Boolean(element.matches?.('input:not([type="range"], [type="checkbox"]), textarea'));
+const now = () => performance.now();
 
 export class Drive extends EventTarget {
   #motion = new Motion();
+  #sent = -Infinity;
   #suppressed = new Set();  // stop keys that are down: their release must not click a button
 
-  // `mayDrive` returns whether this page holds the control lock, and so may at least stop the robot
-  constructor(link, mayDrive) {
+  // `mayDrive` returns whether this page holds the control lock, and so may at least stop the robot; `isLost` whether
+  // the console does not answer
+  constructor(link, mayDrive, isLost) {
     super();
     this.link = link;
     this.mayDrive = mayDrive;
+    this.isLost = isLost;
     // In the capture phase, so that no focused element and no dialog intercepts a stop.
     addEventListener('keydown', (event) => this.#keyDown(event), true);
     addEventListener('keyup', (event) => this.#keyUp(event), true);
     for (const type of ['pointerdown', 'pointermove', 'wheel']) {
-      addEventListener(type, () => this.#motion.noteInput(performance.now()), { capture: true, passive: true });
+      addEventListener(type, () => this.#motion.noteInput(now()), { capture: true, passive: true });
     }
-    addEventListener('blur', () => this.#send(this.#motion.releaseAll(performance.now())));
-    document.addEventListener('visibilitychange', () => {
-      if (document.hidden) this.stop('is hidden');
+    addEventListener('blur', () => this.#setGate('focus', false));
+    addEventListener('focus', () => this.#setGate('focus', document.hasFocus()));
+    document.addEventListener('visibilitychange', () => this.#setGate('visible', !document.hidden));
+    for (const type of ['pagehide', 'freeze']) addEventListener(type, () => this.#setGate('visible', false));
+    // Esc leaves full screen, and the page does not receive it.
+    document.addEventListener('fullscreenchange', () => {
+      if (!document.fullscreenElement) this.stop('has left full screen');
     });
     setInterval(() => this.#tick(), TICK_MS);
   }
 
-  set limit(part) {
-    this.#motion.limit = part;
+  setLimit(part) {
+    this.#send(this.#motion.setLimit(part, now()));
   }
   // Whether this page may move the robot.
   enable(isEnabled) {
-    this.#motion.enable(isEnabled);
+    this.#setGate('control', isEnabled);
   }
   setCommanded(part) {
-    this.#motion.setCommanded(part);
+    this.#motion.setCommanded(part, now());
   }
-  // Another robot has become the primary.
+  // Another robot has become the primary, or the robot has stopped for a reason of its own.
   latch() {
     this.#motion.latch();
   }
+  // See Motion.
+  get latches() {
+    return this.#motion.latches;
+  }
+  get isLatched() {
+    return this.#motion.isLatched;
+  }
+  // Whether a command or `alive` was sent within the last second.
+  get isSending() {
+    return now() - this.#sent < 1000;
+  }
+  get inputs() {
+    return this.#motion.inputs;
+  }
+  get cruiseEnds_ms() {
+    return this.#motion.cruiseEnds(now());
+  }
 
   hold(id, command) {
-    this.#send(this.#motion.hold(id, command, performance.now()));
+    this.#send(this.#motion.hold(id, command, now()));
   }
   release(id) {
-    this.#send(this.#motion.release(id, performance.now()));
+    this.#send(this.#motion.release(id, now()));
   }
   stop(why) {
-    this.#send(this.#motion.stop(performance.now(), why));
+    this.#send(this.#motion.stop(now(), why));
   }
   // A single order: accelerate, turn_left, check_win …
   order(type) {
-    this.#send(this.#motion.order(type, performance.now()));
+    this.#send(this.#motion.order(type, now()));
+  }
+
+  #setGate(gate, isOpen) {
+    this.#send(this.#motion.setGate(gate, isOpen, now()));
   }
 
   #send(messages) {
     if (!this.mayDrive()) return;
+    if (messages.length > 0) this.#sent = now();
     for (const { type, members } of messages) this.link.send(type, members);
   }
 
   #keyDown(event) {
-    this.#motion.noteInput(performance.now());
+    this.#motion.noteInput(now());
     if (STOP_KEYS.has(event.code) && this.mayDrive()) {
       this.#stopKeyDown(event);
       return;
@@ -77,24 +108,33 @@ export class Drive extends EventTarget {
     const usesArrows = event.code.startsWith('Arrow') && event.target.matches?.('input[type="range"], [role="tab"]');
     if (command && !usesArrows) {
       event.preventDefault();
-      if (!event.repeat) this.hold(id, command);  // a repeated press is held already, or was held at a stop
+      if (event.repeat) this.#send(this.#motion.find(id, now()));  // a repeated press commands nothing new
+      else this.hold(id, command);
       return;
     }
+    const isButton = event.target.matches?.('button');
+    if (event.key === 'Enter' && isButton && !event.repeat) this.hold(id, {});  // its repetition repeats the button's order
     // Space stops, so that Enter has its function for switches.
-    if (event.key === 'Enter' && event.target.matches?.('input[type="checkbox"]')) {
-      event.target.click();
+    if (event.key === 'Enter' && event.target.matches?.('input[type="checkbox"]')) event.target.click();
+    if (event.key !== 'Enter') this.#orderKeyDown(event, id);
+  }
+
+  #orderKeyDown(event, id) {
+    const order = ORDER_KEYS[event.key.toLowerCase()];
+    if (!order && !event.repeat) this.dispatchEvent(new CustomEvent('key', { detail: event.key.toLowerCase() }));
+    if (!order || (order === 'check_win' && event.repeat)) return;
+    if (event.repeat && !this.#motion.isHeld(id)) {
+      this.#send(this.#motion.find(id, now()));
       return;
     }
-    const order = ORDER_KEYS[event.key.toLowerCase()];
-    if (order && !(event.repeat && (order === 'check_win' || !this.#motion.isHeld(id)))) this.order(order);
-    if (order && order !== 'check_win' && !event.repeat) this.hold(id, {});
-    if (!order && !event.repeat) this.dispatchEvent(new CustomEvent('key', { detail: event.key.toLowerCase() }));
+    this.order(order);
+    if (!event.repeat && order !== 'check_win') this.hold(id, {});
   }
 
   #stopKeyDown(event) {
     if (!event.repeat) {
+      this.hold(`key:${event.code}`, {});  // first, so that the stop is latched until its release
       this.stop();
-      this.hold(`key:${event.code}`, {});
     }
     // Besides, a text field receives the space, and Esc closes a dialog.
     if (event.code !== 'Space' || takesText(event.target)) return;
@@ -108,8 +148,11 @@ export class Drive extends EventTarget {
   }
 
   #tick() {
+    this.#setGate('focus', document.hasFocus());
+    this.#setGate('visible', !document.hidden);
+    this.#setGate('link', !this.isLost());
     const gamepad = [...(navigator.getGamepads?.() ?? [])].find((pad) => pad?.connected) ?? null;
-    const messages = this.#motion.tick(performance.now(), gamepad);
-    this.#send(document.hidden ? [] : messages);
+    this.#send(this.#motion.tick(now(), gamepad));
+    this.dispatchEvent(new Event('tick'));
   }
 }

@@ -1,6 +1,8 @@
 // The connection to the console: JSON in both directions, and updates of the robot as binary messages of JSON and picture.
 // Reconnects after a failure.
 
+import { Freshness } from './freshness.js';
+
 const PROTOCOL = 'robosim.remote.1';
 const RETRY_MS = 700;
 
@@ -19,8 +21,14 @@ export class Link extends EventTarget {
 
   constructor(hello) {
     super();
+    this.freshness = new Freshness();
     this.hello = hello;  // returns the members of the first message: {name, token}
     this.isOpen = false;
+  }
+
+  // Whether the console does not answer.
+  get isLost() {
+    return !this.isOpen || this.freshness.isLost(performance.now());
   }
 
   connect() {
@@ -46,11 +54,13 @@ export class Link extends EventTarget {
 
   #receive(data) {
     if (typeof data !== 'string') {
+      this.freshness.noteUpdate(performance.now());
       const [update, jpeg] = parseUpdate(data);
       ++this.#received;
       this.#dispatch('update', { update, jpeg });
       return;
     }
+    this.freshness.noteMessage(performance.now());
     const message = JSON.parse(data);
     if (message.type === 'welcome') this.isOpen = true;
     if (message.type === 'refused') this.#refused = true;

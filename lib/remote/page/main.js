@@ -9,18 +9,20 @@ import { Heat } from './heat.js';
 import { watchLayout } from './layout.js';
 import { Link } from './link.js';
 import { Map2D } from './map.js';
+import { heldTurn } from './motion.js';
+import { makeOrderButton } from './order_button.js';
 import { Pad } from './pad.js';
 import { Radar } from './radar.js';
 import { clock, Readings } from './readings.js';
 import { Signals } from './signals.js';
+import { setPill, StateView } from './state_view.js';
+import { makeStopButton } from './stop_button.js';
 import { Tabs } from './tabs.js';
 import { Team } from './team.js';
-import { makeTurnButton } from './turn_button.js';
 import { Verdict } from './verdict.js';
 
 const $ = (id) => document.getElementById(id);
 const ANSWER_S = 5;  // for which an answer to a request is displayed
-const STALE_S = 2;  // without an update, after which the displayed data is marked as stale
 
 // The token is in the fragment of the address, which browsers do not send; it is removed so that it cannot be read there.
 function tokenFromAddress() {
@@ -31,13 +33,15 @@ function tokenFromAddress() {
 }
 tokenFromAddress();
 
-const state = { you: 0, team: null, robot: null, update: null, isFirstTeam: true };
+const UNKNOWN_RUN = { phase: 'unknown', problem: '', absent: [], may_restart: false, is_restarting: false };
+const state = { you: 0, mayOperate: false, team: null, run: UNKNOWN_RUN, robot: null, update: null, whyLost: '', isFirstTeam: true };
 const link = new Link(() => {
   const token = sessionStorage.getItem('token');
   return { name: localStorage.getItem('name') ?? '', ...(token ? { token } : {}) };
 });
 const hasControl = () => link.isOpen && state.team?.control_lock.holder === state.you;
-const drive = new Drive(link, hasControl);
+const drive = new Drive(link, hasControl, () => link.isLost);
+const view = new StateView(drive, link);
 const signals = new Signals(link, $('latency'), $('fps'));
 const camera = new Camera($('camera'), $('no-camera'), () => signals.pictureDrawn());
 const radar = new Radar($('radar'));
@@ -53,17 +57,16 @@ const pad = new Pad($('pad'), $('pad-knob'), drive);
 
 link.addEventListener('welcome', ({ detail }) => {
   state.you = detail.you;
+  state.mayOperate = detail.may_operate;
   state.isFirstTeam = true;
-  showTrouble('');
+  state.whyLost = '';
   link.send('live', { on: $('live').checked });
   link.send('map', { on: isMapOn() });
 });
 
 link.addEventListener('lost', ({ detail }) => {
-  setPill($('status'), 'No connection', 'bad');
-  if (detail.refused) return;
-  showTrouble(`No connection to the console${detail.why ? `: ${detail.why}` : ''}. The robot stops. Reconnecting…`);
-  if (state.team) showMembers();
+  state.whyLost = detail.why;
+  if (state.team && !detail.refused) showMembers();
   showControls();
 });
 
@@ -85,11 +88,16 @@ link.addEventListener('team', ({ detail: team }) => {
   showMembers();
   showWho();
   showControls();
-  showWinner(team.winner);
+  if (team.winner && team.winner !== lastWinner) note(`${team.winner} has won.`, false);
+  lastWinner = team.winner;
 });
+let lastWinner = '';
+
+link.addEventListener('run', ({ detail }) => { state.run = detail; });
 
 link.addEventListener('robot', ({ detail: robot }) => {
   Object.assign(state, { robot, update: null });
+  link.freshness.forgetUpdates();
   readings.reset(robot);
   $('robot-name').textContent = $('robot-name').title = robot.name;
   $('robot-model').textContent = robot.model;
@@ -108,15 +116,23 @@ link.addEventListener('robot', ({ detail: robot }) => {
   $('req-heat').disabled = !find('heat');
 });
 
-let updated = performance.now();
-setInterval(() => {
-  const age_s = (performance.now() - updated) / 1000;
-  document.body.classList.toggle('stale', age_s > STALE_S);
-  if (link.isOpen && state.team?.robots[0].up && age_s > STALE_S) setPill($('mode'), `no update for ${Math.floor(age_s)} s`, 'bad');
-}, 500);
+drive.addEventListener('tick', () => {
+  const now = performance.now();
+  const isFresh = link.freshness.isFresh(now);
+  view.show({
+    ...state,
+    link: { isOpen: link.isOpen, isSilent: link.freshness.isSilent(now), why: state.whyLost },
+    isFresh,
+    holdsLock: hasControl(),
+    isSending: drive.isSending,
+    mayRestart: state.mayOperate && hasControl() && state.run.may_restart,
+  });
+  if (wasFresh !== isFresh) showMode();
+  wasFresh = isFresh;
+});
+let wasFresh = false;
 
 link.addEventListener('update', ({ detail: { update, jpeg } }) => {
-  updated = performance.now();
   if (jpeg) camera.show(jpeg, update.picture_step);
   setUpdate(update);
   if (document.hidden) {
@@ -158,6 +174,8 @@ function setRange(slot, measurement, time_s) {
 
 function setUpdate(update) {
   if (!state.robot || update.robot !== state.robot.name) return;
+  const { why_stopped: why } = update.state;
+  if (why && why !== state.update?.state.why_stopped) drive.latch();
   state.update = update;
   readings.set(update);
   verdict.set(update.robot, update.state.win_refusals);
@@ -183,18 +201,10 @@ function draw() {
 
 // ---- State of team and control ----
 
-function setPill(pill, text, kind) {
-  if (pill.textContent !== text) pill.textContent = text;
-  pill.className = `pill ${kind}`;
-}
-
 function showWho() {
   const { control_lock: lock, robots, pages } = state.team;
   const primary = robots[0];
   const hasOtherDriver = primary.driver && !primary.is_yours && primary.up;
-  if (hasControl() && hasOtherDriver) setPill($('status'), 'Watching', 'info');
-  else if (hasControl()) setPill($('status'), 'You drive', 'good');
-  else setPill($('status'), 'Watching', 'info');
   if (hasControl()) $('who').textContent = hasOtherDriver ? `${primary.driver} drives ${primary.name} with another remote control` : '';
   else $('who').textContent = lock.holder ? `${lock.name} drives; you may watch` : 'No driver';
   // A page with the control lock but without the robot may request it again. The lock may be released if others watch.
@@ -226,6 +236,7 @@ function showMode() {
   else if (!primary.up) setPill($('mode'), 'down', 'bad');
   else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
   else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
+  else if (!link.freshness.isFresh(performance.now())) setPill($('mode'), 'no update', 'bad');
   else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');
   else showDriver(primary);
 }
@@ -248,19 +259,6 @@ function showControls() {
   pad.enable(steers);
   drive.enable(steers);
   showMode();
-}
-
-function showWinner(winner) {
-  if ($('won').dataset.winner === winner) return;
-  $('won').dataset.winner = winner;
-  $('won-by').textContent = winner;
-  $('won').hidden = !winner;
-  if (winner) note(`${winner} has won.`, false);
-}
-
-function showTrouble(text) {
-  $('trouble').textContent = text;
-  $('trouble').hidden = !text;
 }
 
 function note(text, isWarning) {
@@ -302,22 +300,17 @@ const nextRobot = () => {
   if (hasControl()) link.send('switch');
 };
 
-for (const [id, order] of Object.entries({
-  accelerate: 'accelerate', decelerate: 'decelerate', 'check-win': 'check_win',
-})) {
-  $(id).addEventListener('click', () => drive.order(order));
+for (const [id, command] of [['accelerate'], ['decelerate'], ['check-win'], ['turn-left', heldTurn(1)], ['turn-right', heldTurn(-1)]]) {
+  makeOrderButton($(id), id.replace('-', '_'), drive, command);
 }
-makeTurnButton($('turn-left'), 'turn_left', 1, drive);
-makeTurnButton($('turn-right'), 'turn_right', -1, drive);
-$('stop').addEventListener('click', () => drive.stop());
+makeStopButton($('stop'), drive);
 $('autonomous').addEventListener('click', toggleAutonomous);
 $('next').addEventListener('click', nextRobot);
 $('map-toggle').addEventListener('click', toggleMap);
 const toggleFullScreen = makeFullScreen($('fullscreen'));
 $('control').addEventListener('click', () => link.send($('control').dataset.message));
-$('won-close').addEventListener('click', () => { $('won').hidden = true; });
 $('limit').addEventListener('input', () => {
-  drive.limit = Number($('limit').value) / 100;
+  drive.setLimit(Number($('limit').value) / 100);
   $('limit-out').textContent = `${$('limit').value} %`;
 });
 $('live').addEventListener('change', () => {

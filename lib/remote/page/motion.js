@@ -1,65 +1,96 @@
 // Motion commands from the page's inputs, with a latched stop. Pure: inputs, limits and time [ms] are arguments, messages
-// to the console are returned, so that it can be tested without a browser (tests/browser/motion_test.mjs).
+// to the console are returned, so that it can be tested without a browser (tests/browser/motion_property_test.mjs).
 //
 // 1. A stop latches. While latched, no motion command is returned. The latch is released when every input is neutral at
-//    the same time: no motion key, stop key, drive pad or turn button is held, the stick is in its dead zone and no
-//    gamepad button that accelerates is pressed.
-// 2. Motion is also latched for as long as it is disabled: this page does not drive, another robot has become the
-//    primary, or the robot's own controller drives.
+//    the same time: no motion key, stop key, drive pad, button or further finger on them is held, the stick is in its
+//    dead zone, and no gamepad button that moves or stops the robot is pressed. A stop also ends the cruise, that is, the
+//    speed set by accelerate.
+// 2. Motion is possible only while all gates are open: this page drives a robot that is active (`control`), the window has
+//    the focus (`focus`), the page is visible (`visible`), and the console answers (`link`). A gate that closes latches
+//    and, except for `control`, stops.
 // 3. A held input is a command at every tick. An input that was released sets its speed or turn to 0, once.
 // 4. `alive` is returned only while an input is held, or for PRESENCE_MS after the user's last input. After that a robot
-//    that cruises (a speed set by accelerate, no input held) is stopped.
+//    that cruises (no input held) is stopped.
+// 5. The maximum speed applies to every input.
+
+import { GamepadInput } from './gamepad.js';
 
 export const ALIVE_MS = 100;
 export const PRESENCE_MS = 5000;
-export const REPEAT_MS = 250;  // of accelerate and decelerate while their button is held
-const DEAD_ZONE = 0.12;
+export const PROMPT_MS = 3000;  // before the end of a cruise, the time for which the user is prompted
+export const SUSPENDED_MS = 2000;  // without a tick, after which the page was suspended
+const CONFIRM_MS = 1000;  // after an order, within which the robot's reports may be older
 const TURN_PART = 0.5;  // fraction of the robot's maximum, for keys and buttons
 
 export const MOTION_KEYS = {
   ArrowUp: { speed: 1 }, KeyW: { speed: 1 }, ArrowDown: { speed: -1 }, KeyS: { speed: -1 },
   ArrowLeft: { turn: 1 }, KeyA: { turn: 1 }, ArrowRight: { turn: -1 }, KeyD: { turn: -1 },
 };
-const MOTION_ORDERS = new Set(['accelerate', 'decelerate', 'turn_left', 'turn_right']);
-// As on the joystick of 2005, where buttons count from 1: 2 checks, 3 and 4 accelerate and decelerate. 1 switches.
-const GAMEPAD_BUTTONS = ['switch', 'check_win', 'accelerate', 'decelerate'];
-
-// A stick's deflection without its dead zone, with a low gain near the middle.
-export function shaped(value) {
-  const size = Math.abs(value);
-  if (!(size >= DEAD_ZONE)) return 0;
-  const rest = Math.min(1, (size - DEAD_ZONE) / (1 - DEAD_ZONE));
-  return Math.sign(value) * (0.4 * rest + 0.6 * rest * rest);
-}
+export const MOTION_ORDERS = new Set(['accelerate', 'decelerate', 'turn_left', 'turn_right']);
+const WHY_CLOSED = {
+  focus: 'has lost the focus', visible: 'is hidden', link: 'has received nothing from the console for 2 s',
+};
 
 export class Motion {
-  limit = 0.6;  // maximum speed, a fraction of the robot's; applies to every input
-  #held = new Map();  // by input: {speed} or {turn}, [-1, 1], or {} for a stop key or the key of a single order
-  #stick = { speed: 0, turn: 0 };
-  #pressed = [];  // by gamepad button: time of the last order; 0 while released
+  #limit = 0.6;  // maximum speed, a fraction of the robot's
+  #held = new Map();  // by input: {speed} or {turn}, [-1, 1], or {} for an input that only must be released
+  #gamepad = new GamepadInput();
   #owns = { speed: false, turn: false };
-  #isEnabled = false;
+  #gates = { control: false, focus: true, visible: true, link: true };
   #isLatched = true;
+  #latches = 0;  // number of times that motion was latched
   #isPresent = false;
   #input = -Infinity;  // time of the user's last input
   #sent = -Infinity;  // time of the last message
+  #ticked = Infinity;  // time of the last tick
   #commanded = 0;  // the robot's commanded speed, a fraction of its maximum
+  #ordered = -Infinity;  // time of the last message that set it
+  #cruise = 0;  // the speed set by accelerate and decelerate, a fraction of the robot's maximum
 
   get isLatched() {
     return this.#isLatched;
   }
-
-  // Enables motion commands. When disabled, held pointers are released, and must be pressed again.
-  enable(isEnabled) {
-    this.#isEnabled = isEnabled;
-    if (isEnabled) return;
-    this.latch();
-    for (const id of this.#held.keys()) if (!id.startsWith('key:')) this.#held.delete(id);
+  // Changes whenever motion is latched: a press that has begun before must have no effect afterwards.
+  get latches() {
+    return this.#latches;
+  }
+  // Names of the inputs that are not neutral.
+  get inputs() {
+    return [...this.#held.keys(), ...this.#gamepad.held];
+  }
+  get limit() {
+    return this.#limit;
   }
 
-  // The robot's commanded speed, a fraction of its maximum, for the limit of accelerate.
-  setCommanded(part) {
-    this.#commanded = part;
+  // A lower maximum slows a cruising robot down.
+  setLimit(part, now) {
+    this.noteInput(now);
+    this.#limit = part;
+    if (Math.abs(this.#cruise) <= part) return [];
+    this.#cruise = Math.sign(this.#cruise) * part;
+    this.#note(this.#cruise, now);
+    return this.#message(now, 'drive', { speed: this.#cruise });
+  }
+
+  // Opens or closes a gate. Inputs whose release may not be reported while it is closed are released: they must be
+  // pressed again.
+  setGate(gate, isOpen, now) {
+    if (this.#gates[gate] === isOpen) return [];
+    this.#gates[gate] = isOpen;
+    if (isOpen) return [];
+    this.latch();
+    const reportsKeys = gate === 'control' || gate === 'link';
+    for (const id of this.#held.keys()) if (!reportsKeys || !id.startsWith('key:')) this.#held.delete(id);
+    if (gate === 'control') return [];
+    this.#isPresent = false;
+    this.#input = -Infinity;
+    return this.#stop(now, WHY_CLOSED[gate]);
+  }
+
+  // The robot's commanded speed as reported by it, a fraction of its maximum, for the limit of accelerate. Reports that
+  // may be older than the last order are ignored.
+  setCommanded(part, now) {
+    if (now - this.#ordered >= CONFIRM_MS) this.#commanded = part;
   }
 
   // Records an input of the user, of any kind.
@@ -68,7 +99,12 @@ export class Motion {
     this.#isPresent = true;
   }
 
-  // `id` names the input: 'key:ArrowUp', 'pad', 'turn-left:3'. `command`: {speed}, {turn}, both, or {}.
+  // Time after which the cruise ends unless there is an input [ms]; null while the robot does not cruise.
+  cruiseEnds(now) {
+    return this.#cruise !== 0 && this.#isNeutral() ? Math.max(0, this.#input + PRESENCE_MS - now) : null;
+  }
+
+  // `id` names the input: 'key:ArrowUp', 'pad:3', 'turn_left:3'. `command`: {speed}, {turn}, both, or {}.
   hold(id, command, now) {
     this.noteInput(now);
     this.#settle();
@@ -85,12 +121,13 @@ export class Motion {
   isHeld(id) {
     return this.#held.has(id);
   }
-  // The window has lost the focus, so that the release of a key or pointer may not be reported.
-  releaseAll(now) {
-    this.#held.clear();
-    const messages = this.#drive(now);
-    this.#settle();
-    return messages;
+  // An input is held whose press was not reported, for example because the window had no focus.
+  find(id, now) {
+    if (this.#held.has(id)) return [];
+    this.#held.set(id, {});
+    if (this.#isLatched) return [];
+    this.latch();
+    return this.#stop(now);
   }
 
   stop(now, why) {
@@ -106,14 +143,29 @@ export class Motion {
     if (MOTION_ORDERS.has(type) && this.#isLatched) return [];
     const by = { accelerate: 0.1, decelerate: -0.1 }[type] ?? 0;
     const next = this.#commanded + by;
-    if (by && Math.abs(next) > Math.abs(this.#commanded) && Math.abs(next) > this.limit + 1e-9) return [];
-    if (by) this.#commanded = next;
+    if (by && Math.abs(next) > Math.abs(this.#commanded) && Math.abs(next) > this.#limit + 1e-9) return [];
+    if (by) {
+      this.#cruise = Math.abs(next) < 1e-9 ? 0 : next;
+      this.#note(this.#cruise, now);
+    }
     return this.#message(now, type);
   }
 
   // To be called about every 50 ms. `gamepad`: {axes, buttons: [{pressed}]}, null for none. `switch` is returned like a message.
   tick(now, gamepad) {
-    const orders = this.#read(gamepad, now);
+    const isSuspended = now - this.#ticked >= SUSPENDED_MS;
+    this.#ticked = now;
+    const { orders, stops, connected, disconnected } = this.#gamepad.read(gamepad, now);
+    if (stops) return this.stop(now);
+    if (isSuspended || disconnected) {
+      this.latch();
+      return this.#stop(now, disconnected ? 'has lost its gamepad' : 'was suspended');
+    }
+    if (connected && this.#gamepad.held.length > 0) {  // deflected initially
+      this.latch();
+      return this.#stop(now);
+    }
+    if (!this.#gates.focus || !this.#gates.visible) return [];
     this.#settle();
     const messages = orders.flatMap((type) => this.order(type, now));
     // A robot executes one order per step: the command of held inputs follows at the next tick.
@@ -123,41 +175,33 @@ export class Motion {
     if (now - this.#input >= PRESENCE_MS) {
       if (!this.#isPresent) return messages;
       this.#isPresent = false;
+      this.latch();
       return [...messages, ...this.#stop(now, `received no key, pointer or gamepad input for ${PRESENCE_MS / 1000} s`)];
     }
     if (messages.length === 0 && now - this.#sent >= ALIVE_MS) return this.#message(now, 'alive');
     return messages;
   }
 
-  // No motion until every input has been neutral, for example before another robot is driven.
+  // No motion until every input has been neutral: another robot is driven, or the robot itself has stopped. It stands.
   latch() {
     this.#isLatched = true;
+    ++this.#latches;
     this.#owns = { speed: false, turn: false };
+    this.#commanded = this.#cruise = 0;
   }
 
+  get #isEnabled() {
+    return Object.values(this.#gates).every(Boolean);
+  }
   #stop(now, why) {
-    this.#commanded = 0;
+    this.#note(0, now);
     return this.#message(now, 'stop', why ? { why } : {});
   }
   #settle() {
     if (this.#isEnabled && this.#isNeutral()) this.#isLatched = false;
   }
   #isNeutral() {
-    return this.#held.size === 0 && this.#stick.speed === 0 && this.#stick.turn === 0 &&
-      !this.#pressed[2] && !this.#pressed[3];
-  }
-
-  // Reads the gamepad's state. Returns the orders of its buttons.
-  #read(gamepad, now) {
-    this.#stick = { speed: -shaped(gamepad?.axes[1] ?? 0), turn: -shaped(gamepad?.axes[0] ?? 0) };
-    return GAMEPAD_BUTTONS.filter((order, i) => {
-      const since = this.#pressed[i] ?? 0;
-      const isPressed = Boolean(gamepad?.buttons[i]?.pressed);
-      const isOrder = isPressed && (!since || (order.endsWith('celerate') && now - since >= REPEAT_MS));
-      if (isOrder) this.noteInput(now);
-      if (isOrder || !isPressed) this.#pressed[i] = isPressed ? Math.max(now, 1) : 0;
-      return isOrder;
-    });
+    return this.#held.size === 0 && this.#gamepad.held.length === 0;
   }
 
   // Command of the held inputs: speed and turn as fractions of the robot's maximum; null without such an input.
@@ -167,9 +211,10 @@ export class Motion {
       if (speed !== undefined) command.speed = (command.speed ?? 0) + speed;
       if (turn !== undefined) command.turn = (command.turn ?? 0) + turn;
     }
-    for (const part of ['speed', 'turn']) if (this.#stick[part] !== 0) command[part] = this.#stick[part];
+    const { stick } = this.#gamepad;
+    for (const part of ['speed', 'turn']) if (stick[part] !== 0) command[part] = stick[part];
     const within = (value) => Math.max(-1, Math.min(1, value));
-    if (command.speed !== null) command.speed = this.limit * within(command.speed);
+    if (command.speed !== null) command.speed = this.#limit * within(command.speed);
     if (command.turn !== null) command.turn = within(command.turn);
     return command;
   }
@@ -184,10 +229,17 @@ export class Motion {
       this.#owns[part] = command[part] !== null;
     }
     if (Object.keys(members).length === 0) return [];
-    if (members.speed !== undefined) this.#commanded = members.speed;
+    if (members.speed !== undefined) {
+      this.#cruise = 0;
+      this.#note(members.speed, now);
+    }
     return this.#message(now, 'drive', members);
   }
 
+  #note(commanded, now) {
+    this.#commanded = commanded;
+    this.#ordered = now;
+  }
   #message(now, type, members = {}) {
     this.#sent = now;
     return [{ type, members }];

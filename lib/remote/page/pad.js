@@ -1,33 +1,40 @@
-// The drive pad: dragging the knob up drives ahead; when released it returns to the centre.
+// The drive pad: dragging the knob up drives ahead; when released it returns to the centre. The first finger drags; while
+// further ones rest on the pad, it is not neutral either.
 
 const REACH = 0.34;  // maximum deflection of the knob, as a fraction of the pad's width
 
 export class Pad {
-  #pointer = null;
+  #pointer = null;  // the one that drags
+  #others = new Set();
 
   constructor(pad, knob, drive) {
     this.pad = pad;
     this.knob = knob;
     this.drive = drive;
-    pad.addEventListener('pointerdown', (event) => {
-      if (pad.getAttribute('aria-disabled') === 'true' || this.#pointer !== null) return;
-      this.#pointer = event.pointerId;
-      pad.setPointerCapture(event.pointerId);
-      this.#move(event);
-    });
+    pad.addEventListener('pointerdown', (event) => this.#press(event));
     pad.addEventListener('pointermove', (event) => {
       if (event.pointerId === this.#pointer) this.#move(event);
     });
-    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) {
-      pad.addEventListener(end, (event) => {
-        if (event.pointerId === this.#pointer) this.#release();
-      });
-    }
+    pad.addEventListener('lostpointercapture', (event) => this.#release(event.pointerId));
+    // On the window: a pointer that is not captured may end outside of the pad.
+    for (const end of ['pointerup', 'pointercancel']) addEventListener(end, (event) => this.#release(event.pointerId), true);
   }
 
   enable(isEnabled) {
     this.pad.setAttribute('aria-disabled', String(!isEnabled));
-    if (!isEnabled && this.#pointer !== null) this.#release();
+    if (!isEnabled) for (const pointer of [this.#pointer, ...this.#others]) this.#release(pointer);
+  }
+
+  #press(event) {
+    if (this.pad.getAttribute('aria-disabled') === 'true') return;
+    if (this.#pointer !== null) {
+      this.#others.add(event.pointerId);
+      this.drive.hold(`pad:${event.pointerId}`, {});
+      return;
+    }
+    this.#pointer = event.pointerId;
+    this.#move(event);
+    this.pad.setPointerCapture(event.pointerId);
   }
 
   #move(event) {
@@ -38,12 +45,16 @@ export class Pad {
     const size = Math.hypot(x, y);
     if (size > 1) [x, y] = [x / size, y / size];
     this.knob.style.transform = `translate(${x * reach}px, ${y * reach}px)`;
-    this.drive.hold('pad', { speed: -y, turn: -0.8 * x });
+    this.drive.hold(`pad:${event.pointerId}`, { speed: -y, turn: -0.8 * x });
   }
 
-  #release() {
-    this.#pointer = null;
-    this.knob.style.transform = '';
-    this.drive.release('pad');
+  #release(pointer) {
+    if (pointer === this.#pointer) {
+      this.#pointer = null;
+      this.knob.style.transform = '';
+    } else if (!this.#others.delete(pointer)) {
+      return;
+    }
+    this.drive.release(`pad:${pointer}`);
   }
 }

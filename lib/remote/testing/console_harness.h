@@ -122,7 +122,7 @@ class ConsoleHarness {
     if (!jpeg.empty()) news.picture = std::make_shared<const RobotPicture>(RobotPicture{steps_, jpeg});
     this->update();
   }
-  void update() { perform(session.update({row, is_map_watched ? map : nullptr, access.refresh()}, now)); }
+  void update() { perform(session.update({row, is_map_watched ? map : nullptr, access.refresh(), run}, now)); }
   ///@}
 
   /// Sends up to `most` waiting messages to a page. @return their number
@@ -163,10 +163,11 @@ class ConsoleHarness {
   std::vector<TeamRobot> row;  ///< the primary first
   std::shared_ptr<const MapView> map;
   bool is_map_watched = false;
+  RunView run;
   std::map<PageId, Page> pages;
   std::vector<Order> orders;
   std::vector<std::string> log;
-  std::size_t motions = 0, switches = 0, disconnections = 0;  ///< in all
+  std::size_t motions = 0, switches = 0, disconnections = 0, restarts = 0;  ///< in all
 
  private:
   Access::Options accessOptions() {
@@ -273,6 +274,11 @@ class ConsoleHarness {
     row.front().news.state.autonomous = false;
     row.front().news.state.is_yours = true;
     return true;
+  }
+  bool operator()(const RestartRun&) {
+    require(run.may_restart && !run.is_restarting, "a run is started only after the end of the previous one");
+    ++restarts;
+    return false;
   }
   bool operator()(const WatchMap& action) {
     is_map_watched = action.watched;

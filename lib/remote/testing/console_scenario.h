@@ -14,8 +14,8 @@ namespace robosim {
 class ConsoleScenario {
  public:
   static constexpr std::size_t kMaxPages = 6;
-  /// Queued messages, and one each of: robot, team, map, poses; and three updates.
-  static constexpr std::size_t kMaxWaiting = PageOutbox::kMaxQueued + 7;
+  /// Queued messages, and one each of: robot, team, run, map, poses, pulse; and three updates.
+  static constexpr std::size_t kMaxWaiting = PageOutbox::kMaxQueued + 9;
 
   /// Bytes of the input; zeros after its end.
   class Source {
@@ -55,6 +55,7 @@ class ConsoleScenario {
         harness.read(page, bytes.below(kMaxWaiting));
         return;
       case 8:
+        harness.run.may_restart = !harness.run.may_restart;
         return change(harness.row[bytes.below(harness.row.size())].news, bytes.below(4));
       case 9:
         return harness.step();
@@ -106,6 +107,7 @@ class ConsoleScenario {
       R"({"type":"switch","robot":"Ann"})",
       R"({"type":"switch","robot":"Bob"})",
       R"({"type":"switch","robot":"Cid"})",
+      R"({"type":"play_again"})",
       R"({"type":"live","on":false})",
       R"({"type":"map","on":true})",
       R"({"type":"map","on":false})",

@@ -1,0 +1,37 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace robosim {
+
+/// State of the environment's run, as far as the console can observe it.
+struct RunView {
+  enum class Phase {
+    unknown,  ///< never observed: the address is wrong, or the token permits no status
+    gone,     ///< observed before, and no status has arrived for RunSource::kSilence
+    waiting,  ///< for robots' processes: `absent`
+    paused,
+    running,
+    ended,
+  };
+  Phase phase = Phase::unknown;
+  std::string problem{};              ///< why there is no status; empty while there is
+  std::vector<std::string> absent{};  ///< robots without a process, of those in other processes
+  /// Whether restart() can start the next run: this one is over, the environment still serves, and the console's own
+  /// token is an operator's.
+  bool may_restart = false;
+  bool is_restarting = false;
+  std::string restart_problem{};  ///< why the last restart has failed; empty when it has not
+  bool operator==(const RunView&) const = default;
+};
+
+/// Source of the run's state. Called from one thread.
+class RunSource {
+ public:
+  virtual ~RunSource() = default;
+  virtual RunView newest() = 0;
+  /// Loads the run's world again, and starts it. Does not block: newest() contains the result.
+  virtual void restart() = 0;
+};
+
+}  // namespace robosim

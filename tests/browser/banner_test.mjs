@@ -1,0 +1,53 @@
+// One banner with one cause, and when "You drive" is shown: lib/remote/page/banner.js, in all combinations of its inputs.
+
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+
+import { pageModule } from './page_module.mjs';
+
+const { bannerOf, CAUSES, statusOf } = await pageModule('banner.js');
+const BOOLEANS = [false, true];
+const PHASES = ['unknown', 'gone', 'waiting', 'paused', 'running', 'ended'];
+
+function* states() {
+  for (const isOpen of BOOLEANS) for (const isSilent of BOOLEANS) for (const winner of ['', 'Bob']) for (const up of BOOLEANS)
+  for (const problem of ['', 'no robot answers', 'the run is over']) for (const phase of PHASES) for (const isFresh of BOOLEANS)
+  for (const absent of [[], ['Ann'], ['Bob']]) {
+    yield { link: { isOpen, isSilent, why: '' }, team: { winner, robots: [{ name: 'Ann', up, problem }] }, run: { phase, problem: '', absent }, isFresh };
+  }
+}
+
+// Whether a cause is true, independent of all others.
+const HOLDS = {
+  console_gone: ({ link }) => !link.isOpen || link.isSilent,
+  won: ({ team }) => team.winner !== '',
+  run_over: ({ team, run }) => run.phase === 'ended' || team.robots[0].problem === 'the run is over',
+  environment_gone: ({ team, run, isFresh }) => run.phase === 'gone' && !(team.robots[0].up && isFresh),
+  robot_down: ({ team }) => !team.robots[0].up,
+  waiting: ({ run, isFresh }) => run.phase === 'waiting' && run.absent.includes('Bob') && !isFresh,
+  paused: ({ run, isFresh }) => run.phase === 'paused' && !isFresh,
+  robot_frozen: ({ run, isFresh }) => ['running', 'waiting'].includes(run.phase) && !isFresh,
+  silent: ({ run, isFresh }) => run.phase === 'unknown' && !isFresh,
+};
+
+test('of the causes that are true, the banner states the first, and none if none is true', () => {
+  const seen = new Set();
+  for (const state of states()) {
+    const expected = CAUSES.find((cause) => HOLDS[cause](state)) ?? null;
+    assert.equal(bannerOf(state)?.cause ?? null, expected, JSON.stringify(state));
+    seen.add(expected);
+  }
+  assert.deepEqual([...seen].sort(), [...CAUSES, null].sort());
+});
+
+test('"You drive" is shown only while commands are sent and arrive at an active robot of this page', () => {
+  for (const isOpen of BOOLEANS) for (const isSilent of BOOLEANS) for (const up of BOOLEANS) for (const isYours of BOOLEANS)
+  for (const autonomous of BOOLEANS) for (const activity of ['active', 'halted']) for (const isFresh of BOOLEANS)
+  for (const holdsLock of BOOLEANS) for (const isSending of BOOLEANS) {
+    const robot = { up, is_yours: isYours, driver: '', autonomous, activity };
+    const { text } = statusOf({ link: { isOpen, isSilent }, team: { robots: [robot] }, isFresh, holdsLock, isSending });
+    const drives = isOpen && !isSilent && up && isYours && !autonomous && activity === 'active' && isFresh && holdsLock && isSending;
+    assert.equal(text === 'You drive', drives);
+    if (!isOpen || isSilent) assert.equal(text, 'No connection');
+  }
+});
