@@ -42,14 +42,14 @@ function randomEvent(random) {
   if (kind < 4) return { wait, do: 'hold', id: INPUTS[random(INPUTS.length)] };
   if (kind < 9) return { wait, do: 'release', id: INPUTS[random(INPUTS.length)] };
   if (kind < 10) return { wait, do: 'find', id: INPUTS[random(2)] };
-  if (kind < 11) return { wait, do: 'stop' };
+  if (kind < 11) return random(2) ? { wait, do: 'stop' } : { wait, do: 'stopBy', id: ['key:Space', 'stop:3'][random(2)] };
   if (kind < 13) return { wait, do: 'order', type: ORDERS[random(ORDERS.length)] };
   if (kind < 14) return { wait, do: 'gate', gate: GATES[random(4)], isOpen: random(4) > 0 };
   if (kind < 15) return { wait, do: 'gates' };
   if (kind < 16) return { wait, do: 'limit', part: LIMITS[random(4)] };
   if (kind < 17) return { wait, do: 'commanded', part: (random(21) - 10) / 10 };
-  if (kind < 18) return { wait, do: 'latch' };
-  if (kind < 19) return { wait, do: 'neutral' };
+  if (kind < 18) return random(2) ? { wait, do: 'latch' } : { wait, do: 'move', id: 'pad:1', command: { speed: random(3) - 1, turn: random(3) - 1 } };
+  if (kind < 20) return { wait, do: 'neutral' };
   if (kind < 21) {
     const isNeutral = random(2) === 0;
     const buttons = Array.from({ length: 8 }, () => !isNeutral && random(8) === 0);
@@ -92,7 +92,7 @@ class Run {
     let messages = [];
     switch (event.do) {
       case 'hold':
-        this.#settle();
+        this.#poll(event);
         this.input = now;
         messages = motion.hold(event.id, COMMANDS[event.id], now);
         this.held.add(event.id);
@@ -107,13 +107,26 @@ class Run {
         messages = motion.find(event.id, now);
         this.held.add(event.id);
         break;
+      case 'move':
+        this.#poll(event);
+        this.input = now;
+        if (!this.held.has(event.id)) this.isLatched = true;  // its press was not reported
+        messages = motion.move(event.id, event.command, now);
+        this.held.add(event.id);
+        break;
+      case 'stopBy':
+        this.isLatched = mustStop = true;
+        this.input = now;
+        this.held.add(event.id);
+        messages = motion.stopBy(event.id, now);
+        break;
       case 'stop':
         this.isLatched = mustStop = true;
         this.input = now;
         messages = motion.stop(now);
         break;
       case 'order':
-        this.#settle();
+        this.#poll(event);
         this.input = now;
         messages = motion.order(event.type, now);
         break;
@@ -164,9 +177,14 @@ class Run {
     this.isLatched = true;
     this.commanded = 0;
     if (gate !== 'control') this.input = -Infinity;
-    const keepsKeys = gate === 'control' || gate === 'link';
-    for (const id of this.held) if (!keepsKeys || !id.startsWith('key:')) this.held.delete(id);
+    if (gate === 'focus' || gate === 'visible') this.held.clear();
     return Object.assign(messages, { mustStop: gate !== 'control' });
+  }
+
+  // As the page does before each of the user's inputs.
+  #poll(event) {
+    const { messages, mustStop } = this.#tick();
+    this.#check(messages, mustStop, event);
   }
 
   #tick() {
@@ -175,7 +193,7 @@ class Run {
     const stopsNow = this.pad?.buttons.some((pressed, i) => i >= 4 && pressed && !before?.buttons[i]) ?? false;
     const wasSuspended = this.ticked !== null && this.now - this.ticked >= 2000;
     this.ticked = this.now;
-        const isUsed = this.pad && (this.pad.axes.some((axis) => axis !== 0) || this.pad.buttons.some(Boolean));
+    const isUsed = this.pad && (this.pad.axes.some((axis) => axis !== 0) || this.pad.buttons.some(Boolean));
     const isDeflected = isUsed && (this.pad.axes.some((axis) => axis !== 0) || this.pad.buttons.slice(2).some(Boolean));
     const mustStop = stopsNow || wasSuspended || Boolean(before && !this.pad) || (!before && isDeflected);
     if (mustStop) this.isLatched = true;

@@ -79,6 +79,7 @@ for (const [what, hold, release] of [
     assert.ok(!motion.order('accelerate', 1001).some(isMotion));
     assert.ok(!hold(motion, 1002).some(isMotion), 'held on');
     release(motion, 1010);
+    motion.tick(1015, what === 'the stick' ? pad(0, 0) : null);
     assert.ok(hold(motion, 1020).some(isMotion));
   });
 }
@@ -99,6 +100,7 @@ test('without control no input moves the robot, nor do inputs held when control 
   motion.setGate('control', true, 0);
   assert.ok(!motion.tick(50, null).some(isMotion));
   motion.release('key:KeyW', 60);
+  motion.tick(65, null);
   assert.ok(motion.hold('key:KeyW', heldKey('KeyW'), 70).some(isMotion));
   motion.latch();  // another robot is the primary now
   assert.ok(!motion.tick(100, null).some(isMotion));
@@ -173,6 +175,7 @@ for (const [gate, why] of [
     for (let t = 100; t < 1000; t += 50) assert.ok(!motion.tick(t, pad(0, -1)).some(isMotion));
     motion.setGate(gate, true, 1000);
     assert.ok(!motion.tick(1050, pad(0, -1)).some(isMotion), 'the stick is still deflected');
+    motion.release('pad:1', 1060);
     motion.tick(1100, pad(0, 0));
     assert.ok(motion.tick(1150, pad(0, -1)).some(isMotion));
   });
@@ -201,6 +204,7 @@ test('a repeated key whose press was not reported stops the robot and is not neu
   assert.ok(!motion.hold('pad:1', { speed: 1, turn: 0 }, 40).some(isMotion));
   motion.release('pad:1', 50);
   motion.release('key:KeyW', 60);
+  motion.tick(65, null);
   assert.ok(motion.hold('pad:1', { speed: 1, turn: 0 }, 70).some(isMotion));
 });
 

@@ -37,7 +37,12 @@ export const STATES = {
   driving: {},
   watching: { holder: 2 },
   down: { is_down: true },
-  over: { winner: 'Pioneer1' },
+  won: { winner: 'Pioneer1', run: { phase: 'ended', may_restart: true } },
+  over: { run: { phase: 'ended' } },
+  gone: { is_silent: true, run: { phase: 'gone', problem: 'no answer for 1 s from environment.example:10000; is \'robosim serve\' running there?' } },
+  frozen: { is_silent: true },
+  waiting: { is_silent: true, run: { phase: 'waiting', absent: ['Scout1', 'Pioneer2', 'Scout2', 'Pioneer3'] } },
+  paused: { is_silent: true, run: { phase: 'paused' } },
   stalled: { is_stalled: true },
   'no camera': { has_camera: false },
   '30 robots': { robots: 30, has_map: true },
@@ -45,17 +50,22 @@ export const STATES = {
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_stalled = false, has_camera = true, has_long_names = false }) {
-    Object.assign(this, { socket, holder, is_down, winner, is_stalled, has_camera, step: 6000 });
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, run = {} }) {
+    const isSilent = is_silent;
+    Object.assign(this, { socket, holder, is_down, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
   }
 
   send(message) {
+    if (this.isMute) return;
     this.socket.send(JSON.stringify(message));
   }
 
-  receive({ type, number, on }) {
+  // `onMessage` is called with each of the page's messages.
+  receive(message) {
+    const { type, number, on } = message;
+    this.onMessage?.(message);
     if (type === 'ping') this.send({ type: 'pong', number });
     if (type === 'hello') this.welcome();
     if (type === 'map' && on) this.sendMap();
@@ -63,7 +73,8 @@ class Script {
   }
 
   welcome() {
-    this.send({ type: 'welcome', you: 1 });
+    this.send({ type: 'welcome', you: 1, may_operate: true });
+    this.sendRun(this.run);
     this.send({
       type: 'robot', name: this.names[0], model: 'pioneer3dx_driven', radius_m: 0.267, speed_max_mps: 1, turn_max_radps: 1.74, period_s: 0.02,
       sensors: sensors(this.has_camera),
@@ -72,6 +83,14 @@ class Script {
     this.send({ type: 'note', text: 'Pioneer1 is too far from the gold to have won.', warning: true });
     this.updates = 0;
     this.sendUpdate();
+    if (this.hasPulse) return;
+    this.hasPulse = true;
+    const pulse = setInterval(() => this.send({ type: 'pulse' }), 250);
+    this.socket.onClose(() => clearInterval(pulse));
+  }
+
+  sendRun(run) {
+    this.send({ type: 'run', phase: 'running', problem: '', absent: [], may_restart: false, is_restarting: false, ...run });
   }
 
   sendTeam() {
@@ -101,8 +120,9 @@ class Script {
     });
   }
 
-  sendUpdate() {
-    if (this.is_down && this.updates > 0) return;
+  // `isForced`: also of a robot that does not report
+  sendUpdate({ isForced = false } = {}) {
+    if (!isForced && (this.is_down || this.isSilent) && this.updates > 0) return;
     ++this.updates;
     this.step += 2;
     const time_s = this.step * 0.02;
@@ -112,7 +132,7 @@ class Script {
       odometry: { x_m: 0.4 * time_s, y_m: Math.sin(time_s / 3), heading_rad: 0.3, speed_mps: 0.42, turn_radps: -0.35 }, compass: 0.3, battery: 12.61,
     };
     const json = Buffer.from(JSON.stringify({
-      type: 'update', robot: this.names[0], step: this.step, time_s, stalled: this.is_stalled, laser_pan_rad: 0,
+      type: 'update', robot: this.names[0], step: this.step, time_s, driven_m: 0.4 * time_s, stalled: this.is_stalled, laser_pan_rad: 0,
       state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? 1 : 0 },
       measurements: sensors(this.has_camera).map(({ kind }) => measured[kind]), ...(this.has_camera ? { picture_step: this.step } : {}),
     }));
@@ -123,7 +143,8 @@ class Script {
 }
 
 // A page in one of STATES, which has drawn two updates. `page.script` changes the state.
-export async function visitScripted(browser, state, options = {}) {
+// `hasClock`: the page's clock is page.clock (Playwright); `init`: a script that runs before the page's.
+export async function visitScripted(browser, state, { hasClock = false, init, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
   const page = await context.newPage();
   page.problems = [];
@@ -135,6 +156,8 @@ export async function visitScripted(browser, state, options = {}) {
     return route.fulfill({ body: readFileSync(file), headers: { ...HEADERS, 'content-type': TYPES[extname(file)] } });
   });
   await page.routeWebSocket(`${ORIGIN.replace('http', 'ws')}/**`, (socket) => { page.script = new Script(socket, STATES[state]); });
+  if (hasClock) await page.clock.install();
+  if (init) await page.addInitScript(init);
   await page.goto(ORIGIN);
   await page.waitForFunction(() => document.body.dataset.step > 0);
   if (STATES[state].has_map) await page.click('#map-toggle');

@@ -72,7 +72,12 @@ export class Drive extends EventTarget {
   }
 
   hold(id, command) {
+    this.#poll();
     this.#send(this.#motion.hold(id, command, now()));
+  }
+  move(id, command) {
+    this.#poll();
+    this.#send(this.#motion.move(id, command, now()));
   }
   release(id) {
     this.#send(this.#motion.release(id, now()));
@@ -80,8 +85,13 @@ export class Drive extends EventTarget {
   stop(why) {
     this.#send(this.#motion.stop(now(), why));
   }
+  // A stop by an input that is not neutral until release(id).
+  stopBy(id) {
+    this.#send(this.#motion.stopBy(id, now()));
+  }
   // A single order: accelerate, turn_left, check_win …
   order(type) {
+    this.#poll();
     this.#send(this.#motion.order(type, now()));
   }
 
@@ -132,10 +142,7 @@ export class Drive extends EventTarget {
   }
 
   #stopKeyDown(event) {
-    if (!event.repeat) {
-      this.hold(`key:${event.code}`, {});  // first, so that the stop is latched until its release
-      this.stop();
-    }
+    if (!event.repeat) this.stopBy(`key:${event.code}`);
     // Besides, a text field receives the space, and Esc closes a dialog.
     if (event.code !== 'Space' || takesText(event.target)) return;
     event.preventDefault();
@@ -147,12 +154,16 @@ export class Drive extends EventTarget {
     this.release(`key:${event.code}`);
   }
 
+  #poll() {
+    const gamepad = [...(navigator.getGamepads?.() ?? [])].find((pad) => pad?.connected) ?? null;
+    this.#send(this.#motion.tick(now(), gamepad));
+  }
+
   #tick() {
     this.#setGate('focus', document.hasFocus());
     this.#setGate('visible', !document.hidden);
     this.#setGate('link', !this.isLost());
-    const gamepad = [...(navigator.getGamepads?.() ?? [])].find((pad) => pad?.connected) ?? null;
-    this.#send(this.#motion.tick(now(), gamepad));
+    this.#poll();
     this.dispatchEvent(new Event('tick'));
   }
 }

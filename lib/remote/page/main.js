@@ -256,8 +256,8 @@ function showControls() {
   for (const id of ['stop', 'autonomous']) $(id).disabled = !may;
   $('next').disabled = !hasControl() || !state.team.robots.slice(1).some((robot) => robot.fit);
   $('autonomous').setAttribute('aria-pressed', String(Boolean(primary?.autonomous)));
-  pad.enable(steers);
   drive.enable(steers);
+  pad.enable(steers);
   showMode();
 }
 

@@ -72,15 +72,14 @@ export class Motion {
     return this.#message(now, 'drive', { speed: this.#cruise });
   }
 
-  // Opens or closes a gate. Inputs whose release may not be reported while it is closed are released: they must be
-  // pressed again.
+  // Opens or closes a gate. A window without the focus, or hidden, is not told of releases, so that its inputs are
+  // considered released: they must be pressed again.
   setGate(gate, isOpen, now) {
     if (this.#gates[gate] === isOpen) return [];
     this.#gates[gate] = isOpen;
     if (isOpen) return [];
     this.latch();
-    const reportsKeys = gate === 'control' || gate === 'link';
-    for (const id of this.#held.keys()) if (!reportsKeys || !id.startsWith('key:')) this.#held.delete(id);
+    if (gate === 'focus' || gate === 'visible') this.#held.clear();
     if (gate === 'control') return [];
     this.#isPresent = false;
     this.#input = -Infinity;
@@ -107,16 +106,21 @@ export class Motion {
   // `id` names the input: 'key:ArrowUp', 'pad:3', 'turn_left:3'. `command`: {speed}, {turn}, both, or {}.
   hold(id, command, now) {
     this.noteInput(now);
-    this.#settle();
     this.#held.set(id, command);
     return this.#drive(now);
   }
   release(id, now) {
     this.noteInput(now);
-    if (!this.#held.delete(id)) return [];
-    const messages = this.#drive(now);
-    this.#settle();
-    return messages;
+    return this.#held.delete(id) ? this.#drive(now) : [];
+  }
+  // A held input has another command. Without a command since its press, or without a press that was reported, it keeps
+  // none until it is released.
+  move(id, command, now) {
+    this.noteInput(now);
+    const held = this.#held.get(id);
+    if (!held) return this.find(id, now);
+    if (Object.keys(held).length > 0) this.#held.set(id, command);
+    return this.#drive(now);
   }
   isHeld(id) {
     return this.#held.has(id);
@@ -130,6 +134,11 @@ export class Motion {
     return this.#stop(now);
   }
 
+  // `id` names the input that stops, which is held from now on.
+  stopBy(id, now) {
+    this.#held.set(id, {});
+    return this.stop(now);
+  }
   stop(now, why) {
     this.noteInput(now);
     this.latch();
@@ -139,7 +148,6 @@ export class Motion {
   // A single order. Orders that move the robot are dropped while latched, and accelerate at the maximum speed.
   order(type, now) {
     this.noteInput(now);
-    this.#settle();
     if (MOTION_ORDERS.has(type) && this.#isLatched) return [];
     const by = { accelerate: 0.1, decelerate: -0.1 }[type] ?? 0;
     const next = this.#commanded + by;
@@ -151,7 +159,8 @@ export class Motion {
     return this.#message(now, type);
   }
 
-  // To be called about every 50 ms. `gamepad`: {axes, buttons: [{pressed}]}, null for none. `switch` is returned like a message.
+  // To be called about every 50 ms, and before hold(), move() and order(), because only this releases the latch: the state of
+  // the stick is known here. `gamepad`: {axes, buttons: [{pressed}]}, null for none. `switch` is returned like a message.
   tick(now, gamepad) {
     const isSuspended = now - this.#ticked >= SUSPENDED_MS;
     this.#ticked = now;

@@ -13,7 +13,7 @@ export class Pad {
     this.drive = drive;
     pad.addEventListener('pointerdown', (event) => this.#press(event));
     pad.addEventListener('pointermove', (event) => {
-      if (event.pointerId === this.#pointer) this.#move(event);
+      if (event.pointerId === this.#pointer) this.drive.move(`pad:${event.pointerId}`, this.#commandAt(event));
     });
     pad.addEventListener('lostpointercapture', (event) => this.#release(event.pointerId));
     // On the window: a pointer that is not captured may end outside of the pad.
@@ -22,22 +22,26 @@ export class Pad {
 
   enable(isEnabled) {
     this.pad.setAttribute('aria-disabled', String(!isEnabled));
-    if (!isEnabled) for (const pointer of [this.#pointer, ...this.#others]) this.#release(pointer);
+    if (isEnabled || this.#pointer === null) return;
+    this.#others.add(this.#pointer);  // it no longer drags, and is not neutral until it is released
+    this.drive.hold(`pad:${this.#pointer}`, {});
+    this.#center();
   }
 
   #press(event) {
     if (this.pad.getAttribute('aria-disabled') === 'true') return;
-    if (this.#pointer !== null) {
+    if (this.#pointer !== null || this.#others.size > 0) {
       this.#others.add(event.pointerId);
       this.drive.hold(`pad:${event.pointerId}`, {});
       return;
     }
     this.#pointer = event.pointerId;
-    this.#move(event);
+    this.drive.hold(`pad:${event.pointerId}`, this.#commandAt(event));
     this.pad.setPointerCapture(event.pointerId);
   }
 
-  #move(event) {
+  // Moves the knob there.
+  #commandAt(event) {
     const box = this.pad.getBoundingClientRect();
     const reach = REACH * box.width;
     let x = (event.clientX - box.left - box.width / 2) / reach;
@@ -45,16 +49,17 @@ export class Pad {
     const size = Math.hypot(x, y);
     if (size > 1) [x, y] = [x / size, y / size];
     this.knob.style.transform = `translate(${x * reach}px, ${y * reach}px)`;
-    this.drive.hold(`pad:${event.pointerId}`, { speed: -y, turn: -0.8 * x });
+    return { speed: -y, turn: -0.8 * x };
   }
 
   #release(pointer) {
-    if (pointer === this.#pointer) {
-      this.#pointer = null;
-      this.knob.style.transform = '';
-    } else if (!this.#others.delete(pointer)) {
-      return;
-    }
+    if (pointer === this.#pointer) this.#center();
+    else if (!this.#others.delete(pointer)) return;
     this.drive.release(`pad:${pointer}`);
+  }
+
+  #center() {
+    this.#pointer = null;
+    this.knob.style.transform = '';
   }
 }

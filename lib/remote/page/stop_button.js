@@ -4,8 +4,7 @@ export function makeStopButton(button, drive) {
   const pressed = new Set();
   button.addEventListener('pointerdown', (event) => {
     pressed.add(event.pointerId);
-    drive.hold(`stop:${event.pointerId}`, {});  // first, so that the stop is latched until its release
-    drive.stop();
+    drive.stopBy(`stop:${event.pointerId}`);
   });
   for (const end of ['pointerup', 'pointercancel']) {
     addEventListener(end, (event) => {

@@ -1,0 +1,220 @@
+// A thousand random events of keyboard, mouse, touch, gamepad, focus, dialog and connection on the page: after a stop, no
+// motion command is sent until every input has been neutral at the same time. motion_property_test.mjs tests the state
+// machine alone with a million.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { openBrowser } from './browser.mjs';
+import { emulateGamepad } from './emulated_gamepad.mjs';
+import { visitScripted } from './scripted_console.mjs';
+
+const EVENTS = 1000;
+
+let browser;
+before(async () => { browser = await openBrowser(); });
+after(async () => { await browser?.close(); });
+
+// Runs before the page's scripts, so that its listeners are the first. Records what a spectator sees: which inputs are
+// held, when a stop was requested, and what the page sends.
+function spectate() {
+  const held = new Set();
+  const seen = { isBlocked: false, motions: 0, stops: 0, violations: [], log: [] };
+  window.spectator = seen;
+  const MOTION = ['drive', 'accelerate', 'decelerate', 'turn_left', 'turn_right'];
+  const KEYS = ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight', 'KeyW', 'KeyA', 'KeyS', 'KeyD', 'Space', 'Escape', 'Equal', 'Minus'];
+  const note = (text) => {
+    seen.log.push(text);
+    if (seen.log.length > 30) seen.log.shift();
+  };
+  const isGamepadNeutral = () => !emulatedGamepad || (emulatedGamepad.axes.every((axis) => Math.abs(axis) < 0.12) && !emulatedGamepad.buttons.some(({ pressed }, i) => pressed && i >= 2));
+  const settle = () => { if (held.size === 0 && isGamepadNeutral()) seen.isBlocked = false; };
+  seen.settle = settle;
+  const block = (why) => {
+    note(`stop by ${why}`);
+    seen.isBlocked = true;
+  };
+  document.hasFocus = () => !held.has('focus');  // the browser's own is always true
+  const isEnabled = () => !document.querySelector('#stop').disabled;
+  addEventListener('keydown', (event) => {
+    if (!KEYS.includes(event.code)) return;
+    note(`down ${event.code}`);
+    held.add(event.code);
+    if (['Space', 'Escape'].includes(event.code) && !event.repeat && isEnabled()) block(event.code);
+  }, true);
+  addEventListener('keyup', (event) => {
+    note(`up ${event.code}`);
+    held.delete(event.code);
+    settle();
+  }, true);
+  addEventListener('pointerdown', (event) => {
+    const control = event.target.closest?.('#pad, #stop, .keys button');
+    if (!control || control.disabled || control.getAttribute('aria-disabled') === 'true') return;
+    note(`pointer ${event.pointerId} on ${control.id}`);
+    held.add(`pointer ${event.pointerId}`);
+    if (control.id === 'stop') block('the button');
+  }, true);
+  const end = (event) => {
+    if (!held.delete(`pointer ${event.pointerId}`)) return;
+    note(`pointer ${event.pointerId} ends`);
+    settle();
+  };
+  for (const type of ['pointerup', 'pointercancel']) addEventListener(type, end, true);
+  // A button loses a finger that leaves it.
+  addEventListener('pointerout', (event) => { if (event.target.closest?.('.keys button')) end(event); }, true);
+  addEventListener('blur', (event) => {
+    if (event.target !== window) return;
+    held.clear();  // the browser reports no releases to a window without focus
+    block('the focus');
+    held.add('focus');
+  }, true);
+  addEventListener('focus', (event) => {
+    if (event.target !== window) return;
+    held.delete('focus');
+    settle();
+  }, true);
+  window.WebSocket = class extends WebSocket {
+    send(text) {
+      const { type, ...members } = JSON.parse(text);
+      const isMotion = MOTION.includes(type) && !(type === 'drive' && !members.speed && !members.turn);
+      if (isMotion) ++seen.motions;
+      if (isMotion && seen.isBlocked) seen.violations.push(`${type} ${JSON.stringify(members)} while stopped, held: ${[...held]}\n  ${seen.log.join('\n  ')}`);
+      if (isMotion || type === 'stop') note(`sends ${type} ${JSON.stringify(members)}`);
+      if (type === 'stop') {
+        ++seen.stops;
+        seen.isBlocked = true;
+        settle();
+      }
+      super.send(text);
+    }
+  };
+}
+
+function randomOf(seed) {
+  let state = seed;
+  return (bound) => {
+    state = (Math.imul(state, 1664525) + 1013904223) >>> 0;
+    return Math.floor((state / 2 ** 32) * bound);
+  };
+}
+
+test(`after a stop, ${EVENTS} random events cause no motion command before all inputs were neutral`, async () => {
+  const page = await visitScripted(browser, 'driving', { hasTouch: true, init: `(${emulateGamepad})(); (${spectate})();` });
+  const touch = await page.context().newCDPSession(page);
+  const random = randomOf(20);
+  const KEYS = ['ArrowUp', 'KeyS', 'ArrowLeft', 'KeyD', 'Equal', 'Minus', 'Space', 'Escape'];
+  const down = new Set();
+  const fingers = new Map();  // by number: {x, y}
+  const boxes = Object.fromEntries(await Promise.all(['pad', 'stop', 'turn-left', 'accelerate'].map(async (id) => [id, await page.locator(`#${id}`).boundingBox()])));
+  const inside = ({ x, y, width, height }) => ({ x: x + width * (0.3 + 0.1 * random(5)), y: y + height * (0.3 + 0.1 * random(5)) });
+  const points = () => [...fingers].map(([id, at]) => ({ id, ...at }));
+  const sendTouch = (type) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: points() });
+  const tick = () => page.evaluate(() => new Promise((done) => { setTimeout(done, 60); }));  // the page's period is 50 ms
+
+  async function releaseAll() {
+    for (const key of down) await page.keyboard.up(key);
+    down.clear();
+    await page.mouse.up();
+    if (fingers.size > 0) {
+      fingers.clear();
+      await sendTouch('touchEnd');
+    }
+    await page.evaluate(() => {
+      emulatedGamepad.axes = [0, 0, 0, 0];
+      for (const button of emulatedGamepad.buttons) button.pressed = false;
+      dispatchEvent(new Event('focus'));
+      spectator.settle();
+    });
+    await tick();
+  }
+
+  const press = async () => {
+    const key = KEYS[random(KEYS.length)];
+    down.add(key);
+    await page.keyboard.down(key);  // a repetition, if it is held
+  };
+  const unpress = async () => {
+    const key = [...down][random(down.size)];
+    if (!key) return;
+    down.delete(key);
+    await page.keyboard.up(key);
+  };
+  const ACTIONS = [
+    press, press, press, press, unpress, unpress, unpress,
+    async () => {  // a finger more
+      const id = fingers.size;
+      const box = boxes[['pad', 'pad', 'turn-left', 'accelerate', 'stop'][random(5)]];
+      if (id > 2) return;
+      fingers.set(id, inside(box));
+      await sendTouch('touchStart');
+    },
+    async () => {  // fingers move
+      if (fingers.size === 0) return;
+      for (const at of fingers.values()) Object.assign(at, { x: at.x + random(9) - 4, y: at.y + random(9) - 4 });
+      await sendTouch('touchMove');
+    },
+    async () => {  // the last finger leaves
+      if (!fingers.delete(fingers.size - 1)) return;
+      await sendTouch('touchEnd');
+    },
+    async () => {
+      const { x, y } = inside(boxes[['pad', 'stop', 'turn-left'][random(3)]]);
+      await page.mouse.move(x, y);
+      await page.mouse.down();
+    },
+    () => page.mouse.up(),
+    () => page.evaluate(([x, y]) => { emulatedGamepad.axes = [x, y, 0, 0]; spectator.settle(); }, [random(3) - 1, random(3) - 1]),
+    () => page.evaluate(([i, on]) => { emulatedGamepad.buttons[i].pressed = on; spectator.settle(); }, [random(8), random(2) === 0]),
+    tick,
+    async () => {
+      const pick = random(6);
+      if (pick === 0) await page.evaluate(() => { dispatchEvent(new Event('blur')); });
+      if (pick === 1) await page.evaluate(() => { dispatchEvent(new Event('focus')); });
+      if (pick === 2) await page.evaluate(() => { const help = document.querySelector('#help'); if (help.open) help.close(); else help.showModal(); });
+      if (pick === 3) await page.focus(['#limit', '#autonomous', '#tab-team', '#team-filter'][random(4)], { timeout: 100 }).catch(() => {});
+      if (pick === 4) { page.script.holder = 3 - page.script.holder; page.script.sendTeam(); }
+      if (pick === 5 && random(4) === 0) await page.script.socket.close({ code: 1001, reason: 'a break' });
+    },
+  ];
+  for (let i = 0; i < EVENTS; ++i) {
+    await ACTIONS[random(ACTIONS.length)]();
+    if (random(12) === 0) await releaseAll();
+    if (i % 100 === 99) {  // begins afresh, driving
+      await releaseAll();
+      await page.evaluate(() => document.querySelector('#help').close());
+      page.script.holder = 1;
+      page.script.sendTeam();
+    }
+  }
+  const { violations, motions, stops } = await page.evaluate(() => window.spectator);
+  assert.equal(violations[0] ?? '', '');
+  assert.ok(motions > 100, `${motions} motion commands were sent, so that stops matter`);
+  assert.ok(stops > 50, `${stops} stops were sent`);
+  await page.context().close();
+});
+
+test('two fingers on the drive pad: the first drives, the second prevents nothing, and nothing is sent after both are gone', async () => {
+  const page = await visitScripted(browser, 'driving', { hasTouch: true });
+  const touch = await page.context().newCDPSession(page);
+  const { x, y, width, height } = await page.locator('#pad').boundingBox();
+  const sent = [];
+  page.script.onMessage = (message) => sent.push(message);
+  const send = (type, ...at) => touch.send('Input.dispatchTouchEvent', { type, touchPoints: at.map(([right, down], id) => ({ id, x: x + width * right, y: y + height * down })) });
+  const until = async (holds) => { while (!sent.some(holds)) await page.evaluate(() => new Promise((done) => { setTimeout(done, 20); })); };
+  const isDrive = ({ type }) => type === 'drive';
+  await send('touchStart', [0.5, 0.2]);
+  await until((message) => isDrive(message) && message.speed > 0);
+  await send('touchStart', [0.5, 0.2], [0.5, 0.8]);
+  await send('touchMove', [0.5, 0.25], [0.5, 0.85]);
+  sent.length = 0;
+  await until(isDrive);
+  assert.ok(sent.filter(isDrive).every(({ speed }) => speed > 0), 'the second finger does not drive back');
+  await send('touchEnd', [0.5, 0.25]);
+  await send('touchEnd');
+  await until((message) => isDrive(message) && message.speed === 0);
+  sent.length = 0;
+  await until(({ type }) => type === 'alive');
+  await until(() => sent.filter(({ type }) => type === 'alive').length >= 5);
+  assert.deepEqual(sent.filter(isDrive), []);
+  await page.context().close();
+});

@@ -1,0 +1,138 @@
+// What the page shows when something fails, from messages of a scripted console: one banner with the true cause, grey values,
+// and whether this page drives. tests/browser/banner_test.mjs tests all combinations of causes without a browser.
+
+import assert from 'node:assert/strict';
+import { after, before, test } from 'node:test';
+
+import { openBrowser } from './browser.mjs';
+import { visitScripted } from './scripted_console.mjs';
+
+let browser;
+before(async () => { browser = await openBrowser(); });
+after(async () => { await browser?.close(); });
+
+const bannerOf = (page) => page.evaluate(() => {
+  const banner = document.querySelector('#banner');
+  return banner.hidden ? null : { cause: banner.dataset.cause, text: document.querySelector('#banner-text').textContent };
+});
+const shows = (page, cause) => page.waitForSelector(`#banner[data-cause="${cause}"]`, { state: 'visible' });
+
+for (const [state, cause, text] of [
+  ['down', 'robot_down', /^Pioneer1 is down: no robot answers at 127\.0\.0\.1:9001/],
+  ['won', 'won', /^Pioneer1 has won after 2:00\.\d and \d+\.\d m\. All robots have halted\.$/],
+  ['over', 'run_over', /^The run is over\.$/],
+  ['gone', 'environment_gone', /^The environment does not answer: no answer for 1 s/],
+  ['frozen', 'robot_frozen', /^Pioneer1 does not answer\. Its readings are outdated\.$/],
+  ['waiting', 'waiting', /^The run waits for Scout1, Pioneer2, Scout2 and 1 more\.$/],
+  ['paused', 'paused', /^The run is paused\.$/],
+]) {
+  test(`${state}: the banner states ${cause}`, async () => {
+    const page = await visitScripted(browser, state);
+    await shows(page, cause);
+    assert.match((await bannerOf(page)).text, text);
+    assert.equal(await page.locator('[role="alert"]:visible').count(), 1, 'one banner');
+    assert.notEqual(await page.textContent('#status'), 'You drive');
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+  });
+}
+
+test('a lost console is stated in place of every other cause, and no longer once it answers', async () => {
+  const page = await visitScripted(browser, 'down');
+  await shows(page, 'robot_down');
+  page.script.isMute = true;
+  await shows(page, 'console_gone');
+  assert.equal(await page.textContent('#status'), 'No connection');
+  page.script.isMute = false;
+  await shows(page, 'robot_down');
+  await page.script.socket.close({ code: 1001, reason: 'the console ends' });
+  await page.waitForFunction(() => document.querySelector('#banner-text').textContent.includes('the console ends'));
+  await shows(page, 'robot_down');  // it has connected again
+  await page.context().close();
+});
+
+test('the banner of a win can be closed, and does not return', async () => {
+  const page = await visitScripted(browser, 'won');
+  await shows(page, 'won');
+  await page.click('#banner-close');
+  await page.waitForSelector('#banner', { state: 'hidden' });
+  page.script.sendTeam();
+  await page.waitForFunction((step) => Number(document.body.dataset.step) > step, Number(await page.evaluate(() => document.body.dataset.step)));
+  assert.equal(await bannerOf(page), null);
+  await page.context().close();
+});
+
+test('Play again is offered where the run may be restarted, requests it once, and is disabled meanwhile', async () => {
+  const page = await visitScripted(browser, 'won');
+  await shows(page, 'won');
+  const requests = [];
+  page.script.onMessage = ({ type }) => {
+    if (type !== 'play_again') return;
+    requests.push(type);
+    page.script.sendRun({ phase: 'ended', may_restart: true, is_restarting: true });
+  };
+  await page.click('#play-again');
+  await page.waitForFunction(() => document.querySelector('#play-again').disabled);
+  assert.deepEqual(requests, ['play_again']);
+  page.script.sendRun({ phase: 'ended', may_restart: false });
+  await page.waitForSelector('#play-again', { state: 'hidden' });
+  page.script.winner = '';
+  page.script.sendTeam();
+  page.script.sendRun({ phase: 'running' });
+  await page.waitForSelector('#banner', { state: 'hidden' });
+  await page.context().close();
+});
+
+// The page's clock is the test's, so that ages are exact.
+test('values, ranges and lamps are grey 1 s after the last update, and not before', async () => {
+  const page = await visitScripted(browser, 'driving', { hasClock: true });
+  const look = () => page.evaluate(() => ({
+    isStale: document.body.classList.contains('stale'),
+    value: getComputedStyle(document.querySelector('#r-speed')).color,
+    radar: getComputedStyle(document.querySelector('#radar')).filter,
+    camera: getComputedStyle(document.querySelector('#camera')).filter,
+    lamp: getComputedStyle(document.querySelector('.team .lamp.up')).outlineColor,
+  }));
+  await page.clock.pauseAt(Date.now() + 60_000);
+  page.script.isSilent = true;
+  page.script.sendUpdate({ isForced: true });
+  let since_ms = 0;  // the update was sent
+  const run = async (ms) => {
+    await page.clock.runFor(ms);
+    since_ms += ms;
+  };
+  while (await page.evaluate((step) => document.body.dataset.step !== String(step), page.script.step)) await run(10);
+  await run(60);  // the page looks at ages every 50 ms
+  const drawn_ms = since_ms;
+  const fresh = await look();
+  assert.equal(fresh.isStale, false);
+  await run(990 - since_ms);
+  assert.deepEqual(await look(), fresh);
+  await run(drawn_ms + 1050 - since_ms);
+  const stale = await look();
+  assert.equal(stale.isStale, true);
+  for (const part of ['value', 'radar', 'camera', 'lamp']) assert.notEqual(stale[part], fresh[part], part);
+  assert.match(stale.radar, /grayscale/);
+  page.script.sendUpdate({ isForced: true });
+  while (await page.evaluate((step) => document.body.dataset.step !== String(step), page.script.step)) await run(10);
+  await run(60);
+  assert.deepEqual(await look(), fresh);
+  await page.context().close();
+});
+
+test('"You drive" is shown only while commands arrive', async () => {
+  const page = await visitScripted(browser, 'driving');
+  const status = (text) => page.waitForFunction((text) => document.querySelector('#status').textContent === text, text);
+  await page.keyboard.down('ArrowUp');
+  await status('You drive');
+  page.script.isSilent = true;  // the robot no longer reports, so that it need not receive commands
+  await status('You have control');
+  page.script.isSilent = false;
+  page.script.sendUpdate();
+  await status('You drive');
+  await page.keyboard.up('ArrowUp');
+  page.script.holder = 2;
+  page.script.sendTeam();
+  await status('Watching');
+  await page.context().close();
+});
