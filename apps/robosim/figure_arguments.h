@@ -4,7 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "rendering/figure_layout.h"
+#include "rendering/figure_page.h"
 
 namespace robosim {
 

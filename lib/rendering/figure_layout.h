@@ -3,19 +3,11 @@
 #include <vector>
 
 #include "rendering/drawn_run.h"
+#include "rendering/figure_page.h"
 #include "rendering/ground_view.h"
 #include "rendering/legend.h"
 
 namespace robosim {
-
-/// Size of a figure on paper.
-struct FigurePage {
-  double width_mm = 180;  ///< [20, 2000]; the height follows from the world's shape, up to √2 times the width
-  double font_pt = 8;     ///< size of the text, [3, 72]; the title is a third larger
-};
-
-/// One column of a journal with two.
-inline constexpr FigurePage kColumnPage{88, 8};
 
 /// Positions of the parts of a figure; lengths and positions in pixels of the view, of about 1/96 inch. Title, scale
 /// bar, axes with their numbers, and legend have disjoint places around the plan.

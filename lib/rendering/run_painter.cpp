@@ -14,13 +14,23 @@ using mrpt::math::TPoint2D;
 
 constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover at full opacity
 constexpr double kStartRadius_px = kStartMark_px / 2;
-constexpr double kTint = 0.17;  ///< opacity of areas measured as free
+constexpr double kTint = 0.17, kTintMin = 0.03;  ///< opacity of areas measured as free
 constexpr double kEchoRadius_px = 1.1;
 constexpr double kDrawnRadiusMin_px = 3;  // minimum for large worlds
 constexpr double kMarkSpacing_px = 14;
 constexpr double kMarkRadius_px = 7;
 constexpr Color kGoldColor{1.0f, 0.80f, 0.10f};
 constexpr Color kStopColor{0.80f, 0.05f, 0.05f};
+
+/// Area of a polygon, by the shoelace formula.
+double sizeOf(std::span<const TPoint2D> corners) {
+  double twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const TPoint2D &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return std::abs(twice) / 2;
+}
 
 /// A star with five points.
 std::array<TPoint2D, 10> star(const TPoint2D& center, double radius_px) {
@@ -58,8 +68,15 @@ void RunPainter::paintGround() {
 }
 
 void RunPainter::paintFreeAreas() {
+  // Where many areas overlap, each is paler.
+  double covered_m2 = 0;
   for (const auto& sensed : run_.sensed) {
-    for (const auto& area : sensed.free) figure_.polygon(pixelsOf(area), sensorColor(sensed.kind), kTint);
+    for (const auto& area : sensed.free) covered_m2 += sizeOf(area);
+  }
+  const double floor_m2 = (world_.bounds.x_max - world_.bounds.x_min) * (world_.bounds.y_max - world_.bounds.y_min);
+  const double opacity = covered_m2 > floor_m2 ? std::max(kTintMin, kTint * floor_m2 / covered_m2) : kTint;
+  for (const auto& sensed : run_.sensed) {
+    for (const auto& area : sensed.free) figure_.polygon(pixelsOf(area), sensorColor(sensed.kind), opacity);
   }
 }
 

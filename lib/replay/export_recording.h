@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
-#include "rendering/figure_layout.h"
+#include "rendering/figure_page.h"
 
 namespace robosim {
 

@@ -10,7 +10,7 @@
 #include "base/label.h"
 #include "outputs/run_note.h"
 #include "rendering/drawn_run.h"
-#include "rendering/figure_layout.h"
+#include "rendering/figure_page.h"
 #include "rendering/picture_format.h"
 #include "robots/fleet.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rendering/figure_layout.h"
+#include "rendering/figure_page.h"
 #include "rendering/panes.h"
 #include "viewing/view_source.h"
 
