@@ -36,7 +36,7 @@ std::string refusalOf(const std::string& options) {
 /// Lines of paths, without their rims.
 std::size_t pathsIn(const std::string& svg) { return countIn(svg, "stroke-width:1.6;"); }
 /// Areas that sensors measured as free.
-std::size_t areasIn(const std::string& svg) { return countIn(svg, "fill-opacity:0.17"); }
+std::size_t areasIn(const std::string& svg) { return countIn(svg, "fill-opacity:0.17;"); }
 
 TEST(ViewFigure, OfAWorldHasAPolygonForEachSonarAndLaser) {
   std::size_t expected = 0;
