@@ -18,6 +18,7 @@
 #include "rendering/stock_scene.h"
 #include "replay/export_recording.h"
 #include "robosim/arguments.h"
+#include "robosim/figure_arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
 #include "robots/world_source.h"
@@ -35,6 +36,7 @@ struct ExportArguments {
   std::optional<double> resolution_m;  ///< default: that of the map, else of MapExtent
   std::vector<double> heights_m;       ///< empty, or minimum and maximum
   std::optional<std::uint64_t> seed;   ///< of random places; default: kDefaultSeed
+  FigureArguments figure;
 };
 
 /// Files to be written, by path: some formats consist of two files.
@@ -225,8 +227,12 @@ void exportOfRecording(const ExportArguments& arguments, const std::vector<Recor
   for (const auto& output : outputs) files[output.file.string()] = {output.file};
   check(arguments, files);
   checkOutputs(files, {arguments.world});
+  for (const auto& output : outputs) {
+    const bool is_document = output.format == RecordingFormat::picture && !endsWith(output.file, ".png");
+    arguments.figure.check(is_document, output.file.string());
+  }
   const Interrupt interrupt;
-  exportRecording(arguments.world, outputs, &interrupt);
+  exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page());
   for (const auto& output : outputs) printSize(output.file, fs::file_size(output.file));
 }
 
@@ -234,7 +240,10 @@ void exportFiles(const ExportArguments& arguments) {
   const auto of_recording = recordingOutputs(arguments);
   if (!of_recording.empty()) return exportOfRecording(arguments, of_recording);
   FilesByOutput outs;
-  for (const auto& out : arguments.outs) outs[out] = filesOf(out);
+  for (const auto& out : arguments.outs) {
+    arguments.figure.check(false, out);
+    outs[out] = filesOf(out);
+  }
   check(arguments, outs);
   std::optional<Progress> shown(std::in_place);
   Progress& progress = *shown;
@@ -302,6 +311,7 @@ void addExport(CLI::App& program) {
       ->check(seedNumber())
       ->type_name("NUMBER")
       ->default_str(std::to_string(kDefaultSeed));
+  arguments->figure.addTo(*command, {});
   command->footer(formatsHelp());
   command->callback([arguments] { exportFiles(*arguments); });
 }

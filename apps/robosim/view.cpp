@@ -5,13 +5,16 @@
 
 #include "base/data_folders.h"
 #include "base/error_list.h"
+#include "base/text_table.h"
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
 #include "robosim/arguments.h"
 #include "robosim/connection.h"
+#include "robosim/figure_arguments.h"
 #include "robosim/subcommands.h"
 #include "run/output_files.h"
 #include "viewing/video_file.h"
+#include "viewing/view_keys.h"
 #include "viewing/view_outputs.h"
 #include "viewing/view_source.h"
 
@@ -29,7 +32,9 @@ struct ViewArguments {
   ViewTimes times;
   std::string offscreen;
   std::string size = "1280x800";
+  bool has_size = false, has_scale = false;
   Panes::Look look;
+  FigureArguments figure;
 };
 
 std::optional<std::size_t> robotNamed(const std::string& name, const Fleet& fleet, AbsentRobots absent) {
@@ -82,6 +87,19 @@ Size sizeFrom(const std::string& text) {
   return size;
 }
 
+/// @throws ConfigError for options of pictures, which a figure does not have
+void checkFigure(const ViewArguments& a) {
+  const std::pair<bool, const char*> pictures_only[] = {
+      {a.is_3d, "3d"},        {!a.follow.empty(), "follow"},   {!a.views.empty(), "view"},     {a.has_size, "size"},
+      {a.has_scale, "scale"}, {a.look.antialias, "antialias"}, {a.look.camera_inset, "camera"}};
+  for (const auto& [is_given, option] : pictures_only) {
+    if (!is_given) continue;
+    throw ConfigError("--" + std::string(option) + ": applies to pictures and videos, and " + a.offscreen +
+                      " is a figure of the whole world from above; omit it, or write a .png" +
+                      (a.has_size || a.has_scale ? "; --width-mm and --font-pt set sizes in a figure" : ""));
+  }
+}
+
 /// 100 → "100", 59.9 → "59.9".
 std::string brief(double number) {
   std::ostringstream text;
@@ -110,6 +128,8 @@ void checkTimes(const ViewArguments& a, const ViewSource& source) {
 void view(ViewArguments a) {
   if (const auto file = findDataFile(a.source)) a.source = file->string();
   const Size size = sizeFrom(a.size);
+  a.figure.check(isFigure(a.offscreen), a.offscreen);
+  if (isFigure(a.offscreen)) checkFigure(a);
   if (!a.offscreen.empty()) {
     checkOffscreenFile(a.offscreen);
     refuseSameFile({{"SOURCE", a.source}, {"--offscreen", a.offscreen}});
@@ -121,6 +141,7 @@ void view(ViewArguments a) {
   const auto source = openView(a.source, connect_options, a.changes, a.seed);
   refuseOverwriting(source->inputs(), {a.offscreen});
   checkTimes(a, *source);
+  if (isFigure(a.offscreen)) return writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage));
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
   if (a.offscreen.empty()) {
     showWindow(*source, make_panes, size, a.times, a.look);
@@ -152,17 +173,20 @@ void addView(CLI::App& program) {
   command->add_option("--view", a->views, "add a view: 2d, 3d, 2d@ROBOT or 3d@ROBOT; repeatable")->type_name("VIEW");
   command
       ->add_option("--offscreen", a->offscreen,
-                   "no window: write a picture (.png) of the start of a world, the end of a recording, or the newest "
-                   "step of a run; or a video (.mp4: H.264, .webm: VP9)")
+                   "no window: write a picture (.png), or a figure for print (.svg, .pdf), of the start of a world, "
+                   "the end of a recording, or the newest step of a run; or a video (.mp4: H.264, .webm: VP9)")
       ->type_name("FILE")
       ->check(fileName());
   command->add_option("--size", a->size, "size of the window or the picture, pixels")
       ->type_name("WxH")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->each([a](const std::string&) { a->has_size = true; });
   command->add_option("--scale", a->look.scale, "size of text and lines, for large screens and print")
       ->type_name("FACTOR")
       ->check(numberIn(0.5, 8))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->each([a](const std::string&) { a->has_scale = true; });
+  a->figure.addTo(*command, kColumnPage);
   command->add_flag("--antialias", a->look.antialias,
                     "smooth edges in 3D and in the camera picture; rendering takes about 2.5 times as long");
   command->add_flag("--camera", a->look.camera_inset,
@@ -184,17 +208,11 @@ void addView(CLI::App& program) {
       ->capture_default_str();
   addSecurityOptions(*command, a->connection);
   addConnectTimeout(*command, a->connection);
-  command->footer(
-      "In the window:\n"
-      "  left drag      move (2D), turn (3D)        wheel      zoom\n"
-      "  right drag     move (3D)                   click      follow a robot, or none\n"
-      "  space          pause, resume               s          one step\n"
-      "  + -            faster, slower              ← →        5 s back or on, of a recording\n"
-      "  f              follow the next robot       0          show everything\n"
-      "  t v n          paths, sensors, names       c          camera picture\n"
-      "  F11            full screen                 ?          help\n"
-      "  q, Esc         quit\n"
-      "Try:  robosim view worlds/opho2_1.xml --offscreen world.png");
+  Rows keys;
+  for (const auto& [key, meaning] : viewKeys()) keys.push_back({"  " + std::string(key), meaning});
+  command->footer("In the window:\n" + listing(keys) +
+                  "Try:  robosim view worlds/opho2_1.xml --offscreen world.png\n"
+                  "      robosim view run.rawlog --offscreen figure.pdf --width-mm 88 --font-pt 8");
   command->callback([a] { view(*a); });
 }
 

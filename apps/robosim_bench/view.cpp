@@ -21,14 +21,25 @@ struct Kind {
   const char* help;
   bool is_2d, is_3d;
   TopViewLayers layers = {};
-  bool antialias = false;
+  Panes::Look look = {};
 };
 constexpr TopViewLayers kNoLayers{.paths = false, .sensors = false, .names = false};
-constexpr Kind kKinds[] = {{"2d", "from above, with sonar fans", true, false},
-                           {"3d", "3D view, robots and objects only", false, true, kNoLayers},
-                           {"3d-paths", "3D view with paths", false, true, {.sensors = false, .names = false}},
-                           {"3d-antialias", "3D view, antialiased", false, true, kNoLayers, true},
-                           {"both", "both side by side", true, true}};
+constexpr TopViewLayers kPaths{.sensors = false, .names = false};
+constexpr TopViewLayers kRanges{.paths = false, .names = false};
+constexpr TopViewLayers kNames{.paths = false, .sensors = false};
+const Kind kKinds[] = {{"2d", "from above, with paths, sonar fans and names", true, false},
+                       {"2d-bare", "from above, robots and objects only", true, false, kNoLayers},
+                       {"2d-paths", "… with paths", true, false, kPaths},
+                       {"2d-ranges", "… with sonar fans", true, false, kRanges},
+                       {"2d-names", "… with names", true, false, kNames},
+                       {"2d-inset", "… with a camera picture", true, false, kNoLayers, {.camera_inset = true}},
+                       {"3d", "3D view, robots and objects only", false, true, kNoLayers},
+                       {"3d-paths", "… with paths", false, true, kPaths},
+                       {"3d-ranges", "… with sonar fans of the followed robot", false, true, kRanges},
+                       {"3d-names", "… with names", false, true, kNames},
+                       {"3d-inset", "… with a camera picture", false, true, kNoLayers, {.camera_inset = true}},
+                       {"3d-antialias", "… antialiased", false, true, kNoLayers, {.antialias = true}},
+                       {"both", "both side by side", true, true}};
 constexpr double kAimFramesPerS = 20;
 
 struct ViewArguments {
@@ -38,12 +49,23 @@ struct ViewArguments {
 };
 
 constexpr Size kSize{1280, 800};
+constexpr std::uint64_t kPathSteps = 200;
 
 /// A run in this process with a view updated step by step.
 class RunView final : public ViewSource {
  public:
   RunView(LoadedWorld world, std::size_t robots)
-      : title_(withCommas(robots) + " robots"), world_(world), run_(std::move(world), {}) {}
+      : title_(withCommas(robots) + " robots"), world_(world), run_(std::move(world), {}) {
+    // A camera of the view only: the run does not render its pictures.
+    SensorInfo camera;
+    camera.kind = SensorKind::camera;
+    camera.camera.width_px = 320;
+    camera.camera.height_px = 240;
+    camera.beams.emplace_back().robot_from_beam.z = 0.3;
+    auto sensors = *world_.fleet.robots.front().info.sensors;
+    sensors.push_back(camera);
+    world_.fleet.robots.front().info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::move(sensors));
+  }
 
   const LoadedWorld& world() const override { return world_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
@@ -52,6 +74,9 @@ class RunView final : public ViewSource {
   bool advance(double) override {
     run_.step();
     snapshot_ = snapshotOf(run_.environment());
+    snapshot_.robots.front().readings->measurements.emplace_back();  // of that camera
+    // Paths of bounded length: each view is measured at the same lengths, however many there are.
+    if (snapshot_.step % kPathSteps == 0) paths_.clear();
     paths_.add(snapshot_);
     return true;
   }
@@ -80,7 +105,7 @@ void benchView(const ViewArguments& arguments) {
     drawings.push_back(std::make_unique<ViewDrawing>(
         source, [&kind](const LoadedWorld& world, AbsentRobots) { return panesOf(kind, world.world); }));
     drawings.back()->panes().layers() = kind.layers;
-    drawings.back()->panes().look().antialias = kind.antialias;
+    drawings.back()->panes().look() = kind.look;
     contenders.push_back({.work = [&source, &drawing = *drawings.back()] {
       source.advance(0);
       drawing.draw(kSize);
@@ -121,8 +146,9 @@ void addViewBenchmark(CLI::App& program) {
   addMinTime(*command, "each view", a->min_s);
   command->add_flag("--json", a->json, "print one JSON object per line");
   command->footer(
-      "The robots run 'wander' with 16 sonars each; a frame has 1280 × 800 pixels and shows the next step. The time\n"
-      "includes the environment's step and drawing, by a software renderer if there is no graphics card.");
+      "The robots run 'wander' with 16 sonars each; a frame has 1280 × 800 pixels and shows the next step, with\n"
+      "paths of up to 20 s. The time includes the environment's step and drawing, by a software renderer if there is\n"
+      "no graphics card.");
   command->callback([a] { benchView(*a); });
 }
 

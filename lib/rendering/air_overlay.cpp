@@ -47,9 +47,10 @@ class AirView {
     return pixel.x >= 0 && pixel.y >= 0 && pixel.x < air_.picture.cols && pixel.y < air_.picture.rows;
   }
   /// Whether nothing nearer than `ahead_m` covers a pixel of the picture.
-  bool isVisible(const TPoint2D& pixel, double ahead_m, double slack_m) const {
+  /// @param slack_m, slack_share by how much, also of the distance, something may be nearer
+  bool isVisible(const TPoint2D& pixel, double ahead_m, double slack_m, double slack_share = 0.01) const {
     const float depth_m = depthAt(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
-    return depth_m == 0 || ahead_m <= depth_m * 1.01 + slack_m;
+    return depth_m == 0 || ahead_m <= depth_m * (1 + slack_share) + slack_m;
   }
   /// [m]; 0 for the sky
   float depthAt(int x, int y) const { return air_.depth.metresAt(x * depth_finer_, y * depth_finer_); }
@@ -208,11 +209,14 @@ class AirTint {
   std::vector<std::vector<cv::Point>> polygons_;
 };
 
+constexpr double kBeforeEcho_m = 0.05;  ///< towards the robot, where an echo is tested for visibility
+
 void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
                 const std::vector<std::uint8_t>& shown) {
   std::map<std::pair<SensorKind, double>, AirTint> tints;  // by kind and height
   struct Dot {
     TPoint3D at;
+    TPoint3D before;  ///< on the beam, in front of the surface
     Color color;
   };
   std::vector<Dot> dots;
@@ -228,8 +232,12 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
       for (const auto& area : freeAreas(robot, sensors[k], *echoes, kArcPiece_m)) tint.add(area);
       for (const auto& echo : *echoes) {
         if (echo.range_m >= sensors[k].range_max_m) continue;
-        const auto at = robot.world_from_robot.composePoint(TPoint2D(echo.point_m.x, echo.point_m.y));
-        dots.push_back({{at.x, at.y, echo.point_m.z}, sensorColor(sensors[k].kind)});
+        const TPoint2D in_robot(echo.point_m.x, echo.point_m.y);
+        const TPoint2D back = in_robot * (-kBeforeEcho_m / std::max(kBeforeEcho_m, in_robot.norm()));
+        const auto at = robot.world_from_robot.composePoint(in_robot);
+        const auto before = robot.world_from_robot.composePoint(in_robot + back);
+        dots.push_back(
+            {{at.x, at.y, echo.point_m.z}, {before.x, before.y, echo.point_m.z}, sensorColor(sensors[k].kind)});
       }
     }
   }
@@ -239,8 +247,10 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
     const TPoint3D seen = view.seen(dot.at);
     if (seen.x < kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);
-    // An echo lies on the surface that it was measured on, up to the measurement's error.
-    if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen.x, 0.08)) continue;
+    // An echo lies on the surface that it was measured on, up to the measurement's error, and on the side of the robot:
+    // walls 10 cm thick hide it from the other side.
+    const TPoint3D seen_before = view.seen(dot.before);
+    if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen_before.x, 0.05, 0.003)) continue;
     cv::circle(air.picture, rounded(pixel), radius_px, bgr(dot.color), cv::FILLED, cv::LINE_AA);
   }
 }

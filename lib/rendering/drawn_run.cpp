@@ -13,7 +13,9 @@ Bounds2D areaOf(const World& world, const DrawnRun& run) {
   for (const auto& object : world.objects) include(boundsOf(object.body.solid().outline));
   for (const auto& map : world.maps) include(boundsOf(map.plan, map.world_from_map));
   for (const auto& path : run.paths) {
-    for (const auto& point : path) include({point.x, point.x, point.y, point.y});
+    for (const auto& point : path) {
+      if (!isGap(point)) include({point.x, point.x, point.y, point.y});
+    }
   }
   return area;
 }

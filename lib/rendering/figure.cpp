@@ -18,7 +18,7 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
-constexpr double kPointsPerPixel = 0.75;         // 72 points and 96 pixels per inch
+constexpr double kPointsPerPixel = kPointsPerInch / kPixelsPerInch;
 constexpr std::size_t kMaxCellPaths = 10'000;    ///< rectangles of cells that are drawn as a path
 constexpr std::uint32_t kMaxImageSide = 32'767;  // of Cairo
 constexpr double kRim_px = 3;                    ///< width of the stroke behind a text
@@ -39,14 +39,20 @@ void setColor(cairo_t& context, const Color& color, double opacity = 1) {
   cairo_set_source_rgba(&context, red, green, blue, opacity);
 }
 
+/// Units of the page per pixel of the view: points of a PDF document, pixels of an SVG document.
+double pageScale(const Figure::Options& options, double width_px) {
+  if (options.format == PictureFormat::svg) return 1;
+  return options.width_mm ? *options.width_mm / kMmPerInch * kPointsPerInch / width_px : kPointsPerPixel;
+}
+
 cairo_surface_t* pageOf(const Figure::Options& options, double width_px, double height_px, std::string& document) {
+  const double width = width_px * pageScale(options, width_px), height = height_px * pageScale(options, width_px);
   if (options.format == PictureFormat::svg) {
-    cairo_surface_t* const page = cairo_svg_surface_create_for_stream(append, &document, width_px, height_px);
+    cairo_surface_t* const page = cairo_svg_surface_create_for_stream(append, &document, width, height);
     cairo_svg_surface_set_document_unit(page, CAIRO_SVG_UNIT_PX);
     return page;
   }
-  cairo_surface_t* const page =
-      cairo_pdf_surface_create_for_stream(append, &document, width_px * kPointsPerPixel, height_px * kPointsPerPixel);
+  cairo_surface_t* const page = cairo_pdf_surface_create_for_stream(append, &document, width, height);
   cairo_pdf_surface_set_metadata(page, CAIRO_PDF_METADATA_TITLE, wellFormed(options.title).c_str());
   cairo_pdf_surface_set_metadata(page, CAIRO_PDF_METADATA_CREATOR, "RoboSim");
   // Constant, so that equal runs give equal files; the start of simulated time in recordings.
@@ -65,7 +71,7 @@ Figure::Figure(const GroundView& view, const Color& background, Options options)
   image_context_ = contextOf(*image_, scale, background);
   if (is_png) return;
   page_.reset(pageOf(options_, view.width(), view.height(), document_));
-  page_context_ = contextOf(*page_, options_.format == PictureFormat::pdf ? kPointsPerPixel : 1, background);
+  page_context_ = contextOf(*page_, pageScale(options_, view.width()), background);
 }
 
 Figure::Owned<cairo_t> Figure::contextOf(cairo_surface_t& surface, double scale, const Color& background) const {
@@ -78,20 +84,15 @@ Figure::Owned<cairo_t> Figure::contextOf(cairo_surface_t& surface, double scale,
   cairo_translate(context.get(), 0.5, 0.5);  // GroundView has (0, 0) in the middle of a pixel
   cairo_set_line_join(context.get(), CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(context.get(), CAIRO_LINE_CAP_ROUND);
-  cairo_font_options_t* const fonts = cairo_font_options_create();
-  cairo_font_options_set_hint_style(fonts, CAIRO_HINT_STYLE_NONE);
-  cairo_font_options_set_hint_metrics(fonts, CAIRO_HINT_METRICS_OFF);
-  cairo_font_options_set_antialias(fonts, CAIRO_ANTIALIAS_GRAY);
-  cairo_set_font_options(context.get(), fonts);
-  cairo_font_options_destroy(fonts);
+  useUnhintedText(*context);
   return context;
 }
 
 template <typename Draw>
-void Figure::paint(const Color& color, const Draw& draw) {
+void Figure::paint(const Color& color, const Draw& draw, double opacity) {
   for (cairo_t* const context : {page_context_.get(), image_context_.get()}) {
     if (!context) continue;
-    setColor(*context, color);
+    setColor(*context, color, opacity);
     draw(*context);
   }
 }
@@ -114,9 +115,21 @@ void Figure::disc(const TPoint2D& center, double radius_px, const Color& color) 
 
 void Figure::dot(const TPoint2D& center, double radius_px, const Color& color) { disc(center, radius_px, color); }
 
-void Figure::polygon(std::span<const TPoint2D> corners, const Color& color) {
-  paint(color, [&](cairo_t& context) {
+void Figure::polygon(std::span<const TPoint2D> corners, const Color& color, double opacity) {
+  const auto draw = [&](cairo_t& context) {
     for (const auto& corner : corners) cairo_line_to(&context, corner.x, corner.y);
+    cairo_fill(&context);
+  };
+  paint(color, draw, opacity);
+}
+
+void Figure::discs(std::span<const TPoint2D> centers, double radius_px, const Color& color) {
+  if (centers.empty()) return;
+  paint(color, [&](cairo_t& context) {
+    for (const auto& center : centers) {
+      cairo_new_sub_path(&context);
+      cairo_arc(&context, center.x, center.y, radius_px, 0, 2 * M_PI);
+    }
     cairo_fill(&context);
   });
 }
@@ -279,7 +292,11 @@ std::string Figure::finish() {
   page_context_.reset();
   cairo_surface_finish(page_.get());
   check(cairo_surface_status(page_.get()));
-  if (options_.format == PictureFormat::svg) document_ = finishedSvg(document_, options_.title, !has_reduced_image_);
+  if (options_.format == PictureFormat::svg) {
+    document_ = finishedSvg(document_, options_.title, !has_reduced_image_);
+    // Cairo rounds the outlines of characters to 1/64 of a unit: millimetres as units would deform them.
+    if (options_.width_mm) document_ = withWidth(std::move(document_), *options_.width_mm);
+  }
   return std::move(document_);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,15 +12,18 @@
 
 namespace robosim {
 
+inline constexpr double kMmPerInch = 25.4, kPointsPerInch = 72, kPixelsPerInch = 96;
+
 /// DrawingSurface of a picture file, drawn by Cairo: a PNG picture, or an SVG or PDF document whose shapes stay
-/// vectors. One pixel of the view is one pixel of an SVG document (1/96 inch), and 0.75 points of a PDF document. Equal
-/// calls give equal bytes.
+/// vectors. Without a width, one pixel of the view is one pixel of an SVG document (1/96 inch), and 0.75 points of a
+/// PDF document. Equal calls give equal bytes.
 class Figure final : public DrawingSurface {
  public:
   struct Options {
     PictureFormat format = PictureFormat::png;
-    std::string title{};   ///< of the document
-    double png_scale = 1;  ///< pixels of a PNG picture per pixel of the view
+    std::string title{};               ///< of the document
+    double png_scale = 1;              ///< pixels of a PNG picture per pixel of the view
+    std::optional<double> width_mm{};  ///< of an SVG or PDF document; nullopt: 1/96 inch per pixel of the view
   };
 
   /// @throws std::runtime_error for a view that is larger than Cairo supports (32,767 pixels)
@@ -40,7 +44,10 @@ class Figure final : public DrawingSurface {
   double contrast(const Bounds2D& pixels) const override;
 
   /// Fills a polygon of pixels.
-  void polygon(std::span<const mrpt::math::TPoint2D> corners, const Color&);
+  /// @param opacity [0, 1]
+  void polygon(std::span<const mrpt::math::TPoint2D> corners, const Color&, double opacity = 1);
+  /// Discs of one shape, which does not cover itself.
+  void discs(std::span<const mrpt::math::TPoint2D> centers, double radius_px, const Color&);
 
   /// The finished file. Nothing may be drawn afterwards.
   /// @throws std::runtime_error when Cairo failed
@@ -57,7 +64,7 @@ class Figure final : public DrawingSurface {
   Owned<cairo_t> contextOf(cairo_surface_t& surface, double scale, const Color& background) const;
   /// Calls draw(cairo_t&) for the document, if there is one, and for the picture.
   template <typename Draw>
-  void paint(const Color& color, const Draw& draw);
+  void paint(const Color& color, const Draw& draw, double opacity = 1);
   /// Adds an outline to the path, extended by some pixels with round corners.
   void addPath(cairo_t& context, const Outline& shape, double extended_px) const;
   /// Sets the coordinates to cells of a map.

@@ -88,4 +88,34 @@ double FigureText::width(cairo_t& context, const std::string& text, double capit
   return width_px;
 }
 
+TextRuler::TextRuler() {
+  cairo_surface_t* const surface = cairo_image_surface_create(CAIRO_FORMAT_A8, 1, 1);
+  context_ = cairo_create(surface);
+  cairo_surface_destroy(surface);  // the context keeps it
+  useUnhintedText(*context_);
+}
+
+TextRuler::~TextRuler() { cairo_destroy(context_); }
+
+std::string TextRuler::shortened(const std::string& text, double capital_px, double width_px) {
+  if (width(text, capital_px) <= width_px) return text;
+  std::string beginning;
+  for (const char32_t character : charactersOf(text)) {
+    std::string longer = beginning;
+    appendUtf8(character, longer);
+    if (width(longer + "…", capital_px) > width_px) break;
+    beginning = std::move(longer);
+  }
+  return beginning + "…";
+}
+
+void useUnhintedText(cairo_t& context) {
+  cairo_font_options_t* const fonts = cairo_font_options_create();
+  cairo_font_options_set_hint_style(fonts, CAIRO_HINT_STYLE_NONE);
+  cairo_font_options_set_hint_metrics(fonts, CAIRO_HINT_METRICS_OFF);
+  cairo_font_options_set_antialias(fonts, CAIRO_ANTIALIAS_GRAY);
+  cairo_set_font_options(&context, fonts);
+  cairo_font_options_destroy(fonts);
+}
+
 }  // namespace robosim

@@ -36,4 +36,25 @@ class FigureText {
   std::map<FontFile, cairo_font_face_t*> faces_;  ///< that of an empty file name is Cairo's own
 };
 
+/// Widths of texts in figures, for layouts.
+class TextRuler {
+ public:
+  TextRuler();
+  ~TextRuler();
+  TextRuler(const TextRuler&) = delete;
+  TextRuler& operator=(const TextRuler&) = delete;
+
+  /// Width [px] of a line of text, as Figure::textWidth().
+  double width(const std::string& text, double capital_px) { return texts_.width(*context_, text, capital_px); }
+  /// The text; or as much of its beginning as fits into a width, and an ellipsis.
+  std::string shortened(const std::string& text, double capital_px, double width_px);
+
+ private:
+  cairo_t* context_;
+  FigureText texts_;
+};
+
+/// Switches hinting off, so that texts have the same widths at any scale.
+void useUnhintedText(cairo_t& context);
+
 }  // namespace robosim

@@ -1,10 +1,12 @@
 #pragma once
+#include <variant>
 #include <vector>
 
 #include <mrpt/math/TPoint2D.h>
 
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
+#include "robots/fleet.h"
 #include "robots/run_snapshot.h"
 
 namespace robosim {
@@ -14,5 +16,19 @@ namespace robosim {
 /// @param arc_piece_m length of the straight pieces of a sector's arc; at most 12 pieces
 std::vector<std::vector<mrpt::math::TPoint2D>> freeAreas(const RobotSnapshot& robot, const SensorInfo& sensor,
                                                          const Echoes& echoes, double arc_piece_m);
+
+/// Calls visit(const RobotSnapshot&, const SensorInfo&, const Echoes&) for each range sensor of the present robots that
+/// have readings.
+template <typename Visit>
+void forEachEchoes(const Fleet& fleet, const RunSnapshot& snapshot, const Visit& visit) {
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    const RobotSnapshot& robot = snapshot.robots[i];
+    if (!robot.readings || !robot.isPresent()) continue;
+    const auto& sensors = *fleet.robots[i].info.sensors;
+    for (std::size_t k = 0; k < sensors.size(); ++k) {
+      if (const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k])) visit(robot, sensors[k], *echoes);
+    }
+  }
+}
 
 }  // namespace robosim

@@ -1,6 +1,5 @@
 #include "rendering/ground.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <algorithm>
 #include <cmath>
 

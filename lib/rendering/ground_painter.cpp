@@ -19,11 +19,23 @@ bool cover(const Bounds2D& a, const Bounds2D& b) {
   return a.x_min < b.x_max && b.x_min < a.x_max && a.y_min < b.y_max && b.y_min < a.y_max;
 }
 
+bool coversAny(const Bounds2D& place, const std::vector<Bounds2D>& others) {
+  return std::any_of(others.begin(), others.end(), [&](const Bounds2D& other) { return cover(place, other); });
+}
+
+/// Squares of one pixel that cover a line.
+std::vector<Bounds2D> squaresAlong(const TPoint2D& from, const TPoint2D& to) {
+  std::vector<Bounds2D> squares;
+  const int steps = static_cast<int>((to - from).norm()) + 1;
+  for (int k = 0; k <= steps; ++k) squares.push_back(around(from + (to - from) * (1.0 * k / steps), 0.5, 0.5));
+  return squares;
+}
+
 constexpr double kScaleGap_px = 10;  ///< between a scale bar and its number
 
-double scaleLength(const GroundView& view) {
-  constexpr double kMax_px = 160;
-  return roundLengthUpTo(kMax_px / view.pixelsPerMetre());
+double scaleLength(const GroundView& view, double text_px) {
+  constexpr double kMaxOfText = 16;
+  return roundLengthUpTo(kMaxOfText * text_px / view.pixelsPerMetre());
 }
 
 std::string scaleLabel(double length_m) { return mrpt::format("%g m", length_m); }
@@ -95,7 +107,7 @@ void drawRobot(DrawingSurface& surface, const TPoint2D& center, double radius_px
 }
 
 double drawScale(DrawingSurface& surface, const TPoint2D& from, double text_px) {
-  const double length_m = scaleLength(surface.view());
+  const double length_m = scaleLength(surface.view(), text_px);
   const double length_px = length_m * surface.view().pixelsPerMetre();
   const TPoint2D to(from.x + length_px, from.y);
   surface.line(from, to, 2, kInkColor);
@@ -104,40 +116,85 @@ double drawScale(DrawingSurface& surface, const TPoint2D& from, double text_px) 
   return length_px;
 }
 
-double scaleWidth(const DrawingSurface& surface, double text_px) {
-  const double length_m = scaleLength(surface.view());
-  return length_m * surface.view().pixelsPerMetre() + kScaleGap_px + surface.textWidth(scaleLabel(length_m), text_px);
+double scaleWidth(const GroundView& view, double text_px,
+                  const std::function<double(const std::string& text)>& width_of) {
+  const double length_m = scaleLength(view, text_px);
+  return length_m * view.pixelsPerMetre() + kScaleGap_px + width_of(scaleLabel(length_m));
 }
 
+NameWriter::NameWriter(DrawingSurface& surface, double text_px) : surface_(surface), text_px_(text_px) {
+  const TPoint2D half(surface_.view().width() / 2.0, surface_.view().height() / 2.0);
+  within_ = around(half, half.x - 2, half.y - 2);
+}
+
+NameWriter::NameWriter(DrawingSurface& surface, double text_px, const Bounds2D& within)
+    : surface_(surface), text_px_(text_px), within_(within), has_leaders_(true) {}
+
 void NameWriter::keepClear(const TPoint2D& center, double half_width_px, double half_height_px) {
-  taken_.push_back(around(center, half_width_px, half_height_px));
+  objects_.push_back(around(center, half_width_px, half_height_px));
+}
+
+bool NameWriter::isFree(const Bounds2D& place) const {
+  return within_.covers(place) && !coversAny(place, objects_) && !coversAny(place, labels_);
+}
+
+void NameWriter::writeAt(const Bounds2D& place, const std::string& name, const Color& color) {
+  labels_.push_back(place);
+  surface_.text({place.x_min + 2, (place.y_min + place.y_max) / 2}, name, text_px_, color);
 }
 
 void NameWriter::write(const std::string& name, const TPoint2D& center, double half_width_px, double half_height_px,
                        const Color& color) {
   const double width = surface_.textWidth(name, text_px_);
-  const double height = text_px_ * 1.4;
+  const double height = text_px_ * kLineHeight;
   const double right = half_width_px + 5 + width / 2, up = half_height_px + 4 + height / 2;
   const TPoint2D offsets[] = {{right, 0},        {-right, 0},         {0, -up},          {0, up}, {right * 0.8, -up},
                               {right * 0.8, up}, {-right * 0.8, -up}, {-right * 0.8, up}};
-  const TPoint2D half(surface_.view().width() / 2.0, surface_.view().height() / 2.0);
-  const Bounds2D page = around(half, half.x - 2, half.y - 2);
   std::optional<Bounds2D> best;
   double best_contrast = 0;
   for (const auto& offset : offsets) {
     const Bounds2D place = around(center + offset, width / 2 + 2, height / 2);
-    if (!page.covers(place) ||
-        std::any_of(taken_.begin(), taken_.end(), [&](const Bounds2D& other) { return cover(place, other); })) {
-      continue;
-    }
+    if (!isFree(place)) continue;
     const double contrast = surface_.contrast(place);
     if (best && contrast >= best_contrast) continue;
     best = place;
     best_contrast = contrast;
   }
-  if (!best) return;
-  taken_.push_back(*best);
-  surface_.text({best->x_min + 2, (best->y_min + best->y_max) / 2}, name, text_px_, color);
+  if (best) return writeAt(*best, name, color);
+  if (has_leaders_) writeWithLeader(name, center, {half_width_px, half_height_px}, {width / 2 + 2, height / 2}, color);
+}
+
+void NameWriter::writeWithLeader(const std::string& name, const TPoint2D& center, const TPoint2D& half_object,
+                                 const TPoint2D& half_label, const Color& color) {
+  constexpr int kDirections = 24;
+  constexpr double kRing = 1.3, kLongest = 14;  // in heights of a capital
+  // First away from the other objects. A leader over another object would be ambiguous.
+  TPoint2D middle_of_objects = center;
+  for (const auto& object : objects_) {
+    const TPoint2D at((object.x_min + object.x_max) / 2, (object.y_min + object.y_max) / 2);
+    middle_of_objects += (at - center) * (1.0 / static_cast<double>(objects_.size()));
+  }
+  const double away_rad = std::atan2(middle_of_objects.y - center.y, center.x - middle_of_objects.x);
+  for (double away_px = kRing * text_px_; away_px < kLongest * text_px_; away_px += kRing * text_px_) {
+    for (int i = 0; i < kDirections; ++i) {
+      const double angle_rad = away_rad + (i % 2 == 0 ? 1 : -1) * M_PI * ((i + 1) / 2) * 2 / kDirections;
+      const TPoint2D middle(center.x + std::cos(angle_rad) * (half_object.x + away_px + half_label.x),
+                            center.y - std::sin(angle_rad) * (half_object.y + away_px + half_label.y));
+      const Bounds2D place = around(middle, half_label.x, half_label.y);
+      // From the object's edge to the nearest point of the label.
+      const TPoint2D to(std::clamp(center.x, place.x_min, place.x_max), std::clamp(center.y, place.y_min, place.y_max));
+      const TPoint2D way = to - center;
+      const double leaves = std::min((half_object.x + 1) / std::abs(way.x), (half_object.y + 1) / std::abs(way.y));
+      const auto leader = squaresAlong(center + way * leaves, to);
+      const auto is_covered = [&](const Bounds2D& square) {
+        return coversAny(square, labels_) || coversAny(square, objects_);
+      };
+      if (!isFree(place) || std::any_of(leader.begin(), leader.end(), is_covered)) continue;
+      surface_.line(center + way * leaves, to, 1, color);
+      labels_.insert(labels_.end(), leader.begin(), leader.end());
+      return writeAt(place, name, color);
+    }
+  }
 }
 
 void NameWriter::writeHotObjects(const World& world) {

@@ -1,4 +1,6 @@
 #pragma once
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +19,7 @@ inline constexpr Color kInkColor{0.16f, 0.18f, 0.22f};
 inline constexpr Color kGlowColor{1.0f, 0.55f, 0.15f};
 inline constexpr Color kWhite{1, 1, 1};
 inline constexpr double kTextSize_px = 10;  ///< height of a capital
+inline constexpr double kLineHeight = 1.7;  ///< of a text with accents and descenders, in capitals
 
 /// By robot: the colour of its body, as in 3D (robots/robot_colors.h).
 std::vector<Color> robotColors(const Fleet&);
@@ -35,13 +38,18 @@ void drawRobot(DrawingSurface&, const mrpt::math::TPoint2D& center, double radiu
 /// A scale bar of a round length, starting at `from` [px], with its number of metres. @return its length [px]
 double drawScale(DrawingSurface&, const mrpt::math::TPoint2D& from, double text_px = kTextSize_px);
 /// Width of that bar with its number [px].
-double scaleWidth(const DrawingSurface&, double text_px);
+/// @param width_of returns the width of a text of this size
+double scaleWidth(const GroundView&, double text_px, const std::function<double(const std::string& text)>& width_of);
 ///@}
 
 /// Places labels beside objects so that they overlap neither each other nor reserved areas.
 class NameWriter {
  public:
-  explicit NameWriter(DrawingSurface& surface, double text_px = kTextSize_px) : surface_(surface), text_px_(text_px) {}
+  /// Labels of a moving picture, which are omitted where there is no room beside an object.
+  explicit NameWriter(DrawingSurface& surface, double text_px = kTextSize_px);
+  /// Labels of a figure: those without room beside an object are farther away, joined to it by a line.
+  /// @param within rectangle of pixels that contains all labels
+  NameWriter(DrawingSurface& surface, double text_px, const Bounds2D& within);
 
   void keepClear(const mrpt::math::TPoint2D& center, double half_width_px, double half_height_px);
   /// Writes a label at the free position beside an object that has the lowest contrast; omits it if there is none.
@@ -51,9 +59,20 @@ class NameWriter {
   void writeHotObjects(const World&);
 
  private:
+  bool isFree(const Bounds2D& place) const;
+  void writeAt(const Bounds2D& place, const std::string& name, const Color&);
+  void writeWithLeader(const std::string& name, const mrpt::math::TPoint2D& center,
+                       const mrpt::math::TPoint2D& half_object, const mrpt::math::TPoint2D& half_label, const Color&);
+
   DrawingSurface& surface_;
-  double text_px_;               ///< height of a capital
-  std::vector<Bounds2D> taken_;  ///< rectangles of pixels
+  double text_px_;            ///< height of a capital
+  Bounds2D within_;           ///< rectangle of pixels
+  bool has_leaders_ = false;  ///< lines to labels that are not beside their object
+  /// @name Rectangles of pixels
+  ///@{
+  std::vector<Bounds2D> objects_;  ///< reserved areas
+  std::vector<Bounds2D> labels_;   ///< also leaders
+  ///@}
 };
 
 }  // namespace robosim

@@ -1,6 +1,5 @@
 #include "rendering/instanced_mesh.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

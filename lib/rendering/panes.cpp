@@ -188,12 +188,13 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
     }
     return nullptr;
   };
+  const auto can_show = [&](std::size_t i) { return snapshot.robots[i].isPresent() && camera_of(i); };
   std::optional<std::size_t> robot;
   for (const auto& pane : panes_) {
-    if (!robot && pane.follow && camera_of(*pane.follow)) robot = pane.follow;
+    if (!robot && pane.follow && can_show(*pane.follow)) robot = pane.follow;
   }
-  for (std::size_t i = 0; i < fleet_.robots.size() && !robot; ++i) {
-    if (camera_of(i)) robot = i;
+  for (std::size_t i = 0; i < snapshot.robots.size() && !robot; ++i) {
+    if (can_show(i)) robot = i;
   }
   if (!robot) return;
   const SensorInfo& sensor = *camera_of(*robot);
@@ -293,14 +294,19 @@ void Panes::showAll() {
   }
 }
 
-void Panes::followNext() {
-  if (fleet_.robots.empty()) return;
+void Panes::followNext(const RunSnapshot& snapshot) {
+  const std::size_t robots = snapshot.robots.size();
   for (std::size_t i = 0; i < panes_.size(); ++i) {
     Pane& pane = panes_[i];
     const bool is_first = !pane.follow;
-    pane.follow = is_first ? 0 : (*pane.follow + 1) % fleet_.robots.size();
-    pane.top.follow = pane.follow;
-    if (is_first) fit(pane, i);
+    const std::size_t begin = is_first ? 0 : *pane.follow + 1;
+    for (std::size_t k = 0; k < robots; ++k) {
+      const std::size_t next = (begin + k) % robots;
+      if (!snapshot.robots[next].isPresent()) continue;
+      pane.follow = pane.top.follow = next;
+      if (is_first) fit(pane, i);
+      break;
+    }
   }
 }
 

@@ -49,7 +49,7 @@ class Panes {
   struct Look {
     double scale = 1;           ///< of lines and text, > 0
     bool antialias = false;     ///< 3D: renders at twice the resolution
-    bool camera_inset = false;  ///< picture of the followed robot's camera, or of the first robot that has one
+    bool camera_inset = false;  ///< picture of the followed robot's camera, or of the first present robot with one
   };
 
   Panes(const World& world, const Fleet& fleet, std::vector<Pane> panes, Draw3d draw_3d);
@@ -73,8 +73,8 @@ class Panes {
   ///@}
   /// All panes: shows the whole world, and follows no robot.
   void showAll();
-  /// All panes: follows the next robot.
-  void followNext();
+  /// All panes: follows the next robot that is present.
+  void followNext(const RunSnapshot& snapshot);
 
  private:
   cv::Rect rectOf(std::size_t pane) const;

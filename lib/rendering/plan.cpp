@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/atomic_file.h"
+#include "rendering/legend.h"
 #include "rendering/run_painter.h"
 
 namespace robosim {
@@ -23,8 +24,9 @@ std::string planPicture(PictureFormat format, const World& world, const Fleet& f
   const double y = view.height() - kPlanLayout.bottom_px / 2;
   drawScale(figure, {kPlanLayout.left_px, y});
   if (!run.paths.empty()) {
-    Legend legend(figure, view.width() - kPlanLayout.right_px, y);
-    paintPathLegend(legend, painter, figure);
+    const auto width_of = [&](const std::string& text) { return figure.textWidth(text, kTextSize_px); };
+    const Legend legend({LegendEntry::ofStart(), LegendEntry::ofEnd()}, kTextSize_px, view.width(), width_of);
+    legend.paint(figure, painter, view.width() - kPlanLayout.right_px, y);
   }
   return figure.finish();
 }

@@ -1,11 +1,5 @@
 #include "rendering/run_figure.h"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-
-#include <mrpt/core/format.h>
-
 #include "rendering/run_painter.h"
 
 namespace robosim {
@@ -13,105 +7,52 @@ namespace {
 
 using mrpt::math::TPoint2D;
 
-constexpr double kTick_px = 5;
-constexpr double kLabelGap_px = 10;
-constexpr double kText_px = 7.5;  ///< height of a capital
-constexpr double kTitle_px = 10;
-constexpr double kTitleY_px = 17;
-
-/// Axes at the lower and left edge of an area, with ticks at round lengths.
-class Axes {
- public:
-  Axes(Figure& figure, const Bounds2D& area)
-      : figure_(figure),
-        area_(area),
-        low_(figure.view().toPixel({area.x_min, area.y_min})),
-        high_(figure.view().toPixel({area.x_max, area.y_max})),
-        step_m_(gridStep(figure.view())) {
-    double label_px = 0;
-    const auto measure = [&](double, const std::string& label) {
-      label_px = std::max(label_px, figure_.textWidth(label, kText_px));
-    };
-    forTicks(area_.x_min, area_.x_max, measure);
-    for (const double factor : {2.0, 2.5, 2.0}) {
-      if (step_m_ * figure_.view().pixelsPerMetre() >= label_px + kLabelGap_px) break;
-      step_m_ *= factor;
-    }
-  }
-
-  void paint() {
-    figure_.line(low_, {high_.x, low_.y}, 1, kInkColor);
-    figure_.line(low_, {low_.x, high_.y}, 1, kInkColor);
-    forTicks(area_.x_min, area_.x_max, [&](double x_m, const std::string& label) {
-      const double x = figure_.view().toPixel({x_m, area_.y_min}).x;
-      figure_.line({x, low_.y}, {x, low_.y + kTick_px}, 1, kInkColor);
-      write(label, x, 0.5, low_.y + kTick_px + 10);
-    });
-    forTicks(area_.y_min, area_.y_max, [&](double y_m, const std::string& label) {
-      const double y = figure_.view().toPixel({area_.x_min, y_m}).y;
-      figure_.line({low_.x - kTick_px, y}, {low_.x, y}, 1, kInkColor);
-      write(label, low_.x - kTick_px - 4, 1, y);
-    });
-    write("x [m]", (low_.x + high_.x) / 2, 0.5, low_.y + kTick_px + 26);
-    write("y [m]", low_.x - kTick_px - 4, 1, high_.y - 16);
-  }
-
- private:
-  template <typename Visit>
-  void forTicks(double from_m, double to_m, const Visit& visit) const {
-    const auto last = static_cast<long>(std::floor(to_m / step_m_ + 1e-9));
-    for (auto i = static_cast<long>(std::ceil(from_m / step_m_ - 1e-9)); i <= last; ++i) {
-      visit(static_cast<double>(i) * step_m_, mrpt::format("%.6g", static_cast<double>(i) * step_m_));
-    }
-  }
-
-  /// @param share of the text's width that is left of x
-  void write(const std::string& text, double x, double share, double y) {
-    figure_.text({x - share * figure_.textWidth(text, kText_px), y}, text, kText_px, kInkColor);
-  }
-
-  Figure& figure_;
-  const Bounds2D area_;
-  const TPoint2D low_, high_;  ///< corners of the area [px]
-  double step_m_;              ///< between ticks
-};
-
-/// A scale bar beside the title, which leaves the line below the axis to the legend.
-void paintScale(Figure& figure) {
-  const TPoint2D from(figure.view().width() - kFigureLayout.right_px - scaleWidth(figure, kText_px), kTitleY_px);
-  drawScale(figure, from, kText_px);
+/// @param share of the text's width that is left of x
+void write(Figure& figure, const std::string& text, double text_px, double x, double share, double y) {
+  figure.text({x - share * figure.textWidth(text, text_px), y}, text, text_px, kInkColor);
 }
 
-void paintLegend(Figure& figure, RunPainter& painter, const DrawnRun& run) {
-  Legend legend(figure, figure.view().width() - kFigureLayout.right_px, figure.view().height() - 16, kText_px);
-  const std::pair<RunEvent::Kind, const char*> kinds[] = {{RunEvent::Kind::stall, "stall"},
-                                                          {RunEvent::Kind::message, "message sent"},
-                                                          {RunEvent::Kind::gold, "gold found"}};
-  for (const auto& [kind, word] : kinds) {
-    const auto is_of_kind = [kind = kind](const RunEvent& event) { return event.kind == kind; };
-    if (std::none_of(run.events.begin(), run.events.end(), is_of_kind)) continue;
-    const Color color = mix(kPageColor, kInkColor, 0.7f);
-    legend.add(word, 14, [&, kind = kind](const TPoint2D& at) { painter.paintEvent(kind, at, color); });
+/// Axes at the lower and left edge of an area, with ticks at round lengths.
+void paintAxes(Figure& figure, const FigureLayout& layout, const Bounds2D& area) {
+  const double left = layout.plot.x_min, low = layout.plot.y_max, text_px = layout.text_px;
+  const double beside = left - kTick_px - kTickGap_px;
+  figure.line({left, low}, {layout.plot.x_max, low}, 1, kInkColor);
+  figure.line({left, low}, {left, layout.plot.y_min}, 1, kInkColor);
+  for (const auto& [x_m, label] : ticks(area.x_min, area.x_max, layout.tick_step_m)) {
+    const double x = figure.view().toPixel({x_m, area.y_min}).x;
+    figure.line({x, low}, {x, low + kTick_px}, 1, kInkColor);
+    write(figure, label, text_px, x, 0.5, low + tickLabelY(text_px));
   }
-  paintPathLegend(legend, painter, figure);
+  for (const auto& [y_m, label] : ticks(area.y_min, area.y_max, layout.tick_step_m)) {
+    const double y = figure.view().toPixel({area.x_min, y_m}).y;
+    figure.line({left - kTick_px, y}, {left, y}, 1, kInkColor);
+    write(figure, label, text_px, beside, 1, y);
+  }
+  write(figure, "x [m]", text_px, (left + layout.plot.x_max) / 2, 0.5, low + axisLabelY(text_px));
+  write(figure, "y [m]", text_px, beside, 1, layout.plot.y_min - 2.1 * text_px);
 }
 
 }  // namespace
 
-PlanView figureView(const World& world, const DrawnRun& run) { return PlanView(areaOf(world, run), kFigureLayout); }
+GroundView figureView(const World& world, const DrawnRun& run, const FigurePage& page) {
+  return layoutOf(world, run, page).view;
+}
 
-std::string runFigure(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& run) {
+std::string runFigure(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& run,
+                      const FigurePage& page) {
+  const FigureLayout layout = layoutOf(world, run, page);
   const std::string& title = run.title.empty() ? world.name : run.title;
-  Figure figure(figureView(world, run), kWhite, {.format = format, .title = title, .png_scale = 2});
-  RunPainter painter(figure, world, fleet, run, {.text_px = kText_px, .path_px = 1.6});
+  Figure figure(layout.view, kWhite, {.format = format, .title = title, .png_scale = 2, .width_mm = page.width_mm});
+  RunPainter painter(figure, world, fleet, run,
+                     {.text_px = layout.text_px, .path_px = 1.6, .names_within = layout.plot});
   painter.paintGround();
   painter.paintRobots();
   painter.paintEvents();
   painter.paintNames();
-  Axes(figure, areaOf(world, run)).paint();
-  figure.text({kFigureLayout.left_px, kTitleY_px}, title, kTitle_px, kInkColor);
-  paintScale(figure);
-  paintLegend(figure, painter, run);
+  paintAxes(figure, layout, areaOf(world, run));
+  figure.text(layout.title_at, layout.title, layout.title_px, kInkColor);
+  drawScale(figure, layout.scale_at, layout.text_px);
+  layout.legend.paint(figure, painter, layout.right, layout.legend_y);
   return figure.finish();
 }
 

@@ -5,18 +5,32 @@
 #include <cmath>
 #include <map>
 
+#include "rendering/sensor_colors.h"
+
 namespace robosim {
 namespace {
 
 using mrpt::math::TPoint2D;
 
 constexpr double kPathsBright = 0.07;  // share of the picture that paths may cover at full opacity
-constexpr double kStartRadius_px = 4.5;
+constexpr double kStartRadius_px = kStartMark_px / 2;
+constexpr double kTint = 0.17, kTintMin = 0.03;  ///< opacity of areas measured as free
+constexpr double kEchoRadius_px = 1.1;
 constexpr double kDrawnRadiusMin_px = 3;  // minimum for large worlds
 constexpr double kMarkSpacing_px = 14;
 constexpr double kMarkRadius_px = 7;
 constexpr Color kGoldColor{1.0f, 0.80f, 0.10f};
 constexpr Color kStopColor{0.80f, 0.05f, 0.05f};
+
+/// Area of a polygon, by the shoelace formula.
+double sizeOf(std::span<const TPoint2D> corners) {
+  double twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const TPoint2D &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return std::abs(twice) / 2;
+}
 
 /// A star with five points.
 std::array<TPoint2D, 10> star(const TPoint2D& center, double radius_px) {
@@ -42,13 +56,41 @@ RunPainter::RunPainter(Figure& figure, const World& world, const Fleet& fleet, c
 
 void RunPainter::paintGround() {
   drawFloor(figure_, world_.bounds);
+  paintFreeAreas();
   const float paleness = pathPaleness();
   for (std::size_t i = 0; i < run_.paths.size(); ++i) paintPath(i, paleness);
   for (std::size_t i = 0; i < run_.paths.size(); ++i) {
     if (!run_.paths[i].empty()) paintStart(view_.toPixel(run_.paths[i].front()), colors_[i]);
   }
+  paintEchoes();
   drawMaps(figure_, world_);
   drawObjects(figure_, world_);
+}
+
+void RunPainter::paintFreeAreas() {
+  // Where many areas overlap, each is paler.
+  double covered_m2 = 0;
+  for (const auto& sensed : run_.sensed) {
+    for (const auto& area : sensed.free) covered_m2 += sizeOf(area);
+  }
+  const double floor_m2 = (world_.bounds.x_max - world_.bounds.x_min) * (world_.bounds.y_max - world_.bounds.y_min);
+  const double opacity = covered_m2 > floor_m2 ? std::max(kTintMin, kTint * floor_m2 / covered_m2) : kTint;
+  for (const auto& sensed : run_.sensed) {
+    for (const auto& area : sensed.free) figure_.polygon(pixelsOf(area), sensorColor(sensed.kind), opacity);
+  }
+}
+
+void RunPainter::paintEchoes() {
+  for (const auto& sensed : run_.sensed) {
+    figure_.discs(pixelsOf(sensed.echoes), kEchoRadius_px, sensorColor(sensed.kind));
+  }
+}
+
+std::vector<TPoint2D> RunPainter::pixelsOf(std::span<const TPoint2D> places) const {
+  std::vector<TPoint2D> pixels;
+  pixels.reserve(places.size());
+  for (const auto& place : places) pixels.push_back(view_.toPixel(place));
+  return pixels;
 }
 
 void RunPainter::paintRobots() {
@@ -95,22 +137,49 @@ TPoint2D RunPainter::besideRobots(const TPoint2D& at) const {
 }
 
 void RunPainter::paintNames() {
-  NameWriter names(figure_, style_.text_px);
+  if (!run_.has_names) return;
+  NameWriter names = style_.names_within ? NameWriter(figure_, style_.text_px, *style_.names_within)
+                                         : NameWriter(figure_, style_.text_px);
   for (const auto& mark : marks_) names.keepClear(mark, kMarkRadius_px, kMarkRadius_px);
   for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
     if (const auto at = robotPixel(i)) names.keepClear(*at, robotRadius(i), robotRadius(i));
   }
   names.writeHotObjects(world_);
-  for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
-    const auto at = robotPixel(i);
-    if (!at) continue;
-    names.write(fleet_.robots[i].info.name, *at, robotRadius(i), robotRadius(i), mix(colors_[i], {0, 0, 0}, 0.35f));
+  for (const std::size_t i : fromOutside()) {
+    names.write(fleet_.robots[i].info.name, *robotPixel(i), robotRadius(i), robotRadius(i),
+                mix(colors_[i], {0, 0, 0}, 0.35f));
   }
+}
+
+/// The drawn robots, the farthest from the middle of all first, which have most room for their names around them.
+std::vector<std::size_t> RunPainter::fromOutside() const {
+  std::vector<std::size_t> robots;
+  TPoint2D middle;
+  for (std::size_t i = 0; i < run_.world_from_robot.size(); ++i) {
+    if (!run_.world_from_robot[i]) continue;
+    robots.push_back(i);
+    middle += *robotPixel(i);
+  }
+  middle *= 1.0 / static_cast<double>(std::max<std::size_t>(1, robots.size()));
+  std::stable_sort(robots.begin(), robots.end(), [&](std::size_t a, std::size_t b) {
+    return (*robotPixel(a) - middle).norm() > (*robotPixel(b) - middle).norm();
+  });
+  return robots;
 }
 
 void RunPainter::paintStart(const TPoint2D& at, const Color& color) {
   figure_.disc(at, kStartRadius_px, color);
   figure_.disc(at, kStartRadius_px - 2, kWhite);
+}
+
+void RunPainter::paintEnd(const TPoint2D& at, const Color& color) {
+  drawRobot(figure_, at, kEndMark_px / 2, {1, 0}, color);
+}
+
+void RunPainter::paintSensor(SensorKind kind, const TPoint2D& at) {
+  const double half = kSensorMark_px / 2;
+  const TPoint2D sector[] = {{at.x - half, at.y}, {at.x + half, at.y - half / 2}, {at.x + half, at.y + half / 2}};
+  figure_.polygon(sector, sensorColor(kind), 2 * kTint);
 }
 
 void RunPainter::paintEvent(RunEvent::Kind kind, const TPoint2D& at, const Color& color) {
@@ -155,7 +224,9 @@ double RunPainter::robotRadius(std::size_t robot) const {
 float RunPainter::pathPaleness() const {
   double length_m = 0;
   for (const auto& path : run_.paths) {
-    for (std::size_t i = 1; i < path.size(); ++i) length_m += (path[i] - path[i - 1]).norm();
+    for (std::size_t i = 1; i < path.size(); ++i) {
+      if (!isGap(path[i]) && !isGap(path[i - 1])) length_m += (path[i] - path[i - 1]).norm();
+    }
   }
   const double covered_px = length_m * view_.pixelsPerMetre() * style_.path_px;
   const double covered = covered_px / (view_.width() * view_.height());
@@ -163,20 +234,19 @@ float RunPainter::pathPaleness() const {
 }
 
 void RunPainter::paintPath(std::size_t robot, float paleness) {
-  std::vector<TPoint2D> path;
-  for (const auto& point : run_.paths[robot]) path.push_back(view_.toPixel(point));
+  std::vector<TPoint2D> path = pixelsOf(run_.paths[robot]);
   if (path.empty()) return;
   if (robot < run_.world_from_robot.size()) {
     if (const auto end = robotPixel(robot)) path.push_back(*end);
   }
-  figure_.polyline(path, style_.path_px + 1.6, kWhite);
-  figure_.polyline(path, style_.path_px, mix(colors_[robot], kFloorColor, paleness));
-}
-
-void paintPathLegend(Legend& legend, RunPainter& painter, Figure& figure) {
-  const Color color = mix(kPageColor, kInkColor, 0.7f);
-  legend.add("end", 16, [&](const TPoint2D& at) { drawRobot(figure, at, 8, {1, 0}, color); });
-  legend.add("start", 2 * kStartRadius_px, [&](const TPoint2D& at) { painter.paintStart(at, color); });
+  const Color color = mix(colors_[robot], kFloorColor, paleness);
+  for (const auto& [width_px, paint] : {std::pair{style_.path_px + 1.6, kWhite}, std::pair{style_.path_px, color}}) {
+    for (auto begin = path.begin(); begin != path.end();) {
+      const auto end = std::find_if(begin, path.end(), isGap);
+      figure_.polyline({begin, end}, width_px, paint);
+      begin = std::find_if_not(end, path.end(), isGap);
+    }
+  }
 }
 
 }  // namespace robosim

@@ -19,6 +19,12 @@ bool isBefore(const PathPoint& point, double time_s) { return point.time_s < tim
 
 }  // namespace
 
+bool isJump(const TPoint2D& from, const TPoint2D& to, double duration_s) {
+  constexpr double kLongest_s = 10, kFastest_mps = 100;
+  const double way_m = (to - from).norm();
+  return way_m > kKnown_m && (duration_s > kLongest_s || (duration_s > 0 && way_m > kFastest_mps * duration_s));
+}
+
 /// Narrows the sleeve to the directions that pass `to` within the tolerance. @return whether `to` may end the segment
 bool RunPaths::Path::extend(const TPoint2D& to) {
   const TPoint2D way = to - points.back().at;
@@ -84,7 +90,7 @@ void RunPaths::add(std::uint64_t step, double time_s, const std::vector<mrpt::ma
   if (time_s < last_time_s_) clear();
   const bool has_skipped = step > last_step_ + 1;
   last_step_ = step;
-  last_time_s_ = time_s;
+  const double duration_s = time_s - std::exchange(last_time_s_, time_s);
   of_robot_.resize(world_from_robot.size());
   const std::size_t max_points =
       std::min(max_points_, std::max(kMinPoints, kMaxPointsOfAll / std::max<std::size_t>(1, of_robot_.size())));
@@ -96,7 +102,8 @@ void RunPaths::add(std::uint64_t step, double time_s, const std::vector<mrpt::ma
     }
     const TPoint2D at(world_from_robot[i].x, world_from_robot[i].y);
     const TPoint2D before = path.has_open_segment ? path.latest.at : path.points.empty() ? at : path.points.back().at;
-    const bool has_gap = (has_skipped && (at - before).norm() > kKnown_m) || std::exchange(path.is_interrupted, false);
+    const bool has_jumped = (has_skipped && (at - before).norm() > kKnown_m) || isJump(before, at, duration_s);
+    const bool has_gap = std::exchange(path.is_interrupted, false) || has_jumped;
     path.add({at, time_s, has_gap && !path.points.empty()});
     while (path.points.size() > max_points) path.thin(max_points);
   }

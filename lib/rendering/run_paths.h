@@ -24,6 +24,11 @@ struct PathPart {
   std::span<const PathPoint> points;          ///< the oldest first; valid until the paths change
 };
 
+/// Whether the way between two positions is unknown, because a robot needed more than 10 s, or was faster than any
+/// robot can be (100 m/s). Up to 1 m are always a way.
+/// @param duration_s 0 if unknown
+bool isJump(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, double duration_s);
+
 /// Paths of all robots of a run, from its steps, independent of what is drawn. Each path is simplified while it grows
 /// by sleeve fitting (Zhao & Saalfeld 1997): a vertex is omitted if the straight line that replaces it passes within
 /// the tolerance of every omitted point, and the robot did not turn back. When a path exceeds the maximum number of
@@ -31,7 +36,7 @@ struct PathPart {
 /// path still reaches from the start to the end.
 ///
 /// Steps may be missing (a viewer of a fast run); vertices are joined across them up to 1 m, and a longer step starts
-/// after a gap, because a wall may lie in between. So does a robot that was absent.
+/// after a gap, because a wall may lie in between. So does a robot that was absent, and a jump.
 class RunPaths {
  public:
   static constexpr double kTolerance_m = 0.01;  ///< initial

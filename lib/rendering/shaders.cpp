@@ -1,6 +1,5 @@
 #include "rendering/shaders.h"
 
-#define GL_GLEXT_PROTOTYPES
 #include <cmath>
 #include <stdexcept>
 #include <string>

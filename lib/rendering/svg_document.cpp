@@ -4,6 +4,8 @@
 #include <map>
 #include <string_view>
 
+#include <mrpt/core/format.h>
+
 #include "base/utf8.h"
 
 namespace robosim {
@@ -82,6 +84,18 @@ std::string finishedSvg(const std::string& svg, const std::string& title, bool h
     if (!is_id) finished += svg[i++];
   }
   return finished;
+}
+
+std::string withWidth(std::string svg, double width_mm) {
+  constexpr std::string_view kWidth = "width=\"", kHeight = "height=\"", kEnd = "px\"";
+  double width_px = 0;
+  for (const auto& attribute : {kWidth, kHeight}) {
+    const std::size_t begin = svg.find(attribute) + attribute.size(), end = svg.find(kEnd, begin);
+    const double size_px = std::stod(svg.substr(begin, end - begin));
+    if (attribute == kWidth) width_px = size_px;
+    svg.replace(begin, end + kEnd.size() - 1 - begin, mrpt::format("%.6gmm", size_px / width_px * width_mm));
+  }
+  return svg;
 }
 
 std::string wellFormed(std::string text) {

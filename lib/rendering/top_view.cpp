@@ -136,7 +136,7 @@ class Drawing {
     std::vector<Dot> dots;
     std::vector<std::vector<TPoint2D>> free[3];
     const SensorKind kinds[] = {SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
-    forEachRanges([&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
+    forEachEchoes(fleet_, snapshot_, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
       auto& areas = free[std::find(std::begin(kinds), std::end(kinds), sensor.kind) - std::begin(kinds)];
       for (auto& area : freeAreas(robot, sensor, echoes, kArcPiece_px / view_.pixelsPerMetre())) {
         for (auto& corner : area) corner = view_.toPixel(corner);
@@ -151,19 +151,6 @@ class Drawing {
     for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], sensorColor(kinds[i]), 0.17f);
     for (const auto& dot : dots) {
       if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, dot.color);
-    }
-  }
-
-  template <typename Visit>
-  void forEachRanges(const Visit& visit) const {
-    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
-      const RobotSnapshot& robot = snapshot_.robots[i];
-      if (!robot.readings || !robot.isPresent()) continue;
-      const auto& sensors = *fleet_.robots[i].info.sensors;
-      for (std::size_t k = 0; k < sensors.size(); ++k) {
-        const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
-        if (echoes) visit(robot, sensors[k], *echoes);
-      }
     }
   }
 

@@ -138,7 +138,8 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 
 }  // namespace
 
-void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt) {
+void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
+                     const FigurePage& page) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   files.reserve(outs.size());
   for (const auto& out : outs) files.push_back(std::make_unique<AtomicFile>(out.file));
@@ -154,7 +155,7 @@ void exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
         break;
       case RecordingFormat::picture:
         progress.at([] { return "drawing …"; });
-        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file)));
+        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file), page));
         break;
     }
     files[i]->finish();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/interrupt.h"
+#include "rendering/figure_page.h"
 
 namespace robosim {
 
@@ -14,6 +15,7 @@ enum class RecordingFormat {
   picture,  ///< a figure of the run; PNG, SVG or PDF according to the file name
 };
 
+/// One of the files of an export.
 struct RecordingOutput {
   std::filesystem::path file;
   RecordingFormat format;
@@ -21,8 +23,10 @@ struct RecordingOutput {
 
 /// Writes a recording as tables and figures. All files are renamed to their names after all have been written.
 /// @param rawlog made by RoboSim or another program; may be a pipe
+/// @param page size of figures
 /// @param interrupt a request ends the export; null: it cannot be interrupted
 /// @throws ConfigError, Interrupted, std::runtime_error (such as on a full disk); nothing is written then
-void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt);
+void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
+                     const FigurePage& page = {});
 
 }  // namespace robosim

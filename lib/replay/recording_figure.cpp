@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include <mrpt/obs/CObservationRobotPose.h>
 
@@ -11,6 +12,7 @@
 #include "base/text_table.h"
 #include "recording/robot_status_record.h"
 #include "rendering/run_figure.h"
+#include "rendering/run_paths.h"
 #include "replay/value_text.h"
 #include "robots/world_source.h"
 
@@ -52,7 +54,7 @@ void RecordingFigure::add(const CObservation& observation, double time_s) {
   const Label label = Label::parse(observation.sensorLabel);
   if (const auto pose = poseIn(observation)) {
     const bool is_truth = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr;
-    addPose(robotNamed(label.robot), *pose, is_truth);
+    addPose(robotNamed(label.robot), *pose, is_truth, time_s);
   } else if (is_of_robosim_ && label.sensor == kStatus) {
     addStatus(robotNamed(label.robot), observation);
   } else if (is_of_robosim_ && label.sensor == kInbox) {
@@ -60,25 +62,41 @@ void RecordingFigure::add(const CObservation& observation, double time_s) {
   }
 }
 
-void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_truth) {
+void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_truth, double time_s) {
   Robot& robot = robots_[index];
   if (!(std::abs(pose.x) < kFarthest_m && std::abs(pose.y) < kFarthest_m && std::isfinite(pose.phi))) return;
   if (robot.has_truth && !is_truth) return;
   if (is_truth && !robot.has_truth) robot.path.clear();
   robot.has_truth = is_truth;
+  const std::optional<TPose2D> before = robot.pose;
   robot.pose = is_truth ? pose : startOfOdometry(robot.name) + pose;
+  const double duration_s = time_s - std::exchange(robot.time_s, time_s);
   const TPoint2D at(robot.pose->x, robot.pose->y);
-  if (robot.path.empty() || (at - robot.path.back()).norm() >= kPathSpacing_m) robot.path.push_back(at);
+  if (!robot.path.empty() && before && isJump({before->x, before->y}, at, duration_s)) {
+    robot.path.emplace_back(before->x, before->y);
+    robot.path.push_back(kPathGap);
+  }
+  const bool begins = robot.path.empty() || isGap(robot.path.back());
+  if (begins || (at - robot.path.back()).norm() >= kPathSpacing_m) robot.path.push_back(at);
 }
 
 void RecordingFigure::addStatus(std::size_t index, const CObservation& observation) {
   const RobotStatus status = statusFrom(observation);
   Robot& robot = robots_[index];
+  if (status.command.activity == Activity::absent) leave(robot);
   const bool has_found = status.has_won || status.command.activity == Activity::found;
   if (has_found && !robot.has_found) addEvent(RunEvent::Kind::gold, index);
   if (status.stalled && !robot.is_stalled) addEvent(RunEvent::Kind::stall, index);
   robot.has_found = robot.has_found || has_found;
   robot.is_stalled = status.stalled;
+}
+
+/// The path of a robot that leaves the world continues where it comes back.
+void RecordingFigure::leave(Robot& robot) {
+  if (!robot.pose) return;
+  robot.path.emplace_back(robot.pose->x, robot.pose->y);
+  robot.path.push_back(kPathGap);
+  robot.pose.reset();
 }
 
 void RecordingFigure::addMessages(const std::string& receiver, const CObservation& observation) {
@@ -108,12 +126,13 @@ LoadedWorld RecordingFigure::withoutWorld() const {
   loaded.world.name = std::filesystem::path(rawlog_).stem().string();
   std::optional<Bounds2D> area;
   for (const auto& robot : robots_) {
-    if (!robot.pose) continue;
+    if (robot.path.empty()) continue;
     FleetRobot drawn;
     drawn.info.name = robot.name;
     drawn.info.radius_m = kUnknownRadius_m;
     loaded.fleet.robots.push_back(std::move(drawn));
     for (const auto& p : robot.path) {
+      if (isGap(p)) continue;
       if (!area) area = Bounds2D{p.x, p.x, p.y, p.y};
       *area = {std::min(area->x_min, p.x), std::max(area->x_max, p.x), std::min(area->y_min, p.y),
                std::max(area->y_max, p.y)};
@@ -126,7 +145,7 @@ LoadedWorld RecordingFigure::withoutWorld() const {
   return loaded;
 }
 
-std::string RecordingFigure::draw(PictureFormat format) const {
+std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page) const {
   const LoadedWorld loaded = world_ ? *world_ : withoutWorld();
   DrawnRun run;
   run.title = loaded.world.name + ", " + fixed(duration_s_, 1) + " s";
@@ -134,7 +153,7 @@ std::string RecordingFigure::draw(PictureFormat format) const {
   for (const auto& of_world : loaded.fleet.robots) {
     const auto found = index_of_.find(of_world.info.name);
     const Robot robot = found == index_of_.end() ? Robot() : robots_[found->second];
-    has_poses |= robot.pose.has_value();
+    has_poses |= !robot.path.empty();
     for (RunEvent event : robot.events) {
       event.robot = run.paths.size();
       run.events.push_back(event);
@@ -146,7 +165,7 @@ std::string RecordingFigure::draw(PictureFormat format) const {
     throw ConfigError(rawlog_ +
                       ": contains neither ground truth nor odometry; a figure requires a recording with poses");
   }
-  return runFigure(format, loaded.world, loaded.fleet, run);
+  return runFigure(format, loaded.world, loaded.fleet, run, page);
 }
 
 }  // namespace robosim

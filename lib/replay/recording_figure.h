@@ -10,6 +10,7 @@
 #include "base/label.h"
 #include "outputs/run_note.h"
 #include "rendering/drawn_run.h"
+#include "rendering/figure_page.h"
 #include "rendering/picture_format.h"
 #include "robots/fleet.h"
 
@@ -31,7 +32,7 @@ class RecordingFigure {
   void add(const mrpt::obs::CObservation& observation, double time_s);
 
   /// @return the file @throws ConfigError for a recording without poses
-  std::string draw(PictureFormat format) const;
+  std::string draw(PictureFormat format, const FigurePage& page = {}) const;
 
  private:
   /// Poses and events of a robot.
@@ -39,13 +40,15 @@ class RecordingFigure {
     std::string name;
     bool has_truth = false;  ///< whether the poses are ground truth
     std::vector<mrpt::math::TPoint2D> path;
-    std::optional<mrpt::math::TPose2D> pose;  ///< the last one
+    std::optional<mrpt::math::TPose2D> pose;  ///< the last one; nullopt while the robot is absent
+    double time_s = 0;                        ///< of that pose
     std::vector<RunEvent> events;
     bool is_stalled = false, has_found = false;  ///< in the last status
   };
 
   std::size_t robotNamed(const std::string& name);
-  void addPose(std::size_t robot, const mrpt::math::TPose2D& pose, bool is_truth);
+  void addPose(std::size_t robot, const mrpt::math::TPose2D& pose, bool is_truth, double time_s);
+  static void leave(Robot& robot);
   void addStatus(std::size_t robot, const mrpt::obs::CObservation& observation);
   void addMessages(const std::string& receiver, const mrpt::obs::CObservation& observation);
   void addEvent(RunEvent::Kind kind, std::size_t robot);

@@ -74,7 +74,7 @@ class Picture {
     return {static_cast<int>(2 * pixel.x + 1), static_cast<int>(2 * pixel.y + 1)};
   }
 
-  PlanView view_;
+  GroundView view_;
   cv::Mat pixels_;
 };
 
@@ -108,6 +108,27 @@ TEST(RecordingFigure, IgnoresTheMotionOfThePairThatContainsTheNote) {
   EXPECT_EQ(picture.at({6, 4}), kBlue);
   EXPECT_EQ(picture.count({0.5, 0.5}, {0, 0, 255}) + picture.count({0.5, 0.5}, {255, 0, 0}), 0);
   EXPECT_EQ(picture.count({1, 1}, {0, 0, 255}), 0) << "Ann is not in the recording";
+}
+
+TEST(RecordingFigure, DrawsNoLineOverAnAbsenceOrAJump) {
+  const RunNote note = twoRobots();
+  RecordingFigure figure("run.rawlog");
+  figure.setRun(note);
+  const LoadedWorld loaded = loadWorld(note.world, {});
+  RobotStatusRecord ann(loaded.fleet.robots[0].info);
+  Readings readings;
+  readings.measurements.resize(loaded.fleet.robots[0].info.sensors->size());
+  Command absent;
+  absent.activity = Activity::absent;
+  figure.add(truth("Ann", {1, 1, 0}), 0);
+  for (const auto& observation : ann.of(readings, absent)) figure.add(*observation, 0.1);
+  figure.add(truth("Ann", {7, 1, 0}), 0.2);
+  figure.add(truth("Bob", {1, 6, 0}), 0);
+  figure.add(truth("Bob", {7, 6, 0}), 0.01);
+  const Picture picture(figure);
+  EXPECT_EQ(picture.count({4, 1}, {0, 0, 255}), 0) << "absent";
+  EXPECT_EQ(picture.count({4, 6}, {255, 0, 0}), 0) << "jump";
+  EXPECT_GT(picture.count({7, 1}, {0, 0, 255}), 50);
 }
 
 TEST(RecordingFigure, MarksEvents) {
@@ -144,10 +165,9 @@ TEST(RecordingFigure, MarksEvents) {
 TEST(RecordingFigure, DrawsRobotsOfOtherProgramsWithoutAWorld) {
   RecordingFigure figure("foreign.rawlog");
   for (int i = 0; i <= 100; ++i) figure.add(odometry("ODOMETRY", {100 + 0.1 * i, 50, 0}), 0.1 * i);
-  // 11 m × 1 m with the margins, at the layout's width of 680 pixels.
   const std::string svg = figure.draw(PictureFormat::svg);
   EXPECT_NE(svg.find("<title>foreign, 10.0 s</title>"), std::string::npos);
-  EXPECT_NE(svg.find("width=\"680px\""), std::string::npos);
+  EXPECT_NE(svg.find("width=\"180mm\""), std::string::npos);
 }
 
 TEST(RecordingFigure, IgnoresPosesThatNoWorldHas) {

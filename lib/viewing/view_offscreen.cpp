@@ -47,11 +47,7 @@ double endOf(double duration_s, const ViewTimes& times) {
 
 void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times,
                   const std::string& file) {
-  if (const auto duration_s = source.duration()) {
-    source.pause(true);
-    source.seek(endOf(*duration_s, times));
-  }
-  source.advance(0);
+  showPictureTime(source, times);
   writePngFile(file, drawing.draw(size));
 }
 
@@ -104,11 +100,26 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
 
 }  // namespace
 
+bool isFigure(const std::string& file) {
+  const auto format = pictureFormatOf(file);
+  return format && *format != PictureFormat::png;
+}
+
 void checkOffscreenFile(const std::string& file) {
-  if (!isVideo(file) && pictureFormatOf(file) != PictureFormat::png) {
-    throw ConfigError("--offscreen " + file + ": must end in .png, for a picture, or in .mp4 or .webm, for a video");
+  if (!isVideo(file) && !pictureFormatOf(file)) {
+    throw ConfigError("--offscreen " + file +
+                      ": must end in .png, for a picture, in .svg or .pdf, for a figure, or in .mp4 or .webm, for a "
+                      "video");
   }
   checkWritable(file);
+}
+
+void showPictureTime(ViewSource& source, const ViewTimes& times) {
+  if (const auto duration_s = source.duration()) {
+    source.pause(true);
+    source.seek(endOf(*duration_s, times));
+  }
+  source.advance(0);
 }
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,

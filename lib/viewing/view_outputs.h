@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rendering/figure_page.h"
 #include "rendering/panes.h"
 #include "viewing/view_source.h"
 
@@ -34,13 +35,22 @@ using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&, AbsentRobo
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
                 const Panes::Look& look = {});
 
-/// @throws ConfigError for a name that ends in none of .png, .mp4 and .webm, or a file that cannot be written
+/// Whether a file name is that of a figure: .svg or .pdf.
+bool isFigure(const std::string& file);
+/// @throws ConfigError for a name that ends in none of .png, .svg, .pdf, .mp4 and .webm, or a file that cannot be
+/// written
 void checkOffscreenFile(const std::string& file);
 /// Writes a picture or a video.
 /// @throws Interrupted, and std::runtime_error when the disk is full; no file is written then. Exception: an
 /// interrupted video of a live run is kept up to the interruption.
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
                     const std::string& file, const Panes::Look& look = {});
+
+/// Writes a figure: the whole world from above, with paths, ranges of sensors, robots and names, as vectors.
+/// @throws ConfigError when the text is too large for the page
+void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::string& file, const FigurePage& page);
+/// Goes to the moment of a picture: for a recording its end or `times.to_s`, else the newest step.
+void showPictureTime(ViewSource& source, const ViewTimes& times);
 
 /// Draws the panes of a source, and recreates them when its world changes.
 class ViewDrawing {

@@ -1,31 +1,13 @@
 #include "viewing/view_panels.h"
 
 #include <algorithm>
-#include <array>
-#include <utility>
 
 #include <nanogui/opengl.h>
 
+#include "viewing/view_keys.h"
+
 namespace robosim {
 namespace {
-
-constexpr std::array<std::pair<const char*, const char*>, 17> kHelp{{{"left drag", "move (2D), turn (3D)"},
-                                                                     {"right drag", "move (3D)"},
-                                                                     {"wheel", "zoom"},
-                                                                     {"click", "follow a robot, or none"},
-                                                                     {"space", "pause, resume"},
-                                                                     {"s", "one step"},
-                                                                     {"+  -", "faster, slower"},
-                                                                     {"Left, Right", "5 s back or on, of a recording"},
-                                                                     {"f", "follow the next robot"},
-                                                                     {"0", "show everything"},
-                                                                     {"t", "paths"},
-                                                                     {"v", "sensors"},
-                                                                     {"n", "names"},
-                                                                     {"c", "camera picture"},
-                                                                     {"F11", "full screen, window"},
-                                                                     {"?", "this help"},
-                                                                     {"q, Esc", "quit"}}};
 
 void fillPanel(NVGcontext* context, float x, float y, float width, float height, const NVGcolor& color) {
   nvgBeginPath(context);
@@ -44,7 +26,7 @@ bool HelpPanel::mouseButtonEvent(const nanogui::Vector2i&, int, bool down, int) 
 }
 
 void HelpPanel::draw(NVGcontext* context) {
-  const float lines = static_cast<float>(kHelp.size());
+  const float lines = static_cast<float>(viewKeys().size());
   // As large as the window permits.
   const float line_px = std::min(24 * scale_, static_cast<float>(height()) / (lines + 2));
   const float width_px = 19 * line_px, height_px = (lines + 1) * line_px;
@@ -54,7 +36,7 @@ void HelpPanel::draw(NVGcontext* context) {
   nvgFontSize(context, 0.75f * line_px);
   nvgTextAlign(context, NVG_ALIGN_LEFT | NVG_ALIGN_MIDDLE);
   float y = top + line_px;
-  for (const auto& [key, meaning] : kHelp) {
+  for (const auto& [key, meaning] : viewKeys()) {
     nvgFontFace(context, "sans-bold");
     nvgFillColor(context, nvgRGB(255, 214, 120));
     nvgText(context, left + line_px, y, key, nullptr);

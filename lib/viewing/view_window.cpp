@@ -72,7 +72,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         playing_.push_back(part);
       }
     }
-    addButton("Follow", [this] { drawing_.panes().followNext(); });
+    addButton("Follow", [this] { drawing_.panes().followNext(source_.snapshot()); });
     addButton("All", [this] { drawing_.panes().showAll(); });
     addSwitch("Paths", [this]() -> bool& { return drawing_.panes().layers().paths; });
     addSwitch("Sensors", [this]() -> bool& { return drawing_.panes().layers().sensors; });
@@ -249,7 +249,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         seekBy(5);
         break;
       case 'F':
-        drawing_.panes().followNext();
+        drawing_.panes().followNext(source_.snapshot());
         break;
       case '0':
         drawing_.panes().showAll();

@@ -59,7 +59,8 @@ TEST(BenchView, ReportsFramesPerSecondForEachKindOfView) {
     EXPECT_GT(figures["frames_per_s"], 0.0);
     EXPECT_GT(figures["cpu_s_per_frame"], 0.0);
   }
-  EXPECT_EQ(views, (std::vector<std::string>{"2d", "3d", "3d-paths", "3d-antialias", "both"}));
+  EXPECT_EQ(views, (std::vector<std::string>{"2d", "2d-bare", "2d-paths", "2d-ranges", "2d-names", "2d-inset", "3d",
+                                             "3d-paths", "3d-ranges", "3d-names", "3d-inset", "3d-antialias", "both"}));
 }
 
 TEST(BenchMaps, EndsOnInterruptWithoutLeavingFiles) {

@@ -110,9 +110,9 @@ TEST(View, ReportsInvalidArguments) {
   };
   EXPECT_NE(error(hall + " --follow Bob --offscreen x.png").find("there is no robot Bob; there is Ann"),
             std::string::npos);
-  EXPECT_NE(
-      error(hall + " --offscreen x.gif").find("must end in .png, for a picture, or in .mp4 or .webm, for a video"),
-      std::string::npos);
+  EXPECT_NE(error(hall + " --offscreen x.gif")
+                .find("must end in .png, for a picture, in .svg or .pdf, for a figure, or in .mp4"),
+            std::string::npos);
   EXPECT_NE(error(hall + " --offscreen x.mp4").find("nothing moves in a world that does not run"), std::string::npos);
   EXPECT_NE(error(hall + " --size 10x10 --offscreen x.png").find("--size 10x10: must be"), std::string::npos);
   EXPECT_NE(error(hall + " --view 4d --offscreen x.png").find("--view 4d: must be 2d"), std::string::npos);
