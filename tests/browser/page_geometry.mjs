@@ -49,8 +49,9 @@ export function violations() {
 
   // Parts of the page. On the picture, what lies on it does not overlap either.
   const isCompact = document.body.dataset.layout === 'compact';
+  const isOnPicture = isCompact || document.body.dataset.layout === 'phone';  // the banner
   const isPictureOnly = document.body.dataset.camera !== 'none';
-  const parts = all(`.bar, ${isCompact ? '' : '.banner, '}.card, .tabs, .pad, .keys, .acts, .limit${isCompact || !isPictureOnly ? '' : ', .view'}`);
+  const parts = all(`.bar, ${isOnPicture && isPictureOnly ? '' : '.banner, '}.card, .tabs, .pad, .keys, .acts, .limit${isCompact || !isPictureOnly ? '' : ', .view'}`);
   const isBehind = (element) => isCompact && !isPictureOnly && element.matches('.range');  // panels open above it
   parts.forEach((a, i) => {
     for (const b of parts.slice(i + 1)) {
@@ -66,7 +67,11 @@ export function violations() {
     }
   });
   const view = boxOf(document.querySelector('.view'));
-  for (const box of onPicture) {
+  const banners = isOnPicture ? all('.banner') : [];
+  for (const banner of banners) {
+    for (const part of onPicture) if (!part.element.matches('.view-head, .signals, .hud') && overlap(banner, part)) found.push(`${name(banner.element)} overlaps ${name(part.element)}`);
+  }
+  for (const box of [...onPicture, ...banners]) {
     if (box.left < view.left - 1 || box.right > view.right + 1 || box.top < view.top - 1 || box.bottom > view.bottom + 1) found.push(`${name(box.element)} reaches over the picture's edge`);
   }
 

@@ -126,7 +126,7 @@ test('"You drive" is shown only while commands arrive', async () => {
   await page.keyboard.down('ArrowUp');
   await status('You drive');
   page.script.isSilent = true;  // the robot no longer reports, so that it need not receive commands
-  await status('You have control');
+  await status('In control');
   page.script.isSilent = false;
   page.script.sendUpdate();
   await status('You drive');

@@ -49,5 +49,5 @@ export function statusOf({ link, team, isFresh, holdsLock, isSending }) {
   const { up, is_yours: isYours, driver, autonomous, activity } = team.robots[0];
   if (!holdsLock || (up && driver && !isYours)) return { text: 'Watching', kind: 'info' };
   const drives = up && isYours && !autonomous && activity === 'active' && isFresh && isSending;
-  return drives ? { text: 'You drive', kind: 'good' } : { text: 'You have control', kind: 'info' };
+  return drives ? { text: 'You drive', kind: 'good' } : { text: 'In control', kind: 'info' };
 }
