@@ -26,7 +26,7 @@ class JoystickDriver {
   static constexpr std::chrono::seconds kPresence{5};       ///< for which a robot cruises without an input
 
   struct Output {
-    std::optional<RemoteOrder> order;  ///< to send now: steering, a stop, or ALIVE; nullopt while nobody is present
+    std::optional<RemoteOrder> order;  ///< to send now: steering, a stop, or ALIVE; nullopt while no driver is present
     bool checks_win = false;
     bool switches = false;
   };

@@ -114,7 +114,7 @@ TEST_F(JoystickDriverTest, StopsACruisingRobotFiveSecondsAfterTheLastInput) {
   const auto stop = *convert(0, 0).order;
   EXPECT_EQ(stop.type, RemoteType::stop);
   EXPECT_EQ(stop.why, "received no joystick input for 5 s");
-  EXPECT_EQ(convert(0, 0).order, std::nullopt) << "nobody is present";
+  EXPECT_EQ(convert(0, 0).order, std::nullopt) << "no driver is present";
   EXPECT_EQ(convert(0, -1).order->type, RemoteType::drive);
 }
 
