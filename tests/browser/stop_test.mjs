@@ -156,7 +156,8 @@ for (const [what, act] of [
 ]) {
   test(`${what} stops, and the stick that is still held has no effect`, async () => {
     await moveStick(page, 0, 0);
-    await aliveOften(5);
+    await forget();
+    await aliveOften(5);  // the page has seen that the stick is neutral
     await forget();
     await moveStick(page, 0, 1);
     await wasSent(['drive']);
