@@ -1,12 +1,12 @@
 #include "remote/robot_link.h"
 
-#include <cmath>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
 #include <thread>
 #include <utility>
 
+#include "base/portable_math.h"
 #include "net/client_stream.h"
 #include "net/robot_wire.h"
 #include "net/tls.h"
@@ -44,8 +44,8 @@ double drivenDistance(const RobotUpdate* before, const Readings& now) {
   const Odometry* const from = odometryOf(before->readings);
   const Odometry* const to = odometryOf(now);
   if (!from || !to) return before->driven_m;
-  return before->driven_m +
-         std::hypot(to->odom_from_robot.x - from->odom_from_robot.x, to->odom_from_robot.y - from->odom_from_robot.y);
+  return before->driven_m + portable::hypot(to->odom_from_robot.x - from->odom_from_robot.x,
+                                            to->odom_from_robot.y - from->odom_from_robot.y);
 }
 
 }  // namespace

@@ -40,7 +40,7 @@ std::size_t areasIn(const std::string& svg) { return countIn(svg, "fill-opacity:
 
 TEST(ViewFigure, OfAWorldHasAPolygonForEachSonarAndLaser) {
   std::size_t expected = 0;
-  for (const auto& robot : loadWorld("worlds/small_maze.xml", {}).fleet.robots) {
+  for (const auto& robot : loadWorld(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", {}).fleet.robots) {
     for (const auto& sensor : *robot.info.sensors) {
       if (sensor.kind == SensorKind::sonar) expected += sensor.beams.size();
       // A scan is one area; a laser of few beams has a sector for each.
@@ -59,7 +59,7 @@ TEST(ViewFigure, OfARecordingHasThePathsUntilItsTime) {
   const auto folder = emptyFolder();
   const std::string rawlog = quoted(folder / "run.rawlog");
   ASSERT_EQ(runProgram("run worlds/small_maze.xml --controller wander --time 5 --record " + rawlog).exit_code, 0);
-  const std::size_t robots = loadWorld("worlds/small_maze.xml", {}).fleet.robots.size();
+  const std::size_t robots = loadWorld(ROBOSIM_SOURCE_DIR "/worlds/small_maze.xml", {}).fleet.robots.size();
   const std::string whole = figureOf(rawlog, folder), half = figureOf(rawlog, folder, "--to 2.5");
   EXPECT_EQ(pathsIn(whole), robots);
   EXPECT_EQ(pathsIn(half), robots);
