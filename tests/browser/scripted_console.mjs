@@ -83,10 +83,12 @@ class Script {
     this.send({ type: 'note', text: 'Pioneer1 is too far from the gold to have won.', warning: true });
     this.updates = 0;
     this.sendUpdate();
-    if (this.hasPulse) return;
-    this.hasPulse = true;
-    const pulse = setInterval(() => this.send({ type: 'pulse' }), 250);
-    this.socket.onClose(() => clearInterval(pulse));
+    this.pulse ??= setInterval(() => this.send({ type: 'pulse' }), 250);
+  }
+
+  // Otherwise the pulse would keep the test's process alive.
+  end() {
+    clearInterval(this.pulse);
   }
 
   sendRun(run) {
@@ -155,7 +157,11 @@ export async function visitScripted(browser, state, { hasClock = false, init, ..
     const file = join(FOLDER, 'lib/remote/page', path === '/' ? 'index.html' : path);
     return route.fulfill({ body: readFileSync(file), headers: { ...HEADERS, 'content-type': TYPES[extname(file)] } });
   });
-  await page.routeWebSocket(`${ORIGIN.replace('http', 'ws')}/**`, (socket) => { page.script = new Script(socket, STATES[state]); });
+  await page.routeWebSocket(`${ORIGIN.replace('http', 'ws')}/**`, (socket) => {
+    page.script?.end();  // the page connects again
+    page.script = new Script(socket, STATES[state]);
+  });
+  page.on('close', () => page.script?.end());
   if (hasClock) await page.clock.install();
   if (init) await page.addInitScript(init);
   await page.goto(ORIGIN);
