@@ -122,17 +122,21 @@ bool isServed(const RobotArguments& arguments) {
   return isListening(options.address, options.connect_limit);
 }
 
-/// Drives the robots in the current run. @return the address of the port for remote control, for the next run
+/// Drives the robots in the current run, until its end or, with joins_next_run, until the next one is loaded. @return
+/// the address of the port for remote control, for the next run
 std::string driveInOneRun(const RobotArguments& arguments) {
   RobotProcess process(arguments);
   Reconnector reconnector(std::chrono::duration<double>(arguments.reconnect_timeout_s), logRobot);
   try {
     reconnector.run([&] { process.drive(); }, [&] { process.rejoin(); });
-  } catch (const ConnectionError&) {
-    if (const std::size_t lost = process.unconfirmedMessages(); lost > 0) {
-      logRobot("the environment has not confirmed the last " + std::to_string(lost) + " messages to other robots");
+  } catch (const ConnectionError& error) {
+    // An environment that awaits the next run ends the robots' connections when that is loaded.
+    if (!arguments.joins_next_run || error.reason() != v1::ERROR_REASON_WORLD_REPLACED) {
+      if (const std::size_t lost = process.unconfirmedMessages(); lost > 0) {
+        logRobot("the environment has not confirmed the last " + std::to_string(lost) + " messages to other robots");
+      }
+      throw;
     }
-    throw;
   }
   std::cout << "the run is over after " << process.stepNumber() << " steps" << std::endl;
   return process.remoteAddress();
