@@ -145,7 +145,7 @@ TEST_F(ConsoleSessionTest, TheEncodedReasonOfAStopNeverExceedsWhatARobotAccepts)
   console.send(page, R"({"type":"stop","why":")" + reason + R"(yz"})");  // 120 bytes
   v1::ControlRequest message;
   encode(console.takeOrders().back().order, message);
-  // "'s page " is 8 bytes: of the reason 52 bytes remain, which are 26 letters.
+  // "'s page " is 8 bytes: of the reason 52 bytes remain, which are 26 characters.
   std::string remaining;
   for (int i = 0; i < 26; ++i) remaining += "é";
   EXPECT_EQ(decode(message).why, name + "'s page " + remaining);

@@ -8,7 +8,7 @@ namespace robosim {
 struct RunView {
   enum class Phase {
     unknown,  ///< never observed: the address is wrong, or the token permits no status
-    gone,     ///< observed before, and no status has arrived for RunSource::kSilence
+    gone,     ///< observed before, and no status has arrived for a second
     waiting,  ///< for robots' processes: `absent`
     paused,
     running,

@@ -14,7 +14,6 @@ namespace robosim {
 namespace {
 
 constexpr double kTitlePerText = 4.0 / 3;
-constexpr double kHeader = 2.1;  ///< from the middle of the title's line, or of "y [m]", to the plan, in capitals
 
 struct Margins {
   double left, right, top, bottom;  ///< [px]
@@ -68,6 +67,7 @@ std::vector<std::pair<double, std::string>> ticks(double from_m, double to_m, do
 
 double tickLabelY(double text_px) { return kTick_px + 1.35 * text_px; }
 double axisLabelY(double text_px) { return kTick_px + 3.2 * text_px; }
+double headerY(double text_px) { return 2.1 * text_px; }
 
 FigureLayout layoutOf(const World& world, const DrawnRun& run, const FigurePage& page) {
   TextRuler ruler;
@@ -81,7 +81,7 @@ FigureLayout layoutOf(const World& world, const DrawnRun& run, const FigurePage&
 
   const double edge_px = text_px;
   const double header_px = edge_px + title_px;  // middle of the title
-  Margins margins{edge_px + kTick_px + kTickGap_px + width_of("y [m]"), 2 * edge_px, header_px + kHeader * text_px, 0};
+  Margins margins{edge_px + kTick_px + kTickGap_px + width_of("y [m]"), 2 * edge_px, header_px + headerY(text_px), 0};
   Legend legend(legendOf(run), text_px, width_px - margins.left - margins.right, width_of);
   const double legend_below_px = axisLabelY(text_px) + 2.6 * text_px;
   margins.bottom = legend.lines() == 0

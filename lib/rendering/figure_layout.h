@@ -33,7 +33,8 @@ inline constexpr double kTickGap_px = 4;  ///< between a tick and its number
 /// Numbers of the ticks within a range, each with its text.
 std::vector<std::pair<double, std::string>> ticks(double from_m, double to_m, double step_m);
 double tickLabelY(double text_px);  ///< middle of the numbers below the plan
-double axisLabelY(double text_px);  ///< middle of "x [m]" below the plan, and of "y [m]" above it
+double axisLabelY(double text_px);  ///< middle of "x [m]" below the plan
+double headerY(double text_px);     ///< middle of "y [m]" above the plan
 ///@}
 
 }  // namespace robosim

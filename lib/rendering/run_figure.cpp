@@ -29,7 +29,7 @@ void paintAxes(Figure& figure, const FigureLayout& layout, const Bounds2D& area)
     write(figure, label, text_px, beside, 1, y);
   }
   write(figure, "x [m]", text_px, (left + layout.plot.x_max) / 2, 0.5, low + axisLabelY(text_px));
-  write(figure, "y [m]", text_px, beside, 1, layout.plot.y_min - 2.1 * text_px);
+  write(figure, "y [m]", text_px, beside, 1, layout.plot.y_min - headerY(text_px));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ inline constexpr double kStartMark_px = 9, kEndMark_px = 16, kEventMark_px = 14,
 class RunPainter {
  public:
   struct Style {
-    double text_px = kTextSize_px;           ///< height of a capital letter in names
+    double text_px = kTextSize_px;           ///< height of a capital in names
     double path_px = 2.4;                    ///< width of paths
     std::optional<Bounds2D> names_within{};  ///< rectangle of pixels; nullopt: the picture
   };

@@ -16,7 +16,6 @@ import { Session } from './session.mjs';
 const phone = { isMobile: true, hasTouch: true, deviceScaleFactor: 1.5 };
 const LOOKS = {
   console_desk: { viewport: { width: 1280, height: 800 }, colorScheme: 'light', map: true },
-  console_dark: { viewport: { width: 1280, height: 800 }, colorScheme: 'dark' },
   console_phone: { viewport: { width: 390, height: 844 }, colorScheme: 'light', ...phone },
   console_landscape: { viewport: { width: 844, height: 390 }, colorScheme: 'dark', ...phone },
   console_team: { viewport: { width: 1366, height: 768 }, colorScheme: 'light', map: true, team: 30 },

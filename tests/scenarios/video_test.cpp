@@ -186,30 +186,17 @@ TEST(Video, ShowsEveryCornerOfAPathAtAnySpeed) {
 
 TEST(Video, ShowsARecordingFromItsStartToItsEnd) {
   const auto folder = emptyFolder();
-  recordWandering(folder, "3");
-  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
-                                " --size 320x240 --fps 10 --speed 2 --offscreen " + quoted(folder / "run.mp4"));
-  ASSERT_EQ(view.exit_code, 0) << view.err;
-  cv::VideoCapture video((folder / "run.mp4").string());
-  ASSERT_TRUE(video.isOpened());
-  cv::Mat first, last;
-  int frames = 0;
-  for (cv::Mat frame; video.read(frame); ++frames) {
-    if (frames == 0) first = frame.clone();
-    last = frame.clone();
-  }
-  EXPECT_EQ(frames, 16) << "3 s at twice the speed, 10 a second, and the last one";
-  EXPECT_EQ(first.size(), cv::Size(320, 240));
-  EXPECT_GT(cv::norm(first, last, cv::NORM_INF), 50) << "the robot has moved";
+  view(recordWandering(folder, "3"), "--size 320x240 --fps 10 --speed 2", folder / "run.mp4");
+  const std::vector<cv::Mat> frames = framesOf(folder / "run.mp4");
+  ASSERT_EQ(frames.size(), 16u) << "3 s at twice the speed, 10 a second, and the last one";
+  EXPECT_EQ(frames.front().size(), cv::Size(320, 240));
+  EXPECT_GT(cv::norm(frames.front(), frames.back(), cv::NORM_INF), 50) << "the robot has moved";
   EXPECT_FALSE(fs::exists(folder / "run.mp4.part"));
 }
 
 TEST(Video, EndsWithItsRecording) {
   const auto folder = emptyFolder();
-  recordWandering(folder, "1");
-  const Ended view = runProgram("view " + quoted(folder / "run.rawlog") +
-                                " --size 321x241 --fps 10 --to 100 --offscreen " + quoted(folder / "run.mp4"));
-  ASSERT_EQ(view.exit_code, 0) << view.err;
+  view(recordWandering(folder, "1"), "--size 321x241 --fps 10 --to 100", folder / "run.mp4");
   const cv::VideoCapture video((folder / "run.mp4").string());
   EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_WIDTH), 320) << "a video has even sides";
   EXPECT_EQ(video.get(cv::CAP_PROP_FRAME_HEIGHT), 240);

@@ -72,7 +72,7 @@ export class Motion {
     return this.#message(now, 'drive', { speed: this.#cruise });
   }
 
-  // Opens or closes a gate. A window without the focus, or hidden, is not told of releases, so that its inputs are
+  // Opens or closes a gate. A window without the focus, or hidden, receives no releases, so that its inputs are
   // considered released: they must be pressed again.
   setGate(gate, isOpen, now) {
     if (this.#gates[gate] === isOpen) return [];
