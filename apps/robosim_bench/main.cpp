@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
   robosim::addMapsBenchmark(program);
   robosim::addLearnBenchmark(program);
   robosim::addArcosBenchmark(program);
+  robosim::addOdometryBenchmark(program);
   robosim::useStandardParts();
   return robosim::execute(program, argc, argv);
 }

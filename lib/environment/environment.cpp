@@ -167,7 +167,9 @@ struct Environment::Impl {
             .time = state.time,
             .seed = state.seed,
             .images = images,
-            .surface = model->world.bounds};
+            .surface = model->world.bounds,
+            .paths = paths,
+            .driven_m = state.driven_m};
   }
 
   void sense(RobotRange range, SensorGroup which) {

@@ -64,7 +64,7 @@ const SensorType kOwnTypes[] = {
     {"bumper", "A ring of contact segments.", false,
      [](XmlReader& r, const Mount& m) -> Made { return makeBumper(BumperOptions::read(r, m)); }, nullptr},
     {"odometry", "The pose since the start as measured by the wheels.", true,
-     [](XmlReader& r, const Mount&) -> Made { return makeOdometry(OdometryOptions::read(r)); }, nullptr},
+     [](XmlReader& r, const Mount& m) -> Made { return makeOdometry(OdometryOptions::read(r, m)); }, nullptr},
     {"compass", "The heading in the world.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeCompass(CompassOptions::read(r)); }, nullptr},
     {"camera", "Colour pictures.", false,
