@@ -61,7 +61,7 @@ const SensorType kOwnTypes[] = {
      [](XmlReader& r, const Mount& m) -> Made { return makeHeat(HeatOptions::read2005(r, m)); }},
     {"infrared", "Short-range single beams.", true,
      [](XmlReader& r, const Mount&) -> Made { return makeInfrared(InfraredOptions::read(r)); }, nullptr},
-    {"bumper", "A ring of contact segments.", false,
+    {"bumper", "A ring of contact segments.", true,
      [](XmlReader& r, const Mount& m) -> Made { return makeBumper(BumperOptions::read(r, m)); }, nullptr},
     {"odometry", "The pose since the start as measured by the wheels.", true,
      [](XmlReader& r, const Mount& m) -> Made { return makeOdometry(OdometryOptions::read(r, m)); }, nullptr},
