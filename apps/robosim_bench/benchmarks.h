@@ -7,6 +7,7 @@ namespace robosim {
 ///@{
 void addArcosBenchmark(CLI::App& program);
 void addCameraBenchmark(CLI::App& program);
+void addErrorsBenchmark(CLI::App& program);
 void addLearnBenchmark(CLI::App& program);
 void addMapsBenchmark(CLI::App& program);
 void addNetworkBenchmark(CLI::App& program);

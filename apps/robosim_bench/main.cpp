@@ -20,6 +20,7 @@ int main(int argc, char** argv) {
   robosim::addLearnBenchmark(program);
   robosim::addArcosBenchmark(program);
   robosim::addOdometryBenchmark(program);
+  robosim::addErrorsBenchmark(program);
   robosim::useStandardParts();
   return robosim::execute(program, argc, argv);
 }

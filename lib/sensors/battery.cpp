@@ -67,11 +67,11 @@ BatteryOptions BatteryOptions::read(XmlReader& reader) {
   o.driving_s = hour_s * reader.number("driving_h", Bounds::positive(1e6), o.driving_s / hour_s);
   if (auto noise = reader.child("noise")) {
     BatteryLoad& load = o.load;
-    load.on = true;
     load.drop_v_per_mps = noise->number("drop_v_per_mps", Bounds::notNegative(100), load.drop_v_per_mps);
     load.drop_v_per_radps = noise->number("drop_v_per_radps", Bounds::notNegative(100), load.drop_v_per_radps);
     load.speed_mps = noise->number("speed_mps", Bounds::positive(100), load.speed_mps);
     load.noise_std_v = noise->number("std_v", Bounds::notNegative(100), load.noise_std_v);
+    load.on = load.drop_v_per_mps > 0 || load.drop_v_per_radps > 0 || load.noise_std_v > 0;
     noise->finish();
   }
   if (o.empty_v >= o.full_v) reader.errorAt("empty_v", "must be below full_v");

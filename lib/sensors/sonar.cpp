@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/portable_math.h"
@@ -96,8 +97,12 @@ class Sonar : public Sensor {
       static thread_local std::vector<Detection> detections;
       detectAll(now, robot, frame, detections);
       if (options_.noise.range.on) addNoise(now, robot, slot, frame, detections);
-      for (std::size_t i = 0; i < sonars_.size(); ++i) {
-        if (options_.firing.fires(i, now.time)) echoes[i] = echoOf(i, detections[i]);
+      if (options_.firing.isSimultaneous()) {
+        for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = echoOf(i, detections[i]);
+      } else {
+        for (std::size_t i = 0; i < sonars_.size(); ++i) {
+          if (options_.firing.fires(i, now.time)) echoes[i] = echoOf(i, detections[i]);
+        }
       }
     }
   }
@@ -164,6 +169,7 @@ class Sonar : public Sensor {
     const SonarNoise& noise = options_.noise;
     Rng rng = now.noise(robot, slot);
     for (std::size_t i = 0; i < sonars_.size(); ++i) {
+      if (!options_.firing.fires(i, now.time)) continue;
       if (noise.hasReflections() && detections[i].body != kNoBody)
         reflect(now, robot, frame, sonars_[i], detections[i]);
       if (noise.blanking_m > 0) blank(detections[i]);
@@ -171,8 +177,7 @@ class Sonar : public Sensor {
       detections[i].range_m = noise.range.apply(detections[i].range_m, rng);
     }
     if (noise.crosstalk > 0) addCrosstalk(rng, detections);
-    if (noise.ringing > 0) addRinging(now.noise(robot, slot, 1), detections);
-    if (noise.robot_crosstalk > 0) addInterference(now, robot, frame, now.noise(robot, slot, 2), detections);
+    if (noise.ringing > 0 || noise.robot_crosstalk > 0) addFalseEchoes(now, robot, slot, frame, detections);
   }
 
   /// Replaces what the ping has met by the echo that returns.
@@ -213,29 +218,34 @@ class Sonar : public Sensor {
     detection.range_m *= std::ceil(blanking_m / detection.range_m);
   }
 
-  void addRinging(Rng rng, std::vector<Detection>& detections) const {
-    const double range_m = std::max(options_.noise.blanking_m, options_.range_min_m);
+  /// Adds echoes of ringing and the pings of other robots.
+  void addFalseEchoes(const Snapshot& now, std::uint32_t robot, std::size_t slot, const PlanarTransform& frame,
+                      std::vector<Detection>& detections) const {
+    const SonarNoise& noise = options_.noise;
+    const double ringing_m = std::max(noise.blanking_m, options_.range_min_m);
+    Rng rng = now.noise(robot, slot, 1);
+    std::optional<Rng> ranges;  // seldom needed
     for (std::size_t i = 0; i < detections.size(); ++i) {
-      const bool rings = rng.uniform() < options_.noise.ringing;
-      if (rings && range_m < detections[i].range_m) detections[i] = {range_m, sonars_[i].axis, kNoBody};
-    }
-  }
-
-  void addInterference(const Snapshot& now, std::uint32_t robot, const PlanarTransform& frame, Rng rng,
-                       std::vector<Detection>& detections) const {
-    const double half_rad = options_.noise.lobe.on ? options_.noise.lobe.wall_rad : options_.beam_width_rad / 2;
-    for (std::size_t i = 0; i < detections.size(); ++i) {
-      const bool may_hear = rng.uniform() < options_.noise.robot_crosstalk;
-      const double range_m = std::max(options_.noise.blanking_m, rng.uniform() * options_.range_max_m);
-      if (!may_hear || range_m >= detections[i].range_m) continue;
-      if (!hearsAnotherRobot(now, robot, axisOf(frame, sonars_[i]), half_rad, options_.range_max_m)) continue;
-      detections[i] = {range_m, sonars_[i].axis, kNoBody};
+      // One number of 32 bits decides both: low ones ring, high ones may receive a ping.
+      const double number = rng() * 0x1p-32;
+      const bool rings = number < noise.ringing, may_hear = 1 - number <= noise.robot_crosstalk;
+      Detection& detection = detections[i];
+      if (rings && ringing_m < detection.range_m) detection = {ringing_m, sonars_[i].axis, kNoBody};
+      if (!may_hear || !options_.firing.fires(i, now.time)) continue;
+      if (!ranges) ranges.emplace(now.noise(robot, slot, 2));
+      const double range_m = std::max(noise.blanking_m, ranges->uniform() * options_.range_max_m);
+      const double half_rad = noise.lobe.on ? noise.lobe.wall_rad : options_.beam_width_rad / 2;
+      if (range_m >= detection.range_m) continue;
+      if (hearsAnotherRobot(now, robot, axisOf(frame, sonars_[i]), half_rad, options_.range_max_m)) {
+        detection = {range_m, sonars_[i].axis, kNoBody};
+      }
     }
   }
 
   void addCrosstalk(Rng& rng, std::vector<Detection>& detections) const {
     // The neighbours' own echoes, so that an echo does not propagate around the ring.
-    const std::vector<Detection> own = detections;
+    static thread_local std::vector<Detection> own;
+    own = detections;
     const std::size_t n = own.size();
     for (std::size_t i = 0; i < n; ++i) {
       const bool mixed = rng.uniform() < options_.noise.crosstalk;

@@ -1,5 +1,6 @@
 #include "sensors/sonar_echo.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/portable_math.h"
@@ -26,6 +27,21 @@ SonarTarget targetAt(const Outline& outline, const TPoint2D& from) {
 
 }  // namespace
 
+SonarReflector::SonarReflector(const SonarNoise& noise, double range_max_m)
+    : noise_(noise), range_max_m_(range_max_m), specular_cosine_(portable::cos(noise.specular_rad)) {
+  for (const auto target : {SonarTarget::face, SonarTarget::edge}) {
+    const double near_rad = noise.lobe.angleAt(0, target), far_rad = noise.lobe.angleAt(noise.lobe.range_m, target);
+    always_[static_cast<std::size_t>(target)] = portable::cos(std::min(near_rad, far_rad));
+    ever_[static_cast<std::size_t>(target)] = portable::cos(std::max(near_rad, far_rad));
+  }
+}
+
+bool SonarReflector::covers(double ahead, double range_m, SonarTarget target) const {
+  if (ahead >= always_[static_cast<std::size_t>(target)]) return true;
+  if (ahead < ever_[static_cast<std::size_t>(target)]) return false;
+  return ahead >= portable::cos(noise_.lobe.angleAt(range_m, target));
+}
+
 std::optional<SonarEcho> SonarReflector::direct(const Scene& scene, BodyId owner, const Ray& axis, const SonarEcho& met,
                                                 BodyId body) const {
   if (met.range_m <= 0) return met;
@@ -33,21 +49,20 @@ std::optional<SonarEcho> SonarReflector::direct(const Scene& scene, BodyId owner
   if (!noise_.lobe.on) {
     const double flat = portable::hypot(met.direction.x, met.direction.y);
     const double facing = -dotInPlan(met.direction, normalAt(solid.outline, {met.point.x, met.point.y})) / flat;
-    return facing < portable::cos(noise_.specular_rad) ? std::nullopt : std::optional(met);
+    return facing < specular_cosine_ ? std::nullopt : std::optional(met);
   }
   const TPoint2D from(axis.origin.x, axis.origin.y);
   // A body above or below the sonar has an edge at its height, where the ping met it.
   if (!solid.heights.contains(axis.origin.z)) {
     const double ahead =
         met.direction.x * axis.direction.x + met.direction.y * axis.direction.y + met.direction.z * axis.direction.z;
-    return ahead < portable::cos(noise_.lobe.angleAt(met.range_m, SonarTarget::edge)) ? std::nullopt
-                                                                                      : std::optional(met);
+    return covers(ahead, met.range_m, SonarTarget::edge) ? std::optional(met) : std::nullopt;
   }
   const TPoint2D out = nearestPoint(solid.outline, from) - from;
   const double range_m = portable::hypot(out.x, out.y);
   if (range_m == 0) return met;
   const double ahead = dotInPlan(axis.direction, out) / range_m;
-  if (ahead < portable::cos(noise_.lobe.angleAt(range_m, targetAt(solid.outline, from)))) return std::nullopt;
+  if (!covers(ahead, range_m, targetAt(solid.outline, from))) return std::nullopt;
   const TPoint3D direction{out.x / range_m, out.y / range_m, 0};
   const SonarEcho echo{range_m, direction, axis.origin + direction * range_m};
   if (echo.direction.x * met.direction.x + echo.direction.y * met.direction.y > 1 - 1e-9) return echo;
@@ -57,8 +72,8 @@ std::optional<SonarEcho> SonarReflector::direct(const Scene& scene, BodyId owner
 }
 
 bool SonarReflector::faces(const TPoint3D& direction, const TPoint2D& normal, double range_m) const {
-  const double angle_rad = noise_.lobe.on ? noise_.lobe.angleAt(range_m, SonarTarget::face) : noise_.specular_rad;
-  return -dotInPlan(direction, normal) >= portable::cos(angle_rad);
+  const double facing = -dotInPlan(direction, normal);
+  return noise_.lobe.on ? covers(facing, range_m, SonarTarget::face) : facing >= specular_cosine_;
 }
 
 std::optional<SonarEcho> SonarReflector::fromCorner(const Ray& axis, const TPoint3D& at, const TPoint2D& normal,
@@ -72,7 +87,7 @@ std::optional<SonarEcho> SonarReflector::fromCorner(const Ray& axis, const TPoin
   if (range_m == 0) return std::nullopt;
   const TPoint3D direction{out.x / range_m, out.y / range_m, 0};
   const double ahead = direction.x * axis.direction.x + direction.y * axis.direction.y;
-  if (noise_.lobe.on && ahead < portable::cos(noise_.lobe.angleAt(range_m, SonarTarget::face))) return std::nullopt;
+  if (noise_.lobe.on && !covers(ahead, range_m, SonarTarget::face)) return std::nullopt;
   return SonarEcho{range_m, direction, apex};
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 
 #include "geometry/scene.h"
@@ -24,7 +25,7 @@ struct SonarEcho {
 class SonarReflector {
  public:
   /// @param noise must outlive this object
-  SonarReflector(const SonarNoise& noise, double range_max_m) : noise_(noise), range_max_m_(range_max_m) {}
+  SonarReflector(const SonarNoise& noise, double range_max_m);
 
   /// The direct echo from a body that the ping has met; nullopt when it does not return.
   /// @param axis of the sonar, world frame @param owner its robot @param met nearest in the beam
@@ -36,10 +37,15 @@ class SonarReflector {
   std::optional<SonarEcho> fromCorner(const Ray& axis, const mrpt::math::TPoint3D& at,
                                       const mrpt::math::TPoint2D& normal, const mrpt::math::TPoint3D& next_at,
                                       const mrpt::math::TPoint2D& next) const;
+  /// Whether the lobe covers a target, by the cosine of its angle from the axis.
+  bool covers(double ahead, double range_m, SonarTarget target) const;
   bool faces(const mrpt::math::TPoint3D& direction, const mrpt::math::TPoint2D& normal, double range_m) const;
 
   const SonarNoise& noise_;
   double range_max_m_;
+  double specular_cosine_;
+  /// By target: cosines of the smallest and the largest angle of the lobe at any range, which decide most cases.
+  std::array<double, 2> always_, ever_;
 };
 
 }  // namespace robosim
