@@ -31,7 +31,7 @@ struct UmbmarkErrors {
 /// Lets a robot drive the square by its odometry in an empty world.
 UmbmarkErrors driveUmbmark(const UmbmarkOptions&);
 
-/// Results of the experiment: equations 7 to 13 and 16 to 18 of the paper.
+/// Results of the experiment, by the equations of the paper.
 struct UmbmarkResult {
   mrpt::math::TPoint2D clockwise_m, counter_clockwise_m;  ///< centres of gravity of the errors
   double error_max_m = 0;                                 ///< E_max,syst: distance of the farther centre from the start

@@ -5,8 +5,8 @@
 namespace robosim {
 
 /// Systematic errors of the odometry of a differential drive (Borenstein & Feng, "Measurement and correction of
-/// systematic odometry errors in mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996: E_d, eq. 2, and E_b,
-/// eq. 3), and slip of its wheels, which that paper lists among the non-systematic errors. The mean diameter of the
+/// systematic odometry errors in mobile robots", IEEE Trans. Robotics and Automation 12(6), 1996: E_d and E_b),
+/// and slip of its wheels, which that paper lists among the non-systematic errors. The mean diameter of the
 /// wheels is exact, as the paper assumes. Omitted: uneven floors, castors, and the resolution of the encoders.
 struct WheelErrors {
   double diameter_ratio = 1;   ///< E_d: actual diameter of the right wheel by that of the left one, [0.5, 2]

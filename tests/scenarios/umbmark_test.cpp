@@ -13,7 +13,7 @@ UmbmarkResult recovered(const UmbmarkOptions& options) {
 }
 
 TEST(Umbmark, ReturnsToTheStartWithoutErrors) {
-  const auto result = recovered({.runs = 1, .has_noise = false});
+  const auto result = recovered({.wheels = {}, .runs = 1, .has_noise = false});
   EXPECT_NEAR(result.error_max_m, 0, 1e-9);
   EXPECT_NEAR(result.diameter_ratio, 1, 1e-9);
   EXPECT_NEAR(result.wheelbase_ratio, 1, 1e-9);
