@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
-#include <set>
 
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
@@ -12,13 +11,13 @@
 #include "control/robot_list.h"
 #include "environment/world_changes.h"
 #include "robosim/arguments.h"
+#include "robosim/check_errors.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
 #include "robots/free_space.h"
 #include "robots/scatter.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
-#include "sensors/noise_settings.h"
 #include "world/raster.h"
 #include "world/world_file.h"
 
@@ -114,45 +113,6 @@ struct Additions {
   std::uint64_t seed = 1;
 };
 
-/// Rows of the sensors with errors that a robot type or a robot describes.
-void addNoise(const std::string& name, const std::vector<XmlElement>& sensors, const RobotModel& model, Rows& rows) {
-  for (const auto& sensor : sensors) {
-    const std::string noise = noiseTextOf(sensor, {1, model.radius_m, model.body.height_m, model.sensors, 0});
-    if (!noise.empty()) rows.push_back({"  " + name, sensor.name + ": " + noise});
-  }
-}
-
-/// The <sensors> of a robot type.
-std::vector<XmlElement> sensorsOf(const XmlElement& type) {
-  for (const auto& child : type.children) {
-    if (child.name == "sensors") return child.children;
-  }
-  return {};
-}
-
-/// Errors of the sensors of each robot type, and of robots with sensors of their own, and of the radio.
-void addErrors(const World& world, const Fleet& fleet, const RobotTypes& types, Rows& rows) {
-  std::set<std::string> listed;
-  for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    const RobotPlacement& placed = world.robots[i];
-    const auto type = types.find(placed.model);
-    if (!placed.sensors.empty()) {
-      addNoise(placed.name, placed.sensors, *fleet.robots[i].model, rows);
-    } else if (type != types.end() && listed.insert(placed.model).second) {
-      addNoise(placed.model, sensorsOf(type->second.read()), *fleet.robots[i].model, rows);
-    }
-  }
-  const Communication& radio = world.communication;
-  if (radio == Communication{}) return;
-  const auto with = [](const char* name, double value) { return std::string(", ") + name + " " + toText(value); };
-  rows.push_back({"communication", "range " + (radio.range_m ? toText(*radio.range_m) + " m" : "unlimited") +
-                                       with("loss", radio.loss_probability) + with("wall_range", radio.wall_range_m) +
-                                       " m" + with("wall_loss", radio.wall_loss) +
-                                       with("burst_gap_s", radio.burst_gap_s) + with("burst_s", radio.burst_s) +
-                                       with("burst_loss", radio.burst_loss) + with("delay_s", radio.delay_s) +
-                                       with("rate_hz", radio.rate_hz)});
-}
-
 void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
   LoadedWorld loaded{std::move(world_in_file), {}};
   const RobotTypes types = robotTypesIn(robotTypeFolders(file));
@@ -211,7 +171,7 @@ void checkRobotModel(const std::string& file, const XmlElement& root, Checked& c
   checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};
   if (!model.sensor_infos) return;
   for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
-  if (checked.errors.empty()) addNoise("errors", sensorsOf(root), model, checked.contents);
+  if (checked.errors.empty()) addSensorErrors(root, model, checked.contents);
 }
 
 Checked check(const std::string& file, const Additions& additions) {

@@ -8,7 +8,7 @@ namespace robosim {
 
 /// Voltage drop of a loaded battery: its internal resistance times the current of the motors, which is proportional to
 /// the speed (friction) and to the turn rate (scrub). The charge then follows from the time and the distance driven, as
-/// if that had been driven at `speed_mps`, because a reading with a drop does not tell the charge. Omitted:
+/// if that had been driven at `speed_mps`, because a reading with a drop does not determine the charge. Omitted:
 /// acceleration, payload, recovery of the cells, and the charge that turning takes.
 struct BatteryLoad {
   bool on = false;

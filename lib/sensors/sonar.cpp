@@ -228,15 +228,15 @@ class Sonar : public Sensor {
     for (std::size_t i = 0; i < detections.size(); ++i) {
       // One number of 32 bits decides both: low ones ring, high ones may receive a ping.
       const double number = rng() * 0x1p-32;
-      const bool rings = number < noise.ringing, may_hear = 1 - number <= noise.robot_crosstalk;
+      const bool rings = number < noise.ringing, may_receive = 1 - number <= noise.robot_crosstalk;
       Detection& detection = detections[i];
       if (rings && ringing_m < detection.range_m) detection = {ringing_m, sonars_[i].axis, kNoBody};
-      if (!may_hear || !options_.firing.fires(i, now.time)) continue;
+      if (!may_receive || !options_.firing.fires(i, now.time)) continue;
       if (!ranges) ranges.emplace(now.noise(robot, slot, 2));
       const double range_m = std::max(noise.blanking_m, ranges->uniform() * options_.range_max_m);
       const double half_rad = noise.lobe.on ? noise.lobe.wall_rad : options_.beam_width_rad / 2;
       if (range_m >= detection.range_m) continue;
-      if (hearsAnotherRobot(now, robot, axisOf(frame, sonars_[i]), half_rad, options_.range_max_m)) {
+      if (mayReceivePing(now, robot, axisOf(frame, sonars_[i]), half_rad, options_.range_max_m)) {
         detection = {range_m, sonars_[i].axis, kNoBody};
       }
     }

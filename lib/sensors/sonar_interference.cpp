@@ -4,7 +4,7 @@
 
 namespace robosim {
 
-bool hearsAnotherRobot(const Snapshot& now, std::uint32_t robot, const Ray& axis, double half_rad, double range_max_m) {
+bool mayReceivePing(const Snapshot& now, std::uint32_t robot, const Ray& axis, double half_rad, double range_max_m) {
   static thread_local std::vector<std::uint32_t> found;
   now.scene.findMoving({axis.origin.x, axis.origin.y}, range_max_m, found);
   const double ahead_min = portable::cos(half_rad);

@@ -7,8 +7,9 @@
 namespace robosim {
 namespace {
 
-/// Whether a sonar at the first robot's centre, which faces along x, hears a second robot there.
-bool hears(const mrpt::math::TPose2D& second, const std::vector<Solid>& solids, double half_deg, double range_max_m) {
+/// Whether a sonar at the first robot's centre, which faces along x, receives the pings of a second robot there.
+bool receives(const mrpt::math::TPose2D& second, const std::vector<Solid>& solids, double half_deg,
+              double range_max_m) {
   Scene scene(solids, 2, {-20, 20, -20, 20});
   const std::vector<mrpt::math::TPose2D> poses{{0, 0, 0}, second};
   for (std::size_t i = 0; i < 2; ++i) scene.place(i, {Circle{{poses[i].x, poses[i].y}, 0.2}, {0, 0.3}});
@@ -21,14 +22,14 @@ bool hears(const mrpt::math::TPose2D& second, const std::vector<Solid>& solids, 
                      .laser_pan_rad = {},
                      .time = {},
                      .seed = 1};
-  return hearsAnotherRobot(now, 0, {{0, 0, 0.1}, {1, 0, 0}}, half_deg * M_PI / 180, range_max_m);
+  return mayReceivePing(now, 0, {{0, 0, 0.1}, {1, 0, 0}}, half_deg * M_PI / 180, range_max_m);
 }
 
 TEST(SonarInterference, ComesFromRobotsInViewOnly) {
-  EXPECT_TRUE(hears({3, 1, 0}, {}, 20, 5)) << "18.4° aside";
-  EXPECT_FALSE(hears({3, 1, 0}, {}, 18, 5));
-  EXPECT_FALSE(hears({3, 1, 0}, {}, 20, 3)) << "3.16 m away";
-  EXPECT_FALSE(hears({3, 1, 0}, {block(1.5, 0.5, 0.2, 2)}, 20, 5)) << "behind a wall";
+  EXPECT_TRUE(receives({3, 1, 0}, {}, 20, 5)) << "18.4° aside";
+  EXPECT_FALSE(receives({3, 1, 0}, {}, 18, 5));
+  EXPECT_FALSE(receives({3, 1, 0}, {}, 20, 3)) << "3.16 m away";
+  EXPECT_FALSE(receives({3, 1, 0}, {block(1.5, 0.5, 0.2, 2)}, 20, 5)) << "behind a wall";
 }
 
 }  // namespace
