@@ -11,6 +11,7 @@
 #include "control/robot_list.h"
 #include "environment/world_changes.h"
 #include "robosim/arguments.h"
+#include "robosim/check_errors.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
 #include "robots/free_space.h"
@@ -150,6 +151,7 @@ void checkWorld(const std::string& file, World world_in_file, const Additions& a
   if (fleet.robots.size() > kMaxListed) {
     checked.contents.push_back({"  …", std::to_string(fleet.robots.size() - kMaxListed) + " more"});
   }
+  if (checked.errors.empty()) addErrors(world, fleet, types, checked.contents);
   if (checked.errors.empty()) checkEdge(world, fleet, checked);
 }
 
@@ -169,6 +171,7 @@ void checkRobotModel(const std::string& file, const XmlElement& root, Checked& c
   checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};
   if (!model.sensor_infos) return;
   for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
+  if (checked.errors.empty()) addSensorErrors(root, model, checked.contents);
 }
 
 Checked check(const std::string& file, const Additions& additions) {

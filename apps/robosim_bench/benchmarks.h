@@ -7,9 +7,11 @@ namespace robosim {
 ///@{
 void addArcosBenchmark(CLI::App& program);
 void addCameraBenchmark(CLI::App& program);
+void addErrorsBenchmark(CLI::App& program);
 void addLearnBenchmark(CLI::App& program);
 void addMapsBenchmark(CLI::App& program);
 void addNetworkBenchmark(CLI::App& program);
+void addOdometryBenchmark(CLI::App& program);
 void addSpeedBenchmark(CLI::App& program);
 void addViewBenchmark(CLI::App& program);
 ///@}

@@ -19,6 +19,8 @@ int main(int argc, char** argv) {
   robosim::addMapsBenchmark(program);
   robosim::addLearnBenchmark(program);
   robosim::addArcosBenchmark(program);
+  robosim::addOdometryBenchmark(program);
+  robosim::addErrorsBenchmark(program);
   robosim::useStandardParts();
   return robosim::execute(program, argc, argv);
 }

@@ -5,7 +5,15 @@
 namespace robosim {
 
 /// Purpose of a stream of random numbers; streams of different purposes are independent.
-enum class RandomPurpose : std::uint32_t { sensor_noise, message_loss, controller, start_pose, scenery, test };
+enum class RandomPurpose : std::uint32_t {
+  sensor_noise,
+  message_loss,
+  controller,
+  start_pose,
+  scenery,
+  test,
+  radio_burst
+};
 
 /// Counter-based random number generator (Philox 4×32-10; Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as
 /// easy as 1, 2, 3", SC11; the library Random123). Its numbers depend only on the constructor's arguments, so that a

@@ -234,9 +234,9 @@ std::vector<XmlReader> XmlReader::all(const std::string& tag) {
   for (const auto& child : element_->children) {
     if (child.name == tag) found.push_back(XmlReader(child, *this));
   }
-  if (settings_ && found.empty()) {
-    found.push_back(XmlReader(kNothing, *this));
-    found.back().around_ = around_ + tag + "/";
+  if (settings_ && found.empty()) found.push_back(XmlReader(kNothing, *this));
+  if (settings_) {
+    for (auto& reader : found) reader.around_ = around_ + tag + "/";
   }
   return found;
 }

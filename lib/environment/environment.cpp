@@ -61,6 +61,7 @@ struct Environment::Impl {
   RobotGroups robot_groups;
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< height of each robot's underside
+  std::vector<double> antenna_z_m;       ///< height of each robot's top, where its antenna is
   std::vector<PlanarTransform> frames;   ///< current frames of the robots
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
   std::uint64_t placements = 0;
@@ -79,7 +80,10 @@ struct Environment::Impl {
         robot_groups(fleet, model->period_s),
         paths(fleet.robots.size()),
         frames(fleet.robots.size()) {
-    for (const auto& robot : fleet.robots) base_z_m.push_back(robot.body.heights().z_min_m);
+    for (const auto& robot : fleet.robots) {
+      base_z_m.push_back(robot.body.heights().z_min_m);
+      antenna_z_m.push_back(robot.body.heights().z_max_m);
+    }
     const auto& objects = model->world.objects;
     for (std::size_t i = 0; i < objects.size(); ++i) {
       const auto& pose = objects[i].body.world_from_body;
@@ -167,7 +171,9 @@ struct Environment::Impl {
             .time = state.time,
             .seed = state.seed,
             .images = images,
-            .surface = model->world.bounds};
+            .surface = model->world.bounds,
+            .paths = paths,
+            .driven_m = state.driven_m};
   }
 
   void sense(RobotRange range, SensorGroup which) {
@@ -254,12 +260,23 @@ struct Environment::Impl {
     move_authorisation.begin(paths);
   }
 
+  void deliverMessages() {
+    const auto counts =
+        message_router.deliver(state.seed, state.time, {scene, state.world_from_robot, antenna_z_m, state.activity},
+                               state.outboxes, state.messages_in_flight, state.readings);
+    state.messages_delivered += counts.delivered;
+    state.messages_dropped += counts.dropped;
+    MessageLosses& lost = state.messages_lost;
+    lost.out_of_range += counts.lost.out_of_range;
+    lost.stopped_by_walls += counts.lost.stopped_by_walls;
+    lost.by_chance += counts.lost.by_chance;
+    lost.in_bursts += counts.lost.in_bursts;
+    lost.absent += counts.lost.absent;
+  }
+
   /// The phase after all sensing.
   void finish() {
-    const auto delivery = message_router.deliver(state.seed, state.time, state.world_from_robot, state.activity,
-                                                 state.outboxes, state.readings);
-    state.messages_delivered += delivery.delivered;
-    state.messages_dropped += delivery.dropped;
+    deliverMessages();
     sense(everyRobot(), SensorGroup::in_host_process);
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       Readings& readings = state.readings[i];

@@ -5,9 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "base/portable_math.h"
-#include "base/random.h"
-
 namespace robosim {
 
 MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication)
@@ -37,44 +34,74 @@ void MessageRouter::send(std::size_t from, const std::string& to, const std::str
   outbox.messages.push_back({*found, text});
 }
 
-bool MessageRouter::arrives(std::uint64_t seed, SimTime now, std::size_t from, std::size_t index, std::size_t to,
-                            std::span<const mrpt::math::TPose2D> world_from_robot) const {
-  const auto& a = world_from_robot[from];
-  const auto& b = world_from_robot[to];
-  if (communication_.range_m && portable::hypot(a.x - b.x, a.y - b.y) > *communication_.range_m) return false;
-  if (communication_.loss_probability == 0) return true;
-  Rng rng(seed, RandomPurpose::message_loss, static_cast<std::uint32_t>(from), static_cast<std::uint32_t>(index),
-          now.step);
-  return rng.uniform() >= communication_.loss_probability;
+void MessageRouter::receive(std::uint32_t from, std::uint32_t to, std::string&& text, std::span<Readings> readings,
+                            MessageCounts& counts) {
+  if (!limits_[to].admit(names_[from], names_[to], text)) {
+    ++counts.dropped;
+    return;
+  }
+  auto& inbox = readings[to].inbox;
+  if (inbox.empty()) filled_.push_back(to);
+  inbox.push_back({names_[from], names_[to], std::move(text)});
+  ++counts.delivered;
 }
 
-MessageRouter::Delivery MessageRouter::deliver(std::uint64_t seed, SimTime now,
-                                               std::span<const mrpt::math::TPose2D> world_from_robot,
-                                               std::span<const Activity> activity, std::span<Outbox> outboxes,
-                                               std::span<Readings> readings) {
-  Delivery delivery;
-  for (std::size_t from = 0; from < outboxes.size(); ++from) {
+MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
+                                     std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
+  MessageCounts counts;
+  const std::uint64_t delay_steps = delaySteps(communication_, now.period_s);
+  if (!in_flight.empty()) {
+    const auto is_due = [&](const MessageInFlight& message) { return message.due_step <= now.step; };
+    const auto due_end = std::find_if_not(in_flight.begin(), in_flight.end(), is_due);
+    for (auto message = in_flight.begin(); message != due_end; ++message) {
+      if (robots.activity[message->to] == Activity::absent) {
+        ++counts.lost.absent;
+      } else {
+        receive(message->from, message->to, std::move(message->text), readings, counts);
+      }
+    }
+    in_flight.erase(in_flight.begin(), due_end);
+  }
+  for (std::uint32_t from = 0; from < outboxes.size(); ++from) {
     Outbox& outbox = outboxes[from];
-    if (activity[from] == Activity::absent) outbox = {};
-    delivery.dropped += std::exchange(outbox.surplus, 0);
-    for (std::size_t i = 0; i < outbox.messages.size(); ++i) {
+    if (robots.activity[from] == Activity::absent) outbox = {};
+    counts.dropped += std::exchange(outbox.surplus, 0);
+    if (outbox.messages.empty()) continue;
+    const auto sent =
+        static_cast<std::size_t>(std::min<std::uint64_t>(outbox.messages.size(), messagesAllowed(communication_, now)));
+    for (std::size_t i = 0; i < sent; ++i) {
       auto& message = outbox.messages[i];
-      if (activity[message.to] == Activity::absent) continue;
-      if (!arrives(seed, now, from, i, message.to, world_from_robot)) continue;
-      if (!limits_[message.to].admit(names_[from], names_[message.to], message.text)) {
-        ++delivery.dropped;
+      if (robots.activity[message.to] == Activity::absent) {
+        ++counts.lost.absent;
         continue;
       }
-      auto& inbox = readings[message.to].inbox;
-      if (inbox.empty()) filled_.push_back(message.to);
-      inbox.push_back({names_[from], names_[message.to], std::move(message.text)});
-      ++delivery.delivered;
+      switch (channel_.fateOf(seed, now, robots.scene,
+                              {from, message.to, i, robots.antenna(from), robots.antenna(message.to)})) {
+        case MessageFate::out_of_range:
+          ++counts.lost.out_of_range;
+          break;
+        case MessageFate::stopped_by_walls:
+          ++counts.lost.stopped_by_walls;
+          break;
+        case MessageFate::lost_by_chance:
+          ++counts.lost.by_chance;
+          break;
+        case MessageFate::lost_in_burst:
+          ++counts.lost.in_bursts;
+          break;
+        case MessageFate::arrives:
+          if (delay_steps > 0) {
+            in_flight.push_back({from, message.to, now.step + delay_steps, std::move(message.text)});
+          } else {
+            receive(from, message.to, std::move(message.text), readings, counts);
+          }
+      }
     }
-    outbox.messages.clear();
+    outbox.messages.erase(outbox.messages.begin(), outbox.messages.begin() + static_cast<std::ptrdiff_t>(sent));
   }
   for (const auto robot : filled_) limits_[robot] = {};
   filled_.clear();
-  return delivery;
+  return counts;
 }
 
 }  // namespace robosim

@@ -7,6 +7,7 @@
 #include <mrpt/math/TPose2D.h>
 
 #include "base/sim_time.h"
+#include "environment/radio_channel.h"
 #include "hardware/command.h"
 #include "hardware/inbox_limit.h"
 #include "hardware/readings.h"
@@ -28,11 +29,41 @@ struct Outbox {
   bool operator==(const Outbox&) const = default;
 };
 
-/// Delivers messages between the robots of a world: a message sent in one step arrives in the next. The messages are in
-/// the outboxes of its caller.
+/// A message on its way to a receiver, delayed by Communication::delay_s.
+struct MessageInFlight {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  std::uint64_t due_step = 0;  ///< in which it arrives
+  std::string text;
+  bool operator==(const MessageInFlight&) const = default;
+};
+
+/// Numbers of messages that did not arrive, by cause.
+struct MessageLosses {
+  std::uint64_t out_of_range = 0;
+  std::uint64_t stopped_by_walls = 0;
+  std::uint64_t by_chance = 0;
+  std::uint64_t in_bursts = 0;
+  std::uint64_t absent = 0;  ///< the receiver is not in the world
+  bool operator==(const MessageLosses&) const = default;
+
+  std::uint64_t total() const { return out_of_range + stopped_by_walls + by_chance + in_bursts + absent; }
+};
+
+/// Numbers of messages of a run so far, by their fate.
+struct MessageCounts {
+  std::uint64_t delivered = 0;
+  std::uint64_t dropped = 0;  ///< beyond the limits of their sender or receiver in one step
+  MessageLosses lost;
+};
+
+/// Delivers messages between the robots of a world: a message sent in one step arrives in the next, or later
+/// (Communication::delay_s, rate_hz). The messages are in the outboxes and the queue of its caller.
 class MessageRouter {
  public:
   MessageRouter(std::vector<std::string> names, const Communication& communication);
+  MessageRouter(const MessageRouter&) = delete;  // channel_ refers to communication_
+  MessageRouter& operator=(const MessageRouter&) = delete;
 
   /// By robot.
   const std::vector<std::string>& names() const { return names_; }
@@ -41,24 +72,35 @@ class MessageRouter {
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
   void send(std::size_t from, const std::string& to, const std::string& text, Outbox& outbox) const;
 
-  struct Delivery {
-    std::size_t delivered = 0;
-    std::size_t dropped = 0;  ///< messages beyond the limits of their sender or receiver in one step
+  /// The robots in a step.
+  struct Robots {
+    const Scene& scene;
+    std::span<const mrpt::math::TPose2D> world_from_robot;
+    std::span<const double> antenna_z_m;  ///< heights of the antennas
+    std::span<const Activity> activity;
+
+    mrpt::math::TPoint3D antenna(std::size_t robot) const {
+      return {world_from_robot[robot].x, world_from_robot[robot].y, antenna_z_m[robot]};
+    }
   };
-  /// Moves the messages of all outboxes to the inboxes of their receivers, ordered by sender and then by time of
-  /// sending. Messages of and to absent robots, to a robot out of range, or selected by the loss probability, are lost.
-  /// Messages beyond the sender's kMaxMessagesSent or the receiver's InboxLimit are dropped.
-  /// @param seed of the loss of messages @pre the inboxes are empty
-  Delivery deliver(std::uint64_t seed, SimTime now, std::span<const mrpt::math::TPose2D> world_from_robot,
-                   std::span<const Activity> activity, std::span<Outbox> outboxes, std::span<Readings> readings);
+  /// Moves the messages of all outboxes to the inboxes of their receivers, or to those in flight and from there to the
+  /// inboxes when they are due, ordered by sender and then by time of sending. Messages of and to absent robots, and
+  /// those that the RadioChannel loses, are lost; its errors are those of the step in which a message is sent. Messages
+  /// beyond Communication::rate_hz wait in their outbox. Messages beyond the sender's kMaxMessagesSent or the
+  /// receiver's InboxLimit are dropped.
+  /// @param seed of the loss of messages @param in_flight ordered by due_step @pre the inboxes are empty
+  MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
+                        std::vector<MessageInFlight>& in_flight, std::span<Readings> readings);
 
  private:
-  bool arrives(std::uint64_t seed, SimTime now, std::size_t from, std::size_t index, std::size_t to,
-               std::span<const mrpt::math::TPose2D> world_from_robot) const;
+  /// Puts a message into the inbox of its receiver.
+  void receive(std::uint32_t from, std::uint32_t to, std::string&& text, std::span<Readings> readings,
+               MessageCounts& counts);
 
   std::vector<std::string> names_;
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
+  RadioChannel channel_{communication_};
   std::vector<InboxLimit> limits_;     ///< by receiver; unused ones between two calls of deliver()
   std::vector<std::uint32_t> filled_;  ///< receivers of messages in this call of deliver()
 };

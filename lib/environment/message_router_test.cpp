@@ -14,7 +14,11 @@ struct Fixture {
   std::vector<Outbox> outboxes = std::vector<Outbox>(3);
   std::vector<Activity> activity{Activity::active, Activity::active, Activity::active};
   SimTime time;
+  std::vector<double> antenna_z_m{0.3, 0.3, 0.3};
+  std::vector<MessageInFlight> in_flight;
+  Scene scene{{}, 0, {-10, 110, -10, 10}};
   std::size_t dropped = 0;  ///< in the last step
+  MessageLosses lost;       ///< in the last step
   std::uint64_t seed;
   MessageRouter message_router;
 
@@ -26,9 +30,11 @@ struct Fixture {
   std::size_t step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    const auto delivery = message_router.deliver(seed, time, poses, activity, outboxes, readings);
-    dropped = delivery.dropped;
-    return delivery.delivered;
+    const auto counts =
+        message_router.deliver(seed, time, {scene, poses, antenna_z_m, activity}, outboxes, in_flight, readings);
+    dropped = counts.dropped;
+    lost = counts.lost;
+    return counts.delivered;
   }
   std::vector<std::string> textsOf(std::size_t robot) const {
     std::vector<std::string> texts;

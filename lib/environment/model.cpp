@@ -50,6 +50,11 @@ void add(Digest& digest, const World& world) {
         world.communication.loss_probability, world.win_distance_m}) {
     digest.add(value);
   }
+  const Communication& c = world.communication;
+  for (const double value :
+       {c.wall_range_m, c.wall_loss, c.burst_gap_s, c.burst_s, c.burst_loss, c.delay_s, c.rate_hz}) {
+    digest.add(value);
+  }
   digest.add(world.objects.size());
   for (const auto& object : world.objects) add(digest, object.body);
   for (const auto& solid : stationarySolids(world)) add(digest, solid);

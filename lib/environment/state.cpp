@@ -71,4 +71,11 @@ bool haveSameShape(const State& a, const State& b) {
          std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
 }
 
+std::uint64_t messagesSent(const State& state) {
+  std::uint64_t sent =
+      state.messages_delivered + state.messages_dropped + state.messages_lost.total() + state.messages_in_flight.size();
+  for (const Outbox& outbox : state.outboxes) sent += outbox.messages.size() + outbox.surplus;
+  return sent;
+}
+
 }  // namespace robosim

@@ -17,8 +17,8 @@ namespace robosim {
 
 /// All that changes during a run, between two steps. It is complete: a Model and a copy of a State, with the same
 /// commands afterwards, continue the run bit for bit. Random numbers need no state, because they depend on the step
-/// only (base/random.h); sensors with memory (odometry, battery) keep it in their readings. Arrays are indexed by
-/// robot, in the world's order.
+/// only (base/random.h), and so do the states of radio channels (radio_channel.h); sensors with memory (odometry,
+/// battery) keep it in their readings. Arrays are indexed by robot, in the world's order.
 struct State {
   SimTime time;
   std::uint64_t seed = 1;  ///< of noise and lost messages: Model::seed unless Environment::restart() was given another
@@ -37,11 +37,16 @@ struct State {
   std::optional<std::size_t> winner;  ///< the robot that has won
   std::uint64_t stalls = 0;           ///< number of robot-steps so far that were clipped or refused
   std::uint64_t messages_delivered = 0;
-  std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far
+  std::uint64_t messages_dropped = 0;               ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far
+  MessageLosses messages_lost;                      ///< so far
+  std::vector<MessageInFlight> messages_in_flight;  ///< delayed ones, ordered by due_step
   /// Of all steps so far; nullopt: none is computed, which saves its cost in each step. restore() keeps that choice.
   std::optional<RunDigest> digest;
   bool operator==(const State&) const = default;
 };
+
+/// Number of messages that robots have sent so far, including those that wait in an outbox or are in flight.
+std::uint64_t messagesSent(const State&);
 
 /// State before the first measurement: robots at rest at their starts, blank readings, a digest of no steps.
 State initialState(const Model&);

@@ -18,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 constexpr std::size_t kSizeAt = 20;  ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
@@ -176,6 +176,43 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   readings.laser_pan_rad = state.laser_pan_rad[i];
 }
 
+void writeMessages(const State& state, StateWriter& out) {
+  const MessageLosses& lost = state.messages_lost;
+  for (const std::uint64_t number :
+       {lost.out_of_range, lost.stopped_by_walls, lost.by_chance, lost.in_bursts, lost.absent}) {
+    out.addNumber(number);
+  }
+  out.addNumber(static_cast<std::uint64_t>(state.messages_in_flight.size()));
+  for (const MessageInFlight& message : state.messages_in_flight) {
+    out.addNumber(message.from);
+    out.addNumber(message.to);
+    out.addNumber(message.due_step);
+    out.addText(message.text);
+  }
+}
+
+void readMessages(const Model& model, StateReader& in, State& state) {
+  MessageLosses& lost = state.messages_lost;
+  for (std::uint64_t* number :
+       {&lost.out_of_range, &lost.stopped_by_walls, &lost.by_chance, &lost.in_bursts, &lost.absent}) {
+    *number = in.takeNumber<std::uint64_t>();
+  }
+  const std::uint64_t last_step = state.time.step + delaySteps(model.world.communication, model.period_s);
+  std::uint64_t earliest = state.time.step + 1;
+  for (auto left = in.takeNumber<std::uint64_t>(); left > 0; --left) {
+    MessageInFlight& message = state.messages_in_flight.emplace_back();
+    message.from = in.takeNumber<std::uint32_t>();
+    message.to = in.takeNumber<std::uint32_t>();
+    message.due_step = in.takeNumber<std::uint64_t>();
+    message.text = in.takeText(kMaxMessageBytes);
+    requireContents(message.from < model.fleet.robots.size() && message.to < model.fleet.robots.size(),
+                    "a message in flight has an unknown sender or receiver");
+    requireContents(message.due_step >= earliest && message.due_step <= last_step,
+                    "a message in flight arrives at an impossible time");
+    earliest = message.due_step;
+  }
+}
+
 State readContents(const Model& model, StateReader in) {
   State state = initialState(model);
   const std::size_t robots = model.fleet.robots.size();
@@ -184,6 +221,7 @@ State readContents(const Model& model, StateReader in) {
   state.stalls = in.takeNumber<std::uint64_t>();
   state.messages_delivered = in.takeNumber<std::uint64_t>();
   state.messages_dropped = in.takeNumber<std::uint64_t>();
+  readMessages(model, in, state);
   const auto winner = in.takeNumber<std::uint64_t>();
   requireContents(winner <= robots, "the winner is unknown");
   for (std::size_t i = 0; i < robots; ++i) readRobot(model, i, in, state);
@@ -214,6 +252,7 @@ std::string toBytes(const Model& model, const State& state) {
   out.addNumber(state.stalls);
   out.addNumber(state.messages_delivered);
   out.addNumber(state.messages_dropped);
+  writeMessages(state, out);
   out.addNumber(std::uint64_t{state.winner.value_or(state.readings.size())});
   for (std::size_t i = 0; i < state.readings.size(); ++i) writeRobot(state, i, out);
   if (state.digest) state.digest->save(out.bytes);

@@ -110,9 +110,9 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 3;
+  newer[16] = 4;
   EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 3 of the format, and this program reads version 2; use the version of RoboSim "
+            "the saved state has version 4 of the format, and this program reads version 3; use the version of RoboSim "
             "that saved it");
   Model other = model;
   other.seed = 2;

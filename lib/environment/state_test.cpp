@@ -179,6 +179,10 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { ++s.stalls; },
       [](State& s) { ++s.messages_delivered; },
       [](State& s) { ++s.messages_dropped; },
+      [](State& s) { ++s.messages_lost.in_bursts; },
+      [](State& s) {
+        s.messages_in_flight.push_back({0, 1, s.time.step + 1, "x"});
+      },
       [](State& s) { s.digest = RunDigest(ProbeRun::kRobots); },
       [](State& s) { s.digest.reset(); },
   };

@@ -9,6 +9,8 @@
 #include <mrpt/math/TPoint3D.h>
 #include <mrpt/math/TPose3D.h>
 
+#include "hardware/lens_distortion.h"
+
 namespace robosim {
 
 enum class SensorKind : std::uint8_t {
@@ -64,6 +66,7 @@ struct CameraInfo {
   std::uint32_t height_px = 0;
   double field_of_view_rad = 0;  ///< horizontal, (0, π)
   double rate_hz = 0;            ///< images per second of simulated time, at most one per step
+  LensDistortion distortion = {};
   bool operator==(const CameraInfo&) const = default;
 
   /// Focal length [pixels]: (width / 2) / tan(field of view / 2).

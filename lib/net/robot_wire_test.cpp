@@ -29,6 +29,7 @@ std::vector<SensorInfo> everySensor() {
     if (kind == SensorKind::camera || kind == SensorKind::blob_finder) {
       sensor.beams.resize(1);
       sensor.camera = {320, 240, 1.25, 10};
+      sensor.camera.distortion = {-0.2, 0.05, 0.001, 0.002, 0.01};
     }
     if (kind == SensorKind::values) sensor.quantities = {{"co2", "ppm"}, {"humidity", "%"}};
     if (kind == SensorKind::blob_finder) sensor.colors = {"gold", "red"};
@@ -304,7 +305,8 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   EXPECT_EQ(decoded.robots[1].next_answer, 41u);
   EXPECT_EQ(decoded.run, "0123456789abcdef");
   EXPECT_EQ(decoded.robots[0].info.sensors, decoded.robots[1].info.sensors);
-  EXPECT_EQ((*decoded.robots[0].info.sensors)[7].camera, (CameraInfo{320, 240, 1.25, 10}));
+  EXPECT_EQ((*decoded.robots[0].info.sensors)[7].camera,
+            (CameraInfo{320, 240, 1.25, 10, {-0.2, 0.05, 0.001, 0.002, 0.01}}));
   EXPECT_EQ((*decoded.robots[0].info.sensors)[8].colors, (std::vector<std::string>{"gold", "red"}));
   EXPECT_EQ((*decoded.robots[0].info.sensors)[9].quantities,
             (std::vector<Quantity>{{"co2", "ppm"}, {"humidity", "%"}}));
@@ -373,6 +375,8 @@ TEST(RobotWire, RejectsInvalidWelcomes) {
   };
   const std::string invalid_camera = "a camera with invalid parameters";
   EXPECT_EQ(camera_after([](auto& camera) { camera.Clear(); }), invalid_camera);
+  EXPECT_EQ(camera_after([](auto& camera) { camera.add_distortion(0); }),
+            "a camera whose lens has no five coefficients");
   EXPECT_EQ(camera_after([](auto& camera) { camera.set_width_px(2049); }), invalid_camera);
   EXPECT_EQ(camera_after([](auto& camera) { camera.set_height_px(0); }), invalid_camera);
   EXPECT_EQ(camera_after([](auto& camera) { camera.set_field_of_view_rad(3.15); }), invalid_camera);

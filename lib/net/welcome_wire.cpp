@@ -58,6 +58,9 @@ void encode(const SensorInfo& sensor, v1::SensorDescription& out) {
     camera.set_height_px(sensor.camera.height_px);
     camera.set_field_of_view_rad(sensor.camera.field_of_view_rad);
     camera.set_rate_hz(sensor.camera.rate_hz);
+    if (!sensor.camera.distortion.isNone()) {
+      for (const double coefficient : sensor.camera.distortion.coefficients()) camera.add_distortion(coefficient);
+    }
   }
   for (const auto& color : sensor.colors) out.add_colors(color);
   for (const auto& quantity : sensor.quantities) {
@@ -74,7 +77,12 @@ CameraInfo decode(const v1::CameraDescription& in) {
     throw WireError("a camera with invalid parameters");
   }
   checkFinite({in.rate_hz()});
-  return {in.width_px(), in.height_px(), in.field_of_view_rad(), in.rate_hz()};
+  CameraInfo camera{in.width_px(), in.height_px(), in.field_of_view_rad(), in.rate_hz()};
+  if (in.distortion_size() == 0) return camera;
+  if (in.distortion_size() != 5) throw WireError("a camera whose lens has no five coefficients");
+  for (const double coefficient : in.distortion()) checkFinite({coefficient});
+  camera.distortion = {in.distortion(0), in.distortion(1), in.distortion(2), in.distortion(3), in.distortion(4)};
+  return camera;
 }
 
 SensorInfo decode(const v1::SensorDescription& in) {

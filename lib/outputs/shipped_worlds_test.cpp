@@ -86,10 +86,16 @@ TEST_F(Worlds, ExamplesInTheirDocumentationLoad) {
           "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/>" + text(example) + "</surface></world>",
           "w.xml", errors);
       EXPECT_EQ(world.scatters.at(0).count, 20);
+    } else if (example.name == "communication") {
+      const World world = parseWorld(
+          "<world><surface><size xmin='-9' xmax='9' ymin='-9' ymax='9'/></surface>" + text(example) + "</world>",
+          "w.xml", errors);
+      EXPECT_EQ(world.communication.wall_range_m, 4);
+      EXPECT_EQ(world.communication.rate_hz, 10);
     }
   }
   EXPECT_EQ(errors.errors(), Lines{});
-  EXPECT_EQ(examples, 7);
+  EXPECT_EQ(examples, 8);
 }
 
 TEST_F(Worlds, ShippedRobotTypesLoad) {

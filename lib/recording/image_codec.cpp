@@ -39,6 +39,9 @@ class ImageCodec : public CodecOf<JpegObservation, Image> {
     picture.cameraParams.nrows = camera.height_px;
     picture.cameraParams.setIntrinsicParamsFromValues(focal_px, focal_px, camera.width_px / 2.0,
                                                       camera.height_px / 2.0);
+    if (camera.distortion.isNone()) return;
+    picture.cameraParams.setDistortionPlumbBob(camera.distortion.k1, camera.distortion.k2, camera.distortion.p1,
+                                               camera.distortion.p2, camera.distortion.k3);
   }
 
   void set(JpegObservation& picture, const SensorInfo&, const Image& image, float) const override {

@@ -228,6 +228,20 @@ TEST(Observations, RecordACompassAsAYawOnly) {
   EXPECT_EQ(std::count(compass.dataIsPresent.begin(), compass.dataIsPresent.end(), true), 1);
 }
 
+TEST(Observations, RecordTheLensOfACamera) {
+  SensorInfo camera = sampleCamera();
+  EXPECT_EQ(recorded<JpegObservation>(camera, Image{sampleJpeg(camera, 200)}).cameraParams.distortion,
+            mrpt::img::DistortionModel::none);
+  camera.camera.distortion = {-0.2, 0.05, 0.001, 0.002, 0.01};
+  const auto picture = recorded<JpegObservation>(camera, Image{sampleJpeg(camera, 200)});
+  EXPECT_EQ(picture.cameraParams.distortion, mrpt::img::DistortionModel::plumb_bob);
+  EXPECT_EQ(picture.cameraParams.k1(), -0.2);
+  EXPECT_EQ(picture.cameraParams.k2(), 0.05);
+  EXPECT_EQ(picture.cameraParams.p1(), 0.001);
+  EXPECT_EQ(picture.cameraParams.p2(), 0.002);
+  EXPECT_EQ(picture.cameraParams.k3(), 0.01);
+}
+
 TEST(Observations, RecordAnImageWithTheCamerasPoseAndDepthAlongZ) {
   const auto picture = recorded<JpegObservation>(sampleCamera(), Image{sampleJpeg(sampleCamera(), 200)});
   EXPECT_EQ(picture.cameraParams.ncols, 48u);

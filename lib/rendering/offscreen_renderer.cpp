@@ -8,6 +8,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rendering/blob_search.h"
+#include "rendering/camera_effects.h"
 #include "rendering/picture_target.h"
 #include "rendering/render_thread.h"
 #include "rendering/shaders.h"
@@ -70,20 +71,24 @@ void OffscreenRenderer::take(const CameraView& camera, std::span<const TPose2D> 
                              std::span<const std::uint32_t> robots, std::span<std::string> jpegs) {
   std::vector<cv::Mat> pictures(robots.size());
   impl_->thread->run([&](RenderThread::Targets& targets) {
-    auto& target = targets.ofSize(camera.info.width_px, camera.info.height_px);
+    const CameraInfo pinhole = camera.hasErrors() ? pinholeFor(camera) : camera.info;
+    auto& target = targets.ofSize(pinhole.width_px, pinhole.height_px);
     impl_->world->place(world_from_robot);
     mrpt::img::CImage picture;
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const TPose2D& robot = world_from_robot[robots[i]];
       const CPose3D world_from_camera =
           CPose3D(robot.x, robot.y, impl_->underside_m[robots[i]], robot.phi, 0, 0) + CPose3D(camera.robot_from_camera);
-      target.setCamera(*impl_->scene, cameraAt(camera.info, world_from_camera));
+      target.setCamera(*impl_->scene, cameraAt(pinhole, world_from_camera));
       target.render_RGB(*impl_->scene, picture);
       pictures[i] = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
     }
   });
   std::vector<unsigned char> bytes;
   for (std::size_t i = 0; i < robots.size(); ++i) {
+    if (camera.hasErrors()) {
+      pictures[i] = withCameraErrors(pictures[i], camera, camera.moment.turn_radps[i], camera.moment.seeds[i]);
+    }
     cv::imencode(".jpg", pictures[i], bytes, {cv::IMWRITE_JPEG_QUALITY, camera.jpeg_quality});
     jpegs[i].assign(bytes.begin(), bytes.end());
   }

@@ -165,7 +165,7 @@ bool LocalRun::dependsOnSeed() const {
                        [](const auto& sensor) { return sensor->isNoisy(); });
   };
   const bool all_are_here = local_robots_.size() == robots.size();
-  return !all_are_here || environment_.world().communication.loss_probability > 0 ||
+  return !all_are_here || environment_.world().communication.isRandom() ||
          std::any_of(robots.begin(), robots.end(), is_noisy) ||
          std::any_of(local_robots_.begin(), local_robots_.end(),
                      [](const auto& robot) { return robot->controller->hasDrawnRandomNumbers(); });

@@ -24,6 +24,8 @@ TEST(LocalRun, DependsOnTheSeedIfMessagesMayBeLost) {
   EXPECT_FALSE(LocalRun(twoRobots(""), options).dependsOnSeed());
   EXPECT_FALSE(LocalRun(twoRobots("<communication range='3'/>"), options).dependsOnSeed());
   EXPECT_TRUE(LocalRun(twoRobots("<communication loss='0.1'/>"), options).dependsOnSeed());
+  EXPECT_TRUE(LocalRun(twoRobots("<communication burst_gap_s='10'/>"), options).dependsOnSeed());
+  EXPECT_FALSE(LocalRun(twoRobots("<communication delay_s='1' rate_hz='2'/>"), options).dependsOnSeed());
 }
 
 TEST(LocalRun, KeepsWhenTheGoldWasFoundAlsoInAFork) {

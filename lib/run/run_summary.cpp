@@ -37,6 +37,28 @@ nlohmann::ordered_json orNull(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
 }
 
+nlohmann::ordered_json lossesJson(const MessageLosses& lost) {
+  return {{"out_of_range", lost.out_of_range},
+          {"stopped_by_walls", lost.stopped_by_walls},
+          {"by_chance", lost.by_chance},
+          {"in_bursts", lost.in_bursts},
+          {"absent", lost.absent}};
+}
+
+/// ", and 12 lost: 10 out of range, 2 in bursts"; empty for none.
+std::string textOf(const MessageLosses& lost) {
+  std::string causes;
+  const std::pair<std::uint64_t, const char*> numbers[] = {{lost.out_of_range, "out of range"},
+                                                           {lost.stopped_by_walls, "stopped by walls"},
+                                                           {lost.by_chance, "by chance"},
+                                                           {lost.in_bursts, "in bursts"},
+                                                           {lost.absent, "to absent robots"}};
+  for (const auto& [number, cause] : numbers) {
+    if (number > 0) causes += (causes.empty() ? "" : ", ") + withCommas(number) + " " + cause;
+  }
+  return causes.empty() ? "" : ", and " + withCommas(lost.total()) + " lost: " + causes;
+}
+
 constexpr const char* kSeedHadNoEffect =
     " (without effect: nothing in this run was random; --random-starts or --noise on make seeds differ)";
 
@@ -96,7 +118,9 @@ RunSummary RunSummary::of(const LocalRun& run) {
   summary.driven_m = std::accumulate(state.driven_m.begin(), state.driven_m.end(), 0.0);
   summary.stalls = state.stalls;
   summary.messages = state.messages_delivered;
+  summary.messages_sent = messagesSent(state);
   summary.messages_dropped = state.messages_dropped;
+  summary.messages_lost = state.messages_lost;
   summary.metrics = run.observers().metrics();
   summary.observer_end = run.observers().end();
   return summary;
@@ -125,7 +149,9 @@ nlohmann::ordered_json RunSummary::json() const {
           {"driven_m", driven_m},
           {"stalls", stalls},
           {"messages", messages},
+          {"messages_sent", messages_sent},
           {"messages_dropped", messages_dropped},
+          {"messages_lost", lossesJson(messages_lost)},
           {"late", orNull(late)},
           {"metrics", metricsJson(metrics)},
           {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
@@ -139,7 +165,8 @@ std::string RunSummary::text() const {
             {"driven", fixed(driven_m, 1) + " m"},
             {"stalls", withCommas(stalls)},
             {"messages", withCommas(messages) +
-                             (messages_dropped == 0 ? "" : ", and " + withCommas(messages_dropped) + " dropped")}};
+                             (messages_dropped == 0 ? "" : ", and " + withCommas(messages_dropped) + " dropped") +
+                             textOf(messages_lost)}};
   if (late) rows.push_back({"late", withCommas(*late) + " commands, of " + withCommas(steps * robots)});
   rows.push_back({"seed", std::to_string(seed) + (depends_on_seed ? "" : kSeedHadNoEffect)});
   rows.push_back({"digest", digest});

@@ -35,8 +35,10 @@ struct RunSummary {
   GoldOutcome gold;
   double driven_m = 0;  ///< sum over all robots
   std::uint64_t stalls = 0;
-  std::uint64_t messages = 0;               ///< delivered
-  std::uint64_t messages_dropped = 0;       ///< beyond a robot's limits on messages in a step
+  std::uint64_t messages = 0;          ///< delivered
+  std::uint64_t messages_sent = 0;     ///< including those on their way
+  std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits on messages in a step
+  MessageLosses messages_lost;
   std::optional<std::uint64_t> late;        ///< robot-steps whose command came too late; nullopt for a lockstep run
   std::optional<RunReport> report;          ///< of a served run
   std::vector<Metric> metrics;              ///< of the observers

@@ -6,6 +6,18 @@
 
 namespace robosim {
 
+/// Voltage drop of a loaded battery: its internal resistance times the current of the motors, which is proportional to
+/// the speed (friction) and to the turn rate (scrub). The charge then follows from the time and the distance driven, as
+/// if that had been driven at `speed_mps`, because a reading with a drop does not determine the charge. Omitted:
+/// acceleration, payload, recovery of the cells, and the charge that turning takes.
+struct BatteryLoad {
+  bool on = false;
+  double drop_v_per_mps = 0;    ///< [0, 100]
+  double drop_v_per_radps = 0;  ///< [0, 100]
+  double speed_mps = 0.5;       ///< at which the battery lasts BatteryOptions::driving_s, (0, 100]
+  double noise_std_v = 0;       ///< of a reading, [0, 100]
+};
+
 /// Battery voltage [V]. The charge falls at a constant rate while the robot stands, and faster while it drives or
 /// turns. The voltage is linear in the charge, down to that of an empty battery. An empty battery does not stop the
 /// robot.
@@ -18,6 +30,7 @@ struct BatteryOptions {
   /// share of standing in that is an assumption.
   double standing_s = 10 * 3600;
   double driving_s = 8 * 3600;
+  BatteryLoad load;
 
   /// Reads <battery>.
   static BatteryOptions read(XmlReader&);

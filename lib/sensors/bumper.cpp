@@ -30,6 +30,7 @@ class Bumper : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
+  bool isNoisy() const override { return options_.chatter > 0; }
   bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
@@ -38,14 +39,24 @@ class Bumper : public Sensor {
     const double reach_m = options_.robot_radius_m + options_.travel_m;
     for (const auto robot : robots) {
       auto& pressed = std::get<Contacts>(readings[robot].measurements[slot]).pressed;
+      static thread_local std::vector<std::uint8_t> before;
+      if (options_.chatter > 0) before = pressed;
       batch.place(fan_, now.frames[robot], reach_m);
       now.scene.cast(batch, now.bodyOf(robot));
       for (std::size_t i = 0; i < pressed.size(); ++i) pressed[i] = batch.body(i) == BeamBatch::kNothing ? 0 : 1;
       if (now.surface) pressAtEdge(*now.surface, now.frames[robot], reach_m, pressed);
+      if (options_.chatter > 0) bounce(now.noise(robot, slot), before, pressed);
     }
   }
 
  private:
+  void bounce(Rng rng, const std::vector<std::uint8_t>& before, std::vector<std::uint8_t>& pressed) const {
+    for (std::size_t i = 0; i < pressed.size(); ++i) {
+      const bool flips = rng.uniform() < options_.chatter;
+      if (flips && (pressed[i] != 0 || before[i] != 0)) pressed[i] = pressed[i] != 0 ? 0 : 1;
+    }
+  }
+
   /// Presses the segments that extend over an edge of the surface.
   void pressAtEdge(const Bounds2D& surface, const PlanarTransform& frame, double reach_m,
                    std::vector<std::uint8_t>& pressed) const {
@@ -86,6 +97,10 @@ BumperOptions BumperOptions::read(XmlReader& reader, const Mount& mount) {
   o.segments = static_cast<int>(segments);
   o.travel_m = reader.number("travel_m", Bounds::positive(0.1), o.travel_m);
   o.robot_radius_m = mount.robot_radius_m;
+  if (auto noise = reader.child("noise")) {
+    o.chatter = noise->number("chatter", Bounds::notNegative(1), 0);
+    noise->finish();
+  }
   o.z_m = reader.number("z_m", {-100, 100}, mount.robot_height_m / 2);
   return o;
 }

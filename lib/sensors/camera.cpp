@@ -18,13 +18,21 @@ class Camera : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
+  bool isNoisy() const override { return view_.errors.isRandom(); }
   bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
     std::vector<std::string> jpegs(robots.size());
     if (now.images && takesPicture(view_.info.rate_hz, now.time)) {
-      now.images->take(view_, shownPoses(now.world_from_robot, now.activity), robots, jpegs);
+      const auto poses = shownPoses(now.world_from_robot, now.activity);
+      if (view_.hasErrors()) {
+        CameraView view = view_;
+        view.moment = momentOf(now, robots, slot);
+        now.images->take(view, poses, robots, jpegs);
+      } else {
+        now.images->take(view_, poses, robots, jpegs);
+      }
     }
     for (std::size_t i = 0; i < robots.size(); ++i) {
       std::get<Image>(readings[robots[i]].measurements[slot]).jpeg = std::move(jpegs[i]);
@@ -32,6 +40,16 @@ class Camera : public Sensor {
   }
 
  private:
+  static CameraMoment momentOf(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot) {
+    CameraMoment moment;
+    for (const auto robot : robots) {
+      Rng rng = now.noise(robot, slot);
+      moment.seeds.push_back(static_cast<std::uint64_t>(rng()) << 32 | rng());
+      moment.turn_radps.push_back(now.last_motion[robot].turn_rad / now.time.period_s);
+    }
+    return moment;
+  }
+
   CameraView view_;
   SensorInfo info_;
 };
@@ -58,6 +76,7 @@ CameraOptions CameraOptions::read(XmlReader& reader) {
   pose.z = reader.number("z_m", {-100, 100}, 0);
   pose.yaw = reader.angle("angle_deg", {-360, 360}, 0);
   pose.pitch = -reader.angle("tilt_deg", {-90, 90}, 0);  // MRPT's pitch is positive downwards
+  view.errors = CameraErrors::read(reader, view.info);
   view.jpeg_quality = static_cast<int>(std::lround(reader.number("jpeg_quality", {1, 100}, view.jpeg_quality)));
   return o;
 }

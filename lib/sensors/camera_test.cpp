@@ -69,6 +69,34 @@ TEST(Camera, ReportsItsMountingPoseAndOptics) {
   EXPECT_EQ(std::get<Image>(camera->blank()), Image{});
 }
 
+TEST(Camera, ReportsItsLensAndTheMomentOfPicturesWithErrors) {
+  const auto camera = sensorFrom(
+      "<camera><noise std='3' exposure='0.5' exposure_std='0.1' rolling_shutter_s='0.03' k1='-0.2' k2='0.05' "
+      "p1='0.001' "
+      "p2='0.002' k3='0.01'/></camera>");
+  EXPECT_EQ(camera->info().camera.distortion, (LensDistortion{-0.2, 0.05, 0.001, 0.002, 0.01}));
+  EXPECT_TRUE(camera->isNoisy());
+  FakeImages images;
+  SingleRobotScene robot({});
+  robot.images = &images;
+  robot.motion = {0, 0.05};
+  robot.sense(*camera);
+  EXPECT_EQ(images.view.errors, (CameraErrors{3, 0.5, 0.1, 0.03}));
+  ASSERT_EQ(images.view.moment.turn_radps.size(), 1u);
+  EXPECT_NEAR(images.view.moment.turn_radps[0], 0.5, 1e-12);
+  const auto first = images.view.moment.seeds;
+  robot.sense(*camera);
+  EXPECT_NE(images.view.moment.seeds, first);
+}
+
+TEST(Camera, RefusesALensThatDoesNotReachTheCorners) {
+  // Corners at tan 30° · (1, 0.75): a radius of 0.722, beyond the largest of 0.544.
+  EXPECT_EQ(
+      cameraError("<camera><noise k1='-0.5'/></camera>"),
+      "sensor.xml:1: <noise>: the distortion has no inverse at the corners of the picture; use smaller coefficients "
+      "or field of view");
+}
+
 TEST(Camera, TakesPicturesAtItsRate) {
   const auto camera = sensorFrom("<camera rate_hz='2.5'/>");  // every fourth step of 0.1 s
   FakeImages images;
@@ -127,7 +155,7 @@ TEST(Camera, RejectsInvalidSettings) {
             "sensor.xml:1: <camera tilt_deg=\"91\">: must lie in [-90, 90] degrees; drop it for the default, 0");
   EXPECT_EQ(cameraError("<camera zoom='2'/>"),
             "sensor.xml:1: <camera>: unknown attribute zoom=\"2\"; accepted here are: angle_deg, field_of_view_deg, "
-            "height_px, jpeg_quality, label, rate_hz, tilt_deg, width_px, x_m, y_m, z_m");
+            "height_px, jpeg_quality, label, noise, rate_hz, tilt_deg, width_px, x_m, y_m, z_m");
 }
 
 }  // namespace

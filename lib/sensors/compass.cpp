@@ -22,6 +22,7 @@ class Compass : public Sensor {
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {
       double heading_rad = now.world_from_robot[robot].phi;
+      if (!options_.deviation.isNone()) heading_rad += options_.deviation.at(heading_rad);
       if (options_.noise_std_rad > 0) heading_rad += options_.noise_std_rad * now.noise(robot, slot).gaussian();
       readings[robot].measurements[slot] = Scalar{mrpt::math::wrapToPi(heading_rad)};
     }
@@ -39,6 +40,7 @@ CompassOptions CompassOptions::read(XmlReader& reader) {
   o.label = reader.word("label", o.label);
   if (auto element = reader.child("noise")) {
     o.noise_std_rad = element->angle("std_deg", Bounds::notNegative(180), 2 * M_PI / 180);
+    o.deviation = CompassDeviation::read(*element);
     element->finish();
   }
   return o;

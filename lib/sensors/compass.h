@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/xml_reader.h"
+#include "sensors/compass_deviation.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
@@ -10,6 +11,7 @@ namespace robosim {
 struct CompassOptions {
   std::string label = "compass";
   double noise_std_rad = 0;  ///< 0: exact
+  CompassDeviation deviation;
 
   /// Reads <compass>. <noise/> alone is 2° (TCM2, the Pioneer's compass: 1.0°–2.5° by tilt; data sheet).
   static CompassOptions read(XmlReader&);

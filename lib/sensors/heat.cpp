@@ -1,6 +1,7 @@
 #include "sensors/heat.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "sensors/position_2005.h"
 
@@ -28,7 +29,14 @@ class Heat : public Sensor {
         if (source.body == now.bodyOf(robot)) continue;
         sum += heatAt(options_, source.heat_celsius, (source.center - mrpt::math::TPoint2D(pose.x, pose.y)).norm());
       }
-      if (options_.noise_std > 0) sum += options_.noise_std * now.noise(robot, slot).gaussian();
+      double noise = options_.noise_std > 0 ? options_.noise_std * now.noise(robot, slot).gaussian() : 0;
+      if (options_.lag_s > 0 && now.time.step > 0) {
+        const double old = std::get<Scalar>(readings[robot].measurements[slot]).value;
+        const double share = now.time.period_s / (now.time.period_s + options_.lag_s);
+        sum = old + share * (sum - old);
+        noise *= std::sqrt(share * (2 - share));  // so that the filter's output has the given deviation
+      }
+      sum += noise;
       // Single precision, as in MRPT's observations, so that a recorded reading equals the reading.
       readings[robot].measurements[slot] = Scalar{static_cast<float>(sum)};
     }
@@ -43,12 +51,12 @@ HeatLaw readLaw(XmlReader& reader) {
   return reader.choice<HeatLaw>("law", {{"linear", HeatLaw::linear}, {"inverse", HeatLaw::inverse}}, HeatLaw::linear);
 }
 
-double readHeatNoise(XmlReader& reader) {
+void readHeatNoise(XmlReader& reader, HeatOptions& options) {
   auto element = reader.child("noise");
-  if (!element) return 0;
-  const double std = element->number("std", Bounds::notNegative(1000), 0.5);
+  if (!element) return;
+  options.noise_std = element->number("std", Bounds::notNegative(1000), 0.5);
+  options.lag_s = element->number("lag_s", Bounds::notNegative(3600), 0);
   element->finish();
-  return std;
 }
 
 }  // namespace
@@ -58,7 +66,7 @@ HeatOptions HeatOptions::read(XmlReader& reader) {
   o.label = reader.word("label", o.label);
   o.law = readLaw(reader);
   o.range_max_m = reader.number("range_max_m", Bounds::positive(1e6), o.range_max_m);
-  o.noise_std = readHeatNoise(reader);
+  readHeatNoise(reader, o);
   return o;
 }
 
@@ -67,7 +75,7 @@ HeatOptions HeatOptions::read2005(XmlReader& reader, const Mount& mount) {
   o.law = readLaw(reader);
   o.range_max_m = Position2005::read(reader, mount).range_m;
   o.unit_m = mount.unit_m;
-  o.noise_std = readHeatNoise(reader);
+  readHeatNoise(reader, o);
   return o;
 }
 

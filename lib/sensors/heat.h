@@ -20,6 +20,10 @@ struct HeatOptions {
   double range_max_m = 1.5;  ///< (0, 1e6]
   double unit_m = 1;         ///< the inverse law's unit of distance
   double noise_std = 0;      ///< standard deviation of the reading; 0: exact
+  /// Time constant of the sensor's own temperature, [0, 3600]; 0: none. A reading approaches the heat by the share
+  /// T / (T + lag_s) in each time step T: a thermal sensor of first order, by the implicit Euler method. Its noise then
+  /// is that of a recursive filter, with the same standard deviation. The first reading is settled.
+  double lag_s = 0;
 
   /// Reads <heat>.
   static HeatOptions read(XmlReader&);

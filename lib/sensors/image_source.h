@@ -11,6 +11,7 @@
 #include "hardware/command.h"
 #include "hardware/measurement.h"
 #include "hardware/sensor_info.h"
+#include "sensors/camera_errors.h"
 
 namespace robosim {
 
@@ -19,6 +20,10 @@ struct CameraView {
   CameraInfo info;
   mrpt::math::TPose3D robot_from_camera;  ///< x along the optical axis, z up
   int jpeg_quality = 85;                  ///< [1, 100]
+  CameraErrors errors = {};
+  CameraMoment moment = {};  ///< of the pictures of a call of take(); empty for a camera without errors
+
+  bool hasErrors() const { return !errors.isNone() || !info.distortion.isNone(); }
 };
 
 /// Pose of a robot that is not in the world: it is not drawn.

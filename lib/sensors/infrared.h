@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/xml_reader.h"
+#include "sensors/infrared_curve.h"
 #include "sensors/range_noise.h"
 #include "sensors/sensor.h"
 
@@ -14,6 +15,7 @@ struct InfraredOptions {
   double range_min_m = 0.1;  ///< [0, range_max_m): nearer objects read this
   double range_max_m = 0.8;  ///< (0, 10]: only nearer objects are detected; no echo reads this
   RangeNoise noise;
+  InfraredCurve curve;
 
   /// Reads <infrared>.
   static InfraredOptions read(XmlReader&);

@@ -19,7 +19,8 @@ mrpt::math::TPose2D afterArc(const mrpt::math::TPose2D& from, double length_m, d
 
 class WheelOdometry : public Sensor {
  public:
-  explicit WheelOdometry(const OdometryOptions& options) : options_(options) {
+  explicit WheelOdometry(const OdometryOptions& options)
+      : options_(options), has_wheel_errors_(!options.wheels.isNone()) {
     info_.kind = SensorKind::odometry;
     info_.label = options.label;
   }
@@ -33,7 +34,10 @@ class WheelOdometry : public Sensor {
     for (const auto robot : robots) {
       auto& odometry = std::get<Odometry>(readings[robot].measurements[slot]);
       Motion measured = now.last_motion[robot];
-      if (options_.noise.on) measured = withNoise(measured, now.noise(robot, slot));
+      if (options_.noise.on) {
+        if (has_wheel_errors_) measured = options_.wheels.measured(measured, now.blocked(robot), now.time.period_s);
+        measured = withNoise(measured, now.noise(robot, slot));
+      }
       odometry.odom_from_robot = afterArc(odometry.odom_from_robot, measured.length_m, measured.turn_rad);
       odometry.speed_mps = measured.length_m / now.time.period_s;
       odometry.turn_radps = measured.turn_rad / now.time.period_s;
@@ -53,12 +57,13 @@ class WheelOdometry : public Sensor {
   }
 
   OdometryOptions options_;
+  bool has_wheel_errors_;
   SensorInfo info_;
 };
 
 }  // namespace
 
-OdometryOptions OdometryOptions::read(XmlReader& reader) {
+OdometryOptions OdometryOptions::read(XmlReader& reader, const Mount& mount) {
   OdometryOptions o;
   o.label = reader.word("label", o.label);
   if (auto element = reader.child("noise")) {
@@ -69,6 +74,7 @@ OdometryOptions OdometryOptions::read(XmlReader& reader) {
     read("length_std_per_sqrt_m", o.noise.length_std_per_sqrt_m);
     read("turn_std_per_sqrt_rad", o.noise.turn_std_per_sqrt_rad);
     read("drift_std_per_sqrt_m", o.noise.drift_std_per_sqrt_m);
+    o.wheels = WheelErrors::read(*element, mount.robot_radius_m);
     element->finish();
   }
   return o;

@@ -2,7 +2,9 @@
 #include <memory>
 
 #include "base/xml_reader.h"
+#include "sensors/registry.h"
 #include "sensors/sensor.h"
+#include "sensors/wheel_errors.h"
 
 namespace robosim {
 
@@ -19,9 +21,10 @@ struct OdometryNoise {
 struct OdometryOptions {
   std::string label = "odometry";
   OdometryNoise noise;
+  WheelErrors wheels;  ///< applied before the noise, if that is on
 
   /// Reads <odometry>.
-  static OdometryOptions read(XmlReader&);
+  static OdometryOptions read(XmlReader&, const Mount&);
 };
 
 std::unique_ptr<Sensor> makeOdometry(const OdometryOptions&);

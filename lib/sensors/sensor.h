@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "base/sim_time.h"
 #include "geometry/scene.h"
+#include "geometry/shapes/path.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
@@ -46,11 +47,18 @@ struct Snapshot {
   ImageSource* images = nullptr;  ///< null: cameras take no pictures
   /// Area that robots stay in; nullopt: unbounded.
   std::optional<Bounds2D> surface = std::nullopt;
+  std::span<const Path> paths = {};       ///< of this step, clipped; empty: no motion has been blocked
+  std::span<const double> driven_m = {};  ///< distance driven since the start; empty: none
 
+  /// Length of the commanded path that a robot could not drive in this step, signed [m].
+  double blocked(std::uint32_t robot) const {
+    if (time.step == 0 || paths.empty()) return 0;  // paths of step 0 are those of the run before
+    return paths[robot].length_m - paths[robot].clippedLength();
+  }
   BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
-  /// Random stream of one sensor of one robot in this step.
-  Rng noise(std::uint32_t robot, std::size_t slot) const {
-    return Rng(seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), time.step);
+  /// Random stream of one sensor of one robot in this step. @param stream further streams of the same sensor, [0, 16)
+  Rng noise(std::uint32_t robot, std::size_t slot, std::uint32_t stream = 0) const {
+    return Rng(seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot) | stream << 20, time.step);
   }
 };
 

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "base/portable_math.h"
 #include "sensors/beam_mounts.h"
 #include "sensors/planar_beams.h"
-#include "sensors/position_2005.h"
+#include "sensors/sonar_echo.h"
+#include "sensors/sonar_interference.h"
 #include "sensors/thin_beams.h"
 
 namespace robosim {
@@ -14,15 +17,6 @@ namespace {
 
 using mrpt::math::TPoint2D;
 using mrpt::math::TPoint3D;
-
-constexpr double kRadPerDeg = M_PI / 180;
-
-/// Polaroid 6500 ranging module with the 600 series transducer, as on Pioneer and Scout: ±1 % of the range (data
-/// sheet).
-constexpr RangeNoise kSonarDataSheet{.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0};
-/// Smooth walls reflect the ping away beyond about half the beam width of the transducer (Leonard & Durrant-Whyte,
-/// *Directed Sonar Sensing for Mobile Robot Navigation*, 1992, ch. 2).
-constexpr double kSpecular_deg = 15;
 
 /// Directions that fill a cone about x: one on the axis, the others on a sunflower spiral, which distributes any number
 /// evenly (Vogel, "A better way to construct the sunflower head", 1979). The last one lies on the cone's surface.
@@ -66,7 +60,11 @@ SensorInfo infoOf(const SonarOptions& options) {
 
 class Sonar : public Sensor {
  public:
-  explicit Sonar(const SonarOptions& options) : options_(options), info_(infoOf(options)), axes_(options.beams) {
+  explicit Sonar(const SonarOptions& options)
+      : options_(options),
+        info_(infoOf(options)),
+        axes_(options.beams),
+        reflector_(options_.noise, options.range_max_m) {
     const double half_rad = options.beam_width_rad / 2;
     const auto cone = coneDirections(options.model == SonarModel::rays ? options.rays : 0, half_rad);
     for (const auto& beam : options.beams) {
@@ -88,6 +86,8 @@ class Sonar : public Sensor {
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return options_.noise.range.on; }
   std::size_t rayCount() const override { return options_.rayCount(); }
+  // The readings of sonars that do not fire are those of the last step, which replicas do not have.
+  bool sensesInHostProcess() const override { return !options_.firing.isSimultaneous(); }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
@@ -97,7 +97,13 @@ class Sonar : public Sensor {
       static thread_local std::vector<Detection> detections;
       detectAll(now, robot, frame, detections);
       if (options_.noise.range.on) addNoise(now, robot, slot, frame, detections);
-      for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = echoOf(i, detections[i]);
+      if (options_.firing.isSimultaneous()) {
+        for (std::size_t i = 0; i < sonars_.size(); ++i) echoes[i] = echoOf(i, detections[i]);
+      } else {
+        for (std::size_t i = 0; i < sonars_.size(); ++i) {
+          if (options_.firing.fires(i, now.time)) echoes[i] = echoOf(i, detections[i]);
+        }
+      }
     }
   }
 
@@ -160,28 +166,86 @@ class Sonar : public Sensor {
 
   void addNoise(const Snapshot& now, std::uint32_t robot, std::size_t slot, const PlanarTransform& frame,
                 std::vector<Detection>& detections) const {
+    const SonarNoise& noise = options_.noise;
     Rng rng = now.noise(robot, slot);
     for (std::size_t i = 0; i < sonars_.size(); ++i) {
-      if (detections[i].body != kNoBody && isSpecular(now, frame, sonars_[i], detections[i])) detections[i] = {};
+      if (!options_.firing.fires(i, now.time)) continue;
+      if (noise.hasReflections() && detections[i].body != kNoBody)
+        reflect(now, robot, frame, sonars_[i], detections[i]);
+      if (noise.blanking_m > 0) blank(detections[i]);
       // Drawn without an echo too, so that a sonar's noise does not depend on the echoes of the others.
-      detections[i].range_m = options_.noise.range.apply(detections[i].range_m, rng);
+      detections[i].range_m = noise.range.apply(detections[i].range_m, rng);
     }
-    if (options_.noise.crosstalk > 0) addCrosstalk(rng, detections);
+    if (noise.crosstalk > 0) addCrosstalk(rng, detections);
+    if (noise.ringing > 0 || noise.robot_crosstalk > 0) addFalseEchoes(now, robot, slot, frame, detections);
   }
 
-  bool isSpecular(const Snapshot& now, const PlanarTransform& frame, const MountedSonar& sonar,
-                  const Detection& detection) const {
-    if (options_.noise.specular_rad >= M_PI || detection.range_m <= 0) return false;
-    const TPoint3D met = frame.pointToWorld(sonar.origin + detection.direction * detection.range_m);
-    const TPoint3D out = frame.turnToWorld(detection.direction);
-    const TPoint2D normal = normalAt(now.scene.solid(detection.body).outline, {met.x, met.y});
-    const double straightness = -(out.x * normal.x + out.y * normal.y) / portable::hypot(out.x, out.y);
-    return straightness < portable::cos(options_.noise.specular_rad);
+  /// Replaces what the ping has met by the echo that returns.
+  void reflect(const Snapshot& now, std::uint32_t robot, const PlanarTransform& frame, const MountedSonar& sonar,
+               Detection& detection) const {
+    const Ray axis = axisOf(frame, sonar);
+    const BodyId owner = now.bodyOf(robot);
+    SonarEcho met{detection.range_m, frame.turnToWorld(detection.direction),
+                  frame.pointToWorld(sonar.origin + detection.direction * detection.range_m)};
+    auto echo = reflector_.direct(now.scene, owner, axis, met, detection.body);
+    if (echo == met) return;
+    BodyId body = std::exchange(detection, Detection()).body;
+    if (!echo && options_.noise.lobe.on && options_.model == SonarModel::sector) {
+      // The nearest body is too far aside. What lies ahead may still return the ping.
+      const Hit ahead = now.scene.castRay(axis, options_.range_max_m, owner);
+      if (!ahead) return;
+      met = {ahead.distance_m, axis.direction, ahead.point};
+      body = ahead.body;
+      echo = reflector_.direct(now.scene, owner, axis, met, body);
+    }
+    if (!echo && options_.noise.has_second_echoes) echo = reflector_.second(now.scene, owner, axis, met, body);
+    if (echo) detection = {echo->range_m, frame.turnToFrame(echo->direction), body};
+  }
+
+  static Ray axisOf(const PlanarTransform& frame, const MountedSonar& sonar) {
+    return {frame.pointToWorld(sonar.origin), frame.turnToWorld(sonar.axis)};
+  }
+
+  /// An echo during the blanking is lost. The ping continues between the sonar and the object, and its first repetition
+  /// after the blanking is read.
+  void blank(Detection& detection) const {
+    const double blanking_m = options_.noise.blanking_m;
+    if (!(detection.range_m < blanking_m)) return;
+    if (detection.range_m <= 0) {
+      detection = {};
+      return;
+    }
+    detection.range_m *= std::ceil(blanking_m / detection.range_m);
+  }
+
+  /// Adds echoes of ringing and the pings of other robots.
+  void addFalseEchoes(const Snapshot& now, std::uint32_t robot, std::size_t slot, const PlanarTransform& frame,
+                      std::vector<Detection>& detections) const {
+    const SonarNoise& noise = options_.noise;
+    const double ringing_m = std::max(noise.blanking_m, options_.range_min_m);
+    Rng rng = now.noise(robot, slot, 1);
+    std::optional<Rng> ranges;  // seldom needed
+    for (std::size_t i = 0; i < detections.size(); ++i) {
+      // One number of 32 bits decides both: low ones ring, high ones may receive a ping.
+      const double number = rng() * 0x1p-32;
+      const bool rings = number < noise.ringing, may_receive = 1 - number <= noise.robot_crosstalk;
+      Detection& detection = detections[i];
+      if (rings && ringing_m < detection.range_m) detection = {ringing_m, sonars_[i].axis, kNoBody};
+      if (!may_receive || !options_.firing.fires(i, now.time)) continue;
+      if (!ranges) ranges.emplace(now.noise(robot, slot, 2));
+      const double range_m = std::max(noise.blanking_m, ranges->uniform() * options_.range_max_m);
+      const double half_rad = noise.lobe.on ? noise.lobe.wall_rad : options_.beam_width_rad / 2;
+      if (range_m >= detection.range_m) continue;
+      if (mayReceivePing(now, robot, axisOf(frame, sonars_[i]), half_rad, options_.range_max_m)) {
+        detection = {range_m, sonars_[i].axis, kNoBody};
+      }
+    }
   }
 
   void addCrosstalk(Rng& rng, std::vector<Detection>& detections) const {
     // The neighbours' own echoes, so that an echo does not propagate around the ring.
-    const std::vector<Detection> own = detections;
+    static thread_local std::vector<Detection> own;
+    own = detections;
     const std::size_t n = own.size();
     for (std::size_t i = 0; i < n; ++i) {
       const bool mixed = rng.uniform() < options_.noise.crosstalk;
@@ -201,76 +265,15 @@ class Sonar : public Sensor {
   std::vector<MountedSonar> sonars_;
   std::vector<HeightGroup> groups_;  ///< for the model `sector`
   PlanarBeams axes_;                 ///< for the model `rays` with one ray per sonar
+  SonarReflector reflector_;
 };
-
-SonarModel readModel(XmlReader& reader, SonarModel otherwise) {
-  return reader.choice<SonarModel>("model", {{"sector", SonarModel::sector}, {"rays", SonarModel::rays}}, otherwise);
-}
-
-SonarNoise readSonarNoise(XmlReader& reader) {
-  SonarNoise noise;
-  if (auto element = reader.child("noise")) {
-    noise.range = RangeNoise::read(*element, kSonarDataSheet);
-    noise.specular_rad = element->angle("specular_deg", {0, 180}, kSpecular_deg * kRadPerDeg);
-    noise.crosstalk = element->number("crosstalk", Bounds::notNegative(1), 0);
-    element->finish();
-  }
-  return noise;
-}
-
-int readRays(XmlReader& reader, int otherwise) {
-  const double rays = reader.number("rays", {1, 1000}, otherwise);
-  if (rays != std::floor(rays)) reader.errorAt("rays", "must be a whole number");
-  return static_cast<int>(rays);
-}
 
 }  // namespace
 
-SonarOptions SonarOptions::read(XmlReader& reader) {
-  SonarOptions o;
-  o.label = reader.word("label", o.label);
-  o.model = readModel(reader, o.model);
-  o.rays = readRays(reader, o.rays);
-  o.beams = readBeamMounts(reader);
-  o.range_max_m = reader.number("range_max_m", Bounds::positive(100), o.range_max_m);
-  o.range_min_m = reader.number("range_min_m", Bounds::notNegative(o.range_max_m), 0);
-  o.no_echo_m = reader.number("no_echo_m", {o.range_max_m, 1000}, o.range_max_m);
-  o.beam_width_rad = reader.angle("beam_width_deg", Bounds::positive(120), o.beam_width_rad);
-  o.noise = readSonarNoise(reader);
-  return o;
-}
-
-SonarOptions SonarOptions::read2005(XmlReader& reader, const Mount& mount) {
-  SonarOptions o;
-  const Position2005 position = Position2005::read(reader, mount);
-  o.model = readModel(reader, o.model);
-  o.rays = readRays(reader, o.rays);
-  o.range_max_m = position.range_m;
-  o.no_echo_m = position.range_m + mount.unit_m;
-  const double mode = reader.number("mode", {1, 2}, 2);
-  if (mode != 1 && mode != 2) reader.errorAt("mode", "must be 1 (8 sonars in front) or 2 (16 all round)");
-  // In the table the four sonars that face straight sideways are mounted 0.5 before or behind the centre of a robot of
-  // radius 3.
-  const double aside_m = mount.robot_radius_m / 6;
-  const double bearings_deg[] = {-90, -50, -30, -10, 10, 30, 50, 90, 90, 130, 150, 170, -170, -150, -130, -90};
-  for (int i = 0; i < (mode == 1 ? 8 : 16); ++i) {
-    const double angle = bearings_deg[i] * kRadPerDeg;
-    const bool faces_sideways = std::abs(bearings_deg[i]) == 90;
-    const auto [sin, cos] = portable::sincos(angle);
-    const double x_m = faces_sideways ? (i < 8 ? aside_m : -aside_m) : mount.robot_radius_m * cos;
-    o.beams.push_back(planarBeam(x_m, mount.robot_radius_m * sin, position.z_m, angle));
-  }
-  o.noise = readSonarNoise(reader);
-  return o;
-}
-
-std::size_t SonarOptions::rayCount() const {
-  return beams.size() * (model == SonarModel::rays ? static_cast<std::size_t>(rays) : 1);
-}
-
 std::unique_ptr<Sensor> makeSonar(const SonarOptions& options) {
-  // A single ray without noise is a thin beam.
-  if (options.model == SonarModel::rays && options.rays == 1 && !options.noise.range.on) {
+  // A single ray that fires in every step, without noise, is a thin beam.
+  if (options.model == SonarModel::rays && options.rays == 1 && !options.noise.range.on &&
+      options.firing.isSimultaneous()) {
     return makeThinBeams(infoOf(options), {});
   }
   return std::make_unique<Sonar>(options);

@@ -3,9 +3,10 @@
 #include <vector>
 
 #include "base/xml_reader.h"
-#include "sensors/range_noise.h"
 #include "sensors/registry.h"
 #include "sensors/sensor.h"
+#include "sensors/sonar_firing.h"
+#include "sensors/sonar_noise.h"
 
 namespace robosim {
 
@@ -15,13 +16,7 @@ enum class SonarModel {
   rays,    ///< the nearest hit of a bundle of rays that fills the cone, in 3D
 };
 
-struct SonarNoise {
-  RangeNoise range;
-  double specular_rad = M_PI;  ///< a surface at a larger angle of incidence returns no echo; [0, π], π: never
-  double crosstalk = 0;        ///< probability of reading a neighbour's nearer echo, [0, 1]
-};
-
-/// A ring of sonars that fire in every time step.
+/// A ring of sonars.
 struct SonarOptions {
   std::string label = "sonar";
   SonarModel model = SonarModel::sector;
@@ -31,6 +26,7 @@ struct SonarOptions {
   double no_echo_m = 5;                     ///< [range_max_m, 1000]: reading without an echo
   double beam_width_rad = 20 * M_PI / 180;  ///< full angle of the cone, (0°, 120°]; 2005: 20°
   int rays = 19;                            ///< for the model `rays`, [1, 1000]; 1: the axis only
+  SonarFiring firing;
   SonarNoise noise;
 
   std::size_t rayCount() const;

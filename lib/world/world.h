@@ -117,11 +117,23 @@ struct WorldOrigin {
   bool operator==(const WorldOrigin&) const { return true; }
 };
 
-/// Limits of the robots' communication.
+/// Limits and errors of the robots' communication (environment/radio_channel.h).
 struct Communication {
-  std::optional<double> range_m;  ///< between robots' centres; nullopt: unlimited
-  double loss_probability = 0;    ///< of each message, [0, 1]
+  std::optional<double> range_m = std::nullopt;  ///< between robots' centres; nullopt: unlimited
+  double loss_probability = 0;                   ///< of each message, [0, 1]
+  double wall_range_m = 0;                       ///< range that each wall between the robots takes, [0, 1e9]
+  double wall_loss = 0;                          ///< probability that a message is lost at each wall, [0, 1]
+  double burst_gap_s = 0;                        ///< mean time between bursts of losses, [0, 1e9]; 0: there are none
+  double burst_s = 1;                            ///< mean duration of a burst, (0, 1e9]
+  double burst_loss = 1;                         ///< probability that a message is lost in a burst, [0, 1]
+  double delay_s = 0;                            ///< beyond the next step, rounded up to whole steps, [0, 60]
+  double rate_hz = 0;                            ///< messages that a robot may send per second, [0, 1e6]; 0: unlimited
   bool operator==(const Communication&) const = default;
+
+  bool hasWalls() const { return wall_range_m > 0 || wall_loss > 0; }
+  bool hasBursts() const { return burst_gap_s > 0 && burst_loss > 0; }
+  /// Whether it depends on the run's seed.
+  bool isRandom() const { return loss_probability > 0 || wall_loss > 0 || hasBursts(); }
 };
 
 /// Default of the maximum distance to the gold, from outline to outline, at which a robot wins: an operator can judge

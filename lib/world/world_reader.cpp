@@ -158,6 +158,17 @@ class WorldReader {
       world_.communication.range_m = length(communication, "range", Bounds::positive());
     }
     world_.communication.loss_probability = communication.number("loss", {0, 1}, 0);
+    Communication& c = world_.communication;
+    if (communication.has("wall_range")) c.wall_range_m = length(communication, "wall_range", Bounds::notNegative());
+    if (communication.has("wall_range") && !c.range_m) {
+      communication.errorAt("wall_range", "shortens the range, and there is none; add <range>");
+    }
+    c.wall_loss = communication.number("wall_loss", {0, 1}, c.wall_loss);
+    c.burst_gap_s = communication.number("burst_gap_s", Bounds::notNegative(), c.burst_gap_s);
+    c.burst_s = communication.number("burst_s", Bounds::positive(), c.burst_s);
+    c.burst_loss = communication.number("burst_loss", {0, 1}, c.burst_loss);
+    c.delay_s = communication.number("delay_s", {0, 60}, c.delay_s);
+    c.rate_hz = communication.number("rate_hz", {0, 1e6}, c.rate_hz);
     communication.finish();
   }
 

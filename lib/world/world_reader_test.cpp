@@ -224,6 +224,23 @@ TEST(WorldReader, RejectsValuesOutOfBounds) {
   EXPECT_EQ(faults(worldOf({}, "<communication><range>0</range><loss>2</loss></communication>")),
             (Lines{"a.xml:2: <range>0</range>: must be above 0; write a number there",
                    "a.xml:2: <loss>2</loss>: must lie in [0, 1]; drop it for the default, 0"}));
+  EXPECT_EQ(
+      faults(worldOf({}, "<communication wall_range='1' delay_s='61' burst_s='0'/>")),
+      (Lines{"a.xml:2: <communication wall_range=\"1\">: shortens the range, and there is none; add <range>",
+             "a.xml:2: <communication burst_s=\"0\">: must be above 0 seconds; drop it for the default, 1",
+             "a.xml:2: <communication delay_s=\"61\">: must lie in [0, 60] seconds; drop it for the default, 0"}));
+}
+
+TEST(WorldReader, ReadsTheErrorsOfTheRadio) {
+  const World world = parsed("<world unit_m='0.1'><surface>" + kSurface +
+                             "</surface><communication range='50' wall_range='10' wall_loss='0.5' burst_gap_s='20' "
+                             "burst_s='2' burst_loss='0.9' "
+                             "delay_s='0.3' rate_hz='5'/></world>");
+  Communication expected{.range_m = 5, .wall_range_m = 1, .wall_loss = 0.5, .burst_gap_s = 20, .burst_s = 2};
+  expected.burst_loss = 0.9;
+  expected.delay_s = 0.3;
+  expected.rate_hz = 5;
+  EXPECT_EQ(world.communication, expected);
 }
 
 TEST(WorldReader, RejectsASurfaceWithoutWidth) {

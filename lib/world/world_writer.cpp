@@ -85,6 +85,17 @@ class WorldWriter {
     XmlElement& element = root.add("communication");
     if (communication.range_m) addLength(element, "range", *communication.range_m);
     if (communication.loss_probability != 0) element.add("loss", toText(communication.loss_probability));
+    if (communication.wall_range_m != 0) addLength(element, "wall_range", communication.wall_range_m);
+    const Communication defaults;
+    const auto add = [&](const char* name, double value, double otherwise) {
+      if (value != otherwise) element.add(name, toText(value));
+    };
+    add("wall_loss", communication.wall_loss, defaults.wall_loss);
+    add("burst_gap_s", communication.burst_gap_s, defaults.burst_gap_s);
+    add("burst_s", communication.burst_s, defaults.burst_s);
+    add("burst_loss", communication.burst_loss, defaults.burst_loss);
+    add("delay_s", communication.delay_s, defaults.delay_s);
+    add("rate_hz", communication.rate_hz, defaults.rate_hz);
   }
 
   void addMap(XmlElement& element, const WorldMap& map) const {

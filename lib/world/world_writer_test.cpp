@@ -31,6 +31,13 @@ class WorldMaker {
     world.bounds = {-size(100), size(100), -size(100), size(100)};
     if (maybe()) world.communication.range_m = size(50);
     if (maybe()) world.communication.loss_probability = rng_.uniform();
+    if (maybe() && world.communication.range_m) world.communication.wall_range_m = size(5);
+    if (maybe()) world.communication.wall_loss = rng_.uniform();
+    if (maybe()) world.communication.burst_gap_s = size(100);
+    if (maybe()) world.communication.burst_s = size(10);
+    if (maybe()) world.communication.burst_loss = rng_.uniform();
+    if (maybe()) world.communication.delay_s = rng_.uniform();
+    if (maybe()) world.communication.rate_hz = size(10);
     if (maybe()) world.win_distance_m = size(5);
     for (auto i = rng_.below(6); i > 0; --i) {
       world.objects.push_back({.name = name(), .body = body(), .stationary = maybe(), .line = {}});

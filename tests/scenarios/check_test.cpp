@@ -56,6 +56,32 @@ TEST(Check, ListsEveryErrorOfAFile) {
   }
 }
 
+TEST(Check, PrintsTheErrorsOfSensorsAndRadioWithAllSettings) {
+  const auto folder = emptyFolder();
+  std::filesystem::create_directory(folder / "robots");
+  std::ofstream(folder / "robots" / "noisy.xml") << R"(<robot name="noisy"><body radius_m="0.2" height_m="0.3"/>
+<limits speed_max_mps="1" accel_mps2="1" decel_mps2="1" turn_max_degps="90" turn_accel_degps2="90"/>
+<sensors><sonar noise="polaroid"><noise dropout="0.05"/><at/></sonar><heat/><compass><noise hard_iron_deg="5"/></compass>
+<odometry/></sensors></robot>)";
+  const auto world = folder / "world.xml";
+  std::ofstream(world) << R"(<world><surface><type>smooth</type><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin>
+<ymax>5</ymax></size><object><shape><robot><model>noisy</model><name>A</name><x>0</x><y>0</y></robot></shape></object>
+</surface><communication range="9" delay_s="0.2"/></world>)";
+  const std::string compass =
+      "compass: noise; hard_iron_deg 5; by default std_deg 2, offset_deg 0, hard_iron_at_deg 0, soft_iron_deg 0, "
+      "soft_iron_at_deg 0\n";
+  for (const auto& file : {world, folder / "robots" / "noisy.xml"}) {
+    const std::string out = runProgram("check '" + file.string() + "'").out;
+    EXPECT_NE(out.find("sonar: noise polaroid; dropout 0.05; by default std_m 0, std_per_m 0.01,"), std::string::npos)
+        << out;
+    EXPECT_NE(out.find("robot_crosstalk 0.02\n"), std::string::npos) << out;
+    EXPECT_NE(out.find(compass), std::string::npos) << out;
+    EXPECT_EQ(out.find("heat:"), std::string::npos) << out;
+  }
+  EXPECT_NE(runProgram("check '" + world.string() + "'").out.find("range 9 m, loss 0, wall_range 0 m, wall_loss 0"),
+            std::string::npos);
+}
+
 TEST(Check, ReadsARobotListOf2005) {
   const Ended check = runProgram("check tests/data/legacy_robots.xml");
   EXPECT_EQ(check.exit_code, 0) << check.out;

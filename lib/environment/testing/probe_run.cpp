@@ -11,16 +11,22 @@ constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of se
   <body radius_m="0.2" height_m="0.3"/>
   <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" turn_max_degps="100" turn_accel_degps2="200"/>
   <sensors>
-    <sonar range_max_m="3" beam_width_deg="20">
-      <noise/>
+    <sonar range_max_m="3" beam_width_deg="20" noise="polaroid">
+      <noise dropout="0.05" ringing="0.05" crosstalk="0.1" robot_crosstalk="0.2"/>
       <at x_m="0.2" z_m="0.1" angle_deg="0"/>
       <at y_m="0.2" z_m="0.1" angle_deg="90"/>
     </sonar>
+    <sonar range_max_m="3" model="rays" rays="5" firing_interval_s="0.04" array="4">
+      <noise wall_deg="30" far_deg="10" second_echoes="1"/>
+      <ring count="8" radius_m="0.2" z_m="0.1"/>
+    </sonar>
+    <infrared noise="gp2d12"><noise dropout="0.1"/> <ring count="4" radius_m="0.2" z_m="0.1"/></infrared>
     <laser beams="5" field_of_view_deg="180" range_max_m="4" z_m="0.1"><noise/></laser>
-    <heat range_max_m="3"><noise/></heat>
-    <bumper segments="6"/>
-    <odometry><noise/></odometry>
-    <compass><noise/></compass>
+    <heat range_max_m="3"><noise lag_s="0.4"/></heat>
+    <bumper segments="6"><noise chatter="0.1"/></bumper>
+    <odometry><noise diameter_ratio="1.01" wheelbase_ratio="1.02" turn_slip_s="0.05" contact_slip="0.5"/></odometry>
+    <compass><noise offset_deg="1" hard_iron_deg="5" hard_iron_at_deg="20" soft_iron_deg="2" soft_iron_at_deg="70"/></compass>
+    <battery standing_h="0.01" driving_h="0.001"><noise drop_v_per_mps="0.3" drop_v_per_radps="0.1" std_v="0.01"/></battery>
     <battery standing_h="0.01" driving_h="0.001"/>
     <camera width_px="8" height_px="8" rate_hz="3"/>
     <blob_finder><color name="gold" rgb="1 0.8 0.1"/></blob_finder>
@@ -49,7 +55,12 @@ std::string nameOf(std::uint32_t robot) { return "r" + std::to_string(robot); }
 /// Three rows of robots, with walls and gold between the rows.
 World randomWorld(Rng& rng) {
   World world = emptyWorld(4);
-  world.communication = {.range_m = 5, .loss_probability = 0.2};
+  world.communication = {
+      .range_m = 6, .loss_probability = 0.1, .wall_range_m = 0.5, .wall_loss = 0.1, .burst_gap_s = 2};
+  world.communication.burst_s = 0.5;
+  world.communication.burst_loss = 0.9;
+  world.communication.delay_s = 0.15;
+  world.communication.rate_hz = 25;
   for (const double y_m : {-1.0, 1.0}) {
     for (int i = 0; i < 3; ++i) addWall(world, rng.uniform(-3, 3), y_m, rng.uniform(0.1, 1.5), 0.1);
   }
@@ -76,11 +87,17 @@ ProbeRun::ProbeRun(std::uint64_t seed) : seed_(seed), images_(std::make_unique<P
                                                EnvironmentOptions{.seed = seed, .period_s = 0.1}, images_.get());
 }
 
-std::unique_ptr<Environment> ProbeRun::another() const {
-  return std::make_unique<Environment>(environment_->model(), initialState(*environment_->model()), 1, images_.get());
+std::unique_ptr<Environment> ProbeRun::another(int threads) const {
+  return std::make_unique<Environment>(environment_->model(), initialState(*environment_->model()), threads,
+                                       images_.get());
 }
 
 void ProbeRun::step(Environment& environment) const {
+  prepare(environment);
+  environment.step();
+}
+
+void ProbeRun::prepare(Environment& environment) const {
   const std::uint64_t step = environment.time().step;
   for (std::uint32_t i = 0; i < kRobots; ++i) {
     Rng rng(seed_, RandomPurpose::test, i, 1, step);
@@ -100,7 +117,6 @@ void ProbeRun::step(Environment& environment) const {
     if (!is_absent && rng.below(150) == 0) environment.remove(i);
     if (is_absent && rng.below(20) == 0) environment.place(i, environment.fleet().robots[i].world_from_start);
   }
-  environment.step();
 }
 
 std::uint32_t ProbeRun::random(std::uint32_t n) const { return Rng(seed_, RandomPurpose::test, 0, 2).below(n); }

@@ -7,8 +7,9 @@
 
 namespace robosim {
 
-/// Random runs for tests, with everything that a State contains: noisy sensors of every kind, pictures, messages that
-/// are lost, stalls, robots that halt, leave and come back, and requests of CheckWin. A run depends on its seed only.
+/// Random runs for tests, with everything that a State contains: sensors of every kind with all of their errors,
+/// pictures, messages that are lost or late, stalls, robots that halt, leave and come back, and requests of CheckWin. A
+/// run depends on its seed only.
 class ProbeRun {
  public:
   static constexpr std::uint32_t kRobots = 9;
@@ -17,7 +18,9 @@ class ProbeRun {
 
   Environment& environment() { return *environment_; }
   /// An environment of the same model, in another state.
-  std::unique_ptr<Environment> another() const;
+  std::unique_ptr<Environment> another(int threads = 1) const;
+  /// Gives the environment the commands and messages of its next step.
+  void prepare(Environment& environment) const;
   /// Gives the environment the commands and messages of its next step, and takes the step.
   void step(Environment& environment) const;
   void step() { step(*environment_); }

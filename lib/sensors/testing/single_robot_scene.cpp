@@ -23,7 +23,9 @@ Measurement SingleRobotScene::sense(const Sensor& sensor) {
                      .time = time_,
                      .seed = seed,
                      .images = images,
-                     .surface = surface};
+                     .surface = surface,
+                     .paths = path ? std::span<const Path>(&*path, 1) : std::span<const Path>(),
+                     .driven_m = {&driven_m, 1}};
   sensor.sense(now, {&robot, 1}, 0, readings_);
   return readings_[0].measurements[0];
 }

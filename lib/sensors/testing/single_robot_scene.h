@@ -20,6 +20,8 @@ class SingleRobotScene {
 
   std::vector<HeatSource> heat_sources;
   Motion motion;
+  double driven_m = 0;
+  std::optional<Path> path;  ///< of this step
   float laser_pan_rad = 0;
   std::uint64_t seed = 1;
   ImageSource* images = nullptr;

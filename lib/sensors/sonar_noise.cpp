@@ -1,0 +1,54 @@
+#include "sensors/sonar_noise.h"
+
+#include "sensors/noise_set.h"
+
+namespace robosim {
+namespace {
+
+constexpr double kRadOfDeg = M_PI / 180;
+
+enum class SonarNoiseSet { none, polaroid };
+
+/// Polaroid 6500 ranging module with the 600 series transducer, as on Pioneer and Scout: ±1 % of the range (data
+/// sheet).
+constexpr RangeNoise kSonarDataSheet{.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0};
+/// Smooth walls reflect the ping away beyond about half the beam width of the transducer (Leonard & Durrant-Whyte,
+/// *Directed Sonar Sensing for Mobile Robot Navigation*, 1992, ch. 2).
+constexpr double kSpecular_deg = 15;
+
+/// Blanking: the module's minimum of 6 inches. Rates of lost echoes, ringing and crosstalk are assumptions.
+SonarNoise polaroid() {
+  SonarNoise noise;
+  noise.range = {.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0.01};
+  noise.lobe = SonarLobe::polaroid();
+  noise.has_second_echoes = true;
+  noise.blanking_m = 0.15;
+  noise.ringing = 0.001;
+  noise.crosstalk = 0.01;
+  noise.robot_crosstalk = 0.02;
+  return noise;
+}
+
+}  // namespace
+
+SonarNoise SonarNoise::read(XmlReader& sonar, double range_max_m) {
+  const auto set = readNoiseSet<SonarNoiseSet>(sonar, {{"polaroid", SonarNoiseSet::polaroid}}, SonarNoiseSet::none);
+  SonarNoise noise = set == SonarNoiseSet::polaroid ? polaroid() : SonarNoise();
+  noise.blanking_m = std::min(noise.blanking_m, range_max_m);
+  auto element = sonar.child("noise");
+  if (!element) return noise;
+  noise.range = RangeNoise::read(*element, noise.range.on ? noise.range : kSonarDataSheet);
+  noise.specular_rad = element->angle("specular_deg", {0, 180}, kSpecular_deg * kRadOfDeg);
+  // A given angle of incidence replaces the lobe of the set, unless the lobe is given as well.
+  if (element->has("specular_deg")) noise.lobe.on = false;
+  noise.lobe.read(*element);
+  noise.has_second_echoes = element->flag("second_echoes", noise.has_second_echoes);
+  noise.blanking_m = element->number("blanking_m", Bounds::notNegative(range_max_m), noise.blanking_m);
+  noise.ringing = element->number("ringing", Bounds::notNegative(1), noise.ringing);
+  noise.crosstalk = element->number("crosstalk", Bounds::notNegative(1), noise.crosstalk);
+  noise.robot_crosstalk = element->number("robot_crosstalk", Bounds::notNegative(1), noise.robot_crosstalk);
+  element->finish();
+  return noise;
+}
+
+}  // namespace robosim
