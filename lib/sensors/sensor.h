@@ -14,6 +14,7 @@
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
 #include "sensors/image_source.h"
+#include "world/world.h"
 
 namespace robosim {
 
@@ -46,7 +47,13 @@ struct Snapshot {
   ImageSource* images = nullptr;  ///< null: cameras take no pictures
   /// Area that robots stay in; nullopt: unbounded.
   std::optional<Bounds2D> surface = std::nullopt;
+  std::span<const float> reflectivity = {};  ///< by body; kReflectivity for bodies beyond its end
 
+  /// Share of light that a body's surface returns, [0, 1].
+  double reflectivityOf(BodyId body) const {
+    const auto i = static_cast<std::size_t>(body);
+    return i < reflectivity.size() ? static_cast<double>(reflectivity[i]) : kReflectivity;
+  }
   BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
   /// Random stream of one sensor of one robot in this step.
   Rng noise(std::uint32_t robot, std::size_t slot) const {

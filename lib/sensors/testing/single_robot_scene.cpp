@@ -23,7 +23,8 @@ Measurement SingleRobotScene::sense(const Sensor& sensor) {
                      .time = time_,
                      .seed = seed,
                      .images = images,
-                     .surface = surface};
+                     .surface = surface,
+                     .reflectivity = reflectivity};
   sensor.sense(now, {&robot, 1}, 0, readings_);
   return readings_[0].measurements[0];
 }
