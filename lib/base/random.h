@@ -5,7 +5,15 @@
 namespace robosim {
 
 /// Purpose of a stream of random numbers; streams of different purposes are independent.
-enum class RandomPurpose : std::uint32_t { sensor_noise, message_loss, controller, start_pose, scenery, test };
+enum class RandomPurpose : std::uint32_t {
+  sensor_noise,
+  message_loss,
+  controller,
+  start_pose,
+  scenery,
+  test,
+  sensor_retry
+};
 
 /// Counter-based random number generator (Philox 4×32-10; Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as
 /// easy as 1, 2, 3", SC11; the library Random123). Its numbers depend only on the constructor's arguments, so that a
@@ -17,6 +25,12 @@ class Rng {
   /// step, of which the low 32 bits are used (13 years of tenths of a second).
   explicit Rng(std::uint64_t seed, RandomPurpose purpose = RandomPurpose::test, std::uint32_t robot = 0,
                std::uint32_t item = 0, std::uint64_t step = 0);
+
+  /// Continues with the numbers of a block: the (4·block + 1)-th number and those after it.
+  void skipToBlock(std::uint32_t block) {
+    counter_[3] = block;
+    left_ = 0;
+  }
 
   result_type operator()();
   static constexpr result_type min() { return 0; }

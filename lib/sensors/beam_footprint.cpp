@@ -12,24 +12,26 @@ namespace {
 constexpr double kSameSurface_m = 0.02;
 constexpr int kBisections = 6;
 
-bool areSameSurface(double a_m, double b_m) { return a_m == b_m || std::abs(a_m - b_m) < kSameSurface_m; }
-
-Ray turned(const Ray& ray, double by_rad) {
-  return {ray.origin, PlanarTransform({0, 0, by_rad}, 0).turnToWorld(ray.direction)};
+/// A ray turned by a small angle, to the left if positive.
+Ray turned(const Ray& ray, double tangent) {
+  const auto& d = ray.direction;
+  const double scale = 1 / std::sqrt(1 + tangent * tangent);
+  return {ray.origin, {scale * (d.x - tangent * d.y), scale * (d.y + tangent * d.x), d.z}};
 }
 
 }  // namespace
 
 double BeamFootprint::power(const Ray& ray, double distance_m, BodyId body) const {
-  if (body == kNoBody || distance_m <= 0) return body == kNoBody ? 0 : 1e9;
-  const auto at = ray.origin + ray.direction * distance_m;
-  const auto normal = normalAt(now_.scene.solid(body).outline, {at.x, at.y});
+  if (distance_m <= 0) return std::numeric_limits<double>::max();
+  const mrpt::math::TPoint2D at(ray.origin.x + ray.direction.x * distance_m,
+                                ray.origin.y + ray.direction.y * distance_m);
+  const auto normal = normalAt(now_.scene.solid(body).outline, at);
   const double cosine = std::abs(ray.direction.x * normal.x + ray.direction.y * normal.y);
   const double reach = (errors_.reach_m > 0 ? errors_.reach_m : 1) / distance_m;
   return now_.reflectivityOf(body) * cosine * reach * reach;
 }
 
-Return BeamFootprint::returnOf(const BeamHits& hits, std::size_t i, double gaussian) const {
+Return BeamFootprint::returnOf(const BeamHits& hits, std::size_t i, double distortion) const {
   const double own_m = hits.distance_m[i];
   if (errors_.divergence_rad > 0) {
     // The side on which the adjacent beam hits the more distant surface from this one.
@@ -44,37 +46,42 @@ Return BeamFootprint::returnOf(const BeamHits& hits, std::size_t i, double gauss
         side = to;
       }
     }
-    if (side != 0) return mixed(hits, i, side, gaussian);
+    if (side != 0) return mixed(hits, i, side, distortion);
   }
   if (hits.body[i] == kNoBody) return {};
-  return {own_m, errors_.reach_m > 0 ? power(hits.rays[i], own_m, hits.body[i]) : 1};
+  return {own_m, errors_.reach_m > 0 ? power(hits.ray(i), own_m, hits.body[i]) : 1};
 }
 
-Return BeamFootprint::mixed(const BeamHits& hits, std::size_t i, int side, double gaussian) const {
-  const Ray& middle = hits.rays[i];
+Return BeamFootprint::mixed(const BeamHits& hits, std::size_t i, int side, double distortion) const {
+  const Ray middle = hits.ray(i);
   const double own_m = hits.distance_m[i];
-  const double own_power = power(middle, own_m, hits.body[i]);
-  const auto hitAt = [&](double share) {
-    return now_.scene.castRay(turned(middle, side * share * errors_.divergence_rad / 2), range_max_m_, owner_);
+  const BodyId own = hits.body[i];
+  const BodyId other = hits.body[i + static_cast<std::size_t>(side)];
+  const bool is_own_nearer = own_m < hits.distance_m[i + static_cast<std::size_t>(side)];
+  const Solid nearer = now_.scene.solid(is_own_nearer ? own : other);
+  const double own_power = own == kNoBody ? 0 : power(middle, own_m, own);
+  // Whether the nearer body is hit decides which of the two is.
+  const double edge_tangent = side * errors_.divergence_rad / 2;
+  const auto isOther = [&](double share) {
+    return intersect(turned(middle, share * edge_tangent), nearer).has_value() != is_own_nearer;
   };
-  const Hit edge = hitAt(1);
-  if (areSameSurface(edge.distance_m, own_m)) return {own_m, errors_.reach_m > 0 ? own_power : 1};
+  if (!isOther(1)) return {own_m, errors_.reach_m > 0 ? own_power : 1};
   double own_end = 0, other_begin = 1;  // in half angles from the middle
   for (int n = 0; n < kBisections; ++n) {
     const double between = (own_end + other_begin) / 2;
-    const Hit hit = hitAt(between);
-    const bool is_own = hit.body == hits.body[i] || areSameSurface(hit.distance_m, own_m);
-    (is_own ? own_end : other_begin) = between;
+    (isOther(between) ? other_begin : own_end) = between;
   }
   const double other_share = (1 - (own_end + other_begin) / 2) / 2;
-  const double other_m = edge.distance_m;
-  const double other_part = other_share * power(turned(middle, side * errors_.divergence_rad / 2), other_m, edge.body);
+  const Ray edge = turned(middle, edge_tangent);
+  double other_m = std::numeric_limits<double>::infinity();
+  if (other != kNoBody) other_m = intersect(edge, now_.scene.solid(other)).value_or(other_m);
+  const double other_part = std::isfinite(other_m) ? other_share * power(edge, other_m, other) : 0;
   const double own_part = (1 - other_share) * own_power;
   const double both = errors_.reach_m > 0 ? own_part + other_part : 1;
   if (own_part == 0 && other_part == 0) return {};
   if (own_part == 0) return {other_m, both};
   if (other_part == 0) return {own_m, both};
-  const double share = std::clamp(other_part / (own_part + other_part) + errors_.mixing_std * gaussian, 0.0, 1.0);
+  const double share = std::clamp(other_part / (own_part + other_part) + errors_.mixing_std * distortion, 0.0, 1.0);
   if (std::abs(other_m - own_m) > errors_.mixing_m) return {share > 0.5 ? other_m : own_m, both};
   return {own_m + share * (other_m - own_m), both};
 }

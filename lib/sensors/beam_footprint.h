@@ -3,26 +3,36 @@
 #include <vector>
 
 #include "sensors/laser_errors.h"
+#include "sensors/planar_beams.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
 
 /// Hits of the beams of one scan, by beam.
 struct BeamHits {
-  std::vector<Ray> rays;           ///< world frame; set only where an error model needs them
   std::vector<double> distance_m;  ///< infinite without a hit
   std::vector<BodyId> body;
-  std::vector<double> read_m;  ///< the readings
+  std::vector<Ray> moved;  ///< world frame; empty if all beams were cast from the pose below
+  const PlanarBeams* beams = nullptr;
+  PlanarTransform frame, panned;  ///< of the robot, and turned by the pan angle
 
-  void reset(std::size_t beams) {
-    rays.resize(beams);
-    distance_m.assign(beams, std::numeric_limits<double>::infinity());
-    body.assign(beams, kNoBody);
-    read_m.resize(beams);
+  void reset(const PlanarBeams& cast, const PlanarTransform& world_from_robot, double pan_rad) {
+    distance_m.assign(cast.size(), std::numeric_limits<double>::infinity());
+    body.assign(cast.size(), kNoBody);
+    moved.clear();
+    beams = &cast;
+    frame = world_from_robot;
+    panned = PlanarTransform(frame, pan_rad);
   }
   void set(std::size_t i, double hit_m, BodyId hit_body) {
+    if (hit_body == kNoBody) return;
     distance_m[i] = hit_m;
     body[i] = hit_body;
+  }
+  /// The beam in the world.
+  Ray ray(std::size_t i) const {
+    if (!moved.empty()) return moved[i];
+    return {frame.pointToWorld((*beams)[i].origin), panned.turnToWorld((*beams)[i].direction)};
   }
 };
 
@@ -32,30 +42,26 @@ struct Return {
   double power = 1;  ///< relative to that which is detected half of the time
 };
 
-/// Light returned from the footprint of a beam, which is a horizontal sector of the full angle
-/// LaserErrors::divergence_rad with uniform brightness. Where the surfaces at the middle and at an edge of the
-/// footprint differ, each contributes its share of the power; the border between them is found by bisection. Power
-/// falls with the square of the range and with the cosine of the angle of incidence (Lambert), and is proportional to
-/// the reflectivity.
+/// Light returned from the footprint of a beam: a horizontal sector of the full angle LaserErrors::divergence_rad with
+/// uniform brightness. Where the adjacent beam hits another body, and the border between the two lies within the
+/// footprint, each body contributes its share of the power; the border is found by bisection. Power falls with the
+/// square of the range and with the cosine of the angle of incidence (Lambert), and is proportional to the
+/// reflectivity.
 ///
-/// An edge is examined only where the adjacent beam hits another body. Omitted: bodies within the footprint that
-/// neither its middle nor an edge hits, and the vertical extent.
+/// Omitted: further bodies within the footprint, its other side, and its vertical extent.
 class BeamFootprint {
  public:
-  BeamFootprint(const Snapshot& now, BodyId owner, const LaserErrors& errors, double range_max_m)
-      : now_(now), owner_(owner), errors_(errors), range_max_m_(range_max_m) {}
+  BeamFootprint(const Snapshot& now, const LaserErrors& errors) : now_(now), errors_(errors) {}
 
-  /// @param gaussian random error of a mixed pixel's shares, in standard deviations
-  Return returnOf(const BeamHits& hits, std::size_t i, double gaussian) const;
+  /// @param distortion random error of a mixed pixel's shares, in standard deviations
+  Return returnOf(const BeamHits& hits, std::size_t i, double distortion) const;
 
  private:
   double power(const Ray& ray, double distance_m, BodyId body) const;
-  Return mixed(const BeamHits& hits, std::size_t i, int side, double gaussian) const;
+  Return mixed(const BeamHits& hits, std::size_t i, int side, double distortion) const;
 
   const Snapshot& now_;
-  BodyId owner_;
   const LaserErrors& errors_;
-  double range_max_m_;
 };
 
 }  // namespace robosim

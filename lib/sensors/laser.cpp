@@ -88,10 +88,8 @@ std::unique_ptr<Sensor> makeLaser(const LaserOptions& o) {
     info.beams.push_back(
         planarBeam(o.robot_from_laser.x, o.robot_from_laser.y, o.robot_from_laser.z, o.direction_rad + off_middle));
   }
-  if (!o.errors.isRangeNoise() || !(o.timing == LaserTiming())) return makeLaserScanner(info, o.errors, o.timing);
-  const RangeNoise noise{
-      .on = o.errors.isRandom(), .std_m = o.errors.std_m, .std_per_m = o.errors.std_per_m, .dropout = o.errors.dropout};
-  return makeThinBeams(info, noise);
+  const bool is_exact = o.errors == LaserErrors() && o.timing == LaserTiming();
+  return is_exact ? makeThinBeams(info, {}) : makeLaserScanner(info, o.errors, o.timing);
 }
 
 }  // namespace robosim

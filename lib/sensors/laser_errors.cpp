@@ -23,14 +23,8 @@ std::vector<LaserErrors::StdAt> readStdTable(XmlReader& noise, const std::vector
   return noise.has("at") ? table : otherwise;
 }
 
-/// exp(-x) for x >= 0, by repeated square roots of the limit (1 + x/n)^-n with n = 2^20: within 1e-6 of exact results
-/// for x < 1, and portable.
-double portableExpOfNegative(double x) {
-  if (x > 700) return 0;
-  double power = 1 / (1 + x * 0x1p-20 + x * x * 0x1p-41);
-  for (int i = 0; i < 20; ++i) power *= power;
-  return power;
-}
+/// The logistic number of a uniform one of 32 bits is within ±23.
+constexpr double kLogisticMax = 23;
 
 }  // namespace
 
@@ -61,11 +55,6 @@ LaserErrors LaserErrors::read(XmlReader& noise, const LaserErrors& otherwise) {
   e.drift_m = noise.number("drift_m", {-1, 1}, otherwise.drift_m);
   e.drift_s = noise.number("drift_s", Bounds::positive(1e6), otherwise.drift_s);
   return e;
-}
-
-bool LaserErrors::isRangeNoise() const {
-  return std_at.empty() && tail == 0 && quantum_m == 0 && outlier == 0 && divergence_rad == 0 && reach_m == 0 &&
-         drift_m == 0;
 }
 
 bool LaserErrors::isRandom() const {
@@ -100,42 +89,36 @@ double LaserErrors::largestStd(double range_max_m) const {
 }
 
 double LaserErrors::driftAt(double time_s) const {
-  return drift_m == 0 ? 0 : drift_m * portableExpOfNegative(time_s / drift_s);
+  return drift_m == 0 ? 0 : drift_m * portable::exp(-time_s / drift_s);
 }
 
-BeamDraw::BeamDraw(Rng& rng) {
-  constexpr double kUnit = 0x1p-32;
-  event = rng() * kUnit;
-  other = (rng() + 0.5) * kUnit;
-  // Box & Muller (1958), with both numbers of the pair.
-  const double radius = std::sqrt(-2 * portable::log((rng() + 0.5) * kUnit));
-  const auto [sin, cos] = portable::sincos(2 * M_PI * kUnit * rng());
-  gaussian[0] = radius * cos;
-  gaussian[1] = radius * sin;
+ErrorProcess::ErrorProcess(const LaserErrors& errors, const SensorInfo& info)
+    : errors_(errors),
+      range_min_m_(info.range_min_m),
+      range_max_m_(info.range_max_m),
+      tail_from_(errors.dropout + errors.outlier),
+      tail_to_(tail_from_ + errors.tail * (1 - tail_from_)),
+      per_quantum_(errors.quantum_m > 0 ? 1 / errors.quantum_m : 0),
+      lost_power_(portable::exp(-errors.fading * kLogisticMax)),
+      certain_power_(portable::exp(errors.fading * kLogisticMax)) {}
+
+/// Whether log(power) + fading × (a logistic number) is positive.
+bool ErrorProcess::isDetected(double power, double uniform) const {
+  if (power > certain_power_) return true;
+  if (power < lost_power_) return false;
+  return portable::log(power) + errors_.fading * portable::log(uniform / (1 - uniform)) > 0;
 }
 
-double readingOf(const LaserErrors& errors, double range_m, double power, double drift_m, double range_min_m,
-                 double range_max_m, const BeamDraw& draw) {
-  double left = draw.event;  // a uniform number, divided among exclusive events
-  if (left < errors.dropout) return kLostEcho;
-  left -= errors.dropout;
-  if (left < errors.outlier) return range_min_m + (range_max_m - range_min_m) * draw.other;
-  left = (left - errors.outlier) / (1 - errors.dropout - errors.outlier);
-  // The echo is detected if log(power) + fading × (a logistic number) is positive. Powers of 50 and more fluctuations
-  // are detected in any case, because the logistic number is within ±23.
-  constexpr double kCertain = 24;
-  if (errors.reach_m > 0) {
-    if (power <= 0) return kLostEcho;
-    const double log_power = portable::log(power);
-    if (log_power < errors.fading * kCertain &&
-        log_power + errors.fading * (portable::log(draw.other) - portable::log(1 - draw.other)) < 0) {
-      return kLostEcho;
-    }
+double ErrorProcess::readingOf(double range_m, double power, double drift_m, const BeamDraw& draw) const {
+  // The event is divided among exclusive ones.
+  if (draw.event < tail_from_) {
+    return draw.event < errors_.dropout ? kLostEcho : range_min_m_ + (range_max_m_ - range_min_m_) * draw.other;
   }
-  double error_m = errors.stdAt(range_m) * draw.gaussian[0];
-  if (left < errors.tail) error_m *= errors.tail_factor;
-  const double read_m = std::max(0.0, range_m + drift_m + error_m);
-  return errors.quantum_m > 0 ? errors.quantum_m * std::round(read_m / errors.quantum_m) : read_m;
+  if (errors_.reach_m > 0 && !isDetected(power, draw.other)) return kLostEcho;
+  const double factor = draw.event < tail_to_ ? errors_.tail_factor : 1;
+  const double read_m = std::max(0.0, range_m + drift_m + factor * errors_.stdAt(range_m) * draw.gaussian);
+  if (per_quantum_ == 0) return read_m;
+  return errors_.quantum_m * static_cast<double>(static_cast<std::int64_t>(read_m * per_quantum_ + 0.5));
 }
 
 }  // namespace robosim

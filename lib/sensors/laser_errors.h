@@ -4,11 +4,12 @@
 
 #include "base/random.h"
 #include "base/xml_reader.h"
+#include "hardware/sensor_info.h"
 
 namespace robosim {
 
-/// Error model of a laser scanner. All parts are off by default. Each beam draws one block of four random numbers in
-/// each measurement, whatever it hits, so that the beams are independent. Sources, units, ranges and omissions:
+/// Error model of a laser scanner. All parts are off by default. Each beam has four random numbers of its own in each
+/// measurement, whatever it hits, so that the beams are independent. Sources, units, ranges and omissions:
 /// doc/fidelity.md.
 struct LaserErrors {
   /// A point of a piecewise-linear function of the range.
@@ -38,8 +39,6 @@ struct LaserErrors {
   /// Reads a <noise> element whose attributes replace the values of `otherwise`. The caller finishes the element.
   static LaserErrors read(XmlReader& noise, const LaserErrors& otherwise);
 
-  /// Whether the model is that of RangeNoise: Gaussian noise and lost echoes.
-  bool isRangeNoise() const;
   /// Whether the results depend on random numbers.
   bool isRandom() const;
   /// Standard deviation [m] of the Gaussian part at a range.
@@ -56,17 +55,31 @@ struct LaserErrors {
 
 /// Random numbers of one beam in one measurement.
 struct BeamDraw {
-  explicit BeamDraw(Rng& rng);
-
-  double event = 0;      ///< uniform in [0, 1)
-  double other = 0;      ///< uniform in (0, 1)
-  double gaussian[2]{};  ///< independent, mean 0, standard deviation 1
+  double event = 0;       ///< uniform in [0, 1)
+  double other = 0;       ///< uniform in (0, 1)
+  double gaussian = 0;    ///< mean 0, standard deviation 1
+  double distortion = 0;  ///< the same, of a mixed pixel
 };
 
-/// The range [m] that a scanner reads for a true range within (0, range_max_m), or infinity for a lost echo.
-/// @param power of the echo, relative to that which is detected half of the time
-/// @param drift_m of LaserErrors::driftAt()
-double readingOf(const LaserErrors& errors, double range_m, double power, double drift_m, double range_min_m,
-                 double range_max_m, const BeamDraw& draw);
+/// Applies a LaserErrors to many ranges of one measurement.
+class ErrorProcess {
+ public:
+  /// @param info specifies the ranges
+  ErrorProcess(const LaserErrors& errors, const SensorInfo& info);
+
+  /// The range [m] that is read for a true range within (0, range_max_m), or infinity for a lost echo.
+  /// @param power of the echo, relative to that which is detected half of the time
+  /// @param drift_m of LaserErrors::driftAt()
+  double readingOf(double range_m, double power, double drift_m, const BeamDraw& draw) const;
+
+ private:
+  bool isDetected(double power, double uniform) const;
+
+  LaserErrors errors_;
+  double range_min_m_, range_max_m_;
+  double tail_from_, tail_to_;  ///< the events of a wide error
+  double per_quantum_;
+  double lost_power_, certain_power_;  ///< below and above which the detection is not random
+};
 
 }  // namespace robosim

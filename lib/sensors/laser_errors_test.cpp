@@ -145,8 +145,9 @@ TEST(LaserErrors, RefuseInvalidSettings) {
   EXPECT_EQ(laserErrorOf("<laser><noise dropout='0.7' outlier='0.7'/></laser>"),
             "sensor.xml:1: <noise>: has dropout and outlier with a sum above 1, which excludes any other reading; "
             "reduce one of them");
-  EXPECT_EQ(laserErrorOf("<laser><noise>\n<at range_m='2' std_m='0.1'/>\n<at range_m='1' std_m='0.1'/></noise></laser>"),
-            "sensor.xml:3: <at range_m=\"1\">: must be above that of the <at> before it; sort them by range");
+  EXPECT_EQ(
+      laserErrorOf("<laser><noise>\n<at range_m='2' std_m='0.1'/>\n<at range_m='1' std_m='0.1'/></noise></laser>"),
+      "sensor.xml:3: <at range_m=\"1\">: must be above that of the <at> before it; sort them by range");
   EXPECT_EQ(laserErrorOf("<laser><noise std_m='0.1'><at range_m='1' std_m='0.1'/></noise></laser>"),
             "sensor.xml:1: <noise>: has std_m or std_per_m beside <at>, which replaces both; keep one form");
   EXPECT_EQ(laserErrorOf("<laser rate_hz='-1'/>"),

@@ -17,6 +17,7 @@ constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of se
       <at y_m="0.2" z_m="0.1" angle_deg="90"/>
     </sonar>
     <laser beams="5" field_of_view_deg="180" range_max_m="4" z_m="0.1"><noise/></laser>
+    <laser label="sweeping" noise="lms200" beams="21" range_max_m="4" z_m="0.1" rate_hz="7" latency_s="0.02"/>
     <heat range_max_m="3"><noise/></heat>
     <bumper segments="6"/>
     <odometry><noise/></odometry>
