@@ -71,7 +71,8 @@ void addFit(CLI::App& program) {
       ->default_str("scans");
   command->footer(
       "Try:  robosim fit real.rawlog -o laser.xml --report laser.html\n"
-      "Every other pair of scans at rest is held out from the fit, and compared with simulated scans.");
+      "Each pair of scans at rest is compared with simulated scans of a model that is fitted to the other half of the "
+      "pairs; the written model is fitted to all.");
   command->callback([a] { fit(*a); });
 }
 

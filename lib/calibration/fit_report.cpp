@@ -54,7 +54,7 @@ std::string pathOf(const std::vector<double>& shares, double largest) {
 
 std::string histogramOf(const ScannerFit& fit, std::size_t band) {
   const double bin_m = std::max(fit.model.errors.quantum_m, 0.002);
-  const auto real = sharesOf(fit.held_out_statistics.differences_m[band], bin_m);
+  const auto real = sharesOf(fit.real.differences_m[band], bin_m);
   const auto simulated = sharesOf(fit.simulated.differences_m[band], bin_m);
   const double largest =
       std::max(*std::max_element(real.begin(), real.end()), *std::max_element(simulated.begin(), simulated.end()));
@@ -99,7 +99,7 @@ std::string excludedOf(const ScannerFit& fit) {
 std::string bandsOf(const ScannerFit& fit) {
   std::string html;
   for (std::size_t band = 0; band < kBands; ++band) {
-    const std::size_t n = fit.held_out_statistics.differences_m[band].size();
+    const std::size_t n = fit.real.differences_m[band].size();
     html += "<h3>" + escaped(bandName(band)) + "</h3>\n";
     if (n == 0) {
       html += "<p>No held-out differences.</p>\n";
@@ -120,7 +120,7 @@ std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Laser errors of " +
       escaped(rawlog) +
-      "</title>\n<style>body{font:15px/1.5 sans-serif;max-width:44em;margin:2em auto;padding:0 1em;color:#222}"
+      "</title>\n<style>body{font:15px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}"
       "table{border-collapse:collapse}th,td{border:1px solid #bbb;padding:.2em .6em;text-align:left}"
       "pre{background:#f5f5f5;padding:.8em;overflow-x:auto}svg{max-width:100%}</style>\n</head>\n<body>\n";
   html += "<h1>Laser errors of " + escaped(rawlog) + "</h1>\n<pre>" + escaped(summaryOf(fit)) + "</pre>\n";

@@ -89,11 +89,11 @@ TEST(BeamModel, RecoversTheWeightsOfASample) {
   Rng rng(5);
   std::vector<ExpectedReading> readings;
   for (int i = 0; i < 20000; ++i) {
-    const double expected_m = rng.uniform(2, 8);
+    const double expected_m = rng.uniform(6, 9);
     const double part = rng.uniform();
     double read_m = expected_m + 0.02 * rng.gaussian();
     if (part < 0.05) {
-      do read_m = -std::log(1 - rng.uniform()) / 0.5;
+      do read_m = -std::log(1 - rng.uniform()) / 1.5;
       while (read_m > expected_m);
     } else if (part < 0.08) {
       read_m = std::nan("");
@@ -108,7 +108,7 @@ TEST(BeamModel, RecoversTheWeightsOfASample) {
   EXPECT_NEAR(model.z_max, 0.03, 0.005);
   EXPECT_NEAR(model.z_rand, 0.02, 0.006);
   EXPECT_NEAR(model.sigma_hit_m, 0.02, 0.0006);
-  EXPECT_NEAR(model.lambda_short_per_m, 0.5, 0.1);
+  EXPECT_NEAR(model.lambda_short_per_m, 1.5, 0.2);
 }
 
 }  // namespace

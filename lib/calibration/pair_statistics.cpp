@@ -38,6 +38,19 @@ void PairStatistics::add(const std::vector<double>& first_m, const std::vector<d
   }
 }
 
+void PairStatistics::add(const PairStatistics& other) {
+  pairs += other.pairs;
+  compared += other.compared;
+  jumps += other.jumps;
+  beams += other.beams;
+  flips += other.flips;
+  invalid += other.invalid;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const auto& more = other.differences_m[band];
+    differences_m[band].insert(differences_m[band].end(), more.begin(), more.end());
+  }
+}
+
 PairStatistics statisticsOf(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
   PairStatistics statistics;
   for (const auto& pair : pairs) {

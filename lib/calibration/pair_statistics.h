@@ -27,6 +27,7 @@ struct PairStatistics {
   std::size_t invalid = 0;                                ///< of these, invalid in both scans
 
   void add(const std::vector<double>& first_m, const std::vector<double>& second_m);
+  void add(const PairStatistics& other);
   double jumpRate() const { return compared ? static_cast<double>(jumps) / static_cast<double>(compared) : 0; }
   double flipRate() const { return beams ? static_cast<double>(flips) / static_cast<double>(beams) : 0; }
   double invalidRate() const { return beams ? static_cast<double>(invalid) / static_cast<double>(beams) : 0; }

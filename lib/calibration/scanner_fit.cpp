@@ -47,26 +47,44 @@ std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const st
   return readings;
 }
 
+LaserFit modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
+  LaserFit model = fitLaser(statisticsOf(series, pairs), quantum_m);
+  model.errors.fading = 0.1;
+  for (const auto& group : standingGroups(series, pairs)) {
+    model.errors.reach_m = std::max(model.errors.reach_m, reachFor(seenSurfaces(series, group), model.errors.fading));
+  }
+  return model;
+}
+
+std::string textOf(const BeamModel& b) {
+  return "z_hit " + fixed(b.z_hit, 4) + " (" + fixed(b.sigma_hit_m, 4) + " m), z_short " + fixed(b.z_short, 4) + " (" +
+         fixed(b.lambda_short_per_m, 3) + "/m), z_max " + fixed(b.z_max, 4) + ", z_rand " + fixed(b.z_rand, 4);
+}
+
 std::string percent(double share) { return fixed(100 * share, 2) + " %"; }
 
 }  // namespace
 
-double ScannerFit::ksOf(std::size_t band) const {
+bool HeldOutFit::ratesAgree() const {
+  return std::abs(real.jumpRate() - simulated.jumpRate()) <= kRateTolerance &&
+         std::abs(real.flipRate() - simulated.flipRate()) <= kRateTolerance;
+}
+
+double ScannerFit::ksOf(const PairStatistics& held_out, const PairStatistics& of_model, std::size_t band) const {
   const double quantum_m = model.errors.quantum_m;
-  return ksDistance(dequantised(held_out_statistics.differences_m[band], quantum_m, kSeed),
-                    dequantised(simulated.differences_m[band], quantum_m, kSeed + 1));
+  return ksDistance(dequantised(held_out.differences_m[band], quantum_m, kSeed),
+                    dequantised(of_model.differences_m[band], quantum_m, kSeed + 1));
 }
 
 double ScannerFit::ksBoundOf(std::size_t band) const {
-  return ksBound(held_out_statistics.differences_m[band].size(), simulated.differences_m[band].size());
+  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
 }
 
 bool ScannerFit::isAccepted() const {
   for (std::size_t band = 0; band < kBands; ++band) {
-    if (!held_out_statistics.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
+    if (!real.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
   }
-  return std::abs(held_out_statistics.jumpRate() - simulated.jumpRate()) <= kRateTolerance &&
-         std::abs(held_out_statistics.flipRate() - simulated.flipRate()) <= kRateTolerance;
+  return folds[0].ratesAgree() && folds[1].ratesAgree();
 }
 
 ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion) {
@@ -79,32 +97,35 @@ ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, Rest
     if (progress.due()) progress.show("reading: " + withCommas(entries) + " entries …");
   });
   fit.candidates = standingPairs(fit.series);
-  std::vector<ScanPair> used;
   for (const auto& pair : fit.candidates) {
-    if (criterion == RestCriterion::odometry || pair.is_at_rest) used.push_back(pair);
+    if (criterion == RestCriterion::odometry || pair.is_at_rest) fit.used.push_back(pair);
   }
-  if (used.size() < 2) {
-    throw ConfigError(rawlog + ": has " + std::to_string(used.size()) + " pairs of scans at rest of '" +
+  if (fit.used.size() < 2) {
+    throw ConfigError(rawlog + ": has " + std::to_string(fit.used.size()) + " pairs of scans at rest of '" +
                       fit.series.label + "', of " + std::to_string(fit.series.scans.size()) +
                       " scans; at least two are required, so record the scanner while the robot stands" +
-                      (fit.candidates.size() > used.size() ? ", or use --rest odometry" : ""));
+                      (fit.candidates.size() > fit.used.size() ? ", or use --rest odometry" : ""));
   }
-  fit.fitted = everySecond(used, 0);
-  fit.held_out = everySecond(used, 1);
-  fit.fitted_statistics = statisticsOf(fit.series, fit.fitted);
-  fit.held_out_statistics = statisticsOf(fit.series, fit.held_out);
   progress.show("fitting …");
-  fit.model = fitLaser(fit.fitted_statistics, quantumOf(fit.series));
-  LaserErrors& errors = fit.model.errors;
-  errors.fading = 0.1;
-  double reach_m = 0;
-  for (const auto& group : standingGroups(fit.series, fit.fitted)) {
-    reach_m = std::max(reach_m, reachFor(seenSurfaces(fit.series, group), errors.fading));
+  const double quantum_m = quantumOf(fit.series);
+  fit.model = modelOf(fit.series, fit.used, quantum_m);
+  for (std::size_t i = 0; i < fit.folds.size(); ++i) {
+    progress.show("comparing with held-out pairs …");
+    HeldOutFit& fold = fit.folds[i];
+    fold.fitted = everySecond(fit.used, i);
+    fold.held_out = everySecond(fit.used, 1 - i);
+    fold.model = modelOf(fit.series, fold.fitted, quantum_m);
+    fold.real = statisticsOf(fit.series, fold.held_out);
+    fold.simulated = simulatePairs(fit.series, fold.fitted, fold.model.errors, kSimulatedPerPair, kSeed + i);
+    fit.real.add(fold.real);
+    fit.simulated.add(fold.simulated);
   }
-  errors.reach_m = reach_m;
-  progress.show("simulating …");
-  fit.simulated = simulatePairs(fit.series, fit.fitted, errors, kSimulatedPerPair, kSeed);
-  fit.beam_model = fitBeamModel(expectedReadings(fit.series, used), fit.series.range_max_m);
+  fit.beam_model = fitBeamModel(expectedReadings(fit.series, fit.used), fit.series.range_max_m);
+  progress.show("matching scans …");
+  fit.map_readings = matchScans(fit.series);
+  if (!fit.map_readings.readings.empty()) {
+    fit.map_model = fitBeamModel(fit.map_readings.readings, fit.series.range_max_m);
+  }
   return fit;
 }
 
@@ -132,7 +153,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
     XmlElement& point = noise.add("at");
     point.attributes = {{"range_m", fixed(at.range_m, 2)}, {"std_m", fixed(at.std_m, 5)}};
   }
-  const std::size_t pairs = fit.fitted.size();
+  const std::size_t pairs = fit.used.size();
   std::string name = rawlog.substr(rawlog.find_last_of('/') + 1);
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
   return "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
@@ -140,32 +161,38 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
 }
 
 std::string summaryOf(const ScannerFit& fit) {
-  std::size_t excluded = fit.candidates.size() - fit.fitted.size() - fit.held_out.size();
   std::string text = "scanner   '" + fit.series.label + "', " + withCommas(fit.series.scans.size()) + " scans of " +
-                     std::to_string(fit.series.scans.front().ranges_m.size()) + " beams\n" + "at rest   " +
-                     std::to_string(fit.fitted.size()) + " pairs fitted, " + std::to_string(fit.held_out.size()) +
-                     " held out, " + std::to_string(excluded) + " excluded: the scans contradict the odometry\n";
+                     std::to_string(fit.series.scans.front().ranges_m.size()) + " beams\nat rest   " +
+                     std::to_string(fit.used.size()) + " pairs of scans; " +
+                     std::to_string(fit.candidates.size() - fit.used.size()) +
+                     " excluded, because the scans contradict the odometry\n";
   const LaserErrors& e = fit.model.errors;
   text += "errors    quantum " + fixed(e.quantum_m, 3) + " m, tail " + fixed(e.tail, 3) + " × " +
           fixed(e.tail_factor, 0) + ", outliers " + percent(e.outlier) + ", reach " + fixed(e.reach_m, 0) + " m\n";
-  const BeamModel& b = fit.beam_model;
-  text += "beams     z_hit " + fixed(b.z_hit, 4) + " (" + fixed(b.sigma_hit_m, 4) + " m), z_short " +
-          fixed(b.z_short, 4) + " (" + fixed(b.lambda_short_per_m, 3) + "/m), z_max " + fixed(b.z_max, 4) +
-          ", z_rand " + fixed(b.z_rand, 4) + "\n\n";
-  Rows rows{{"range", "std", "real", "simulated", "KS", "bound"}};
+  text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
+  text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
+          " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
+  Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "KS, even"}};
   for (std::size_t band = 0; band < kBands; ++band) {
-    const std::size_t n = fit.held_out_statistics.differences_m[band].size();
+    const std::size_t n = fit.real.differences_m[band].size();
     if (n == 0) continue;
     rows.push_back({bandName(band), fit.model.std_m[band] > 0 ? fixed(1000 * fit.model.std_m[band], 1) + " mm" : "–",
                     withCommas(n), withCommas(fit.simulated.differences_m[band].size()), fixed(fit.ksOf(band), 3),
                     fixed(fit.ksBoundOf(band), 3)});
+    for (const auto& fold : fit.folds) rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3));
   }
   text += table(rows);
-  rows = {{"of the beams", "real", "simulated"}};
-  const PairStatistics& real = fit.held_out_statistics;
-  rows.push_back({"jumps above 15 cm", percent(real.jumpRate()), percent(fit.simulated.jumpRate())});
-  rows.push_back({"changes of validity", percent(real.flipRate()), percent(fit.simulated.flipRate())});
-  rows.push_back({"invalid in both", percent(real.invalidRate()), percent(fit.simulated.invalidRate())});
+  rows = {{"share of the beams", "odd, real", "simulated", "even, real", "simulated"}};
+  const auto add = [&](const char* name, double (PairStatistics::*rate)() const) {
+    rows.push_back({name});
+    for (const auto& fold : fit.folds) {
+      rows.back().push_back(percent((fold.real.*rate)()));
+      rows.back().push_back(percent((fold.simulated.*rate)()));
+    }
+  };
+  add("jumps above 15 cm", &PairStatistics::jumpRate);
+  add("changes of validity", &PairStatistics::flipRate);
+  add("invalid in both", &PairStatistics::invalidRate);
   text += "\n" + table(rows);
   return text + (fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
                                   : "\nThe held-out pairs differ from the model by more than the bounds.\n");

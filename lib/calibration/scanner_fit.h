@@ -5,6 +5,7 @@
 #include "base/interrupt.h"
 #include "calibration/beam_model.h"
 #include "calibration/laser_fit.h"
+#include "calibration/matched_scans.h"
 #include "calibration/pair_statistics.h"
 #include "calibration/standing_scans.h"
 
@@ -16,21 +17,35 @@ enum class RestCriterion {
   odometry,  ///< unchanged odometry only: also counts a robot that rocks
 };
 
-/// A model of a scanner, estimated from every other pair of scans at rest, and compared with the other pairs.
+/// A model estimated from every other pair of scans at rest, and compared with the other pairs.
+struct HeldOutFit {
+  std::vector<ScanPair> fitted, held_out;
+  LaserFit model;
+  PairStatistics real, simulated;  ///< of the held-out pairs, and of the model
+
+  /// Whether the rates of jumps and of changes of validity agree within kRateTolerance.
+  bool ratesAgree() const;
+};
+
+/// A model of a scanner, estimated from all pairs of scans at rest. Two-fold cross-validation compares each pair with a
+/// model that is not fitted to it.
 struct ScannerFit {
   ScanSeries series;
   RestCriterion criterion = RestCriterion::scans;
   std::vector<ScanPair> candidates;  ///< all pairs at unchanged odometry
-  std::vector<ScanPair> fitted, held_out;
-  LaserFit model;
-  PairStatistics fitted_statistics, held_out_statistics, simulated;
-  BeamModel beam_model;  ///< of all readings at rest, about the mean range of each beam
+  std::vector<ScanPair> used;        ///< of these, by the criterion
+  LaserFit model;                    ///< of all of them
+  std::array<HeldOutFit, 2> folds;   ///< fitted to the pairs of even and of odd number
+  PairStatistics real, simulated;    ///< of both folds
+  BeamModel beam_model;              ///< of all readings at rest, about the mean range of each beam
+  MatchedReadings map_readings;
+  BeamModel map_model;  ///< of these
 
   /// Kolmogorov–Smirnov distance of the dequantised differences of a band, held out against simulated.
-  double ksOf(std::size_t band) const;
+  double ksOf(std::size_t band) const { return ksOf(real, simulated, band); }
+  double ksOf(const PairStatistics& held_out, const PairStatistics& model, std::size_t band) const;
   double ksBoundOf(std::size_t band) const;
-  /// Whether all bands with held-out differences are within their bounds, and the rates of jumps and of changes of
-  /// validity within 0.3 percentage points.
+  /// Whether all bands of both folds together are within their bounds, and the rates of each fold agree.
   bool isAccepted() const;
 };
 

@@ -15,13 +15,10 @@ constexpr double kDepth_m = 0.01;
 /// Width of a wall, as a share of the distance between adjacent beams.
 constexpr double kWidth = 0.9;
 
-/// Share of valid readings whose flicker between two scans is that of the recording: the sample variance v (1 − v) of
-/// n readings is too small by the factor 1 − 1/n.
+/// Share v of valid readings for which 2 v (1 − v) is the share of changes, because readings are independent in the
+/// simulation.
 double shareOf(const SeenSurface& seen) {
-  if (seen.scans < 2) return seen.valid;
-  const auto n = static_cast<double>(seen.scans);
-  const double variance = std::min(0.25, seen.valid * (1 - seen.valid) * n / (n - 1));
-  const double off_half = std::sqrt(0.25 - variance);
+  const double off_half = std::sqrt(std::max(0.0, 0.25 - seen.flips / 2));
   return seen.valid > 0.5 ? 0.5 + off_half : 0.5 - off_half;
 }
 
@@ -121,7 +118,11 @@ std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vecto
       const double range_m = series.scans[scan].ranges_m[i];
       if (!std::isnan(range_m)) valid_m.push_back(range_m);
     }
-    seen[i].scans = scans.size();
+    for (const auto& pair : pairs) {
+      const bool is_first = !std::isnan(series.scans[pair.first].ranges_m[i]);
+      const bool is_second = !std::isnan(series.scans[pair.first + 1].ranges_m[i]);
+      if (is_first != is_second) seen[i].flips += 1 / static_cast<double>(pairs.size());
+    }
     if (valid_m.empty()) continue;
     seen[i].valid = static_cast<double>(valid_m.size()) / static_cast<double>(scans.size());
     std::sort(valid_m.begin(), valid_m.end());

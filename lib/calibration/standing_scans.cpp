@@ -41,6 +41,7 @@ ScanSeries emptySeries(const mrpt::obs::CObservation2DRangeScan& observation) {
   if (observation.getScanSize() > 1)
     series.step_rad = aperture_rad / static_cast<double>(observation.getScanSize() - 1);
   series.first_rad = -aperture_rad / 2;
+  series.robot_from_scanner = mrpt::math::TPose2D(observation.sensorPose.asTPose());
   series.range_max_m = static_cast<double>(observation.maxRange);
   return series;
 }

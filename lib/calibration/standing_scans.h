@@ -22,6 +22,7 @@ struct ScanSeries {
   double first_rad = 0;    ///< direction of the first beam, in the scanner's frame
   double range_max_m = 0;  ///< as recorded
   std::vector<RecordedScan> scans;
+  mrpt::math::TPose2D robot_from_scanner = {};  ///< mounting pose
 };
 
 /// Reads the scans of a scanner (CObservation2DRangeScan) from a rawlog in either of MRPT's formats.

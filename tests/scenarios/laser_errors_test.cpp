@@ -54,10 +54,10 @@ TEST_F(LaserErrorsInRuns, AreReportedByCheckWithFileAndLine) {
   std::ofstream(world) << worldWith("<laser noise='lms100'/>");
   const Ended checked = runProgram("check " + quoted(world));
   EXPECT_EQ(checked.exit_code, 1);
-  EXPECT_NE(checked.err.find("world.xml:3: <laser noise=\"lms100\">: is not a type of scanner; accepted are: lms200, "
+  EXPECT_NE((checked.out + checked.err).find("world.xml:3: <laser noise=\"lms100\">: is not a type of scanner; accepted are: lms200, "
                              "urg04lx, utm30lx"),
             std::string::npos)
-      << checked.err;
+      << checked.out << checked.err;
 }
 
 }  // namespace
