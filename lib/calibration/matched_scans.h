@@ -11,7 +11,7 @@ namespace robosim {
 struct MatchedReadings {
   std::vector<ExpectedReading> readings;
   std::size_t matched = 0;  ///< scans that were aligned
-  std::size_t failed = 0;   ///< scans of which too few points lie near the map; the map begins anew with them
+  std::size_t failed = 0;   ///< scans of which too few points lie near the map; a new map begins with them
 };
 
 constexpr std::size_t kMapScans = 3;

@@ -156,8 +156,10 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   const std::size_t pairs = fit.used.size();
   std::string name = rawlog.substr(rawlog.find_last_of('/') + 1);
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
-  return "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
-         ". For the <sensors> of a robot type. -->\n" + toXml(laser);
+  std::string text = toXml(laser);
+  const std::string comment = "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
+                              ". For the <sensors> of a robot type. -->\n";
+  return text.insert(text.find('\n') + 1, comment);  // after the declaration
 }
 
 std::string summaryOf(const ScannerFit& fit) {

@@ -88,32 +88,35 @@ bool areSamePlace(const RecordedScan& a, const RecordedScan& b) {
          std::abs(std::remainder(a.odometry->phi - b.odometry->phi, 2 * M_PI)) <= kUnturned_rad;
 }
 
-/// Least squares of difference = slope × shift over the beams at smooth oblique surfaces, with the shift in beams.
+/// Least squares of difference = slope × shift over the beams at smooth oblique surfaces, with the shift in beams. Its
+/// standard error is that of White ("A heteroskedasticity-consistent covariance matrix estimator", Econometrica 48,
+/// 1980), because the scatter depends on the surface.
 void estimateRotation(const ScanSeries& series, ScanPair& pair) {
   const auto& a = series.scans[pair.first].ranges_m;
   const auto& b = series.scans[pair.first + 1].ranges_m;
-  std::vector<double> sizes_m;
+  std::vector<std::pair<double, double>> used;  // slopes and differences [m]
   double products = 0, squares = 0;
-  std::size_t used = 0;
   for (std::size_t i = 1; i + 1 < a.size(); ++i) {
     const double difference_m = b[i] - a[i];
-    if (std::isnan(difference_m)) continue;
-    sizes_m.push_back(std::abs(difference_m));
     const double slope_m = (a[i + 1] - a[i - 1]) / 2;
     const double bend_m = std::abs(a[i + 1] - 2 * a[i] + a[i - 1]);
     const bool is_oblique = std::abs(slope_m) > 0.02 && std::abs(slope_m) < 1;  // false for NaN
-    if (!is_oblique || !(bend_m < 0.1 * std::abs(slope_m) + 0.02) || std::abs(difference_m) > 0.3) continue;
-    ++used;
+    if (!is_oblique || !(bend_m < 0.1 * std::abs(slope_m) + 0.02) || !(std::abs(difference_m) < 0.3)) continue;
+    used.emplace_back(slope_m, difference_m);
     products += difference_m * slope_m;
     squares += slope_m * slope_m;
   }
   constexpr std::size_t kFewest = 10;
-  if (used < kFewest) return;
-  std::nth_element(sizes_m.begin(), sizes_m.begin() + static_cast<std::ptrdiff_t>(sizes_m.size() / 2), sizes_m.end());
-  const double std_m = std::max(1.4826 * sizes_m[sizes_m.size() / 2], 0.005);
+  if (used.size() < kFewest) return;
   const double shift = products / squares;
+  constexpr double kLeastScatter_m = 0.001;
+  double scatter = kLeastScatter_m * kLeastScatter_m * squares;
+  for (const auto& [slope_m, difference_m] : used) {
+    const double residual_m = difference_m - slope_m * shift;
+    scatter += slope_m * slope_m * residual_m * residual_m;
+  }
   pair.turned_rad = shift * series.step_rad;
-  pair.turned_t = shift / (std_m / std::sqrt(squares));
+  pair.turned_t = shift * squares / std::sqrt(scatter);
   pair.is_at_rest = std::abs(pair.turned_t) <= kTurnedErrors;
 }
 

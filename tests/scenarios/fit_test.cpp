@@ -69,6 +69,32 @@ TEST_F(Fit, WritesAnElementThatARobotTypeAcceptsAndAReportWithoutExternalReferen
   }
 }
 
+TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
+  std::ofstream(in("room.xml"))
+      << "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
+         "<object><shape><primitive><cube><name>a</name><x>5</x><y>0</y><z>0.5</z><length>0.2</length><width>10</width>"
+         "<height>1</height><direction>0.3</direction></cube></primitive></shape></object>"
+         "<object><shape><primitive><cube><name>b</name><x>0</x><y>3.1</y><z>0.5</z><length>6</length><width>0.2</"
+         "width>"
+         "<height>1</height></cube></primitive></shape></object>"
+         "<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors>"
+         "<laser noise='lms200' z_m='0.2'><noise "
+         "divergence_deg='0'/></laser></sensors></robot></shape></object></surface></world>";
+  for (const std::string format : {"obs", "sf"}) {
+    const std::string run = "run " + quoted(in("room.xml")) + " --controller still --time 20 --record " +
+                            quoted(in(format + ".rawlog")) + " --rawlog-format " + format;
+    ASSERT_EQ(runProgram(run).exit_code, 0);
+    const ScannerFit fit = fitScanner(in(format + ".rawlog"), "laser", RestCriterion::scans);
+    EXPECT_EQ(fit.used.size(), 200u) << format;
+    EXPECT_DOUBLE_EQ(fit.model.errors.quantum_m, 0.01);
+    const LaserErrors& errors = fit.model.errors;
+    EXPECT_NEAR(errors.tail * errors.tail_factor * errors.tail_factor, 0.03 * 6 * 6, 0.4) << "variance of the tail";
+    EXPECT_NEAR(errors.outlier, 0.0007, 0.0004) << "56 jumps in 36,200 differences, standard error 7.5";
+    for (const std::size_t band : {1u, 2u, 3u}) EXPECT_NEAR(fit.model.std_m[band], 0.005, 0.0005) << bandName(band);
+    EXPECT_TRUE(fit.isAccepted()) << summaryOf(fit);
+  }
+}
+
 TEST_F(Fit, RefusesRecordingsThatCannotBeFitted) {
   const auto errorOf = [](const std::string& file, const std::string& options = "") {
     const Ended fit = runProgram("fit '" + file + "' " + options);

@@ -5,7 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/testing/test_folder.h"
-#include "tests/scenarios/program.h"
+#include "tests/scenarios/robot_processes.h"
+#include "tests/scenarios/serving.h"
 
 namespace robosim {
 namespace {
@@ -49,13 +50,30 @@ TEST_F(LaserErrorsInRuns, AreIndependentOfTheNumberOfThreads) {
   EXPECT_NE(digestOf(world, "--threads 1 --seed 2"), alone);
 }
 
+TEST_F(LaserErrorsInRuns, AreTheSameWithAGeometryWorker) {
+  const auto world = in("world.xml");
+  std::ofstream(world) << worldWith(kAllErrors);
+  const Ended alone = runProgram("run " + quoted(world) + " --time 2 --json");
+  Serving serving({"--paused", "--time", "2", "--json"}, world.string());
+  const auto worker = startWorker(serving.address());
+  serving.program().waitForError(": ready");
+  EXPECT_EQ(runProgram("control " + serving.address() + " start").exit_code, 0);
+  const Ended ended = serving.program().wait();
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto served = nlohmann::json::parse(ended.out);
+  EXPECT_EQ(served["digest"], nlohmann::json::parse(alone.out)["digest"]);
+  EXPECT_EQ(served["clients"]["trusted"], true);
+  EXPECT_GT(served["clients"]["geometry_results"], 0);
+}
+
 TEST_F(LaserErrorsInRuns, AreReportedByCheckWithFileAndLine) {
   const auto world = in("world.xml");
   std::ofstream(world) << worldWith("<laser noise='lms100'/>");
   const Ended checked = runProgram("check " + quoted(world));
   EXPECT_EQ(checked.exit_code, 1);
-  EXPECT_NE((checked.out + checked.err).find("world.xml:3: <laser noise=\"lms100\">: is not a type of scanner; accepted are: lms200, "
-                             "urg04lx, utm30lx"),
+  EXPECT_NE((checked.out + checked.err)
+                .find("world.xml:3: <laser noise=\"lms100\">: is not a type of scanner; accepted are: lms200, "
+                      "urg04lx, utm30lx"),
             std::string::npos)
       << checked.out << checked.err;
 }
