@@ -27,8 +27,8 @@ AddSubcommands functionIn(const std::string& library, const char* name) {
 }
 
 void addRunSubcommands(CLI::App& program) {
-  for (const auto add :
-       {addRun, addReplay, addCheck, addExport, addGenerate, addControllers, addSensors, addObservers, addBench}) {
+  for (const auto add : {addRun, addReplay, addCheck, addExport, addFit, addGenerate, addControllers, addSensors,
+                         addObservers, addBench}) {
     add(program);
   }
 }

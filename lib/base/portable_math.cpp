@@ -192,4 +192,23 @@ double log(double x) {
   return power * kLn2High - ((half - (s * (half + z * polynomial(kLog, z)) + power * kLn2Low)) - f);
 }
 
+double exp(double x) {
+  constexpr double kLargest = 709.78, kSmallest = -708;
+  if (!(x <= kLargest)) return x > kLargest ? std::numeric_limits<double>::infinity() : x;
+  if (x < kSmallest) return 0;
+  // x = k·ln 2 + r with |r| ≤ ln 2 / 2; ln 2 as a sum of 33 bits and the rest, so that k times the first is exact.
+  constexpr double kLn2High = 0x1.62e42fefp-1, kLn2Low = 0x1.473de6af278edp-34, kPerLn2 = 1.4426950408889634;
+  const double k = std::floor(x * kPerLn2 + 0.5);
+  const double high = x - k * kLn2High;
+  const double low = k * kLn2Low;
+  const double r = high - low;
+  // Taylor's series; the remainder is below 2^-60.
+  constexpr int kTerms = 14;
+  double sum = 0;
+  for (int n = kTerms; n >= 2; --n) sum = (sum + 1) * r / n;
+  const double lost = (high - r) - low;
+  const double power = 1 + (r + (r * sum + lost));
+  return power * std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::int64_t>(k) + 1023) << 52);
+}
+
 }  // namespace robosim::portable

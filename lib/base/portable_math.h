@@ -27,6 +27,10 @@ double atan2(double y, double x);
 /// Natural logarithm within 0.9 ulp. −∞ for ±0, NaN for negative arguments, ∞ for ∞.
 double log(double x);
 
+/// Exponential function within 1.5 ulp for results that are normal numbers; 0 for smaller ones. ∞ above 709.78, NaN for
+/// NaN.
+double exp(double x);
+
 /// √(x² + y²) within 1.2 ulp, without intermediate overflow or underflow. NaN when either argument is.
 inline double hypot(double x, double y) {
   double squares = x * x + y * y;

@@ -154,6 +154,21 @@ TEST(PortableMath, LogarithmOfSpecialValues) {
   EXPECT_TRUE(std::isnan(log(kNaN)));
 }
 
+TEST(PortableMath, ExponentialIsWithinOneAndAHalfUlp) {
+  Rng rng(5);
+  double worst = 0;
+  for (int i = 0; i < 200000; ++i) {
+    const double x = i % 2 ? rng.uniform(-700, 700) : rng.uniform(-1, 1);
+    worst = std::max(worst, ulps(exp(x), std::exp(static_cast<long double>(x))));
+  }
+  EXPECT_LT(worst, 1.5);
+  EXPECT_EQ(exp(0), 1);
+  EXPECT_EQ(exp(-1000), 0);
+  EXPECT_EQ(exp(1000), kInfinity);
+  EXPECT_EQ(exp(-kInfinity), 0);
+  EXPECT_TRUE(std::isnan(exp(std::numeric_limits<double>::quiet_NaN())));
+}
+
 TEST(PortableMath, HypotenuseIsWithinAnUlpAndAFifth) {
   Rng rng(6);
   for (int i = 0; i < 200000; ++i) {

@@ -12,6 +12,7 @@ enum class RandomPurpose : std::uint32_t {
   start_pose,
   scenery,
   test,
+  sensor_retry,
   radio_burst
 };
 
@@ -25,6 +26,12 @@ class Rng {
   /// step, of which the low 32 bits are used (13 years of tenths of a second).
   explicit Rng(std::uint64_t seed, RandomPurpose purpose = RandomPurpose::test, std::uint32_t robot = 0,
                std::uint32_t item = 0, std::uint64_t step = 0);
+
+  /// Continues with the numbers of a block: the (4·block + 1)-th number and those after it.
+  void skipToBlock(std::uint32_t block) {
+    counter_[3] = block;
+    left_ = 0;
+  }
 
   result_type operator()();
   static constexpr result_type min() { return 0; }

@@ -1,11 +1,16 @@
 #include "base/random.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <set>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "base/random_blocks.h"
+#include "base/testing/vector_widths.h"
+#include "base/ziggurat.h"
 
 namespace robosim {
 namespace {
@@ -35,6 +40,36 @@ TEST(Rng, ReturnsThePublishedPhiloxNumbers) {
 TEST(Rng, ReturnsTheSameNumbersForTheSameArguments) {
   Rng first(42, RandomPurpose::controller, 7, 3, 1000), again(42, RandomPurpose::controller, 7, 3, 1000);
   for (int i = 0; i < 1000; ++i) EXPECT_EQ(first(), again());
+}
+
+TEST(RandomBlocks, AreTheNumbersOfRng) {
+  Rng rng(0x123456789abcdef0u, RandomPurpose::sensor_noise, 7, 3, 1000);
+  RandomBlocks blocks;
+  forEachVectorWidth([&](VectorWidth width) {
+    rng.skipToBlock(0);
+    blocks.draw(0x123456789abcdef0u, RandomPurpose::sensor_noise, 7, 3, 1000, 101);
+    for (std::size_t i = 0; i < 101; ++i) {
+      for (const auto& words : blocks.words) ASSERT_EQ(words[i], rng()) << i << nameOf(width);
+    }
+  });
+}
+
+TEST(Ziggurat, HasTheDistributionFunctionOfAGaussian) {
+  Rng rng(11);
+  constexpr int n = 400000;
+  std::vector<double> drawn;
+  for (int i = 0; i < n; ++i) {
+    drawn.push_back(Ziggurat::instance().gaussian(rng(), [&] { return Rng(static_cast<std::uint64_t>(i) + 1000); }));
+  }
+  std::sort(drawn.begin(), drawn.end());
+  double ks = 0;
+  for (int i = 0; i < n; ++i) {
+    ks = std::max(ks, std::abs(0.5 * std::erfc(-drawn[static_cast<std::size_t>(i)] / M_SQRT2) - (i + 0.5) / n));
+  }
+  EXPECT_LT(ks, 1.63 / std::sqrt(n)) << "exceeded in 1 % of cases";
+  // Beyond the tail's begin: 2 · P(g > 3.4426) = 5.76e-4, 230 numbers.
+  const auto tail = std::count_if(drawn.begin(), drawn.end(), [](double g) { return std::abs(g) > 3.442619855899; });
+  EXPECT_NEAR(static_cast<double>(tail), 230, 4 * 15.2);
 }
 
 TEST(Rng, NeverRepeatsABlockWithinAStream) {

@@ -183,6 +183,15 @@ std::string XmlReader::word(const std::string& setting, const std::string& defau
   return default_value;
 }
 
+std::string XmlReader::attribute(const std::string& name, const std::string& values) {
+  markRead(name);
+  describe(name, values, "none");
+  for (const auto& [own_name, value] : element_->attributes) {
+    if (own_name == name) return value;
+  }
+  return "";
+}
+
 bool XmlReader::flag(const std::string& setting, bool default_value) {
   return choice<bool>(setting, {{"0", false}, {"1", true}}, default_value);
 }

@@ -68,6 +68,9 @@ class XmlReader {
   double length(const std::string& setting, Bounds bounds, double unit_m, double default_m);
   std::string word(const std::string& setting, const std::string& default_value);
   bool flag(const std::string& setting, bool default_value);  ///< 0 or 1
+  /// Reads an attribute that a child element of the same name may accompany; empty when it is absent.
+  /// @param values valid values, for the description
+  std::string attribute(const std::string& name, const std::string& values);
   /// Reads an angle in degrees (the setting's name ends in `_deg`). Bounds are in degrees, default and result in
   /// radians.
   double angle(const std::string& setting, Bounds bounds_deg, double default_rad);

@@ -209,6 +209,15 @@ TEST(XmlReader, ReportsDuplicateSettingsAndChildren) {
                    "a.xml:6: <b>: is given twice in <a>; keep one"}));
 }
 
+TEST(XmlReader, ReadsAnAttributeBesideAChildOfTheSameName) {
+  const Lines errors = errorsOf("<a noise='lms200'><noise x='1'/></a>", [](XmlReader& a) {
+    EXPECT_EQ(a.attribute("noise", "lms200"), "lms200");
+    EXPECT_TRUE(a.child("noise")->number("x", {}, 0) == 1);
+  });
+  EXPECT_EQ(errors, Lines{});
+  EXPECT_EQ(errorsOf("<a/>", [](XmlReader& a) { EXPECT_EQ(a.attribute("noise", "lms200"), ""); }), Lines{});
+}
+
 TEST(XmlReader, ReportsAMissingChildOnce) {
   const Lines errors = errorsOf("<a/>", [](XmlReader& a) {
     XmlReader size = a.requiredChild("size");

@@ -64,6 +64,7 @@ struct Environment::Impl {
   std::vector<double> antenna_z_m;       ///< height of each robot's top, where its antenna is
   std::vector<PlanarTransform> frames;   ///< current frames of the robots
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
+  std::vector<float> reflectivity;       ///< by body; empty if all have the default
   std::uint64_t placements = 0;
   bool has_absent_robots = false;
 
@@ -90,11 +91,20 @@ struct Environment::Impl {
       addHeatSource(objects[i].body, {pose.x, pose.y}, BodyId(static_cast<std::uint32_t>(i)));
     }
     for (std::size_t i = 0; i < fleet.robots.size(); ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
+    for (std::size_t i = 0; i < objects.size(); ++i)
+      addReflectivity(objects[i].body, BodyId(static_cast<std::uint32_t>(i)));
+    for (std::size_t i = 0; i < fleet.robots.size(); ++i) addReflectivity(fleet.robots[i].body, scene.movingBody(i));
     placeBodies();
   }
 
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
     if (body.heat_celsius != 0) heat_sources.push_back({center, body.heat_celsius, id});
+  }
+
+  void addReflectivity(const Body& body, BodyId id) {
+    if (body.reflectivity == kReflectivity) return;
+    reflectivity.resize(scene.stationaryCount() + scene.movingCount(), static_cast<float>(kReflectivity));
+    reflectivity[static_cast<std::size_t>(id)] = static_cast<float>(body.reflectivity);
   }
 
   bool isAbsent(std::size_t robot) const { return state.activity[robot] == Activity::absent; }
@@ -173,7 +183,8 @@ struct Environment::Impl {
             .images = images,
             .surface = model->world.bounds,
             .paths = paths,
-            .driven_m = state.driven_m};
+            .driven_m = state.driven_m,
+            .reflectivity = reflectivity};
   }
 
   void sense(RobotRange range, SensorGroup which) {

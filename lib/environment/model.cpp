@@ -26,7 +26,7 @@ void add(Digest& digest, const Body& body) {
     digest.add(cube.width_m);
   }
   add(digest, body.world_from_body);
-  for (const double value : {body.center_z_m, body.height_m, body.heat_celsius}) digest.add(value);
+  for (const double value : {body.center_z_m, body.height_m, body.heat_celsius, body.reflectivity}) digest.add(value);
   for (const float value : body.color) digest.add(value);
 }
 

@@ -189,6 +189,7 @@ void addNoise(std::vector<XmlElement>& sensors) {
     }
     for (const auto& [name, value] : sensor.attributes) {
       if (sensor.name == "sensor" && name == "type") kind = value;
+      has_noise |= name == "noise";
     }
     const SensorType* const type = sensorType(kind);
     if (type && type->has_noise && !has_noise) sensor.add("noise");

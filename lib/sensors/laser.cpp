@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sensors/beam_mounts.h"
+#include "sensors/laser_types.h"
 #include "sensors/position_2005.h"
 #include "sensors/thin_beams.h"
 
@@ -11,14 +12,32 @@ namespace {
 
 /// SICK LMS 200, ranges up to 8 m: statistical error 5 mm, one standard deviation (Technical Description
 /// LMS200/211/221).
-constexpr RangeNoise kLaserDataSheet{.on = true, .std_m = 0.005, .std_per_m = 0, .dropout = 0};
+constexpr double kStd_m = 0.005;
 
-RangeNoise readLaserNoise(XmlReader& reader) {
+/// Reads the attribute noise="…", a type of scanner, and the child <noise>, whose settings replace those of the type,
+/// or of the data sheet.
+void readNoise(XmlReader& reader, LaserOptions& o) {
+  const std::string name = reader.attribute("noise", kLaserTypeNames);
+  const LaserType* const type = laserTypeNamed(name);
+  if (type) {
+    o.errors = type->errors;
+    o.timing.sweep_s = type->sweep_s;
+  } else if (!name.empty()) {
+    reader.errorAt("noise", std::string("is not a type of scanner; accepted are: ") + kLaserTypeNames);
+  }
   auto element = reader.child("noise");
-  if (!element) return {};
-  const RangeNoise noise = RangeNoise::read(*element, kLaserDataSheet);
+  if (!element) return;
+  LaserErrors data_sheet;
+  data_sheet.std_m = kStd_m;
+  o.errors = LaserErrors::read(*element, type ? type->errors : data_sheet);
   element->finish();
-  return noise;
+}
+
+void readTiming(XmlReader& reader, LaserTiming& timing) {
+  timing.sweep_s = reader.number("sweep_s", Bounds::notNegative(10), timing.sweep_s);
+  timing.latency_s = reader.number("latency_s", Bounds::notNegative(10), 0);
+  timing.rate_hz = reader.number("rate_hz", Bounds::notNegative(1000), 0);
+  timing.phase_s = reader.number("phase_s", Bounds::notNegative(1e6), 0);
 }
 
 }  // namespace
@@ -36,7 +55,8 @@ LaserOptions LaserOptions::read(XmlReader& reader) {
   o.range_min_m = reader.number("range_min_m", Bounds::notNegative(o.range_max_m), 0);
   o.no_return_m = reader.number("no_return_m", {o.range_max_m, 10000}, o.range_max_m);
   o.pans = reader.flag("pans", false);
-  o.noise = readLaserNoise(reader);
+  readNoise(reader, o);
+  readTiming(reader, o.timing);
   return o;
 }
 
@@ -49,7 +69,7 @@ LaserOptions LaserOptions::read2005(XmlReader& reader, const Mount& mount) {
   o.range_max_m = position.range_m;
   o.no_return_m = position.range_m + mount.unit_m;
   o.pans = true;
-  o.noise = readLaserNoise(reader);
+  readNoise(reader, o);
   return o;
 }
 
@@ -61,14 +81,15 @@ std::unique_ptr<Sensor> makeLaser(const LaserOptions& o) {
                   .range_max_m = o.range_max_m,
                   .no_echo_m = o.no_return_m,
                   .beam_width_rad = 0,
-                  .noise_std_m = o.noise.stdAt(o.range_max_m),
+                  .noise_std_m = o.errors.largestStd(o.range_max_m),
                   .pans = o.pans};
   for (int i = 0; i < o.beams; ++i) {
     const double off_middle = o.beams == 1 ? 0 : o.field_of_view_rad * (static_cast<double>(i) / (o.beams - 1) - 0.5);
     info.beams.push_back(
         planarBeam(o.robot_from_laser.x, o.robot_from_laser.y, o.robot_from_laser.z, o.direction_rad + off_middle));
   }
-  return makeThinBeams(info, o.noise);
+  const bool is_exact = o.errors == LaserErrors() && o.timing == LaserTiming();
+  return is_exact ? makeThinBeams(info, {}) : makeLaserScanner(info, o.errors, o.timing);
 }
 
 }  // namespace robosim

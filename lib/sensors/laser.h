@@ -2,7 +2,8 @@
 #include <memory>
 
 #include "base/xml_reader.h"
-#include "sensors/range_noise.h"
+#include "sensors/laser_errors.h"
+#include "sensors/laser_scanner.h"
 #include "sensors/registry.h"
 #include "sensors/sensor.h"
 
@@ -19,7 +20,8 @@ struct LaserOptions {
   double range_max_m = 8;           ///< (0, 1000]: only nearer objects are detected. 8 m: LMS200 in mm mode
   double no_return_m = 8;           ///< [range_max_m, 10000]: reading of a beam without a hit
   bool pans = false;                ///< turns with Command::laser_pan_rad
-  RangeNoise noise;
+  LaserErrors errors;
+  LaserTiming timing;
 
   /// Reads <laser>.
   static LaserOptions read(XmlReader&);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cassert>
 #include <vector>
 
 #include "hardware/sensor_info.h"
@@ -33,6 +34,19 @@ class PlanarBeams {
       }
     }
     return any;
+  }
+
+  /// The same for all beams of a sensor at one height, each replaced by a ray in the world.
+  template <typename Visit>
+  void castMoved(const Snapshot& now, std::uint32_t robot, double pan_rad, double range_m, const MovedRays& moved,
+                 const Visit& visit) const {
+    static thread_local BeamBatch batch;
+    assert(groups_.size() == 1);
+    batch.placeMoved(groups_.front().fan, now.frames[robot], range_m, pan_rad, moved);
+    now.scene.cast(batch, now.bodyOf(robot));
+    for (std::size_t i = 0; i < beams_.size(); ++i) {
+      visit(i, batch.distance(i), BodyId{static_cast<std::uint32_t>(batch.body(i))});
+    }
   }
 
  private:

@@ -15,6 +15,7 @@
 #include "hardware/readings.h"
 #include "hardware/sensor_info.h"
 #include "sensors/image_source.h"
+#include "world/world.h"
 
 namespace robosim {
 
@@ -49,11 +50,18 @@ struct Snapshot {
   std::optional<Bounds2D> surface = std::nullopt;
   std::span<const Path> paths = {};       ///< of this step, clipped; empty: no motion has been blocked
   std::span<const double> driven_m = {};  ///< distance driven since the start; empty: none
+  std::span<const float> reflectivity = {};  ///< by body; kReflectivity for bodies beyond its end
 
   /// Length of the commanded path that a robot could not drive in this step, signed [m].
   double blocked(std::uint32_t robot) const {
     if (time.step == 0 || paths.empty()) return 0;  // paths of step 0 are those of the run before
     return paths[robot].length_m - paths[robot].clippedLength();
+  }
+
+  /// Share of light that a body's surface returns, [0, 1].
+  double reflectivityOf(BodyId body) const {
+    const auto i = static_cast<std::size_t>(body);
+    return i < reflectivity.size() ? static_cast<double>(reflectivity[i]) : kReflectivity;
   }
   BodyId bodyOf(std::uint32_t robot) const { return scene.movingBody(robot); }
   /// Random stream of one sensor of one robot in this step. @param stream further streams of the same sensor, [0, 16)

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/vector_width.h"
-#include "sensors/beam_mounts.h"
+#include "sensors/beam_echoes.h"
 #include "sensors/planar_beams.h"
 
 namespace robosim {
@@ -12,50 +11,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Origins and directions of the beams, robot frame, before panning: structure of arrays, so that loops over beams are
-/// vectorised.
-struct BeamFields {
-  std::vector<double> x, y, z, dx, dy, dz;
-
-  void add(const Ray& beam) {
-    x.push_back(beam.origin.x);
-    y.push_back(beam.origin.y);
-    z.push_back(beam.origin.z);
-    dx.push_back(beam.direction.x);
-    dy.push_back(beam.direction.y);
-    dz.push_back(beam.direction.z);
-  }
-};
-
-/// Computes the echo of each beam from its hit at `hit_m`. Branch-free, because whether a hit is in range is
-/// unpredictable.
-[[gnu::always_inline]] inline void computeEchoes(const BeamFields* beams, std::size_t count, double cos, double sin,
-                                                 const double* __restrict hit_m, float range_min_m, float range_max_m,
-                                                 float no_echo_m, Echo* __restrict echoes) {
-  const double* __restrict x = beams->x.data();
-  const double* __restrict y = beams->y.data();
-  const double* __restrict z = beams->z.data();
-  const double* __restrict dx = beams->dx.data();
-  const double* __restrict dy = beams->dy.data();
-  const double* __restrict dz = beams->dz.data();
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto range_m = static_cast<float>(hit_m[i]);
-    const bool is_echo = range_m < range_max_m;
-    const float at_m = is_echo ? range_m : no_echo_m;
-    const double out_m = at_m;
-    echoes[i].range_m = (is_echo & (range_m < range_min_m)) ? range_min_m : at_m;
-    echoes[i].point_m.x = static_cast<float>(x[i] + (cos * dx[i] - sin * dy[i]) * out_m);
-    echoes[i].point_m.y = static_cast<float>(y[i] + (sin * dx[i] + cos * dy[i]) * out_m);
-    echoes[i].point_m.z = static_cast<float>(z[i] + dz[i] * out_m);
-  }
-}
-
 class ThinBeams : public Sensor {
  public:
   ThinBeams(const SensorInfo& info, const RangeNoise& noise)
       : info_(info), noise_(noise), beams_(info.beams), no_echoes_(beams_.size()) {
     for (std::size_t i = 0; i < beams_.size(); ++i) fields_.add(beams_[i]);
-    setEchoes(PlanarTransform(), std::vector<double>(beams_.size(), kInfinity), no_echoes_);
+    setEchoes(fields_, info_, PlanarTransform(), std::vector<double>(beams_.size(), kInfinity), no_echoes_);
   }
 
   const SensorInfo& info() const override { return info_; }
@@ -76,7 +37,7 @@ class ThinBeams : public Sensor {
         std::copy(no_echoes_.begin(), no_echoes_.end(), echoes.begin());
         continue;
       }
-      setEchoes(PlanarTransform(PlanarTransform(), pan_rad), hit_m, echoes);
+      setEchoes(fields_, info_, PlanarTransform(PlanarTransform(), pan_rad), hit_m, echoes);
     }
   }
 
@@ -86,12 +47,6 @@ class ThinBeams : public Sensor {
     for (auto& distance_m : hit_m) {
       distance_m = noise_.apply(distance_m < info_.range_max_m ? distance_m : kInfinity, rng);
     }
-  }
-
-  void setEchoes(const PlanarTransform& pan, const std::vector<double>& hit_m, Echoes& echoes) const {
-    withVectors<computeEchoes>(&fields_, hit_m.size(), pan.cos(), pan.sin(), hit_m.data(),
-                               static_cast<float>(info_.range_min_m), static_cast<float>(info_.range_max_m),
-                               static_cast<float>(info_.no_echo_m), echoes.data());
   }
 
   SensorInfo info_;

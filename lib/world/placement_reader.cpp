@@ -102,6 +102,7 @@ Body PlacementReader::readBody(XmlReader& solid, Place place) {
   body.height_m = length(solid, "height", Bounds::positive());
   if (const auto color = readColor(solid)) body.color = *color;
   body.heat_celsius = solid.number("hot", Bounds::notNegative(), 0);
+  body.reflectivity = solid.number("reflectivity", {0, 1}, kReflectivity);
   return body;
 }
 

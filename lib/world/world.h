@@ -24,6 +24,9 @@ struct Cube {           ///< a box, named as in 2005
   bool operator==(const Cube&) const = default;
 };
 
+/// Default of Body::reflectivity: painted walls and wood return 0.4 to 0.8 of near-infrared light.
+constexpr double kReflectivity = 0.5;
+
 /// An upright solid with colour and temperature, as described by <cylinder> or <cube> of a 2005 file.
 struct Body {
   std::variant<Cylinder, Cube> shape;
@@ -32,6 +35,7 @@ struct Body {
   double height_m = 0;                           ///< > 0
   std::array<float, 3> color{0.5f, 0.5f, 0.5f};  ///< red, green, blue, each in [0, 1]
   double heat_celsius = 0;                       ///< the file's `hot`; 0 gives off no heat
+  double reflectivity = kReflectivity;           ///< share of a laser's light that it returns, [0, 1]
   bool operator==(const Body&) const = default;
 
   Solid solid() const;

@@ -163,7 +163,7 @@ TEST(WorldReader, RejectsUnknownTags) {
   EXPECT_EQ(
       faults(worldOf({pillar("p", "1", "<colour>1 0 0</colour>")})),
       Lines{"a.xml:2: <colour>: unknown tag in <cylinder>; accepted here are: color, direction, height, hot, name, "
-            "radius, stationary, x, y, z"});
+            "radius, reflectivity, stationary, x, y, z"});
   EXPECT_EQ(faults(worldOf({"<primitve/>"})),
             (Lines{"a.xml:2: <shape>: contains neither a <primitive> nor a <robot>; add one",
                    "a.xml:2: <primitve>: unknown tag in <shape>; accepted here are: primitive, robot"}));

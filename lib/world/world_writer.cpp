@@ -165,6 +165,7 @@ class WorldWriter {
     addLength(element, "height", body.height_m);
     element.add("color", colorText(body.color));
     element.add("hot", toText(body.heat_celsius));
+    if (body.reflectivity != kReflectivity) element.add("reflectivity", toText(body.reflectivity));
     element.add("stationary", stationary ? "1" : "0");
   }
 

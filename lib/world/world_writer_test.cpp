@@ -89,6 +89,7 @@ class WorldMaker {
     body.height_m = size(10);
     body.color = color();
     if (maybe()) body.heat_celsius = size(100);
+    if (maybe()) body.reflectivity = rng_.uniform();
     return body;
   }
 

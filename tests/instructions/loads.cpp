@@ -1,6 +1,7 @@
 #include "tests/instructions/loads.h"
 
 #include <memory>
+#include <string>
 
 #include "learning/environment_batch.h"
 #include "robosim_bench/ray_caster.h"
@@ -13,15 +14,27 @@ namespace {
 constexpr std::uint64_t kSeed = 1;
 
 /// 100 robots after some warm-up steps.
-InstructionWork robots(const char* workload) {
+InstructionWork robots(const Workload& workload) {
   constexpr std::size_t kRobots = 100;
   constexpr int kWarmUpSteps = 10;
   constexpr int kSteps = 50;
-  const auto run = std::make_shared<LocalRun>(makeWorldToRun(workloadNamed(workload), kRobots, kSeed), RunOptions{});
+  const auto run = std::make_shared<LocalRun>(makeWorldToRun(workload, kRobots, kSeed), RunOptions{});
   for (int i = 0; i < kWarmUpSteps; ++i) run->step();
   return {.units = static_cast<double>(kRobots) * kSteps, .work = [run] {
             for (int i = 0; i < kSteps; ++i) run->step();
           }};
+}
+
+InstructionWork robots(const char* workload) { return robots(workloadNamed(workload)); }
+
+/// The workload `laser` with errors of its scanner: its attributes, and its content.
+InstructionWork laserWith(const std::string& attributes, const std::string& content) {
+  Workload workload = workloadNamed("laser");
+  std::string sensors = workload.sensors;
+  const std::string exact = " range_max_m='8'/>";
+  sensors.replace(sensors.rfind(exact), exact.size(), " range_max_m='8' " + attributes + ">" + content + "</laser>");
+  workload.sensors = sensors.c_str();
+  return robots(workload);
 }
 
 /// 50 worlds of one robot each, after some warm-up steps.
@@ -92,6 +105,15 @@ constexpr InstructionLoad kLoads[] = {
     {"sonar", "robot-step", [] { return robots("sonar"); }},
     {"sector", "robot-step", [] { return robots("sector"); }},
     {"laser", "robot-step", [] { return robots("laser"); }},
+    {"laser, Gaussian noise", "robot-step", [] { return laserWith("", "<noise/>"); }},
+    {"laser, Gaussian noise by range and quantum", "robot-step",
+     [] { return laserWith("", "<noise quantum_m='0.01'><at range_m='0' std_m='0.005'/></noise>"); }},
+    {"laser, tail, outliers, drift", "robot-step",
+     [] { return laserWith("", "<noise tail='0.1' outlier='0.001' dropout='0.001' drift_m='0.01'/>"); }},
+    {"laser, mixed pixels", "robot-step", [] { return laserWith("", "<noise divergence_deg='0.25'/>"); }},
+    {"laser, reflectivity", "robot-step", [] { return laserWith("", "<noise reach_m='20'/>"); }},
+    {"laser, sweep", "robot-step", [] { return laserWith("sweep_s='0.00667' latency_s='0.01'", ""); }},
+    {"laser, all errors", "robot-step", [] { return laserWith("noise='lms200' latency_s='0.01'", ""); }},
     {"infrared", "robot-step", [] { return robots("infrared"); }},
     {"batch of laser", "agent-step", batch},
     {"rays, scans to 8 m", "ray", [] { return rays(&RayCaster::castScans, 8); }},

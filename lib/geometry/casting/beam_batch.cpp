@@ -93,12 +93,23 @@ void BeamBatch::place(const BeamFan& fan, const PlanarTransform& world_from_fan,
   fan_ = &fan;
   world_from_fan_ = world_from_fan;
   panned_ = PlanarTransform(world_from_fan, pan_rad);
+  moved_ = {};
+  turned_rad_ = 0;
   is_initialized_ = false;
   center_ = world_from_fan.pointToWorld(fan.middle_);
   facing_ = panned_.turnToWorld(fan.facing_);
   z_m_ = world_from_fan.z() + fan.z_m_;
   spread_m_ = fan.spread_m_ + kSlack_m;
   farthest_m_ = range_m;
+}
+
+void BeamBatch::placeMoved(const BeamFan& fan, const PlanarTransform& world_from_fan, double range_m, double pan_rad,
+                           const MovedRays& moved) {
+  place(fan, world_from_fan, range_m, pan_rad);
+  moved_ = moved.rays;
+  turned_rad_ = moved.turn_rad + kSlack_m;
+  spread_m_ += moved.shift_m;
+  if (moved.turn_rad > 0) facing_ = {};
 }
 
 void BeamBatch::initialize() {
@@ -118,6 +129,13 @@ void BeamBatch::initialize() {
   turn(fan.origin_, world_from_fan_.x(), world_from_fan_.y(), world_from_fan_, origin_);
   turn(fan.left_, 0, 0, panned_, left_);
   if (fan.is_wide_) turn(fan.right_, 0, 0, panned_, right_);
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    const std::size_t slot = fan.slot_[i];
+    origin_.x[slot] = moved_[i].origin.x;
+    origin_.y[slot] = moved_[i].origin.y;
+    left_.x[slot] = moved_[i].direction.x;
+    left_.y[slot] = moved_[i].direction.y;
+  }
   distance_.assign(count, farthest_m_);
   body_.assign(count, kNothing);
   // The padding of the last group never hits anything.
@@ -134,7 +152,7 @@ void BeamBatch::intersect(const Candidates& candidates) {
                         static_cast<float>(panned_.cos()),
                         static_cast<float>(panned_.sin()),
                         static_cast<float>(spread_m_ * (1 + kCullRelativeError)),
-                        fan_->half_width_rad_,
+                        fan_->half_width_rad_ + static_cast<float>(turned_rad_),
                         static_cast<float>(farthest_m_)};
   const Blocks blocks{fan_->first_.data(), distance_.size() / fan_->block_};
   const auto intersect = [&](auto kernel) {

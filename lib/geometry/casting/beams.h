@@ -52,6 +52,14 @@ class BeamFan {
   std::vector<std::uint32_t> first_;
 };
 
+/// Rays of a fan's beams that start from other poses than the batch's, such as those of a scanner that moves during a
+/// scan.
+struct MovedRays {
+  std::span<const Ray> rays;  ///< by beam, world frame; planar, at the height of the fan
+  double shift_m = 0;         ///< at least the distance of each ray's origin from that of the beam at the batch's pose
+  double turn_rad = 0;        ///< at least the angle between each ray and the beam at the batch's pose; at most 1
+};
+
 /// Beams of a fan at one pose in the world, cast together by Scene::cast(). May be reused for many fans and poses.
 class BeamBatch {
  public:
@@ -61,6 +69,9 @@ class BeamBatch {
   /// Places the beams of a fan at its carrier's pose, all turned about their own origins by `pan_rad` first, without
   /// any hit. The fan must outlive the use of the batch.
   void place(const BeamFan& fan, const PlanarTransform& world_from_fan, double range_m, double pan_rad = 0);
+  /// The same for a fan of rays, with each ray replaced. The rays must outlive the use of the batch.
+  void placeMoved(const BeamFan& fan, const PlanarTransform& world_from_fan, double range_m, double pan_rad,
+                  const MovedRays& moved);
 
   std::size_t size() const { return fan_ ? fan_->size() : 0; }
   /// Whether Scene::cast() found no solid that the beams may hit.
@@ -85,6 +96,8 @@ class BeamBatch {
   void initialize();
 
   const BeamFan* fan_ = nullptr;
+  std::span<const Ray> moved_;  ///< empty: all beams at the pose below
+  double turned_rad_ = 0;       ///< MovedRays::turn_rad
   PlanarTransform world_from_fan_;
   PlanarTransform panned_;  ///< world_from_fan_, turned by the pan angle
   bool is_initialized_ = false;

@@ -123,6 +123,43 @@ TEST(RayBeams, RotatesTheFanWithItsCarrierAndEachRayAboutItsOrigin) {
   EXPECT_EQ(batch.body(0), 1);
 }
 
+TEST(RayBeams, AreBitIdenticalToSingleRaysWhenEachIsMoved) {
+  BeamBatch batch;
+  for (std::uint64_t seed = 1; seed <= 1000; ++seed) {
+    Rng rng(seed);
+    const SolidSpread spread{.size_max_m = rng.uniform(0.2, 6)};
+    Scene scene(randomSolids(rng, rng.below(100), spread), 1, spread.area);
+    const auto center = randomPoint(rng, spread.area);
+    scene.place(0, {Circle{center, 0.2}, {0, 2}});
+    scene.freeze();
+    scene.updateNeighbours(0, rng.uniform(0, 10));
+    const double turn_rad = rng.below(2) ? rng.uniform(0, 1) : rng.uniform(0, 0.05);
+    const double shift_m = rng.below(4) ? rng.uniform(0, 0.5) : 0;
+    const double field = rng.below(2) ? 2 * M_PI : rng.uniform(0.01, M_PI);
+    const std::size_t count = 1 + rng.below(200);
+    std::vector<Ray> fan_rays, moved;
+    for (std::size_t i = 0; i < count; ++i) {
+      const double angle = field * static_cast<double>(i) / static_cast<double>(count);
+      fan_rays.push_back(Ray::towards({0, 0, 1}, angle));
+      const double way = rng.uniform(-M_PI, M_PI), by_m = rng.uniform(0, shift_m);
+      moved.push_back(Ray::towards({center.x + by_m * std::cos(way), center.y + by_m * std::sin(way), 1},
+                                   angle + rng.uniform(-turn_rad, turn_rad)));
+    }
+    const BeamFan fan(fan_rays);
+    const double range_m = rng.below(2) ? 8 : rng.uniform(0.3, 30);
+    forEachVectorWidth([&](VectorWidth width) {
+      batch.placeMoved(fan, PlanarTransform({center.x, center.y, 0}, 0), range_m, 0, {moved, shift_m, turn_rad});
+      scene.cast(batch, scene.movingBody(0));
+      for (std::size_t i = 0; i < count; ++i) {
+        const Hit hit = scene.castRay(moved[i], range_m, scene.movingBody(0));
+        ASSERT_EQ(batch.body(i), hit ? static_cast<std::int64_t>(hit.body) : BeamBatch::kNothing)
+            << "seed " << seed << " ray " << i << nameOf(width);
+        ASSERT_EQ(batch.distance(i), hit ? hit.distance_m : range_m) << "seed " << seed << " ray " << i;
+      }
+    });
+  }
+}
+
 TEST(RayBeams, AcceptsAnEmptyFan) {
   const Scene scene({{Circle{{1, 0}, 0.5}, {0, 1}}}, 0, {-5, 5, -5, 5});
   const BeamFan fan;

@@ -25,7 +25,8 @@ Measurement SingleRobotScene::sense(const Sensor& sensor) {
                      .images = images,
                      .surface = surface,
                      .paths = path ? std::span<const Path>(&*path, 1) : std::span<const Path>(),
-                     .driven_m = {&driven_m, 1}};
+                     .driven_m = {&driven_m, 1},
+                     .reflectivity = reflectivity};
   sensor.sense(now, {&robot, 1}, 0, readings_);
   return readings_[0].measurements[0];
 }

@@ -26,6 +26,7 @@ class SingleRobotScene {
   std::uint64_t seed = 1;
   ImageSource* images = nullptr;
   std::optional<Bounds2D> surface;
+  std::vector<float> reflectivity;  ///< by solid
   mrpt::math::TPose2D world_from_robot;
 
  private:

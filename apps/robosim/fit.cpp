@@ -1,0 +1,79 @@
+#include <iostream>
+#include <memory>
+
+#include <CLI/CLI.hpp>
+
+#include "base/atomic_file.h"
+#include "base/printable_text.h"
+#include "calibration/scanner_fit.h"
+#include "robosim/arguments.h"
+#include "robosim/subcommands.h"
+#include "run/output_files.h"
+
+namespace robosim {
+namespace {
+
+struct FitArguments {
+  std::string rawlog;
+  std::string sensor;
+  std::string output;
+  std::string report;
+  RestCriterion rest = RestCriterion::scans;
+};
+
+void writeWhole(const std::string& file, const std::string& text) {
+  AtomicFile out(file);
+  out.write(text);
+  out.commit();
+}
+
+void fit(const FitArguments& a) {
+  refuseSameFile({{"RAWLOG", a.rawlog}, {"--output", a.output}, {"--report", a.report}});
+  for (const auto& file : {a.output, a.report}) {
+    if (!file.empty()) checkWritable(file);
+  }
+  const ScannerFit fitted = fitScanner(a.rawlog, a.sensor, a.rest);
+  if (!a.output.empty()) writeWhole(a.output, modelXml(fitted, a.rawlog));
+  if (!a.report.empty()) writeWhole(a.report, reportHtml(fitted, a.rawlog));
+  std::cout << printableLines(summaryOf(fitted));
+  if (a.output.empty()) std::cout << '\n' << printableLines(modelXml(fitted, a.rawlog));
+}
+
+}  // namespace
+
+void addFit(CLI::App& program) {
+  auto* command = addSubcommand(program, "fit");
+  auto a = std::make_shared<FitArguments>();
+  command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog of a real robot with a laser scanner, partly at rest")
+      ->transform(inputFile())
+      ->type_name("FILE")
+      ->required();
+  command
+      ->add_option("--sensor", a->sensor,
+                   "label of the scanner, or its part after '/'; required if the rawlog has several")
+      ->type_name("LABEL");
+  command->add_option("-o,--output", a->output, "write the errors as a <laser> element; default: print it")
+      ->type_name("FILE")
+      ->check(fileName());
+  command->add_option("--report", a->report, "write the results with histograms as an HTML page")
+      ->type_name("FILE")
+      ->check(fileName());
+  command
+      ->add_option_function<std::string>(
+          "--rest",
+          [a](const std::string& text) {
+            a->rest = text == "odometry" ? RestCriterion::odometry : RestCriterion::scans;
+          },
+          "scans: pairs at unchanged odometry whose scans do not contradict it; odometry: also pairs whose scans show "
+          "that the robot rocked, so that this counts as an error of the scanner")
+      ->check(CLI::IsMember({"scans", "odometry"}))
+      ->type_name("scans|odometry")
+      ->default_str("scans");
+  command->footer(
+      "Try:  robosim fit real.rawlog -o laser.xml --report laser.html\n"
+      "Each pair of scans at rest is compared with simulated scans of a model that is fitted to the other half of the "
+      "pairs; the written model is fitted to all.");
+  command->callback([a] { fit(*a); });
+}
+
+}  // namespace robosim

@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/text_table.h"
+#include "calibration/scanner_fit.h"
+
+namespace robosim {
+namespace {
+
+constexpr int kWidth_px = 560, kHeight_px = 200, kMargin_px = 30;
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&') {
+      out += "&amp;";
+    } else if (c == '<') {
+      out += "&lt;";
+    } else if (c == '>') {
+      out += "&gt;";
+    } else if (c == '"') {
+      out += "&quot;";
+    } else {
+      out += c;
+    }
+  }
+  return out;
+}
+
+/// Shares of the differences in bins of equal width within ±kJump_m.
+std::vector<double> sharesOf(const std::vector<double>& differences_m, double bin_m) {
+  const auto half = static_cast<long>(std::ceil(kJump_m / bin_m));
+  std::vector<double> shares(static_cast<std::size_t>(2 * half + 1));
+  for (const double difference_m : differences_m) {
+    const long bin = std::clamp(std::lround(difference_m / bin_m), -half, half);
+    shares[static_cast<std::size_t>(bin + half)] += 1 / static_cast<double>(differences_m.size());
+  }
+  return shares;
+}
+
+/// Path of a histogram in the plot's pixels.
+std::string pathOf(const std::vector<double>& shares, double largest) {
+  const double step_px = static_cast<double>(kWidth_px - 2 * kMargin_px) / static_cast<double>(shares.size());
+  const double floor_px = kHeight_px - kMargin_px;
+  std::string path = "M" + fixed(kMargin_px, 0) + " " + fixed(floor_px, 0);
+  for (std::size_t i = 0; i < shares.size(); ++i) {
+    const double top_px = floor_px - shares[i] / largest * (kHeight_px - 2 * kMargin_px);
+    const double from_px = kMargin_px + step_px * static_cast<double>(i);
+    path +=
+        " L" + fixed(from_px, 1) + " " + fixed(top_px, 1) + " L" + fixed(from_px + step_px, 1) + " " + fixed(top_px, 1);
+  }
+  return path + " L" + fixed(kWidth_px - kMargin_px, 0) + " " + fixed(floor_px, 0);
+}
+
+std::string histogramOf(const ScannerFit& fit, std::size_t band) {
+  const double bin_m = std::max(fit.model.errors.quantum_m, 0.002);
+  const auto real = sharesOf(fit.real.differences_m[band], bin_m);
+  const auto simulated = sharesOf(fit.simulated.differences_m[band], bin_m);
+  const double largest =
+      std::max(*std::max_element(real.begin(), real.end()), *std::max_element(simulated.begin(), simulated.end()));
+  const std::string width = std::to_string(kWidth_px), height = std::to_string(kHeight_px);
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height + "\" width=\"" +
+                    width + "\" height=\"" + height + "\" role=\"img\" aria-label=\"Differences of ranges, " +
+                    bandName(band) + "\">\n";
+  svg += "<path d=\"" + pathOf(real, largest) + "\" fill=\"#9ecae1\" stroke=\"none\"/>\n";
+  svg += "<path d=\"" + pathOf(simulated, largest) + "\" fill=\"none\" stroke=\"#c0392b\" stroke-width=\"1.5\"/>\n";
+  const int floor_px = kHeight_px - kMargin_px;
+  svg += "<path d=\"M" + std::to_string(kMargin_px) + " " + std::to_string(floor_px) + " H" +
+         std::to_string(kWidth_px - kMargin_px) + "\" stroke=\"#333\"/>\n";
+  for (const int cm : {-15, -10, -5, 0, 5, 10, 15}) {
+    const double x_px = kWidth_px / 2.0 + cm / 15.0 * (kWidth_px / 2.0 - kMargin_px);
+    svg += "<text x=\"" + fixed(x_px, 0) + "\" y=\"" + std::to_string(floor_px + 16) +
+           "\" font-size=\"11\" text-anchor=\"middle\">" + std::to_string(cm) + (cm == 15 ? " cm" : "") + "</text>\n";
+  }
+  svg += "<text x=\"" + std::to_string(kMargin_px) + "\" y=\"16\" font-size=\"11\">" + fixed(100 * largest, 0) +
+         " % of the differences</text>\n";
+  return svg + "</svg>\n";
+}
+
+std::string rowOf(const std::vector<std::string>& cells, const char* tag = "td") {
+  std::string row = "<tr>";
+  for (const auto& cell : cells) row += "<" + std::string(tag) + ">" + escaped(cell) + "</" + tag + ">";
+  return row + "</tr>\n";
+}
+
+std::string excludedOf(const ScannerFit& fit) {
+  std::string rows;
+  for (const auto& pair : fit.candidates) {
+    if (pair.is_at_rest || fit.criterion == RestCriterion::odometry) continue;
+    rows += rowOf({std::to_string(pair.first) + " and " + std::to_string(pair.first + 1),
+                   fixed(fit.series.scans[pair.first].time_s, 2) + " s",
+                   "turned by " + fixed(pair.turned_rad * 180 / M_PI, 3) + "° (" + fixed(std::abs(pair.turned_t), 1) +
+                       " standard errors) at unchanged odometry"});
+  }
+  if (rows.empty()) return "<p>No pair at unchanged odometry was excluded.</p>\n";
+  return "<table>\n" + rowOf({"scans", "time", "reason"}, "th") + rows + "</table>\n";
+}
+
+std::string bandsOf(const ScannerFit& fit) {
+  std::string html;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const std::size_t n = fit.real.differences_m[band].size();
+    html += "<h3>" + escaped(bandName(band)) + "</h3>\n";
+    if (n == 0) {
+      html += "<p>No held-out differences.</p>\n";
+      continue;
+    }
+    const double ks = fit.ksOf(band), bound = fit.ksBoundOf(band);
+    html += "<p>KS distance " + fixed(ks, 3) + ", bound " + fixed(bound, 3) + " (" +
+            (ks <= bound ? "agrees" : "differs") + "); " + withCommas(n) + " real and " +
+            withCommas(fit.simulated.differences_m[band].size()) + " simulated differences.</p>\n";
+    html += histogramOf(fit, band);
+  }
+  return html;
+}
+
+}  // namespace
+
+std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
+  std::string html =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Laser errors of " +
+      escaped(rawlog) +
+      "</title>\n<style>body{font:15px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}"
+      "table{border-collapse:collapse}th,td{border:1px solid #bbb;padding:.2em .6em;text-align:left}"
+      "pre{background:#f5f5f5;padding:.8em;overflow-x:auto}svg{max-width:100%}</style>\n</head>\n<body>\n";
+  html += "<h1>Laser errors of " + escaped(rawlog) + "</h1>\n<pre>" + escaped(summaryOf(fit)) + "</pre>\n";
+  html +=
+      "<h2>Differences of scans at rest</h2>\n<p>Second minus first range of two successive scans. Filled: held-out "
+      "pairs of the recording. Line: simulated by RoboSim's scanner with the fitted errors.</p>\n";
+  html += bandsOf(fit);
+  html += "<h2>Excluded pairs</h2>\n" + excludedOf(fit);
+  html += "<h2>Model</h2>\n<pre>" + escaped(modelXml(fit, rawlog)) + "</pre>\n</body>\n</html>\n";
+  return html;
+}
+
+}  // namespace robosim

@@ -1,0 +1,115 @@
+#include "calibration/laser_fit.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "base/error_list.h"
+#include "base/random.h"
+#include "calibration/beam_model.h"
+#include "calibration/simulated_pairs.h"
+
+namespace robosim {
+namespace {
+
+/// Scans of a scanner of 181 beams with these errors, in front of walls at 1 m … 10 m.
+ScanSeries standingSeries(std::size_t scans, const LaserErrors& errors) {
+  ScanSeries series{.label = "laser", .step_rad = M_PI / 180, .first_rad = -M_PI / 2, .range_max_m = 30, .scans = {}};
+  Rng rng(3);
+  const ErrorProcess process(errors, {.kind = SensorKind::laser, .label = "", .beams = {}, .range_max_m = 30});
+  for (std::size_t k = 0; k < scans; ++k) {
+    RecordedScan scan{.time_s = 0.1 * static_cast<double>(k), .ranges_m = {}, .odometry = mrpt::math::TPose2D()};
+    for (int i = 0; i < 181; ++i) {
+      const BeamDraw draw{.event = rng.uniform(), .other = rng.uniform(), .gaussian = rng.gaussian()};
+      scan.ranges_m.push_back(process.readingOf(1 + 0.05003 * i, 1, 0, draw));
+    }
+    series.scans.push_back(std::move(scan));
+  }
+  return series;
+}
+
+TEST(LaserFit, RecoversTheErrorsOfASimulatedScanner) {
+  LaserErrors errors;
+  errors.std_m = 0.006;
+  errors.quantum_m = 0.01;
+  errors.tail = 0.05;
+  errors.tail_factor = 5;
+  const ScanSeries series = standingSeries(200, errors);
+  const LaserFit fit = fitLaser(statisticsOf(series, standingPairs(series)), quantumOf(series));
+  EXPECT_DOUBLE_EQ(fit.errors.quantum_m, 0.01);
+  for (std::size_t band = 0; band < kBands; ++band) EXPECT_NEAR(fit.std_m[band], 0.006, 0.0006) << bandName(band);
+  EXPECT_NEAR(fit.errors.tail, 0.05, 0.03);
+  EXPECT_NEAR(fit.errors.tail_factor, 5, 1.01);
+}
+
+TEST(LaserFit, RefusesTooFewDifferences) {
+  PairStatistics few;
+  few.add({1, 2}, {1, 2});
+  EXPECT_THROW(fitLaser(few, 0), ConfigError);
+}
+
+TEST(StandingPairs, ExcludeAPairThatTheRobotTurnedInBetween) {
+  // Walls at a slope of 5 cm per beam; the second half of the scans is turned by half a beam.
+  LaserErrors errors;
+  errors.std_m = 0.005;
+  ScanSeries series = standingSeries(20, errors);
+  for (std::size_t k = 10; k < 20; ++k) {
+    for (auto& range_m : series.scans[k].ranges_m) range_m += 0.025;
+  }
+  const auto pairs = standingPairs(series);
+  ASSERT_EQ(pairs.size(), 19u);
+  for (const auto& pair : pairs) EXPECT_EQ(pair.is_at_rest, pair.first != 9) << pair.first;
+  EXPECT_NEAR(pairs[9].turned_rad, 0.5 * M_PI / 180, 0.1 * M_PI / 180);
+}
+
+TEST(PairStatistics, CountJumpsAndChangesOfValidity) {
+  const double none = std::nan("");
+  PairStatistics statistics;
+  statistics.add({1, 3, 5, none, none, 7}, {1.01, 3.2, none, 2, none, 7});
+  EXPECT_EQ(statistics.beams, 6u);
+  EXPECT_EQ(statistics.compared, 3u);
+  EXPECT_EQ(statistics.jumps, 1u);
+  EXPECT_EQ(statistics.flips, 2u);
+  EXPECT_EQ(statistics.invalid, 1u);
+  ASSERT_EQ(statistics.differences_m[0].size(), 1u);
+  EXPECT_NEAR(statistics.differences_m[0][0], 0.01, 1e-12);
+  EXPECT_EQ(statistics.differences_m[3].size(), 1u);
+}
+
+TEST(KsDistance, IsTheLargestDifferenceOfTheDistributionFunctions) {
+  EXPECT_DOUBLE_EQ(ksDistance({1, 2, 3, 4}, {1, 2, 3, 4}), 0);
+  EXPECT_DOUBLE_EQ(ksDistance({1, 2, 3, 4}, {3, 4, 5, 6}), 0.5);
+  EXPECT_DOUBLE_EQ(ksDistance({1, 1, 1}, {2, 2}), 1);
+  EXPECT_DOUBLE_EQ(ksDistance({}, {2, 2}), 1);
+  EXPECT_DOUBLE_EQ(ksBound(10000, 10000), 0.05);
+  EXPECT_NEAR(ksBound(100, 100), 0.2305, 1e-4);
+}
+
+TEST(BeamModel, RecoversTheWeightsOfASample) {
+  Rng rng(5);
+  std::vector<ExpectedReading> readings;
+  for (int i = 0; i < 20000; ++i) {
+    const double expected_m = rng.uniform(6, 9);
+    const double part = rng.uniform();
+    double read_m = expected_m + 0.02 * rng.gaussian();
+    if (part < 0.05) {
+      do read_m = -std::log(1 - rng.uniform()) / 1.5;
+      while (read_m > expected_m);
+    } else if (part < 0.08) {
+      read_m = std::nan("");
+    } else if (part < 0.10) {
+      read_m = rng.uniform(0, 20);
+    }
+    readings.push_back({read_m, expected_m});
+  }
+  const BeamModel model = fitBeamModel(readings, 20);
+  EXPECT_NEAR(model.z_hit, 0.90, 0.01);
+  EXPECT_NEAR(model.z_short, 0.05, 0.01);
+  EXPECT_NEAR(model.z_max, 0.03, 0.005);
+  EXPECT_NEAR(model.z_rand, 0.02, 0.006);
+  EXPECT_NEAR(model.sigma_hit_m, 0.02, 0.0006);
+  EXPECT_NEAR(model.lambda_short_per_m, 1.5, 0.2);
+}
+
+}  // namespace
+}  // namespace robosim

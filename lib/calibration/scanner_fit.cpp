@@ -1,0 +1,203 @@
+#include "calibration/scanner_fit.h"
+
+#include <cmath>
+
+#include "base/error_list.h"
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "base/xml_element.h"
+#include "calibration/simulated_pairs.h"
+
+namespace robosim {
+namespace {
+
+/// Simulated pairs for each held-out one.
+constexpr std::size_t kSimulatedPerPair = 40;
+constexpr std::uint64_t kSeed = 1;
+
+/// Every second pair of `all`, from `first` on.
+std::vector<ScanPair> everySecond(const std::vector<ScanPair>& all, std::size_t first) {
+  std::vector<ScanPair> some;
+  for (std::size_t i = first; i < all.size(); i += 2) some.push_back(all[i]);
+  return some;
+}
+
+/// Range at which a white surface's echo is detected, so that all surfaces seen steadily can be modelled.
+double reachFor(const std::vector<SeenSurface>& seen, double fading) {
+  double farthest_m = 0;
+  for (const auto& surface : seen) farthest_m = std::max(farthest_m, surface.range_m);
+  constexpr double kSteadyScales = 10;  // of the logarithm of the power: 5e-5 of the echoes are lost
+  return std::ceil(farthest_m * std::exp(kSteadyScales * fading / 2));
+}
+
+std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
+  std::vector<ExpectedReading> readings;
+  for (const auto& group : standingGroups(series, pairs)) {
+    const auto seen = seenSurfaces(series, group);
+    std::size_t next = 0;
+    for (const auto& pair : group) {
+      for (std::size_t scan = std::max(pair.first, next); scan <= pair.first + 1; ++scan) {
+        next = scan + 1;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+          if (seen[i].range_m > 0) readings.push_back({series.scans[scan].ranges_m[i], seen[i].range_m});
+        }
+      }
+    }
+  }
+  return readings;
+}
+
+LaserFit modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
+  LaserFit model = fitLaser(statisticsOf(series, pairs), quantum_m);
+  model.errors.fading = 0.1;
+  for (const auto& group : standingGroups(series, pairs)) {
+    model.errors.reach_m = std::max(model.errors.reach_m, reachFor(seenSurfaces(series, group), model.errors.fading));
+  }
+  return model;
+}
+
+std::string textOf(const BeamModel& b) {
+  return "z_hit " + fixed(b.z_hit, 4) + " (" + fixed(b.sigma_hit_m, 4) + " m), z_short " + fixed(b.z_short, 4) + " (" +
+         fixed(b.lambda_short_per_m, 3) + "/m), z_max " + fixed(b.z_max, 4) + ", z_rand " + fixed(b.z_rand, 4);
+}
+
+std::string percent(double share) { return fixed(100 * share, 2) + " %"; }
+
+}  // namespace
+
+bool HeldOutFit::ratesAgree() const {
+  return std::abs(real.jumpRate() - simulated.jumpRate()) <= kRateTolerance &&
+         std::abs(real.flipRate() - simulated.flipRate()) <= kRateTolerance;
+}
+
+double ScannerFit::ksOf(const PairStatistics& held_out, const PairStatistics& of_model, std::size_t band) const {
+  const double quantum_m = model.errors.quantum_m;
+  return ksDistance(dequantised(held_out.differences_m[band], quantum_m, kSeed),
+                    dequantised(of_model.differences_m[band], quantum_m, kSeed + 1));
+}
+
+double ScannerFit::ksBoundOf(std::size_t band) const {
+  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
+}
+
+bool ScannerFit::isAccepted() const {
+  for (std::size_t band = 0; band < kBands; ++band) {
+    if (!real.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
+  }
+  return folds[0].ratesAgree() && folds[1].ratesAgree();
+}
+
+ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion) {
+  ScannerFit fit;
+  Progress progress;
+  const Interrupt interrupt;
+  fit.criterion = criterion;
+  fit.series = readScans(rawlog, sensor, [&](std::uint64_t entries) {
+    if (interrupt.isRequested()) throw Interrupted("interrupted; nothing was written");
+    if (progress.due()) progress.show("reading: " + withCommas(entries) + " entries …");
+  });
+  fit.candidates = standingPairs(fit.series);
+  for (const auto& pair : fit.candidates) {
+    if (criterion == RestCriterion::odometry || pair.is_at_rest) fit.used.push_back(pair);
+  }
+  if (fit.used.size() < 2) {
+    throw ConfigError(rawlog + ": has " + std::to_string(fit.used.size()) + " pairs of scans at rest of '" +
+                      fit.series.label + "', of " + std::to_string(fit.series.scans.size()) +
+                      " scans; at least two are required, so record the scanner while the robot stands" +
+                      (fit.candidates.size() > fit.used.size() ? ", or use --rest odometry" : ""));
+  }
+  progress.show("fitting …");
+  const double quantum_m = quantumOf(fit.series);
+  fit.model = modelOf(fit.series, fit.used, quantum_m);
+  for (std::size_t i = 0; i < fit.folds.size(); ++i) {
+    progress.show("comparing with held-out pairs …");
+    HeldOutFit& fold = fit.folds[i];
+    fold.fitted = everySecond(fit.used, i);
+    fold.held_out = everySecond(fit.used, 1 - i);
+    fold.model = modelOf(fit.series, fold.fitted, quantum_m);
+    fold.real = statisticsOf(fit.series, fold.held_out);
+    fold.simulated = simulatePairs(fit.series, fold.fitted, fold.model.errors, kSimulatedPerPair, kSeed + i);
+    fit.real.add(fold.real);
+    fit.simulated.add(fold.simulated);
+  }
+  fit.beam_model = fitBeamModel(expectedReadings(fit.series, fit.used), fit.series.range_max_m);
+  progress.show("matching scans …");
+  fit.map_readings = matchScans(fit.series);
+  if (!fit.map_readings.readings.empty()) {
+    fit.map_model = fitBeamModel(fit.map_readings.readings, fit.series.range_max_m);
+  }
+  return fit;
+}
+
+std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
+  const LaserErrors& e = fit.model.errors;
+  XmlElement laser{"laser", "", {}, {}, {}};
+  const std::size_t beams = fit.series.scans.front().ranges_m.size();
+  const double field_deg = fit.series.step_rad * static_cast<double>(beams - 1) * 180 / M_PI;
+  laser.attributes = {{"beams", std::to_string(beams)}};
+  if (field_deg > 0 && field_deg <= 360) laser.attributes.emplace_back("field_of_view_deg", fixed(field_deg, 4));
+  if (fit.series.range_max_m > 0 && fit.series.range_max_m <= 1000) {
+    laser.attributes.emplace_back("range_max_m", fixed(fit.series.range_max_m, 3));
+  }
+  XmlElement& noise = laser.add("noise");
+  const auto set = [&](const char* name, double value, int digits) {
+    noise.attributes.emplace_back(name, fixed(value, digits));
+  };
+  set("tail", e.tail, 4);
+  set("tail_factor", e.tail_factor, 1);
+  set("quantum_m", e.quantum_m, 4);
+  set("outlier", e.outlier, 6);
+  set("reach_m", e.reach_m, 1);
+  set("fading", e.fading, 3);
+  for (const auto& at : e.std_at) {
+    XmlElement& point = noise.add("at");
+    point.attributes = {{"range_m", fixed(at.range_m, 2)}, {"std_m", fixed(at.std_m, 5)}};
+  }
+  const std::size_t pairs = fit.used.size();
+  std::string name = rawlog.substr(rawlog.find_last_of('/') + 1);
+  for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
+  std::string text = toXml(laser);
+  const std::string comment = "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
+                              ". For the <sensors> of a robot type. -->\n";
+  return text.insert(text.find('\n') + 1, comment);  // after the declaration
+}
+
+std::string summaryOf(const ScannerFit& fit) {
+  std::string text = "scanner   '" + fit.series.label + "', " + withCommas(fit.series.scans.size()) + " scans of " +
+                     std::to_string(fit.series.scans.front().ranges_m.size()) + " beams\nat rest   " +
+                     std::to_string(fit.used.size()) + " pairs of scans; " +
+                     std::to_string(fit.candidates.size() - fit.used.size()) +
+                     " excluded, because the scans contradict the odometry\n";
+  const LaserErrors& e = fit.model.errors;
+  text += "errors    quantum " + fixed(e.quantum_m, 3) + " m, tail " + fixed(e.tail, 3) + " × " +
+          fixed(e.tail_factor, 0) + ", outliers " + percent(e.outlier) + ", reach " + fixed(e.reach_m, 0) + " m\n";
+  text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
+  text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
+          " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
+  Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "KS, even"}};
+  for (std::size_t band = 0; band < kBands; ++band) {
+    const std::size_t n = fit.real.differences_m[band].size();
+    if (n == 0) continue;
+    rows.push_back({bandName(band), fit.model.std_m[band] > 0 ? fixed(1000 * fit.model.std_m[band], 1) + " mm" : "–",
+                    withCommas(n), withCommas(fit.simulated.differences_m[band].size()), fixed(fit.ksOf(band), 3),
+                    fixed(fit.ksBoundOf(band), 3)});
+    for (const auto& fold : fit.folds) rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3));
+  }
+  text += table(rows);
+  rows = {{"share of the beams", "odd, real", "simulated", "even, real", "simulated"}};
+  const auto add = [&](const char* name, double (PairStatistics::*rate)() const) {
+    rows.push_back({name});
+    for (const auto& fold : fit.folds) {
+      rows.back().push_back(percent((fold.real.*rate)()));
+      rows.back().push_back(percent((fold.simulated.*rate)()));
+    }
+  };
+  add("jumps above 15 cm", &PairStatistics::jumpRate);
+  add("changes of validity", &PairStatistics::flipRate);
+  add("invalid in both", &PairStatistics::invalidRate);
+  text += "\n" + table(rows);
+  return text + (fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
+                                  : "\nThe held-out pairs differ from the model by more than the bounds.\n");
+}
+
+}  // namespace robosim

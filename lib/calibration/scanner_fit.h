@@ -1,0 +1,66 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "base/interrupt.h"
+#include "calibration/beam_model.h"
+#include "calibration/laser_fit.h"
+#include "calibration/matched_scans.h"
+#include "calibration/pair_statistics.h"
+#include "calibration/standing_scans.h"
+
+namespace robosim {
+
+/// By what a robot is known to stand.
+enum class RestCriterion {
+  scans,     ///< unchanged odometry, and scans that do not contradict it
+  odometry,  ///< unchanged odometry only: also counts a robot that rocks
+};
+
+/// A model estimated from every other pair of scans at rest, and compared with the other pairs.
+struct HeldOutFit {
+  std::vector<ScanPair> fitted, held_out;
+  LaserFit model;
+  PairStatistics real, simulated;  ///< of the held-out pairs, and of the model
+
+  /// Whether the rates of jumps and of changes of validity agree within kRateTolerance.
+  bool ratesAgree() const;
+};
+
+/// A model of a scanner, estimated from all pairs of scans at rest. Two-fold cross-validation compares each pair with a
+/// model that is not fitted to it.
+struct ScannerFit {
+  ScanSeries series;
+  RestCriterion criterion = RestCriterion::scans;
+  std::vector<ScanPair> candidates;  ///< all pairs at unchanged odometry
+  std::vector<ScanPair> used;        ///< of these, by the criterion
+  LaserFit model;                    ///< of all of them
+  std::array<HeldOutFit, 2> folds;   ///< fitted to the pairs of even and of odd number
+  PairStatistics real, simulated;    ///< of both folds
+  BeamModel beam_model;              ///< of all readings at rest, about the mean range of each beam
+  MatchedReadings map_readings;
+  BeamModel map_model;  ///< of these
+
+  /// Kolmogorov–Smirnov distance of the dequantised differences of a band, held out against simulated.
+  double ksOf(std::size_t band) const { return ksOf(real, simulated, band); }
+  double ksOf(const PairStatistics& held_out, const PairStatistics& model, std::size_t band) const;
+  double ksBoundOf(std::size_t band) const;
+  /// Whether all bands of both folds together are within their bounds, and the rates of each fold agree.
+  bool isAccepted() const;
+};
+
+/// Largest accepted difference of a rate.
+constexpr double kRateTolerance = 0.003;
+
+/// @throws ConfigError when the file is no rawlog, has no such scanner, or the scanner is never at rest
+/// @throws Interrupted when a signal requests the end
+ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion);
+
+/// The fitted errors as a <laser> element's <noise>, with a comment on its origin: an XML document.
+std::string modelXml(const ScannerFit& fit, const std::string& rawlog);
+/// The results as a text table.
+std::string summaryOf(const ScannerFit& fit);
+/// The results with histograms, as one HTML page without external references.
+std::string reportHtml(const ScannerFit& fit, const std::string& rawlog);
+
+}  // namespace robosim

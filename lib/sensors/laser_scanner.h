@@ -1,0 +1,30 @@
+#pragma once
+#include <memory>
+
+#include "sensors/laser_errors.h"
+#include "sensors/sensor.h"
+
+namespace robosim {
+
+/// Times at which a scanner measures.
+struct LaserTiming {
+  double sweep_s = 0;    ///< from the first to the last beam, which is measured at the time step, [0, 10]
+  double latency_s = 0;  ///< age of the last beam at the time step, [0, 10]
+  double rate_hz = 0;    ///< scans per second of simulated time, at most one per step, [0, 1000]; 0: in every step
+  double phase_s = 0;    ///< time of a scan, modulo the period, [0, 1e6]
+
+  /// Whether a scan is due in a step. Between two scans the sensor keeps its reading.
+  bool isDue(const SimTime& now) const;
+  bool operator==(const LaserTiming&) const = default;
+};
+
+/// Makes a scanner of thin beams with errors and times of measurement.
+///
+/// While the robot moves, each beam starts from the pose at its own time: on the arc of the robot's last motion, which
+/// is extrapolated beyond one time step. Other bodies remain at their poses of the time step. A panning scanner has the
+/// pan angle of the time step. With a rate, the sensor runs in the process that hosts the run, because its reading
+/// depends on the last one.
+/// @param info specifies beams, ranges and label
+std::unique_ptr<Sensor> makeLaserScanner(const SensorInfo& info, const LaserErrors& errors, const LaserTiming& timing);
+
+}  // namespace robosim

@@ -1,0 +1,34 @@
+#pragma once
+#include "sensors/sensor.h"
+
+namespace robosim {
+
+/// Poses of a robot at equally spaced times before the time step, on the arc of its last motion: exact while speed and
+/// turn rate are constant. Successive poses are computed by rotation, without further sines.
+class SweptPose {
+ public:
+  /// @param now pose at the time step
+  /// @param first_share age of the first pose, in durations of the last motion
+  /// @param step_share by which each pose is younger than the one before
+  SweptPose(const PlanarTransform& now, const Motion& last_motion, double first_share, double step_share);
+
+  /// Advances to the next pose.
+  void next();
+  mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const;
+  mrpt::math::TPoint3D turnToWorld(const mrpt::math::TPoint3D& in_robot) const;
+
+ private:
+  void place();
+
+  PlanarTransform now_;
+  double length_m_;    ///< of the whole last motion
+  double diameter_m_;  ///< of the arc; unused for a straight motion
+  bool is_straight_;
+  double share_, step_share_;
+  double half_cos_, half_sin_;            ///< of half the turn from the pose to now
+  double half_step_cos_, half_step_sin_;  ///< of half the turn between two poses
+  double x_ = 0, y_ = 0;                  ///< of the pose, in the frame of now
+  double cos_ = 1, sin_ = 0;              ///< of the heading, in the frame of now
+};
+
+}  // namespace robosim

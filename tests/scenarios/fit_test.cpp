@@ -1,0 +1,115 @@
+// `robosim fit` on real recordings (package mrpt-common) and on recordings of RoboSim.
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "base/testing/test_folder.h"
+#include "calibration/scanner_fit.h"
+#include "sensors/testing/single_robot_scene.h"
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+/// SENA, a wheelchair with a SICK LMS 200 (361 beams, centimetres), in a building of the University of Málaga, 2006.
+constexpr const char* kSena = "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
+/// The same vehicle, never at rest.
+constexpr const char* kMoving = "/usr/share/mrpt/datasets/localization_demo.rawlog";
+
+class Fit : public TestFolder {
+ protected:
+  static std::string textOf(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+  }
+};
+
+void expectAgreement(RestCriterion criterion) {
+  const ScannerFit fit = fitScanner(kSena, "", criterion);
+  for (std::size_t band = 0; band < kBands; ++band) {
+    if (fit.real.differences_m[band].empty()) continue;
+    EXPECT_LE(fit.ksOf(band), fit.ksBoundOf(band)) << bandName(band);
+  }
+  for (const auto& fold : fit.folds) {
+    EXPECT_NEAR(fold.simulated.jumpRate(), fold.real.jumpRate(), kRateTolerance);
+    EXPECT_NEAR(fold.simulated.flipRate(), fold.real.flipRate(), kRateTolerance);
+  }
+  EXPECT_TRUE(fit.isAccepted());
+}
+
+TEST_F(Fit, AgreesWithHeldOutPairsOfSenaAtRest) { expectAgreement(RestCriterion::scans); }
+
+TEST_F(Fit, AgreesWithHeldOutPairsOfSenaAtUnchangedOdometry) { expectAgreement(RestCriterion::odometry); }
+
+TEST_F(Fit, ExcludesThePairsInWhichTheWheelchairRocks) {
+  const ScannerFit fit = fitScanner(kSena, "", RestCriterion::scans);
+  EXPECT_EQ(fit.candidates.size(), 11u);
+  for (const auto& pair : fit.candidates) EXPECT_EQ(pair.is_at_rest, pair.first < 7) << pair.first;
+  EXPECT_DOUBLE_EQ(fit.model.errors.quantum_m, 0.01);
+  EXPECT_GT(fit.model.std_m[0], 0.003);
+  EXPECT_LT(fit.model.std_m[0], 0.010);
+}
+
+TEST_F(Fit, WritesAnElementThatARobotTypeAcceptsAndAReportWithoutExternalReferences) {
+  const Ended fit = runProgram("fit '" + std::string(kSena) + "' -o " + quoted(in("laser.xml")) + " --report " +
+                               quoted(in("report.html")));
+  EXPECT_EQ(fit.exit_code, 0) << fit.err;
+  EXPECT_NE(fit.out.find("7 pairs of scans; 4 excluded"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("The held-out pairs agree with the model."), std::string::npos) << fit.out;
+  const auto laser = sensorFrom(textOf(in("laser.xml")));
+  EXPECT_EQ(laser->info().beams.size(), 361u);
+  EXPECT_GT(laser->info().noise_std_m, 0.003);
+  const std::string report = textOf(in("report.html"));
+  EXPECT_NE(report.find("<svg"), std::string::npos);
+  EXPECT_NE(report.find("standard errors) at unchanged odometry"), std::string::npos);
+  for (const char* reference : {"<script", "<link", "src=", "href="}) {
+    EXPECT_EQ(report.find(reference), std::string::npos) << reference;
+  }
+}
+
+TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
+  std::ofstream(in("room.xml"))
+      << "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
+         "<object><shape><primitive><cube><name>a</name><x>5</x><y>0</y><z>0.5</z><length>0.2</length><width>10</width>"
+         "<height>1</height><direction>0.3</direction></cube></primitive></shape></object>"
+         "<object><shape><primitive><cube><name>b</name><x>0</x><y>3.1</y><z>0.5</z><length>6</length><width>0.2</"
+         "width>"
+         "<height>1</height></cube></primitive></shape></object>"
+         "<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors>"
+         "<laser noise='lms200' z_m='0.2'><noise "
+         "divergence_deg='0'/></laser></sensors></robot></shape></object></surface></world>";
+  for (const std::string format : {"obs", "sf"}) {
+    const std::string run = "run " + quoted(in("room.xml")) + " --controller still --time 20 --record " +
+                            quoted(in(format + ".rawlog")) + " --rawlog-format " + format;
+    ASSERT_EQ(runProgram(run).exit_code, 0);
+    const ScannerFit fit = fitScanner(in(format + ".rawlog"), "laser", RestCriterion::scans);
+    EXPECT_EQ(fit.used.size(), 200u) << format;
+    EXPECT_DOUBLE_EQ(fit.model.errors.quantum_m, 0.01);
+    const LaserErrors& errors = fit.model.errors;
+    EXPECT_NEAR(errors.tail * errors.tail_factor * errors.tail_factor, 0.03 * 6 * 6, 0.4) << "variance of the tail";
+    EXPECT_NEAR(errors.outlier, 0.0007, 0.0004) << "56 jumps in 36,200 differences, standard error 7.5";
+    for (const std::size_t band : {1u, 2u, 3u}) EXPECT_NEAR(fit.model.std_m[band], 0.005, 0.0005) << bandName(band);
+    EXPECT_TRUE(fit.isAccepted()) << summaryOf(fit);
+  }
+}
+
+TEST_F(Fit, RefusesRecordingsThatCannotBeFitted) {
+  const auto errorOf = [](const std::string& file, const std::string& options = "") {
+    const Ended fit = runProgram("fit '" + file + "' " + options);
+    EXPECT_EQ(fit.exit_code, 1);
+    return fit.err;
+  };
+  EXPECT_NE(
+      errorOf(kMoving).find("has 0 pairs of scans at rest of '', of 37 scans; at least two are required, so record "
+                            "the scanner while the robot stands"),
+      std::string::npos);
+  EXPECT_NE(errorOf("/usr/share/mrpt/datasets/kf-slam_demo.rawlog").find("has no laser scans"), std::string::npos);
+  EXPECT_NE(errorOf(kSena, "--sensor rear").find("--sensor rear: "), std::string::npos);
+  std::ofstream(in("text.rawlog")) << "no recording, but a text that is long enough to have a header\n";
+  EXPECT_NE(errorOf(in("text.rawlog").string()), "");
+}
+
+}  // namespace
+}  // namespace robosim
