@@ -48,8 +48,8 @@ struct Snapshot {
   ImageSource* images = nullptr;  ///< null: cameras take no pictures
   /// Area that robots stay in; nullopt: unbounded.
   std::optional<Bounds2D> surface = std::nullopt;
-  std::span<const Path> paths = {};       ///< of this step, clipped; empty: no motion has been blocked
-  std::span<const double> driven_m = {};  ///< distance driven since the start; empty: none
+  std::span<const Path> paths = {};          ///< of this step, clipped; empty: no motion has been blocked
+  std::span<const double> driven_m = {};     ///< distance driven since the start; empty: none
   std::span<const float> reflectivity = {};  ///< by body; kReflectivity for bodies beyond its end
 
   /// Length of the commanded path that a robot could not drive in this step, signed [m].
