@@ -27,7 +27,7 @@ constexpr const char* kServeSession =
     "Example in three terminals:\n"
     "  robosim serve worlds/small_maze.xml --wait-for-robots --speed 10\n"
     "  robosim robot Pioneer1 Scout1\n"
-    "  robosim control status --watch       (also: pause, step 10, start, speed 2, load FILE, stop)\n"
+    "  robosim control status --watch       (also: pause, step 10, start, speed 2, load FILE, record on, stop)\n"
     "From another machine: create a certificate and a token for each client,\n"
     "  openssl req -x509 -newkey rsa:2048 -nodes -keyout key.pem -out cert.pem -days 365 \\\n"
     "      -subj /CN=sim -addext subjectAltName=DNS:sim.example.org\n"
