@@ -21,6 +21,7 @@ struct ControlArguments {
   std::optional<std::uint64_t> seed;
   std::uint64_t steps = 1;
   std::string speed;
+  std::string record;
   bool watch = false;
   double period_s = 1;
 
@@ -83,6 +84,11 @@ std::string pageOn(const v1::RunStatus& status) {
   }
   if (status.messages_lost() > 0) {
     rows.push_back({"lost", withCommas(status.messages_lost()) + " messages between robots"});
+  }
+  if (status.recording() == v1::RECORDING_STATE_ON) rows.push_back({"recording", "on, " + status.recording_file()});
+  if (status.recording() == v1::RECORDING_STATE_OFF) {
+    rows.push_back(
+        {"recording", status.recording_file().empty() ? "off" : "off, last file " + status.recording_file()});
   }
   if (!status.winner().empty()) rows.push_back({"winner", status.winner()});
   if (status.late_commands() > 0)
@@ -154,6 +160,12 @@ void addControl(CLI::App& program) {
            [a](ControlPanel& panel) { return panel.setSpeed(speedNumber(a->speed)); })
       ->add_option("X", a->speed)
       ->type_name("X|max")
+      ->required();
+  add_call("record", "start or stop the recording of a run that is served with --record",
+           [a](ControlPanel& panel) { return panel.setRecording(a->record == "on"); })
+      ->add_option("STATE", a->record, "on or off")
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("on|off")
       ->required();
   add_call("stop", "end the run and the serving program", [](ControlPanel& panel) { return panel.stop(); });
   auto* status = add("status", "show the status of the run", [a] { showStatus(*a); });

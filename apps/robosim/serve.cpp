@@ -27,7 +27,7 @@ constexpr const char* kServeSession =
     "Example in three terminals:\n"
     "  robosim serve worlds/small_maze.xml --wait-for-robots --speed 10\n"
     "  robosim robot Pioneer1 Scout1\n"
-    "  robosim control status --watch       (also: pause, step 10, start, speed 2, load FILE, stop)\n"
+    "  robosim control status --watch       (also: pause, step 10, start, speed 2, load FILE, record on, stop)\n"
     "From another machine: create a certificate and a token for each client,\n"
     "  openssl req -x509 -newkey rsa:2048 -nodes -keyout key.pem -out cert.pem -days 365 \\\n"
     "      -subj /CN=sim -addext subjectAltName=DNS:sim.example.org\n"
@@ -204,6 +204,8 @@ void addServe(CLI::App& program) {
   auto* command = addSubcommand(program, "serve");
   auto a = std::make_shared<ServeArguments>();
   addRunArguments(*command, a->of_run);
+  command->add_flag("--record-on-request", a->of_run.is_recorded_on_request,
+                    "with --record: the recording is off until a control panel starts it (robosim control record on)");
   command->add_flag("--wait-for-robots", a->wait_for_robots,
                     "wait for a robot process for every robot, including those with a controller in the world");
   command->add_option("--listen", a->listen, "host:port, or viewers=…,robots=…,geometry=…,control=…")
@@ -245,6 +247,9 @@ void addServe(CLI::App& program) {
   command->callback([a, command] {
     // Programs drive for as long as they wish.
     if (!a->arcos.empty() && command->count("--time") == 0) a->of_run.time_s = kUnlimited_s;
+    if (a->of_run.is_recorded_on_request && a->of_run.record.empty()) {
+      throw ConfigError("--record-on-request needs --record with the name of the first file, as in run.rawlog");
+    }
     serveWorld(*a);
   });
 }

@@ -46,6 +46,12 @@ v1::RunStatus ControlPanel::setSpeed(double speed) {
   return call(&v1::ControlPanel::Stub::SetSpeed, request);
 }
 
+v1::RunStatus ControlPanel::setRecording(bool on) {
+  v1::SetRecordingRequest request;
+  request.set_on(on);
+  return call(&v1::ControlPanel::Stub::SetRecording, request);
+}
+
 v1::RunStatus ControlPanel::load(const WorldSource& world) {
   v1::WorldSource message;
   encode(world, message);

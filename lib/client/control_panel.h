@@ -26,6 +26,7 @@ class ControlPanel {
   v1::RunStatus setSpeed(double speed);     ///< simulated seconds per second; 0: unlimited
   /// Ends the run, and starts another with this world, paused.
   v1::RunStatus load(const WorldSource& world);
+  v1::RunStatus setRecording(bool on);  ///< starts or stops the recording of the run
   v1::RunStatus stop();
   v1::RunStatus status();
 

@@ -53,16 +53,17 @@ std::string RunNote::text() const {
     bytes += file.size();
   }
   const bool is_small = bytes <= kMaxWorldBytes;
-  const nlohmann::ordered_json json{{"robosim", 1},
-                                    {"world", std::filesystem::path(world.file).filename().string()},
-                                    {"world_version", world_version},
-                                    {"seed", seed},
-                                    {"period_s", period_s},
-                                    {"controllers", controllers},
-                                    {"outcome", outcome},
-                                    {"world_text", is_small ? world.text : ""},
-                                    {"robot_types", is_small ? types : nlohmann::ordered_json::object()},
-                                    {"files", is_small ? files : nlohmann::ordered_json::object()}};
+  nlohmann::ordered_json json{{"robosim", 1},
+                              {"world", std::filesystem::path(world.file).filename().string()},
+                              {"world_version", world_version},
+                              {"seed", seed},
+                              {"period_s", period_s},
+                              {"controllers", controllers},
+                              {"outcome", outcome},
+                              {"world_text", is_small ? world.text : ""},
+                              {"robot_types", is_small ? types : nlohmann::ordered_json::object()},
+                              {"files", is_small ? files : nlohmann::ordered_json::object()}};
+  if (first_step > 0) json["first_step"] = first_step;
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
@@ -81,6 +82,7 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
     note.seed = json.at("seed");
     note.world.seed = note.seed;
     note.period_s = json.at("period_s");
+    note.first_step = json.value("first_step", std::uint64_t{0});
     note.controllers = json.at("controllers").get<std::vector<std::string>>();
     note.outcome = json.at("outcome");
     if (!(note.period_s > 0 && note.period_s <= 1)) return std::nullopt;

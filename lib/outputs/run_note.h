@@ -24,6 +24,7 @@ struct RunNote {
   std::string world_version;  ///< versionOf(world)
   std::uint64_t seed = 1;
   double period_s = 0.1;
+  std::uint64_t first_step = 0;          ///< greater than 0 when the recording was started during the run
   std::vector<std::string> controllers;  ///< by robot, in the world's order; empty if driven by another process
   nlohmann::ordered_json outcome;        ///< as RunSummary::json(); null until the run ends
 

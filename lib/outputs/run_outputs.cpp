@@ -11,16 +11,6 @@
 namespace robosim {
 namespace {
 
-std::unique_ptr<RawlogWriter> openRecording(const RunArguments& arguments, const Environment& environment,
-                                            const RunNote& note) {
-  if (arguments.record.empty()) return nullptr;
-  std::vector<RobotInfo> robots;
-  for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
-  const auto format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations;
-  const auto images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded;
-  return std::make_unique<RawlogWriter>(arguments.record, robots, format, images, note.text());
-}
-
 /// nullopt for absent robots.
 std::vector<std::optional<mrpt::math::TPose2D>> presentPoses(const State& state) {
   std::vector<std::optional<mrpt::math::TPose2D>> poses(state.world_from_robot.begin(), state.world_from_robot.end());
@@ -53,11 +43,21 @@ bool RunArguments::timeIsUp(const SimTime& now) const {
 }
 
 RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note)
-    : arguments_(arguments), note_(std::move(note)) {
+    : arguments_(arguments) {
   const auto inputs = inputFilesOf(arguments.world, environment.world());
   refuseOverwriting(inputs, {arguments.record, arguments.picture});
-  recording_ = openRecording(arguments, environment, note_);
-  if (recording_) refuseOverwriting(inputs, recording_->files());  // format "sf" has a file per robot
+  if (!arguments.record.empty()) {
+    std::vector<RobotInfo> robots;
+    for (const auto& robot : environment.fleet().robots) robots.push_back(robot.info);
+    recording_ = std::make_unique<RunRecording>(
+        RecordingOptions{
+            .file = arguments.record,
+            .format = arguments.rawlog_format == "sf" ? RawlogFormat::sensory_frames : RawlogFormat::observations,
+            .images = arguments.record_images == "external" ? RawlogImages::external : RawlogImages::embedded},
+        std::move(robots), std::move(note));
+    if (!arguments.is_recorded_on_request) recording_->open();
+    refuseOverwriting(inputs, recording_->files());  // format "sf" has a file per robot
+  }
   if (arguments.picture.empty()) return;
   checkPlanFile(arguments.picture);
   tracks_ = std::make_unique<Tracks>(environment.robotCount());
@@ -65,31 +65,41 @@ RunOutputs::RunOutputs(const RunArguments& arguments, const Environment& environ
 
 void RunOutputs::observe(const Environment& environment) {
   const State& state = environment.state();
-  if (recording_) recording_->write(state.readings, state.world_from_robot, state.commands);
+  if (recording_) recording_->write(state);
   if (tracks_) tracks_->add(state.world_from_robot, state.activity);
 }
 
+void RunOutputs::setRecording(bool on, const LocalRun& run) {
+  if (!recording_) throw ConfigError("the run is not recorded: robosim serve was started without --record");
+  if (on == recording_->isOn()) return;
+  if (on) {
+    recording_->openNext(run.environment().state());
+  } else {
+    recording_->close(summaryOf(run, EndedBy::recording_stopped));
+  }
+}
+
 void RunOutputs::keep(const Environment& environment) {
-  if (recording_ && environment.time().step > 0) recording_->close();
+  if (recording_ && environment.time().step > 0) recording_->keep();
+}
+
+RunSummary RunOutputs::summaryOf(const LocalRun& run, EndedBy ended_by) const {
+  RunSummary summary = RunSummary::of(run);
+  summary.world = arguments_.world;
+  summary.seed = arguments_.run.environment.seed;
+  summary.ended_by = ended_by;
+  summary.depends_on_seed |= arguments_.changes.has_random_starts || arguments_.changes.random_robots > 0;
+  summary.depends_on_seed |= run.environment().world().origin.is_scattered;
+  return summary;
 }
 
 void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late,
                         const std::optional<RunReport>& report) {
-  RunSummary summary = RunSummary::of(run);
+  RunSummary summary = summaryOf(run, ended_by);
   summary.wall_s = wall_s;
-  summary.world = arguments_.world;
-  summary.seed = arguments_.run.environment.seed;
-  summary.ended_by = ended_by;
   summary.late = late;
   summary.report = report;
-  summary.depends_on_seed |= arguments_.changes.has_random_starts || arguments_.changes.random_robots > 0;
-  summary.depends_on_seed |= run.environment().world().origin.is_scattered;
-  if (recording_) {
-    note_.outcome = summary.json();
-    // The file of a repeated run is identical regardless of its duration.
-    for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
-    recording_->close(note_.text());
-  }
+  if (recording_) recording_->close(summary);
   std::exception_ptr failure;
   try {
     if (tracks_) draw(arguments_.picture, run.environment(), *tracks_);

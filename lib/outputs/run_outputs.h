@@ -6,8 +6,8 @@
 
 #include "environment/world_changes.h"
 #include "outputs/run_note.h"
+#include "outputs/run_recording.h"
 #include "outputs/tracks.h"
-#include "recording/rawlog_writer.h"
 #include "run/local_run.h"
 #include "run/run_summary.h"
 
@@ -21,6 +21,7 @@ struct RunArguments {
   double time_s = 1800;
   std::string speed = "max";
   std::string record;
+  bool is_recorded_on_request = false;  ///< the recording is off until it is requested
   std::string rawlog_format = "obs";
   std::string record_images = "embedded";
   std::string picture;
@@ -41,6 +42,12 @@ class RunOutputs {
 
   /// Records the current step. @throws RecordingError
   void observe(const Environment& environment);
+  /// null for a run without a name for recordings
+  const RunRecording* recording() const { return recording_.get(); }
+  /// Starts or stops the recording between two steps; no effect when it is already so. A file that is stopped ends with
+  /// a note of the run so far.
+  /// @throws ConfigError when it cannot be started @throws RecordingError when the file cannot be completed
+  void setRecording(bool on, const LocalRun& run);
   /// Closes the recording of a failed run, keeping what was recorded.
   void keep(const Environment& environment);
   /// Closes the recording, draws the picture, and prints the summary, even if the picture cannot be written.
@@ -50,10 +57,11 @@ class RunOutputs {
               const std::optional<RunReport>& report = {});
 
  private:
+  RunSummary summaryOf(const LocalRun& run, EndedBy ended_by) const;
+
   const RunArguments& arguments_;
-  RunNote note_;
   std::vector<Command> commands_;  ///< of the current step
-  std::unique_ptr<RawlogWriter> recording_;
+  std::unique_ptr<RunRecording> recording_;
   std::unique_ptr<Tracks> tracks_;
 };
 

@@ -222,6 +222,16 @@ void RawlogWriter::close(const std::string& note) {
   for (auto& output : impl_->outputs) output->pictures.commit();
 }
 
+std::vector<std::filesystem::path> RawlogWriter::pathsOf(const std::filesystem::path& file,
+                                                         std::span<const RobotInfo> robots, RawlogFormat format,
+                                                         RawlogImages images) {
+  std::vector<std::filesystem::path> paths = filesFor(file, robots, format);
+  if (images == RawlogImages::embedded) return paths;
+  const auto files = paths;
+  for (const auto& path : files) paths.push_back(pictureFolderOf(path));
+  return paths;
+}
+
 std::vector<std::filesystem::path> RawlogWriter::files() const {
   std::vector<std::filesystem::path> files;
   for (const auto& output : impl_->outputs) files.push_back(output->file.path());

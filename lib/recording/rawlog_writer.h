@@ -59,6 +59,10 @@ class RawlogWriter {
   /// @throws RecordingError as write() does.
   void close(const std::string& note = "");
 
+  /// What a recording of this name would create: its files, and with external images their folders.
+  static std::vector<std::filesystem::path> pathsOf(const std::filesystem::path& file,
+                                                    std::span<const RobotInfo> robots, RawlogFormat format,
+                                                    RawlogImages images);
   /// The recording's files: one, or one per robot.
   std::vector<std::filesystem::path> files() const;
 

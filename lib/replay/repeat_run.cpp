@@ -263,6 +263,11 @@ class RunAgain {
 
 bool checkRun(const ReplayArguments& arguments) {
   const RunNote note = RunNote::of(arguments.rawlog);
+  if (note.first_step > 0) {
+    throw ConfigError(arguments.rawlog + ": begins at step " + std::to_string(note.first_step) +
+                      ", because the recording was started during the run; the run cannot be repeated without the "
+                      "commands of the earlier steps: check a recording that begins at step 0");
+  }
   RunAgain run(arguments, note);
   const bool is_same = run.check();
   const std::vector<Metric> metrics = run.metrics();

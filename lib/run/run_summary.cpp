@@ -28,6 +28,8 @@ const char* nameOf(EndedBy why) {
       return "window_closed";
     case EndedBy::observer:
       return "observer";
+    case EndedBy::recording_stopped:
+      return "recording_stopped";
   }
   return "";
 }

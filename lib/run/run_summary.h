@@ -10,8 +10,17 @@
 
 namespace robosim {
 
-/// Reason why a run ended.
-enum class EndedBy { all_halted, time_limit, interrupt, control_panel, robot_lost, window_closed, observer };
+/// Reason why a run ended, or with `recording_stopped` its recording before it.
+enum class EndedBy {
+  all_halted,
+  time_limit,
+  interrupt,
+  control_panel,
+  robot_lost,
+  window_closed,
+  observer,
+  recording_stopped
+};
 
 /// Why a run ended that neither a person nor a lost robot has ended: all robots halted, an observer, or the time limit.
 EndedBy endedByItself(const LocalRun& run);

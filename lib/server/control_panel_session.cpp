@@ -61,6 +61,15 @@ std::string detailsOf(const v1::StepRequest& request) { return " " + std::to_str
 std::string detailsOf(const v1::SetSpeedRequest& request) {
   return request.speed() == 0 ? " max" : " " + std::to_string(request.speed());
 }
+std::string detailsOf(const v1::SetRecordingRequest& request) { return request.on() ? " on" : " off"; }
+
+void setRecording(RunOperations& operations, bool on) {
+  try {
+    operations.set_recording(on);
+  } catch (const ConfigError& error) {  // not of the world
+    throw WireError(errorStatus(v1::ERROR_REASON_RECORDING_UNAVAILABLE, error.what()));
+  }
+}
 
 }  // namespace
 
@@ -266,6 +275,10 @@ void ControlPanelSession::open(const CompletionQueueServer::ServiceQueues& queue
                                         checkSpeed(request.speed(), serving_.pace);
                                         operations.run_control.speed = request.speed();
                                       }});
+  serve<v1::SetRecordingRequest>(queues, {"record", Right::operate, &Self::RequestSetRecording,
+                                          [](RunOperations& operations, const v1::SetRecordingRequest& request, Call&) {
+                                            setRecording(operations, request.on());
+                                          }});
 }
 
 template <typename Request>

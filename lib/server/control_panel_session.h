@@ -21,10 +21,10 @@ class WatchAsStream : public v1::ControlPanel::Service {
 };
 
 /// Generated service with the method styles that ControlPanelSession uses.
-using ControlPanelService = v1::ControlPanel::WithRawMethod_Load<
+using ControlPanelService = v1::ControlPanel::WithRawMethod_Load<v1::ControlPanel::WithAsyncMethod_SetRecording<
     v1::ControlPanel::WithAsyncMethod_Start<v1::ControlPanel::WithAsyncMethod_Pause<
         v1::ControlPanel::WithAsyncMethod_Step<v1::ControlPanel::WithAsyncMethod_SetSpeed<
-            v1::ControlPanel::WithAsyncMethod_Stop<v1::ControlPanel::WithAsyncMethod_GetStatus<WatchAsStream>>>>>>>;
+            v1::ControlPanel::WithAsyncMethod_Stop<v1::ControlPanel::WithAsyncMethod_GetStatus<WatchAsStream>>>>>>>>;
 
 /// Operations on the run that control panels can request.
 struct RunOperations {
@@ -33,6 +33,8 @@ struct RunOperations {
   std::function<std::unique_ptr<PreparedRun>(const WorldSource&)> prepare;
   /// Replaces the run that is served by a prepared one.
   std::function<void(std::unique_ptr<PreparedRun>)> replace;
+  /// Starts or stops the recording. @throws ConfigError when it cannot be started
+  std::function<void(bool)> set_recording;
   /// Fills in the status of the run.
   std::function<void(v1::RunStatus&)> describe = [](v1::RunStatus&) {};
 };

@@ -35,6 +35,18 @@ std::uint64_t randomSecret() {
   return std::uint64_t{random()} << 32 | random();
 }
 
+v1::RecordingState encode(RecordingStatus::State state) {
+  switch (state) {
+    case RecordingStatus::State::none:
+      return v1::RECORDING_STATE_NONE;
+    case RecordingStatus::State::on:
+      return v1::RECORDING_STATE_ON;
+    case RecordingStatus::State::off:
+      return v1::RECORDING_STATE_OFF;
+  }
+  return v1::RECORDING_STATE_UNSPECIFIED;
+}
+
 v1::LostRobotPolicy encode(OnLostRobot policy) {
   switch (policy) {
     case OnLostRobot::wait:
@@ -197,6 +209,9 @@ struct EnvironmentServer::Impl {
     }
     status.set_messages_lost(so_far.messages_lost);
     status.set_geometry_workers_rejected(static_cast<std::uint32_t>(so_far.rejected_workers.size()));
+    const RecordingStatus recording = run.recording();
+    status.set_recording(encode(recording.state));
+    status.set_recording_file(recording.file);
     if (state.winner) status.set_winner(run_info.robot_names[*state.winner]);
   }
 
@@ -274,6 +289,7 @@ struct EnvironmentServer::Impl {
     operations.prepare = [&run](const WorldSource& source) { return run.prepare(source); };
     operations.replace = [&](std::unique_ptr<PreparedRun> next) { replace(run, std::move(next)); };
     serving.interrupted = interrupted;
+    operations.set_recording = [&run](bool on) { run.setRecording(on); };
     operations.describe = [&](v1::RunStatus& status) { describe(run, status); };
     admit();
     areRobotsConnected();  // so that a status requested first is correct

@@ -1,7 +1,9 @@
 #pragma once
 #include <cstddef>
 #include <memory>
+#include <string>
 
+#include "base/error_list.h"
 #include "environment/environment.h"
 #include "environment/run_report.h"
 #include "robots/world_source.h"
@@ -13,6 +15,17 @@ namespace robosim {
 class PreparedRun {
  public:
   virtual ~PreparedRun() = default;
+};
+
+/// State of a run's recording.
+struct RecordingStatus {
+  enum class State {
+    none,  ///< the run cannot be recorded, because it has no name for recordings
+    on,
+    off,
+  };
+  State state = State::none;
+  std::string file{};  ///< current or last file, its name without folder; empty while there is none
 };
 
 /// Interface between EnvironmentServer and a run: the environment, and callbacks for each step.
@@ -30,6 +43,12 @@ class ServedRun {
   /// Called after each step, for example to record it. @param late number of robots whose commands were too late
   virtual void stepped(std::size_t late) = 0;
   virtual bool isOver() const = 0;
+  virtual RecordingStatus recording() const { return {}; }
+  /// Starts or stops the recording, between two steps; no effect when it is already so.
+  /// @throws ConfigError when it cannot be started @throws RecordingError when the file cannot be completed
+  virtual void setRecording(bool /*on*/) {
+    throw ConfigError("the run is not recorded: robosim serve was started without --record");
+  }
   /// Called when the run ends or is about to be replaced.
   virtual void ends(const RunReport& report) = 0;
   /// Builds another run, with the world's seed, or this run's if it has none. Called on another thread while this run

@@ -158,6 +158,18 @@ void WorldRun::stepped(std::size_t late) {
 
 bool WorldRun::isOver() const { return run_->run.isOver() || options_.of_run.timeIsUp(run_->run.environment().time()); }
 
+RecordingStatus WorldRun::recording() const {
+  const RunRecording* recording = run_->outputs.recording();
+  if (!recording) return {};
+  return {recording->isOn() ? RecordingStatus::State::on : RecordingStatus::State::off,
+          recording->file().filename().string()};
+}
+
+void WorldRun::setRecording(bool on) {
+  if (on && run_->is_finished) throw ConfigError("the run is over, and cannot be recorded; load the next one");
+  run_->outputs.setRecording(on, run_->run);
+}
+
 void WorldRun::ends(const RunReport& report) {
   run_->report = report;
   had_all_robots_ = had_all_robots_ && report.hasAllRobots();

@@ -33,6 +33,8 @@ class WorldRun final : public ServedRun {
   void decide() override;
   void stepped(std::size_t late) override;
   bool isOver() const override;
+  RecordingStatus recording() const override;
+  void setRecording(bool on) override;
   void ends(const RunReport& report) override;
   std::unique_ptr<PreparedRun> prepare(const WorldSource& source) const override;
   void replace(std::unique_ptr<PreparedRun> next) override;

@@ -228,7 +228,7 @@ TEST_F(BadInput, RejectsMalformedUnaryRequests) {
   const std::string service = "/robosim.v1.ControlPanel/";
   const std::string five_mb(5 << 20, 'x');
   const auto& at = world_.connectOptions();
-  for (const std::string method : {"Start", "Pause", "Step", "SetSpeed", "Stop", "GetStatus"}) {
+  for (const std::string method : {"Start", "Pause", "Step", "SetSpeed", "SetRecording", "Stop", "GetStatus"}) {
     EXPECT_FALSE(howCallEnds(at, service + method, "\xff\xff no message").ok()) << method;
     expectError(howCallEnds(at, service + method, ""), grpc::StatusCode::FAILED_PRECONDITION, "version 0 of the");
     expectError(howCallEnds(at, service + method, five_mb), grpc::StatusCode::RESOURCE_EXHAUSTED, "larger than max");

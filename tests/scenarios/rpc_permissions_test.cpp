@@ -54,6 +54,7 @@ const std::map<std::string, std::string>& firstMessages() {
       {"ControlPanel.Pause", "protocol: 1"},
       {"ControlPanel.Step", "protocol: 1 steps: 0"},
       {"ControlPanel.SetSpeed", "protocol: 1 speed: -1"},
+      {"ControlPanel.SetRecording", "protocol: 1 on: false"},
       {"ControlPanel.Stop", "protocol: 1"},
       {"ControlPanel.GetStatus", "protocol: 1"},
       {"ControlPanel.Watch", "protocol: 1"},

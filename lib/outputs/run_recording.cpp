@@ -1,0 +1,64 @@
+#include "outputs/run_recording.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace robosim {
+
+RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note)
+    : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)) {}
+
+void RunRecording::open() { open(options_.file, 0); }
+
+void RunRecording::openNext(const State& state) {
+  int number = 1;
+  while (!isFree(part(number))) ++number;
+  open(part(number), state.time.step);
+  write(state);
+}
+
+void RunRecording::open(const std::filesystem::path& file, std::uint64_t first_step) {
+  note_.outcome = nullptr;
+  note_.first_step = first_step;
+  writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text());
+  file_ = file;
+  const auto files = writer_->files();
+  files_.insert(files_.end(), files.begin(), files.end());
+}
+
+void RunRecording::write(const State& state) {
+  if (writer_) writer_->write(state.readings, state.world_from_robot, state.commands);
+}
+
+void RunRecording::close(const RunSummary& outcome) {
+  if (!writer_) return;
+  note_.outcome = outcome.json();
+  // The file of a repeated run is identical regardless of its duration.
+  for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
+  writer_->close(note_.text());
+  writer_.reset();
+}
+
+void RunRecording::keep() {
+  if (!writer_) return;
+  writer_->close();
+  writer_.reset();
+}
+
+std::filesystem::path RunRecording::part(int number) const {
+  if (number == 1) return options_.file;
+  const std::filesystem::path& file = options_.file;
+  return file.parent_path() / (file.stem().string() + "_part" + std::to_string(number) + file.extension().string());
+}
+
+/// Format "sf" has a file per robot, and external pictures a folder; their names are derived from the file's.
+bool RunRecording::isFree(const std::filesystem::path& file) const {
+  const auto paths = RawlogWriter::pathsOf(file, robots_, options_.format, options_.images);
+  return std::none_of(paths.begin(), paths.end(), [](const auto& path) {
+    std::error_code error;
+    return std::filesystem::symlink_status(path, error).type() != std::filesystem::file_type::not_found;
+  });
+}
+
+}  // namespace robosim

@@ -1,0 +1,58 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "environment/environment.h"
+#include "outputs/run_note.h"
+#include "recording/rawlog_writer.h"
+#include "run/run_summary.h"
+
+namespace robosim {
+
+struct RecordingOptions {
+  std::filesystem::path file;  ///< of the first part
+  RawlogFormat format = RawlogFormat::observations;
+  RawlogImages images = RawlogImages::embedded;
+};
+
+/// Recording of a run, in one or more parts: each start after a stop opens the next file, "run_part2.rawlog".
+class RunRecording {
+ public:
+  /// The recording is off until open() or openNext(). @param note of the run, without outcome
+  RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note);
+
+  bool isOn() const { return writer_ != nullptr; }
+  /// The current or last part; empty before the first.
+  const std::filesystem::path& file() const { return file_; }
+  /// Files of all parts, in their order.
+  const std::vector<std::filesystem::path>& files() const { return files_; }
+
+  /// Starts with the first step of the run, in `options.file`, which replaces an older file when it is complete.
+  /// @throws ConfigError
+  void open();
+  /// Starts with the current step, in the first file of options.file, "_part2", "_part3", … that does not exist.
+  /// @throws ConfigError
+  void openNext(const State& state);
+  /// Records the current step; no effect while the recording is off. @throws RecordingError
+  void write(const State& state);
+  /// Completes the current part, whose last note has this outcome; no effect while the recording is off.
+  /// @throws RecordingError
+  void close(const RunSummary& outcome);
+  /// Completes the current part without a last note. @throws RecordingError
+  void keep();
+
+ private:
+  void open(const std::filesystem::path& file, std::uint64_t first_step);
+  std::filesystem::path part(int number) const;
+  bool isFree(const std::filesystem::path& file) const;
+
+  RecordingOptions options_;
+  std::vector<RobotInfo> robots_;
+  RunNote note_;
+  std::unique_ptr<RawlogWriter> writer_;  ///< null while the recording is off
+  std::filesystem::path file_;
+  std::vector<std::filesystem::path> files_;
+};
+
+}  // namespace robosim
