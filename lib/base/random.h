@@ -13,7 +13,9 @@ enum class RandomPurpose : std::uint32_t {
   scenery,
   test,
   sensor_retry,
-  radio_burst
+  radio_burst,
+  bootstrap,
+  breakdown
 };
 
 /// Counter-based random number generator (Philox 4×32-10; Salmon, Moraes, Dror & Shaw, "Parallel random numbers: as

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/html_text.h"
 #include "base/text_table.h"
 #include "calibration/scanner_fit.h"
 
@@ -8,24 +9,6 @@ namespace robosim {
 namespace {
 
 constexpr int kWidth_px = 560, kHeight_px = 200, kMargin_px = 30;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    if (c == '&') {
-      out += "&amp;";
-    } else if (c == '<') {
-      out += "&lt;";
-    } else if (c == '>') {
-      out += "&gt;";
-    } else if (c == '"') {
-      out += "&quot;";
-    } else {
-      out += c;
-    }
-  }
-  return out;
-}
 
 /// Shares of the differences in bins of equal width within ±kJump_m.
 std::vector<double> sharesOf(const std::vector<double>& differences_m, double bin_m) {
@@ -79,7 +62,7 @@ std::string histogramOf(const ScannerFit& fit, std::size_t band) {
 
 std::string rowOf(const std::vector<std::string>& cells, const char* tag = "td") {
   std::string row = "<tr>";
-  for (const auto& cell : cells) row += "<" + std::string(tag) + ">" + escaped(cell) + "</" + tag + ">";
+  for (const auto& cell : cells) row += "<" + std::string(tag) + ">" + escapedHtml(cell) + "</" + tag + ">";
   return row + "</tr>\n";
 }
 
@@ -100,7 +83,7 @@ std::string bandsOf(const ScannerFit& fit) {
   std::string html;
   for (std::size_t band = 0; band < kBands; ++band) {
     const std::size_t n = fit.real.differences_m[band].size();
-    html += "<h3>" + escaped(bandName(band)) + "</h3>\n";
+    html += "<h3>" + escapedHtml(bandName(band)) + "</h3>\n";
     if (n == 0) {
       html += "<p>No held-out differences.</p>\n";
       continue;
@@ -119,17 +102,17 @@ std::string bandsOf(const ScannerFit& fit) {
 std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Laser errors of " +
-      escaped(rawlog) +
+      escapedHtml(rawlog) +
       "</title>\n<style>body{font:15px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}"
       "table{border-collapse:collapse}th,td{border:1px solid #bbb;padding:.2em .6em;text-align:left}"
       "pre{background:#f5f5f5;padding:.8em;overflow-x:auto}svg{max-width:100%}</style>\n</head>\n<body>\n";
-  html += "<h1>Laser errors of " + escaped(rawlog) + "</h1>\n<pre>" + escaped(summaryOf(fit)) + "</pre>\n";
+  html += "<h1>Laser errors of " + escapedHtml(rawlog) + "</h1>\n<pre>" + escapedHtml(summaryOf(fit)) + "</pre>\n";
   html +=
       "<h2>Differences of scans at rest</h2>\n<p>Second minus first range of two successive scans. Filled: held-out "
       "pairs of the recording. Line: simulated by RoboSim's scanner with the fitted errors.</p>\n";
   html += bandsOf(fit);
   html += "<h2>Excluded pairs</h2>\n" + excludedOf(fit);
-  html += "<h2>Model</h2>\n<pre>" + escaped(modelXml(fit, rawlog)) + "</pre>\n</body>\n</html>\n";
+  html += "<h2>Model</h2>\n<pre>" + escapedHtml(modelXml(fit, rawlog)) + "</pre>\n</body>\n</html>\n";
   return html;
 }
 

@@ -93,7 +93,9 @@ void addRobots(const WorldSource& source, const RobotTypes& types, const std::ve
 class FreePlaces {
  public:
   FreePlaces(const WorldSource& source, const RobotTypes& types, const std::string& model, const World& world)
-      : type_(robotOfType(types, model)), free_(world, type_.info.radius_m, type_.body.heights()) {
+      : FreePlaces(source, types, robotOfType(types, model), world) {}
+  FreePlaces(const WorldSource& source, const RobotTypes& types, FleetRobot type, const World& world)
+      : type_(std::move(type)), free_(world, type_.info.radius_m, type_.body.heights()) {
     free_.blockUnknown(world);
     cells_ = free_.largestRegion();
     for (const auto& robot : fleetOf(world, source.file, types).robots) {
@@ -179,6 +181,32 @@ void addRandomRobots(const WorldSource& source, const RobotTypes& types, const W
   }
 }
 
+/// Replaces the robots of the world by a team of the first one's kind.
+void makeTeam(const WorldSource& source, const RobotTypes& types, int size, std::uint64_t seed, World& world) {
+  if (world.robots.empty()) throw ConfigError(source.file + ": has no robots, so that a team of them cannot be made");
+  const RobotPlacement first = world.robots.front();
+  const FleetRobot type = fleetOf(world, source.file, types).robots.front();
+  world.robots.clear();
+  FreeNames names(world);
+  FreePlaces places(source, types, type, world);
+  Rng rng(seed, RandomPurpose::start_pose, 2);
+  for (int i = 0; i < size; ++i) {
+    const auto place = places.takeRandom(rng);
+    if (!place) {
+      throw ConfigError(source.file + ": there is room for " + std::to_string(i) + " of " + std::to_string(size) +
+                        " robots only; use a smaller team, or a larger world");
+    }
+    RobotPlacement robot = first;
+    robot.name = names.next();
+    robot.world_from_robot = {place->x, place->y, rng.uniform(-M_PI, M_PI)};
+    if (robot.body) robot.body->world_from_body = robot.world_from_robot;
+    world.robots.push_back(std::move(robot));
+  }
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    world.robots[i].neighbour = size > 1 ? world.robots[(i + 1) % world.robots.size()].name : "";
+  }
+}
+
 void addNoise(std::vector<XmlElement>& sensors) {
   for (auto& sensor : sensors) {
     std::string kind = sensor.name;
@@ -237,6 +265,8 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   errors.throwIfAny();
   const mrpt::math::TPose2D home = world.robots.empty() ? mrpt::math::TPose2D() : world.robots.front().world_from_robot;
   if (changes.addsRobots() && isMapFile(source.file)) world.robots.clear();
+  if (changes.team) makeTeam(source, types, *changes.team, seed, world);
+  if (changes.message_loss) world.communication.loss_probability = *changes.message_loss;
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);
   addRobotsNear(home, source, types, changes.robots, names, world);

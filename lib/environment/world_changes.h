@@ -27,11 +27,15 @@ struct WorldChanges {
   int random_robots = 0;       ///< number of robots to add at random positions
   bool may_add_fewer = false;  ///< as many of random_robots as there is room for, at least one
   std::string random_model = "pioneer3dx";
-  bool has_random_starts = false;  ///< shuffleStartPoses()
-  bool has_noise = false;          ///< adds the data sheet's noise to every sensor that supports noise and has none
+  /// Replaces the robots by so many of the first one's kind, at random free places, named Robot1, Robot2, …, each with
+  /// the next as its neighbour, the last with the first; at least 1.
+  std::optional<int> team;
+  std::optional<double> message_loss;  ///< instead of Communication::loss_probability, [0, 1]
+  bool has_random_starts = false;      ///< shuffleStartPoses()
+  bool has_noise = false;              ///< adds the data sheet's noise to every sensor that supports noise and has none
 
   bool addsRobots() const { return !robots.empty() || random_robots > 0; }
-  bool isNone() const { return !addsRobots() && !has_random_starts && !has_noise; }
+  bool isNone() const { return !addsRobots() && !team && !message_loss && !has_random_starts && !has_noise; }
 };
 
 /// The world with these changes applied, as text, so that another process can build the same run. Added robots replace

@@ -111,6 +111,45 @@ TEST(WorldChanges, RejectMoreRandomRobotsThanFit) {
   EXPECT_EQ(lines[0].find("--random-robots 2000: there is room for "), 0u) << lines[0];
 }
 
+TEST(WorldChanges, ReplaceTheRobotsByATeamOfTheFirstOnesKind) {
+  const std::string given =
+      "<object><shape><robot><model>scout</model><name>A</name><x>30</x><y>0</y><controller>wander</controller>"
+      "</robot></shape></object><object><shape><robot><model>pioneer3dx</model><name>B</name><x>-30</x><y>0</y>"
+      "</robot></shape></object>";
+  WorldChanges changes;
+  changes.team = 12;
+  const LoadedWorld team = changed(changes, 1, square(given));
+  ASSERT_EQ(team.fleet.robots.size(), 12u);
+  for (std::size_t i = 0; i < 12; ++i) {
+    EXPECT_EQ(team.world.robots[i].model, "scout");
+    EXPECT_EQ(team.fleet.robots[i].controller, "wander");
+    EXPECT_EQ(team.fleet.robots[i].info.neighbour, team.fleet.robots[(i + 1) % 12].info.name);
+  }
+  changes.team = 1;
+  EXPECT_EQ(changed(changes, 1, square(given)).fleet.robots[0].info.neighbour, "");
+  EXPECT_EQ(faults(changes), Lines{"square.xml: has no robots, so that a team of them cannot be made"});
+}
+
+TEST(WorldChanges, RejectATeamThatDoesNotFit) {
+  const std::string given =
+      "<object><shape><robot><model>scout</model><name>A</name><x>30</x><y>0</y></robot></shape></object>";
+  WorldChanges changes;
+  changes.team = 2000;
+  try {
+    changed(changes, 1, square(given));
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_NE(std::string(error.what()).find("of 2000 robots only; use a smaller team"), std::string::npos)
+        << error.what();
+  }
+}
+
+TEST(WorldChanges, SetTheLossOfMessages) {
+  WorldChanges changes = robots({"pioneer3dx@3,0"});
+  changes.message_loss = 0.25;
+  EXPECT_EQ(changed(changes).world.communication.loss_probability, 0.25);
+}
+
 TEST(WorldChanges, MoveOnlyTheStartPoses) {
   const std::string robot =
       "<object><shape><robot><model>scout</model><name>A</name><x>30</x><y>0</y><controller>wander</controller>"

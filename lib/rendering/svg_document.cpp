@@ -6,26 +6,11 @@
 
 #include <mrpt/core/format.h>
 
+#include "base/html_text.h"
 #include "base/utf8.h"
 
 namespace robosim {
 namespace {
-
-std::string escaped(const std::string& text) {
-  std::string xml;
-  for (const char c : text) {
-    if (c == '&') {
-      xml += "&amp;";
-    } else if (c == '<') {
-      xml += "&lt;";
-    } else if (c == '>') {
-      xml += "&gt;";
-    } else {
-      xml += c;
-    }
-  }
-  return xml;
-}
 
 /// Replaces the number at the end of each id by a count of the ids with the same beginning.
 class IdNumbering {
@@ -58,7 +43,7 @@ std::string finishedSvg(const std::string& svg, const std::string& title, bool h
   for (std::size_t i = 0; i < svg.size();) {
     const std::string_view rest = std::string_view(svg).substr(i);
     if (!has_title && rest.starts_with(">\n") && finished.find("<svg ") != std::string::npos) {
-      finished += ">\n<title>" + escaped(wellFormed(title)) + "</title>\n";
+      finished += ">\n<title>" + escapedHtml(wellFormed(title)) + "</title>\n";
       has_title = true;
       i += 2;
       continue;

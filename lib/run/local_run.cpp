@@ -6,6 +6,8 @@
 #include <malloc.h>
 #endif
 
+#include "base/portable_math.h"
+#include "base/random.h"
 #include "control/controller_error.h"
 #include "maze/controllers.h"
 
@@ -40,6 +42,13 @@ std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world) {
         "robots have cameras, but this program cannot render pictures; it must call "
         "setImageSourceMaker(makeOffscreenRenderer), of the library robosim::rendering");
   return imageSourceMaker()(world.world, world.fleet);
+}
+
+/// When a robot breaks down [simulated s].
+double breakdownOf(std::size_t robot, const RunOptions& options) {
+  if (options.breakdown_mean_s <= 0) return std::numeric_limits<double>::infinity();
+  Rng rng(options.environment.seed, RandomPurpose::breakdown, static_cast<std::uint32_t>(robot));
+  return -options.breakdown_mean_s * portable::log(1 - rng.uniform());
 }
 
 const ControllerType* typeOrNull(const std::string& controller) {
@@ -125,6 +134,7 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
     const std::string name = controllerOf(robots[i].controller, options.controller);
     local_robots_.push_back(
         std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
+    local_robots_.back()->breakdown_s = breakdownOf(i, options);
   }
   observers_.observe(environment_);
 }
@@ -150,6 +160,7 @@ LocalRun::LocalRun(ForkOf original)
     auto controller = cloneOf(*(*local)->controller, controller_name, name);
     local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller),
                                                          (*local)->robot.command()));
+    local_robots_.back()->breakdown_s = (*local)->breakdown_s;
     ++local;
   }
 }
@@ -165,7 +176,7 @@ bool LocalRun::dependsOnSeed() const {
                        [](const auto& sensor) { return sensor->isNoisy(); });
   };
   const bool all_are_here = local_robots_.size() == robots.size();
-  return !all_are_here || environment_.world().communication.isRandom() ||
+  return !all_are_here || options_.breakdown_mean_s > 0 || environment_.world().communication.isRandom() ||
          std::any_of(robots.begin(), robots.end(), is_noisy) ||
          std::any_of(local_robots_.begin(), local_robots_.end(),
                      [](const auto& robot) { return robot->controller->hasDrawnRandomNumbers(); });
@@ -181,6 +192,10 @@ void LocalRun::decide() {
   constexpr std::size_t kChunk = 16;
   workers_.forEach(local_robots_.size(), kChunk, [&](std::size_t i) {
     LocalRobot& local = *local_robots_[i];
+    if (environment_.time().seconds() >= local.breakdown_s) {
+      if (local.robot.activity() == Activity::active) local.robot.halt();
+      return;
+    }
     try {
       local.controller->step(local.robot);
     } catch (...) {

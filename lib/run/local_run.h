@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ struct RunOptions {
   std::string controller;
   std::vector<std::string> observers = {};  ///< as TypeChoice::text()
   bool observers_log = true;                ///< whether ObserverSetup::log prints
+  /// Mean time until a robot breaks down for good, exponentially distributed: it halts, and its controller is called no
+  /// more [simulated s]; 0: none does.
+  double breakdown_mean_s = 0;
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
@@ -113,6 +117,7 @@ class LocalRun {
     Robot robot;
     std::string controller_name;  ///< as TypeChoice::text()
     std::unique_ptr<Controller> controller;
+    double breakdown_s = std::numeric_limits<double>::infinity();  ///< simulated time
     LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c,
                const Command& last = {})
         : hardware(environment, i), robot(hardware, last), controller_name(std::move(name)), controller(std::move(c)) {}

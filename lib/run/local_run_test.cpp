@@ -1,5 +1,8 @@
 #include "run/local_run.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 namespace robosim {
@@ -40,6 +43,49 @@ TEST(LocalRun, KeepsWhenTheGoldWasFoundAlsoInAFork) {
     EXPECT_EQ(one->gold().found_s, first.found_s);
     EXPECT_EQ(one->gold().found_by, first.found_by);
   }
+}
+
+TEST(LocalRun, HaltsRobotsThatBreakDown) {
+  RunOptions options;
+  options.controller = "wander";
+  options.breakdown_mean_s = 5;
+  const auto world = [] { return loadWorldToRun(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml", ""); };
+  LocalRun run(world(), options);
+  EXPECT_TRUE(run.dependsOnSeed());
+  std::size_t halted = 0;
+  std::unique_ptr<LocalRun> fork;
+  for (int i = 0; i < 2000 && !run.isOver(); ++i) {
+    run.step();
+    const auto& activity = run.environment().state().activity;
+    const auto now = static_cast<std::size_t>(std::count(activity.begin(), activity.end(), Activity::halted));
+    EXPECT_GE(now, halted) << "none is repaired";
+    halted = now;
+    if (!fork && halted > 0) fork = run.fork();
+  }
+  EXPECT_TRUE(run.gold().all_halted_s) << "four robots with a mean of 5 s, after 200 s";
+  ASSERT_TRUE(fork);
+  while (fork->environment().time().step < run.environment().time().step) fork->step();
+  EXPECT_EQ(fork->environment().state(), run.environment().state());
+}
+
+TEST(LocalRun, LetsRobotsBreakDownAfterExponentiallyDistributedTimes) {
+  // Of 200 robots with a mean of 10 s, exp(-1) are working after 10 s: 74 ± 4 · 6.8.
+  std::string text = "<world><surface><size><xmin>-1</xmin><xmax>201</xmax><ymin>-1</ymin><ymax>1</ymax></size>";
+  for (int i = 0; i < 200; ++i) {
+    text += "<object><shape><robot><cylinder><name>R" + std::to_string(i) + "</name><x>" + std::to_string(i) +
+            "</x><y>0</y><z>0.1</z><radius>0.2</radius><height>0.2</height></cylinder></robot></shape></object>";
+  }
+  WorldSource source;
+  source.file = "row.xml";
+  source.text = text + "</surface></world>";
+  RunOptions options;
+  options.controller = "still";
+  options.breakdown_mean_s = 10;
+  LocalRun run(loadWorldToRun(source, "still"), options);
+  for (int i = 0; i < 100; ++i) run.step();
+  const auto& activity = run.environment().state().activity;
+  EXPECT_NEAR(static_cast<double>(std::count(activity.begin(), activity.end(), Activity::active)), 200 * std::exp(-1),
+              27);
 }
 
 TEST(LocalRun, ForksRobotsThatAreDrivenElsewhereOnRequestOnly) {

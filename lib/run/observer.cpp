@@ -1,6 +1,7 @@
 #include "run/observer.h"
 
 #include "run/coverage.h"
+#include "run/effort.h"
 
 namespace robosim {
 namespace {
@@ -8,6 +9,7 @@ namespace {
 ObserverRegistry ownObservers() {
   ObserverRegistry registry;
   registry.add(coverageType());
+  registry.add(effortType());
   return registry;
 }
 

@@ -1,6 +1,5 @@
 #include "run/sweep.h"
 
-#include <chrono>
 #include <mutex>
 #include <optional>
 #include <sstream>
@@ -8,6 +7,7 @@
 #include "base/parallel_executor.h"
 #include "base/type_choice.h"
 #include "environment/start_poses.h"
+#include "run/seeded_run.h"
 
 namespace robosim {
 namespace {
@@ -19,35 +19,6 @@ std::vector<std::string> splitAtCommas(const std::string& text) {
   std::istringstream in(text + ",");
   for (std::string part; std::getline(in, part, ',');) parts.push_back(part);
   return parts;
-}
-
-/// @return nullopt when interrupted
-std::optional<RunSummary> oneRun(const LoadedWorld& world, const RandomStarts& starts, const SweepOptions& options,
-                                 const std::string& controller, std::uint64_t seed,
-                                 const std::function<bool()>& is_interrupted) {
-  const auto start = std::chrono::steady_clock::now();
-  LoadedWorld shuffled = world;
-  setStartPoses(shuffled.fleet, starts.draw(seed));
-  RunOptions run_options;
-  run_options.environment = {.seed = seed, .period_s = options.period_s, .threads = 1};
-  run_options.controller = controller;
-  run_options.observers = options.observers;
-  run_options.observers_log = false;
-  LocalRun run(std::move(shuffled), run_options);
-  const auto is_time_up = [&] {
-    const SimTime now = run.environment().time();
-    return now.seconds() + now.period_s / 2 > options.time_s;
-  };
-  while (!run.isOver() && !is_time_up()) {
-    if (is_interrupted()) return std::nullopt;
-    run.step();
-  }
-  RunSummary summary = RunSummary::of(run);
-  summary.world = world.world.name;
-  summary.seed = seed;
-  summary.ended_by = endedByItself(run);
-  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return summary;
 }
 
 }  // namespace
@@ -90,8 +61,13 @@ std::vector<SweepGroup> sweep(const std::vector<LoadedWorld>& worlds, const Swee
     if (is_interrupted()) return;
     const std::size_t group = i / options.runs;
     const std::size_t world = group / options.controllers.size();
-    runs[i] = oneRun(worlds[world], starts[world], options, groups[group].controller, options.seed + i % options.runs,
-                     is_interrupted);
+    runs[i] = runSeeded(worlds[world], starts[world],
+                        {.controller = groups[group].controller,
+                         .observers = options.observers,
+                         .seed = options.seed + i % options.runs,
+                         .time_s = options.time_s,
+                         .period_s = options.period_s},
+                        is_interrupted);
     const std::lock_guard lock(progress_mutex);
     progress(++done);
   });

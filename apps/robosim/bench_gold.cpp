@@ -1,0 +1,293 @@
+// robosim bench gold: success and time of finding gold, over worlds, controllers, teams, conditions and seeds.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <optional>
+
+#include <CLI/CLI.hpp>
+
+#include "base/atomic_file.h"
+#include "base/interrupt.h"
+#include "base/printable_text.h"
+#include "base/progress.h"
+#include "base/text_table.h"
+#include "base/type_choice.h"
+#include "base/xml_element.h"
+#include "benchmark/case_summary.h"
+#include "benchmark/journal.h"
+#include "benchmark/search_report.h"
+#include "robosim/arguments.h"
+#include "robosim/bench_arguments.h"
+#include "run/output_files.h"
+#include "run/run_observers.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kRunsMax = 10'000'000;
+
+struct GoldArguments {
+  std::vector<std::string> files;
+  WorldChanges changes;
+  std::vector<std::string> controllers;  ///< may have lists of values
+  std::vector<int> teams;
+  std::vector<std::string> conditions;
+  int runs = 20;
+  SearchPlan plan;  ///< without worlds
+  int threads = 1;
+  std::string csv;
+  std::string report;  ///< folder; empty: none
+  bool resume = false;
+};
+
+/// A word of a command for a shell.
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./,:@";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+/// The command that makes the same report, on one line. Names of worlds are those given.
+std::string commandOf(const GoldArguments& arguments) {
+  std::string command = "robosim bench gold";
+  const auto add = [&](const std::string& option, const std::string& value) {
+    command += " " + option + " " + quoted(value);
+  };
+  for (const auto& file : arguments.files) command += " " + quoted(file);
+  const SearchPlan& plan = arguments.plan;
+  for (const auto& robot : arguments.changes.robots) {
+    std::string text = robot.model;
+    if (robot.world_from_robot) {
+      text += "@" + toText(robot.world_from_robot->x) + "," + toText(robot.world_from_robot->y) + "," +
+              toText(robot.world_from_robot->phi * 180 / M_PI);
+    }
+    add("--robot", text);
+  }
+  if (arguments.changes.random_robots > 0) {
+    add("--random-robots", std::to_string(arguments.changes.random_robots) + "," + arguments.changes.random_model);
+  }
+  for (const auto& strategy : plan.strategies) {
+    if (!strategy.empty()) add("--controller", strategy);
+  }
+  std::string teams;
+  for (const int team : arguments.teams) teams += (teams.empty() ? "" : ",") + std::to_string(team);
+  if (!teams.empty()) add("--team", teams);
+  for (const auto& condition : arguments.conditions) add("--condition", condition);
+  for (const auto& observer : plan.observers) add("--observer", observer);
+  add("--runs", std::to_string(plan.runs));
+  add("--seed", std::to_string(plan.seed));
+  add("--time", toText(plan.time_s));
+  add("--step", toText(plan.period_s));
+  add("--report", "FOLDER");
+  return command;
+}
+
+std::string secondsOrNever(double seconds) { return std::isfinite(seconds) ? fixed(seconds, 1) : "never"; }
+
+std::vector<std::string> header(const SearchPlan& plan, const CaseSummary& first) {
+  std::vector<std::string> cells{"world"};
+  if (plan.conditions.size() > 1) cells.emplace_back("condition");
+  if (plan.teams.size() > 1) cells.emplace_back("robots");
+  if (plan.strategies.size() > 1) cells.emplace_back("controller");
+  cells.insert(cells.end(), {"runs", "found", "success", "median [s]", "90 % [s]", "driven [m]", "stalls"});
+  for (const auto& metric : first.metrics) cells.push_back(metric.name);
+  return cells;
+}
+
+std::vector<std::string> row(const SearchPlan& plan, const CaseSummary& summary) {
+  std::vector<std::string> cells{plan.worlds[summary.of.world]};
+  if (plan.conditions.size() > 1) cells.push_back(plan.conditions[summary.of.condition].text());
+  if (plan.teams.size() > 1) cells.push_back(std::to_string(plan.teams[summary.of.team]));
+  if (plan.strategies.size() > 1) cells.push_back(plan.strategyName(summary.of.strategy));
+  const double share = static_cast<double>(summary.found) / static_cast<double>(summary.runs);
+  cells.insert(cells.end(), {std::to_string(summary.runs), std::to_string(summary.found), fixed(100 * share, 1) + " %",
+                             secondsOrNever(summary.median_s), secondsOrNever(summary.quantile90_s),
+                             fixed(summary.driven_m, 1), fixed(summary.stalls, 1)});
+  for (const auto& metric : summary.metrics) {
+    cells.push_back(std::isfinite(metric.value) ? fixed(metric.value, 2) : "none");
+  }
+  return cells;
+}
+
+void printTable(const SearchPlan& plan, const SearchRuns& runs) {
+  const auto summaries = summarise(plan, runs);
+  if (summaries.empty()) return;
+  Rows rows{header(plan, summaries.front())};
+  for (const auto& summary : summaries) rows.push_back(row(plan, summary));
+  std::cout
+      << table(rows)
+      << "Times to the gold are simulated; \"never\" is beyond the time limit. Distance and stalls: all robots of "
+         "a run.";
+  if (!summaries.front().metrics.empty()) std::cout << " Metrics: mean over the runs.";
+  std::cout << '\n';
+}
+
+/// Timings vary between repetitions, and are printed separately from the reproducible table.
+void printSpeed(const SearchPlan& plan, const SearchRuns& runs) {
+  const std::size_t runs_per_world = runs.size() / plan.worlds.size();
+  for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
+    double simulated_s = 0, busy_s = 0;
+    for (std::size_t i = world * runs_per_world; i < (world + 1) * runs_per_world; ++i) {
+      if (!runs[i] || runs[i]->wall_s <= 0) continue;
+      simulated_s += runs[i]->sim_time_s;
+      busy_s += runs[i]->wall_s;
+    }
+    if (busy_s <= 0) continue;
+    std::cerr << printableText(plan.worlds[world]) << ": "
+              << withCommas(static_cast<std::uint64_t>(simulated_s / busy_s))
+              << " simulated seconds per second on one thread\n";
+  }
+}
+
+/// "run 12 of 400, 3 min left"
+class RunProgress {
+ public:
+  RunProgress(std::size_t done, std::size_t planned) : done_before_(done), planned_(planned) {}
+  void show(std::size_t done) {
+    if (!progress_.due()) return;
+    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    const auto made = static_cast<double>(done - done_before_);
+    const double left_s = made > 0 ? elapsed_s / made * static_cast<double>(planned_ - done) : 0;
+    std::string left = ", " + fixed(left_s, 0) + " s left";
+    if (left_s > 120) left = ", " + fixed(left_s / 60, 0) + " min left";
+    if (left_s > 7200) left = ", " + fixed(left_s / 3600, 1) + " h left";
+    progress_.show("run " + std::to_string(done) + " of " + std::to_string(planned_) + (made > 0 ? left : ""));
+  }
+
+ private:
+  std::size_t done_before_, planned_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  Progress progress_;
+};
+
+/// Creates the folder of a report, and its journal, with whose runs it begins.
+std::unique_ptr<Journal> openJournal(const GoldArguments& arguments, const SearchPlan& plan, SearchRuns& runs) {
+  if (arguments.report.empty()) return nullptr;
+  std::error_code error;
+  fs::create_directories(arguments.report, error);
+  if (error) throw ConfigError(arguments.report + ": cannot be created: " + error.message());
+  const auto mode = arguments.resume ? Journal::Mode::resume : Journal::Mode::create;
+  return std::make_unique<Journal>(fs::path(arguments.report) / "journal.jsonl", plan, mode,
+                                   [&](std::size_t index, SearchRun run) { runs[index] = std::move(run); });
+}
+
+void bench(const GoldArguments& arguments) {
+  const SearchBenchmark benchmark(arguments.plan, arguments.files, arguments.changes);
+  const SearchPlan& plan = benchmark.plan();
+  if (plan.runCount() > kRunsMax) {
+    throw ConfigError("these are " + withCommas(plan.runCount()) + " runs; 10,000,000 at most");
+  }
+  refuseOverwriting(benchmark.inputFiles(), {arguments.csv});
+  for (const auto& file : arguments.files) refuseSameFile({{"WORLD", file}, {"--csv", arguments.csv}});
+  warnOfPartialStep(plan.time_s, plan.period_s);
+  const Interrupt interrupt;
+  // Opened before the runs, so that an invalid path is reported at once.
+  std::optional<AtomicFile> csv;
+  if (!arguments.csv.empty()) csv.emplace(arguments.csv);
+
+  SearchRuns runs(plan.runCount());
+  const auto journal = openJournal(arguments, plan, runs);
+  std::size_t done = runs.size() - missing(runs).size();
+  {
+    RunProgress progress(done, runs.size());
+    makeRuns(
+        benchmark, arguments.threads, [&] { return interrupt.isRequested(); },
+        [&](const SearchRun& run) {
+          if (journal) journal->add(run);
+          progress.show(++done);
+        },
+        runs);
+  }
+  printTable(plan, runs);
+  if (csv) {
+    csv->write(runsCsv(plan, runs));
+    csv->commit();
+  }
+  printSpeed(plan, runs);
+  if (done < runs.size()) {
+    throw Interrupted("interrupted; the figures are of the " + std::to_string(done) + " of " +
+                      std::to_string(runs.size()) + " runs that were completed" +
+                      (journal ? "; --resume makes the others, and then the report" : ""));
+  }
+  if (!journal) return;
+  writeReport(arguments.report, plan, runs, commandOf(arguments));
+  std::cout << "report  " << printableText((fs::path(arguments.report) / "index.html").string()) << '\n';
+}
+
+/// Completes the plan by what is checked after parsing. @throws ConfigError
+void completePlan(GoldArguments& arguments) {
+  SearchPlan& plan = arguments.plan;
+  plan.strategies = allControllers(arguments.controllers);
+  plan.runs = static_cast<std::size_t>(arguments.runs);
+  if (!arguments.teams.empty()) plan.teams = arguments.teams;
+  if (!arguments.conditions.empty()) plan.conditions.clear();
+  for (const auto& text : arguments.conditions) plan.conditions.push_back(Condition::parse(text));
+  const auto refuse_twice = [](auto values, const std::string& what) {
+    std::sort(values.begin(), values.end());
+    if (std::adjacent_find(values.begin(), values.end()) != values.end()) {
+      throw ConfigError(what + " is given twice; keep one");
+    }
+  };
+  refuse_twice(plan.teams, "a size of --team");
+  refuse_twice(plan.strategies, "a controller");
+  std::vector<std::string> conditions;
+  for (const auto& condition : plan.conditions) conditions.push_back(condition.text());
+  refuse_twice(conditions, "a --condition");
+  for (const auto& observer : plan.observers) {
+    if (TypeChoice::parse(observer, "observer").name == "effort") {
+      throw ConfigError("--observer effort: bench gold always has it; remove the option");
+    }
+  }
+  if (arguments.resume && arguments.report.empty()) throw ConfigError("--resume continues a --report; name its folder");
+}
+
+}  // namespace
+
+void addBenchGold(CLI::App& parent) {
+  auto* command = parent.add_subcommand(
+      "gold", "Measure success rate and time of finding gold, over many seeded runs, and report them");
+  auto a = std::make_shared<GoldArguments>();
+  command->add_option("WORLD", a->files, "world files")->type_name("FILE")->transform(inputFile())->required();
+  addRunsAndSeed(*command, a->runs, a->plan.seed);
+  addThreads(*command, a->threads, "concurrent runs; the results do not depend on it");
+  addTime(*command, a->plan.time_s, "simulated time limit of a run");
+  addStep(*command, a->plan.period_s);
+  addRobotOptions(*command, a->changes);
+  addControllersOption(*command, a->controllers);
+  command
+      ->add_option("--team", a->teams,
+                   "sizes of teams, as in 1,4,16: so many robots of the kind of the world's first one, at random "
+                   "places, instead of its robots; 1 to 10000 each")
+      ->delimiter(',')
+      ->check(wholeNumberIn(1, 10000))
+      ->type_name("NUMBER,…")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--condition", a->conditions,
+                   "ideal, or noise (of all sensors), loss=PROBABILITY (of messages) and breakdown_s=SECONDS (mean "
+                   "time until a robot breaks down), joined by '+'; repeatable, the first is compared with the others")
+      ->type_name("CONDITION")
+      ->allow_extra_args(false);
+  addObserverOption(*command, a->plan.observers, "add the metrics of this observer");
+  command->add_option("--csv", a->csv, "also write one line per run to this file")
+      ->type_name("FILE")
+      ->check(fileName());
+  command
+      ->add_option("--report", a->report,
+                   "write a report to this folder: index.html, figures, all runs, and a journal of finished runs")
+      ->type_name("FOLDER")
+      ->check(fileName());
+  command->add_flag("--resume", a->resume, "continue the interrupted benchmark of the --report folder");
+  command->callback([a] {
+    completePlan(*a);
+    bench(*a);
+  });
+}
+
+}  // namespace robosim

@@ -1,0 +1,23 @@
+#include "base/html_text.h"
+
+namespace robosim {
+
+std::string escapedHtml(std::string_view text) {
+  std::string html;
+  for (const char c : text) {
+    if (c == '&') {
+      html += "&amp;";
+    } else if (c == '<') {
+      html += "&lt;";
+    } else if (c == '>') {
+      html += "&gt;";
+    } else if (c == '"') {
+      html += "&quot;";
+    } else {
+      html += c;
+    }
+  }
+  return html;
+}
+
+}  // namespace robosim

@@ -1,0 +1,35 @@
+#include "run/seeded_run.h"
+
+#include <chrono>
+
+namespace robosim {
+
+std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts& starts, const SeededRun& how,
+                                    const std::function<bool()>& is_interrupted) {
+  const auto start = std::chrono::steady_clock::now();
+  LoadedWorld shuffled = world;
+  setStartPoses(shuffled.fleet, starts.draw(how.seed));
+  RunOptions options;
+  options.environment = {.seed = how.seed, .period_s = how.period_s, .threads = 1};
+  options.controller = how.controller;
+  options.observers = how.observers;
+  options.observers_log = false;
+  options.breakdown_mean_s = how.breakdown_mean_s;
+  LocalRun run(std::move(shuffled), options);
+  const auto is_time_up = [&] {
+    const SimTime now = run.environment().time();
+    return now.seconds() + now.period_s / 2 > how.time_s;
+  };
+  while (!run.isOver() && !is_time_up()) {
+    if (is_interrupted()) return std::nullopt;
+    run.step();
+  }
+  RunSummary summary = RunSummary::of(run);
+  summary.world = world.world.name;
+  summary.seed = how.seed;
+  summary.ended_by = endedByItself(run);
+  summary.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return summary;
+}
+
+}  // namespace robosim
