@@ -14,6 +14,7 @@
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "base/xml_element.h"
+#include "ranks/rank_group.h"
 #include "replay/csv_field.h"
 #include "robosim/arguments.h"
 #include "robosim/bench_arguments.h"
@@ -125,6 +126,9 @@ void printSpeed(const std::vector<SweepGroup>& groups) {
 }
 
 void bench(const BenchArguments& arguments) {
+  if (rankGroup().size() > 1) {
+    throw ConfigError("'robosim bench metrics' runs in one process, with --threads; start it without mpirun or srun");
+  }
   std::vector<LoadedWorld> worlds;
   for (const auto& file : arguments.worlds) {
     worlds.push_back(worldFor(file, arguments));

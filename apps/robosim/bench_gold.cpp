@@ -17,7 +17,9 @@
 #include "base/xml_element.h"
 #include "benchmark/case_summary.h"
 #include "benchmark/journal.h"
+#include "benchmark/runs_on_ranks.h"
 #include "benchmark/search_report.h"
+#include "ranks/agreement.h"
 #include "robosim/arguments.h"
 #include "robosim/bench_arguments.h"
 #include "run/output_files.h"
@@ -177,32 +179,53 @@ std::unique_ptr<Journal> openJournal(const GoldArguments& arguments, const Searc
                                    [&](std::size_t index, SearchRun run) { runs[index] = std::move(run); });
 }
 
+/// Makes the runs of a rank other than the first, which prints and writes the results.
+void help(RankGroup& group, const SearchBenchmark& benchmark) {
+  const Interrupt interrupt;
+  agree(group, [] {});
+  SearchRuns none;
+  makeRunsOnRanks(
+      group, benchmark, [&] { return interrupt.isRequested(); }, [](const SearchRun&) {}, none);
+}
+
 void bench(const GoldArguments& arguments) {
-  const SearchBenchmark benchmark(arguments.plan, arguments.files, arguments.changes);
-  const SearchPlan& plan = benchmark.plan();
-  if (plan.runCount() > kRunsMax) {
-    throw ConfigError("these are " + withCommas(plan.runCount()) + " runs; 10,000,000 at most");
+  RankGroup& group = rankGroup();
+  if (group.size() > 1 && arguments.threads > 1) {
+    throw ConfigError("--threads " + std::to_string(arguments.threads) +
+                      ": each process of mpirun makes one run at a time; start more processes instead");
   }
-  refuseOverwriting(benchmark.inputFiles(), {arguments.csv});
-  for (const auto& file : arguments.files) refuseSameFile({{"WORLD", file}, {"--csv", arguments.csv}});
+  const SearchBenchmark benchmark(arguments.plan, arguments.files, arguments.changes);
+  if (!group.isFirst()) return help(group, benchmark);
+  const SearchPlan& plan = benchmark.plan();
   warnOfPartialStep(plan.time_s, plan.period_s);
   const Interrupt interrupt;
-  // Opened before the runs, so that an invalid path is reported at once.
   std::optional<AtomicFile> csv;
-  if (!arguments.csv.empty()) csv.emplace(arguments.csv);
-
-  SearchRuns runs(plan.runCount());
-  const auto journal = openJournal(arguments, plan, runs);
+  SearchRuns runs;
+  std::unique_ptr<Journal> journal;
+  agree(group, [&] {
+    if (plan.runCount() > kRunsMax) {
+      throw ConfigError("these are " + withCommas(plan.runCount()) + " runs; 10,000,000 at most");
+    }
+    refuseOverwriting(benchmark.inputFiles(), {arguments.csv});
+    for (const auto& file : arguments.files) refuseSameFile({{"WORLD", file}, {"--csv", arguments.csv}});
+    // Opened before the runs, so that an invalid path is reported at once.
+    if (!arguments.csv.empty()) csv.emplace(arguments.csv);
+    runs.resize(plan.runCount());
+    journal = openJournal(arguments, plan, runs);
+  });
   std::size_t done = runs.size() - missing(runs).size();
   {
     RunProgress progress(done, runs.size());
-    makeRuns(
-        benchmark, arguments.threads, [&] { return interrupt.isRequested(); },
-        [&](const SearchRun& run) {
-          if (journal) journal->add(run);
-          progress.show(++done);
-        },
-        runs);
+    const auto is_interrupted = [&] { return interrupt.isRequested(); };
+    const auto finished = [&](const SearchRun& run) {
+      if (journal) journal->add(run);
+      progress.show(++done);
+    };
+    if (group.size() > 1) {
+      makeRunsOnRanks(group, benchmark, is_interrupted, finished, runs);
+    } else {
+      makeRuns(benchmark, arguments.threads, is_interrupted, finished, runs);
+    }
   }
   printTable(plan, runs);
   if (csv) {

@@ -6,9 +6,12 @@
 
 #include <dlfcn.h>
 
+#include "base/error_list.h"
 #include "outputs/standard_parts.h"
+#include "ranks/launcher.h"
 #include "robosim/plugin_options.h"
 #include "robosim/program.h"
+#include "robosim/program_ranks.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {
@@ -54,7 +57,13 @@ int robosimMain(int argc, char** argv, const Registry& registry) {
     return kBadInput;
   }
   try {
-    return executeRobosim({subcommandsFor(argc, argv), addPluginOptions}, argc, argv);
+    ProgramRanks ranks(argc, argv);
+    return ranks.execute([&] { return executeRobosim({subcommandsFor(argc, argv), addPluginOptions}, argc, argv); });
+  } catch (const ConfigError& error) {
+    // All processes have the same error; mpirun would end rank 0 before its message if another one failed first.
+    if (launchedRank().rank > 0) return kDone;
+    std::cerr << "robosim: " << error.what() << '\n';
+    return kBadInput;
   } catch (const std::exception& error) {
     std::cerr << "robosim: " << error.what() << '\n';
     return kRunFailed;
