@@ -11,8 +11,15 @@ Chart someChart() {
   chart.x_label = "time [s]";
   chart.y_label = "share";
   chart.x_max = 10;
-  chart.series = {{.name = "a", .points = {{0, 1}, {5, 0.5}}, .is_step = true, .low = {1, 0.25}, .high = {1, 0.75}},
-                  {.name = "b", .points = {{0, 0}, {10, 1}}}};
+  ChartSeries steps, line;
+  steps.name = "a";
+  steps.points = {{0, 1}, {5, 0.5}};
+  steps.is_step = true;
+  steps.low = {1, 0.25};
+  steps.high = {1, 0.75};
+  line.name = "b";
+  line.points = {{0, 0}, {10, 1}};
+  chart.series = {steps, line};
   return chart;
 }
 

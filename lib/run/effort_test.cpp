@@ -8,7 +8,7 @@ namespace robosim {
 namespace {
 
 /// A surface of 8 m × 2 m with two robots, 1 m apart, that drive along x; the first can send to the second.
-LoadedWorld hall() {
+LoadedWorld hallOfTwo() {
   const auto robot = [](const std::string& name, double y_m) {
     return "<object><shape><robot><cylinder><name>" + name + "</name><x>0.5</x><y>" + std::to_string(y_m) +
            "</y><z>0.1</z><radius>0.2</radius><height>0.2</height></cylinder></robot></shape></object>";
@@ -38,7 +38,7 @@ class EffortOfAHall : public testing::Test {
     throw std::logic_error(name);
   }
 
-  LoadedWorld world_ = hall();
+  LoadedWorld world_ = hallOfTwo();
   Environment environment_;
   Effort effort_{{.cell_m = 2, .standing_w = 36, .driving_j_per_m = 3600}};
 };
