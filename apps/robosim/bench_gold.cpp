@@ -9,6 +9,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/atomic_file.h"
+#include "base/data_folders.h"
 #include "base/interrupt.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
@@ -55,14 +56,21 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-/// The command that makes the same report, on one line. Names of worlds are those given.
-std::string commandOf(const GoldArguments& arguments) {
+/// What finds a world's file from any folder, if it is a shipped one; else its path.
+std::string worldArgument(const std::string& file, const std::string& name) {
+  std::error_code none;
+  const auto found = findDataFile(name);
+  return found && fs::equivalent(*found, file, none) ? name : file;
+}
+
+/// The command that makes the same report, on one line.
+std::string commandOf(const GoldArguments& arguments, const SearchPlan& plan) {
   std::string command = "robosim bench gold";
   const auto add = [&](const std::string& option, const std::string& value) {
     command += " " + option + " " + quoted(value);
   };
-  for (const auto& file : arguments.files) command += " " + quoted(file);
-  const SearchPlan& plan = arguments.plan;
+  for (std::size_t i = 0; i < arguments.files.size(); ++i)
+    command += " " + quoted(worldArgument(arguments.files[i], plan.worlds[i]));
   for (const auto& robot : arguments.changes.robots) {
     std::string text = robot.model;
     if (robot.world_from_robot) {
@@ -239,7 +247,7 @@ void bench(const GoldArguments& arguments) {
                       (journal ? "; --resume makes the others, and then the report" : ""));
   }
   if (!journal) return;
-  writeReport(arguments.report, plan, runs, commandOf(arguments));
+  writeReport(arguments.report, plan, runs, commandOf(arguments, plan));
   std::cout << "report  " << printableText((fs::path(arguments.report) / "index.html").string()) << '\n';
 }
 

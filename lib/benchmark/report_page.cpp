@@ -15,7 +15,7 @@ constexpr const char* kStyle =
     "dark;--text:#222;--quiet:#5a6068;--line:#cfd4da;--back:#fff;--stripe:#f5f7f9;--good:#0a6b3d}"
     "@media(prefers-color-scheme:dark){:root{--text:#dfe3e8;--quiet:#9aa3ad;--line:#3b4148;--back:#15181c;"
     "--stripe:#1d2126;--good:#5fd39a}}"
-    "body{font:15px/1.5 system-ui,sans-serif;margin:0 auto;max-width:78rem;padding:1.5rem;color:var(--text);"
+    "body{font:15px/1.5 system-ui,sans-serif;margin:0 auto;max-width:100rem;padding:1.5rem;color:var(--text);"
     "background:var(--back)}"
     "h1{font-size:1.6rem;margin:0 0 .3rem}h2{margin:2.2rem 0 .6rem;font-size:1.25rem}h3{font-size:1.05rem}"
     "p{max-width:62rem}.quiet{color:var(--quiet)}"
@@ -29,6 +29,7 @@ constexpr const char* kStyle =
     "th[aria-sort=ascending] button::after{content:' \\2191'}th[aria-sort=descending] button::after{content:' \\2193'}"
     "pre{background:var(--stripe);border:1px solid var(--line);border-radius:6px;padding:.8rem;overflow-x:auto;"
     "white-space:pre-wrap}"
+    ".charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,36rem),1fr));gap:.5rem 1.5rem}"
     "summary{cursor:pointer;font-weight:600;padding:.3rem 0}svg{max-width:100%;height:auto;display:block;margin:.4rem "
     "0}"
     ".sure{color:var(--good);font-weight:600}";
@@ -69,9 +70,14 @@ std::string rowOf(const std::vector<Cell>& cells) {
   return row + "</tr>\n";
 }
 
+/// @param header beginning with '<' for a column of texts
 std::string tableOf(const std::vector<std::string>& header, const std::string& rows) {
   std::string html = "<div class=\"wide\" tabindex=\"0\"><table class=\"sortable\"><thead><tr>";
-  for (const auto& name : header) html += "<th scope=\"col\">" + escapedHtml(name) + "</th>";
+  for (const auto& name : header) {
+    const bool is_text = name.starts_with('<');
+    html += std::string("<th scope=\"col\"") + (is_text ? " class=\"text\">" : ">") +
+            escapedHtml(is_text ? name.substr(1) : name) + "</th>";
+  }
   return html + "</tr></thead><tbody>\n" + rows + "</tbody></table></div>\n";
 }
 
@@ -87,7 +93,7 @@ Cell optional(const std::optional<double>& value, int decimals) {
 std::string seconds(double value) { return std::isfinite(value) ? fixed(value, 1) : "never"; }
 
 std::string resultsOf(const SearchPlan& plan, const std::vector<CaseSummary>& summaries) {
-  std::vector<std::string> header{"world",        "condition",     "robots",     "strategy",          "runs",
+  std::vector<std::string> header{"<world",       "<condition",    "robots",     "<strategy",         "runs",
                                   "success [%]",  "95 % interval", "median [s]", "95 % interval [s]", "90 % [s]",
                                   "times oracle", "speed-up",      "driven [m]", "energy [Wh]",       "messages",
                                   "bytes",        "overlap [%]",   "stalls"};
@@ -146,8 +152,8 @@ std::string comparisonsOf(const SearchPlan& plan, const SearchRuns& runs) {
                    {probability(r.p), r.p},
                    {probability(c.adjusted_p), c.adjusted_p}});
   }
-  return tableOf({"condition", "robots", "first", "second", "first faster", "second faster", "ties", "p", "p (Holm)"},
-                 rows);
+  return tableOf(
+      {"<condition", "robots", "<first", "<second", "first faster", "second faster", "ties", "p", "p (Holm)"}, rows);
 }
 
 std::string robustnessTable(const SearchPlan& plan, const SearchRuns& runs) {
@@ -164,7 +170,7 @@ std::string robustnessTable(const SearchPlan& plan, const SearchRuns& runs) {
                    {probability(r.result.p), r.result.p}});
   }
   const std::string first = plan.conditions.front().text();
-  return tableOf({"condition", "robots", "strategy", "success, " + first + " [%]", "success [%]",
+  return tableOf({"<condition", "robots", "<strategy", "success, " + first + " [%]", "success [%]",
                   "median of time relative to " + first, "p"},
                  rows);
 }
@@ -178,7 +184,7 @@ std::string figuresOf(const SearchPlan& plan, const std::vector<SearchFigure>& f
     }
     if (of_world.empty()) continue;
     html += std::string("<details") + (world == 0 ? " open" : "") + "><summary>" + escapedHtml(plan.worlds[world]) +
-            "</summary>\n" + of_world + "</details>\n";
+            "</summary>\n<div class=\"charts\">" + of_world + "</div></details>\n";
   }
   return html;
 }
@@ -218,7 +224,8 @@ std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
       "content=\"width=device-width\">\n<title>Gold benchmark</title>\n<style>" +
-      std::string(kStyle) + chartStyle() + "</style>\n</head>\n<body>\n<h1>Gold benchmark</h1>\n<p class=\"quiet\">" +
+      std::string(kStyle) + chartStyle() +
+      "</style>\n</head>\n<body>\n<main>\n<h1>Gold benchmark</h1>\n<p class=\"quiet\">" +
       escapedHtml(summaryLine(plan, runs)) + "</p>\n<pre>" + escapedHtml(command) + "</pre>\n<h2>Results</h2>\n" +
       resultsOf(plan, summaries);
   html += "<h2>Share of runs still searching</h2>\n" + figuresOf(plan, survivalFigures(plan, summaries));
@@ -229,7 +236,7 @@ std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std
         comparisonsOf(plan, runs);
   }
   if (plan.conditions.size() > 1) html += "<h2>Robustness</h2>\n" + robustnessTable(plan, runs);
-  return html + kMethods + "<script>" + kScript + "</script>\n</body>\n</html>\n";
+  return html + kMethods + "</main>\n<script>" + kScript + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace robosim
