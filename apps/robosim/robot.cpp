@@ -17,6 +17,7 @@
 #include "robosim/connection.h"
 #include "robosim/robot_arguments.h"
 #include "robosim/subcommands.h"
+#include "run/known_world.h"
 #include "run/local_run.h"
 
 namespace robosim {
@@ -72,8 +73,14 @@ class RobotProcess {
         robots_(arguments.connection.awaitServer(arguments.connection.connectOptions(arguments.reconnect_timeout_s),
                                                  "robot"),
                 arguments.names) {
+    std::shared_ptr<const KnownWorld> known_world;
+    if (!arguments.map.empty()) {
+      const LoadedWorld loaded = loadWorld(arguments.map, {}, robots_.seed());
+      known_world = knownWorldOf(loaded.world, loaded.fleet);
+    }
     for (std::size_t i = 0; i < arguments.names.size(); ++i) {
-      const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i))};
+      const ControllerSetup setup{robots_.seed(), static_cast<std::uint32_t>(robots_.place(i)),
+                                  robots_.worldFromStart(i), known_world};
       const std::string name = controllerOf(robots_.controller(i), arguments.controller);
       auto controller = makeController(name, setup, arguments.names[i]);
       if (arguments.remote_port.empty()) {
@@ -180,6 +187,11 @@ void addRobot(CLI::App& program) {
   addConnectionOptions(*command, a->connection);
   addControllerOption(*command, a->controller, "controller of all these robots, instead of those in the world");
   acceptFormerName(*command, *separate_processes, "--apart");
+  command
+      ->add_option("--map", a->map,
+                   "world file that controllers which know the world, such as oracle, have as their map")
+      ->type_name("FILE")
+      ->transform(inputFile());
   command->add_flag("--join-next-run", a->joins_next_run,
                     "after the end of a run, drive in the next one that the environment serves, with a new controller");
   addConnectTimeout(*command, a->connection);

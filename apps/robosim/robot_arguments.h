@@ -20,6 +20,7 @@ struct RobotArguments {
   bool separate_processes = false;
   ConnectionArguments connection;
   std::string controller;
+  std::string map;  ///< world file that the controllers know; empty: none
   double reconnect_timeout_s = 10;
   bool joins_next_run = false;
   std::string remote_port;

@@ -241,6 +241,9 @@ NetworkHardware::~NetworkHardware() = default;
 Hardware& NetworkHardware::robot(std::size_t i) { return *impl_->robots[i]; }
 std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.robots[i].world_robot; }
 const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.robots[i].controller; }
+std::optional<mrpt::math::TPose2D> NetworkHardware::worldFromStart(std::size_t i) const {
+  return impl_->welcome.robots[i].world_from_start;
+}
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
 const std::string& NetworkHardware::world() const { return impl_->welcome.world; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }

@@ -1,7 +1,10 @@
 #pragma once
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include <mrpt/math/TPose2D.h>
 
 #include "hardware/hardware.h"
 #include "net/connect.h"
@@ -28,8 +31,10 @@ class NetworkHardware {
   Hardware& robot(std::size_t i);
   std::size_t place(std::size_t i) const;              ///< index in the world
   const std::string& controller(std::size_t i) const;  ///< named by the world file; empty when it names none
-  std::uint64_t seed() const;                          ///< of the run
-  const std::string& world() const;                    ///< its name
+  /// Start in the world frame [m, rad]; nullopt if the environment does not give it.
+  std::optional<mrpt::math::TPose2D> worldFromStart(std::size_t i) const;
+  std::uint64_t seed() const;        ///< of the run
+  const std::string& world() const;  ///< its name
 
   /// Sends the robots' commands and messages since the last step, and waits for the next step's readings.
   /// @return false when the run is over

@@ -1,6 +1,13 @@
 #include "maze/controllers.h"
 
+#include "maze/coordinated_frontiers.h"
 #include "maze/gold_finder.h"
+#include "maze/gold_search.h"
+#include "maze/heat_gradient.h"
+#include "maze/market.h"
+#include "maze/oracle.h"
+#include "maze/random_walk.h"
+#include "maze/stigmergy.h"
 #include "maze/still.h"
 #include "maze/wall_follower.h"
 #include "maze/wander.h"
@@ -9,34 +16,144 @@ namespace robosim {
 namespace {
 
 using Made = std::unique_ptr<Controller>;
+using Setup = ControllerSetup;
+using Values = ParameterValues;
+
+const char* const kThreshold = "heat_threshold_celsius";
+
+Parameter heatThreshold() { return {kThreshold, kGoldHeat_celsius, 0, 1e6, "°C", "heat above this means gold"}; }
+Parameter meanLength() { return {"mean_length_m", 5, 0.1, 1000, "m", "mean length of the straight steps"}; }
+
+Parameter wallDistance() {
+  return {"distance_radii",
+          WallFollowerOptions{}.distance_radii,
+          0.5,
+          10,
+          "robot radii",
+          "distance between the robot's edge and the wall"};
+}
+
+struct Needs {
+  std::vector<SensorKind> sensors{SensorKind::odometry, SensorKind::heat};
+  bool world = false;
+};
+
+/// Adds a search for gold: a controller that moves a robot until it has found the gold.
+template <typename MakeMovement>
+void addSearch(ControllerRegistry& registry, const std::string& name, const std::string& help,
+               std::vector<Parameter> parameters, const MakeMovement& make, const Needs& needs = {}) {
+  parameters.insert(parameters.begin(), heatThreshold());
+  registry.add({name, help, needs.sensors, std::move(parameters),
+                [make](const Setup& setup, const Values& values) -> Made {
+                  return std::make_unique<GoldSearch>(make(setup, values), values[kThreshold]);
+                },
+                needs.world});
+}
+
+void addWalks(ControllerRegistry& registry) {
+  addSearch(registry, "random_walk",
+            "Searches for gold by a random walk: straight steps of exponential length, turns by random angles "
+            "(Pearson 1905).",
+            {meanLength()}, [](const Setup& setup, const Values& values) -> Made {
+              return std::make_unique<RandomWalk>(setup, StepLength::exponential(values["mean_length_m"]));
+            });
+  addSearch(registry, "levy_walk",
+            "Searches for gold by a Lévy walk: straight steps whose lengths follow a power law, turns by random angles "
+            "(Viswanathan et al. 1999).",
+            {{"exponent", 2, 1.1, 4, "", "of the power law; 2 is optimal for sparse targets, 3 and more are diffusive"},
+             {"min_length_m", 0.5, 0.01, 100, "m", "length of the shortest steps"},
+             {"max_length_m", 50, 0.1, 10000, "m", "length at which steps are cut off"}},
+            [](const Setup& setup, const Values& values) -> Made {
+              return std::make_unique<RandomWalk>(
+                  setup, StepLength::powerLaw(values["exponent"], values["min_length_m"], values["max_length_m"]));
+            });
+  addSearch(registry, "wall_search", "Searches for gold along the walls on its right, as wall_follower drives.",
+            {wallDistance()},
+            [](const Setup& setup, const Values& values) -> Made {
+              return std::make_unique<WallFollower>(setup, WallFollowerOptions{values["distance_radii"]});
+            },
+            {.sensors = {SensorKind::odometry, SensorKind::heat, SensorKind::sonar}});
+  addSearch(registry, "heat_gradient",
+            "Ascends the gradient of heat to the gold (Fraenkel & Gunn 1940); without heat a random walk.",
+            {meanLength()}, [](const Setup& setup, const Values& values) -> Made {
+              return std::make_unique<HeatGradient>(setup, StepLength::exponential(values["mean_length_m"]),
+                                                    GoldProtocol(values[kThreshold]).warm());
+            });
+  addSearch(registry, "stigmergy",
+            "Searches for gold where its team has left the least virtual pheromone, which is sent by messages and "
+            "evaporates (Wagner et al. 1999).",
+            {{"evaporation_s", StigmergyOptions{}.evaporation_s, 1, 1e6, "s", "time in which pheromone decays to 1/e"},
+             {"cell_m", StigmergyOptions{}.cell_m, 0.2, 10, "m", "side of the cells that are marked"}},
+            [](const Setup& setup, const Values& values) -> Made {
+              return std::make_unique<Stigmergy>(setup, StigmergyOptions{values["evaporation_s"], values["cell_m"]});
+            });
+  addSearch(registry, "oracle",
+            "Drives the shortest path on the known map to the gold; the reference for the times of searches.", {},
+            [](const Setup& setup, const Values& values) -> Made {
+              return std::make_unique<Oracle>(setup, values[kThreshold]);
+            },
+            {.world = true});
+}
+
+void addTeams(ControllerRegistry& registry) {
+  const std::vector<SensorKind> needs{SensorKind::odometry, SensorKind::heat};
+  const Parameter share{"share_s", CoordinatedFrontiersOptions{}.share_s,
+                        0.1,       1000,
+                        "s",       "time between two messages with parts of the map"};
+  registry.add({"coordinated_frontiers",
+                "Explores frontiers as gold_finder, with maps and targets shared by messages (Burgard et al. 2005).",
+                needs,
+                {heatThreshold(),
+                 {"range_m", CoordinatedFrontiersOptions{}.range_m, 0.1, 1000, "m",
+                  "distance from another robot's target at which a place has its full utility"},
+                 {"discount_m", CoordinatedFrontiersOptions{}.discount_m, 0, 1000, "m",
+                  "length of a path that equals the lost utility of a place at another robot's target"},
+                 share},
+                [](const Setup& setup, const Values& values) -> Made {
+                  return std::make_unique<CoordinatedFrontiers>(
+                      setup, CoordinatedFrontiersOptions{values[kThreshold], values["range_m"], values["discount_m"],
+                                                         values["share_s"]});
+                }});
+  registry.add({"market",
+                "Explores frontiers as gold_finder, in regions that the robots auction by messages, with shared maps "
+                "(Zlot et al. 2002).",
+                needs,
+                {heatThreshold(),
+                 {"region_m", MarketOptions{}.region_m, 0.5, 100, "m", "side of the regions"},
+                 {"lease_s", MarketOptions{}.lease_s, 1, 10000, "s", "time after which a region can be sold again"},
+                 share},
+                [](const Setup& setup, const Values& values) -> Made {
+                  return std::make_unique<Market>(setup, MarketOptions{values[kThreshold], values["region_m"],
+                                                                       values["lease_s"], values["share_s"]});
+                }});
+}
 
 ControllerRegistry own() {
   ControllerRegistry registry;
-  registry.add(
-      {"gold_finder",
-       "Searches an unknown maze for gold, sends GOLD to its neighbour, and halts.",
-       {SensorKind::odometry, SensorKind::heat},
-       {{"heat_threshold_celsius", GoldFinderOptions{}.heat_threshold, 0, 1e6, "°C", "heat above this means gold"}},
-       [](const ControllerSetup& setup, const ParameterValues& parameters) -> Made {
-         return std::make_unique<GoldFinder>(setup, GoldFinderOptions{parameters["heat_threshold_celsius"]});
-       }});
-  registry.add(
-      {"wander",
-       "Drives about at random and avoids what is near.",
-       {},
-       {},
-       [](const ControllerSetup& setup, const ParameterValues&) -> Made { return std::make_unique<Wander>(setup); }});
+  registry.add({"gold_finder",
+                "Searches an unknown maze for gold, sends GOLD to its neighbour, and halts.",
+                {SensorKind::odometry, SensorKind::heat},
+                {heatThreshold()},
+                [](const Setup& setup, const Values& parameters) -> Made {
+                  return std::make_unique<GoldFinder>(setup, GoldFinderOptions{parameters[kThreshold]});
+                }});
+  registry.add({"wander",
+                "Drives about at random and avoids what is near.",
+                {},
+                {},
+                [](const Setup& setup, const Values&) -> Made { return std::make_unique<Wander>(setup); }});
   registry.add({"wall_follower",
                 "Follows the wall on its right.",
                 {SensorKind::sonar},
-                {{"distance_radii", WallFollowerOptions{}.distance_radii, 0.5, 10, "robot radii",
-                  "distance between the robot's edge and the wall"}},
-                [](const ControllerSetup& setup, const ParameterValues& parameters) -> Made {
+                {wallDistance()},
+                [](const Setup& setup, const Values& parameters) -> Made {
                   return std::make_unique<WallFollower>(setup, WallFollowerOptions{parameters["distance_radii"]});
                 }});
-  registry.add({"still", "Does nothing.", {}, {}, [](const ControllerSetup&, const ParameterValues&) -> Made {
+  registry.add({"still", "Does nothing.", {}, {}, [](const Setup&, const Values&) -> Made {
                   return std::make_unique<Still>();
                 }});
+  addWalks(registry);
+  addTeams(registry);
   return registry;
 }
 

@@ -3,8 +3,8 @@
 
 namespace robosim {
 
-/// The controllers of this program: gold_finder, wander, wall_follower, still. Others may be added before the first run
-/// starts.
+/// The controllers of this program: gold_finder, other searches for gold, wander, wall_follower, still. Others may be
+/// added before the first run starts.
 ControllerRegistry& controllers();
 
 }  // namespace robosim

@@ -42,13 +42,15 @@ double heatRange(const Robot& robot) {
 
 }  // namespace
 
-Explorer::Explorer(const Robot& robot, const ControllerSetup& setup, double warm)
+Explorer::Explorer(const Robot& robot, const ControllerSetup& setup, double warm,
+                   const mrpt::math::TPose2D& map_from_start)
     : warm_(warm),
       rng_(setup.seed, RandomPurpose::controller, setup.robot),
       recovery_(setup, {.timeout_s = kRecovery_s, .headway_radii = kRecoveryHeadway_radii}),
+      tracker_(map_from_start),
       search_(kCell_radii * robot.info().radius_m, heatRange(robot), robot.info().radius_m) {}
 
-void Explorer::step(Robot& robot) {
+void Explorer::step(Robot& robot, const GoalCost* goal_cost) {
   tracker_.update(robot);
   look(robot);
   if (recovery_.takesOver(robot)) {
@@ -63,7 +65,7 @@ void Explorer::step(Robot& robot) {
     drawBack(robot);
     return;
   }
-  if (robot.stepNumber() >= plan_from_ && needsPlan()) plan(robot);
+  if (robot.stepNumber() >= plan_from_ && needsPlan()) plan(robot, goal_cost);
   if (driver_.empty()) {
     robot.drive(0, robot.info().limits.turn_max_radps / 2);  // look around
   } else {
@@ -110,7 +112,7 @@ bool Explorer::needsPlan() {
   return driver_.blocked(search_.map);
 }
 
-void Explorer::plan(const Robot& robot) {
+void Explorer::plan(const Robot& robot, const GoalCost* goal_cost) {
   const std::uint64_t now = robot.stepNumber();
   const Cell start = search_.map.cellAt(place());
   plan_from_ = now + kPlanPause;
@@ -121,7 +123,7 @@ void Explorer::plan(const Robot& robot) {
     following_ = false;
     if (now >= follow_until_) explore_until_ = now + robot.stepsIn(kExplore_s);
   }
-  if (planToSearch(start)) {
+  if (planToSearch(start, goal_cost)) {
     nothing_left_since_.reset();
     return;
   }
@@ -147,14 +149,15 @@ bool Explorer::planToHeat(const Cell& start) {
   });
 }
 
-bool Explorer::planToSearch(const Cell& start) {
+bool Explorer::planToSearch(const Cell& start, const GoalCost* goal_cost) {
   // Of places equally near the one ahead: turning takes time, and straight lanes leave no patches between them.
   const auto& pose = tracker_.startFromRobot();
   const auto ahead = portable::sincos(pose.phi);
   return planTo(start, kSearchReach, [&](const Cell& cell) {
     if (search_.map[cell].searched || isSliver(cell)) return -1;
     const double x = cell.x - start.x, y = cell.y - start.y;
-    return static_cast<int>(kTurnCost * (1 - (x * ahead.cos + y * ahead.sin) / portable::hypot(x, y)));
+    const int turn = static_cast<int>(kTurnCost * (1 - (x * ahead.cos + y * ahead.sin) / portable::hypot(x, y)));
+    return turn + (goal_cost ? goal_cost->costOf(cell) : 0);
   });
 }
 

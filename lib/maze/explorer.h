@@ -29,6 +29,14 @@ struct SearchMap {
   HeatTrace heat;
 };
 
+/// Additional costs of places to search, with which robots of a team avoid each other.
+class GoalCost {
+ public:
+  virtual ~GoalCost() = default;
+  /// >= 0, in the unit of Wavefront::kStraight.
+  virtual int costOf(const Cell&) const = 0;
+};
+
 /// Explores an unknown environment until all reachable cells have been searched for heat, and approaches heat sources.
 /// The map is in the frame `start` of its PoseTracker. States:
 ///  - explore: drive to the nearest cell not searched for heat, through cells not known to be blocked;
@@ -38,13 +46,26 @@ struct SearchMap {
 class Explorer {
  public:
   /// @param warm heat above which a source is followed; must exceed the sensor's noise.
+  /// @param map_from_start the robot's first pose in the frame of the map
   /// @throws std::invalid_argument for a robot without odometry or without heat sensor.
-  Explorer(const Robot& robot, const ControllerSetup& setup, double warm);
+  Explorer(const Robot& robot, const ControllerSetup& setup, double warm,
+           const mrpt::math::TPose2D& map_from_start = {});
 
   /// Updates the map, plans and commands the robot; called once per time step.
-  void step(Robot& robot);
+  /// @param goal_cost added to the costs of places to search; null for none
+  void step(Robot& robot, const GoalCost* goal_cost = nullptr);
 
   const MazeMap& map() const { return search_.map; }
+  /// Pose of the robot in the frame of the map.
+  const mrpt::math::TPose2D& pose() const { return tracker_.startFromRobot(); }
+  /// For entries that other robots have measured.
+  SearchMap& search() { return search_; }
+  /// The place to search to which it drives; nullopt while there is none, and while it follows heat.
+  std::optional<Cell> searchGoal() const {
+    return following_ || driver_.empty() ? std::nullopt : std::optional(driver_.goal());
+  }
+  /// Drops the path to the present goal; the next step plans another one.
+  void dropGoal() { driver_.clear(); }
   /// Number of times that the map was completed and restarted.
   int rounds() const { return rounds_; }
   /// Whether it has reversed by a random amount so far.
@@ -54,9 +75,9 @@ class Explorer {
   void look(const Robot& robot);
   void feel(const Robot& robot);
   bool needsPlan();
-  void plan(const Robot& robot);
+  void plan(const Robot& robot, const GoalCost* goal_cost);
   bool planToHeat(const Cell& start);
-  bool planToSearch(const Cell& start);
+  bool planToSearch(const Cell& start, const GoalCost* goal_cost);
   /// Plans the path to the goal of least cost (Wavefront::findGoal); false when there is none.
   template <typename Judge>
   bool planTo(const Cell& start, int cost_max, const Judge& judge);

@@ -8,9 +8,9 @@ namespace {
 
 constexpr int kReach_cells = 24;  // farther echoes are ignored, to save time
 constexpr int kHit = 4;
-constexpr int kOccupied = 3;          // reached by one echo
-constexpr int kSure = 8;              // requires several echoes
-constexpr int kEvidenceMax = 12;      // maximum: bounds the empty observations that free a cell
+constexpr int kOccupied = Obstacles::kLearned;     // reached by one echo
+constexpr int kSure = 8;                           // requires several echoes
+constexpr int kEvidenceMax = Obstacles::kCertain;  // bounds the empty observations that free a cell
 constexpr int kBumpsMax = 3;          // a cell with as many is occupied although range sensors measure free space
 constexpr double kBerth_radii = 0.5;  // clearance beyond the body
 
@@ -72,6 +72,14 @@ void Obstacles::bump(const mrpt::math::TPoint2D& place) {
   if (!map_->contains(cell)) return;
   MapCell& here = (*map_)[cell];
   here.bumps = static_cast<std::uint8_t>(std::min(here.bumps + 1, kBumpsMax)) & 3u;
+}
+
+void Obstacles::learn(const Cell& cell, int evidence) {
+  const int margin = close_.back().y;
+  map_->cover({cell.x - margin, cell.y - margin}, {cell.x + margin, cell.y + margin});
+  if (!map_->contains(cell)) return;
+  const int known = (*map_)[cell].evidence;
+  if (known < evidence) add(cell, evidence - known);
 }
 
 int Obstacles::reach() const {

@@ -33,6 +33,11 @@ class Obstacles {
   /// is too low for the range sensors, measurements of free space no longer remove it.
   void bump(const mrpt::math::TPoint2D& place);
 
+  /// Marks an obstacle that was not detected by this robot, with at least this evidence; covers its cell. Evidence of
+  /// kLearned is removed by few observations of free space, and by removeUncertain().
+  void learn(const Cell& cell, int evidence);
+  static constexpr int kLearned = 3, kCertain = 12;  ///< the least and the greatest evidence of an obstacle
+
   /// Removes obstacles without repeated evidence from range sensors.
   void removeUncertain();
   /// Counter of cells that became occupied or free.

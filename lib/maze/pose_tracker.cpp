@@ -18,7 +18,7 @@ const mrpt::math::TPose2D& PoseTracker::update(const Robot& robot) {
   const auto compass_rad = robot.compass();
   if (!last_odom_from_robot_) {
     last_odom_from_robot_ = odom_from_robot;
-    compass_at_start_rad_ = compass_rad.value_or(0);
+    compass_at_start_rad_ = compass_rad.value_or(0) - start_from_robot_.phi;
   }
   start_from_robot_ = portable::compose(start_from_robot_, portable::relative(*last_odom_from_robot_, odom_from_robot));
   last_odom_from_robot_ = odom_from_robot;

@@ -80,9 +80,10 @@ Readings blankReadings(const std::vector<SensorInfo>& sensors);
 struct RobotsWelcome {
   struct Robot {
     RobotInfo info;
-    std::uint32_t world_robot = 0;  ///< index in the world's list of robots
-    std::string controller;         ///< named in the world file; empty if none
-    std::uint64_t next_answer = 0;  ///< the first step whose response has not been received
+    std::uint32_t world_robot = 0;                             ///< index in the world's list of robots
+    std::string controller;                                    ///< named in the world file; empty if none
+    std::uint64_t next_answer = 0;                             ///< the first step whose response has not been received
+    std::optional<mrpt::math::TPose2D> world_from_start = {};  ///< nullopt if unknown
   };
   std::string world, world_version;
   std::string run;  ///< identifies the run

@@ -287,7 +287,7 @@ RobotsWelcome someWelcome() {
   welcome.period_s = 0.1;
   for (const char* name : {"Pioneer1", "Pioneer2"}) {
     RobotInfo info{name, "pioneer3dx", "Scout1", 0.25, 0.3, {.speed_max_mps = 1, .turn_max_radps = 2}, sensors};
-    welcome.robots.push_back({info, 3, "wander", 41});
+    welcome.robots.push_back({info, 3, "wander", 41, mrpt::math::TPose2D(1, 2, 0.5)});
   }
   welcome.all_robots = {"Pioneer1", "Pioneer2", "Scout1"};
   return welcome;
@@ -303,6 +303,7 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   EXPECT_EQ(decoded.robots[1].info.limits.turn_max_radps, 2);
   EXPECT_EQ(decoded.robots[1].controller, "wander");
   EXPECT_EQ(decoded.robots[1].next_answer, 41u);
+  EXPECT_EQ(decoded.robots[1].world_from_start, mrpt::math::TPose2D(1, 2, 0.5));
   EXPECT_EQ(decoded.run, "0123456789abcdef");
   EXPECT_EQ(decoded.robots[0].info.sensors, decoded.robots[1].info.sensors);
   EXPECT_EQ((*decoded.robots[0].info.sensors)[7].camera,
@@ -367,6 +368,7 @@ TEST(RobotWire, RejectsInvalidWelcomes) {
   EXPECT_NE(error_after([](auto& bad) { bad.set_period_s(kNan); }), "");
   EXPECT_NE(error_after([](auto& bad) { bad.mutable_robots(0)->set_sensor_set(1); }), "");
   EXPECT_NE(error_after([](auto& bad) { bad.mutable_robots(1)->set_radius_m(kInf); }), "");
+  EXPECT_NE(error_after([](auto& bad) { bad.mutable_robots(1)->mutable_start()->set_heading_rad(kNan); }), "");
   EXPECT_NE(
       error_after([](auto& bad) { bad.mutable_sensor_sets(0)->mutable_sensors(0)->add_beams()->set_yaw_rad(kNan); }),
       "");

@@ -123,6 +123,11 @@ void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::Rob
   out.set_controller(robot.controller);
   out.set_next_answer(robot.next_answer);
   if (info.color_rgb) out.set_color_rgb(*info.color_rgb);
+  if (!robot.world_from_start) return;
+  auto& start = *out.mutable_start();
+  start.set_x_m(robot.world_from_start->x);
+  start.set_y_m(robot.world_from_start->y);
+  start.set_heading_rad(robot.world_from_start->phi);
 }
 
 using SensorSets = std::vector<std::shared_ptr<const std::vector<SensorInfo>>>;
@@ -138,11 +143,15 @@ RobotsWelcome::Robot decode(const v1::RobotDescription& in, const SensorSets& se
                limits.decel_mps2, limits.turn_accel_radps2});
   std::optional<std::uint32_t> color_rgb;
   if (in.has_color_rgb()) color_rgb = in.color_rgb() & 0xffffff;
+  checkFinite({in.start().x_m(), in.start().y_m(), in.start().heading_rad()});
+  std::optional<mrpt::math::TPose2D> world_from_start;
+  if (in.has_start()) world_from_start.emplace(in.start().x_m(), in.start().y_m(), in.start().heading_rad());
   return {
       {in.name(), in.model(), in.neighbour(), in.radius_m(), in.height_m(), limits, sets[in.sensor_set()], color_rgb},
       in.world_robot(),
       in.controller(),
-      in.next_answer()};
+      in.next_answer(),
+      world_from_start};
 }
 
 }  // namespace

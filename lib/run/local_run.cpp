@@ -10,6 +10,7 @@
 #include "base/random.h"
 #include "control/controller_error.h"
 #include "maze/controllers.h"
+#include "run/known_world.h"
 
 namespace robosim {
 namespace {
@@ -63,6 +64,11 @@ const ControllerType* typeOrNull(const std::string& controller) {
 
 std::unique_ptr<Controller> makeController(const std::string& choice, const ControllerSetup& setup,
                                            const std::string& robot) {
+  if (knowsWorld(choice) && (!setup.known_world || !setup.world_from_start)) {
+    throw ConfigError("controller '" + choice + "' of robot '" + robot +
+                      "' requires the map of the world and the robot's start in it; give the world file by --map, or " +
+                      "use another controller");
+  }
   std::unique_ptr<Controller> controller;
   try {
     controller = controllers().make(choice, setup);
@@ -77,6 +83,8 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
 }
 
 void setImageSourceMaker(ImageSourceMaker maker) { imageSourceMaker() = maker; }
+
+bool knowsWorld(const std::string& controller) { return controllers().typeOf(controller).knows_world; }
 
 void checkController(const std::string& controller) { controllers().parametersOf(controller); }
 
@@ -128,10 +136,15 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log) {
   const auto& robots = environment_.fleet().robots;
+  std::shared_ptr<const KnownWorld> known_world;  // made for the first robot that needs it
   for (std::size_t i = 0; i < robots.size(); ++i) {
     if (!elsewhere.empty() && elsewhere[i]) continue;
-    const ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i)};
     const std::string name = controllerOf(robots[i].controller, options.controller);
+    ControllerSetup setup{options.environment.seed, static_cast<std::uint32_t>(i), robots[i].world_from_start};
+    if (knowsWorld(name)) {
+      if (!known_world) known_world = knownWorldOf(environment_.world(), environment_.fleet());
+      setup.known_world = known_world;
+    }
     local_robots_.push_back(
         std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
     local_robots_.back()->breakdown_s = breakdownOf(i, options);

@@ -35,9 +35,12 @@ constexpr const char* kDefaultController = "gold_finder";
 /// Checks name and parameters of a controller, given as TypeChoice::text(). @throws ConfigError
 void checkController(const std::string& controller);
 
+/// Whether a controller must be given the map of the world (ControllerType::knows_world). @throws ConfigError
+bool knowsWorld(const std::string& controller);
+
 /// Makes the controller of a robot.
-/// @throws ConfigError for an unknown controller or an invalid parameter; ControllerError naming both for an exception
-/// of its constructor
+/// @throws ConfigError for an unknown controller, an invalid parameter, or a controller that knows the world and is not
+/// given map and start pose; ControllerError naming both for an exception of its constructor
 std::unique_ptr<Controller> makeController(const std::string& choice, const ControllerSetup& setup,
                                            const std::string& robot);
 

@@ -94,13 +94,14 @@ TEST_F(ChosenControllers, AreListedWithDefaultBoundsUnitAndHelp) {
             std::string::npos)
       << text.out;
   const json all = json::parse(runProgram("controllers --json").out);
-  ASSERT_EQ(all.size(), 4u);
+  ASSERT_EQ(all.size(), 12u);
   EXPECT_EQ(all[2]["parameters"][0]["default"], 1.5);
   EXPECT_EQ(all[0]["needs"], json({"odometry", "heat"}));
   const Ended unknown = runProgram("controllers wall_folower");
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_EQ(unknown.err,
-            "robosim: there is no controller 'wall_folower'; known are: gold_finder, wander, wall_follower, still\n");
+            "robosim: there is no controller 'wall_folower'; known are: gold_finder, wander, wall_follower, still, "
+            "random_walk, levy_walk, wall_search, heat_gradient, stigmergy, oracle, coordinated_frontiers, market\n");
 }
 
 TEST_F(ChosenControllers, SensorsAreListedWithTheirSettings) {
