@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -9,10 +11,13 @@
 #include <CLI/CLI.hpp>
 
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
+#include "distributed/distributed_run.h"
 #include "outputs/run_outputs.h"
+#include "ranks/agreement.h"
 #include "recording/recording_error.h"
 #include "replay/run_tables.h"
 #include "robosim/arguments.h"
@@ -28,7 +33,8 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 struct LocalRunArguments : RunArguments {
-  std::string csv, npz;  ///< files; empty for none
+  std::string csv, npz;              ///< files; empty for none
+  std::uint64_t balance_steps = 50;  ///< DistributionOptions::balance_steps
 
   std::vector<RecordingOutput> tables() const {
     std::vector<RecordingOutput> tables;
@@ -36,6 +42,7 @@ struct LocalRunArguments : RunArguments {
     if (!npz.empty()) tables.push_back({npz, RecordingFormat::npz});
     return tables;
   }
+  bool isRecorded() const { return !record.empty() || !csv.empty() || !npz.empty(); }
 };
 
 std::string progressText(const LocalRun& run, double wall_s) {
@@ -78,28 +85,70 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
   return endedByItself(run);
 }
 
-/// @param window of --view; null: none
-void runWorld(const LocalRunArguments& arguments, const RunWindow& window, double window_speed) {
-  std::optional<Interrupt> interrupt(std::in_place);
+/// The output files of a run, and its summary.
+class RunFiles {
+ public:
+  /// @param source of the world; nullopt if nothing is recorded
+  RunFiles(const LocalRunArguments& arguments, const LocalRun& run, const std::optional<WorldSource>& source)
+      : arguments_(arguments),
+        run_(run),
+        note_(arguments.isRecorded() ? noteOf(*source, run, arguments.run) : RunNote()),
+        outputs_(arguments, run.environment(), note_),
+        tables_(arguments.tables(), arguments.world, run.environment(), note_) {}
+
+  void observe() {
+    outputs_.observe(run_.environment());
+    tables_.observe(run_.environment());
+  }
+  /// Completes the files of a failed run.
+  void keep() {
+    outputs_.keep(run_.environment());
+    tables_.keep();
+  }
+  void finish(double wall_s, EndedBy ended_by) {
+    outputs_.finish(run_, wall_s, ended_by);
+    tables_.finish();
+    for (const auto& table : tables_.tables()) {
+      if (!arguments_.json) std::cout << "table     " << printableText(table.file.string()) << std::endl;
+    }
+  }
+
+ private:
+  const LocalRunArguments& arguments_;
+  const LocalRun& run_;
+  RunNote note_;
+  RunOutputs outputs_;
+  RunTables tables_;
+};
+
+void checkArguments(const LocalRunArguments& arguments) {
   checkRunArguments(arguments);
   refuseSameFile({{"WORLD", arguments.world},
                   {"--record", arguments.record},
                   {"--picture", arguments.picture},
                   {"--csv", arguments.csv},
                   {"--npz", arguments.npz}});
-  const bool is_recorded = !arguments.record.empty() || !arguments.tables().empty();
-  std::optional<WorldSource> source;  // kept for the recording's note
-  if (is_recorded || !arguments.changes.isNone()) source = sourceOf(arguments);
-  LocalRun run(source ? loadWorldToRun(*source, arguments.run.controller)
-                      : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed),
-               arguments.run);
-  const RunNote note = is_recorded ? noteOf(*source, run, arguments.run) : RunNote();
-  RunOutputs outputs(arguments, run.environment(), note);
-  RunTables tables(arguments.tables(), arguments.world, run.environment(), note);
-  const ObserveStep observe = [&] {
-    outputs.observe(run.environment());
-    tables.observe(run.environment());
-  };
+}
+
+/// @param source kept for the recording's note
+LoadedWorld loadedWorld(const LocalRunArguments& arguments, std::optional<WorldSource>& source) {
+  if (arguments.isRecorded() || !arguments.changes.isNone()) source = sourceOf(arguments);
+  return source ? loadWorldToRun(*source, arguments.run.controller)
+                : loadWorldToRun(arguments.world, arguments.run.controller, arguments.run.environment.seed);
+}
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr const char* kInterrupted = "interrupted; all outputs cover the steps before";
+
+/// @param window of --view; null: none
+void runWorld(const LocalRunArguments& arguments, const RunWindow& window, double window_speed) {
+  std::optional<Interrupt> interrupt(std::in_place);
+  checkArguments(arguments);
+  std::optional<WorldSource> source;
+  LocalRun run(loadedWorld(arguments, source), arguments.run);
+  RunFiles files(arguments, run, source);
+  const ObserveStep observe = [&] { files.observe(); };
   const auto start = Clock::now();
   EndedBy ended_by = EndedBy::all_halted;
   try {
@@ -112,16 +161,86 @@ void runWorld(const LocalRunArguments& arguments, const RunWindow& window, doubl
   } catch (const RecordingError&) {
     throw;
   } catch (...) {
-    outputs.keep(run.environment());
-    tables.keep();
+    files.keep();
     throw;
   }
-  outputs.finish(run, std::chrono::duration<double>(Clock::now() - start).count(), ended_by);
-  tables.finish();
-  for (const auto& table : tables.tables()) {
-    if (!arguments.json) std::cout << "table     " << printableText(table.file.string()) << std::endl;
+  files.finish(secondsSince(start), ended_by);
+  if (ended_by == EndedBy::interrupt) throw Interrupted(kInterrupted);
+}
+
+/// What has taken how long on each rank, for developers.
+void logTimes(const std::vector<DistributedRun::Measured>& ranks) {
+  constexpr std::array<const char*, DistributedRun::kParts> kNames{"controllers",     "commands", "clips", "judgements",
+                                                                   "moves and index", "sensors",  "rest",  "waiting"};
+  for (std::size_t rank = 0; rank < ranks.size(); ++rank) {
+    const auto& measured = ranks[rank];
+    const double steps = std::max<double>(1, static_cast<double>(measured.steps));
+    std::string text = "rank " + std::to_string(rank) + ", ms per step:";
+    for (std::size_t i = 0; i < kNames.size(); ++i)
+      text += std::string(i == 0 ? " " : ", ") + kNames[i] + " " + fixed(measured.time_s[i] / steps * 1e3, 3);
+    logDebug("run", text + "; sent " + fixed(static_cast<double>(measured.bytes_sent) / steps, 1) +
+                        " bytes per step; memory " + withCommas(measured.memory_max_bytes >> 20) + " MiB");
   }
-  if (ended_by == EndedBy::interrupt) throw Interrupted("interrupted; all outputs cover the steps before");
+}
+
+/// The same on several ranks. Rank 0 writes the files, and prints.
+void runOnRanks(const LocalRunArguments& arguments, RankGroup& group) {
+  const Interrupt interrupt;
+  std::optional<WorldSource> source;
+  LoadedWorld world;
+  agree(group, [&] {
+    checkArguments(arguments);
+    world = loadedWorld(arguments, source);
+  });
+  DistributedRun run(group, std::move(world), arguments.run,
+                     {.first_needs_readings = arguments.isRecorded() || !arguments.run.observers.empty(),
+                      .balance_steps = arguments.balance_steps});
+  std::optional<RunFiles> files;
+  agree(group, [&] {
+    if (group.isFirst()) files.emplace(arguments, run.run(), source);
+  });
+  // A failure is shared in the next step.
+  std::exception_ptr failure;
+  const auto observe = [&] {
+    try {
+      if (files) files->observe();
+    } catch (...) {
+      failure = std::current_exception();
+    }
+  };
+  const double speed = speedNumber(arguments.speed);
+  const auto start = Clock::now();
+  EndedBy ended_by = EndedBy::all_halted;
+  try {
+    observe();
+    while (true) {
+      const SimTime now = run.run().environment().time();
+      if (run.isOver()) {
+        ended_by = endedByItself(run.run());
+        break;
+      }
+      if (run.isEndRequested() || arguments.timeIsUp(now)) {
+        ended_by = run.isEndRequested() ? EndedBy::interrupt : EndedBy::time_limit;
+        break;
+      }
+      if (speed > 0) waitUntil(start + std::chrono::duration<double>(now.seconds() / speed), interrupt);
+      run.step(interrupt.isRequested(), failure);
+      observe();
+    }
+    run.finish(failure);
+  } catch (const RecordingError&) {
+    throw;
+  } catch (...) {
+    if (files) files->keep();
+    throw;
+  }
+  agree(group, [&] {
+    if (files) files->finish(secondsSince(start), ended_by);
+  });
+  logTimes(run.measured());
+  if (ended_by != EndedBy::interrupt) return;
+  setFailureShared();
+  throw Interrupted(kInterrupted);
 }
 
 }  // namespace
@@ -138,6 +257,11 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
   command->add_option("--npz", arguments->npz, "the same as NumPy's arrays, for each robot and sensor")
       ->type_name("FILE")
       ->check(fileName());
+  command
+      ->add_option("--balance", arguments->balance_steps,
+                   "with mpirun: divide moves and sensors anew by the processes' times after every N steps; 0: never")
+      ->type_name("N")
+      ->capture_default_str();
   auto has_view = std::make_shared<bool>(false);
   command->add_flag(
       std::string(kViewOption), *has_view,
@@ -146,6 +270,7 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
   command->footer(controllersHelp);
   command->callback([arguments, window, command, has_view] {
     const bool has_speed = command->count("--speed") > 0;
+    if (!*has_view && rankGroup().size() > 1) return runOnRanks(*arguments, rankGroup());
     if (!*has_view) return runWorld(*arguments, {}, 0);
     if (!window) throw ConfigError("--view: is a feature of the command 'robosim run', which starts robosim-view");
     runWorld(*arguments, window, has_speed ? speedNumber(arguments->speed) : 1);

@@ -67,8 +67,11 @@ struct Environment::Impl {
   std::vector<float> reflectivity;       ///< by body; empty if all have the default
   std::uint64_t placements = 0;
   bool has_absent_robots = false;
+  RobotShare share;
 
-  Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images)
+  /// @param the_share of a process that shares the run; nullopt: all robots
+  Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images,
+       const std::optional<RobotShare>& the_share = {})
       : model(std::move(the_model)),
         fleet(model->fleet),
         images(the_images),
@@ -80,7 +83,8 @@ struct Environment::Impl {
         referee(model->world),
         robot_groups(fleet, model->period_s),
         paths(fleet.robots.size()),
-        frames(fleet.robots.size()) {
+        frames(fleet.robots.size()),
+        share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
     for (const auto& robot : fleet.robots) {
       base_z_m.push_back(robot.body.heights().z_min_m);
       antenna_z_m.push_back(robot.body.heights().z_max_m);
@@ -289,7 +293,13 @@ struct Environment::Impl {
   void finish() {
     deliverMessages();
     sense(everyRobot(), SensorGroup::in_host_process);
-    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+    conclude();
+  }
+
+  /// The phase after all sensing and the delivery of messages.
+  void conclude() {
+    workers.forEach(share.kept.end - share.kept.begin, kChunk, [&](std::size_t k) {
+      const std::size_t i = share.kept.begin + k;
       Readings& readings = state.readings[i];
       readings.time = state.time;
       readings.stalled = state.stalled[i] != 0;
@@ -300,7 +310,17 @@ struct Environment::Impl {
       if (!state.winner) decideWinner();
       std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
     }
-    if (state.digest) state.digest->add(state, workers);
+    if (state.digest) state.digest->add(state, workers, share.digested);
+  }
+
+  void keepReadings(RobotRange range) {
+    for (std::size_t i = share.kept.begin; i < share.kept.end; ++i) {
+      if (!range.contains(i)) state.readings[i].measurements = std::vector<Measurement>();
+    }
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (!share.kept.contains(i)) state.readings[i].measurements = blankMeasurements(*fleet.robots[i].model);
+    }
+    share.kept = range;
   }
 
   void decideWinner() {
@@ -336,8 +356,10 @@ struct Environment::Impl {
 
   /// Measures step 0.
   void start() {
-    sense(everyRobot(), SensorGroup::anywhere);
-    finish();
+    sense(share.kept, SensorGroup::anywhere);
+    deliverMessages();
+    sense(share.kept, SensorGroup::in_host_process);
+    conclude();
   }
 
   void restart(const State& start_state) {
@@ -348,8 +370,8 @@ struct Environment::Impl {
 
 Environment::Environment(World world, Fleet fleet, const EnvironmentOptions& options, ImageSource* images) {
   auto model = std::make_shared<const Model>(Model{std::move(world), std::move(fleet), options.seed, options.period_s});
-  State start = initialState(*model);
-  impl_ = std::make_unique<Impl>(std::move(model), std::move(start), options.threads, images);
+  State start = options.share ? initialState(*model, options.share->kept) : initialState(*model);
+  impl_ = std::make_unique<Impl>(std::move(model), std::move(start), options.threads, images, options.share);
   impl_->start();
 }
 
@@ -410,7 +432,24 @@ void Environment::move() { impl_->move(); }
 void Environment::sense(RobotRange range) { impl_->sense(range, SensorGroup::anywhere); }
 void Environment::finish() { impl_->finish(); }
 
-PhaseResults Environment::results() { return {impl_->paths, impl_->move_authorisation.stays(), impl_->state.readings}; }
+PhaseResults Environment::results() {
+  auto& digest = impl_->state.digest;
+  return {impl_->paths, impl_->move_authorisation.stays(), impl_->state.readings, digest ? &*digest : nullptr};
+}
+StepOrders Environment::orders() {
+  State& state = impl_->state;
+  return {state.commands, state.outboxes, state.win_requests};
+}
+
+void Environment::senseFully(RobotRange range) {
+  impl_->sense(range, SensorGroup::anywhere);
+  impl_->sense(range, SensorGroup::in_host_process);
+}
+void Environment::conclude() {
+  impl_->deliverMessages();
+  impl_->conclude();
+}
+void Environment::keepReadings(RobotRange range) { impl_->keepReadings(range); }
 
 bool Environment::allHalted() const {
   const auto& activity = impl_->state.activity;

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,8 +23,9 @@ namespace robosim {
 
 struct EnvironmentOptions {
   std::uint64_t seed = 1;
-  double period_s = 0.1;  ///< length of a time step, (0, 1]
-  int threads = 1;        ///< does not affect the results
+  double period_s = 0.1;                 ///< length of a time step, (0, 1]
+  int threads = 1;                       ///< does not affect the results
+  std::optional<RobotShare> share = {};  ///< of this process when several share a run; nullopt: all robots
 };
 
 /// Results of the phases of a step (Environment::results()), by robot. They may be exchanged between processes.
@@ -31,6 +33,15 @@ struct PhaseResults {
   std::span<Path> paths;          ///< clip(): `end_fraction`, the fraction of its path that the robot can drive
   std::span<std::uint8_t> stays;  ///< judge(): 1 for a robot that stays where it started
   std::span<Readings> readings;   ///< sense(): the measurements of sensors without Sensor::sensesInHostProcess()
+  RunDigest* digest;              ///< conclude(): chunks of the digested robots; null if none is computed
+};
+
+/// What controllers have requested since the last step (Environment::orders()), by robot. Processes that share a run
+/// exchange it before begin().
+struct StepOrders {
+  std::span<Command> commands;
+  std::span<Outbox> outboxes;
+  std::span<std::uint8_t> win_requests;
 };
 
 /// Advances the State of a Model by time steps. It uses no socket, wall clock or global: the same model and commands
@@ -109,6 +120,9 @@ class Environment {
 
   void step();
 
+  /// What controllers have requested so far for the next step.
+  StepOrders orders();
+
   /// @name The phases of a step
   /// For distributing a step over processes that each hold a replica of this environment: step() is begin(), clip(),
   /// judge(), move(), sense(), finish(). clip(), judge() and sense() work on ranges of robots, locally or in replicas,
@@ -122,6 +136,18 @@ class Environment {
   void sense(RobotRange range);  ///< updates the sensors without Sensor::sensesInHostProcess()
   void finish();                 ///< delivers messages, updates the remaining sensors, and decides the winner
   PhaseResults results();        ///< of the phases so far in this step
+  ///@}
+
+  /// @name The end of a step, for processes that have the readings of some robots only
+  /// Instead of sense() and finish(): senseFully() for all robots, in any processes; their measurements are copied to
+  /// the processes that need them; conclude() in every process. The state, except the readings, remains the same in
+  /// all.
+  ///@{
+  void senseFully(RobotRange range);  ///< updates all sensors of robots whose readings are kept
+  void conclude();                    ///< finish() without sensors
+  /// Changes RobotShare::kept: the readings of other robots have no measurements. New ones are blank, and the caller
+  /// sets them. restore() and restart() require those of all robots.
+  void keepReadings(RobotRange range);
   ///@}
 
   /// Whether every robot has halted or found the gold. An absent robot may still come.

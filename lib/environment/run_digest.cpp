@@ -1,12 +1,14 @@
 #include "environment/run_digest.h"
 
+#include <algorithm>
+
 #include "environment/state.h"
 #include "hardware/measurement_fields.h"
 
 namespace robosim {
 namespace {
 
-constexpr std::size_t kDigestChunk = 256;
+constexpr std::size_t kDigestChunk = RunDigest::kRobotsPerChunk;
 
 /// Buffer of the bytes of many robots: hashing one long buffer is several times as fast as hashing many short ones.
 class Bytes {
@@ -67,23 +69,33 @@ std::size_t RunDigest::chunkCountOf(std::size_t robots) { return (robots + kDige
 RunDigest::RunDigest(std::size_t robots) : of_chunk_(chunkCountOf(robots)) {}
 
 void RunDigest::add(const State& state, const ParallelExecutor& workers) {
-  workers.forChunks(state.world_from_robot.size(), kDigestChunk, [&](std::size_t begin, std::size_t end) {
+  add(state, workers, {0, state.world_from_robot.size()});
+}
+
+void RunDigest::add(const State& state, const ParallelExecutor& workers, RobotRange robots) {
+  workers.forChunks(robots.end - robots.begin, kDigestChunk, [&](std::size_t begin, std::size_t end) {
     static thread_local Bytes bytes;
     bytes.clear();
     bytes.add(&state.time.step, sizeof state.time.step);
-    for (std::size_t i = begin; i < end; ++i) addRobot(bytes, state, i);
-    bytes.addTo(of_chunk_[begin / kDigestChunk]);
+    for (std::size_t i = robots.begin + begin; i < robots.begin + end; ++i) addRobot(bytes, state, i);
+    bytes.addTo(of_chunk_[(robots.begin + begin) / kDigestChunk]);
   });
 }
 
-void RunDigest::save(std::string& out) const {
-  for (const auto& chunk : of_chunk_) chunk.save(out);
+void RunDigest::save(std::string& out) const { save({0, of_chunk_.size() * kDigestChunk}, out); }
+
+void RunDigest::save(RobotRange robots, std::string& out) const {
+  for (std::size_t i = robots.begin / kDigestChunk; i < chunkCountOf(robots.end); ++i) of_chunk_[i].save(out);
 }
 
-bool RunDigest::load(std::string_view saved) {
-  if (saved.size() != of_chunk_.size() * Digest::kSavedBytes) return false;
-  for (std::size_t i = 0; i < of_chunk_.size(); ++i) {
-    if (!of_chunk_[i].load(saved.substr(i * Digest::kSavedBytes, Digest::kSavedBytes))) return false;
+bool RunDigest::load(std::string_view saved) { return load({0, of_chunk_.size() * kDigestChunk}, saved); }
+
+bool RunDigest::load(RobotRange robots, std::string_view saved) {
+  const std::size_t first = robots.begin / kDigestChunk;
+  const std::size_t count = std::max(first, chunkCountOf(robots.end)) - first;
+  if (saved.size() != count * Digest::kSavedBytes) return false;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (!of_chunk_[first + i].load(saved.substr(i * Digest::kSavedBytes, Digest::kSavedBytes))) return false;
   }
   return true;
 }

@@ -5,6 +5,7 @@
 
 #include "base/digest.h"
 #include "base/parallel_executor.h"
+#include "environment/robot_range.h"
 
 namespace robosim {
 
@@ -18,14 +19,22 @@ class RunDigest {
   explicit RunDigest(std::size_t robots);
   /// Adds the result of a step; `state` may own this digest.
   void add(const State& state, const ParallelExecutor& workers);
+  /// The same for some robots, which are whole chunks.
+  void add(const State& state, const ParallelExecutor& workers, RobotRange robots);
   std::string text() const;
+  /// Number of robots in a chunk, but the last.
+  static constexpr std::size_t kRobotsPerChunk = 256;
   std::size_t chunkCount() const { return of_chunk_.size(); }
   static std::size_t chunkCountOf(std::size_t robots);
 
   /// Appends chunkCount() times Digest::kSavedBytes bytes.
   void save(std::string& out) const;
+  /// The part of save() for the chunks of some robots. @param robots whole chunks
+  void save(RobotRange robots, std::string& out) const;
   /// Continues from saved bytes of a digest of as many robots. @return false for bytes that save() cannot have written
   bool load(std::string_view saved);
+  /// The same for a part. @param robots whole chunks
+  bool load(RobotRange robots, std::string_view saved);
   bool operator==(const RunDigest&) const = default;
 
  private:

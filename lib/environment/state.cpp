@@ -41,7 +41,9 @@ bool digestFits(const State& state) {
 
 }  // namespace
 
-State initialState(const Model& model) {
+State initialState(const Model& model) { return initialState(model, {0, model.fleet.robots.size()}); }
+
+State initialState(const Model& model, RobotRange with_readings) {
   const std::size_t n = model.fleet.robots.size();
   State state;
   state.time = {0, model.period_s};
@@ -51,7 +53,8 @@ State initialState(const Model& model) {
   for (std::size_t i = 0; i < n; ++i) {
     const FleetRobot& robot = model.fleet.robots[i];
     state.world_from_robot[i] = robot.world_from_start;
-    for (const auto& sensor : robot.model->sensors) state.readings[i].measurements.push_back(sensor->blank());
+    if (i < with_readings.begin || i >= with_readings.end) continue;
+    state.readings[i].measurements = blankMeasurements(*robot.model);
   }
   return state;
 }
@@ -69,6 +72,13 @@ bool haveSameShape(const State& a, const State& b) {
   };
   return a.time.period_s == b.time.period_s && sizes_a == sizes_b && digestFits(a) && digestFits(b) &&
          std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
+}
+
+std::vector<Measurement> blankMeasurements(const RobotModel& model) {
+  std::vector<Measurement> measurements;
+  measurements.reserve(model.sensors.size());
+  for (const auto& sensor : model.sensors) measurements.push_back(sensor->blank());
+  return measurements;
 }
 
 std::uint64_t messagesSent(const State& state) {

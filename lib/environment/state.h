@@ -8,6 +8,7 @@
 #include "base/sim_time.h"
 #include "environment/message_router.h"
 #include "environment/model.h"
+#include "environment/robot_range.h"
 #include "environment/run_digest.h"
 #include "hardware/command.h"
 #include "hardware/readings.h"
@@ -50,6 +51,11 @@ std::uint64_t messagesSent(const State&);
 
 /// State before the first measurement: robots at rest at their starts, blank readings, a digest of no steps.
 State initialState(const Model&);
+/// The same of a process that needs the readings of some robots only: those of the others have no measurements.
+State initialState(const Model&, RobotRange with_readings);
+
+/// Of a robot that has not measured yet.
+std::vector<Measurement> blankMeasurements(const RobotModel&);
 
 /// Whether two states have the same time step, number of robots, and kinds and sizes of measurements, as all states of
 /// a model do.

@@ -8,6 +8,7 @@
 
 #include "base/digest.h"
 #include "base/error_list.h"
+#include "environment/measurement_bytes.h"
 #include "environment/state_stream.h"
 #include "hardware/measurement_fields.h"
 
@@ -86,6 +87,18 @@ struct MeasurementReader {
   }
 };
 
+}  // namespace
+
+void writeMeasurements(const Readings& readings, StateWriter& out) {
+  for (const Measurement& measurement : readings.measurements) std::visit(MeasurementWriter{out}, measurement);
+}
+
+void readMeasurements(StateReader& in, Readings& readings) {
+  for (Measurement& measurement : readings.measurements) std::visit(MeasurementReader{in}, measurement);
+}
+
+namespace {
+
 void writeRobot(const State& state, std::size_t i, StateWriter& out) {
   out.addPose(state.world_from_robot[i]);
   for (const double value : {state.speed_mps[i], state.turn_radps[i], state.last_motion[i].length_m,
@@ -113,7 +126,7 @@ void writeRobot(const State& state, std::size_t i, StateWriter& out) {
 
   // The other members of the readings repeat members of the state.
   const Readings& readings = state.readings[i];
-  for (const Measurement& measurement : readings.measurements) std::visit(MeasurementWriter{out}, measurement);
+  writeMeasurements(readings, out);
   out.addNumber(std::uint8_t{readings.is_too_far});
   out.addNumber(static_cast<std::uint32_t>(readings.inbox.size()));
   for (const RobotMessage& message : readings.inbox) {
@@ -161,7 +174,7 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   }
 
   Readings& readings = state.readings[i];
-  for (Measurement& measurement : readings.measurements) std::visit(MeasurementReader{in}, measurement);
+  readMeasurements(in, readings);
   readings.is_too_far = in.takeFlag();
   const auto received = in.takeNumber<std::uint32_t>();
   requireContents(received <= InboxLimit::kMaxMessages, "a robot has received too many messages");

@@ -189,9 +189,13 @@ bool LocalRun::dependsOnSeed() const {
                        [](const auto& sensor) { return sensor->isNoisy(); });
   };
   const bool all_are_here = local_robots_.size() == robots.size();
-  return !all_are_here || options_.breakdown_mean_s > 0 || environment_.world().communication.isRandom() ||
-         std::any_of(robots.begin(), robots.end(), is_noisy) ||
-         std::any_of(local_robots_.begin(), local_robots_.end(),
+  return has_drawn_elsewhere_.value_or(!all_are_here) || options_.breakdown_mean_s > 0 ||
+         environment_.world().communication.isRandom() || std::any_of(robots.begin(), robots.end(), is_noisy) ||
+         hasDrawnRandomNumbers();
+}
+
+bool LocalRun::hasDrawnRandomNumbers() const {
+  return std::any_of(local_robots_.begin(), local_robots_.end(),
                      [](const auto& robot) { return robot->controller->hasDrawnRandomNumbers(); });
 }
 

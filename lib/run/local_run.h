@@ -113,6 +113,11 @@ class LocalRun {
   /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
   /// random number. Assumed for robots driven by another process.
   bool dependsOnSeed() const;
+  /// Whether a controller in this process has drawn a random number.
+  bool hasDrawnRandomNumbers() const;
+  /// For dependsOnSeed(): whether a controller in another process has, when these are known to be controllers of
+  /// RoboSim.
+  void setDrawnElsewhere(bool has_drawn) { has_drawn_elsewhere_ = has_drawn; }
 
  private:
   struct LocalRobot {
@@ -138,6 +143,7 @@ class LocalRun {
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware
   GoldOutcome gold_;
+  std::optional<bool> has_drawn_elsewhere_;
   RunObservers observers_;
 };
 

@@ -1,0 +1,256 @@
+#include "distributed/distributed_run.h"
+
+#include <chrono>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+#include <utility>
+
+#include <sys/resource.h>
+
+#include "base/error_list.h"
+#include "environment/state_stream.h"
+#include "ranks/agreement.h"
+
+namespace robosim {
+namespace {
+
+double secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Calls a function. @return its exception; null for none
+template <typename Function>
+std::exception_ptr failureOf(const Function& function) {
+  try {
+    function();
+    return nullptr;
+  } catch (...) {
+    return std::current_exception();
+  }
+}
+
+/// Whether a range of one rank and one of another have robots in common.
+bool overlapOtherRanks(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
+  for (std::size_t p = 0; p < from.size(); ++p) {
+    for (std::size_t q = 0; q < to.size(); ++q) {
+      if (p != q && !intersection(from[p], to[q]).empty()) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions options,
+                               const DistributionOptions& distribution)
+    : group_(group),
+      shares_(RankShares::of(world.fleet.robots.size(), group.size(), distribution.first_needs_readings)),
+      distribution_(distribution),
+      own_(static_cast<std::size_t>(group.rank())),
+      has_observers_(!options.observers.empty()),
+      to_(shares_.ranks()),
+      last_s_(secondsNow()) {
+  if (own_ > 0) options.observers.clear();
+  options.environment.share = RobotShare{shares_.kept(own_), shares_.digested[own_]};
+  std::vector<std::uint8_t> elsewhere(shares_.robots, 1);
+  for (std::size_t i = shares_.home[own_].begin; i < shares_.home[own_].end; ++i) elsewhere[i] = 0;
+  agree(group_, [&] { run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere); });
+
+  StateWriter digest;
+  digest.addNumber(digestOf(*run_->environment().model()));
+  group_.allGather(digest.bytes, all_);
+  agree(group_, [&] {
+    if (all_[own_] == all_[0]) return;
+    throw ConfigError("this process has read another world than rank 0, or another version of RoboSim runs it; give " +
+                      std::string("all machines the same files"));
+  });
+  last_s_ = secondsNow();
+  observe();  // observers may end the run before its first step
+}
+
+void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failure) {
+  Environment& environment = run_->environment();
+  finished(rest);
+  exchangeOrders(failure);
+  environment.begin();
+  finished(moves);
+  environment.clip(shares_.work[own_]);
+  finished(clips);
+  exchangePaths();
+  environment.judge(shares_.work[own_]);
+  finished(judgements);
+  exchangeStays(is_end_requested);
+  environment.move();
+  finished(moves);
+  environment.senseFully(shares_.work[own_]);
+  finished(sensors);
+  std::vector<RobotRange> needed;
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed.push_back(shares_.needed(rank));
+  exchangeReadings(shares_.work, needed);
+  environment.conclude();
+  const std::exception_ptr observer_failure = failureOf([&] { run_->noteOutcome(); });
+  finished(rest);
+  if (has_observers_) {
+    group_.allGather(errorBytes(observer_failure), all_);
+    throwFirstError(group_, {all_.begin(), all_.end()}, observer_failure);
+    observe();
+  }
+  ++measured_.steps;
+  if (distribution_.balance_steps > 0 && measured_.steps % distribution_.balance_steps == 0) balance();
+}
+
+void DistributedRun::allGather() {
+  measured_.bytes_sent += out_.size();
+  group_.allGather(out_, all_);
+}
+
+void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
+  const RobotRange home = shares_.home[own_];
+  orders_.begin(run_->environment().orders(), home);
+  std::exception_ptr own = failure;
+  if (!own) own = failureOf([&] { run_->decide(); });
+  finished(controllers);
+  // A rank with an error sends only that, behind a byte.
+  out_.assign(1, own ? 1 : 0);
+  if (own) {
+    out_ += errorBytes(own);
+  } else {
+    orders_.write(run_->environment().orders(), home, out_);
+  }
+  finished(commands);
+  allGather();
+  finished(waiting);
+  std::vector<std::string_view> errors;
+  for (const auto& bytes : all_) errors.push_back(bytes[0] ? std::string_view(bytes).substr(1) : std::string_view());
+  throwFirstError(group_, errors, own);
+  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    if (rank == own_) continue;
+    readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], run_->environment().orders());
+  }
+  finished(commands);
+}
+
+void DistributedRun::exchangePaths() {
+  const PhaseResults results = run_->environment().results();
+  out_.clear();
+  writePaths(results, shares_.work[own_], out_);
+  finished(clips);
+  allGather();
+  finished(waiting);
+  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    if (rank != own_) readPaths(all_[rank], shares_.work[rank], results);
+  }
+  finished(clips);
+}
+
+void DistributedRun::exchangeStays(bool is_end_requested) {
+  const PhaseResults results = run_->environment().results();
+  out_.assign(1, is_end_requested ? 1 : 0);
+  writeStays(results, shares_.work[own_], out_);
+  finished(judgements);
+  allGather();
+  finished(waiting);
+  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    if (all_[rank][0]) is_end_requested_ = true;
+    if (rank != own_) readStays(std::string_view(all_[rank]).substr(1), shares_.work[rank], results);
+  }
+  finished(judgements);
+}
+
+void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
+  if (!overlapOtherRanks(from, to)) return;
+  const PhaseResults results = run_->environment().results();
+  for (std::size_t rank = 0; rank < to.size(); ++rank) {
+    to_[rank].clear();
+    if (rank == own_) continue;
+    writeReadings(results, intersection(from[own_], to[rank]), to_[rank]);
+    measured_.bytes_sent += to_[rank].size();
+  }
+  finished(rest);
+  group_.exchange(to_, from_);
+  finished(waiting);
+  for (std::size_t rank = 0; rank < from.size(); ++rank) {
+    if (rank != own_) readReadings(from_[rank], intersection(from[rank], to[own_]), results);
+  }
+  finished(rest);
+}
+
+void DistributedRun::observe() {
+  if (!has_observers_) return;
+  std::string is_over(1, run_->isOver() ? 1 : 0);
+  group_.broadcast(is_over);
+  is_over_ = is_over[0] != 0;
+  finished(waiting);
+}
+
+void DistributedRun::balance() {
+  StateWriter own;
+  own.addNumber(busy_.work_s);
+  own.addNumber(busy_.other_s);
+  busy_ = {};
+  out_ = own.bytes;
+  allGather();
+  finished(waiting);
+  std::vector<BusyTime> busy;
+  for (const auto& bytes : all_) {
+    StateReader in(bytes);
+    const double work_s = in.takeFinite();
+    busy.push_back({work_s, in.takeFinite()});
+  }
+  const std::vector<RobotRange> before = shares_.work;
+  const std::vector<RobotRange> after = balancedWork(before, busy);
+  if (after == before) return;
+  shares_.work = after;
+  const RobotRange kept = shares_.kept(own_);
+  // Both the readings to be sent and those to be received, until they are.
+  Environment& environment = run_->environment();
+  environment.keepReadings(hull(kept, before[own_]));
+  exchangeReadings(before, after);
+  environment.keepReadings(kept);
+}
+
+void DistributedRun::finish(const std::exception_ptr& failure) {
+  agree(group_, [&] {
+    if (failure) std::rethrow_exception(failure);
+  });
+  RunDigest* const digest = run_->environment().results().digest;
+  out_.assign(1, run_->hasDrawnRandomNumbers() ? 1 : 0);
+  if (digest) digest->save(shares_.digested[own_], out_);
+  group_.gather(out_, all_);
+  if (own_ > 0) return;
+  bool has_drawn = false;
+  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    has_drawn |= all_[rank][0] != 0;
+    if (rank == 0 || !digest) continue;
+    if (!digest->load(shares_.digested[rank], std::string_view(all_[rank]).substr(1)))
+      throw std::runtime_error("rank " + std::to_string(rank) + " has sent an invalid digest");
+  }
+  run_->setDrawnElsewhere(has_drawn);
+}
+
+std::vector<DistributedRun::Measured> DistributedRun::measured() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  measured_.memory_max_bytes = static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+  static_assert(std::is_trivially_copyable_v<Measured>);
+  out_.assign(reinterpret_cast<const char*>(&measured_), sizeof measured_);
+  group_.gather(out_, all_);
+  std::vector<Measured> all;
+  for (std::size_t rank = 0; own_ == 0 && rank < all_.size(); ++rank) {
+    if (all_[rank].size() != sizeof(Measured)) throw std::runtime_error("a rank runs another version of RoboSim");
+    std::memcpy(&all.emplace_back(), all_[rank].data(), sizeof(Measured));
+  }
+  return all;
+}
+
+void DistributedRun::finished(Part part) {
+  const double now_s = secondsNow();
+  const double time_s = now_s - std::exchange(last_s_, now_s);
+  measured_.time_s[part] += time_s;
+  if (part == waiting) return;
+  const bool is_work = part == clips || part == judgements || part == sensors;
+  (is_work ? busy_.work_s : busy_.other_s) += time_s;
+}
+
+}  // namespace robosim

@@ -1,0 +1,153 @@
+#include "distributed/distributed_run.h"
+
+#include <mutex>
+#include <optional>
+#include <sstream>
+
+#include <gtest/gtest.h>
+
+#include "ranks/testing/thread_ranks.h"
+
+namespace robosim {
+namespace {
+
+std::string shipped(const std::string& name) { return ROBOSIM_SOURCE_DIR "/worlds/" + name + ".xml"; }
+
+struct Settings {
+  std::string world;
+  std::string controller = "";
+  int steps = 100;
+  std::vector<std::string> observers = {};
+};
+
+LoadedWorld loaded(const Settings& settings) { return loadWorldToRun(shipped(settings.world), settings.controller); }
+
+RunOptions optionsOf(const Settings& settings, int threads) {
+  RunOptions options;
+  options.environment.threads = threads;
+  options.controller = settings.controller;
+  options.observers = settings.observers;
+  options.observers_log = false;
+  return options;
+}
+
+/// All that a run on several ranks must have in common with one in one process.
+std::string outcomeOf(const LocalRun& run, bool with_readings) {
+  const State& state = run.environment().state();
+  std::ostringstream text;
+  text << run.environment().digest() << ' ' << state.time.step << ' ' << run.dependsOnSeed() << ' ' << state.stalls
+       << ' ' << state.messages_delivered << ' ' << state.messages_dropped << ' ' << state.messages_lost.total() << ' '
+       << messagesSent(state) << ' ' << run.gold().found_by.value_or("-") << ' '
+       << run.gold().all_halted_s.value_or(-1);
+  for (std::size_t i = 0; i < state.readings.size(); ++i) {
+    const auto& pose = state.world_from_robot[i];
+    text << '\n' << pose.x << ' ' << pose.y << ' ' << pose.phi << ' ' << state.driven_m[i];
+    if (with_readings) text << ' ' << state.readings[i].measurements.size() << ' ' << state.readings[i].inbox.size();
+  }
+  for (const auto& metric : run.observers().metrics()) text << '\n' << metric.name << ' ' << metric.value;
+  if (run.observers().end()) text << run.observers().end()->reason;
+  return text.str();
+}
+
+std::string outcomeAlone(const Settings& settings) {
+  LocalRun run(loaded(settings), optionsOf(settings, 1));
+  for (int i = 0; i < settings.steps && !run.isOver(); ++i) run.step();
+  return outcomeOf(run, true);
+}
+
+std::string outcomeOnRanks(const Settings& settings, int ranks, int threads, std::uint64_t balance_steps,
+                           bool first_needs_readings = true) {
+  std::string outcome;
+  runThreadRanks(ranks, [&](RankGroup& group) {
+    DistributedRun run(group, loaded(settings), optionsOf(settings, threads), {first_needs_readings, balance_steps});
+    for (int i = 0; i < settings.steps && !run.isOver(); ++i) run.step(false, nullptr);
+    run.finish(nullptr);
+    if (group.isFirst()) outcome = outcomeOf(run.run(), first_needs_readings);
+  });
+  return outcome;
+}
+
+TEST(DistributedRun, EqualsARunInOneProcessForAnyNumberOfRanksAndThreads) {
+  for (const Settings& settings :
+       {Settings{"open_100"}, Settings{"small_maze", "", 400}, Settings{"opho2_1"}, Settings{"maze_20x20", "", 60}}) {
+    const std::string alone = outcomeAlone(settings);
+    for (const int ranks : {1, 2, 3, 5, 8}) {
+      EXPECT_EQ(outcomeOnRanks(settings, ranks, 1 + ranks % 3, 7), alone) << settings.world << ", " << ranks;
+    }
+  }
+}
+
+TEST(DistributedRun, EqualsItWhileMovesAndSensorsAreDividedAnewAfterEachStep) {
+  const Settings settings{"open_100", "", 150};
+  const std::string alone = outcomeAlone(settings);
+  for (const int ranks : {2, 4}) EXPECT_EQ(outcomeOnRanks(settings, ranks, 1, 1), alone);
+}
+
+TEST(DistributedRun, HasTheSameDigestWithoutTheReadingsOfOtherRanks) {
+  const Settings settings{"open_100"};
+  const auto first_line = [](const std::string& text) { return text.substr(0, text.find('\n')); };
+  EXPECT_EQ(first_line(outcomeOnRanks(settings, 3, 1, 5, false)), first_line(outcomeAlone(settings)));
+  runThreadRanks(3, [&](RankGroup& group) {
+    DistributedRun run(group, loaded(settings), optionsOf(settings, 1), {false, 0});
+    run.step(false, nullptr);
+    std::size_t with_measurements = 0;
+    for (const auto& readings : run.run().environment().state().readings)
+      with_measurements += readings.measurements.empty() ? 0 : 1;
+    // All 100 are in one chunk of the digest, which rank 0 computes.
+    const std::size_t expected = group.isFirst() ? 100 : group.rank() == 1 ? 33 : 34;
+    if (with_measurements != expected) throw std::logic_error(std::to_string(with_measurements));
+  });
+}
+
+TEST(DistributedRun, IsEndedOnAllRanksByAnObserverOnTheFirst) {
+  const Settings settings{"open_100", "wander", 300, {"coverage end_percent=1"}};
+  const std::string alone = outcomeAlone(settings);
+  ASSERT_NE(alone.find("covered"), std::string::npos) << alone;
+  EXPECT_EQ(outcomeOnRanks(settings, 3, 1, 10), alone);
+}
+
+TEST(DistributedRun, EndsOnAllRanksAfterTheStepInWhichOneRequestsIt) {
+  const Settings settings{"open_100"};
+  runThreadRanks(3, [&](RankGroup& group) {
+    DistributedRun run(group, loaded(settings), optionsOf(settings, 1), {});
+    for (int i = 0; i < 5; ++i) run.step(false, nullptr);
+    if (run.isEndRequested()) throw std::logic_error("early");
+    run.step(group.rank() == 2, nullptr);
+    if (!run.isEndRequested()) throw std::logic_error("not requested");
+  });
+}
+
+TEST(DistributedRun, ThrowsOnAllRanksTheFailureOfOne) {
+  const Settings settings{"open_100"};
+  int failed = 0;
+  std::mutex mutex;
+  runThreadRanks(3, [&](RankGroup& group) {
+    DistributedRun run(group, loaded(settings), optionsOf(settings, 1), {});
+    run.step(false, nullptr);
+    try {
+      run.step(false, group.isFirst() ? std::make_exception_ptr(std::runtime_error("full")) : nullptr);
+    } catch (const std::runtime_error& error) {
+      const std::lock_guard lock(mutex);
+      failed += std::string(error.what()) == "full" ? 1 : 0;
+    }
+  });
+  EXPECT_EQ(failed, 3);
+}
+
+TEST(DistributedRun, RefusesWorldsThatDifferBetweenRanks) {
+  int refused = 0;
+  std::mutex mutex;
+  runThreadRanks(2, [&](RankGroup& group) {
+    const Settings settings{group.isFirst() ? "open_100" : "small_maze"};
+    try {
+      DistributedRun run(group, loaded(settings), optionsOf(settings, 1), {});
+    } catch (const ConfigError& error) {
+      const std::lock_guard lock(mutex);
+      refused += std::string(error.what()).find("another world than rank 0") != std::string::npos ? 1 : 0;
+    }
+  });
+  EXPECT_EQ(refused, 2);
+}
+
+}  // namespace
+}  // namespace robosim

@@ -1,0 +1,161 @@
+// `robosim run` on several ranks, started by mpirun.
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+/// Runs `robosim ARGUMENTS` on several ranks.
+Ended runOnRanks(int ranks, const std::string& arguments) {
+  return runCommand(ROBOSIM_MPIRUN " -n " + std::to_string(ranks) + " " ROBOSIM_PROGRAM " " + arguments);
+}
+
+std::vector<std::string> shippedWorlds() {
+  std::vector<std::string> worlds;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(ROBOSIM_SOURCE_DIR "/worlds")) {
+    const auto folder = entry.path().parent_path().filename();
+    if (entry.path().extension() == ".xml" && (folder == "worlds" || folder == "teams"))
+      worlds.push_back(entry.path().string());
+  }
+  EXPECT_GT(worlds.size(), 8u);
+  return worlds;
+}
+
+/// The output of a run with all files, without what depends on the clock.
+struct Outputs {
+  std::string summary, rawlog, picture, csv;
+  bool operator==(const Outputs&) const = default;
+};
+
+Outputs outputsOf(int ranks, const std::string& arguments) {
+  const auto folder = emptyFolder();
+  const std::string all = "run " + arguments + " --json --record " + quoted(folder / "r.rawlog") + " --picture " +
+                          quoted(folder / "p.png") + " --csv " + quoted(folder / "t.csv");
+  const Ended ended = ranks == 0 ? runProgram(all) : runOnRanks(ranks, all);
+  EXPECT_EQ(ended.exit_code, 0) << arguments << ": " << ended.err;
+  if (ended.exit_code != 0) return {};
+  auto json = nlohmann::ordered_json::parse(ended.out);
+  for (const char* of_the_clock : {"wall_s", "real_time_factor"}) json.erase(of_the_clock);
+  return {json.dump(), textOf(folder / "r.rawlog"), textOf(folder / "p.png"), textOf(folder / "t.csv")};
+}
+
+void expectSameOnRanks(const std::string& arguments, const std::vector<int>& ranks) {
+  const Outputs alone = outputsOf(0, arguments);
+  EXPECT_GT(alone.rawlog.size(), 1000u) << arguments;
+  for (const int count : ranks) {
+    const Outputs outputs = outputsOf(count, arguments + " --balance 3 --threads " + std::to_string(1 + count % 2));
+    EXPECT_EQ(outputs.summary, alone.summary) << arguments << ", " << count;
+    EXPECT_TRUE(outputs == alone) << arguments << ", " << count;
+  }
+}
+
+TEST(MpiRun, EqualsThatOfOneProcessInEveryShippedWorld) {
+  for (const auto& world : shippedWorlds()) {
+    SCOPED_TRACE(world);
+    expectSameOnRanks(quoted(world) + " --time 3", {2, 3});
+  }
+}
+
+TEST(MpiRun, EqualsThatOfOneProcessInRandomWorlds) {
+  const auto folder = emptyFolder();
+  int seed = 1;
+  for (const std::string kind : {"maze", "cave", "office", "open"}) {
+    const auto world = folder / (kind + ".xml");
+    const Ended generated = runProgram("generate " + kind + " " + quoted(world) + " --seed " + std::to_string(seed));
+    ASSERT_EQ(generated.exit_code, 0) << generated.err;
+    const std::string options = " --random-robots 7 --noise on --random-starts --seed " + std::to_string(seed++);
+    expectSameOnRanks(quoted(world) + " --time 5" + options, {2, 3});
+  }
+}
+
+TEST(MpiRun, WithAnObserverHasTheSameMetricsAndEnd) {
+  expectSameOnRanks("worlds/open_100.xml --time 60 --controller wander --observer 'coverage end_percent=5'", {2});
+}
+
+TEST(MpiRun, PrintsTheSummaryOnce) {
+  const Ended ended = runOnRanks(3, "run worlds/small_maze.xml --time 1");
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(countOf("digest", ended.out), 1u) << ended.out;
+  EXPECT_EQ(ended.err, "");
+}
+
+TEST(MpiRun, ReportsInvalidArgumentsAndFilesOnce) {
+  for (const std::string arguments : {"run no_such_world.xml", "run worlds/small_maze.xml --tme 3",
+                                      "run worlds/small_maze.xml --controller no_such_controller",
+                                      "run worlds/small_maze.xml --record /no_such_folder/r.rawlog",
+                                      "run worlds/small_maze.xml --picture /no_such_folder/r.png"}) {
+    const Ended ended = runOnRanks(2, arguments);
+    const Ended alone = runProgram(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_EQ(alone.exit_code, 1) << arguments;
+    EXPECT_EQ(countOf(alone.err.substr(0, alone.err.size() - 1), ended.err), 1u) << ended.err << alone.err;
+    EXPECT_EQ(ended.out, "");
+  }
+}
+
+TEST(MpiRun, EndsOnAllRanksWithTheErrorOfAController) {
+  const Ended ended =
+      runOnRanks(2, "run worlds/open_100.xml --controller failing_at_the_end --plugin " ROBOSIM_FAILING_PLUGIN);
+  EXPECT_EQ(ended.exit_code, 2);
+  EXPECT_EQ(countOf("its controller failing_at_the_end threw an exception: lost the flock (on rank 1)", ended.err), 1u)
+      << ended.err;
+  EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+}
+
+TEST(MpiRun, RefusesSubcommandsThatRunInOneProcess) {
+  for (const std::string arguments : {"serve worlds/small_maze.xml", "view worlds/small_maze.xml",
+                                      "run --view worlds/small_maze.xml", "check worlds/small_maze.xml"}) {
+    const Ended ended = runOnRanks(2, arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_EQ(countOf("runs in one process; start it without mpirun", ended.err), 1u) << ended.err;
+  }
+}
+
+/// Starts a long run whose recording is not complete before it is ended.
+std::vector<std::string> longRun(const std::filesystem::path& rawlog, int ranks) {
+  return {"-n",
+          std::to_string(ranks),
+          ROBOSIM_PROGRAM,
+          "run",
+          ROBOSIM_SOURCE_DIR "/worlds/open_100.xml",
+          "--speed",
+          "1",
+          "--record",
+          rawlog};
+}
+
+TEST(MpiRun, InterruptedEndsAllRanksWithACompleteRecording) {
+  const auto folder = emptyFolder();
+  StartedProgram started(ROBOSIM_MPIRUN, longRun(folder / "r.rawlog", 2));
+  started.waitForFileIn(folder);
+  started.interrupt();
+  const Ended ended = started.wait();
+  EXPECT_NE(ended.exit_code, 0);
+  EXPECT_NE(ended.out.find("interrupted"), std::string::npos) << ended.out << ended.err;
+  const Ended replayed = runProgram("replay " + quoted(folder / "r.rawlog"));
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+}
+
+TEST(MpiRun, ThatLosesARankEndsWithoutAFileUnderTheFinalName) {
+  const auto folder = emptyFolder();
+  StartedProgram started(ROBOSIM_MPIRUN, longRun(folder / "r.rawlog", 3));
+  started.waitForFileIn(folder);
+  const Ended killed = runCommand("pgrep -P " + std::to_string(started.process()) + " | tail -n 1 | xargs kill -KILL");
+  EXPECT_EQ(killed.exit_code, 0) << killed.err;
+  const Ended ended = started.wait();
+  EXPECT_NE(ended.exit_code, 0);
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.rawlog"));
+}
+
+TEST(MpiRun, ReportsAFullDiskOnce) {
+  const Ended ended = runOnRanks(2, "run worlds/open_100.xml --time 30 --record /dev/full");
+  EXPECT_NE(ended.exit_code, 0);
+  EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+}
+
+}  // namespace
+}  // namespace robosim
