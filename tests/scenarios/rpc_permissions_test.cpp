@@ -128,9 +128,10 @@ grpc::Status call(const ConnectOptions& connect_options, const MethodDescriptor&
 std::string outcomeOf(const grpc::Status& status) {
   switch (status.error_code()) {
     case grpc::StatusCode::OK:
-    case grpc::StatusCode::INVALID_ARGUMENT:  // processed; contents refused
-    case grpc::StatusCode::DATA_LOSS:         // the same, for a geometry worker
-    case grpc::StatusCode::ALREADY_EXISTS:    // another connection still drives the robot
+    case grpc::StatusCode::INVALID_ARGUMENT:     // processed; contents refused
+    case grpc::StatusCode::DATA_LOSS:            // the same, for a geometry worker
+    case grpc::StatusCode::ALREADY_EXISTS:       // another connection still drives the robot
+    case grpc::StatusCode::FAILED_PRECONDITION:  // the run was started without a name for recordings
       return "yes";
     case grpc::StatusCode::PERMISSION_DENIED:
       return "no";
