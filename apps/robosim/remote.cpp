@@ -31,7 +31,8 @@ constexpr const char* kRemoteSession =
     "  robosim remote worlds/teams/open_house.xml --joystick 0\n"
     "For access from other machines, add a certificate and tokens:\n"
     "  robosim remote ROBOTS.xml --listen 0.0.0.0:8443 --tls-cert cert.pem --tls-key key.pem --tokens tokens\n"
-    "Open https://HOST:8443/#token=TOKEN to drive; a token with the role viewer permits viewing only.\n";
+    "Open https://HOST:8443/#token=TOKEN to drive; a token with the role viewer permits viewing only.\n"
+    "An operator's page also starts and stops the recording of a run that was started with serve --record.\n";
 
 struct RemoteArguments {
   std::string robots;

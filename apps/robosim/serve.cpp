@@ -204,8 +204,10 @@ void addServe(CLI::App& program) {
   auto* command = addSubcommand(program, "serve");
   auto a = std::make_shared<ServeArguments>();
   addRunArguments(*command, a->of_run);
-  command->add_flag("--record-on-request", a->of_run.is_recorded_on_request,
-                    "with --record: the recording is off until a control panel starts it (robosim control record on)");
+  command->add_flag(
+      "--record-on-request", a->of_run.is_recorded_on_request,
+      "with --record: the recording is off until a control panel starts it (robosim control record on), or an "
+      "operator on the page of robosim remote");
   command->add_flag("--wait-for-robots", a->wait_for_robots,
                     "wait for a robot process for every robot, including those with a controller in the world");
   command->add_option("--listen", a->listen, "host:port, or viewers=…,robots=…,geometry=…,control=…")

@@ -29,6 +29,15 @@ RunView::Phase phaseOf(v1::RunPhase phase) {
   }
 }
 
+void readRecording(const v1::RunStatus& status, RecordingView& recording) {
+  recording.state = status.recording() == v1::RECORDING_STATE_ON    ? RecordingView::State::on
+                    : status.recording() == v1::RECORDING_STATE_OFF ? RecordingView::State::off
+                                                                    : RecordingView::State::none;
+  recording.file = status.recording_file();
+  recording.may_change =
+      status.may_operate() && status.phase() != v1::RUN_PHASE_ENDED && recording.state != RecordingView::State::none;
+}
+
 /// The world that the environment serves, and whether this client may control its run.
 struct ServedSource {
   WorldSource world;
@@ -55,20 +64,20 @@ ServedSource requestSource(const ConnectOptions& environment, CallCancellation& 
 }  // namespace
 
 RunMonitor::RunMonitor(ConnectOptions environment)
-    : environment_(std::move(environment)), watcher_([this] { watch(); }), restarter_([this] { restarts(); }) {}
+    : environment_(std::move(environment)), watcher_([this] { watch(); }), operator_([this] { operate(); }) {}
 
 RunMonitor::~RunMonitor() {
   {
     const std::lock_guard lock(mutex_);
     is_over_ = true;
-    for (ControlPanel* panel : {watching_, loading_}) {
+    for (ControlPanel* panel : {watching_, operating_}) {
       if (panel) panel->leave();
     }
   }
   viewing_.cancel();
   condition_.notify_all();
   watcher_.join();
-  restarter_.join();
+  operator_.join();
 }
 
 RunView RunMonitor::newest() {
@@ -78,6 +87,7 @@ RunView RunMonitor::newest() {
     view.phase = RunView::Phase::gone;
     view.absent.clear();
     view.may_restart = false;
+    view.recording.may_change = false;
   }
   return view;
 }
@@ -87,6 +97,16 @@ void RunMonitor::restart() {
   if (!view_.may_restart || view_.is_restarting) return;
   view_.is_restarting = true;
   view_.restart_problem.clear();
+  condition_.notify_all();
+}
+
+void RunMonitor::setRecording(bool on) {
+  const std::lock_guard lock(mutex_);
+  RecordingView& recording = view_.recording;
+  if (!recording.may_change || recording.is_changing) return;
+  recording.is_changing = true;
+  recording.problem.clear();
+  recording_request_ = on;
   condition_.notify_all();
 }
 
@@ -108,6 +128,7 @@ void RunMonitor::watch() {
     watching_ = nullptr;
     view_.problem = problem;
     view_.may_restart = false;
+    view_.recording.may_change = false;
     condition_.wait_for(lock, kReconnectPause, [this] { return is_over_; });
   }
 }
@@ -119,6 +140,7 @@ void RunMonitor::receive(const v1::RunStatus& status) {
     received_ = Clock::now();
     view_.phase = phaseOf(status.phase());
     view_.problem.clear();
+    readRecording(status, view_.recording);
     view_.absent.assign(status.robots_absent().begin(), status.robots_absent().end());
     if (!is_over) {
       view_.may_restart = false;
@@ -146,43 +168,65 @@ void RunMonitor::requestSourceOnce() {
   view_.may_restart = may_operate;
 }
 
-void RunMonitor::restarts() {
+void RunMonitor::operate() {
   for (;;) {
-    WorldSource source;
+    std::optional<bool> recording;
     {
       std::unique_lock lock(mutex_);
-      condition_.wait(lock, [this] { return view_.is_restarting || is_over_; });
+      condition_.wait(lock, [this] { return view_.is_restarting || recording_request_ || is_over_; });
       if (is_over_) return;
-      if (source_) source = *source_;
+      recording = std::exchange(recording_request_, std::nullopt);
     }
-    std::string problem;
-    try {
-      load(source);
-    } catch (const std::exception& error) {
-      problem = error.what();
+    if (recording) {
+      recordOnce(*recording);
+    } else {
+      restartOnce();
     }
-    const std::lock_guard lock(mutex_);
-    view_.is_restarting = false;
-    view_.restart_problem = problem;
   }
 }
 
-void RunMonitor::load(const WorldSource& source) {
-  ControlPanel panel(environment_);
-  const auto set = [this](ControlPanel* loading) {
+void RunMonitor::restartOnce() {
+  WorldSource source;
+  {
     const std::lock_guard lock(mutex_);
-    loading_ = loading;
-    if (loading && is_over_) loading->leave();
-  };
-  set(&panel);
-  try {
+    if (source_) source = *source_;
+  }
+  const std::string problem = attempt([&](ControlPanel& panel) {
     panel.load(source);
     panel.start();
-  } catch (...) {
-    set(nullptr);
-    throw;
+  });
+  const std::lock_guard lock(mutex_);
+  view_.is_restarting = false;
+  view_.restart_problem = problem;
+}
+
+void RunMonitor::recordOnce(bool on) {
+  v1::RunStatus status;
+  const std::string problem = attempt([&](ControlPanel& panel) { status = panel.setRecording(on); });
+  const std::lock_guard lock(mutex_);
+  // So that no view has the result without its effect.
+  if (problem.empty()) readRecording(status, view_.recording);
+  view_.recording.is_changing = false;
+  view_.recording.problem = problem;
+}
+
+template <typename Call>
+std::string RunMonitor::attempt(const Call& call) {
+  ControlPanel panel(environment_);
+  const auto set = [this](ControlPanel* operating) {
+    const std::lock_guard lock(mutex_);
+    operating_ = operating;
+    if (operating && is_over_) operating->leave();
+  };
+  set(&panel);
+  std::string problem;
+  try {
+    call(panel);
+  } catch (const std::exception& error) {
+    problem = error.what();
   }
   set(nullptr);
+  return problem;
 }
 
 }  // namespace robosim

@@ -14,7 +14,7 @@
 namespace robosim {
 
 /// State of the environment's run for the console, received as a control panel of the environment. Starts the next run
-/// with the world that it receives as a viewer, if its token is an operator's.
+/// with the world that it receives as a viewer, and starts and stops the recording, if its token is an operator's.
 class RunMonitor final : public RunSource {
  public:
   /// Time without a status after which the environment is considered gone.
@@ -25,6 +25,7 @@ class RunMonitor final : public RunSource {
 
   RunView newest() override;
   void restart() override;
+  void setRecording(bool on) override;
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -32,8 +33,12 @@ class RunMonitor final : public RunSource {
   void watch();  ///< on its thread, as the functions that follow
   void receive(const v1::RunStatus& status);
   void requestSourceOnce();
-  void restarts();  ///< on its thread, as the function that follows
-  void load(const WorldSource& source);
+  void operate();  ///< on its thread, as the functions that follow
+  void restartOnce();
+  void recordOnce(bool on);
+  /// Calls `call` with a control panel that the destructor cancels. @return why it has failed; empty if it has not
+  template <typename Call>
+  std::string attempt(const Call& call);
 
   ConnectOptions environment_;
   CallCancellation viewing_;
@@ -43,9 +48,10 @@ class RunMonitor final : public RunSource {
   std::optional<Clock::time_point> received_;  ///< time of the last status
   std::optional<WorldSource> source_;          ///< of the run that is over; nullopt before its end
   ControlPanel* watching_ = nullptr;           ///< null while there is none, as the next one
-  ControlPanel* loading_ = nullptr;
+  ControlPanel* operating_ = nullptr;
+  std::optional<bool> recording_request_;  ///< not executed yet
   bool is_over_ = false;
-  std::thread watcher_, restarter_;
+  std::thread watcher_, operator_;
 };
 
 }  // namespace robosim

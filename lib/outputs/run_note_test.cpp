@@ -20,6 +20,14 @@ TEST(RunNote, RoundTripsTheBytesOfMapFiles) {
   }
 }
 
+TEST(RunNote, ContainsTheFirstStepOfARecordingThatWasStartedDuringTheRun) {
+  RunNote note;
+  EXPECT_EQ(note.text().find("first_step"), std::string::npos) << "as in recordings of earlier versions";
+  EXPECT_EQ(RunNote::parse(note.text())->first_step, 0u);
+  note.first_step = 15;
+  EXPECT_EQ(RunNote::parse(note.text())->first_step, 15u);
+}
+
 TEST(RunNote, IsRejectedWithATimeStepThatNoRunHas) {
   const auto is_accepted = [](double period_s) {
     RunNote note;

@@ -9,26 +9,30 @@ namespace robosim {
 RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note)
     : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)) {}
 
-void RunRecording::open() { open(options_.file, 0); }
+void RunRecording::open() { open(options_.file, {}); }
 
 void RunRecording::openNext(const State& state) {
   int number = 1;
   while (!isFree(part(number))) ++number;
-  open(part(number), state.time.step);
+  SimTime start = state.time;
+  if (last_step_ == start.step) ++start.step;
+  open(part(number), start);
   write(state);
 }
 
-void RunRecording::open(const std::filesystem::path& file, std::uint64_t first_step) {
+void RunRecording::open(const std::filesystem::path& file, const SimTime& start) {
   note_.outcome = nullptr;
-  note_.first_step = first_step;
-  writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text());
-  file_ = file;
+  note_.first_step = start.step;
+  writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
+  previous_file_ = std::exchange(file_, file);
   const auto files = writer_->files();
   files_.insert(files_.end(), files.begin(), files.end());
 }
 
 void RunRecording::write(const State& state) {
-  if (writer_) writer_->write(state.readings, state.world_from_robot, state.commands);
+  if (!writer_ || last_step_ == state.time.step) return;
+  writer_->write(state.readings, state.world_from_robot, state.commands);
+  last_step_ = state.time.step;
 }
 
 void RunRecording::close(const RunSummary& outcome) {
@@ -36,8 +40,15 @@ void RunRecording::close(const RunSummary& outcome) {
   note_.outcome = outcome.json();
   // The file of a repeated run is identical regardless of its duration.
   for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
-  writer_->close(note_.text());
-  writer_.reset();
+  const auto writer = std::move(writer_);
+  try {
+    writer->close(note_.text());
+  } catch (...) {
+    const auto discarded = writer->files();
+    files_.erase(files_.end() - static_cast<std::ptrdiff_t>(discarded.size()), files_.end());
+    file_ = previous_file_;
+    throw;
+  }
 }
 
 void RunRecording::keep() {

@@ -1,6 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "environment/environment.h"
@@ -31,27 +33,30 @@ class RunRecording {
   /// Starts with the first step of the run, in `options.file`, which replaces an older file when it is complete.
   /// @throws ConfigError
   void open();
-  /// Starts with the current step, in the first file of options.file, "_part2", "_part3", … that does not exist.
+  /// Starts with the current step, or with the next if the previous part ends with the current one, so that no step is
+  /// in two parts; in the first file of options.file, "_part2", "_part3", … that does not exist.
   /// @throws ConfigError
   void openNext(const State& state);
-  /// Records the current step; no effect while the recording is off. @throws RecordingError
+  /// Records the current step; no effect while the recording is off, or for the step recorded last. @throws
+  /// RecordingError
   void write(const State& state);
   /// Completes the current part, whose last note has this outcome; no effect while the recording is off.
-  /// @throws RecordingError
+  /// @throws RecordingError when the part cannot be completed: it is discarded, and the recording is off.
   void close(const RunSummary& outcome);
   /// Completes the current part without a last note. @throws RecordingError
   void keep();
 
  private:
-  void open(const std::filesystem::path& file, std::uint64_t first_step);
+  void open(const std::filesystem::path& file, const SimTime& start);
   std::filesystem::path part(int number) const;
   bool isFree(const std::filesystem::path& file) const;
 
   RecordingOptions options_;
   std::vector<RobotInfo> robots_;
   RunNote note_;
-  std::unique_ptr<RawlogWriter> writer_;  ///< null while the recording is off
-  std::filesystem::path file_;
+  std::unique_ptr<RawlogWriter> writer_;    ///< null while the recording is off
+  std::optional<std::uint64_t> last_step_;  ///< recorded
+  std::filesystem::path file_, previous_file_;
   std::vector<std::filesystem::path> files_;
 };
 

@@ -121,7 +121,7 @@ struct RawlogWriter::Impl {
   std::vector<std::unique_ptr<Output>> outputs;  ///< one, or one per robot
   std::vector<Step> filling, recording;
   std::size_t filled = 0;
-  SimTime last;         ///< time of the last step
+  SimTime last;         ///< time of the last step; before the first, of the start
   WorkerThread worker;  ///< processes `recording`; destroyed first, which waits for it
 };
 
@@ -173,9 +173,10 @@ void RawlogWriter::Impl::comment(const std::string& text) {
 }
 
 RawlogWriter::RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots, RawlogFormat format,
-                           RawlogImages images, const std::string& note)
+                           RawlogImages images, const std::string& note, const SimTime& start)
     : impl_(std::make_unique<Impl>()) {
   impl_->format = format;
+  impl_->last = start;
   impl_->filling.resize(std::max<std::size_t>(1, kReadingsPerBatch / std::max<std::size_t>(1, robots.size())));
   impl_->recording = impl_->filling;
   for (const auto& robot : robots) {

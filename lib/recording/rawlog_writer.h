@@ -40,10 +40,11 @@ class RawlogWriter {
  public:
   /// @param note first entry of each file, a CObservationComment (with sensory_frames, in a separate pair); empty for
   ///        none
+  /// @param start time of the note
   /// @throws ConfigError when a file cannot be created, or a robot has no odometry for its actions.
   RawlogWriter(const std::filesystem::path& file, std::span<const RobotInfo> robots,
                RawlogFormat format = RawlogFormat::observations, RawlogImages images = RawlogImages::embedded,
-               const std::string& note = "");
+               const std::string& note = "", const SimTime& start = {});
   ~RawlogWriter();
 
   /// Records one time step. Errors of the worker thread are thrown by a later call, at the latest by close(): an

@@ -82,6 +82,10 @@ struct Console::Impl final : public WebPageHandler {
     if (options.run) options.run->restart();
     return false;
   }
+  bool operator()(const RecordRun& action) {
+    if (options.run) options.run->setRecording(action.on);
+    return false;
+  }
   bool operator()(const WatchMap& action) {
     is_map_watched = action.watched;
     if (options.map) options.map->setWatched(action.watched);

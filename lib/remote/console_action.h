@@ -42,6 +42,10 @@ struct SwitchPrimary {
 
 /// Starts the environment's world again, after its run has ended.
 struct RestartRun {};
+/// Starts or stops the recording of the environment's run.
+struct RecordRun {
+  bool on;
+};
 
 /// Starts or stops the map, which is fetched only while a page shows it.
 struct WatchMap {
@@ -60,7 +64,7 @@ struct WriteAudit {
 };
 
 using ConsoleAction = std::variant<WakePage, DisconnectPage, SendOrder, SetDriver, SetAutonomous, SwitchPrimary,
-                                   RestartRun, WatchMap, WriteLog, WriteAudit>;
+                                   RestartRun, RecordRun, WatchMap, WriteLog, WriteAudit>;
 using ConsoleActions = std::vector<ConsoleAction>;
 
 }  // namespace robosim

@@ -258,10 +258,12 @@ void ConsoleSession::publishVitals(Time now) {
 }
 
 void ConsoleSession::takeRun(const RunView& run) {
-  const std::string former_problem = std::exchange(run_, run).restart_problem;
-  if (!run.restart_problem.empty() && run.restart_problem != former_problem) {
-    noteToAll(noteJson("The next run could not be started: " + run.restart_problem, true));
-  }
+  const RunView former = std::exchange(run_, run);
+  const auto report = [&](const char* what, const std::string& problem, const std::string& former_problem) {
+    if (!problem.empty() && problem != former_problem) noteToAll(noteJson(what + problem, true));
+  };
+  report("The next run could not be started: ", run.restart_problem, former.restart_problem);
+  report("The recording could not be changed: ", run.recording.problem, former.recording.problem);
   if (!feed_.run.set(runJson(run))) return;
   wakeAdmittedPages();
 }

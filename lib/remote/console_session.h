@@ -102,6 +102,7 @@ class ConsoleSession {
   void setAutonomous(Page& page, bool autonomous);
   void switchPrimary(Page& page, const std::string& robot);
   void playAgain(Page& page);
+  void record(Page& page, bool on);
   void deny(Page& page, const PageMessage& message, const std::string& why);
   ///@}
 

@@ -68,6 +68,8 @@ void ConsoleSession::handle(Page& page, const PageMessage& message, Time now) {
       return switchPrimary(page, message.robot);
     case Type::play_again:
       return playAgain(page);
+    case Type::record:
+      return record(page, message.on);
   }
 }
 
@@ -167,6 +169,13 @@ void ConsoleSession::playAgain(Page& page) {
   if (!run_.may_restart || run_.is_restarting) return;
   audit(page, "play again");
   act(RestartRun{});
+}
+
+void ConsoleSession::record(Page& page, bool on) {
+  const RecordingView& recording = run_.recording;
+  if (!recording.may_change || recording.is_changing || on == (recording.state == RecordingView::State::on)) return;
+  audit(page, on ? "record on" : "record off");
+  act(RecordRun{on});
 }
 
 /// Informs a page that its token does not permit a message, and releases the control lock if the token no longer

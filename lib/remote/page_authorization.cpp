@@ -36,6 +36,7 @@ constexpr std::array<MessageRule, PageMessage::kTypes> kRules{{
     {Type::autonomous, Right::drive_primary, Page::holds_lock, Primary::settled},
     {Type::switch_primary, Right::drive_primary_and_target, Page::holds_lock, Primary::settled},
     {Type::play_again, Right::operate, Page::holds_lock, Primary::any},
+    {Type::record, Right::operate, Page::holds_lock, Primary::any},
 }};
 
 constexpr bool isRuleAtItsIndex() {
@@ -54,7 +55,9 @@ std::string denial(const Access& access, const Identity& client, const PageState
     return mayLook(access, client) ? "" : "Your token does not permit the map, which shows true poses.";
   }
   if (right == Right::operate) {
-    return mayOperate(access, client) ? "" : "Your token does not permit starting a run.";
+    if (mayOperate(access, client)) return "";
+    return message.type == Type::record ? "Your token does not permit recording the run."
+                                        : "Your token does not permit starting a run.";
   }
   if (!mayDrive(access, client, state.primary)) {
     return mayLook(access, client) ? "Your token permits watching, not driving."

@@ -51,7 +51,7 @@ TEST_F(PageAuthorizationTest, PermitsEachMessageToTheRolesOfTheTable) {
       {Type::turn_right, "no yes no yes yes no"},   {Type::stop, "no yes no yes yes no"},
       {Type::alive, "no yes no yes yes no"},        {Type::check_win, "no yes no yes yes no"},
       {Type::autonomous, "no yes no yes yes no"},   {Type::switch_primary, "no yes no yes yes no"},
-      {Type::play_again, "no no no no yes no"},
+      {Type::play_again, "no no no no yes no"},     {Type::record, "no no no no yes no"},
   };
   for (const Type type : pageMessageTypes()) {
     ASSERT_TRUE(table.contains(type)) << "add a row for " << nameOf(type);
@@ -83,6 +83,8 @@ TEST_F(PageAuthorizationTest, StatesWhyATokenDoesNotPermitAMessage) {
   };
   EXPECT_EQ(why("viewer-0123456789abcdef", Type::drive), "Your token permits watching, not driving.");
   EXPECT_EQ(why("only-bob-0123456789abcdef", Type::drive), "Your token is not for Ann.");
+  EXPECT_EQ(why("both-0123456789abcdef", Type::record), "Your token does not permit recording the run.");
+  EXPECT_EQ(why("both-0123456789abcdef", Type::play_again), "Your token does not permit starting a run.");
   EXPECT_EQ(why("only-bob-0123456789abcdef", Type::map), "Your token does not permit the map, which shows true poses.");
 }
 
@@ -112,7 +114,7 @@ TEST_F(PageAuthorizationTest, IgnoresDrivingWithoutTheControlLock) {
   state.holds_lock = false;
   EXPECT_EQ(typesWith(Result::ignored, state),
             (std::set<std::string>{"release", "drive", "accelerate", "decelerate", "turn_left", "turn_right", "stop",
-                                   "alive", "check_win", "autonomous", "switch", "play_again"}));
+                                   "alive", "check_win", "autonomous", "switch", "play_again", "record"}));
 }
 
 TEST_F(PageAuthorizationTest, IgnoresDrivingDuringASwitchButNeverAStop) {

@@ -53,6 +53,26 @@ const char* nameOf(RunView::Phase phase) {
   return "";
 }
 
+const char* nameOf(RecordingView::State state) {
+  switch (state) {
+    case RecordingView::State::none:
+      return "none";
+    case RecordingView::State::on:
+      return "on";
+    case RecordingView::State::off:
+      return "off";
+  }
+  return "";
+}
+
+Json jsonOf(const RecordingView& recording) {
+  return {{"state", nameOf(recording.state)},
+          {"file", recording.file},
+          {"may_change", recording.may_change},
+          {"is_changing", recording.is_changing},
+          {"problem", recording.problem}};
+}
+
 Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
 
 std::string hexOf(std::uint32_t rgb) {
@@ -251,7 +271,8 @@ std::string runJson(const RunView& run) {
                  {"problem", run.problem},
                  {"absent", run.absent},
                  {"may_restart", run.may_restart},
-                 {"is_restarting", run.is_restarting}});
+                 {"is_restarting", run.is_restarting},
+                 {"recording", jsonOf(run.recording)}});
 }
 
 std::string pulseJson() { return textOf({{"type", "pulse"}}); }

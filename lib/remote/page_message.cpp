@@ -42,6 +42,7 @@ constexpr std::array<Syntax, PageMessage::kTypes> kSyntax{{
     {Type::autonomous, "autonomous", {"on"}},
     {Type::switch_primary, "switch", {"robot"}},
     {Type::play_again, "play_again"},
+    {Type::record, "record", {"on"}},
 }};
 
 constexpr bool isEntryAtItsIndex() {

@@ -35,8 +35,9 @@ struct PageMessage {
     autonomous,      ///< on: the primary's own controller drives
     switch_primary,  ///< "switch": to `robot`, or to the next
     play_again,      ///< loads and starts the world again after the end of the run
+    record,          ///< on: starts or stops the recording of the run
   };
-  static constexpr std::size_t kTypes = 21;
+  static constexpr std::size_t kTypes = 22;
 
   Type type = Type::hello;
   std::uint32_t protocol = 0;

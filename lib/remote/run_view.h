@@ -4,6 +4,22 @@
 
 namespace robosim {
 
+/// State of the run's recording.
+struct RecordingView {
+  enum class State {
+    none,  ///< never observed, or the environment was started without a name for recordings
+    on,
+    off,
+  };
+  State state = State::none;
+  std::string file{};  ///< current or last file, its name without folder; empty while there is none
+  /// Whether setRecording() may succeed: the run is not over, and the console's own token is an operator's.
+  bool may_change = false;
+  bool is_changing = false;
+  std::string problem{};  ///< why the last change has failed; empty when it has not
+  bool operator==(const RecordingView&) const = default;
+};
+
 /// State of the environment's run, as far as the console can observe it.
 struct RunView {
   enum class Phase {
@@ -22,6 +38,7 @@ struct RunView {
   bool may_restart = false;
   bool is_restarting = false;
   std::string restart_problem{};  ///< why the last restart has failed; empty when it has not
+  RecordingView recording{};
   bool operator==(const RunView&) const = default;
 };
 
@@ -32,6 +49,8 @@ class RunSource {
   virtual RunView newest() = 0;
   /// Loads the run's world again, and starts it. Does not block: newest() contains the result.
   virtual void restart() = 0;
+  /// Starts or stops the recording. Does not block: newest() contains the result.
+  virtual void setRecording(bool on) = 0;
 };
 
 }  // namespace robosim

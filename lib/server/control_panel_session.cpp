@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "base/error_list.h"
-#include "net/stream_session.h"
-#include "net/unary_session.h"
 #include "net/wire_error.h"
+#include "server/control_panel_calls.h"
 #include "server/world_pieces.h"
 
 namespace robosim {
@@ -21,10 +20,6 @@ constexpr std::uint64_t kStepsMax = 1'000'000'000;
 /// Index of a method in the service.
 int indexOf(const char* method) {
   return v1::RunStatus::descriptor()->file()->FindServiceByName("ControlPanel")->FindMethodByName(method)->index();
-}
-
-SessionRules rulesFor(Right right) {
-  return {.right = right, .log_kind = "refused control panels", .refused_word = "refused"};
 }
 
 void checkSteps(std::uint64_t steps) {
@@ -41,28 +36,6 @@ void checkSpeed(double speed, Pace pace) {
                   "; must lie in [0.001, 1000000], or be 0 for unlimited speed");
 }
 
-/// Shortest time between two statuses of a watcher: a status takes time proportional to the number of robots, on the
-/// thread that steps the run.
-constexpr std::chrono::milliseconds kIntervalMin(50);
-
-/// Minimum time between two statuses of a watcher.
-ServingState::Clock::duration intervalOf(const v1::WatchRequest& request) {
-  const double s = request.min_interval_s();
-  if (!(s >= 0 && s <= 3600)) {
-    throw WireError("a minimum interval of " + std::to_string(s) + " s; must lie in [0, 3600]");
-  }
-  return std::max<ServingState::Clock::duration>(
-      kIntervalMin, std::chrono::duration_cast<ServingState::Clock::duration>(std::chrono::duration<double>(s)));
-}
-
-/// Parameters of a request for the audit log.
-std::string detailsOf(const google::protobuf::Message&) { return ""; }
-std::string detailsOf(const v1::StepRequest& request) { return " " + std::to_string(request.steps()); }
-std::string detailsOf(const v1::SetSpeedRequest& request) {
-  return request.speed() == 0 ? " max" : " " + std::to_string(request.speed());
-}
-std::string detailsOf(const v1::SetRecordingRequest& request) { return request.on() ? " on" : " off"; }
-
 void setRecording(RunOperations& operations, bool on) {
   try {
     operations.set_recording(on);
@@ -78,161 +51,6 @@ WatchAsStream::WatchAsStream() {
   MarkMethodStreamed(watch, nullptr);
   MarkMethodRaw(watch);
 }
-
-/// A call that changes the run or reports its status, between steps.
-class ControlPanelSession::Call {
- public:
-  explicit Call(const char* operation) : what(operation) {}
-  Call(const Call&) = delete;
-  Call& operator=(const Call&) = delete;
-  virtual ~Call() = default;
-  virtual ServerSession& session() = 0;
-  virtual std::string details() const = 0;  ///< for the audit log
-  virtual void execute(RunOperations& operations) = 0;
-  /// Answers the call; later calls have no effect.
-  virtual void answer(const v1::RunStatus& reply) = 0;
-
-  const char* const what;                   ///< requested operation for the log; null for read-only calls
-  std::optional<std::uint64_t> until_step;  ///< the call is answered after this step
-};
-
-/// Method of the service with one request: its name, the right it requires, and its implementation.
-template <typename Request>
-struct ControlPanelSession::Kind {
-  const char* what;
-  Right right;
-  void (ControlPanelSession::*request)(grpc::ServerContext*, Request*, grpc::ServerAsyncResponseWriter<v1::RunStatus>*,
-                                       grpc::CompletionQueue*, grpc::ServerCompletionQueue*, void*);
-  std::function<void(RunOperations&, const Request&, Call&)> execute;
-};
-
-template <typename Request>
-class ControlPanelSession::PlainCall final : public UnarySession<Request, v1::RunStatus>, public Call {
- public:
-  using Unary = UnarySession<Request, v1::RunStatus>;
-  PlainCall(ControlPanelSession& owner, const Kind<Request>& kind)
-      : Unary(owner.serving_, rulesFor(kind.right)), Call(kind.what), owner_(owner), kind_(kind) {}
-
-  std::string logName() const override { return "control panel " + this->peer(); }
-  ServerSession& session() override { return *this; }
-  std::string details() const override { return detailsOf(this->request()); }
-  void execute(RunOperations& operations) override { kind_.execute(operations, this->request(), *this); }
-  void answer(const v1::RunStatus& reply) override { Unary::answer(reply); }
-
- private:
-  void received(const Request& request) override {
-    checkProtocol(request.protocol());
-    this->establish();
-    owner_.queue(std::static_pointer_cast<PlainCall>(this->shared_from_this()));
-  }
-  void runEnds() override {
-    this->close(until_step ? errorStatus(v1::ERROR_REASON_STEPS_INTERRUPTED,
-                                         "the run has ended before step " + std::to_string(*until_step))
-                           : SessionHost::runIsOver());
-  }
-
-  ControlPanelSession& owner_;
-  const Kind<Request> kind_;
-};
-
-/// Receives the pieces of a world. One load at a time is accepted, which bounds the memory used to one world.
-class ControlPanelSession::LoadCall final : public StreamSession<v1::LoadRequest, v1::RunStatus>, public Call {
- public:
-  explicit LoadCall(ControlPanelSession& owner) : StreamSession(owner.serving_, rules()), Call("load"), owner_(owner) {}
-
-  bool is_complete = false;
-  ServingState::Clock::time_point since;
-  WorldPieces pieces;
-
-  std::string logName() const override { return "control panel " + peer() + ": load"; }
-  ServerSession& session() override { return *this; }
-  std::string details() const override { return " " + world_; }
-  void execute(RunOperations& operations) override {
-    operations.replace(owner_.prepared_.get());
-    v1::RunStatus status;
-    operations.describe(status);
-    world_ = status.world();
-    operations.run_control.is_paused = true;
-    operations.run_control.steps_left = 0;
-  }
-  void answer(const v1::RunStatus& reply) override {
-    draft() = reply;
-    post();
-    close(grpc::Status::OK);
-  }
-
- private:
-  static SessionRules rules() {
-    SessionRules rules = rulesFor(Right::operate);
-    rules.may_send_more = true;  // a world is large
-    return rules;
-  }
-  grpc::Status admit() override {
-    if (!owner_.isLoading()) return grpc::Status::OK;
-    return errorStatus(v1::ERROR_REASON_LOAD_IN_PROGRESS,
-                       "the environment is loading a world for another call; load again when that is done");
-  }
-  ReadPolicy received(const v1::LoadRequest& piece) override {
-    if (!isEstablished()) begin(piece);
-    pieces.add(piece.piece());
-    return ReadPolicy::immediate;
-  }
-  /// Makes this call the active load, on its first piece.
-  void begin(const v1::LoadRequest& piece) {
-    checkProtocol(piece.protocol());
-    if (const auto status = admit(); !status.ok()) throw WireError(status);
-    establish();
-    since = owner_.serving_.now();
-    owner_.load_ = std::static_pointer_cast<LoadCall>(shared_from_this());
-  }
-  void readsDone() override {
-    if (isGone()) return;
-    if (pieces.empty()) {
-      disconnect(
-          errorStatus(v1::ERROR_REASON_INVALID_MESSAGE, "no piece of a robosim.v1.WorldSource; see doc/protocol.md"));
-      return;
-    }
-    is_complete = true;
-    owner_.serving_.wake_requested = true;
-  }
-  void runEnds() override { close(SessionHost::runIsOver()); }
-
-  ControlPanelSession& owner_;
-  std::string world_;  ///< name of the loaded world
-};
-
-/// Stream of statuses to one control panel.
-class ControlPanelSession::Watcher final : public StreamSession<v1::WatchRequest, v1::RunStatus> {
- public:
-  explicit Watcher(ControlPanelSession& owner) : StreamSession(owner.serving_, rulesFor(Right::look)), owner_(owner) {}
-
-  std::string logName() const override { return "control panel " + peer() + ": watch"; }
-
-  ServingState::Clock::duration interval{};
-  ServingState::Clock::time_point due;  ///< earliest time of the next status
-
- private:
-  ReadPolicy received(const v1::WatchRequest& request) override {
-    if (isEstablished()) throw WireError("a second request in one call");
-    checkProtocol(request.protocol());
-    interval = intervalOf(request);
-    due = owner_.serving_.now();
-    establish();
-    owner_.watchers_.push_back(std::static_pointer_cast<Watcher>(shared_from_this()));
-    owner_.serving_.wake_requested = true;
-    return ReadPolicy::immediate;
-  }
-  /// The client has sent its one request.
-  void readsDone() override {
-    if (isEstablished() || isGone()) return;
-    disconnect(errorStatus(v1::ERROR_REASON_INVALID_MESSAGE, "a call without a request; see doc/protocol.md"));
-  }
-  void left() override {
-    std::erase_if(owner_.watchers_, [&](const auto& watcher) { return watcher.get() == this; });
-  }
-
-  ControlPanelSession& owner_;
-};
 
 ControlPanelSession::ControlPanelSession(ServingState& serving) : serving_(serving) {}
 ControlPanelSession::~ControlPanelSession() = default;
@@ -348,7 +166,7 @@ void ControlPanelSession::execute(RunOperations& operations) {
   for (const auto& watcher : watchers_) {
     if (serving_.now() < watcher->due || !watcher->isIdle()) continue;
     watcher->due = serving_.now() + watcher->interval;
-    operations.describe(watcher->draft());
+    describe(operations, *watcher, watcher->draft());
     watcher->post();
   }
 }
@@ -366,7 +184,7 @@ void ControlPanelSession::execute(RunOperations& operations, Call& call) {
     if (call.what) serving_.audit.write(session.client(), session.peer(), call.what + call.details());
     if (call.until_step) return;
     v1::RunStatus reply;
-    operations.describe(reply);
+    describe(operations, session, reply);
     call.answer(reply);
   } catch (const WireError& error) {
     refuse(call, error.status());
@@ -376,6 +194,13 @@ void ControlPanelSession::execute(RunOperations& operations, Call& call) {
     session.close(errorStatus(v1::ERROR_REASON_INTERNAL, "the run ends here: " + std::string(error.what())));
     throw;
   }
+}
+
+/// Fills in the status of the run for a client.
+void ControlPanelSession::describe(const RunOperations& operations, const ServerSession& session,
+                                   v1::RunStatus& status) const {
+  operations.describe(status);
+  status.set_may_operate(serving_.access.check(session.client(), Right::operate).ok());
 }
 
 void ControlPanelSession::refuse(Call& call, const grpc::Status& status) {
@@ -390,6 +215,7 @@ void ControlPanelSession::answerSteppers(RunOperations& operations) {
   if (steppers_.empty()) return;
   v1::RunStatus status;
   operations.describe(status);
+  status.set_may_operate(true);  // stepping requires it
   std::erase_if(steppers_, [&](const auto& call) {
     if (call->session().isGone() || call->session().isCancelled()) return true;
     if (status.step() >= *call->until_step) {
@@ -407,7 +233,7 @@ void ControlPanelSession::answerSteppers(RunOperations& operations) {
 
 void ControlPanelSession::publishLast(RunOperations& operations) {
   for (const auto& watcher : watchers_) {
-    operations.describe(watcher->draft());
+    describe(operations, *watcher, watcher->draft());
     watcher->post();
   }
   calls_.clear();

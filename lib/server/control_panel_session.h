@@ -33,7 +33,7 @@ struct RunOperations {
   std::function<std::unique_ptr<PreparedRun>(const WorldSource&)> prepare;
   /// Replaces the run that is served by a prepared one.
   std::function<void(std::unique_ptr<PreparedRun>)> replace;
-  /// Starts or stops the recording. @throws ConfigError when it cannot be started
+  /// Starts or stops the recording. @throws ConfigError when it cannot be started or completed
   std::function<void(bool)> set_recording;
   /// Fills in the status of the run.
   std::function<void(v1::RunStatus&)> describe = [](v1::RunStatus&) {};
@@ -71,6 +71,7 @@ class ControlPanelSession final : public ControlPanelService {
   void serve(const CompletionQueueServer::ServiceQueues& queues, const Kind<Request>& kind);
   void queue(const std::shared_ptr<Call>& call);
   void execute(RunOperations& operations, Call& call);
+  void describe(const RunOperations& operations, const ServerSession& session, v1::RunStatus& status) const;
   void refuse(Call& call, const grpc::Status& status);
   bool isLoading() const;
   void advanceLoad(RunOperations& operations);

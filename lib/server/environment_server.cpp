@@ -12,6 +12,8 @@
 #include "server/control_panel_session.h"
 #include "server/geometry_session.h"
 #include "server/robot_session.h"
+#include "server/run_status.h"
+#include "server/step_rate.h"
 #include "server/viewer_session.h"
 
 namespace robosim {
@@ -34,54 +36,6 @@ std::uint64_t randomSecret() {
   std::random_device random;
   return std::uint64_t{random()} << 32 | random();
 }
-
-v1::RecordingState encode(RecordingStatus::State state) {
-  switch (state) {
-    case RecordingStatus::State::none:
-      return v1::RECORDING_STATE_NONE;
-    case RecordingStatus::State::on:
-      return v1::RECORDING_STATE_ON;
-    case RecordingStatus::State::off:
-      return v1::RECORDING_STATE_OFF;
-  }
-  return v1::RECORDING_STATE_UNSPECIFIED;
-}
-
-v1::LostRobotPolicy encode(OnLostRobot policy) {
-  switch (policy) {
-    case OnLostRobot::wait:
-      return v1::LOST_ROBOT_POLICY_WAIT;
-    case OnLostRobot::continue_:
-      return v1::LOST_ROBOT_POLICY_CONTINUE;
-    case OnLostRobot::fail:
-      return v1::LOST_ROBOT_POLICY_FAIL;
-  }
-  return v1::LOST_ROBOT_POLICY_UNSPECIFIED;
-}
-
-/// Measures the step rate over windows of at least one second.
-class StepRate {
- public:
-  void note(Clock::time_point now) {
-    ++steps_;
-    const std::chrono::duration<double> passed = now - since_;
-    if (passed.count() < 1) return;
-    rate_ = static_cast<double>(steps_) / passed.count();
-    steps_ = 0;
-    since_ = now;
-  }
-  /// Restarts the window, so that paused time does not count.
-  void rest(Clock::time_point now) {
-    steps_ = 0;
-    since_ = now;
-  }
-  double stepsPerSecond() const { return rate_; }
-
- private:
-  Clock::time_point since_ = Clock::now();
-  std::uint64_t steps_ = 0;
-  double rate_ = 0;
-};
 
 }  // namespace
 
@@ -171,8 +125,6 @@ struct EnvironmentServer::Impl {
   }
 
   void describe(const ServedRun& run, v1::RunStatus& status) const {
-    const RunInfo& run_info = *run.runInfo();
-    const State& state = run_info.environment.state();
     const bool waits = !waited_for || !waited_for->empty();
     const bool is_running = !waits && run_control.mayStep();
     status.Clear();
@@ -180,39 +132,15 @@ struct EnvironmentServer::Impl {
                      : waits                         ? v1::RUN_PHASE_WAITING
                      : is_running                    ? v1::RUN_PHASE_RUNNING
                                                      : v1::RUN_PHASE_PAUSED);
-    status.set_world(run_info.environment.world().name);
-    status.set_world_version(run_info.world_version);
-    status.set_step(state.time.step);
-    status.set_time_s(state.time.seconds());
     status.set_speed(run_control.speed);
     status.set_steps_per_s(is_running ? rate.stepsPerSecond() : 0);
-    status.set_robots(static_cast<std::uint32_t>(run_info.robot_names.size()));
     status.set_robots_connected(static_cast<std::uint32_t>(robots.connected()));
-    constexpr std::size_t kNamesMax = 100;
-    std::vector<std::string> absent = robots.absent();
-    absent.resize(std::min(absent.size(), kNamesMax));
-    status.mutable_robots_absent()->Assign(absent.begin(), absent.end());
-    status.set_robots_active(
-        static_cast<std::uint32_t>(std::count(state.activity.begin(), state.activity.end(), Activity::active)));
+    describeAbsent(robots.absent(), status);
     status.set_viewers(static_cast<std::uint32_t>(viewers.count()));
     status.set_geometry_workers(static_cast<std::uint32_t>(geometry.count()));
     status.set_late_commands(robots.late());
-    const RunReport so_far = report();
-    status.set_on_lost_robot(encode(on_lost_robot));
-    for (const LostRobot& robot : so_far.lost_robots) {
-      if (static_cast<std::size_t>(status.lost_robots_size()) == kNamesMax) break;
-      auto& lost = *status.add_lost_robots();
-      lost.set_name(robot.name);
-      lost.set_times(robot.times);
-      lost.set_steps_missed(robot.steps_missed);
-      lost.set_is_lost(robot.is_lost);
-    }
-    status.set_messages_lost(so_far.messages_lost);
-    status.set_geometry_workers_rejected(static_cast<std::uint32_t>(so_far.rejected_workers.size()));
-    const RecordingStatus recording = run.recording();
-    status.set_recording(encode(recording.state));
-    status.set_recording_file(recording.file);
-    if (state.winner) status.set_winner(run_info.robot_names[*state.winner]);
+    describeRun(run, status);
+    describeReport(report(), status);
   }
 
   /// Ends all calls, and waits until their final status has been sent.

@@ -45,7 +45,7 @@ class ServedRun {
   virtual bool isOver() const = 0;
   virtual RecordingStatus recording() const { return {}; }
   /// Starts or stops the recording, between two steps; no effect when it is already so.
-  /// @throws ConfigError when it cannot be started @throws RecordingError when the file cannot be completed
+  /// @throws ConfigError when it cannot be started, or the file cannot be completed; the recording is then off.
   virtual void setRecording(bool /*on*/) {
     throw ConfigError("the run is not recorded: robosim serve was started without --record");
   }

@@ -167,7 +167,11 @@ RecordingStatus WorldRun::recording() const {
 
 void WorldRun::setRecording(bool on) {
   if (on && run_->is_finished) throw ConfigError("the run is over, and cannot be recorded; load the next one");
-  run_->outputs.setRecording(on, run_->run);
+  try {
+    run_->outputs.setRecording(on, run_->run);
+  } catch (const RecordingError& error) {  // the run continues without this recording
+    throw ConfigError(error.what());
+  }
 }
 
 void WorldRun::ends(const RunReport& report) {

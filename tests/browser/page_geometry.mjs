@@ -58,7 +58,7 @@ export function violations() {
       if (!isNested(a, b) && overlap(a, b) && !isBehind(a.element) && !isBehind(b.element)) found.push(`${name(a.element)} overlaps ${name(b.element)}`);
     }
   });
-  const onPicture = all(`.view-head, .signals, .hud${isCompact ? ', .pad, .acts, .limit, .tabs' : ''}`);
+  const onPicture = all(`.view-head, .signals, .hud, .record${isCompact ? ', .pad, .acts, .limit, .tabs' : ''}`);
   const hidesHud = isCompact && all('.panel.shown, .map').length > 0;
   onPicture.forEach((a, i) => {
     for (const b of onPicture.slice(i + 1)) {
@@ -69,7 +69,7 @@ export function violations() {
   const view = boxOf(document.querySelector('.view'));
   const banners = isOnPicture ? all('.banner') : [];
   for (const banner of banners) {
-    for (const part of onPicture) if (!part.element.matches('.view-head, .signals, .hud') && overlap(banner, part)) found.push(`${name(banner.element)} overlaps ${name(part.element)}`);
+    for (const part of onPicture) if (!part.element.matches('.view-head, .signals, .hud, .record') && overlap(banner, part)) found.push(`${name(banner.element)} overlaps ${name(part.element)}`);
   }
   for (const box of [...onPicture, ...banners]) {
     if (box.left < view.left - 1 || box.right > view.right + 1 || box.top < view.top - 1 || box.bottom > view.bottom + 1) found.push(`${name(box.element)} reaches over the picture's edge`);

@@ -34,7 +34,7 @@ async function take(browser, name, { map, team, ...options }) {
   const folder = mkdtempSync(join(tmpdir(), 'robosim_picture_'));
   const office = team ? writeOffice(folder, team) : null;
   const robots = office?.names ?? ['Pioneer1', 'Scout1', 'Pioneer2'];
-  const session = await Session.open({ world: office?.world ?? 'worlds/open_house.xml', robots, is_one_process: Boolean(team) });
+  const session = await Session.open({ world: office?.world ?? 'worlds/open_house.xml', robots, is_one_process: Boolean(team), serve: ['--record', join(folder, 'run.rawlog')] });
   const page = await visit(browser, session.url, { name: 'Ada', ...options });
   await takeControl(page);
   if (map) await page.click('#map-toggle');

@@ -45,14 +45,18 @@ export const STATES = {
   paused: { is_silent: true, run: { phase: 'paused' } },
   stalled: { is_stalled: true },
   'no camera': { has_camera: false },
+  recording: { run: { recording: { state: 'on', file: 'run_part2.rawlog' } } },
+  'recording failed': { run: { recording: { problem: '/data/run_part2.rawlog: No space left on device; free space on the disk' } } },
+  'recording, driver': { may_operate: false, run: { recording: { state: 'on', file: 'run.rawlog' } } },
+  'not recorded': { run: { recording: { state: 'none', may_change: false } } },
   '30 robots': { robots: 30, has_map: true },
   '200 robots': { robots: 200, has_long_names: true },
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, run = {} }) {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, run = {} }) {
     const isSilent = is_silent;
-    Object.assign(this, { socket, holder, is_down, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0 });
+    Object.assign(this, { socket, holder, is_down, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
   }
@@ -73,7 +77,7 @@ class Script {
   }
 
   welcome() {
-    this.send({ type: 'welcome', you: 1, may_operate: true });
+    this.send({ type: 'welcome', you: 1, may_operate: this.may_operate });
     this.sendRun(this.run);
     this.send({
       type: 'robot', name: this.names[0], model: 'pioneer3dx_driven', radius_m: 0.267, speed_max_mps: 1, turn_max_radps: 1.74, period_s: 0.02,
@@ -91,8 +95,13 @@ class Script {
     clearInterval(this.pulse);
   }
 
-  sendRun(run) {
-    this.send({ type: 'run', phase: 'running', problem: '', absent: [], may_restart: false, is_restarting: false, ...run });
+  sendRun({ recording, ...run }) {
+    const phase = run.phase ?? 'running';
+    const may_change = !['ended', 'gone'].includes(phase);
+    this.send({
+      type: 'run', phase, problem: '', absent: [], may_restart: false, is_restarting: false, ...run,
+      recording: { state: 'off', file: '', may_change, is_changing: false, problem: '', ...recording },
+    });
   }
 
   sendTeam() {

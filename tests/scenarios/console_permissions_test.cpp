@@ -43,11 +43,16 @@ struct NoMap final : MapSource {
   std::shared_ptr<const MapView> view = std::make_shared<MapView>();
 };
 
-/// A run that is over, and records whether a page was permitted to start the next one.
-struct FinishedRun final : RunSource {
-  RunView newest() override { return {.phase = RunView::Phase::ended, .may_restart = true}; }
+/// A run that permits all requests, and stores whether a page was permitted to start the next one, and to record it.
+struct RequestedRun final : RunSource {
+  RunView newest() override {
+    return {.phase = RunView::Phase::ended,
+            .may_restart = true,
+            .recording = {.state = RecordingView::State::off, .may_change = true}};
+  }
   void restart() override { is_restarted = true; }
-  std::atomic<bool> is_restarted{false};
+  void setRecording(bool on) override { is_recorded = on; }
+  std::atomic<bool> is_restarted{false}, is_recorded{false};
 };
 
 /// A console with Ann, the primary, and Bob.
@@ -88,7 +93,7 @@ class Team {
 
   TestRobot ann{"Ann"}, bob{"Bob"};
   NoMap map;
-  FinishedRun run;
+  RequestedRun run;
 
  private:
   std::atomic<bool> is_over_{false};
@@ -157,6 +162,7 @@ const std::map<std::string, Example>& examples() {
       {"switch to the next robot",
        {R"({"type":"switch","robot":"Bob"})", [](Team&, TestPage& p) { return primaryOf(p) == "Bob"; }}},
       {"play_again", {R"({"type":"play_again"})", [](Team& t, TestPage&) { return t.run.is_restarted.load(); }}},
+      {"record", {R"({"type":"record","on":true})", [](Team& t, TestPage&) { return t.run.is_recorded.load(); }}},
       {"req_heat", {R"({"type":"req_heat"})", answers("heat")}},
       {"req_laser", {R"({"type":"req_laser"})", answers("laser")}},
       {"req_sonar",
@@ -174,7 +180,8 @@ std::string stateOf(Team& team) {
     text += state.driver + (state.autonomous ? " autonomous " : " driven ") + std::to_string(command.speed_mps) + " " +
             std::to_string(command.turn_radps) + " " + std::to_string(robot->hardware->win_checks) + "\n";
   }
-  return text + (team.map.is_watched ? "map" : "") + (team.run.is_restarted ? "restarted" : "");
+  return text + (team.map.is_watched ? "map" : "") + (team.run.is_restarted ? "restarted" : "") +
+         (team.run.is_recorded ? "recorded" : "");
 }
 
 /// Waits until preceding messages have reached the primary: an answer follows them.

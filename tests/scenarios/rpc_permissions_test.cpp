@@ -131,7 +131,7 @@ std::string outcomeOf(const grpc::Status& status) {
     case grpc::StatusCode::INVALID_ARGUMENT:     // processed; contents refused
     case grpc::StatusCode::DATA_LOSS:            // the same, for a geometry worker
     case grpc::StatusCode::ALREADY_EXISTS:       // another connection still drives the robot
-    case grpc::StatusCode::FAILED_PRECONDITION:  // processed; this run is not recorded
+    case grpc::StatusCode::FAILED_PRECONDITION:  // the run was started without a name for recordings
       return "yes";
     case grpc::StatusCode::PERMISSION_DENIED:
       return "no";

@@ -3,19 +3,23 @@
 import { Camera } from './camera.js';
 import { redrawOnResize } from './canvas.js';
 import { Collision } from './collision.js';
+import { ControlView } from './control_view.js';
 import { Drive } from './drive.js';
 import { makeFullScreen } from './full_screen.js';
 import { Heat } from './heat.js';
+import { identity, makeDialogs, takeTokenFromAddress } from './identity.js';
 import { watchLayout } from './layout.js';
 import { Link } from './link.js';
 import { Map2D } from './map.js';
 import { heldTurn } from './motion.js';
+import { Notes } from './notes.js';
 import { makeOrderButton } from './order_button.js';
 import { Pad } from './pad.js';
 import { Radar } from './radar.js';
 import { clock, Readings } from './readings.js';
+import { Recording } from './recording.js';
 import { Signals } from './signals.js';
-import { setPill, StateView } from './state_view.js';
+import { StateView } from './state_view.js';
 import { makeStopButton } from './stop_button.js';
 import { Tabs } from './tabs.js';
 import { Team } from './team.js';
@@ -24,21 +28,14 @@ import { Verdict } from './verdict.js';
 const $ = (id) => document.getElementById(id);
 const ANSWER_S = 5;  // for which an answer to a request is displayed
 
-// The token is in the fragment of the address, which browsers do not send; it is removed so that it cannot be read there.
-function tokenFromAddress() {
-  const token = new URLSearchParams(location.hash.slice(1)).get('token');
-  if (!token) return;
-  sessionStorage.setItem('token', token);
-  history.replaceState(null, '', location.pathname);
-}
-tokenFromAddress();
+takeTokenFromAddress();
 
-const UNKNOWN_RUN = { phase: 'unknown', problem: '', absent: [], may_restart: false, is_restarting: false };
+const UNKNOWN_RUN = {
+  phase: 'unknown', problem: '', absent: [], may_restart: false, is_restarting: false,
+  recording: { state: 'none', file: '', may_change: false, is_changing: false, problem: '' },
+};
 const state = { you: 0, mayOperate: false, team: null, run: UNKNOWN_RUN, robot: null, update: null, whyLost: '', isFirstTeam: true };
-const link = new Link(() => {
-  const token = sessionStorage.getItem('token');
-  return { name: localStorage.getItem('name') ?? '', ...(token ? { token } : {}) };
-});
+const link = new Link(identity);
 const hasControl = () => link.isOpen && state.team?.control_lock.holder === state.you;
 const drive = new Drive(link, hasControl, () => link.isLost);
 const view = new StateView(drive, link);
@@ -52,6 +49,12 @@ const members = new Team($('team'), $('team-filter'), (name) => link.send('switc
 const map = new Map2D($('map-card'), $('map'), $('map-note'));
 const readings = new Readings();
 const pad = new Pad($('pad'), $('pad-knob'), drive);
+const control = new ControlView(state, link, drive, pad, hasControl);
+const notes = new Notes($('notes'));
+const openHelp = makeDialogs(link);
+const recording = new Recording(
+  { place: $('record-place'), button: $('record'), label: $('record-label'), status: $('record-status'), problem: $('record-problem') }, link,
+);
 
 // ---- Messages of the console ----
 
@@ -67,13 +70,7 @@ link.addEventListener('welcome', ({ detail }) => {
 link.addEventListener('lost', ({ detail }) => {
   state.whyLost = detail.why;
   if (state.team && !detail.refused) showMembers();
-  showControls();
-});
-
-link.addEventListener('refused', ({ detail }) => {
-  sessionStorage.removeItem('token');
-  $('login-why').textContent = detail.text;
-  $('login').showModal();
+  control.showControls();
 });
 
 link.addEventListener('team', ({ detail: team }) => {
@@ -86,8 +83,8 @@ link.addEventListener('team', ({ detail: team }) => {
   const spectators = team.pages - (isLockFree ? 0 : 1);
   $('spectators').textContent = spectators > 0 ? `${spectators} watching` : '';
   showMembers();
-  showWho();
-  showControls();
+  control.showWho();
+  control.showControls();
   if (team.winner && team.winner !== lastWinner) note(`${team.winner} has won.`, false);
   lastWinner = team.winner;
 });
@@ -127,7 +124,8 @@ drive.addEventListener('tick', () => {
     isSending: drive.isSending,
     mayRestart: state.mayOperate && hasControl() && state.run.may_restart,
   });
-  if (wasFresh !== isFresh) showMode();
+  recording.show(state.run.recording, link.isOpen && state.mayOperate && hasControl() && state.run.recording.may_change);
+  if (wasFresh !== isFresh) control.showMode();
   wasFresh = isFresh;
 });
 let wasFresh = false;
@@ -195,25 +193,11 @@ function draw() {
   radar.draw();
   heat.draw();
   readings.draw();
-  if (state.update) showMode();
+  if (state.update) control.showMode();
   link.acknowledge();
 }
 
-// ---- State of team and control ----
-
-function showWho() {
-  const { control_lock: lock, robots, pages } = state.team;
-  const primary = robots[0];
-  const hasOtherDriver = primary.driver && !primary.is_yours && primary.up;
-  if (hasControl()) $('who').textContent = hasOtherDriver ? `${primary.driver} drives ${primary.name} with another remote control` : '';
-  else $('who').textContent = lock.holder ? `${lock.name} drives; you may watch` : 'No driver';
-  // A page with the control lock but without the robot may request it again. The lock may be released if others watch.
-  const mayTake = hasControl() ? !primary.driver && !primary.is_yours && primary.up : lock.holder === 0;
-  const mayRelease = hasControl() && !mayTake && pages > 1;
-  $('control').firstElementChild.textContent = mayRelease ? 'Release' : 'Take';
-  $('control').dataset.message = mayRelease ? 'release' : 'take';
-  $('control').hidden = !mayTake && !mayRelease;
-}
+// ---- The team, and answers ----
 
 function showMembers() {
   members.show(state.team.robots, hasControl());
@@ -228,49 +212,8 @@ function showColor() {
   radar.color = shown.color;
 }
 
-function showMode() {
-  const primary = state.team?.robots[0];
-  if (!primary) return;
-  const now = state.update?.state;
-  if (!link.isOpen) setPill($('mode'), 'no connection', 'bad');
-  else if (!primary.up) setPill($('mode'), 'down', 'bad');
-  else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
-  else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
-  else if (!link.freshness.isFresh(performance.now())) setPill($('mode'), 'no update', 'bad');
-  else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');
-  else showDriver(primary);
-}
-
-// This console's robot is driven by the page that holds the control lock.
-function showDriver(primary) {
-  const driver = primary.is_yours ? state.team.control_lock.name : primary.driver;
-  if (primary.is_yours && hasControl()) setPill($('mode'), 'driven by you', 'good');
-  else setPill($('mode'), driver ? `driven by ${driver}` : 'no driver', driver ? 'good' : 'info');
-}
-
-function showControls() {
-  const primary = state.team?.robots[0];
-  const may = hasControl() && Boolean(primary?.up && primary.is_yours);
-  const steers = may && !primary.autonomous && primary.activity === 'active';
-  for (const id of ['accelerate', 'decelerate', 'turn-left', 'turn-right', 'check-win']) $(id).disabled = !steers;
-  for (const id of ['stop', 'autonomous']) $(id).disabled = !may;
-  $('next').disabled = !hasControl() || !state.team.robots.slice(1).some((robot) => robot.fit);
-  $('autonomous').setAttribute('aria-pressed', String(Boolean(primary?.autonomous)));
-  drive.enable(steers);
-  pad.enable(steers);
-  showMode();
-}
-
 function note(text, isWarning) {
-  const item = document.createElement('li');
-  if (isWarning) item.className = 'warning';
-  const time = document.createElement('time');
-  time.textContent = state.update ? clock(state.update.time_s) : '';
-  const content = document.createElement('span');
-  content.textContent = text;
-  item.append(time, content);
-  $('notes').prepend(item);
-  while ($('notes').children.length > 50) $('notes').lastChild.remove();
+  notes.add(state.update ? clock(state.update.time_s) : '', text, isWarning);
 }
 
 let answerTimer = 0;
@@ -332,23 +275,6 @@ drive.addEventListener('key', ({ detail: key }) => {
   if (key === 'm') toggleMap();
   if (key === 'f') toggleFullScreen();
   if (key === '?') openHelp();
-});
-
-function openHelp() {
-  $('name').value = localStorage.getItem('name') ?? '';
-  $('help').showModal();
-}
-$('help-open').addEventListener('click', openHelp);
-$('help').addEventListener('close', () => {
-  const name = $('name').value.trim();
-  if (name === (localStorage.getItem('name') ?? '')) return;
-  localStorage.setItem('name', name);
-  link.send('hello', { protocol: 1, ...link.hello() });
-});
-$('login-form').addEventListener('submit', () => {
-  sessionStorage.setItem('token', $('token').value);
-  $('token').value = '';
-  link.connect();
 });
 
 const tabs = new Tabs(draw, () => { if (document.body.dataset.layout !== 'desk') setMap(false); });

@@ -168,6 +168,7 @@ class ConsoleHarness {
   std::vector<Order> orders;
   std::vector<std::string> log;
   std::size_t motions = 0, switches = 0, disconnections = 0, restarts = 0;  ///< in all
+  std::vector<bool> recordings;  ///< requests to start and stop the recording
 
  private:
   Access::Options accessOptions() {
@@ -278,6 +279,11 @@ class ConsoleHarness {
   bool operator()(const RestartRun&) {
     require(run.may_restart && !run.is_restarting, "a run is started only after the end of the previous one");
     ++restarts;
+    return false;
+  }
+  bool operator()(const RecordRun& action) {
+    require(run.recording.may_change && !run.recording.is_changing, "a recording is changed only when it can be");
+    recordings.push_back(action.on);
     return false;
   }
   bool operator()(const WatchMap& action) {

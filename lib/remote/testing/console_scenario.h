@@ -108,6 +108,8 @@ class ConsoleScenario {
       R"({"type":"switch","robot":"Bob"})",
       R"({"type":"switch","robot":"Cid"})",
       R"({"type":"play_again"})",
+      R"({"type":"record","on":true})",
+      R"({"type":"record","on":false})",
       R"({"type":"live","on":false})",
       R"({"type":"map","on":true})",
       R"({"type":"map","on":false})",

@@ -1,0 +1,22 @@
+// The list of messages, the newest first.
+
+const MAX_NOTES = 50;
+
+export class Notes {
+  constructor(list) {
+    this.list = list;
+  }
+
+  // `time`: displayed before the text
+  add(time, text, isWarning) {
+    const item = document.createElement('li');
+    if (isWarning) item.className = 'warning';
+    const when = document.createElement('time');
+    when.textContent = time;
+    const content = document.createElement('span');
+    content.textContent = text;
+    item.append(when, content);
+    this.list.prepend(item);
+    while (this.list.children.length > MAX_NOTES) this.list.lastChild.remove();
+  }
+}

@@ -1,0 +1,54 @@
+// The recording of the run, on the picture: its state, and the button that starts and stops it if the user may.
+
+const SHOWN_MS = 8000;  // why a request has failed
+
+// What is displayed of the recording's state, as in the message `run`: null for a run that cannot be recorded.
+export function textsOf({ state, file }) {
+  if (state === 'on') return { label: 'REC', title: `Recording to ${file}` };
+  if (state === 'off') return { label: 'Not rec.', title: file ? `Not recording; the last file is ${file}` : 'Not recording' };
+  return null;
+}
+
+export class Recording {
+  #on = false;
+  #problem = '';
+  #timer = 0;
+
+  // `parts`: place, button, its label, status (for everyone, announced), problem
+  constructor(parts, link) {
+    Object.assign(this, parts);
+    this.button.addEventListener('click', () => link.send('record', { on: !this.#on }));
+  }
+
+  // `mayChange`: whether the user may start and stop it
+  show(recording, mayChange) {
+    const texts = textsOf(recording);
+    this.place.hidden = !texts;
+    this.#on = recording.state === 'on';
+    if (texts) {
+      this.place.title = texts.title;
+      this.place.dataset.state = recording.state;
+      this.status.classList.toggle('unseen', mayChange);
+      if (this.status.dataset.title !== texts.title) {
+        this.status.dataset.title = texts.title;
+        this.status.querySelector('b').textContent = texts.label;
+        this.status.querySelector('span').textContent = texts.title;
+      }
+      if (this.label.textContent !== (this.#on ? 'REC' : 'Record')) this.label.textContent = this.#on ? 'REC' : 'Record';
+      this.button.setAttribute('aria-label', this.#on ? 'REC: stop recording' : 'Record the run');
+    }
+    this.button.hidden = !mayChange;
+    this.button.setAttribute('aria-disabled', String(recording.is_changing));
+    this.#showProblem(recording.problem);
+  }
+
+  // Each failure once, as the console sends the last one with every state of the run.
+  #showProblem(problem) {
+    if (problem === this.#problem) return;
+    this.#problem = problem;
+    clearTimeout(this.#timer);
+    this.problem.textContent = problem && `The recording could not be changed: ${problem}`;
+    this.problem.hidden = !problem;
+    if (problem) this.#timer = setTimeout(() => { this.problem.hidden = true; }, SHOWN_MS);
+  }
+}
