@@ -125,12 +125,15 @@ std::exception_ptr makeDistributed(RankGroup& group, const SearchBenchmark& benc
     has_given_up = true;
   };
   while (!is_over) {
-    if (is_interrupted()) give_up();
     if (to_do.empty() || has_given_up) {
       take(kWait_s);
       continue;
     }
     try {
+      if (is_interrupted()) {
+        give_up();
+        continue;
+      }
       const auto run = benchmark.run(to_do.front(), [&] {
         take(0);
         return is_over || is_interrupted();

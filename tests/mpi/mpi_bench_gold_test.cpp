@@ -1,0 +1,91 @@
+// `robosim bench gold` on several ranks, started by mpirun.
+#include <csignal>
+#include <fstream>
+#include <map>
+
+#include <gtest/gtest.h>
+
+#include "tests/scenarios/program.h"
+
+namespace robosim {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kBench =
+    "bench gold worlds/small_maze.xml --controller random_walk --controller gold_finder --team 1,3 --condition ideal "
+    "--condition noise+loss=0.5 --runs 5 --time 60 --report ";
+
+Ended benchOnRanks(int ranks, const std::string& arguments) {
+  return runCommand(ROBOSIM_MPIRUN " -n " + std::to_string(ranks) + " " ROBOSIM_PROGRAM " " + arguments);
+}
+
+/// The files of a report that must be the same however its runs are made.
+std::map<std::string, std::string> reportOf(const fs::path& folder) {
+  std::map<std::string, std::string> contents;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().filename() != "journal.jsonl")
+      contents[fs::relative(entry.path(), folder).string()] = textOf(entry.path());
+  }
+  return contents;
+}
+
+TEST(MpiBenchGold, WritesTheSameReportOnAnyNumberOfRanks) {
+  const auto folder = emptyFolder();
+  const Ended alone = runProgram(kBench + quoted(folder / "1"));
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  for (const int ranks : {2, 3}) {
+    const auto of_ranks = folder / std::to_string(ranks);
+    const Ended ended = benchOnRanks(ranks, kBench + quoted(of_ranks));
+    ASSERT_EQ(ended.exit_code, 0) << ended.err;
+    EXPECT_EQ(ended.out.substr(0, ended.out.find("\nreport")), alone.out.substr(0, alone.out.find("\nreport")))
+        << "one rank prints";
+    EXPECT_EQ(reportOf(of_ranks), reportOf(folder / "1"));
+  }
+}
+
+TEST(MpiBenchGold, CompletesTheSameReportAfterAFailedRank) {
+  const auto folder = emptyFolder();
+  const std::string bench = "bench gold worlds/small_maze.xml --controller gold_finder --runs 400 --report ";
+  const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  StartedProgram mpirun(ROBOSIM_MPIRUN, {"-n", "2", "/bin/sh", "-c",
+                                         // Each rank notes its process.
+                                         "echo $$ > '" + (folder / "pid").string() + "'$OMPI_COMM_WORLD_RANK; exec '" +
+                                             ROBOSIM_PROGRAM + "' " + bench + quoted(folder / "killed")});
+  const auto journal = folder / "killed" / "journal.jsonl";
+  mpirun.waitForFile(journal);
+  // Until some runs are in the journal.
+  while (mpirun.isRunning() && textOf(journal).size() < 5000) {
+  }
+  pid_t worker = 0;
+  std::ifstream(folder / "pid1") >> worker;
+  ASSERT_GT(worker, 1);
+  ::kill(worker, SIGKILL);
+  const Ended ended = mpirun.wait();
+  EXPECT_NE(ended.exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "killed" / "index.html"));
+  const Ended resumed = benchOnRanks(3, bench + quoted(folder / "killed") + " --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(reportOf(folder / "killed"), reportOf(folder / "alone"));
+}
+
+TEST(MpiBenchGold, RefusesOnAllRanksWithOneMessage) {
+  const auto folder = emptyFolder();
+  std::ofstream(folder / "file") << "x";
+  const std::pair<std::string, std::string> wrong[] = {
+      {"bench gold worlds/small_maze.xml --runs 2 --report " + quoted(folder / "file" / "r"), "cannot be created"},
+      {"bench gold worlds/small_maze.xml --runs 2 --threads 2", "start more processes instead"},
+      {"bench metrics worlds/small_maze.xml --runs 2 --observer coverage", "runs in one process"},
+      {"bench gold worlds/missing.xml", "worlds/missing.xml"}};
+  for (const auto& [arguments, text] : wrong) {
+    const Ended ended = benchOnRanks(3, arguments);
+    EXPECT_NE(ended.exit_code, 0) << arguments;
+    const std::size_t first = ended.err.find(text);
+    EXPECT_NE(first, std::string::npos) << arguments << "\n" << ended.err;
+    EXPECT_EQ(ended.err.find(text, first + 1), std::string::npos) << ended.err;
+  }
+}
+
+}  // namespace
+}  // namespace robosim
