@@ -45,7 +45,7 @@ std::vector<fs::path> dataFolders() {
     if (folder.is_from_environment) folders.push_back(folder.path);
   }
   const fs::path share = shareFolder();
-  for (const char* kind : {"worlds", "maps", "rawlogs"}) folders.push_back(share / kind);
+  for (const char* kind : {"worlds", "worlds/benchmark", "maps", "rawlogs"}) folders.push_back(share / kind);
   folders.push_back(share);
   return folders;
 }

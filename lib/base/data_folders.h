@@ -22,8 +22,8 @@ struct WorldFolder {
 /// separated by colons, then worlds/ of shareFolder().
 std::vector<WorldFolder> worldFolders();
 
-/// Folders searched for input files that are not where their path says: those in ROBOSIM_PATH, then worlds/, maps/ and
-/// rawlogs/ of shareFolder(), and shareFolder() itself.
+/// Folders searched for input files that are not where their path says: those in ROBOSIM_PATH, then worlds/,
+/// worlds/benchmark/, maps/ and rawlogs/ of shareFolder(), and shareFolder() itself.
 std::vector<std::filesystem::path> dataFolders();
 
 /// Finds an input file: the file itself or, for a relative path, below one of dataFolders(). Where the name has no

@@ -58,8 +58,9 @@ TEST_F(DataFolders, OfTheEnvironmentVariableHaveFilesFirst) {
 TEST_F(DataFolders, AreNamedInErrors) {
   ASSERT_EQ(setenv("ROBOSIM_PATH", "/mine", 1), 0);
   const std::string share = shareFolder().string();
-  EXPECT_EQ(searchedText("maze"), "; searched are also /mine, " + share + "/worlds, " + share + "/maps, " + share +
-                                      "/rawlogs, " + share + " (ROBOSIM_PATH adds folders)");
+  EXPECT_EQ(searchedText("maze"), "; searched are also /mine, " + share + "/worlds, " + share + "/worlds/benchmark, " +
+                                      share + "/maps, " + share + "/rawlogs, " + share +
+                                      " (ROBOSIM_PATH adds folders)");
   EXPECT_EQ(searchedText("/maze"), "");
 }
 

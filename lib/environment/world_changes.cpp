@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <unordered_set>
+#include <utility>
 
 #include "base/random.h"
 #include "base/xml_element.h"
@@ -162,6 +163,19 @@ void addRobotsNear(const mrpt::math::TPose2D& home, const WorldSource& source, c
   }
 }
 
+/// Links the robots from `first` on with their neighbours as a ring, or inserts them into a ring of those before.
+void linkNeighbours(std::vector<RobotPlacement>& robots, std::size_t first) {
+  if (first == robots.size()) return;
+  const auto end = robots.begin() + static_cast<std::ptrdiff_t>(first);
+  const auto before = std::find_if(robots.begin(), end, [](const auto& robot) { return !robot.neighbour.empty(); });
+  for (std::size_t i = first; i + 1 < robots.size(); ++i) robots[i].neighbour = robots[i + 1].name;
+  if (before != end) {
+    robots.back().neighbour = std::exchange(before->neighbour, robots[first].name);
+  } else if (robots.size() - first > 1) {
+    robots.back().neighbour = robots[first].name;
+  }
+}
+
 /// Adds robots at random positions in the largest region that is known to be free, clear of the existing robots.
 void addRandomRobots(const WorldSource& source, const RobotTypes& types, const WorldChanges& changes,
                      std::uint64_t seed, FreeNames& names, World& world) {
@@ -270,7 +284,9 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);
   addRobotsNear(home, source, types, changes.robots, names, world);
+  const std::size_t named = world.robots.size();
   addRandomRobots(source, types, changes, seed, names, world);
+  linkNeighbours(world.robots, named);
   if (changes.has_random_starts) {
     Fleet fleet = fleetOf(world, source.file, types);
     shuffleStartPoses(world, fleet, seed);

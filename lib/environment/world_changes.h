@@ -24,7 +24,7 @@ struct AddedRobot {
 /// Changes that a run makes to a world.
 struct WorldChanges {
   std::vector<AddedRobot> robots;
-  int random_robots = 0;       ///< number of robots to add at random positions
+  int random_robots = 0;       ///< number of robots to add at random positions, linked as neighbours in a ring
   bool may_add_fewer = false;  ///< as many of random_robots as there is room for, at least one
   std::string random_model = "pioneer3dx";
   /// Replaces the robots by so many of the first one's kind, at random free places, named Robot1, Robot2, …, each with

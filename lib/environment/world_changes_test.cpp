@@ -103,6 +103,31 @@ TEST(WorldChanges, PlaceRandomRobotsFreelyByTheSeed) {
   EXPECT_EQ(places(1)[0], places(2)[0]) << "its position is given";
 }
 
+Lines neighboursOf(const LoadedWorld& world) {
+  Lines names;
+  for (const auto& robot : world.fleet.robots) names.push_back(robot.info.name + ">" + robot.info.neighbour);
+  return names;
+}
+
+TEST(WorldChanges, LinkRandomRobotsAsARing) {
+  WorldChanges changes;
+  changes.random_robots = 3;
+  EXPECT_EQ(neighboursOf(changed(changes)), (Lines{"Robot2>Robot3", "Robot3>Robot4", "Robot4>Robot2"}));
+  changes.random_robots = 1;
+  EXPECT_EQ(neighboursOf(changed(changes)), Lines{"Robot2>"});
+}
+
+TEST(WorldChanges, InsertRandomRobotsIntoTheRingOfTheWorld) {
+  const auto robot = [](const std::string& name, const std::string& x, const std::string& neighbour) {
+    return "<object><shape><robot><model>scout</model><name>" + name + "</name><x>" + x + "</x><y>30</y><neighbour>" +
+           neighbour + "</neighbour></robot></shape></object>";
+  };
+  WorldChanges changes;
+  changes.random_robots = 2;
+  EXPECT_EQ(neighboursOf(changed(changes, 1, square(robot("A", "-30", "B") + robot("B", "30", "A")))),
+            (Lines{"A>Robot2", "B>A", "Robot2>Robot3", "Robot3>B"}));
+}
+
 TEST(WorldChanges, RejectMoreRandomRobotsThanFit) {
   WorldChanges changes;
   changes.random_robots = 2000;  // 10 m × 10 m have room for fewer than 700 discs of 0.38 m
