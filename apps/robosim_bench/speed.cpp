@@ -46,8 +46,9 @@ struct SpeedArguments {
   std::uint64_t seed = 1;
   double min_s = 1;
   bool json = false;
-  std::string vectors;   ///< vector width to use; empty for the widest
-  bool targets = false;  ///< no selection was given, so everything is measured
+  std::string vectors;      ///< vector width to use; empty for the widest
+  std::string write_world;  ///< folder; empty to measure
+  bool targets = false;     ///< no selection was given, so everything is measured
 };
 
 bool isSelected(const SpeedArguments& arguments, const std::string& workload) {
@@ -141,6 +142,15 @@ void print(const SpeedFigures& figures, bool with_targets) {
 }
 
 void benchSpeed(const SpeedArguments& arguments) {
+  if (!arguments.write_world.empty()) {
+    if (arguments.workloads.size() != 1 || arguments.robots.size() != 1)
+      throw std::invalid_argument("--write-world: give one --workload and one --robots");
+    std::cout << writeWorld(arguments.write_world, workloadNamed(arguments.workloads[0]), arguments.robots[0],
+                            arguments.seed)
+                     .string()
+              << std::endl;
+    return;
+  }
   if (!arguments.vectors.empty()) setVectorWidth(vectorWidthNamed(arguments.vectors));
   const OtherLoad other_load;
   const SpeedFigures figures = SpeedBench(arguments).measure();
@@ -182,6 +192,11 @@ void addSpeedBenchmark(CLI::App& program) {
       ->check(CLI::IsMember(vectorWidthNames()));
   command->add_option("--seed", a->seed, "seed of the worlds")->check(seedNumber())->capture_default_str();
   addMinTime(*command, "each", a->min_s);
+  command
+      ->add_option("--write-world", a->write_world,
+                   "write the world of one workload into this folder, for ranks.py, "
+                   "and measure nothing")
+      ->type_name("FOLDER");
   command->footer("Workloads:\n" + listing(rows) +
                   "Without --robots, --workload, --threads and --json all figures for the speed targets are measured,\n"
                   "including 100,000 robots and two threads, and the targets are evaluated (doc/performance.md).");
