@@ -191,9 +191,10 @@ void RunMonitor::restartOnce() {
     const std::lock_guard lock(mutex_);
     if (source_) source = *source_;
   }
+  // The answer is received before the restart ends, so that no view offers a second one.
   const std::string problem = attempt([&](ControlPanel& panel) {
     panel.load(source);
-    panel.start();
+    receive(panel.start());
   });
   const std::lock_guard lock(mutex_);
   view_.is_restarting = false;

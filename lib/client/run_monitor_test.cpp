@@ -83,8 +83,11 @@ class ScriptedEnvironment {
       environment.loaded = decode(world).text;
       return grpc::Status::OK;
     }
-    grpc::Status Start(grpc::ServerContext*, const v1::StartRequest*, v1::RunStatus*) override {
-      environment.send([](v1::RunStatus& status) { status.set_phase(v1::RUN_PHASE_RUNNING); });
+    grpc::Status Start(grpc::ServerContext*, const v1::StartRequest*, v1::RunStatus* reply) override {
+      environment.send([&](v1::RunStatus& status) {
+        status.set_phase(v1::RUN_PHASE_RUNNING);
+        *reply = status;
+      });
       ++environment.starts;
       return grpc::Status::OK;
     }
@@ -250,9 +253,10 @@ TEST_F(RunMonitorTest, StartsTheNextRunWithTheWorldThatItReceivesAsAViewer) {
   environment.send([](v1::RunStatus& status) { status.set_phase(v1::RUN_PHASE_ENDED); });
   until([](const RunView& view) { return view.may_restart; });
   monitor.restart();
-  untilPhase(RunView::Phase::running);
-  until([](const RunView& view) { return !view.is_restarting; });
-  EXPECT_EQ(monitor.newest().restart_problem, "");
+  const RunView view = until([](const RunView& now) { return !now.is_restarting; });
+  EXPECT_EQ(view.phase, RunView::Phase::running);
+  EXPECT_FALSE(view.may_restart);
+  EXPECT_EQ(view.restart_problem, "");
   EXPECT_EQ(environment.starts, 1);
   EXPECT_EQ(environment.loaded, "<world/>");
 }

@@ -38,10 +38,11 @@ test('Play again starts the next run, in which the driver wins again', async () 
     await page.waitForSelector('#banner[data-cause="won"]', { state: 'visible' });
     assert.match(await page.textContent('#banner-text'), /^Ann has won after \d+:\d\d\.\d and 0\.0 m\. All robots have halted\.$/, `run ${run}`);
     const step = await page.evaluate(() => Number(document.body.dataset.step));
+    const isNext = page.waitForFunction((step) => Number(document.body.dataset.step) < step, step);  // from now on, as the run may be fast
     await page.click('#play-again:enabled');
     await page.waitForSelector('#banner', { state: 'hidden' });
+    await isNext;
     await takeControl(page);
-    await page.waitForFunction((step) => Number(document.body.dataset.step) < step, step);
   }
   await page.keyboard.down('ArrowDown');
   await page.waitForFunction(() => document.querySelector('#r-speed').textContent.startsWith('−0') || document.querySelector('#r-speed').textContent.startsWith('-0'));
