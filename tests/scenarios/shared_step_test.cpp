@@ -6,10 +6,10 @@
 namespace robosim {
 namespace {
 
-const char* const kWorld = ROBOSIM_SOURCE_DIR "/worlds/open_100.xml";
+const char* const kOpenWorld = ROBOSIM_SOURCE_DIR "/worlds/open_100.xml";
 constexpr int kSteps = 120;
 
-LocalRun startRun() { return {loadWorld(kWorld, checkController), RunOptions{}}; }
+LocalRun startRun() { return {loadWorld(kOpenWorld, checkController), RunOptions{}}; }
 
 std::string digestAlone() {
   LocalRun run = startRun();
@@ -66,7 +66,7 @@ TEST(SharedStep, IsIdenticalForAnyPartition) {
   LocalRun run = startRun();
   Environment& owner = run.environment();
   // The replica receives the state when it joins, during the run.
-  LoadedWorld world = loadWorld(kWorld, checkController);
+  LoadedWorld world = loadWorld(kOpenWorld, checkController);
   Environment replica(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
   for (int i = 0; i < kSteps; ++i) {
     run.decide();
