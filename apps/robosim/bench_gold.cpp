@@ -100,13 +100,13 @@ std::string commandOf(const GoldArguments& arguments, const SearchPlan& plan) {
 
 std::string secondsOrNever(double seconds) { return std::isfinite(seconds) ? fixed(seconds, 1) : "never"; }
 
-std::vector<std::string> header(const SearchPlan& plan, const CaseSummary& first) {
+std::vector<std::string> header(const SearchPlan& plan, const std::vector<Metric>& metrics) {
   std::vector<std::string> cells{"world"};
   if (plan.conditions.size() > 1) cells.emplace_back("condition");
   if (plan.teams.size() > 1) cells.emplace_back("robots");
   if (plan.strategies.size() > 1) cells.emplace_back("controller");
   cells.insert(cells.end(), {"runs", "found", "success", "median [s]", "90 % [s]", "driven [m]", "stalls"});
-  for (const auto& metric : first.metrics) cells.push_back(metric.name);
+  for (const auto& metric : metrics) cells.push_back(metric.name);
   return cells;
 }
 
@@ -127,14 +127,14 @@ std::vector<std::string> row(const SearchPlan& plan, const CaseSummary& summary)
 
 void printTable(const SearchPlan& plan, const SearchRuns& runs) {
   const auto summaries = summarise(plan, runs);
-  if (summaries.empty()) return;
-  Rows rows{header(plan, summaries.front())};
+  const std::vector<Metric> metrics = summaries.empty() ? std::vector<Metric>() : summaries.front().metrics;
+  Rows rows{header(plan, metrics)};
   for (const auto& summary : summaries) rows.push_back(row(plan, summary));
   std::cout
       << table(rows)
       << "Times to the gold are simulated; \"never\" is beyond the time limit. Distance and stalls: all robots of "
          "a run.";
-  if (!summaries.front().metrics.empty()) std::cout << " Metrics: mean over the runs.";
+  if (!metrics.empty()) std::cout << " Metrics: mean over the runs.";
   std::cout << '\n';
 }
 

@@ -49,6 +49,7 @@ TEST(MpiBenchGold, CompletesTheSameReportAfterAFailedRank) {
   const std::string bench = "bench gold worlds/small_maze.xml --controller gold_finder --runs 400 --report ";
   const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  fs::create_directories(folder / "killed");
   StartedProgram mpirun(ROBOSIM_MPIRUN, {"-n", "2", "/bin/sh", "-c",
                                          // Each rank notes its process.
                                          "echo $$ > '" + (folder / "pid").string() + "'$OMPI_COMM_WORLD_RANK; exec '" +

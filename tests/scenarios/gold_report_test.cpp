@@ -93,6 +93,7 @@ TEST(GoldReport, ContinuesAfterCtrlC) {
   const std::vector<std::string> arguments{"bench",  "gold",     "worlds/small_maze.xml",
                                            "--runs", "1000000",  "--time",
                                            "5",      "--report", (folder / "report").string()};
+  fs::create_directories(folder / "report");
   StartedProgram bench(arguments);
   bench.waitForFile(folder / "report" / "journal.jsonl");
   bench.interrupt();
