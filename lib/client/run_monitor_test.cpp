@@ -142,8 +142,7 @@ class ScriptedEnvironment {
   std::unique_ptr<grpc::Server> server_;
 };
 
-class RunMonitorTest : public testing::Test {
- protected:
+struct RunMonitorTest : testing::Test {
   /// Waits for a view: it.
   RunView until(const std::function<bool(const RunView&)>& holds, const CallSite& place = CallSite::here()) {
     RunView view;

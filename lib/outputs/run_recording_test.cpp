@@ -24,8 +24,7 @@ const char* const kWorld = R"(<world><surface>
   <object><shape><robot><model>pioneer3dx</model><name>Ann</name><x>0</x><y>0</y></robot></shape></object>
 </surface></world>)";
 
-class RunRecordingTest : public TestFolder {
- protected:
+struct RunRecordingTest : TestFolder {
   RunRecording recordingTo(const std::string& name) {
     std::vector<RobotInfo> robots;
     for (const auto& robot : run.environment().fleet().robots) robots.push_back(robot.info);

@@ -14,7 +14,7 @@ export class Recording {
   #problem = '';
   #timer = 0;
 
-  // `parts`: place, button, its label, status (for everyone, announced), problem
+  // `parts`: place, button, its label, status (announced by screen readers), problem
   constructor(parts, link) {
     Object.assign(this, parts);
     this.button.addEventListener('click', () => link.send('record', { on: !this.#on }));
