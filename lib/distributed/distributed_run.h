@@ -53,7 +53,8 @@ class DistributedRun {
   static constexpr std::size_t kParts = waiting + 1;
   /// What this rank has measured so far.
   struct Measured {
-    std::array<double, kParts> time_s{};
+    std::array<double, kParts> time_s{};       ///< elapsed
+    std::array<double, kParts> processor_s{};  ///< of all threads; of a part that waits, the transport's
     std::uint64_t bytes_sent = 0;
     std::uint64_t steps = 0;
     std::uint64_t memory_max_bytes = 0;  ///< of this process
@@ -88,7 +89,7 @@ class DistributedRun {
   std::vector<std::string> to_, from_;
   Measured measured_;
   BusyTime busy_;  ///< since the last balance()
-  double last_s_ = 0;
+  double last_s_ = 0, last_processor_s_ = 0;
 };
 
 }  // namespace robosim
