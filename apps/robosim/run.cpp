@@ -260,7 +260,7 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
       ->check(fileName());
   command
       ->add_option("--balance", arguments->balance_steps,
-                   "with mpirun: divide moves and sensors anew by the processes' times after every N steps; 0: never")
+                   "with mpirun: divide moves and sensors again by the processes' times after every N steps; 0: never")
       ->type_name("N")
       ->capture_default_str();
   auto has_view = std::make_shared<bool>(false);

@@ -16,7 +16,7 @@ namespace robosim {
 /// Settings of a run on several ranks; the same on all. They do not affect the run.
 struct DistributionOptions {
   bool first_needs_readings = false;  ///< whether rank 0 needs the readings of all robots after each step
-  std::uint64_t balance_steps = 50;   ///< steps after which moves and sensors are divided anew; 0: never
+  std::uint64_t balance_steps = 50;   ///< steps after which moves and sensors are divided again; 0: never
 };
 
 /// One run on several ranks. Each rank has the state of all robots, and computes it itself from the commands of all
