@@ -177,7 +177,8 @@ void logTimes(const std::vector<DistributedRun::Measured>& ranks) {
     const double steps = std::max<double>(1, static_cast<double>(measured.steps));
     std::string text = "rank " + std::to_string(rank) + ", ms per step:";
     for (std::size_t i = 0; i < kNames.size(); ++i)
-      text += std::string(i == 0 ? " " : ", ") + kNames[i] + " " + fixed(measured.time_s[i] / steps * 1e3, 3);
+      text += std::string(i == 0 ? " " : ", ") + kNames[i] + " " + fixed(measured.time_s[i] / steps * 1e3, 3) +
+              " (processor " + fixed(measured.processor_s[i] / steps * 1e3, 3) + ")";
     logDebug("run", text + "; sent " + fixed(static_cast<double>(measured.bytes_sent) / steps, 1) +
                         " bytes per step; memory " + withCommas(measured.memory_max_bytes >> 20) + " MiB");
   }
@@ -259,7 +260,7 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
       ->check(fileName());
   command
       ->add_option("--balance", arguments->balance_steps,
-                   "with mpirun: divide moves and sensors anew by the processes' times after every N steps; 0: never")
+                   "with mpirun: divide moves and sensors again by the processes' times after every N steps; 0: never")
       ->type_name("N")
       ->capture_default_str();
   auto has_view = std::make_shared<bool>(false);

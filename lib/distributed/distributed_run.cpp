@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <sys/resource.h>
+#include <time.h>
 
 #include "base/error_list.h"
 #include "environment/state_stream.h"
@@ -17,6 +18,13 @@ namespace {
 
 double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Processor time of this process [s]; other programs on a shared machine do not change it much.
+double processorSeconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
 }
 
 /// Calls a function. @return its exception; null for none
@@ -66,6 +74,7 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
                       std::string("all machines the same files"));
   });
   last_s_ = secondsNow();
+  last_processor_s_ = processorSeconds();
   observe();  // observers may end the run before its first step
 }
 
@@ -247,7 +256,9 @@ std::vector<DistributedRun::Measured> DistributedRun::measured() {
 void DistributedRun::finished(Part part) {
   const double now_s = secondsNow();
   const double time_s = now_s - std::exchange(last_s_, now_s);
+  const double processor_s = processorSeconds();
   measured_.time_s[part] += time_s;
+  measured_.processor_s[part] += processor_s - std::exchange(last_processor_s_, processor_s);
   if (part == waiting) return;
   const bool is_work = part == clips || part == judgements || part == sensors;
   (is_work ? busy_.work_s : busy_.other_s) += time_s;

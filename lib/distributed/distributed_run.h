@@ -16,7 +16,7 @@ namespace robosim {
 /// Settings of a run on several ranks; the same on all. They do not affect the run.
 struct DistributionOptions {
   bool first_needs_readings = false;  ///< whether rank 0 needs the readings of all robots after each step
-  std::uint64_t balance_steps = 50;   ///< steps after which moves and sensors are divided anew; 0: never
+  std::uint64_t balance_steps = 50;   ///< steps after which moves and sensors are divided again; 0: never
 };
 
 /// One run on several ranks. Each rank has the state of all robots, and computes it itself from the commands of all
@@ -53,7 +53,8 @@ class DistributedRun {
   static constexpr std::size_t kParts = waiting + 1;
   /// What this rank has measured so far.
   struct Measured {
-    std::array<double, kParts> time_s{};
+    std::array<double, kParts> time_s{};       ///< elapsed
+    std::array<double, kParts> processor_s{};  ///< of all threads; of a part that waits, the transport's
     std::uint64_t bytes_sent = 0;
     std::uint64_t steps = 0;
     std::uint64_t memory_max_bytes = 0;  ///< of this process
@@ -88,7 +89,7 @@ class DistributedRun {
   std::vector<std::string> to_, from_;
   Measured measured_;
   BusyTime busy_;  ///< since the last balance()
-  double last_s_ = 0;
+  double last_s_ = 0, last_processor_s_ = 0;
 };
 
 }  // namespace robosim

@@ -77,7 +77,7 @@ TEST(DistributedRun, EqualsARunInOneProcessForAnyNumberOfRanksAndThreads) {
   }
 }
 
-TEST(DistributedRun, EqualsItWhileMovesAndSensorsAreDividedAnewAfterEachStep) {
+TEST(DistributedRun, EqualsItWhileMovesAndSensorsAreDividedAgainAfterEachStep) {
   const Settings settings{"open_100", "", 150};
   const std::string alone = outcomeAlone(settings);
   for (const int ranks : {2, 4}) EXPECT_EQ(outcomeOnRanks(settings, ranks, 1, 1), alone);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 #include <stdexcept>
+#include <utility>
 
 #include "environment/message_router.h"
 #include "environment/move_authorisation.h"
@@ -29,6 +30,23 @@ std::vector<std::string> namesOf(const Fleet& fleet) {
   names.reserve(fleet.robots.size());
   for (const auto& robot : fleet.robots) names.push_back(robot.info.name);
   return names;
+}
+
+/// What a step needs of a robot's model, in an array: to look it up in the fleet would cost a cache miss or more.
+struct CompactRobot {
+  MotionLimits limits;
+  std::optional<double> disc_radius_m;  ///< nullopt for a body that is no disc
+  HeightSpan heights;
+};
+
+std::vector<CompactRobot> compactRobots(const Fleet& fleet) {
+  std::vector<CompactRobot> robots;
+  robots.reserve(fleet.robots.size());
+  for (const auto& robot : fleet.robots) {
+    CompactRobot& compact = robots.emplace_back(CompactRobot{robot.info.limits, {}, robot.body.heights()});
+    if (const auto* cylinder = std::get_if<Cylinder>(&robot.body.shape)) compact.disc_radius_m = cylinder->radius_m;
+  }
+  return robots;
 }
 
 /// Selects sensors by Sensor::sensesInHostProcess().
@@ -59,14 +77,16 @@ struct Environment::Impl {
   MessageRouter message_router;
   Referee referee;
   RobotGroups robot_groups;
+  std::vector<CompactRobot> compact_robots;
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< height of each robot's underside
   std::vector<double> antenna_z_m;       ///< height of each robot's top, where its antenna is
-  std::vector<PlanarTransform> frames;   ///< current frames of the robots
+  std::vector<PlanarTransform> frames;   ///< current frames of the robots whose readings are kept
   std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
   std::vector<float> reflectivity;       ///< by body; empty if all have the default
   std::uint64_t placements = 0;
   bool has_absent_robots = false;
+  bool may_have_messages = true;  ///< false: all inboxes are empty
   RobotShare share;
 
   /// @param the_share of a process that shares the run; nullopt: all robots
@@ -82,6 +102,7 @@ struct Environment::Impl {
         message_router(namesOf(fleet), model->world.communication),
         referee(model->world),
         robot_groups(fleet, model->period_s),
+        compact_robots(compactRobots(fleet)),
         paths(fleet.robots.size()),
         frames(fleet.robots.size()),
         share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
@@ -118,10 +139,8 @@ struct Environment::Impl {
         std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       if (isAbsent(i)) return scene.remove(i);
-      Body body = fleet.robots[i].body;
-      body.world_from_body = state.world_from_robot[i];
-      frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
-      scene.place(i, body.solid());
+      if (share.kept.contains(i)) frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
+      scene.place(i, solidOf(i));
     });
     scene.freeze();
     for (auto& source : heat_sources) {
@@ -133,18 +152,28 @@ struct Environment::Impl {
     }
   }
 
+  Solid solidOf(std::size_t robot) const {
+    const auto& pose = state.world_from_robot[robot];
+    const CompactRobot& compact = compact_robots[robot];
+    if (compact.disc_radius_m) return {Circle{{pose.x, pose.y}, *compact.disc_radius_m}, compact.heights};
+    Body body = fleet.robots[robot].body;
+    body.world_from_body = pose;
+    return body.solid();
+  }
+
   void takeCommands() {
+    const bool have_messages = std::exchange(may_have_messages, false);
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       Command& command = state.commands[i];
       if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
         state.activity[i] = command.activity;
       }
       command.activity = state.activity[i];
-      state.readings[i].inbox.clear();
+      if (have_messages) state.readings[i].inbox.clear();
       state.laser_pan_rad[i] =
           std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2));
       const DriveSpeeds speeds = reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command,
-                                                 fleet.robots[i].info.limits, model->period_s);
+                                                 compact_robots[i].limits, model->period_s);
       state.speed_mps[i] = speeds.speed_mps;
       state.turn_radps[i] = speeds.turn_radps;
       paths[i] = pathOf(state.world_from_robot[i], speeds, model->period_s);
@@ -280,6 +309,7 @@ struct Environment::Impl {
         message_router.deliver(state.seed, state.time, {scene, state.world_from_robot, antenna_z_m, state.activity},
                                state.outboxes, state.messages_in_flight, state.readings);
     state.messages_delivered += counts.delivered;
+    may_have_messages |= counts.delivered > 0;
     state.messages_dropped += counts.dropped;
     MessageLosses& lost = state.messages_lost;
     lost.out_of_range += counts.lost.out_of_range;
@@ -351,6 +381,7 @@ struct Environment::Impl {
   void restore(const State& saved) {
     requireSameShape(saved, state);
     state = saved;
+    may_have_messages = true;
     placeBodies();
   }
 

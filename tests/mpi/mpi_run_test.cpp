@@ -118,6 +118,38 @@ TEST(MpiRun, RefusesSubcommandsThatRunInOneProcess) {
   }
 }
 
+TEST(MpiRun, WithoutTheLibraryOfMpiIsRefused) {
+  // All libraries but that one, as a build or an installation without MPI has.
+  const auto folder = emptyFolder();
+  for (const auto& entry : std::filesystem::directory_iterator(ROBOSIM_LIBRARIES)) {
+    const auto name = entry.path().filename().string();
+    if (name.starts_with("librobosim") && name.ends_with(".so." ROBOSIM_SOVERSION) &&
+        !name.starts_with("librobosim-mpi"))
+      std::filesystem::copy_file(entry.path(), folder / name);
+  }
+  const std::string alone =
+      "LD_LIBRARY_PATH=" + quoted(folder) + " " ROBOSIM_PROGRAM " run worlds/small_maze.xml --time 1";
+  EXPECT_EQ(runCommand(alone).exit_code, 0);
+  for (const int rank : {0, 1}) {
+    const Ended ended = runCommand("OMPI_COMM_WORLD_SIZE=2 OMPI_COMM_WORLD_RANK=" + std::to_string(rank) + " " + alone);
+    EXPECT_EQ(ended.out, "");
+    EXPECT_EQ(ended.exit_code, rank == 0 ? 1 : 0);
+    const bool is_reported =
+        ended.err.find("was started in 2 processes, but this installation has no MPI") != std::string::npos;
+    EXPECT_EQ(is_reported, rank == 0) << ended.err;
+  }
+}
+
+TEST(MpiRun, IsTheOnlyOneThatLoadsMpi) {
+  const auto folder = std::filesystem::path(ROBOSIM_PROGRAM).parent_path();
+  for (const char* program : {"robosim", "robosim-run", "robosim-net", "robosim-view"}) {
+    const Ended ldd = runCommand("ldd " + quoted(folder / program));
+    EXPECT_EQ(ldd.exit_code, 0) << ldd.err;
+    EXPECT_EQ(ldd.out.find("libmpi."), std::string::npos) << program;
+    EXPECT_EQ(ldd.out.find("robosim-mpi"), std::string::npos) << program;
+  }
+}
+
 /// Starts a long run whose recording is not complete before it is ended.
 std::vector<std::string> longRun(const std::filesystem::path& rawlog, int ranks) {
   return {"-n",
