@@ -240,6 +240,7 @@ void addBenchCommand(CLI::App& parent, const std::string& name, const std::strin
   addTime(*command, a->sweep.time_s, "simulated time limit of a run");
   addStep(*command, a->sweep.period_s);
   addRobotOptions(*command, a->changes);
+  addNoiseOption(*command, a->changes);
   command
       ->add_option("--controller", a->controllers,
                    "controller of all robots, instead of those in the world, as NAME or \"NAME PARAMETER=VALUE …\"; "

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "robots/world_source.h"
+#include "sensors/added_noise.h"
 
 namespace robosim {
 
@@ -27,11 +28,11 @@ struct WorldChanges {
   int random_robots = 0;       ///< number of robots to add at random positions
   bool may_add_fewer = false;  ///< as many of random_robots as there is room for, at least one
   std::string random_model = "pioneer3dx";
-  bool has_random_starts = false;  ///< shuffleStartPoses()
-  bool has_noise = false;          ///< adds the data sheet's noise to every sensor that supports noise and has none
+  bool has_random_starts = false;       ///< shuffleStartPoses()
+  AddedNoise noise = AddedNoise::none;  ///< added to every sensor that supports noise and has none
 
   bool addsRobots() const { return !robots.empty() || random_robots > 0; }
-  bool isNone() const { return !addsRobots() && !has_random_starts && !has_noise; }
+  bool isNone() const { return !addsRobots() && !has_random_starts && noise == AddedNoise::none; }
 };
 
 /// The world with these changes applied, as text, so that another process can build the same run. Added robots replace
