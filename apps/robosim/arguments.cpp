@@ -135,6 +135,19 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes) {
       ->type_name("NUMBER[,TYPE]");
 }
 
+void addNoiseOption(CLI::App& command, WorldChanges& changes) {
+  command
+      .add_option_function<std::string>(
+          "--noise",
+          [&changes](const std::string& text) {
+            changes.noise = text == "all" ? AddedNoise::all : text == "on" ? AddedNoise::typical : AddedNoise::none;
+          },
+          "errors of the sensors without <noise>. on: the random errors of their data sheets; all: every error that "
+          "the kind of sensor has; world: none")
+      ->check(CLI::IsMember({"all", "on", "world"}))
+      ->default_str("world");
+}
+
 namespace {
 
 /// Accepts what a function accepts that throws ConfigError.

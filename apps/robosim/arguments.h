@@ -34,6 +34,8 @@ void addThreads(CLI::App& command, int& threads, const std::string& help);
 void warnOfPartialStep(double time_s, double period_s);
 /// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
 void addRobotOptions(CLI::App& command, WorldChanges& changes);
+/// Adds `--noise`: errors of sensors in addition to those of the world.
+void addNoiseOption(CLI::App& command, WorldChanges& changes);
 
 /// Adds `--controller`, which accepts a TypeChoice::text().
 /// @param also a further value to accept

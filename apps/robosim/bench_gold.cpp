@@ -82,6 +82,8 @@ std::string commandOf(const GoldArguments& arguments, const SearchPlan& plan) {
   if (arguments.changes.random_robots > 0) {
     add("--random-robots", std::to_string(arguments.changes.random_robots) + "," + arguments.changes.random_model);
   }
+  const AddedNoise noise = arguments.changes.noise;
+  if (noise != AddedNoise::none) add("--noise", noise == AddedNoise::all ? "all" : "on");
   for (const auto& strategy : plan.strategies) {
     if (!strategy.empty()) add("--controller", strategy);
   }
@@ -290,6 +292,7 @@ void addBenchGold(CLI::App& parent) {
   addTime(*command, a->plan.time_s, "simulated time limit of a run");
   addStep(*command, a->plan.period_s);
   addRobotOptions(*command, a->changes);
+  addNoiseOption(*command, a->changes);
   addControllersOption(*command, a->controllers);
   command
       ->add_option("--team", a->teams,
@@ -301,7 +304,8 @@ void addBenchGold(CLI::App& parent) {
       ->allow_extra_args(false);
   command
       ->add_option("--condition", a->conditions,
-                   "ideal, or noise (of all sensors), loss=PROBABILITY (of messages) and breakdown_s=SECONDS (mean "
+                   "ideal, or noise or errors (as --noise on or all), loss=PROBABILITY (of messages) and "
+                   "breakdown_s=SECONDS (mean "
                    "time until a robot breaks down), joined by '+'; repeatable, the first is compared with the others")
       ->type_name("CONDITION")
       ->allow_extra_args(false);

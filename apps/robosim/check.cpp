@@ -247,6 +247,7 @@ void addCheck(CLI::App& program) {
       ->transform(inputFile())
       ->required();
   addRobotOptions(*command, arguments->additions.changes);
+  addNoiseOption(*command, arguments->additions.changes);
   command
       ->add_option("--seed", arguments->additions.seed,
                    "seed of the places of --random-robots and <scatter>; 0 to 2^64 - 1")

@@ -16,12 +16,7 @@ void addRunArguments(CLI::App& command, RunArguments& a) {
   addRobotOptions(command, a.changes);
   command.add_flag("--random-starts", a.changes.has_random_starts,
                    "move every robot to a random pose that it can reach from its start");
-  command
-      .add_option_function<std::string>(
-          "--noise", [&a](const std::string& text) { a.changes.has_noise = text == "on"; },
-          "on: sensors without a <noise> element get that of their data sheets; world: only sensors with a <noise>")
-      ->check(CLI::IsMember({"on", "world"}))
-      ->default_str("world");
+  addNoiseOption(command, a.changes);
   command.add_option("--record", a.record, "record the run as an MRPT rawlog to this file")
       ->type_name("FILE")
       ->check(fileName());

@@ -13,7 +13,7 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const std::string& text, const std::string& why) {
   throw ConfigError("condition '" + text + "': " + why +
-                    "; give ideal, or noise, loss=PROBABILITY and breakdown_s=SECONDS joined by '+', as in "
+                    "; give ideal, or noise or errors, loss=PROBABILITY and breakdown_s=SECONDS joined by '+', as in "
                     "noise+loss=0.3");
 }
 
@@ -28,8 +28,9 @@ Condition Condition::parse(const std::string& text) {
     const std::size_t equals = part.find('=');
     const std::string name = part.substr(0, equals);
     const double value = equals == std::string::npos ? kNone : parseNumber(part.substr(equals + 1)).value_or(kNone);
-    if (part == "noise") {
-      condition.has_noise = true;
+    if (part == "noise" || part == "errors") {
+      if (condition.noise != AddedNoise::none) refuse(text, "noise and errors exclude each other");
+      condition.noise = part == "noise" ? AddedNoise::typical : AddedNoise::all;
     } else if (name == "loss") {
       if (!(value > 0 && value <= 1)) refuse(text, "the loss must be a probability above 0, at most 1");
       condition.message_loss = value;
@@ -47,7 +48,7 @@ Condition Condition::parse(const std::string& text) {
 std::string Condition::text() const {
   std::string parts;
   const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : "+") + part; };
-  if (has_noise) add("noise");
+  if (noise != AddedNoise::none) add(noise == AddedNoise::all ? "errors" : "noise");
   if (message_loss > 0) add("loss=" + toText(message_loss));
   if (breakdown_mean_s > 0) add("breakdown_s=" + toText(breakdown_mean_s));
   return parts.empty() ? "ideal" : parts;

@@ -30,7 +30,8 @@ const auto kNever = [] { return false; };
 TEST(RunsOnRanks, EqualThoseOfOneProcess) {
   const SearchBenchmark benchmark = smallBenchmark();
   SearchRuns alone(benchmark.plan().runCount());
-  makeRuns(benchmark, 1, kNever, [](const SearchRun&) {}, alone);
+  makeRuns(
+      benchmark, 1, kNever, [](const SearchRun&) {}, alone);
   EXPECT_TRUE(missing(alone).empty());
   for (const int ranks : {2, 3, 5}) {
     SearchRuns runs(benchmark.plan().runCount());
@@ -38,7 +39,8 @@ TEST(RunsOnRanks, EqualThoseOfOneProcess) {
     std::size_t finished = 0;
     runThreadRanks(ranks, [&](RankGroup& group) {
       SearchRuns none;
-      makeRunsOnRanks(group, benchmark, kNever, [&](const SearchRun&) { ++finished; }, group.isFirst() ? runs : none);
+      makeRunsOnRanks(
+          group, benchmark, kNever, [&](const SearchRun&) { ++finished; }, group.isFirst() ? runs : none);
     });
     EXPECT_EQ(textsOf(runs), textsOf(alone)) << ranks;
     EXPECT_EQ(finished, runs.size() - 1);
@@ -57,7 +59,8 @@ TEST(RunsOnRanks, EndWithTheErrorOfARank) {
           return false;
         };
         try {
-          makeRunsOnRanks(group, benchmark, check, [](const SearchRun&) {}, group.isFirst() ? runs : none);
+          makeRunsOnRanks(
+              group, benchmark, check, [](const SearchRun&) {}, group.isFirst() ? runs : none);
         } catch (...) {
           ++errors;
           throw;
@@ -74,7 +77,8 @@ TEST(RunsOnRanks, EndWithTheErrorOfARank) {
 TEST(RunsOnRanks, KeepWhatIsFinishedWhenInterrupted) {
   const SearchBenchmark benchmark = smallBenchmark();
   SearchRuns alone(benchmark.plan().runCount()), runs(benchmark.plan().runCount());
-  makeRuns(benchmark, 1, kNever, [](const SearchRun&) {}, alone);
+  makeRuns(
+      benchmark, 1, kNever, [](const SearchRun&) {}, alone);
   std::atomic<int> finished = 0;
   runThreadRanks(3, [&](RankGroup& group) {
     SearchRuns none;

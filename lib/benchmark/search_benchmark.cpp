@@ -19,7 +19,7 @@ LoadedWorld loadFor(const WorldSource& source, const SearchPlan& plan, int team,
   WorldChanges changes;
   if (team > 0) changes.team = team;
   if (condition.message_loss > 0) changes.message_loss = condition.message_loss;
-  changes.has_noise = condition.has_noise;
+  changes.noise = condition.noise;
   LoadedWorld loaded = loadWorldToRun(withChanges(source, changes, plan.seed), plan.strategies.front());
   ErrorList errors;
   for (const auto& strategy : plan.strategies) checkControllers(loaded, source.file, strategy, errors);

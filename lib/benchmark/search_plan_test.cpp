@@ -23,14 +23,16 @@ TEST(SearchPlan, NumbersItsCases) {
 }
 
 TEST(Condition, ReadsWhatItWrites) {
-  for (const std::string text : {"ideal", "noise", "loss=0.25", "breakdown_s=300", "noise+loss=0.5+breakdown_s=60"}) {
+  for (const std::string text :
+       {"ideal", "noise", "errors", "loss=0.25", "breakdown_s=300", "noise+loss=0.5+breakdown_s=60"}) {
     EXPECT_EQ(Condition::parse(text).text(), text);
   }
   EXPECT_EQ(Condition::parse("loss=0.5+noise"), Condition::parse("noise+loss=0.5"));
 }
 
 TEST(Condition, RefusesWhatItDoesNotKnow) {
-  for (const std::string text : {"", "nois", "loss", "loss=0", "loss=1.1", "loss=nan", "breakdown_s=0.5"}) {
+  for (const std::string text :
+       {"", "nois", "noise+errors", "noise+noise", "loss", "loss=0", "loss=1.1", "loss=nan", "breakdown_s=0.5"}) {
     EXPECT_THROW(Condition::parse(text), ConfigError) << text;
   }
 }

@@ -11,7 +11,6 @@
 #include "geometry/shapes/path.h"
 #include "robots/free_space.h"
 #include "robots/scatter.h"
-#include "sensors/registry.h"
 #include "world/map_reader.h"
 #include "world/world_file.h"
 
@@ -221,29 +220,12 @@ void makeTeam(const WorldSource& source, const RobotTypes& types, int size, std:
   }
 }
 
-void addNoise(std::vector<XmlElement>& sensors) {
-  for (auto& sensor : sensors) {
-    std::string kind = sensor.name;
-    bool has_noise = false;
-    for (const auto& child : sensor.children) {
-      if (sensor.name == "sensor" && child.name == "type") kind = child.text;
-      has_noise |= child.name == "noise";
-    }
-    for (const auto& [name, value] : sensor.attributes) {
-      if (sensor.name == "sensor" && name == "type") kind = value;
-      has_noise |= name == "noise";
-    }
-    const SensorType* const type = sensorType(kind);
-    if (type && type->has_noise && !has_noise) sensor.add("noise");
-  }
-}
-
-/// The text of a type, with noise added to every sensor that supports it if `has_noise`.
-std::string textOf(const RobotTypeFile& type, bool has_noise) {
-  if (!has_noise) return type.text ? *type.text : readXmlText(type.file);
+/// The text of a type with noise added to its sensors.
+std::string textOf(const RobotTypeFile& type, AddedNoise noise) {
+  if (noise == AddedNoise::none) return type.text ? *type.text : readXmlText(type.file);
   XmlElement root = type.read();
   for (auto& child : root.children) {
-    if (child.name == "sensors") addNoise(child.children);
+    if (child.name == "sensors") addNoise(noise, child.children);
   }
   return toXml(root);
 }
@@ -298,10 +280,10 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   WorldSource changed = source;
   changed.robot_types.clear();
   for (auto& robot : world.robots) {
-    if (changes.has_noise) addNoise(robot.sensors);
+    addNoise(changes.noise, robot.sensors);
     const auto type = types.find(robot.model);
     if (type == types.end() || changed.robot_types.contains(robot.model)) continue;
-    changed.robot_types[robot.model] = {type->second.file, textOf(type->second, changes.has_noise)};
+    changed.robot_types[robot.model] = {type->second.file, textOf(type->second, changes.noise)};
   }
   changed.text = toXml(world);
   return changed;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "robots/world_source.h"
+#include "sensors/added_noise.h"
 
 namespace robosim {
 
@@ -30,12 +31,14 @@ struct WorldChanges {
   /// Replaces the robots by so many of the first one's kind, at random free places, named Robot1, Robot2, …, each with
   /// the next as its neighbour, the last with the first; at least 1.
   std::optional<int> team;
-  std::optional<double> message_loss;  ///< instead of Communication::loss_probability, [0, 1]
-  bool has_random_starts = false;      ///< shuffleStartPoses()
-  bool has_noise = false;              ///< adds the data sheet's noise to every sensor that supports noise and has none
+  std::optional<double> message_loss;   ///< instead of Communication::loss_probability, [0, 1]
+  bool has_random_starts = false;       ///< shuffleStartPoses()
+  AddedNoise noise = AddedNoise::none;  ///< added to every sensor that supports noise and has none
 
   bool addsRobots() const { return !robots.empty() || random_robots > 0; }
-  bool isNone() const { return !addsRobots() && !team && !message_loss && !has_random_starts && !has_noise; }
+  bool isNone() const {
+    return !addsRobots() && !team && !message_loss && !has_random_starts && noise == AddedNoise::none;
+  }
 };
 
 /// The world with these changes applied, as text, so that another process can build the same run. Added robots replace

@@ -202,7 +202,7 @@ TEST(WorldChanges, AddNoiseToSensorsWithout) {
     return labels;
   };
   EXPECT_EQ(noisy(), "");
-  changes.has_noise = true;
+  changes.noise = AddedNoise::typical;
   EXPECT_EQ(noisy(), "B/laser Robot2/sonar Robot2/laser Robot2/heat Robot2/odometry Robot2/compass ");
 }
 

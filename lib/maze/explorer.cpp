@@ -1,6 +1,7 @@
 #include "maze/explorer.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,7 @@
 
 #include "base/portable_math.h"
 #include "base/portable_pose.h"
+#include "maze/laser_surfaces.h"
 
 namespace robosim {
 namespace {
@@ -28,8 +30,27 @@ constexpr double kFollow_s = 120;         // maximum time, then it explores
 constexpr double kExplore_s = 60;         // for so long
 constexpr double kNothingLeft_s = 5;      // then it starts a new map
 constexpr double kStuck_s = 1.5;
+constexpr int kStallMax = 1;        // steps in a row, if sensors are noisy
 constexpr double kRecovery_s = 60;  // without headway, however often it has drawn back
 constexpr double kRecoveryHeadway_radii = 3;
+constexpr double kSurfaceCell_m = 0.15;
+
+constexpr std::array kRangeSensors{SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
+
+/// Number of echoes of a sensor per one that is used.
+std::size_t strideOf(const Echoes& echoes) { return (echoes.size() + kBeams - 1) / kBeams; }
+
+/// The sonars, if they are noisy.
+const SensorInfo* noisySonar(const Robot& robot) {
+  const SensorInfo* sonar = robot.sensor(SensorKind::sonar);
+  return sonar && sonar->noise_std_m > 0 ? sonar : nullptr;
+}
+
+/// Whether any range sensor is noisy; the others are then not taken as exact either.
+bool isNoisy(const Robot& robot) {
+  return std::any_of(kRangeSensors.begin(), kRangeSensors.end(),
+                     [&](SensorKind kind) { return robot.sensor(kind) && robot.sensor(kind)->noise_std_m > 0; });
+}
 
 double heatRange(const Robot& robot) {
   for (const auto kind : {SensorKind::heat, SensorKind::odometry}) {
@@ -47,11 +68,13 @@ Explorer::Explorer(const Robot& robot, const ControllerSetup& setup, double warm
     : warm_(warm),
       rng_(setup.seed, RandomPurpose::controller, setup.robot),
       recovery_(setup, {.timeout_s = kRecovery_s, .headway_radii = kRecoveryHeadway_radii}),
-      tracker_(map_from_start),
+      has_noise_(isNoisy(robot)),
+      tracker_(map_from_start, has_noise_),
+      matcher_(kSurfaceCell_m),
       search_(kCell_radii * robot.info().radius_m, heatRange(robot), robot.info().radius_m) {}
 
 void Explorer::step(Robot& robot, const GoalCost* goal_cost) {
-  tracker_.update(robot);
+  track(robot);
   look(robot);
   if (recovery_.takesOver(robot)) {
     driver_.clear();
@@ -73,21 +96,42 @@ void Explorer::step(Robot& robot, const GoalCost* goal_cost) {
   }
 }
 
+void Explorer::track(const Robot& robot) {
+  const mrpt::math::TPose2D& pose = tracker_.update(robot);
+  if (const SensorInfo* sonar = noisySonar(robot)) sonars_.update(*sonar, robot.sonar(), pose);
+}
+
+void Explorer::correctPose(const Robot& robot) {
+  surfaces_.clear();
+  const mrpt::math::TPose2D before = tracker_.startFromRobot();
+  if (const SensorInfo* laser = robot.sensor(SensorKind::laser)) {
+    addLaserSurfaces(*laser, robot.laser(), strideOf(robot.laser()), surfaces_);
+  }
+  const SensorInfo* const sonar = noisySonar(robot);
+  if (sonar) sonars_.interpret(*sonar, before, surfaces_);
+  tracker_.match(surfaces_, matcher_);
+  if (sonar) sonars_.correct(before, tracker_.startFromRobot());
+}
+
 void Explorer::look(const Robot& robot) {
   const auto& pose = tracker_.startFromRobot();
   const double moved = portable::hypot(pose.x - looked_from_.x, pose.y - looked_from_.y);
   const double turned = std::abs(mrpt::math::wrapToPi(pose.phi - looked_from_.phi));
   if (robot.stepNumber() < look_at_ && moved < search_.map.cellSize() / 2 && turned < kLookTurn_rad) return;
+  if (has_noise_) correctPose(robot);
   looked_from_ = pose;
   look_at_ = robot.stepNumber() + kLookPause;
 
   const Cell at = search_.map.cellAt(place());
   const int reach = std::max(search_.obstacles.reach(), search_.heat.reach());
   search_.map.cover({at.x - reach, at.y - reach}, {at.x + reach, at.y + reach});
-  for (const auto kind : {SensorKind::sonar, SensorKind::laser, SensorKind::infrared}) {
+  for (const auto kind : kRangeSensors) {
     const Echoes& echoes = robot.echoes(kind);
-    if (echoes.empty()) continue;
-    search_.obstacles.look(pose, *robot.sensor(kind), echoes, (echoes.size() + kBeams - 1) / kBeams);
+    if (echoes.empty() || (kind == SensorKind::sonar && noisySonar(robot))) continue;
+    search_.obstacles.look(pose, *robot.sensor(kind), echoes, strideOf(echoes));
+  }
+  if (noisySonar(robot)) {
+    for (const auto& ray : sonars_.rays()) search_.obstacles.trace(ray.from, ray.to, ray.hit, ray.is_sure);
   }
   search_.obstacles.clearUnder(place());
   feel(robot);
@@ -193,6 +237,7 @@ bool Explorer::atGoal() const {
 void Explorer::startOver() {
   search_.map.reset();
   search_.heat.reset();
+  matcher_.reset();
   driver_.clear();
   nothing_left_since_.reset();
   look_at_ = 0;
@@ -207,7 +252,9 @@ bool Explorer::isStuck(const Robot& robot) {
     moved_from_ = pose;
     moved_at_ = robot.stepNumber();
   }
-  return robot.stepNumber() > moved_at_ + robot.stepsIn(kStuck_s);
+  // Noisy sensors miss obstacles, and slipping wheels pretend motion.
+  stalled_steps_ = has_noise_ && robot.stalled() ? stalled_steps_ + 1 : 0;
+  return robot.stepNumber() > moved_at_ + robot.stepsIn(kStuck_s) || stalled_steps_ > kStallMax;
 }
 
 void Explorer::drawBack(Robot& robot) {

@@ -11,6 +11,8 @@
 #include "maze/obstacles.h"
 #include "maze/path_driver.h"
 #include "maze/pose_tracker.h"
+#include "maze/scan_matcher.h"
+#include "maze/sonar_regions.h"
 #include "maze/stuck_recovery.h"
 #include "maze/wavefront.h"
 
@@ -72,7 +74,9 @@ class Explorer {
   bool hasDrawnRandomNumbers() const { return has_drawn_ || recovery_.hasDrawnRandomNumbers(); }
 
  private:
+  void track(const Robot& robot);
   void look(const Robot& robot);
+  void correctPose(const Robot& robot);
   void feel(const Robot& robot);
   bool needsPlan();
   void plan(const Robot& robot, const GoalCost* goal_cost);
@@ -91,7 +95,11 @@ class Explorer {
   double warm_;
   Rng rng_;
   StuckRecovery recovery_;  ///< used when reversing does not help
+  bool has_noise_;          ///< of range sensors
   PoseTracker tracker_;
+  ScanMatcher matcher_;  ///< used if range sensors are noisy
+  SonarRegions sonars_;  ///< of noisy sonars
+  std::vector<SurfacePoint> surfaces_;
   SearchMap search_;
   Wavefront wavefront_;
   PathDriver driver_;
@@ -112,6 +120,7 @@ class Explorer {
 
   mrpt::math::TPose2D moved_from_;  ///< pose of the last progress
   std::uint64_t moved_at_ = 0;
+  int stalled_steps_ = 0;
   std::uint64_t back_until_ = 0;  ///< end of reversing
   double back_speed_ = 0, back_turn_ = 0;
   bool has_drawn_ = false;

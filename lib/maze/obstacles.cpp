@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kReach_cells = 24;  // farther echoes are ignored, to save time
 constexpr int kHit = 4;
+constexpr int kUnsureHit = 1;
 constexpr int kOccupied = Obstacles::kLearned;     // reached by one echo
 constexpr int kSure = 8;                           // requires several echoes
 constexpr int kEvidenceMax = Obstacles::kCertain;  // bounds the empty observations that free a cell
@@ -35,8 +36,6 @@ Obstacles::Obstacles(MazeMap& map, double robot_radius_m)
 
 void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorInfo& sensor, const Echoes& echoes,
                      std::size_t stride) {
-  const double cell_m = map_->cellSize();
-  const double reach_m = kReach_cells * cell_m;
   const auto [sin_phi, cos_phi] = portable::sincos(start_from_robot.phi);
   const auto to_start = [&, cos_phi = cos_phi, sin_phi = sin_phi](double x, double y) {
     return mrpt::math::TPoint2D(start_from_robot.x + cos_phi * x - sin_phi * y,
@@ -46,16 +45,23 @@ void Obstacles::look(const mrpt::math::TPose2D& start_from_robot, const SensorIn
     const auto& mount = sensor.beams[i].robot_from_beam;
     const mrpt::math::TPoint2D from = to_start(mount.x, mount.y);
     const mrpt::math::TPoint2D ray = to_start(echoes[i].point_m.x, echoes[i].point_m.y) - from;
-    const double length = ray.norm();
-    if (length <= 0) continue;
-    const mrpt::math::TPoint2D step = ray * (cell_m / length);
-    const bool hit = isEcho(sensor, echoes[i]) && length < reach_m;
-    const int free_cells = static_cast<int>(std::min(length, reach_m) / cell_m - (hit ? 0.5 : 0));
-    mrpt::math::TPoint2D at = from + step * 0.5;
-    for (int k = 0; k < free_cells; ++k, at += step) seeFree(map_->cellAt(at));
-    // Slightly beyond the surface, so that a surface on the border of two cells always maps to the same cell.
-    if (hit) add(map_->cellAt(from + ray + step * 0.2), kHit);
+    trace(from, from + ray, isEcho(sensor, echoes[i]));
   }
+}
+
+void Obstacles::trace(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, bool is_echo, bool is_sure) {
+  const double cell_m = map_->cellSize();
+  const double reach_m = kReach_cells * cell_m;
+  const mrpt::math::TPoint2D ray = to - from;
+  const double length = ray.norm();
+  if (length <= 0) return;
+  const mrpt::math::TPoint2D step = ray * (cell_m / length);
+  const bool hit = is_echo && length < reach_m;
+  const int free_cells = static_cast<int>(std::min(length, reach_m) / cell_m - (hit ? 0.5 : 0));
+  mrpt::math::TPoint2D at = from + step * 0.5;
+  for (int k = 0; k < free_cells; ++k, at += step) seeFree(map_->cellAt(at));
+  // Slightly beyond the surface, so that a surface on the border of two cells always maps to the same cell.
+  if (hit) add(map_->cellAt(from + ray + step * 0.2), is_sure ? kHit : kUnsureHit);
 }
 
 void Obstacles::clearUnder(const mrpt::math::TPoint2D& robot) {

@@ -27,6 +27,9 @@ class Obstacles {
   /// Adds the echoes of a range sensor at `start_from_robot`; only every `stride`-th beam.
   void look(const mrpt::math::TPose2D& start_from_robot, const SensorInfo& sensor, const Echoes& echoes,
             std::size_t stride = 1);
+  /// Adds one line of sight in the frame `start`, with an echo at its end or without. An echo that is not sure requires
+  /// others at the same place.
+  void trace(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, bool is_echo, bool is_sure = true);
   /// Marks the cells of the robot's own body as free.
   void clearUnder(const mrpt::math::TPoint2D& robot);
   /// Marks an obstacle that was detected by collision only. After three collisions in a cell, as with an obstacle that

@@ -20,6 +20,14 @@ const mrpt::math::TPose2D& PoseTracker::update(const Robot& robot) {
     last_odom_from_robot_ = odom_from_robot;
     compass_at_start_rad_ = compass_rad.value_or(0) - start_from_robot_.phi;
   }
+  if (filter_) {
+    mrpt::math::TPose2D motion = portable::relative(*last_odom_from_robot_, odom_from_robot);
+    if (robot.stalled()) motion.x = motion.y = 0;  // the wheels slip
+    filter_->move(motion);
+    if (compass_rad) filter_->turnTo(*compass_rad);
+    last_odom_from_robot_ = odom_from_robot;
+    return start_from_robot_ = filter_->startFromRobot();
+  }
   start_from_robot_ = portable::compose(start_from_robot_, portable::relative(*last_odom_from_robot_, odom_from_robot));
   last_odom_from_robot_ = odom_from_robot;
   if (compass_rad) {

@@ -9,7 +9,7 @@
 namespace robosim {
 
 /// Errors of a sonar. The set `polaroid` describes the Polaroid 6500 module with the 600 series transducer;
-/// doc/fidelity_other.md lists the source of each value.
+/// doc/fidelity.md lists the source of each value.
 struct SonarNoise {
   RangeNoise range;
   double specular_rad = M_PI;      ///< a surface at a larger angle of incidence returns no echo; [0, π], π: never
