@@ -44,6 +44,6 @@ expect 'bench gold worlds/small' 'worlds/small_maze.xml'
 expect 'generate m' 'maze'
 expect 'generate maze --br' '--braid'
 expect 'control localhost:3000 sta' 'start status'
-expect 'controllers st' 'still'
+expect 'controllers st' 'stigmergy still'
 expect 'sensors la' 'laser'
 exit $((failures > 0))

@@ -115,11 +115,13 @@ struct Additions {
 
 void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
   LoadedWorld loaded{std::move(world_in_file), {}};
-  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
+  RobotTypes types = robotTypesIn(robotTypeFolders(file));
   placeScattered(loaded.world, file, types, additions.seed, checked.errors);
   loaded.fleet = buildFleet(loaded.world, file, types, checkController, checked.errors);
   if (!additions.changes.isNone() && checked.errors.empty()) {
-    loaded = loadWorld(withChanges(readWorldSource(file), additions.changes, additions.seed), checkController);
+    const WorldSource changed = withChanges(readWorldSource(file), additions.changes, additions.seed);
+    loaded = loadWorld(changed, checkController);
+    for (const auto& [name, type] : changed.robot_types) types.insert_or_assign(name, type);
   }
   if (checked.errors.empty()) checkControllers(loaded, file, "", checked.errors);
   const World& world = loaded.world;

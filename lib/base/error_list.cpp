@@ -51,7 +51,7 @@ void ErrorList::throwIfAny() const {
 }
 
 std::string listed(const std::vector<std::string>& words) {
-  constexpr std::size_t max_listed = 10;
+  constexpr std::size_t max_listed = 20;
   std::string all;
   for (std::size_t i = 0; i < std::min(max_listed, words.size()); ++i) all += (i ? ", " : "") + words[i];
   return words.size() <= max_listed ? all : all + " and " + std::to_string(words.size() - max_listed) + " more";

@@ -40,7 +40,7 @@ class ErrorList {
   std::size_t more_ = 0;
 };
 
-/// "a, b, c" for an error message; of a long list the first ten, and the number of further ones.
+/// "a, b, c" for an error message; of a long list the first twenty, and the number of further ones.
 std::string listed(const std::vector<std::string>& words);
 
 }  // namespace robosim

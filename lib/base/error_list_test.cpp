@@ -32,11 +32,12 @@ TEST(ErrorList, CountsErrorsBeyondTheMaximum) {
   EXPECT_EQ(errors.errors().back(), "and 42 more errors");
 }
 
-TEST(Listed, ListsAtMostTenWords) {
+TEST(Listed, ListsAtMostTwentyWords) {
   EXPECT_EQ(listed({}), "");
   EXPECT_EQ(listed({"a"}), "a");
   EXPECT_EQ(listed({"a", "b", "c"}), "a, b, c");
-  EXPECT_EQ(listed(std::vector<std::string>(12, "a")), "a, a, a, a, a, a, a, a, a, a and 2 more");
+  EXPECT_EQ(listed(std::vector<std::string>(22, "a")),
+            "a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a, a and 2 more");
 }
 
 }  // namespace

@@ -16,8 +16,8 @@ struct PairedComparison {
 };
 
 /// The exact sign test (Conover, "Practical Nonparametric Statistics", 3rd ed., 3.4). It is exact for searches that are
-/// all ended at the same time limit: a success is always earlier than the end of a search without, by an amount that
-/// nobody knows, which tests of differences would need. @pre as many times of both, in the order of the seeds
+/// all ended at the same time limit: a success is always earlier than the end of a search without, by an unknown
+/// amount, which tests of differences would need. @pre as many times of both, in the order of the seeds
 PairedComparison comparePaired(std::span<const SearchTime> first, std::span<const SearchTime> second);
 
 /// p values adjusted for their number (Holm, 1979), in the given order, so that the probability of any false rejection

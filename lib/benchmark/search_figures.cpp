@@ -40,7 +40,7 @@ ChartSeries survivalSeries(const SearchPlan& plan, const CaseSummary& summary) {
   };
   add(0, {});
   for (const auto& step : summary.survival) add(step.time_s, step);
-  // A search that is censored goes on until the limit.
+  // A censored search continues until the limit.
   const double end_s =
       summary.found == summary.runs && !summary.survival.empty() ? summary.survival.back().time_s : plan.time_s;
   add(std::max(end_s, series.points.back().x), summary.survival.empty() ? SurvivalStep{} : summary.survival.back());
