@@ -90,6 +90,7 @@ std::string pageOn(const v1::RunStatus& status) {
     rows.push_back(
         {"recording", status.recording_file().empty() ? "off" : "off, last file " + status.recording_file()});
   }
+  if (!status.recording_failure().empty()) rows.push_back({"recording", "has ended: " + status.recording_failure()});
   if (!status.winner().empty()) rows.push_back({"winner", status.winner()});
   if (status.late_commands() > 0)
     rows.push_back({"late", withCommas(status.late_commands()) + " commands (robots × steps)"});

@@ -34,6 +34,7 @@ void readRecording(const v1::RunStatus& status, RecordingView& recording) {
                     : status.recording() == v1::RECORDING_STATE_OFF ? RecordingView::State::off
                                                                     : RecordingView::State::none;
   recording.file = status.recording_file();
+  recording.failure = status.recording_failure();
   recording.may_change =
       status.may_operate() && status.phase() != v1::RUN_PHASE_ENDED && recording.state != RecordingView::State::none;
 }

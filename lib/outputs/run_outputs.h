@@ -40,7 +40,7 @@ class RunOutputs {
   /// Opens the recording. @param note first entry of the recording @throws ConfigError
   RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note);
 
-  /// Records the current step. @throws RecordingError
+  /// Records the current step. @throws RecordingError as RunRecording::write()
   void observe(const Environment& environment);
   /// null for a run without a name for recordings
   const RunRecording* recording() const { return recording_.get(); }

@@ -4,23 +4,30 @@
 #include <string>
 #include <utility>
 
+#include "recording/recording_error.h"
+
 namespace robosim {
 
 RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note)
     : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)) {}
 
-void RunRecording::open() { open(options_.file, {}); }
+void RunRecording::open() {
+  is_requested_ = false;
+  open(options_.file, {});
+}
 
 void RunRecording::openNext(const State& state) {
   int number = 1;
   while (!isFree(part(number))) ++number;
   SimTime start = state.time;
   if (last_step_ == start.step) ++start.step;
+  is_requested_ = true;
   open(part(number), start);
   write(state);
 }
 
 void RunRecording::open(const std::filesystem::path& file, const SimTime& start) {
+  failure_.clear();
   note_.outcome = nullptr;
   note_.first_step = start.step;
   writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
@@ -31,7 +38,15 @@ void RunRecording::open(const std::filesystem::path& file, const SimTime& start)
 
 void RunRecording::write(const State& state) {
   if (!writer_ || last_step_ == state.time.step) return;
-  writer_->write(state.readings, state.world_from_robot, state.commands);
+  try {
+    writer_->write(state.readings, state.world_from_robot, state.commands);
+  } catch (const RecordingError& error) {
+    if (!is_requested_) throw;
+    const auto writer = std::move(writer_);
+    discard(*writer);
+    failure_ = error.what();
+    return;
+  }
   last_step_ = state.time.step;
 }
 
@@ -44,11 +59,14 @@ void RunRecording::close(const RunSummary& outcome) {
   try {
     writer->close(note_.text());
   } catch (...) {
-    const auto discarded = writer->files();
-    files_.erase(files_.end() - static_cast<std::ptrdiff_t>(discarded.size()), files_.end());
-    file_ = previous_file_;
+    discard(*writer);
     throw;
   }
+}
+
+void RunRecording::discard(RawlogWriter& writer) {
+  files_.erase(files_.end() - static_cast<std::ptrdiff_t>(writer.files().size()), files_.end());
+  file_ = previous_file_;
 }
 
 void RunRecording::keep() {

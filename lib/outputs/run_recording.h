@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "environment/environment.h"
@@ -37,24 +38,30 @@ class RunRecording {
   /// in two parts; in the first file of options.file, "_part2", "_part3", … that does not exist.
   /// @throws ConfigError
   void openNext(const State& state);
-  /// Records the current step; no effect while the recording is off, or for the step recorded last. @throws
-  /// RecordingError
+  /// Records the current step; no effect while the recording is off, or for the step recorded last. When a part of
+  /// openNext() cannot be written, it is discarded, the recording is off, and failure() states the reason.
+  /// @throws RecordingError when the part of open() cannot be written
   void write(const State& state);
   /// Completes the current part, whose last note has this outcome; no effect while the recording is off.
   /// @throws RecordingError when the part cannot be completed: it is discarded, and the recording is off.
   void close(const RunSummary& outcome);
+  /// Why write() has discarded the last part; empty if it has not.
+  const std::string& failure() const { return failure_; }
   /// Completes the current part without a last note. @throws RecordingError
   void keep();
 
  private:
   void open(const std::filesystem::path& file, const SimTime& start);
   std::filesystem::path part(int number) const;
+  void discard(RawlogWriter& writer);
   bool isFree(const std::filesystem::path& file) const;
 
   RecordingOptions options_;
   std::vector<RobotInfo> robots_;
   RunNote note_;
-  std::unique_ptr<RawlogWriter> writer_;    ///< null while the recording is off
+  std::unique_ptr<RawlogWriter> writer_;  ///< null while the recording is off
+  bool is_requested_ = false;             ///< the current or last part is of openNext()
+  std::string failure_;
   std::optional<std::uint64_t> last_step_;  ///< recorded
   std::filesystem::path file_, previous_file_;
   std::vector<std::filesystem::path> files_;

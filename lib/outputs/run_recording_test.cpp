@@ -11,6 +11,7 @@
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/system/datetime.h>
 
+#include "base/testing/file_size_limit.h"
 #include "base/testing/test_folder.h"
 #include "recording/observations.h"
 #include "recording/rawlog_reader.h"
@@ -128,6 +129,33 @@ TEST_F(RunRecordingTest, DiscardsAPartThatCannotBeCompleted) {
   step(recording, 1);
   stop(recording);
   EXPECT_EQ(recording.file(), in("run_part3.rawlog"));
+}
+
+TEST_F(RunRecordingTest, DiscardsARequestedPartThatCannotBeWritten) {
+  RunRecording recording = recordingTo("run.rawlog");
+  recording.openNext(run.environment().state());
+  step(recording, 1);
+  stop(recording);
+  recording.openNext(run.environment().state());
+  {
+    const FileSizeLimit full(10'000);
+    while (recording.isOn()) step(recording, 1);  // until a batch of steps is compressed
+  }
+  EXPECT_NE(recording.failure().find("run_part2.rawlog"), std::string::npos) << recording.failure();
+  EXPECT_EQ(recording.file(), in("run.rawlog"));
+  EXPECT_EQ(filesInFolder(), Names{"run.rawlog"}) << "and no unfinished file";
+  recording.openNext(run.environment().state());
+  EXPECT_EQ(recording.failure(), "");
+  step(recording, 1);
+  stop(recording);
+  EXPECT_EQ(recording.files(), (std::vector{in("run.rawlog"), in("run_part2.rawlog")}));
+}
+
+TEST_F(RunRecordingTest, ThrowsWhenTheRecordingOfTheWholeRunCannotBeWritten) {
+  RunRecording recording = recordingTo("run.rawlog");
+  recording.open();
+  const FileSizeLimit full(10'000);
+  EXPECT_THROW(step(recording, 100'000), RecordingError);
 }
 
 TEST_F(RunRecordingTest, StatesTheOutcomeAtTheEndWithoutWhatDependsOnTheClock) {

@@ -264,6 +264,7 @@ void ConsoleSession::takeRun(const RunView& run) {
   };
   report("The next run could not be started: ", run.restart_problem, former.restart_problem);
   report("The recording could not be changed: ", run.recording.problem, former.recording.problem);
+  report("The recording has ended: ", run.recording.failure, former.recording.failure);
   if (!feed_.run.set(runJson(run))) return;
   wakeAdmittedPages();
 }

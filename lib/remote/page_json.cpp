@@ -70,7 +70,8 @@ Json jsonOf(const RecordingView& recording) {
           {"file", recording.file},
           {"may_change", recording.may_change},
           {"is_changing", recording.is_changing},
-          {"problem", recording.problem}};
+          {"problem", recording.problem},
+          {"failure", recording.failure}};
 }
 
 Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }

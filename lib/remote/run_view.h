@@ -17,6 +17,7 @@ struct RecordingView {
   bool may_change = false;
   bool is_changing = false;
   std::string problem{};  ///< why the last change has failed; empty when it has not
+  std::string failure{};  ///< why the last recording ended before it was stopped; empty if it did not
   bool operator==(const RecordingView&) const = default;
 };
 

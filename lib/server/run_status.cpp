@@ -47,6 +47,7 @@ void describeRun(const ServedRun& run, v1::RunStatus& status) {
   const RecordingStatus recording = run.recording();
   status.set_recording(recordingStateOf(recording.state));
   status.set_recording_file(recording.file);
+  status.set_recording_failure(recording.failure);
   if (state.winner) status.set_winner(run_info.robot_names[*state.winner]);
 }
 

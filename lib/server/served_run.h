@@ -26,6 +26,7 @@ struct RecordingStatus {
   };
   State state = State::none;
   std::string file{};  ///< current or last file, its name without folder; empty while there is none
+  std::string failure{};  ///< why the last recording ended before it was stopped; empty if it did not
 };
 
 /// Interface between EnvironmentServer and a run: the environment, and callbacks for each step.

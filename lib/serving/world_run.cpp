@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "base/log.h"
 #include "control/controller_error.h"
 #include "net/host_port.h"
 #include "recording/recording_error.h"
@@ -152,7 +153,10 @@ void WorldRun::decide() {
 void WorldRun::stepped(std::size_t late) {
   if (run_->late) *run_->late += late;
   run_->run.noteOutcome();
+  const RunRecording* recording = run_->outputs.recording();
+  const bool was_recorded = recording && recording->isOn();
   run_->outputs.observe(run_->run.environment());
+  if (was_recorded && !recording->isOn()) logError("serve", "the recording has ended: " + recording->failure());
   if (arcos_) arcos_->stepped();
 }
 
@@ -162,7 +166,7 @@ RecordingStatus WorldRun::recording() const {
   const RunRecording* recording = run_->outputs.recording();
   if (!recording) return {};
   return {recording->isOn() ? RecordingStatus::State::on : RecordingStatus::State::off,
-          recording->file().filename().string()};
+          recording->file().filename().string(), recording->failure()};
 }
 
 void WorldRun::setRecording(bool on) {

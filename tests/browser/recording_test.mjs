@@ -98,6 +98,9 @@ test('the reason of a failure is shown once on the picture', () => withPage('rec
   await page.waitForSelector('#record-problem', { state: 'visible' });
   page.script.sendRun({});  // the next request
   await page.waitForSelector('#record-problem', { state: 'hidden' });
+  page.script.sendRun({ recording: { state: 'off', failure: 'the disk is full' } });
+  await page.waitForSelector('#record-problem', { state: 'visible' });
+  assert.equal(await page.textContent('#record-problem'), 'The recording has ended: the disk is full');
 }));
 
 const run = (program, ...args) => execFileSync(program, args, { cwd: FOLDER, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });

@@ -100,7 +100,7 @@ class Script {
     const may_change = !['ended', 'gone'].includes(phase);
     this.send({
       type: 'run', phase, problem: '', absent: [], may_restart: false, is_restarting: false, ...run,
-      recording: { state: 'off', file: '', may_change, is_changing: false, problem: '', ...recording },
+      recording: { state: 'off', file: '', may_change, is_changing: false, problem: '', failure: '', ...recording },
     });
   }
 

@@ -14,10 +14,10 @@
 namespace robosim {
 namespace {
 
-TEST(GeometryWorker, SensesWithTheNoiseOfTheRunsSeed) {
-  const std::string options = "--controller wander --seed 7 --noise on --time 2 --json";
+TEST(GeometryWorker, SensesWithTheErrorsOfTheRunsSeed) {
+  const std::string options = "--controller wander --seed 7 --noise all --time 2 --json";
   const auto alone = nlohmann::json::parse(runProgram("run worlds/small_maze.xml " + options).out);
-  Serving serving({"--paused", "--controller", "wander", "--seed", "7", "--noise", "on", "--time", "2", "--json"});
+  Serving serving({"--paused", "--controller", "wander", "--seed", "7", "--noise", "all", "--time", "2", "--json"});
   const auto worker = startWorker(serving.address());
   serving.program().waitForError(": ready");
   EXPECT_EQ(runProgram("control " + serving.address() + " start").exit_code, 0);

@@ -1,8 +1,10 @@
 // Recording that control panels start and stop during a served run.
 #include <filesystem>
+#include <optional>
 
 #include <gtest/gtest.h>
 
+#include "base/testing/file_size_limit.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/serving.h"
 
@@ -70,6 +72,34 @@ TEST(RequestedRecording, IsOffUntilItIsRequestedAndReplacesNoFile) {
   EXPECT_TRUE(std::filesystem::is_regular_file(run.folder / "run_part2.rawlog"));
   EXPECT_FALSE(std::filesystem::exists(run.folder / "run_part3.rawlog"));
   run.end();
+}
+
+TEST(RequestedRecording, MayHaveNoSteps) {
+  RecordedRun run;
+  run.must("step 3");
+  run.must("record off");
+  run.must("record on");  // with the next step
+  run.must("record off");
+  run.end();
+  const Ended none = runProgram("replay --json " + quoted(run.folder / "run_part2.rawlog"));
+  EXPECT_EQ(none.exit_code, 0) << none.err;
+}
+
+TEST(RequestedRecording, EndsWhenAStepCannotBeWrittenAndTheRunContinues) {
+  std::optional<RecordedRun> run;
+  {
+    const FileSizeLimit full(20'000);
+    run.emplace(std::vector<std::string>{"--record-on-request", "--controller", "still"});
+  }
+  run->must("record on");
+  run->must("step 3000");  // several batches of those that are compressed
+  const std::string status = run->control("status").out;
+  EXPECT_NE(status.find("recording  off\n"), std::string::npos) << status;
+  EXPECT_NE(status.find("has ended: "), std::string::npos) << status;
+  EXPECT_NE(status.find("run.rawlog: "), std::string::npos) << status;
+  EXPECT_NE(run->serving.program().error().find("the recording has ended: "), std::string::npos);
+  EXPECT_TRUE(std::filesystem::is_empty(run->folder)) << "the incomplete file is discarded";
+  EXPECT_NE(run->end().find("3,000"), std::string::npos) << "the run has continued";
 }
 
 TEST(RequestedRecording, IsRefusedWithoutANameForRecordings) {

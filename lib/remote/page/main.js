@@ -32,7 +32,7 @@ takeTokenFromAddress();
 
 const UNKNOWN_RUN = {
   phase: 'unknown', problem: '', absent: [], may_restart: false, is_restarting: false,
-  recording: { state: 'none', file: '', may_change: false, is_changing: false, problem: '' },
+  recording: { state: 'none', file: '', may_change: false, is_changing: false, problem: '', failure: '' },
 };
 const state = { you: 0, mayOperate: false, team: null, run: UNKNOWN_RUN, robot: null, update: null, whyLost: '', isFirstTeam: true };
 const link = new Link(identity);

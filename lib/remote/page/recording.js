@@ -1,12 +1,18 @@
 // The recording of the run, on the picture: its state, and the button that starts and stops it if the user may.
 
-const SHOWN_MS = 8000;  // why a request has failed
+const SHOWN_MS = 8000;  // a problem
 
 // What is displayed of the recording's state, as in the message `run`: null for a run that cannot be recorded.
 export function textsOf({ state, file }) {
   if (state === 'on') return { label: 'REC', title: `Recording to ${file}` };
   if (state === 'off') return { label: 'Not rec.', title: file ? `Not recording; the last file is ${file}` : 'Not recording' };
   return null;
+}
+
+// What is wrong with the recording, as a sentence; empty if nothing is.
+export function problemOf({ problem, failure }) {
+  if (problem) return `The recording could not be changed: ${problem}`;
+  return failure ? `The recording has ended: ${failure}` : '';
 }
 
 export class Recording {
@@ -39,7 +45,7 @@ export class Recording {
     }
     this.button.hidden = !mayChange;
     this.button.setAttribute('aria-disabled', String(recording.is_changing));
-    this.#showProblem(recording.problem);
+    this.#showProblem(problemOf(recording));
   }
 
   // Each failure once, as the console sends the last one with every state of the run.
@@ -47,7 +53,7 @@ export class Recording {
     if (problem === this.#problem) return;
     this.#problem = problem;
     clearTimeout(this.#timer);
-    this.problem.textContent = problem && `The recording could not be changed: ${problem}`;
+    this.problem.textContent = problem;
     this.problem.hidden = !problem;
     if (problem) this.#timer = setTimeout(() => { this.problem.hidden = true; }, SHOWN_MS);
   }
