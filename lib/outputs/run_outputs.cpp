@@ -99,12 +99,15 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
   summary.wall_s = wall_s;
   summary.late = late;
   summary.report = report;
-  if (recording_) recording_->close(summary);
+  // The summary is printed even if the disk is full.
   std::exception_ptr failure;
+  bool is_drawn = false;
   try {
+    if (recording_) recording_->finish(summary);
     if (tracks_) draw(arguments_.picture, run.environment(), *tracks_);
+    is_drawn = tracks_ != nullptr;
   } catch (const std::exception&) {
-    failure = std::current_exception();  // print the summary even if the disk is full
+    failure = std::current_exception();
   }
   if (arguments_.json) {
     std::cout << jsonText(summary.json()) << std::endl;
@@ -113,7 +116,7 @@ void RunOutputs::finish(const LocalRun& run, double wall_s, EndedBy ended_by, st
     if (recording_) {
       for (const auto& file : recording_->files()) std::cout << "rawlog    " << printableText(file.string()) << '\n';
     }
-    if (tracks_ && !failure) std::cout << "picture   " << printableText(arguments_.picture) << std::endl;
+    if (is_drawn) std::cout << "picture   " << printableText(arguments_.picture) << std::endl;
   }
   std::cout.flush();
   if (failure) std::rethrow_exception(failure);

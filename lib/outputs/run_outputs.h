@@ -50,7 +50,8 @@ class RunOutputs {
   void setRecording(bool on, const LocalRun& run);
   /// Closes the recording of a failed run, keeping what was recorded.
   void keep(const Environment& environment);
-  /// Closes the recording, draws the picture, and prints the summary, even if the picture cannot be written.
+  /// Closes the recording, draws the picture, and prints the summary, also before it throws.
+  /// @throws RecordingError as RunRecording::finish() @throws std::runtime_error when the picture cannot be written
   /// @param late robot-steps whose command came too late; nullopt for a lockstep run
   /// @param report of a served run; else nullopt
   void finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late = {},

@@ -64,6 +64,15 @@ void RunRecording::close(const RunSummary& outcome) {
   }
 }
 
+void RunRecording::finish(const RunSummary& outcome) {
+  try {
+    close(outcome);
+  } catch (const RecordingError& error) {
+    if (!is_requested_) throw;
+    failure_ = error.what();
+  }
+}
+
 void RunRecording::discard(RawlogWriter& writer) {
   files_.erase(files_.end() - static_cast<std::ptrdiff_t>(writer.files().size()), files_.end());
   file_ = previous_file_;

@@ -45,7 +45,10 @@ class RunRecording {
   /// Completes the current part, whose last note has this outcome; no effect while the recording is off.
   /// @throws RecordingError when the part cannot be completed: it is discarded, and the recording is off.
   void close(const RunSummary& outcome);
-  /// Why write() has discarded the last part; empty if it has not.
+  /// close() at the end of the run. When a part of openNext() cannot be completed, failure() states the reason.
+  /// @throws RecordingError when the part of open() cannot be completed
+  void finish(const RunSummary& outcome);
+  /// Why write() or finish() has discarded the last part; empty if they have not.
   const std::string& failure() const { return failure_; }
   /// Completes the current part without a last note. @throws RecordingError
   void keep();

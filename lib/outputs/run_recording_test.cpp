@@ -151,6 +151,15 @@ TEST_F(RunRecordingTest, DiscardsARequestedPartThatCannotBeWritten) {
   EXPECT_EQ(recording.files(), (std::vector{in("run.rawlog"), in("run_part2.rawlog")}));
 }
 
+TEST_F(RunRecordingTest, DiscardsARequestedPartThatCannotBeCompletedAtTheEndOfTheRun) {
+  RunRecording recording = recordingTo("run.rawlog");
+  recording.openNext(run.environment().state());
+  std::filesystem::create_directory(in("run.rawlog"));  // instead of a full disk
+  recording.finish(RunSummary::of(run));
+  EXPECT_NE(recording.failure().find("run.rawlog"), std::string::npos) << recording.failure();
+  EXPECT_TRUE(recording.files().empty());
+}
+
 TEST_F(RunRecordingTest, ThrowsWhenTheRecordingOfTheWholeRunCannotBeWritten) {
   RunRecording recording = recordingTo("run.rawlog");
   recording.open();

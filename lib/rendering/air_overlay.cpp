@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <optional>
 
 #include <opencv2/imgproc.hpp>
 
+#include "rendering/air_paths.h"
+#include "rendering/air_view.h"
 #include "rendering/bgr.h"
 #include "rendering/canvas.h"
 #include "rendering/free_areas.h"
@@ -19,130 +20,8 @@ namespace {
 using mrpt::math::TPoint2D;
 using mrpt::math::TPoint3D;
 
-constexpr double kNearest_m = 0.05;
-constexpr double kPathHeight_m = 0.02;  // above the ground
-constexpr double kArcPiece_m = 0.2;     // of a sonar sector's arc
+constexpr double kArcPiece_m = 0.2;  // of a sonar sector's arc
 constexpr std::size_t kMaxAirNames = 60;
-
-/// A pinhole camera with square pixels, and the depths that it sees.
-class AirView {
- public:
-  explicit AirView(const AirPicture& air)
-      : air_(air),
-        middle_(air.camera.width_px / 2.0, air.camera.height_px / 2.0),
-        focal_px_(air.camera.focalLength()),
-        depth_finer_(std::max(1, air.depth.width_px / std::max(1, air.picture.cols))) {}
-
-  /// In the camera's axes: x ahead, y left, z up.
-  TPoint3D seen(const TPoint3D& world) const {
-    TPoint3D point;
-    air_.world_from_camera.inverseComposePoint(world, point);
-    return point;
-  }
-  /// @pre seen.x > 0
-  TPoint2D pixel(const TPoint3D& seen) const {
-    return {middle_.x - focal_px_ * seen.y / seen.x, middle_.y - focal_px_ * seen.z / seen.x};
-  }
-  bool isOnPicture(const TPoint2D& pixel) const {
-    return pixel.x >= 0 && pixel.y >= 0 && pixel.x < air_.picture.cols && pixel.y < air_.picture.rows;
-  }
-  /// Whether nothing nearer than `ahead_m` covers a pixel of the picture.
-  /// @param slack_m, slack_share by how much, also of the distance, something may be nearer
-  bool isVisible(const TPoint2D& pixel, double ahead_m, double slack_m, double slack_share = 0.01) const {
-    const float depth_m = depthAt(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
-    return depth_m == 0 || ahead_m <= depth_m * (1 + slack_share) + slack_m;
-  }
-  /// [m]; 0 for the sky
-  float depthAt(int x, int y) const { return air_.depth.metresAt(x * depth_finer_, y * depth_finer_); }
-  double focalLength() const { return focal_px_; }
-  const TPoint2D& middle() const { return middle_; }
-
- private:
-  const AirPicture& air_;
-  TPoint2D middle_;
-  double focal_px_;
-  int depth_finer_;  ///< pixels of the depth buffer per pixel
-};
-
-cv::Point rounded(const TPoint2D& p) {
-  return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))};
-}
-
-/// Draws one robot's path as pieces of a few pixels, each of them where it is visible.
-class AirPath {
- public:
-  AirPath(const AirPicture& air, const AirView& view, const Color& color)
-      : air_(air),
-        view_(view),
-        color_(bgr(color)),
-        width_px_(std::max(1, static_cast<int>(std::lround(2 * air.scale)))) {}
-
-  void lineTo(const TPoint2D& at) {
-    const TPoint3D next = view_.seen({at.x, at.y, kPathHeight_m});
-    constexpr double kStride_px = 2;
-    if (last_ && last_->x > kNearest_m && next.x > kNearest_m &&
-        (view_.pixel(next) - view_.pixel(*last_)).norm() < kStride_px) {
-      return;
-    }
-    if (last_) line(*last_, next);
-    last_ = next;
-  }
-  void interrupt() { last_.reset(); }
-
- private:
-  /// Ends in the camera's axes.
-  void line(TPoint3D from, TPoint3D to) {
-    if (from.x < kNearest_m && to.x < kNearest_m) return;
-    if (from.x < kNearest_m || to.x < kNearest_m) {
-      const TPoint3D cut = from + (to - from) * ((kNearest_m - from.x) / (to.x - from.x));
-      (from.x < kNearest_m ? from : to) = cut;
-    }
-    const TPoint2D a = view_.pixel(from), b = view_.pixel(to);
-    const double right = air_.picture.cols, bottom = air_.picture.rows;
-    if (std::max(a.x, b.x) < 0 || std::max(a.y, b.y) < 0 || std::min(a.x, b.x) > right || std::min(a.y, b.y) > bottom) {
-      return;
-    }
-    constexpr double kPiece_px = 6;
-    const int pieces = std::clamp(static_cast<int>((b - a).norm() / kPiece_px), 1, 2000);
-    const TPoint2D piece = (b - a) * (1.0 / pieces);
-    // Draws each run of visible pieces as one line: OpenCV's cost is per line.
-    int first_visible = -1;
-    for (int i = 0; i <= pieces; ++i) {
-      const double share = (i + 0.5) / pieces;
-      const TPoint2D center = a + piece * (i + 0.5);
-      // Equal steps on the picture are not equal steps in space: 1 / depth is linear there.
-      const double ahead_m = 1 / ((1 - share) / from.x + share / to.x);
-      const bool is_visible = i < pieces && view_.isOnPicture(center) && view_.isVisible(center, ahead_m, 0.05);
-      if (is_visible && first_visible < 0) first_visible = i;
-      if (is_visible || first_visible < 0) continue;
-      cv::line(air_.picture, rounded(a + piece * first_visible), rounded(a + piece * i), color_, width_px_,
-               cv::LINE_AA);
-      first_visible = -1;
-    }
-  }
-
-  const AirPicture& air_;
-  const AirView& view_;
-  cv::Scalar color_;
-  int width_px_;
-  std::optional<TPoint3D> last_;
-};
-
-void drawPaths(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
-               const std::vector<Color>& colors, const RunPaths& paths, double from_s) {
-  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
-    AirPath path(air, view, colors[i]);
-    const PathPart part = paths.between(i, from_s, snapshot.time_s);
-    if (part.begin) path.lineTo(*part.begin);
-    for (const auto& point : part.points) {
-      if (point.is_after_gap) path.interrupt();
-      path.lineTo(point.at);
-    }
-    if (!snapshot.robots[i].isPresent()) continue;
-    const auto& pose = snapshot.robots[i].world_from_robot;
-    if (part.begin || !part.points.empty()) path.lineTo({pose.x, pose.y});
-  }
-}
 
 /// Tints horizontal areas at one height, where nothing nearer covers them.
 class AirTint {
@@ -155,10 +34,10 @@ class AirTint {
     TPoint3D last = view_.seen({corners.back().x, corners.back().y, z_m_});
     for (const auto& corner : corners) {
       const TPoint3D next = view_.seen({corner.x, corner.y, z_m_});
-      if ((last.x < kNearest_m) != (next.x < kNearest_m)) {
-        ahead.push_back(last + (next - last) * ((kNearest_m - last.x) / (next.x - last.x)));
+      if ((last.x < AirView::kNearest_m) != (next.x < AirView::kNearest_m)) {
+        ahead.push_back(last + (next - last) * ((AirView::kNearest_m - last.x) / (next.x - last.x)));
       }
-      if (next.x >= kNearest_m) ahead.push_back(next);
+      if (next.x >= AirView::kNearest_m) ahead.push_back(next);
       last = next;
     }
     std::vector<cv::Point> polygon;
@@ -245,7 +124,7 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
   const int radius_px = std::max(1, static_cast<int>(std::lround(2 * air.scale)));
   for (const auto& dot : dots) {
     const TPoint3D seen = view.seen(dot.at);
-    if (seen.x < kNearest_m) continue;
+    if (seen.x < AirView::kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);
     // An echo lies on the surface that it was measured on, up to the measurement's error, and on the side of the robot:
     // walls 10 cm thick hide it from the other side.
@@ -268,7 +147,7 @@ void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& s
     if (!snapshot.robots[i].isPresent()) continue;
     const auto& pose = snapshot.robots[i].world_from_robot;
     const TPoint3D seen = view.seen({pose.x, pose.y, fleet.robots[i].body.heights().z_max_m + 0.12});
-    if (seen.x < 4 * kNearest_m) continue;
+    if (seen.x < 4 * AirView::kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);
     if (view.isOnPicture(pixel)) labels.push_back({seen.x, pixel, i});
   }
@@ -300,7 +179,7 @@ void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fl
                     const TopViewLayers& layers, const std::vector<std::uint8_t>& shown) {
   const AirView view(air);
   const auto colors = robotColors(fleet);
-  if (layers.paths) drawPaths(air, view, snapshot, colors, paths, layers.paths_from_s);
+  if (layers.paths) drawAirPaths(air, view, snapshot, colors, paths, layers.paths_from_s);
   if (layers.sensors) drawRanges(air, view, snapshot, fleet, shown);
   if (layers.names) writeNames(air, view, snapshot, fleet, colors);
 }

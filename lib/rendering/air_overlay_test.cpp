@@ -45,11 +45,43 @@ struct AirOverlay : testing::Test {
     return cv::countNonZero(differs.reshape(1));
   }
 
+  /// The paths alone, on black.
+  cv::Mat drawnPaths() {
+    cv::Mat picture(300, 400, CV_8UC3, cv::Scalar(0, 0, 0));
+    const DepthBuffer sky{400, 300, std::vector<float>(400UL * 300, 1)};
+    const TopViewLayers layers{.paths = true, .sensors = false, .names = false};
+    drawAirOverlay({picture, sky, camera, {-5, 0, 2, 0, 0.35, 0}}, snapshot, fleet, paths, layers, {});
+    return picture;
+  }
+
   CameraInfo camera;
   Fleet fleet;
   RunSnapshot snapshot;
   RunPaths paths;
 };
+
+TEST_F(AirOverlay, FadesOldPathsWhereTheyCoverThePicture) {
+  // Robots drive to and fro along y on lines 2 cm apart; later than the first 20 s of this they are old.
+  std::uint64_t step = 2;
+  const auto ride = [&](int lines) {
+    for (int i = 0; i < lines; ++i) {
+      for (const double y : {-0.9, 0.9}) {
+        ++step;
+        paths.add(step, 0.1 * static_cast<double>(step), {{0.02 * i - 1, i % 2 == 0 ? y : -y, 0}});
+      }
+    }
+    snapshot.step = step;
+    snapshot.time_s = 0.1 * static_cast<double>(step) + 25;
+    snapshot.robots[0].world_from_robot = {0.02 * lines - 1, 0, 0};
+    cv::Mat pixels = drawnPaths();
+    cv::Scalar sum = cv::sum(pixels);
+    return sum[0] / sum[2];  // blue relative to red
+  };
+  const double few = ride(2);
+  const double many = ride(100);
+  EXPECT_GT(many, few + 0.3) << "mixed with the white of the floor";
+  EXPECT_LT(many, 0.95) << "but still reddish";
+}
 
 TEST_F(AirOverlay, HidesPathsAndRangesBehindNearerThings) {
   const TopViewLayers path{.paths = true, .sensors = false, .names = false};

@@ -9,6 +9,7 @@
 #include "rendering/canvas.h"
 #include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
+#include "rendering/path_fading.h"
 #include "rendering/sensor_colors.h"
 
 namespace robosim {
@@ -83,10 +84,8 @@ class Drawing {
   /// Draws the paths. Where old ones would cover much of the picture (many robots, long runs), they fade towards the
   /// floor, and only the last seconds keep their full colour.
   void drawPaths(const RunPaths& paths, double from_s) {
-    constexpr double kRecent_s = 20;
-    constexpr double kBright = 0.04;  // share of the picture that old paths may cover at full opacity
-    constexpr float kPaleness = 0.35f, kPalenessMax = 0.85f;
-    const double recent_from_s = std::max(from_s, snapshot_.time_s - kRecent_s);
+    constexpr float kPaleness = 0.35f;
+    const double recent_from_s = std::max(from_s, snapshot_.time_s - kRecentPath_s);
     std::vector<Stroke> old, recent;
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
       addStrokes(old, i, paths.between(i, from_s, recent_from_s), paths.positionAt(i, recent_from_s));
@@ -100,8 +99,7 @@ class Drawing {
         length_px += (stroke.points[k] - stroke.points[k - 1]).norm();
     }
     const double covered = length_px * kPath_px / (1.0 * view_.width() * view_.height());
-    const float paleness =
-        std::clamp(static_cast<float>(1 - kBright / std::max(1e-9, covered)), kPaleness, kPalenessMax);
+    const float paleness = std::max(kPaleness, pathFading(covered));
     for (const auto& stroke : old)
       canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, paleness));
     for (const auto& stroke : recent)

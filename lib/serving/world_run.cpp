@@ -85,6 +85,15 @@ class WorldRun::OneRun {
     if (std::exchange(is_finished, true)) return;
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - start;
     outputs.finish(run, wall.count(), ended_by, late, report);
+    reportRecording();
+  }
+
+  /// Logs why a recording has ended before it was stopped, once.
+  void reportRecording() {
+    const RunRecording* recording = outputs.recording();
+    const std::string failure = recording ? recording->failure() : "";
+    if (failure == std::exchange(reported, failure) || failure.empty()) return;
+    logError("serve", "the recording has ended: " + failure);
   }
 
   RunArguments arguments;
@@ -97,6 +106,7 @@ class WorldRun::OneRun {
   std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   bool is_finished = false;  ///< its outputs are written
+  std::string reported;      ///< RunRecording::failure() that has been logged
 };
 
 class WorldRun::Prepared final : public PreparedRun {
@@ -153,10 +163,8 @@ void WorldRun::decide() {
 void WorldRun::stepped(std::size_t late) {
   if (run_->late) *run_->late += late;
   run_->run.noteOutcome();
-  const RunRecording* recording = run_->outputs.recording();
-  const bool was_recorded = recording && recording->isOn();
   run_->outputs.observe(run_->run.environment());
-  if (was_recorded && !recording->isOn()) logError("serve", "the recording has ended: " + recording->failure());
+  run_->reportRecording();
   if (arcos_) arcos_->stepped();
 }
 

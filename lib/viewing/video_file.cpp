@@ -72,7 +72,8 @@ struct VideoFile::Encoder {
     const AVCodec* const codec = avcodec_find_encoder_by_name(name);
     if (!codec) {
       throw ConfigError(named.string() + ": FFmpeg's library libavcodec has no encoder " + name +
-                        "; install Debian's libavcodec59, or write " + (is_webm ? ".mp4" : ".webm"));
+                        "; install Debian's full build of FFmpeg (apt-get install ffmpeg), or write " +
+                        (is_webm ? ".mp4" : ".webm"));
     }
     AVFormatContext* opened = nullptr;
     // "file:", so that a colon in the name does not start a protocol.

@@ -74,6 +74,18 @@ TEST(RequestedRecording, IsOffUntilItIsRequestedAndReplacesNoFile) {
   run.end();
 }
 
+TEST(RequestedRecording, RepeatsNoStepInTheNextPart) {
+  RecordedRun run;
+  run.must("step 10");
+  run.must("record off");
+  run.must("record on");
+  run.must("step 5");
+  run.end();
+  const Ended part = runProgram("replay --print " + quoted(run.folder / "run_part2.rawlog"));
+  EXPECT_EQ(part.exit_code, 0) << part.err;
+  std::cout << part.out << std::endl;
+}
+
 TEST(RequestedRecording, MayHaveNoSteps) {
   RecordedRun run;
   run.must("step 3");

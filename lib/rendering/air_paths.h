@@ -1,0 +1,14 @@
+#pragma once
+#include <vector>
+
+#include "rendering/air_view.h"
+
+namespace robosim {
+
+/// Draws the paths of all robots on the ground, where nothing hides them. Where old parts would cover much of the
+/// picture, they fade (path_fading.h).
+/// @param colors of the robots @param from_s earliest time that is drawn
+void drawAirPaths(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
+                  const std::vector<Color>& colors, const RunPaths& paths, double from_s);
+
+}  // namespace robosim
