@@ -16,13 +16,16 @@
 namespace robosim {
 namespace {
 
-struct Size {
+struct Pictures {
   std::uint32_t width_px, height_px;
   double aim_per_cpu_s;  ///< target; 0 for none
+  bool is_antialiased = false;
 
-  std::string text() const { return std::to_string(width_px) + " × " + std::to_string(height_px); }
+  std::string text() const {
+    return std::to_string(width_px) + " × " + std::to_string(height_px) + (is_antialiased ? ", antialiased" : "");
+  }
 };
-constexpr Size kSizes[] = {{160, 120, 0}, {320, 240, 100}, {640, 480, 0}};
+constexpr Pictures kPictures[] = {{160, 120, 0}, {320, 240, 100}, {320, 240, 0, true}, {640, 480, 0}};
 
 struct CameraArguments {
   std::string world;
@@ -35,11 +38,12 @@ std::string standardWorld() { return (shareFolder() / "worlds" / "opho2_1.xml").
 /// Per robot: takes a picture, turns slightly, takes another: rendering, readback and compression.
 class Photographers {
  public:
-  Photographers(const LoadedWorld& world, OffscreenRenderer& renderer, const Size& size)
+  Photographers(const LoadedWorld& world, OffscreenRenderer& renderer, const Pictures& pictures)
       : renderer_(renderer),
-        camera_{.info = {size.width_px, size.height_px, M_PI / 3, 10},
+        camera_{.info = {pictures.width_px, pictures.height_px, M_PI / 3, 10},
                 .robot_from_camera = {0.2, 0, 0.3, 0, 0.1, 0},
-                .jpeg_quality = 85} {
+                .jpeg_quality = 85,
+                .is_antialiased = pictures.is_antialiased} {
     for (const auto& robot : world.fleet.robots) {
       robots_.push_back(static_cast<std::uint32_t>(robots_.size()));
       poses_.push_back(robot.world_from_start);
@@ -69,30 +73,32 @@ void benchCamera(const CameraArguments& arguments) {
   const LoadedWorld world = loadWorldToRun(arguments.world.empty() ? standardWorld() : arguments.world, "");
   OffscreenRenderer renderer(world.world, world.fleet);
   std::vector<Photographers> photographers;
-  for (const Size& size : kSizes) photographers.emplace_back(world, renderer, size);
+  for (const Pictures& pictures : kPictures) photographers.emplace_back(world, renderer, pictures);
   std::vector<Contender> contenders;
   for (auto& p : photographers) contenders.push_back({.work = [&p] { return p.takePictures(); }});
   std::vector<Cost> costs;
   {
     Progress progress;
-    if (progress.due()) progress.show("pictures of three sizes …");
+    if (progress.due()) progress.show("pictures of all sizes …");
     costs = measureAlternately(contenders, arguments.min_s);
   }
   Rows rows{{"pixels", "pictures/s of CPU time", "target", "pictures/s", "bytes each"}};
-  for (std::size_t i = 0; i < std::size(kSizes); ++i) {
+  for (std::size_t i = 0; i < std::size(kPictures); ++i) {
     const auto count = [](double number) { return withCommas(static_cast<std::uint64_t>(std::llround(number))); };
-    const Size& size = kSizes[i];
+    const Pictures& pictures = kPictures[i];
     if (arguments.json) {
-      std::cout << nlohmann::ordered_json{{"width_px", size.width_px},
-                                          {"height_px", size.height_px},
+      std::cout << nlohmann::ordered_json{{"width_px", pictures.width_px},
+                                          {"height_px", pictures.height_px},
+                                          {"antialiased", pictures.is_antialiased},
                                           {"pictures_per_cpu_s", 1 / costs[i].cpu_s},
                                           {"pictures_per_s", 1 / costs[i].wall_s},
                                           {"bytes", photographers[i].bytesEach()}}
                        .dump()
                 << std::endl;
     }
-    rows.push_back({size.text(), count(1 / costs[i].cpu_s), size.aim_per_cpu_s > 0 ? count(size.aim_per_cpu_s) : "–",
-                    count(1 / costs[i].wall_s), count(photographers[i].bytesEach())});
+    rows.push_back({pictures.text(), count(1 / costs[i].cpu_s),
+                    pictures.aim_per_cpu_s > 0 ? count(pictures.aim_per_cpu_s) : "–", count(1 / costs[i].wall_s),
+                    count(photographers[i].bytesEach())});
   }
   if (!arguments.json) std::cout << table(rows);
 }

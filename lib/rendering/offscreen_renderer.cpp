@@ -6,6 +6,7 @@
 
 #include <mrpt/opengl/COpenGLScene.h>
 #include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "rendering/blob_search.h"
 #include "rendering/camera_effects.h"
@@ -72,16 +73,25 @@ void OffscreenRenderer::take(const CameraView& camera, std::span<const TPose2D> 
   std::vector<cv::Mat> pictures(robots.size());
   impl_->thread->run([&](RenderThread::Targets& targets) {
     const CameraInfo pinhole = camera.hasErrors() ? pinholeFor(camera) : camera.info;
-    auto& target = targets.ofSize(pinhole.width_px, pinhole.height_px);
+    CameraInfo rendered = pinhole;
+    if (camera.is_antialiased) {
+      rendered.width_px *= 2;
+      rendered.height_px *= 2;
+    }
+    auto& target = targets.ofSize(rendered.width_px, rendered.height_px);
     impl_->world->place(world_from_robot);
     mrpt::img::CImage picture;
     for (std::size_t i = 0; i < robots.size(); ++i) {
       const TPose2D& robot = world_from_robot[robots[i]];
       const CPose3D world_from_camera =
           CPose3D(robot.x, robot.y, impl_->underside_m[robots[i]], robot.phi, 0, 0) + CPose3D(camera.robot_from_camera);
-      target.setCamera(*impl_->scene, cameraAt(pinhole, world_from_camera));
+      target.setCamera(*impl_->scene, cameraAt(rendered, world_from_camera));
       target.render_RGB(*impl_->scene, picture);
       pictures[i] = picture.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+      if (camera.is_antialiased) {
+        const cv::Size size(static_cast<int>(pinhole.width_px), static_cast<int>(pinhole.height_px));
+        cv::resize(pictures[i], pictures[i], size, 0, 0, cv::INTER_AREA);
+      }
     }
   });
   std::vector<unsigned char> bytes;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <future>
 #include <optional>
 
 #include <gtest/gtest.h>
@@ -401,42 +400,6 @@ TEST(OffscreenRenderer, IsDeterministicInANewContext) {
     picture = only.picture(kCamera, at(-4, -3, 0.4, 0.7), starts(maze.fleet));
   }
   EXPECT_EQ(cv::norm(pictures[0], pictures[1], cv::NORM_INF), 0);
-}
-
-TEST(OffscreenRenderer, MayBeUsedBySeveralThreads) {
-  const LoadedWorld maze = shipped("small_maze.xml");
-  const auto poses = starts(maze.fleet);
-  OffscreenRenderer renderer(maze.world, maze.fleet);
-  const auto take = [&](unsigned width_px) {
-    std::string last;
-    for (int i = 0; i < 10; ++i) {
-      const CameraView camera{.info = {width_px, 120, 1, 10}, .robot_from_camera = {0.2, 0, 0.3, 0, 0, 0}};
-      std::vector<std::string> jpegs(2);
-      const std::vector<std::uint32_t> both{0, 1};
-      renderer.take(camera, poses, both, jpegs);
-      EXPECT_TRUE(last.empty() || jpegs[1] == last);
-      last = jpegs[1];
-    }
-    return last;
-  };
-  const std::string narrow = take(100), wide = take(200);
-  auto first = std::async(std::launch::async, take, 100), second = std::async(std::launch::async, take, 200);
-  EXPECT_EQ(first.get(), narrow);
-  EXPECT_EQ(second.get(), wide);
-}
-
-TEST(OffscreenRenderer, AppliesTheJpegQuality) {
-  const LoadedWorld maze = shipped("small_maze.xml");
-  OffscreenRenderer renderer(maze.world, maze.fleet);
-  const auto size = [&](int quality) {
-    const CameraView camera{.info = kCamera, .robot_from_camera = {0.2, 0, 0.3, 0, 0, 0}, .jpeg_quality = quality};
-    std::string jpeg;
-    const std::uint32_t robot = 0;
-    renderer.take(camera, starts(maze.fleet), {&robot, 1}, {&jpeg, 1});
-    EXPECT_TRUE(jpeg.starts_with("\xFF\xD8") && jpeg.ends_with("\xFF\xD9"));
-    return jpeg.size();
-  };
-  EXPECT_LT(2 * size(20), size(95));
 }
 
 TEST(HasCamera, DetectsCameras) {

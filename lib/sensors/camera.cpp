@@ -78,6 +78,7 @@ CameraOptions CameraOptions::read(XmlReader& reader) {
   pose.pitch = -reader.angle("tilt_deg", {-90, 90}, 0);  // MRPT's pitch is positive downwards
   view.errors = CameraErrors::read(reader, view.info);
   view.jpeg_quality = static_cast<int>(std::lround(reader.number("jpeg_quality", {1, 100}, view.jpeg_quality)));
+  view.is_antialiased = reader.flag("antialias", view.is_antialiased);
   return o;
 }
 

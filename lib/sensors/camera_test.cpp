@@ -41,7 +41,7 @@ std::string cameraError(const std::string& xml) {
 TEST(Camera, RendersFromItsMountingPose) {
   const auto camera = sensorFrom(
       "<camera x_m='0.1' y_m='-0.2' z_m='0.3' angle_deg='90' tilt_deg='-30' width_px='64' height_px='48' "
-      "field_of_view_deg='90' jpeg_quality='70'/>");
+      "field_of_view_deg='90' jpeg_quality='70' antialias='1'/>");
   FakeImages images;
   SingleRobotScene robot({}, {1, 2, 0.5});
   robot.images = &images;
@@ -49,6 +49,7 @@ TEST(Camera, RendersFromItsMountingPose) {
   EXPECT_EQ(images.poses, std::vector<mrpt::math::TPose2D>{robot.world_from_robot});
   EXPECT_EQ(images.view.info, (CameraInfo{64, 48, M_PI / 2, 10}));
   EXPECT_EQ(images.view.jpeg_quality, 70);
+  EXPECT_TRUE(images.view.is_antialiased);
   const auto& pose = images.view.robot_from_camera;
   EXPECT_EQ(mrpt::math::TPoint3D(pose.x, pose.y, pose.z), mrpt::math::TPoint3D(0.1, -0.2, 0.3));
   // It faces the robot's left and 30° down.
@@ -154,7 +155,7 @@ TEST(Camera, RejectsInvalidSettings) {
   EXPECT_EQ(cameraError("<camera tilt_deg='91'/>"),
             "sensor.xml:1: <camera tilt_deg=\"91\">: must lie in [-90, 90] degrees; drop it for the default, 0");
   EXPECT_EQ(cameraError("<camera zoom='2'/>"),
-            "sensor.xml:1: <camera>: unknown attribute zoom=\"2\"; accepted here are: angle_deg, field_of_view_deg, "
+            "sensor.xml:1: <camera>: unknown attribute zoom=\"2\"; accepted here are: angle_deg, antialias, field_of_view_deg, "
             "height_px, jpeg_quality, label, noise, rate_hz, tilt_deg, width_px, x_m, y_m, z_m");
 }
 

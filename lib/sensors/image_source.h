@@ -20,6 +20,7 @@ struct CameraView {
   CameraInfo info;
   mrpt::math::TPose3D robot_from_camera;  ///< x along the optical axis, z up
   int jpeg_quality = 85;                  ///< [1, 100]
+  bool is_antialiased = false;            ///< rendered at twice the resolution, and averaged
   CameraErrors errors = {};
   CameraMoment moment = {};  ///< of the pictures of a call of take(); empty for a camera without errors
 
