@@ -192,6 +192,7 @@ std::unique_ptr<Journal> openJournal(const GoldArguments& arguments, const Searc
 /// Makes the runs of a rank other than the first, which prints and writes the results.
 void help(RankGroup& group, const SearchBenchmark& benchmark) {
   const Interrupt interrupt;
+  requireSamePlan(group, benchmark.plan());
   agree(group, [] {});
   SearchRuns none;
   makeRunsOnRanks(
@@ -212,6 +213,7 @@ void bench(const GoldArguments& arguments) {
   std::optional<AtomicFile> csv;
   SearchRuns runs;
   std::unique_ptr<Journal> journal;
+  requireSamePlan(group, plan);
   agree(group, [&] {
     if (plan.runCount() > kRunsMax) {
       throw ConfigError("these are " + withCommas(plan.runCount()) + " runs; 10,000,000 at most");
@@ -244,6 +246,7 @@ void bench(const GoldArguments& arguments) {
   }
   printSpeed(plan, runs);
   if (done < runs.size()) {
+    setFailureShared();  // the other ranks have ended
     throw Interrupted("interrupted; the figures are of the " + std::to_string(done) + " of " +
                       std::to_string(runs.size()) + " runs that were completed" +
                       (journal ? "; --resume makes the others, and then the report" : ""));

@@ -25,11 +25,15 @@ def main():
         sys.exit(__doc__)
     times = defaultdict(dict)  # by (world, team, strategy): time by seed
     worlds, teams, strategies = {}, {}, {}  # ordered
+    conditions = set()
     with open(sys.argv[1], newline="", encoding="utf-8") as file:
         for row in csv.DictReader(file):
+            conditions.add(row["condition"])
             key = row["world"], int(row["robots"]), row["controller"]
             times[key][row["seed"]] = float(row["gold_time_s"]) if row["gold_found"] == "1" else math.inf
             worlds[key[0]], teams[key[1]], strategies[key[2]] = None, None, None
+    if len(conditions) > 1:
+        sys.exit(f"gold_tables.py: {sys.argv[1]} has several conditions; give runs of one")
     for team in teams:
         print(f"### {team} {'robot' if team == 1 else 'robots'}\n")
         print("| world | " + " | ".join(f"`{name}`" for name in strategies) + " |")

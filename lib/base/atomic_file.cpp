@@ -66,7 +66,8 @@ int openPart(const fs::path& file) {
   const fs::path part = partOf(file);
   const int descriptor = open(part.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
   if (descriptor < 0) throw ConfigError(file.string() + ": cannot be created: " + whyNotOpened(file, errno));
-  if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 || !hasName(part, descriptor)) {
+  // A file system without locks has other errors than EWOULDBLOCK.
+  if ((flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) || !hasName(part, descriptor)) {
     close(descriptor);
     throw ConfigError(part.string() + ": another program is writing there; choose another file");
   }

@@ -48,8 +48,8 @@ struct Pairs {
       const auto& x = runOf(plan, runs, a, i);
       const auto& y = runOf(plan, runs, b, i);
       if (!x || !y) continue;
-      first.push_back(x->searchTime());
-      second.push_back(y->searchTime());
+      first.push_back(x->searchTime(plan.time_s));
+      second.push_back(y->searchTime(plan.time_s));
     }
   }
 };
@@ -107,7 +107,7 @@ std::vector<CaseSummary> summarise(const SearchPlan& plan, const SearchRuns& run
       const auto& run = runs[index * plan.runs + i];
       if (!run) continue;
       finished.push_back(&*run);
-      times.push_back(run->searchTime());
+      times.push_back(run->searchTime(plan.time_s));
       found_s.push_back(timeOf(*run));
     }
     if (finished.empty()) continue;
@@ -124,6 +124,7 @@ std::vector<CaseSummary> summarise(const SearchPlan& plan, const SearchRuns& run
     if (oracle) {
       SearchPlan::Case bound = summary.of;
       bound.strategy = *oracle;
+      bound.condition = 0;
       Pairs pairs;
       pairs.add(plan, runs, bound, summary.of);
       summary.competitive_ratio = medianRatio(pairs);
@@ -185,7 +186,7 @@ std::vector<Robustness> robustnessOf(const SearchPlan& plan, const SearchRuns& r
           pairs.add(plan, runs, {world, 0, team, strategy}, {world, condition, team, strategy});
         }
         if (pairs.first.empty()) continue;
-        Robustness robustness{condition, team, strategy, pairs.first.size(), 0, 0, kNever, {}};
+        Robustness robustness{condition, team, strategy, pairs.first.size(), 0, 0, kNever, {}, 1};
         const auto found = [](const std::vector<SearchTime>& times) {
           return static_cast<std::size_t>(
               std::count_if(times.begin(), times.end(), [](const SearchTime& time) { return time.is_found; }));
@@ -198,6 +199,10 @@ std::vector<Robustness> robustnessOf(const SearchPlan& plan, const SearchRuns& r
       }
     }
   }
+  std::vector<double> p;
+  for (const auto& robustness : all) p.push_back(robustness.result.p);
+  const auto adjusted = holmAdjusted(p);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].adjusted_p = adjusted[i];
   return all;
 }
 

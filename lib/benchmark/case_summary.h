@@ -53,6 +53,7 @@ struct Robustness {
   std::size_t runs = 0, found = 0, found_at_first = 0;
   double median_ratio = 1;  ///< median over the runs of the time relative to that under the first condition
   PairedComparison result;  ///< `first`: the first condition
+  double adjusted_p = 1;    ///< Holm's, for all of the list
 };
 std::vector<Robustness> robustnessOf(const SearchPlan& plan, const SearchRuns& runs);
 

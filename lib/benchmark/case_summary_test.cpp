@@ -62,11 +62,23 @@ TEST_F(CaseSummaryTest, CountsSuccessesAndTakesMeans) {
   EXPECT_TRUE(std::isnan(wander.overlap));
 }
 
+TEST_F(CaseSummaryTest, CensorsSearchesThatEndedEarlyAtTheLimit) {
+  // Robots that broke down early: two of four searches succeed, both later than the ends of the others.
+  set({0, 0, 0, 1}, {40, 60, -1, -1});
+  for (auto& run : runs_) {
+    if (run && run->case_index == plan_.indexOf({0, 0, 0, 1}) && !run->found_s) run->sim_time_s = 30;
+  }
+  const CaseSummary& wander = of({0, 0, 0, 1});
+  EXPECT_EQ(wander.survival.back().searching, 0.5);
+  EXPECT_EQ(wander.median_s, 60);
+}
+
 TEST_F(CaseSummaryTest, RelatesTimesToTheOracleFromTheSameStart) {
   EXPECT_EQ(of({0, 0, 0, 0}).competitive_ratio, 1);
   EXPECT_EQ(of({0, 0, 0, 1}).competitive_ratio, 4);  // of 2, 5, never, 3
   EXPECT_EQ(of({0, 0, 1, 1}).competitive_ratio, 4);  // of 4, 1, 5, 4
-  EXPECT_FALSE(of({0, 1, 0, 1}).competitive_ratio);  // the oracle has no runs with noise
+  // With noise relative to the oracle without: of 4, 10, never, never.
+  EXPECT_TRUE(std::isinf(of({0, 1, 0, 1}).competitive_ratio.value()));
 }
 
 TEST_F(CaseSummaryTest, RelatesMediansToThoseOfTheSmallestTeam) {
@@ -93,6 +105,8 @@ TEST_F(CaseSummaryTest, RelatesConditionsToTheFirst) {
   EXPECT_EQ(robustness[0].found, 2u);
   EXPECT_EQ(robustness[0].median_ratio, 2);  // of 2, 2, never; the start without success in the first does not count
   EXPECT_EQ(robustness[0].result.first_faster, 3u);
+  EXPECT_EQ(robustness[0].result.p, 0.25);
+  EXPECT_EQ(robustness[0].adjusted_p, 0.25) << "of a single comparison";
 }
 
 TEST_F(CaseSummaryTest, LeavesOutCasesWithoutRuns) {

@@ -31,10 +31,14 @@ Condition Condition::parse(const std::string& text) {
     if (part == "noise" || part == "errors") {
       if (condition.noise != AddedNoise::none) refuse(text, "noise and errors exclude each other");
       condition.noise = part == "noise" ? AddedNoise::typical : AddedNoise::all;
+    } else if (part == "ideal") {
+      refuse(text, "ideal stands alone");
     } else if (name == "loss") {
+      if (condition.message_loss > 0) refuse(text, "loss is given twice");
       if (!(value > 0 && value <= 1)) refuse(text, "the loss must be a probability above 0, at most 1");
       condition.message_loss = value;
     } else if (name == "breakdown_s") {
+      if (condition.breakdown_mean_s > 0) refuse(text, "breakdown_s is given twice");
       if (!(value >= 1 && value <= 1e9)) refuse(text, "breakdown_s must be 1 to 1e9 seconds");
       condition.breakdown_mean_s = value;
     } else {

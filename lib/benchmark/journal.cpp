@@ -63,7 +63,7 @@ Contents contentsOf(const std::filesystem::path& file, const SearchPlan& plan) {
         }
       } else {
         SearchRun run = SearchRun::fromJson(json);
-        if (run.case_index >= plan.caseCount() || run.seed < plan.seed || run.seed - plan.seed >= plan.runs) {
+        if (run.case_index >= plan.caseCount() || run.seed - plan.seed >= plan.runs) {
           throw std::runtime_error("has a run that is not part of the plan");
         }
         contents.runs.push_back(std::move(run));
@@ -93,7 +93,8 @@ Journal::Journal(std::filesystem::path file, const SearchPlan& plan, Mode mode,
     throw ConfigError(file_.string() + ": cannot be written: " + std::strerror(error));
   }
   try {
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
+    // A file system without locks has other errors.
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
       throw ConfigError(file_.string() + ": another program writes it; wait for its end, or choose another folder");
     }
     Contents contents = contentsOf(file_, plan);

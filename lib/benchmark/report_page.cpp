@@ -167,11 +167,12 @@ std::string robustnessTable(const SearchPlan& plan, const SearchRuns& runs) {
                    number(100 * static_cast<double>(r.found_at_first) / n, 1),
                    number(100 * static_cast<double>(r.found) / n, 1),
                    number(r.median_ratio, 2),
-                   {probability(r.result.p), r.result.p}});
+                   {probability(r.result.p), r.result.p},
+                   {probability(r.adjusted_p), r.adjusted_p}});
   }
   const std::string first = plan.conditions.front().text();
   return tableOf({"<condition", "robots", "<strategy", "success, " + first + " [%]", "success [%]",
-                  "median of time relative to " + first, "p"},
+                  "median of time relative to " + first, "p", "p (Holm)"},
                  rows);
 }
 

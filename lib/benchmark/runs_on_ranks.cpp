@@ -5,6 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/error_list.h"
 #include "ranks/agreement.h"
 
 namespace robosim {
@@ -125,13 +126,10 @@ std::exception_ptr makeDistributed(RankGroup& group, const SearchBenchmark& benc
     has_given_up = true;
   };
   while (!is_over) {
-    if (to_do.empty() || has_given_up) {
-      take(kWait_s);
-      continue;
-    }
     try {
-      if (is_interrupted()) {
-        give_up();
+      if (is_interrupted()) give_up();  // also without work: rank 0 waits for the run that was interrupted
+      if (to_do.empty() || has_given_up) {
+        take(kWait_s);
         continue;
       }
       const auto run = benchmark.run(to_do.front(), [&] {
@@ -150,6 +148,17 @@ std::exception_ptr makeDistributed(RankGroup& group, const SearchBenchmark& benc
 }
 
 }  // namespace
+
+void requireSamePlan(RankGroup& group, const SearchPlan& plan) {
+  agree(group, [] {});
+  std::vector<std::string> plans;
+  group.allGather(plan.json().dump(), plans);
+  agree(group, [&] {
+    if (plans[static_cast<std::size_t>(group.rank())] == plans[0]) return;
+    throw ConfigError("this process has another plan than rank 0, as when its world files differ; give all machines " +
+                      std::string("the same files and the same version of RoboSim"));
+  });
+}
 
 void makeRunsOnRanks(RankGroup& group, const SearchBenchmark& benchmark, const std::function<bool()>& is_interrupted,
                      const std::function<void(const SearchRun&)>& finished, SearchRuns& runs) {

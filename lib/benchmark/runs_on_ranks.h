@@ -6,6 +6,9 @@
 
 namespace robosim {
 
+/// A collective operation. @throws ConfigError on all ranks if the plans, which contain a digest of each world, differ
+void requireSamePlan(RankGroup& group, const SearchPlan& plan);
+
 /// makeRuns() on all ranks, one run at a time on each; a collective operation. Rank 0 distributes the runs as the
 /// others finish theirs, makes runs as well, and collects all results. Every rank has a benchmark of the same plan.
 /// @param finished, runs of rank 0

@@ -74,6 +74,39 @@ TEST(RunsOnRanks, EndWithTheErrorOfARank) {
   }
 }
 
+TEST(RunsOnRanks, EndWhenOneRankIsInterruptedAfterItsLastRun) {
+  const SearchBenchmark benchmark = smallBenchmark();
+  SearchRuns runs(benchmark.plan().runCount());
+  std::atomic<int> finished = 0;
+  const int all = static_cast<int>(runs.size());
+  runThreadRanks(3, [&](RankGroup& group) {
+    SearchRuns none;
+    makeRunsOnRanks(
+        group, benchmark, [&] { return group.rank() == 2 && finished >= all - 2; },
+        [&](const SearchRun&) { ++finished; }, group.isFirst() ? runs : none);
+  });
+  EXPECT_GE(finished, all - 2);
+}
+
+TEST(RunsOnRanks, NeedTheSamePlanOnAllRanks) {
+  std::atomic<int> errors = 0;
+  EXPECT_THROW(runThreadRanks(3,
+                              [&](RankGroup& group) {
+                                SearchPlan plan = smallBenchmark().plan();
+                                if (group.rank() == 1) plan.time_s = 21;
+                                try {
+                                  requireSamePlan(group, plan);
+                                } catch (const ConfigError& error) {
+                                  EXPECT_NE(std::string(error.what()).find("another plan than rank 0"),
+                                            std::string::npos);
+                                  ++errors;
+                                  throw;
+                                }
+                              }),
+               ConfigError);
+  EXPECT_EQ(errors, 3);
+}
+
 TEST(RunsOnRanks, KeepWhatIsFinishedWhenInterrupted) {
   const SearchBenchmark benchmark = smallBenchmark();
   SearchRuns alone(benchmark.plan().runCount()), runs(benchmark.plan().runCount());

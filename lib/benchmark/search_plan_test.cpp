@@ -32,7 +32,8 @@ TEST(Condition, ReadsWhatItWrites) {
 
 TEST(Condition, RefusesWhatItDoesNotKnow) {
   for (const std::string text :
-       {"", "nois", "noise+errors", "noise+noise", "loss", "loss=0", "loss=1.1", "loss=nan", "breakdown_s=0.5"}) {
+       {"", "nois", "noise+errors", "noise+noise", "loss", "loss=0", "loss=1.1", "loss=nan", "breakdown_s=0.5",
+        "ideal+noise", "loss=0.3+loss=0.5", "breakdown_s=5+breakdown_s=9"}) {
     EXPECT_THROW(Condition::parse(text), ConfigError) << text;
   }
 }

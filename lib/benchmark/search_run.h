@@ -30,8 +30,9 @@ struct SearchRun {
   double wall_s = 0;  ///< duration; not part of json()
 
   static SearchRun of(std::size_t case_index, const RunSummary& summary);
-  /// Time to the gold, censored at the end of the run.
-  SearchTime searchTime() const { return {found_s.value_or(sim_time_s), found_s.has_value()}; }
+  /// Time to the gold. A search without success is censored at the time limit also if it ended earlier: its robots had
+  /// broken down, and would not have found the gold later either.
+  SearchTime searchTime(double limit_s) const { return {found_s.value_or(limit_s), found_s.has_value()}; }
   /// Value of a metric by name; NaN for none.
   double metric(const std::string& name) const;
 

@@ -24,7 +24,7 @@ struct SurvivalStep {
 /// The estimator of Kaplan and Meier (1958), with the variance of Greenwood (1926) and a band on the scale log(-log),
 /// which keeps it within [0, 1] (Kalbfleisch & Prentice, "The Statistical Analysis of Failure Time Data", 1980). One
 /// step for each time at which a search succeeded, in their order. After the last success without censored times the
-/// curve is 0, and the band is that of the step before.
+/// curve is 0, as is the lower end of the band; its upper end is that of the step before.
 std::vector<SurvivalStep> survivalCurve(std::span<const SearchTime> times);
 
 /// The first time at which at most half of the searches were still going on; infinite when there is none.

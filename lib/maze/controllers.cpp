@@ -60,7 +60,7 @@ void addWalks(ControllerRegistry& registry) {
   addSearch(registry, "levy_walk",
             "Searches for gold by a Lévy walk: straight steps whose lengths follow a power law, turns by random angles "
             "(Viswanathan et al. 1999).",
-            {{"exponent", 2, 1.1, 4, "", "of the power law; 2 is optimal for sparse targets, 3 and more are diffusive"},
+            {{"exponent", 2, 1.1, 4, "", "of the power law; smaller means more long steps, 3 and more are diffusive"},
              {"min_length_m", 0.5, 0.01, 100, "m", "length of the shortest steps"},
              {"max_length_m", 50, 0.1, 10000, "m", "length at which steps are cut off"}},
             [](const Setup& setup, const Values& values) -> Made {

@@ -21,9 +21,9 @@ struct MarketOptions {
 /// market economy", ICRA 2002). A robot whose next frontier lies in a free region auctions that region among all robots
 /// by messages; the bid of the lowest cost, the distance from the end of the bidder's present task, wins. A robot
 /// explores its own regions first, then free ones, and those of others last. Maps are shared as by
-/// CoordinatedFrontiers. Departures: costs are straight distances; tasks are square regions instead of single points,
-/// and a sale ends after lease_s, so that a region of a failed robot becomes free. A robot that does not know its start
-/// works alone.
+/// CoordinatedFrontiers. Departures: bids have no revenue, only costs, which are straight distances; tasks are square
+/// regions instead of single points, and a sale ends after lease_s, so that a region of a failed robot becomes free. A
+/// robot that does not know its start works alone.
 class Market : public Controller {
  public:
   explicit Market(const ControllerSetup& setup, const MarketOptions& options = {});

@@ -25,9 +25,10 @@ class StepLength {
 };
 
 /// Random walk: straight steps of random length, each after a turn by a uniformly distributed angle (Pearson, "The
-/// problem of the random walk", Nature 72, 1905). A step also ends in front of an obstacle. With lengths of a power law
-/// it is a Lévy walk, whose exponent 2 is optimal for sparse targets (Viswanathan et al., "Optimizing the success of
-/// random searches", Nature 401, 1999). StuckRecovery handles lack of progress.
+/// problem of the random walk", Nature 72, 1905). Departures: Pearson's steps have one length; and a step also ends in
+/// front of an obstacle. With lengths of a power law it is a Lévy walk (Viswanathan et al., "Optimizing the success of
+/// random searches", Nature 401, 1999): exponent 2 is optimal for sparse targets that may be found again, and smaller
+/// ones, towards 1, for targets that are found once. StuckRecovery handles lack of progress.
 class RandomWalk : public Controller {
  public:
   RandomWalk(const ControllerSetup& setup, const StepLength& length)
