@@ -25,7 +25,7 @@ class ParallelExecutor::Threads {
 };
 
 ParallelExecutor::ParallelExecutor(int threads)
-    : threads_(std::max(1, threads)), pool_(std::make_unique<Threads>(threads_)) {}
+    : threads_(std::max(1, threads)), pool_(threads_ > 1 ? std::make_unique<Threads>(threads_) : nullptr) {}
 
 ParallelExecutor::~ParallelExecutor() = default;
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -30,6 +31,34 @@ class ParallelExecutor {
     }
   }
 
+  /// At most so many pieces does reduce() divide its elements into.
+  static constexpr std::size_t kPiecesMax = 64;
+  /// Number of pieces of about equal size into which reduce() divides n elements: at least 4,096 elements each.
+  static constexpr std::size_t piecesOf(std::size_t n) { return std::clamp<std::size_t>(n / 4096, 1, kPiecesMax); }
+
+  /// combine(combine(start, map(begin, end)), …) over pieces of [0, n), in their order: the same value for any number
+  /// of threads, also of sums of floating-point numbers.
+  template <typename Value, typename Map, typename Combine>
+  Value reduce(std::size_t n, Value start, const Map& map, const Combine& combine) const {
+    const std::size_t pieces = piecesOf(n);
+    std::array<Value, kPiecesMax> of_piece{};
+    forChunks(pieces, 1, [&](std::size_t p, std::size_t) { of_piece[p] = map(p * n / pieces, (p + 1) * n / pieces); });
+    for (std::size_t p = 0; p < pieces; ++p) start = combine(start, of_piece[p]);
+    return start;
+  }
+
+  /// Whether is_true(i) for any i of [0, n).
+  template <typename IsTrue>
+  bool anyOf(std::size_t n, const IsTrue& is_true) const {
+    const auto any = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (is_true(i)) return true;
+      }
+      return false;
+    };
+    return reduce(n, false, any, [](bool a, bool b) { return a || b; });
+  }
+
   /// Calls work(i) for every i of [0, n).
   template <typename Work>
   void forEach(std::size_t n, std::size_t chunk, const Work& work) const {
@@ -44,7 +73,7 @@ class ParallelExecutor {
   void distribute(std::size_t pieces, const std::function<void(std::size_t)>& work) const;
 
   int threads_;
-  std::unique_ptr<Threads> pool_;
+  std::unique_ptr<Threads> pool_;  ///< null for one thread
 };
 
 }  // namespace robosim

@@ -35,6 +35,32 @@ TEST(ParallelExecutor, UsesTheSameChunksForAnyNumberOfThreads) {
   }
 }
 
+TEST(ParallelExecutor, ReducesToTheSameValueForAnyNumberOfThreads) {
+  for (const std::size_t n : {0u, 1u, 4095u, 10'000u, 300'001u}) {
+    std::vector<double> numbers(n);
+    for (std::size_t i = 0; i < n; ++i) numbers[i] = 1.0 / static_cast<double>(i + 1);
+    const auto sum_of = [&](std::size_t begin, std::size_t end) {
+      double sum = 0;
+      for (std::size_t i = begin; i < end; ++i) sum += numbers[i];
+      return sum;
+    };
+    const auto sum = [&](int threads) {
+      return ParallelExecutor(threads).reduce(n, 0.0, sum_of, [](double a, double b) { return a + b; });
+    };
+    const double alone = sum(1);
+    EXPECT_NEAR(alone, sum_of(0, n), 1e-9);
+    for (const int threads : {2, 3, 7}) EXPECT_EQ(sum(threads), alone) << n << " numbers, " << threads << " threads";
+  }
+}
+
+TEST(ParallelExecutor, FindsWhetherAnyIsTrue) {
+  const ParallelExecutor workers(3);
+  for (const std::size_t n : {0u, 5u, 50'000u}) {
+    EXPECT_FALSE(workers.anyOf(n, [](std::size_t) { return false; }));
+    EXPECT_EQ(workers.anyOf(n, [n](std::size_t i) { return i == n - 1; }), n > 0);
+  }
+}
+
 TEST(ParallelExecutor, UsesAtLeastOneThread) { EXPECT_EQ(ParallelExecutor(0).threads(), 1); }
 
 TEST(ParallelExecutor, RunsPiecesConcurrently) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <stdexcept>
 #include <utility>
@@ -135,14 +136,13 @@ struct Environment::Impl {
   bool isAbsent(std::size_t robot) const { return state.activity[robot] == Activity::absent; }
 
   void placeBodies() {
-    has_absent_robots =
-        std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
+    has_absent_robots = workers.anyOf(fleet.robots.size(), [&](std::size_t i) { return isAbsent(i); });
     workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
       if (isAbsent(i)) return scene.remove(i);
       if (share.kept.contains(i)) frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
       scene.place(i, solidOf(i));
     });
-    scene.freeze();
+    scene.freeze(workers);
     for (auto& source : heat_sources) {
       if (static_cast<std::size_t>(source.body) < scene.stationaryCount()) continue;
       const std::size_t robot = scene.movingIndex(source.body);
@@ -189,7 +189,12 @@ struct Environment::Impl {
       state.driven_m[i] += std::abs(path.clippedLength());
       if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
     });
-    state.stalls += static_cast<std::uint64_t>(std::count(state.stalled.begin(), state.stalled.end(), 1));
+    const auto stalls_of = [&](std::size_t begin, std::size_t end) {
+      std::uint64_t stalls = 0;
+      for (std::size_t i = begin; i < end; ++i) stalls += state.stalled[i];
+      return stalls;
+    };
+    state.stalls += workers.reduce(state.stalled.size(), std::uint64_t{0}, stalls_of, std::plus<>());
     placeBodies();
   }
 
@@ -301,13 +306,13 @@ struct Environment::Impl {
   void begin() {
     ++state.time.step;
     takeCommands();
-    move_authorisation.begin(paths);
+    move_authorisation.begin(workers, paths);
   }
 
   void deliverMessages() {
-    const auto counts =
-        message_router.deliver(state.seed, state.time, {scene, state.world_from_robot, antenna_z_m, state.activity},
-                               state.outboxes, state.messages_in_flight, state.readings);
+    const auto counts = message_router.deliver(workers, state.seed, state.time,
+                                               {scene, state.world_from_robot, antenna_z_m, state.activity},
+                                               state.outboxes, state.messages_in_flight, state.readings);
     state.messages_delivered += counts.delivered;
     may_have_messages |= counts.delivered > 0;
     state.messages_dropped += counts.dropped;
@@ -336,7 +341,7 @@ struct Environment::Impl {
       readings.laser_pan_rad = state.laser_pan_rad[i];
       readings.is_too_far = false;
     });
-    if (std::find(state.win_requests.begin(), state.win_requests.end(), 1) != state.win_requests.end()) {
+    if (workers.anyOf(state.win_requests.size(), [&](std::size_t i) { return state.win_requests[i] != 0; })) {
       if (!state.winner) decideWinner();
       std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
     }

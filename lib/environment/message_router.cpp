@@ -46,7 +46,8 @@ void MessageRouter::receive(std::uint32_t from, std::uint32_t to, std::string&& 
   ++counts.delivered;
 }
 
-MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
+MessageCounts MessageRouter::deliver(const ParallelExecutor& workers, std::uint64_t seed, SimTime now,
+                                     const Robots& robots, std::span<Outbox> outboxes,
                                      std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
   MessageCounts counts;
   const std::uint64_t delay_steps = delaySteps(communication_, now.period_s);
@@ -62,7 +63,19 @@ MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robo
     }
     in_flight.erase(in_flight.begin(), due_end);
   }
+  // Most outboxes are empty: several threads find the others.
+  constexpr std::size_t kPiece = 4096;
+  has_sent_.assign((outboxes.size() + kPiece - 1) / kPiece, 0);
+  workers.forChunks(outboxes.size(), kPiece, [&](std::size_t begin, std::size_t end) {
+    has_sent_[begin / kPiece] = std::any_of(
+        outboxes.begin() + static_cast<std::ptrdiff_t>(begin), outboxes.begin() + static_cast<std::ptrdiff_t>(end),
+        [](const Outbox& outbox) { return outbox.surplus > 0 || !outbox.messages.empty(); });
+  });
   for (std::uint32_t from = 0; from < outboxes.size(); ++from) {
+    if (from % kPiece == 0 && !has_sent_[from / kPiece]) {
+      from += kPiece - 1;
+      continue;
+    }
     Outbox& outbox = outboxes[from];
     if (robots.activity[from] == Activity::absent) outbox = {};
     counts.dropped += std::exchange(outbox.surplus, 0);

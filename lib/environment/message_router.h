@@ -89,8 +89,9 @@ class MessageRouter {
   /// beyond Communication::rate_hz wait in their outbox. Messages beyond the sender's kMaxMessagesSent or the
   /// receiver's InboxLimit are dropped.
   /// @param seed of the loss of messages @param in_flight ordered by due_step @pre the inboxes are empty
-  MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
-                        std::vector<MessageInFlight>& in_flight, std::span<Readings> readings);
+  MessageCounts deliver(const ParallelExecutor& workers, std::uint64_t seed, SimTime now, const Robots& robots,
+                        std::span<Outbox> outboxes, std::vector<MessageInFlight>& in_flight,
+                        std::span<Readings> readings);
 
  private:
   /// Puts a message into the inbox of its receiver.
@@ -101,8 +102,9 @@ class MessageRouter {
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
   RadioChannel channel_{communication_};
-  std::vector<InboxLimit> limits_;     ///< by receiver; unused ones between two calls of deliver()
-  std::vector<std::uint32_t> filled_;  ///< receivers of messages in this call of deliver()
+  std::vector<InboxLimit> limits_;      ///< by receiver; unused ones between two calls of deliver()
+  std::vector<std::uint8_t> has_sent_;  ///< by piece of the robots, in a call of deliver()
+  std::vector<std::uint32_t> filled_;   ///< receivers of messages in this call of deliver()
 };
 
 }  // namespace robosim

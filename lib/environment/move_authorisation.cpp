@@ -20,9 +20,13 @@ MoveAuthorisation::MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& 
   for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
-void MoveAuthorisation::begin(std::span<const Path> paths) {
-  length_max_m_ = 0;
-  for (const auto& path : paths) length_max_m_ = std::max(length_max_m_, std::abs(path.length_m));
+void MoveAuthorisation::begin(const ParallelExecutor& workers, std::span<const Path> paths) {
+  const auto longest_of = [&](std::size_t begin, std::size_t end) {
+    double longest_m = 0;
+    for (std::size_t i = begin; i < end; ++i) longest_m = std::max(longest_m, std::abs(paths[i].length_m));
+    return longest_m;
+  };
+  length_max_m_ = workers.reduce(paths.size(), 0.0, longest_of, [](double a, double b) { return std::max(a, b); });
   // Conservative for the robots that another process clips; judge() then checks.
   std::fill(may_have_neighbours_.begin(), may_have_neighbours_.end(), 1);
   std::fill(stays_.begin(), stays_.end(), 0);

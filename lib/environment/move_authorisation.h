@@ -23,7 +23,7 @@ class MoveAuthorisation {
   MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface);
 
   /// Starts a step in which no robot is known to stay.
-  void begin(std::span<const Path> paths);
+  void begin(const ParallelExecutor& workers, std::span<const Path> paths);
   /// Rule (a): clips the paths of some robots at their first contact. The result is Path::end_fraction, which may also
   /// come from another process.
   void clip(const Scene& scene, const ParallelExecutor& workers, RobotRange range, std::span<Path> paths);

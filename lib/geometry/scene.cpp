@@ -139,6 +139,7 @@ Solid Scene::solid(BodyId body) const { return index_->item(body).solid(); }
 void Scene::place(std::size_t i, const Solid& solid) { index_->moving.set(i, solid); }
 void Scene::remove(std::size_t i) { index_->moving.remove(i); }
 void Scene::freeze() { index_->moving.build(); }
+void Scene::freeze(const ParallelExecutor& workers) { index_->moving.build(workers); }
 
 void Scene::updateNeighbours(std::size_t i, double reach_m) {
   const GridItem& owner = index_->moving.items()[i];

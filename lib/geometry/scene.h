@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/parallel_executor.h"
 #include "geometry/casting/beams.h"
 #include "geometry/shapes/path.h"
 #include "geometry/shapes/ray.h"
@@ -48,6 +49,7 @@ class Scene {
   /// Removes a moving solid from all queries, until place(). Takes effect with freeze().
   void remove(std::size_t i);
   void freeze();
+  void freeze(const ParallelExecutor& workers);  ///< on several threads
   /// Updates the neighbours of a moving solid, if necessary: the stationary solids within `reach_m` of its centre, or
   /// the nearest ones if there are very many. May be called for different solids simultaneously.
   void updateNeighbours(std::size_t i, double reach_m);

@@ -1,5 +1,6 @@
 #include "maze/coordinated_frontiers.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "maze/message_numbers.h"
@@ -12,10 +13,15 @@ const std::string kTarget = "TARGET";
 }  // namespace
 
 void TeamTargets::set(const std::string& robot, const std::optional<mrpt::math::TPoint2D>& target) {
-  if (target) {
-    targets_[robot] = *target;
-  } else {
-    targets_.erase(robot);
+  const auto place = std::lower_bound(targets_.begin(), targets_.end(), robot,
+                                      [](const auto& known, const std::string& name) { return known.first < name; });
+  const bool is_known = place != targets_.end() && place->first == robot;
+  if (target && is_known) {
+    place->second = *target;
+  } else if (target) {
+    targets_.emplace(place, robot, *target);
+  } else if (is_known) {
+    targets_.erase(place);
   }
 }
 

@@ -1,8 +1,9 @@
 #pragma once
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "control/controller.h"
 #include "control/controller_type.h"
@@ -33,7 +34,7 @@ class TeamTargets : public GoalCost {
  private:
   CoordinatedFrontiersOptions options_;
   double cell_m_;
-  std::map<std::string, mrpt::math::TPoint2D> targets_;
+  std::vector<std::pair<std::string, mrpt::math::TPoint2D>> targets_;  ///< sorted by name
 };
 
 /// Message between robots: the sender's target. As text: "TARGET <x> <y>" [mm, world frame], and "TARGET" for none.

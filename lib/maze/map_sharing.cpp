@@ -1,5 +1,6 @@
 #include "maze/map_sharing.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -32,12 +33,20 @@ bool read(const char*& at, const char* end, char stop, Number& number, int base 
 /// What a robot knows of a tile of its map.
 MapTile tileOf(const MazeMap& map, const Cell& tile) {
   MapTile found{tile};
-  for (int i = 0; i < MapTile::kSide * MapTile::kSide; ++i) {
-    const Cell cell{MapTile::kSide * tile.x + i % MapTile::kSide, MapTile::kSide * tile.y + i / MapTile::kSide};
-    if (!map.contains(cell)) continue;
-    const MapCell& here = map[cell];
-    if (here.searched) found.searched |= std::uint64_t{1} << i;
-    if (here.evidence >= kSureEvidence) found.occupied |= std::uint64_t{1} << i;
+  const Cell first{MapTile::kSide * tile.x, MapTile::kSide * tile.y};
+  const int rows = static_cast<int>(map.size()) / map.columns();
+  const int x_begin = std::max(first.x, map.low().x);
+  const int x_end = std::min(first.x + MapTile::kSide, map.low().x + map.columns());
+  const int y_begin = std::max(first.y, map.low().y);
+  const int y_end = std::min(first.y + MapTile::kSide, map.low().y + rows);
+  if (x_begin >= x_end) return found;
+  for (int y = y_begin; y < y_end; ++y) {
+    const MapCell* here = &map[{x_begin, y}];
+    int bit = MapTile::kSide * (y - first.y) + x_begin - first.x;
+    for (int x = x_begin; x < x_end; ++x, ++here, ++bit) {
+      found.searched |= static_cast<std::uint64_t>(here->searched) << bit;
+      found.occupied |= static_cast<std::uint64_t>(here->evidence >= kSureEvidence) << bit;
+    }
   }
   return found;
 }

@@ -1,5 +1,9 @@
 #include "geometry/index/center_index.h"
 
+#include <array>
+#include <bit>
+#include <utility>
+
 namespace robosim {
 namespace {
 
@@ -26,31 +30,59 @@ CenterIndex::CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle)
   begin_.reserve(3 * (solids + static_cast<std::size_t>(kExtraCells)) + 2);
 }
 
-void CenterIndex::chooseCells() {
-  centers_ = {kInfinity, -kInfinity, kInfinity, -kInfinity};
-  reach_max_m_ = 0;
-  double sum_x = 0, sum_y = 0;
-  std::size_t solids = 0;
-  for (const GridItem& item : items_) {
-    if (item.isRemoved()) continue;
-    ++solids;
-    reach_max_m_ = std::max(reach_max_m_, item.reach());
-    centers_ = {std::min(centers_.x_min, item.x), std::max(centers_.x_max, item.x), std::min(centers_.y_min, item.y),
-                std::max(centers_.y_max, item.y)};
-    sum_x += item.x;
-    sum_y += item.y;
-  }
-  if (solids == 0) return;
-  const auto count = static_cast<double>(solids);
-  const double mean_x = sum_x / count, mean_y = sum_y / count;
-  double off_x = 0, off_y = 0;
-  for (const GridItem& item : items_) {
-    if (item.isRemoved()) continue;
-    off_x += std::abs(item.x - mean_x);
-    off_y += std::abs(item.y - mean_y);
-  }
-  const Spread x = Spread::of(mean_x, off_x / count, centers_.x_min, centers_.x_max);
-  const Spread y = Spread::of(mean_y, off_y / count, centers_.y_min, centers_.y_max);
+void CenterIndex::chooseCells(const ParallelExecutor& workers) {
+  struct Centers {
+    Bounds2D bounds{kInfinity, -kInfinity, kInfinity, -kInfinity};
+    double reach_max_m = 0;
+    double sum_x = 0, sum_y = 0;
+    std::size_t solids = 0;
+  };
+  const auto centers_in = [&](std::size_t begin, std::size_t end) {
+    Centers found;
+    for (std::size_t i = begin; i < end; ++i) {
+      const GridItem& item = items_[i];
+      if (item.isRemoved()) continue;
+      ++found.solids;
+      found.reach_max_m = std::max(found.reach_max_m, item.reach());
+      found.bounds = {std::min(found.bounds.x_min, item.x), std::max(found.bounds.x_max, item.x),
+                      std::min(found.bounds.y_min, item.y), std::max(found.bounds.y_max, item.y)};
+      found.sum_x += item.x;
+      found.sum_y += item.y;
+    }
+    return found;
+  };
+  const auto all = workers.reduce(items_.size(), Centers{}, centers_in, [](const Centers& a, const Centers& b) {
+    return Centers{{std::min(a.bounds.x_min, b.bounds.x_min), std::max(a.bounds.x_max, b.bounds.x_max),
+                    std::min(a.bounds.y_min, b.bounds.y_min), std::max(a.bounds.y_max, b.bounds.y_max)},
+                   std::max(a.reach_max_m, b.reach_max_m),
+                   a.sum_x + b.sum_x,
+                   a.sum_y + b.sum_y,
+                   a.solids + b.solids};
+  });
+  centers_ = all.bounds;
+  reach_max_m_ = all.reach_max_m;
+  if (all.solids == 0) return;
+  const auto count = static_cast<double>(all.solids);
+  const double mean_x = all.sum_x / count, mean_y = all.sum_y / count;
+  struct Deviations {
+    double x = 0, y = 0;
+  };
+  const auto deviations_in = [&](std::size_t begin, std::size_t end) {
+    Deviations sum;
+    for (std::size_t i = begin; i < end; ++i) {
+      const GridItem& item = items_[i];
+      if (item.isRemoved()) continue;
+      sum.x += std::abs(item.x - mean_x);
+      sum.y += std::abs(item.y - mean_y);
+    }
+    return sum;
+  };
+  const auto off =
+      workers.reduce(items_.size(), Deviations{}, deviations_in, [](const Deviations& a, const Deviations& b) {
+        return Deviations{a.x + b.x, a.y + b.y};
+      });
+  const Spread x = Spread::of(mean_x, off.x / count, centers_.x_min, centers_.x_max);
+  const Spread y = Spread::of(mean_y, off.y / count, centers_.y_min, centers_.y_max);
   area_ = {x.min, x.max, y.min, y.max};
   // One solid per cell, and no more columns or rows than solids when all stand in a line.
   const double cells = count + kExtraCells;
@@ -60,8 +92,9 @@ void CenterIndex::chooseCells() {
   rows_ = cellsIn(y.extent(), cell_m_);
 }
 
-void CenterIndex::build() {
-  chooseCells();
+void CenterIndex::build(const ParallelExecutor& workers) {
+  chooseCells(workers);
+  if (workers.threads() > 1 && ParallelExecutor::piecesOf(items_.size()) > 1) return sortInParallel(workers);
   begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
   for (std::size_t i = 0; i < items_.size(); ++i) {
     const GridItem& item = items_[i];
@@ -76,6 +109,55 @@ void CenterIndex::build() {
     if (items_[i].isRemoved()) continue;
     entries_[--begin_[cell_[i]]] = {CullDisc::from(items_[i], middle()), static_cast<std::uint32_t>(i)};
   }
+}
+
+// First the solids are sorted by part of the grid, as many cells in each, in the order given within a part; then each
+// part by cell, as above.
+void CenterIndex::sortInParallel(const ParallelExecutor& workers) {
+  const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  const std::size_t pieces = ParallelExecutor::piecesOf(items_.size());
+  const int part_bits = std::bit_width(cells / ParallelExecutor::kPiecesMax);  // of a cell's index within its part
+  const std::size_t parts = (cells >> part_bits) + 1;
+  using PerPart = std::array<std::uint32_t, ParallelExecutor::kPiecesMax + 1>;
+  std::array<PerPart, ParallelExecutor::kPiecesMax> at{};  // by piece: numbers of solids, then their places
+  const auto for_piece = [&](std::size_t piece, const auto& work) {
+    for (std::size_t i = piece * items_.size() / pieces; i < (piece + 1) * items_.size() / pieces; ++i) {
+      if (!items_[i].isRemoved()) work(i);
+    }
+  };
+  workers.forEach(pieces, 1, [&](std::size_t piece) {
+    for_piece(piece, [&](std::size_t i) {
+      cell_[i] = static_cast<std::uint32_t>(cellAt(row(items_[i].y), column(items_[i].x)));
+      ++at[piece][cell_[i] >> part_bits];
+    });
+  });
+  PerPart part_begin{};
+  std::uint32_t sum = 0;
+  for (std::size_t part = 0; part < parts; ++part) {
+    part_begin[part] = sum;
+    for (std::size_t piece = 0; piece < pieces; ++piece) sum += std::exchange(at[piece][part], sum);
+  }
+  by_part_.resize(items_.size());
+  workers.forEach(pieces, 1, [&](std::size_t piece) {
+    for_piece(piece, [&](std::size_t i) {
+      by_part_[at[piece][cell_[i] >> part_bits]++] = {cell_[i], static_cast<std::uint32_t>(i)};
+    });
+  });
+  begin_.resize(cells + 1);
+  begin_[cells] = sum;
+  workers.forEach(parts, 1, [&](std::size_t part) {
+    const std::size_t first = part << part_bits, last = std::min(cells, (part + 1) << part_bits);
+    const std::uint32_t begin = part_begin[part], end = part + 1 < parts ? part_begin[part + 1] : sum;
+    std::fill(begin_.begin() + static_cast<std::ptrdiff_t>(first), begin_.begin() + static_cast<std::ptrdiff_t>(last),
+              0);
+    for (std::uint32_t k = begin; k < end; ++k) ++begin_[by_part_[k].cell];
+    std::uint32_t in_part = begin;
+    for (std::size_t cell = first; cell < last; ++cell) begin_[cell] = in_part += begin_[cell];
+    for (std::uint32_t k = end; k-- > begin;) {
+      const CellOf& solid = by_part_[k];
+      entries_[--begin_[solid.cell]] = {CullDisc::from(items_[solid.solid], middle()), solid.solid};
+    }
+  });
 }
 
 }  // namespace robosim

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "base/parallel_executor.h"
 #include "geometry/index/grid_index.h"
 #include "geometry/shapes/ray.h"
 
@@ -31,7 +32,8 @@ class CenterIndex {
   void set(std::size_t i, const Solid& solid) { items_[i] = GridItem::from(solid); }
   /// Removes a solid from all queries, until set(). Takes effect with build().
   void remove(std::size_t i) { items_[i] = GridItem::removed(); }
-  void build();
+  /// The same index, bit for bit, for any number of threads.
+  void build(const ParallelExecutor& workers = ParallelExecutor(1));
 
   /// The solids, in the order given, removed ones included.
   std::span<const GridItem> items() const { return items_; }
@@ -78,7 +80,8 @@ class CenterIndex {
 
  private:
   /// Chooses the grid's area and cell size from the solids' centres.
-  void chooseCells();
+  void chooseCells(const ParallelExecutor& workers);
+  void sortInParallel(const ParallelExecutor& workers);
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kMargin_m = 1e-6;  ///< exceeds all rounding errors
@@ -118,6 +121,10 @@ class CenterIndex {
   std::vector<GridItem> items_;       ///< in the order given
   std::vector<std::uint32_t> cell_;   ///< cell of each solid
   std::vector<Entry> entries_;        ///< sorted by cell
+  struct CellOf {
+    std::uint32_t cell = 0, solid = 0;
+  };
+  std::vector<CellOf> by_part_;  ///< of sortInParallel(): solids by part of the grid
 };
 
 }  // namespace robosim

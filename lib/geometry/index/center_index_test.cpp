@@ -27,6 +27,33 @@ TEST(CenterIndex, FindsSolidsThatExtendIntoTheArea) {
   EXPECT_EQ(near(index, {0, 8, 0, 8}), (std::vector<std::uint32_t>{0, 1}));
 }
 
+TEST(CenterIndex, IsTheSameForAnyNumberOfThreads) {
+  for (const std::size_t count : {8192u, 20'000u, 70'000u}) {
+    Rng rng(count);
+    const auto solids = randomSolids(rng, count, {.area = {-300, 300, -200, 200}, .size_max_m = 1});
+    CenterIndex one(count), several(count);
+    for (CenterIndex* index : {&one, &several}) {
+      for (std::size_t i = 0; i < count; ++i) index->set(i, solids[i]);
+      for (std::size_t i = 3; i < count; i += 7) index->remove(i);
+    }
+    one.build();
+    several.build(ParallelExecutor(3));
+    const auto in_order = [](const CenterIndex& index, const Bounds2D& area) {
+      std::vector<std::uint32_t> found;
+      index.visitNear(area, [&](const CenterIndex::Entry& entry) { found.push_back(entry.index); });
+      return found;
+    };
+    const Bounds2D everything{-1000, 1000, -1000, 1000};
+    EXPECT_EQ(in_order(one, everything), in_order(several, everything)) << count;
+    EXPECT_EQ(in_order(one, everything).size(), count - (count - 3 + 6) / 7);
+    for (int i = 0; i < 200; ++i) {
+      const double x = rng.uniform(-310, 310), y = rng.uniform(-210, 210);
+      const Bounds2D area{x, x + rng.uniform(0, 30), y, y + rng.uniform(0, 30)};
+      EXPECT_EQ(in_order(one, area), in_order(several, area)) << count;
+    }
+  }
+}
+
 TEST(CenterIndex, AppliesChangesOnlyAtBuild) {
   CenterIndex index(3);
   index.set(0, {Circle{{1, 1}, 0.5}, {0, 1}});
