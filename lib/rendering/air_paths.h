@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "rendering/air_view.h"
+#include "rendering/color.h"
 
 namespace robosim {
 

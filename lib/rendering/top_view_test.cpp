@@ -6,56 +6,12 @@
 #include <gtest/gtest.h>
 #include <opencv2/core.hpp>
 
-#include "rendering/panes.h"
-#include "robots/robot_colors.h"
+#include "rendering/testing/top_view_fixture.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPoint2D;
-using mrpt::math::TPose2D;
-using mrpt::math::TPose3D;
-
-/// 10 m × 5 m with a blue box of 2 m × 1 m in its lower left quarter, and two robots of 0.5 m radius.
-struct TopViewTest : testing::Test {
-  TopViewTest() {
-    world.name = "hall";
-    world.bounds = {0, 10, 0, 5};
-    WorldObject box;
-    box.name = "box";
-    box.body = {Cube{2, 1}, {2, 1.5, 0}, 0.5, 1, {0, 0, 1}, 0};
-    world.objects = {box};
-    for (const char* name : {"Ann", "Bob"}) {
-      FleetRobot robot;
-      robot.info.name = name;
-      robot.info.radius_m = 0.5;
-      SensorInfo sonar;
-      sonar.kind = SensorKind::sonar;
-      sonar.label = "sonar";
-      sonar.range_max_m = sonar.no_echo_m = 3;
-      sonar.beam_width_rad = 0.4;
-      sonar.beams = {{{0.5, 0, 0.2, 0, 0, 0}}};
-      robot.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::vector<SensorInfo>{sonar});
-      robot.body.color = paletteColor(fleet.robots.size());
-      fleet.robots.push_back(robot);
-    }
-    snapshot.robots.resize(2);
-    snapshot.robots[0].world_from_robot = {5, 2.5, 0};
-    snapshot.robots[1].world_from_robot = {8, 4, std::numbers::pi / 2};
-  }
-
-  cv::Vec3b at(const cv::Mat& picture, const TPoint2D& world_point) const {
-    const TPoint2D pixel = TopView::groundView(snapshot, camera).toPixel(world_point);
-    return picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
-  }
-
-  World world;
-  Fleet fleet;
-  RunSnapshot snapshot;
-  RunPaths paths;
-  TopViewCamera camera = TopViewCamera::showing({0, 10, 0, 5}, 1048, 700);
-  TopViewLayers layers{.paths = true, .sensors = true, .names = false, .paths_from_s = 0};
-};
 
 TEST_F(TopViewTest, FillsThePictureToScaleWithXToTheRightAndYUp) {
   EXPECT_DOUBLE_EQ(camera.px_per_m, 100) << "1048 px without two margins of 24, over 10 m";
@@ -301,134 +257,6 @@ TEST_F(TopViewTest, FindsTheRobotAtAPixel) {
   const GroundView view = TopView::groundView(snapshot, camera);
   EXPECT_EQ(TopView::robotAt(view.toPixel({8.3, 4.2}), snapshot, fleet, camera), 1U);
   EXPECT_EQ(TopView::robotAt(view.toPixel({8.6, 4}), snapshot, fleet, camera), std::nullopt);
-}
-
-TEST_F(TopViewTest, PanesShareThePictureAndFollowSeparateRobots) {
-  Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(false, 0, world)}, {});
-  panes.resize(804, 400);
-  const cv::Mat picture = panes.draw(snapshot, paths);
-  ASSERT_EQ(picture.size(), cv::Size(804, 400));
-  // The right pane, 402 px wide, has the first robot in its middle; the left one shows the whole hall.
-  const cv::Vec3b middle = picture.at<cv::Vec3b>(200, 404 + 200 - 20);
-  EXPECT_GT(middle[2], 2 * middle[0]) << "red";
-}
-
-TEST_F(TopViewTest, LastRowOfPanesIsAsWideAsThePicture) {
-  const Pane pane = makePane(false, std::nullopt, world);
-  Panes panes(world, fleet, {pane, pane, pane}, {});
-  panes.resize(804, 804);
-  const cv::Mat picture = panes.draw(snapshot, paths);
-  const auto& between = picture.at<cv::Vec3b>(200, 401);
-  EXPECT_NE(picture.at<cv::Vec3b>(700, 401), between) << "no gap between panes";
-  EXPECT_NE(picture.at<cv::Vec3b>(700, 790), between);
-}
-
-TEST_F(TopViewTest, ClickingARobotTurns3dPanesThatFollowToIt) {
-  TPose3D world_from_camera;
-  const auto draw_3d = [&](const CameraInfo& info, const TPose3D& pose, std::span<const TPose2D>, DepthBuffer*) {
-    world_from_camera = pose;
-    return cv::Mat(static_cast<int>(info.height_px), static_cast<int>(info.width_px), CV_8UC3);
-  };
-  Panes panes(world, fleet, {makePane(false, std::nullopt, world), makePane(true, 0, world)}, draw_3d);
-  panes.resize(1004, 500);
-  const auto distance_to = [&](double x, double y) {
-    panes.draw(snapshot, paths);
-    return std::hypot(world_from_camera.x - x, world_from_camera.y - y);
-  };
-  const double behind_m = 4 * std::cos(0.45);  // 4 m away, at the elevation of a pane that follows
-  EXPECT_NEAR(distance_to(5, 2.5), behind_m, 1e-9);
-  const TopViewCamera left = TopViewCamera::showing({0, 10, 0, 5}, 500, 500);
-  panes.click(TopView::groundView(snapshot, left).toPixel({8, 4}), snapshot);
-  EXPECT_NEAR(distance_to(8, 4), behind_m, 1e-9);
-}
-
-TEST_F(TopViewTest, DraggingPansAndClickingFollowsARobot) {
-  Panes panes(world, fleet, {makePane(false, std::nullopt, world)}, {});
-  panes.resize(1048, 700);
-  const TPoint2D bob = TopView::groundView(snapshot, camera).toPixel({8, 4});
-  panes.drag(bob, {-100, 50}, Panes::Drag::turn);
-  // Clicks on the robot at its position after the drag.
-  panes.click(bob + TPoint2D(-100, 50), snapshot);
-  const cv::Mat picture = panes.draw(snapshot, paths);
-  const auto& blue = picture.at<cv::Vec3b>(349 + 25, 523);
-  EXPECT_GT(blue[0], 2 * blue[2]) << "the second robot, which is blue, is in the middle now";
-}
-
-TEST_F(TopViewTest, RequestsOnlyReadingsOfFollowedRobotsWhenThereAreMany) {
-  fleet.robots.resize(21, fleet.robots[0]);
-  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).requestedReadings()[3], 1);
-  EXPECT_EQ(Panes(world, fleet, {makePane(false, 3, world)}, {}).requestedReadings()[4], 0);
-  fleet.robots.resize(20);
-  EXPECT_TRUE(Panes(world, fleet, {makePane(false, 3, world)}, {}).requestedReadings().empty()) << "all";
-}
-
-TEST_F(TopViewTest, Pane3dOfAnySizeInitiallyShowsTheWholeWorld) {
-  WorldObject tower = world.objects[0];
-  tower.body.height_m = 4;
-  tower.body.center_z_m = 2;
-  world.objects.push_back(tower);
-  for (const cv::Size size : {cv::Size(500, 600), {600, 600}, {900, 600}, {1280, 400}}) {
-    CameraInfo camera_info;
-    mrpt::math::TPose3D world_from_camera;
-    Panes panes(world, fleet, {makePane(true, std::nullopt, world)},
-                [&](const CameraInfo& info, const mrpt::math::TPose3D& pose, std::span<const TPose2D>, DepthBuffer*) {
-                  camera_info = info;
-                  world_from_camera = pose;
-                  return cv::Mat(cv::Size(size), CV_8UC3);
-                });
-    panes.resize(size.width, size.height);
-    /// Largest distance of a corner from the picture's centre: 1 is the picture's edge.
-    const auto farthest = [&] {
-      panes.draw(snapshot, paths);
-      double share = 0;
-      for (const double x : {0.0, 10.0}) {
-        for (const double y : {0.0, 5.0}) {
-          for (const double z : {0.0, 4.0}) {
-            const auto p = world_from_camera.inverseComposePoint({x, y, z});
-            EXPECT_GT(p.x, 0) << "ahead";
-            const double px_per_slope = camera_info.focalLength();
-            share = std::max({share, std::abs(p.y) / p.x * px_per_slope / (size.width / 2.0),
-                              std::abs(p.z) / p.x * px_per_slope / (size.height / 2.0)});
-          }
-        }
-      }
-      return share;
-    };
-    EXPECT_LE(farthest(), 1) << size.width << " × " << size.height;
-    EXPECT_GE(farthest(), 0.9) << "and not smaller than necessary";
-    panes.zoom({10, 10}, 3);
-    EXPECT_GT(farthest(), 1);
-    panes.showAll();
-    EXPECT_LE(farthest(), 1) << size.width << " × " << size.height;
-  }
-}
-
-TEST(OrbitCamera, FacesItsTarget) {
-  OrbitCamera camera;
-  camera.target = {3, 4};
-  camera.distance_m = 10;
-  camera.azimuth_rad = -std::numbers::pi / 2;  // south of it
-  camera.elevation_rad = std::numbers::pi / 6;
-  const auto pose = camera.worldFromCamera(nullptr);
-  EXPECT_NEAR(pose.x, 3, 1e-12);
-  EXPECT_NEAR(pose.y, 4 - 10 * std::cos(std::numbers::pi / 6), 1e-12);
-  EXPECT_NEAR(pose.z, 5, 1e-12);
-  const auto ahead = pose.composePoint({10, 0, 0});
-  EXPECT_NEAR(ahead.x, 3, 1e-9);
-  EXPECT_NEAR(ahead.y, 4, 1e-9);
-  EXPECT_NEAR(ahead.z, 0, 1e-9);
-}
-
-TEST(OrbitCamera, FollowsBehindARobot) {
-  OrbitCamera camera;
-  camera.distance_m = 2;
-  camera.elevation_rad = 0.5;
-  const TPose2D robot(1, 2, 0.3);
-  const auto pose = camera.worldFromCamera(&robot);
-  const auto in_robot = robot.inverseComposePoint({pose.x, pose.y});
-  EXPECT_NEAR(in_robot.x, -2 * std::cos(0.5), 1e-12);
-  EXPECT_NEAR(in_robot.y, 0, 1e-12);
-  EXPECT_NEAR(std::remainder(pose.yaw - 0.3, 2 * std::numbers::pi), 0, 1e-12);
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ measure() {
   echo "$row"
   (($(awk '{print $3}' <<<"$row") >= 95)) || failed=1
 }
-for world in small_maze opho2_1 lab_map maze_20x20; do
+for world in small_maze opho2_1 lab_map maze_20x20 open_house benchmark/gold_perfect_12 benchmark/gold_perfect_24 \
+  benchmark/gold_braided_12 benchmark/gold_braided_24; do
   measure "worlds/$world.xml"
 done
 while read -r world robot; do
