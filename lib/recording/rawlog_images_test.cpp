@@ -119,9 +119,11 @@ TEST_F(RawlogImagesTest, RemovesImagesOfUnclosedRecordingsAndEmptyFolders) {
     EXPECT_TRUE(fs::exists(in("run_Images.part")));
   }
   EXPECT_EQ(filesInFolder(), std::set<std::string>());
-  const SampleRun blind({"robot1"});
-  RawlogWriter writer(in("blind.rawlog"), blind.robots, RawlogFormat::observations, RawlogImages::external);
-  blind.record(writer, 3);
+  const std::vector<RobotInfo> blind{sampleRobot("robot1")};
+  RawlogWriter writer(in("blind.rawlog"), blind, RawlogFormat::observations, RawlogImages::external);
+  const std::vector<Readings> readings{sampleReadings(blind[0], 0)};
+  writer.write(readings, {});
+  writer.close();
   EXPECT_EQ(filesInFolder(), std::set<std::string>{"blind.rawlog"});
 }
 
