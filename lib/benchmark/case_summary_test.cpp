@@ -105,8 +105,8 @@ TEST_F(CaseSummaryTest, RelatesConditionsToTheFirst) {
   EXPECT_EQ(robustness[0].found, 2u);
   EXPECT_EQ(robustness[0].median_ratio, 2);  // of 2, 2, never; the start without success in the first does not count
   EXPECT_EQ(robustness[0].result.first_faster, 3u);
-  EXPECT_EQ(robustness[0].result.p, 0.25);
-  EXPECT_EQ(robustness[0].adjusted_p, 0.25) << "of a single comparison";
+  EXPECT_DOUBLE_EQ(robustness[0].result.p, 0.25);
+  EXPECT_DOUBLE_EQ(robustness[0].adjusted_p, 0.25) << "of a single comparison";
 }
 
 TEST_F(CaseSummaryTest, LeavesOutCasesWithoutRuns) {

@@ -182,7 +182,7 @@ TEST(ProtocolCompatibility, DetectsAFieldMessageEnumValueAndMethodThatIsNotStore
   EXPECT_EQ(additions,
             (Differences{"robosim.v1.Activity.ACTIVITY_FOUND is missing",
                          "robosim.v1.ControlPanel.Pause is missing or has changed",
-                         "robosim.v1.PauseRequest is missing", "robosim.v1.RunStatus.may_operate = 22 is missing"}));
+                         "robosim.v1.PauseRequest is missing", "robosim.v1.RunStatus.recording_failure = 23 is missing"}));
 }
 
 TEST(ProtocolCompatibility, DetectsARemovedOrRenumberedField) {
