@@ -138,11 +138,18 @@ void RemoteControlRobot::obey(const RemoteOrder& order) {
   }
 }
 
-/// Takes effect at once: an order that follows within the same step must not supersede it.
+/// Takes effect at once: an order that follows within the same step must not supersede it. A stop that the driver has
+/// requested, which has no reason, ends the autonomous mode.
 /// @pre holds the mutex
 void RemoteControlRobot::stop(const RemoteOrder& order, Clock::time_point now) {
   order_.reset();
-  if (state_.autonomous) return;
+  if (state_.autonomous) {
+    if (!order.why.empty()) return;
+    state_.autonomous = false;
+    filter_.begin(now);
+    options_.log(name() + " stops, and is no longer autonomous");
+    return;
+  }
   const std::string before = filter_.whyStopped();
   filter_.obey(order, now);
   logStop(before);

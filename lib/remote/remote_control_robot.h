@@ -46,7 +46,8 @@ class RemoteControlRobot {
   void setAutonomous(bool autonomous);
   /// Applies an order: steering or CheckWin. Of several steering orders within one step the newest applies; a value
   /// that a DRIVE omits is taken from an earlier DRIVE. STOP takes effect at once, so that no later order supersedes
-  /// it.
+  /// it. A STOP without a reason, which the driver has requested, ends the autonomous mode; a STOP with one, for
+  /// example because the driver's page is hidden, has no effect on an autonomous robot.
   void obey(const RemoteOrder& order);
   /// Removes the driver: a remotely driven robot stops, an autonomous one continues.
   void release(const std::string& why);

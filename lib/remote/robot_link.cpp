@@ -301,8 +301,10 @@ void RobotLink::claim(const std::string& driver, bool autonomous) {
 
 void RobotLink::send(const RemoteOrder& order) {
   const std::lock_guard lock(impl_->mutex);
-  // A disconnected robot receives the switch with its next INIT.
+  // A disconnected robot receives the switch with its next INIT. A stop of the driver ends the autonomous mode.
   if (order.type == RemoteType::set_mode && impl_->init) impl_->init->autonomous = order.autonomous;
+  const bool is_drivers_stop = order.type == RemoteType::stop && order.why.empty();
+  if (is_drivers_stop && impl_->init) impl_->init->autonomous = false;
   if (!impl_->news.is_up) return;
   switch (order.type) {
     case RemoteType::init:

@@ -136,9 +136,9 @@ test('a stick has a dead zone and a progressive response', () => {
   assert.equal(shaped(NaN), 0);
 });
 
-test('a gamepad that is deflected when it is connected commands nothing until released', () => {
+test('a gamepad that is deflected when it is connected stops with a reason, and commands nothing until released', () => {
   const motion = ready();
-  assert.ok(!motion.tick(50, pad(0, -1)).some(isMotion));
+  assert.deepEqual(flat(motion.tick(50, pad(0, -1))), [{ type: 'stop', why: 'has a new gamepad that is not neutral' }]);
   assert.ok(!motion.tick(100, pad(0, -1)).some(isMotion));
   motion.tick(150, pad(0, 0));
   assert.ok(motion.tick(200, pad(0, -1)).some(isMotion));
@@ -199,7 +199,7 @@ test('a suspended page stops the robot when it continues', () => {
 test('a repeated key whose press was not reported stops the robot and is not neutral', () => {
   const motion = ready();
   motion.hold('pad:1', { speed: 1, turn: 0 }, 1);
-  assert.deepEqual(flat(motion.find('key:KeyW', 20)), [{ type: 'stop' }]);
+  assert.deepEqual(flat(motion.find('key:KeyW', 20)), [{ type: 'stop', why: 'has a held input whose press it did not receive' }]);
   motion.release('pad:1', 30);
   assert.ok(!motion.hold('pad:1', { speed: 1, turn: 0 }, 40).some(isMotion));
   motion.release('pad:1', 50);

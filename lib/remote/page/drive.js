@@ -32,10 +32,6 @@ export class Drive extends EventTarget {
     addEventListener('focus', () => this.#setGate('focus', document.hasFocus()));
     document.addEventListener('visibilitychange', () => this.#setGate('visible', !document.hidden));
     for (const type of ['pagehide', 'freeze']) addEventListener(type, () => this.#setGate('visible', false));
-    // Esc leaves full screen, and the page does not receive it.
-    document.addEventListener('fullscreenchange', () => {
-      if (!document.fullscreenElement) this.stop('has left full screen');
-    });
     setInterval(() => this.#tick(), TICK_MS);
   }
 
@@ -82,6 +78,7 @@ export class Drive extends EventTarget {
   release(id) {
     this.#send(this.#motion.release(id, now()));
   }
+  // `why`: nothing for a stop that the user requests
   stop(why) {
     this.#send(this.#motion.stop(now(), why));
   }

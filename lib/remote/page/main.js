@@ -250,7 +250,7 @@ makeStopButton($('stop'), drive);
 $('autonomous').addEventListener('click', toggleAutonomous);
 $('next').addEventListener('click', nextRobot);
 $('map-toggle').addEventListener('click', toggleMap);
-const toggleFullScreen = makeFullScreen($('fullscreen'));
+const toggleFullScreen = makeFullScreen($('fullscreen'), drive);
 $('control').addEventListener('click', () => link.send($('control').dataset.message));
 $('limit').addEventListener('input', () => {
   drive.setLimit(Number($('limit').value) / 100);

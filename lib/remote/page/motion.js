@@ -4,7 +4,8 @@
 // 1. A stop latches. While latched, no motion command is returned. The latch is released when every input is neutral at
 //    the same time: no motion key, stop key, drive pad, button or further finger on them is held, the stick is in its
 //    dead zone, and no gamepad button that moves or stops the robot is pressed. A stop also ends the cruise, that is, the
-//    speed set by accelerate.
+//    speed set by accelerate. A stop that the user requests has no reason (`why`), and also ends the robot's autonomous
+//    mode; every other stop has a reason, and has no effect on an autonomous robot.
 // 2. Motion is possible only while all gates are open: this page drives a robot that is active (`control`), the window has
 //    the focus (`focus`), the page is visible (`visible`), and the console answers (`link`). A gate that closes latches
 //    and, except for `control`, stops.
@@ -131,7 +132,7 @@ export class Motion {
     this.#held.set(id, {});
     if (this.#isLatched) return [];
     this.latch();
-    return this.#stop(now);
+    return this.#stop(now, 'has a held input whose press it did not receive');
   }
 
   // `id` names the input that stops, which is held from now on.
@@ -172,7 +173,7 @@ export class Motion {
     }
     if (connected && this.#gamepad.held.length > 0) {  // deflected initially
       this.latch();
-      return this.#stop(now);
+      return this.#stop(now, 'has a new gamepad that is not neutral');
     }
     if (!this.#gates.focus || !this.#gates.visible) return [];
     this.#settle();
