@@ -89,10 +89,10 @@ class StatusLine {
 
 }  // namespace
 
-void driveByJoystick(RemoteControl& control, int number, const std::function<bool()>& interrupted,
+void driveByJoystick(RemoteControl& control, int number, double top_speed, const std::function<bool()>& interrupted,
                      const std::function<void(const std::string&)>& log) {
   Joystick joystick(number);
-  JoystickDriver driver;
+  JoystickDriver driver(top_speed);
   TeamEvents events;
   StatusLine line;
   const std::string device = "joystick " + std::to_string(number);
@@ -118,13 +118,18 @@ void driveByJoystick(RemoteControl& control, int number, const std::function<boo
                              "): connect a joystick and check its read permission; the robot stands still");
     }
     has_reported = true;
-    if (!stick) driver = JoystickDriver();
-    const std::string why_stopped = robots.front().news.state.why_stopped;
+    if (!stick) driver = JoystickDriver(top_speed);
+    const RobotNews& news = robots.front().news;
+    const std::string why_stopped = news.state.why_stopped;
     if (why_stopped != last_why_stopped && !why_stopped.empty()) driver.latch();
     last_why_stopped = why_stopped;
-    if (stick && robots.front().news.info) {
-      const auto output = driver.convert(*stick, robots.front().news.info->limits, now);
-      if (output.order) control.send(*output.order);
+    if (stick && news.info) {
+      if (news.update) driver.setCommanded(news.update->state.speed_mps / news.info->limits.speed_max_mps, now);
+      const auto output = driver.convert(*stick, news.info->limits, now);
+      // Neutral inputs release the latch only while they reach the robot.
+      const bool drives = news.is_up && news.state.is_yours;
+      if (!drives) driver.latch();
+      if (output.order && (drives || output.order->type == RemoteType::stop)) control.send(*output.order);
       if (output.checks_win) control.send({.type = RemoteType::check_win});
       if (output.switches) {
         const bool done = control.switchPrimary();
