@@ -190,6 +190,7 @@ void encode(const RemoteState& state, v1::RobotState& out) {
   out.set_winner(state.winner);
   out.set_win_refusals(state.win_refusals);
   out.set_stalled(state.stalled);
+  out.set_stops(state.stops);
 }
 
 RemoteState decode(const v1::RobotState& in) {
@@ -200,8 +201,8 @@ RemoteState decode(const v1::RobotState& in) {
   if (!std::isfinite(in.speed_mps()) || !std::isfinite(in.turn_radps())) {
     throw WireError("a robot whose command is not finite");
   }
-  return {in.autonomous(), in.driver(),      in.is_yours(), in.speed_mps(),    in.turn_radps(),
-          *activity,       in.why_stopped(), in.winner(),   in.win_refusals(), in.stalled()};
+  return {in.autonomous(),  in.driver(), in.is_yours(),     in.speed_mps(), in.turn_radps(), *activity,
+          in.why_stopped(), in.winner(), in.win_refusals(), in.stalled(),   in.stops()};
 }
 
 }  // namespace robosim

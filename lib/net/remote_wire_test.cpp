@@ -92,7 +92,8 @@ TEST(RemoteWire, RoundTripsARobotState) {
                           .why_stopped = "why",
                           .winner = "Scout1",
                           .win_refusals = 3,
-                          .stalled = true};
+                          .stalled = true,
+                          .stops = 4};
   v1::RobotState message;
   encode(state, message);
   EXPECT_EQ(decode(message), state);

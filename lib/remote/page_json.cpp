@@ -151,7 +151,8 @@ Json jsonOf(const RemoteState& state) {
   return {{"autonomous", state.autonomous},       {"driver", state.driver},
           {"is_yours", state.is_yours},           {"speed_mps", fine(state.speed_mps)},
           {"turn_radps", fine(state.turn_radps)}, {"activity", nameOf(state.activity)},
-          {"why_stopped", state.why_stopped},     {"win_refusals", state.win_refusals}};
+          {"why_stopped", state.why_stopped},     {"win_refusals", state.win_refusals},
+          {"stops", state.stops}};
 }
 
 /// The newest heat reading: of the primary, in its update; of the others, in the answer to a request.

@@ -176,6 +176,7 @@ RemoteState RemoteControlRobot::state() const {
   const std::lock_guard lock(mutex_);
   RemoteState state = state_;
   state.why_stopped = filter_.whyStopped();
+  state.stops = filter_.stops();
   return state;
 }
 

@@ -23,7 +23,7 @@ const COMMANDS = {
   'pad:1': { speed: 1, turn: 1 }, 'pad:2': {}, 'turn_left:1': heldTurn(1), 'turn_left:2': heldTurn(1), 'stop:3': {}, 'accelerate:4': {},
 };
 const INPUTS = Object.keys(COMMANDS);
-const GATES = ['control', 'focus', 'visible', 'link'];
+const GATES = ['control', 'focus', 'visible', 'link', 'robot'];
 const ORDERS = ['accelerate', 'decelerate', 'turn_left', 'turn_right', 'check_win'];
 const LIMITS = [0.1, 0.3, 0.6, 1];
 
@@ -44,11 +44,11 @@ function randomEvent(random) {
   if (kind < 10) return { wait, do: 'find', id: INPUTS[random(2)] };
   if (kind < 11) return random(2) ? { wait, do: 'stop' } : { wait, do: 'stopBy', id: ['key:Space', 'stop:3'][random(2)] };
   if (kind < 13) return { wait, do: 'order', type: ORDERS[random(ORDERS.length)] };
-  if (kind < 14) return { wait, do: 'gate', gate: GATES[random(4)], isOpen: random(4) > 0 };
+  if (kind < 14) return { wait, do: 'gate', gate: GATES[random(GATES.length)], isOpen: random(4) > 0 };
   if (kind < 15) return { wait, do: 'gates' };
   if (kind < 16) return { wait, do: 'limit', part: LIMITS[random(4)] };
   if (kind < 17) return { wait, do: 'commanded', part: (random(21) - 10) / 10 };
-  if (kind < 18) return random(2) ? { wait, do: 'latch' } : { wait, do: 'move', id: 'pad:1', command: { speed: random(3) - 1, turn: random(3) - 1 } };
+  if (kind < 18) return random(2) ? { wait, do: random(2) ? 'latch' : 'robotStop' } : { wait, do: 'move', id: 'pad:1', command: { speed: random(3) - 1, turn: random(3) - 1 } };
   if (kind < 20) return { wait, do: 'neutral' };
   if (kind < 21) {
     const isNeutral = random(2) === 0;
@@ -69,7 +69,7 @@ class Run {
     this.pad = null;  // as it is
     this.polled = null;  // as last read
     this.ticked = null;
-    this.open = { control: false, focus: true, visible: true, link: true };
+    this.open = { control: false, focus: true, visible: true, link: true, robot: true };
     this.isLatched = true;
     this.limit = 0.6;
     this.input = -Infinity;
@@ -153,6 +153,12 @@ class Run {
         this.isLatched = true;
         this.commanded = 0;
         motion.latch();
+        break;
+      case 'robotStop':
+        mustStop = !this.isLatched;
+        this.isLatched = true;
+        this.commanded = 0;
+        messages = motion.noteRobotStop(now);
         break;
       case 'neutral':
         for (const id of this.held) messages.push(...motion.release(id, now));

@@ -165,6 +165,7 @@ test('a gamepad that is disconnected stops the robot', () => {
 
 for (const [gate, why] of [
   ['focus', 'has lost the focus'], ['visible', 'is hidden'], ['link', 'has received nothing from the console for 2 s'],
+  ['robot', 'has received nothing from the robot for 2 s'],
 ]) {
   test(`when the page ${why}, it stops the robot, sends no alive, and drives on only after all inputs were neutral`, () => {
     const motion = ready(pad(0, 0));
@@ -186,6 +187,17 @@ test('a page without the focus sends neither alive nor orders of a gamepad, but 
   motion.setGate('focus', false, 10);
   assert.deepEqual(motion.tick(500, pad(0, -1, [1, 3])), []);
   assert.deepEqual(flat(motion.tick(550, pad(0, -1, [1, 3, 6]))), [{ type: 'stop' }]);
+});
+
+test('after a stop of the robot for a reason of its own, a held key stops it once more, and commands nothing until released', () => {
+  const motion = ready();
+  motion.hold('key:KeyW', heldKey('KeyW'), 1);
+  assert.deepEqual(flat(motion.noteRobotStop(50)), [{ type: 'stop', why: 'requires the release of all inputs after a stop' }]);
+  assert.deepEqual(motion.noteRobotStop(60), [], 'motion is latched already');
+  for (let t = 100; t < 1000; t += 50) assert.ok(!motion.tick(t, null).some(isMotion));
+  motion.release('key:KeyW', 1000);
+  motion.tick(1050, null);
+  assert.ok(motion.hold('key:KeyW', heldKey('KeyW'), 1060).some(isMotion));
 });
 
 test('a suspended page stops the robot when it continues', () => {

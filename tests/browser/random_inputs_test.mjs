@@ -218,3 +218,52 @@ test('two fingers on the drive pad: the first drives, the second prevents nothin
   assert.deepEqual(sent.filter(isDrive), []);
   await page.context().close();
 });
+
+for (const [what, lose, why] of [
+  ['does not report for 2 s', (script) => { script.isSilent = true; }, 'has received nothing from the robot for 2 s'],
+  ['has counted a stop whose reason is already cleared', (script) => { ++script.stops; }, 'requires the release of all inputs after a stop'],
+]) {
+  test(`a robot that ${what} is stopped, and a key that is held has no effect until released`, async () => {
+    const page = await visitScripted(browser, 'driving');
+    const sent = [];
+    page.script.onMessage = (message) => sent.push(message);
+    const until = async (holds) => { while (!sent.some(holds)) await page.evaluate(() => new Promise((done) => { setTimeout(done, 20); })); };
+    await page.keyboard.down('ArrowUp');
+    await until(({ type }) => type === 'drive');
+    lose(page.script);
+    await page.waitForFunction(() => document.querySelector('#hint').textContent.startsWith('Stopped. Release all keys'));
+    assert.deepEqual(sent.find(({ type }) => type === 'stop'), { type: 'stop', why });
+    page.script.isSilent = false;
+    page.script.sendUpdate();
+    sent.length = 0;
+    await until(({ type }) => type === 'alive');
+    assert.deepEqual(sent.filter(({ type }) => type === 'drive'), []);
+    await page.keyboard.up('ArrowUp');
+    await until(({ type }) => type === 'alive');
+    await page.waitForFunction(() => document.querySelector('#hint').hidden);
+    await page.keyboard.down('ArrowUp');
+    await until(({ type }) => type === 'drive');
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+  });
+}
+
+test('a paused run does not stop a robot, however long it reports nothing', async () => {
+  const page = await visitScripted(browser, 'driving', { hasClock: true });
+  await page.clock.pauseAt(Date.now() + 60_000);
+  const sent = [];
+  page.script.onMessage = (message) => sent.push(message.type);
+  page.script.sendUpdate({ isForced: true });
+  await page.clock.runFor(500);
+  await page.keyboard.down('ArrowUp');
+  page.script.sendRun({ phase: 'paused' });
+  page.script.isSilent = true;
+  await page.waitForFunction(() => document.body.dataset.step > 0);
+  for (let i = 0; i < 40; ++i) {
+    page.script.send({ type: 'pulse' });
+    await page.clock.runFor(100);
+  }
+  assert.ok(sent.includes('drive'));
+  assert.ok(!sent.includes('stop'), `${sent}`);
+  await page.context().close();
+});

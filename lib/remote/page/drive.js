@@ -16,12 +16,13 @@ export class Drive extends EventTarget {
   #suppressed = new Set();  // stop keys that are down: their release must not click a button
 
   // `mayDrive` returns whether this page holds the control lock, and so may at least stop the robot; `isLost` whether
-  // the console does not answer
-  constructor(link, mayDrive, isLost) {
+  // the console does not answer; `isRobotLost` whether the robot does not report
+  constructor(link, mayDrive, isLost, isRobotLost) {
     super();
     this.link = link;
     this.mayDrive = mayDrive;
     this.isLost = isLost;
+    this.isRobotLost = isRobotLost;
     // In the capture phase, so that no focused element and no dialog intercepts a stop.
     addEventListener('keydown', (event) => this.#keyDown(event), true);
     addEventListener('keyup', (event) => this.#keyUp(event), true);
@@ -45,9 +46,12 @@ export class Drive extends EventTarget {
   setCommanded(part) {
     this.#motion.setCommanded(part, now());
   }
-  // Another robot has become the primary, or the robot has stopped for a reason of its own.
+  // Another robot has become the primary.
   latch() {
     this.#motion.latch();
+  }
+  noteRobotStop() {
+    this.#send(this.#motion.noteRobotStop(now()));
   }
   // See Motion.
   get latches() {
@@ -160,6 +164,7 @@ export class Drive extends EventTarget {
     this.#setGate('focus', document.hasFocus());
     this.#setGate('visible', !document.hidden);
     this.#setGate('link', !this.isLost());
+    this.#setGate('robot', !this.isRobotLost());
     this.#poll();
     this.dispatchEvent(new Event('tick'));
   }

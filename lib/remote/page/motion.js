@@ -7,8 +7,8 @@
 //    speed set by accelerate. A stop that the user requests has no reason (`why`), and also ends the robot's autonomous
 //    mode; every other stop has a reason, and has no effect on an autonomous robot.
 // 2. Motion is possible only while all gates are open: this page drives a robot that is active (`control`), the window has
-//    the focus (`focus`), the page is visible (`visible`), and the console answers (`link`). A gate that closes latches
-//    and, except for `control`, stops.
+//    the focus (`focus`), the page is visible (`visible`), the console answers (`link`), and the robot reports (`robot`). A
+//    gate that closes latches and, except for `control`, stops.
 // 3. A held input is a command at every tick. An input that was released sets its speed or turn to 0, once.
 // 4. `alive` is returned only while an input is held, or for PRESENCE_MS after the user's last input. After that a robot
 //    that cruises (no input held) is stopped.
@@ -30,6 +30,7 @@ export const MOTION_KEYS = {
 export const MOTION_ORDERS = new Set(['accelerate', 'decelerate', 'turn_left', 'turn_right']);
 const WHY_CLOSED = {
   focus: 'has lost the focus', visible: 'is hidden', link: 'has received nothing from the console for 2 s',
+  robot: 'has received nothing from the robot for 2 s',
 };
 
 export class Motion {
@@ -37,7 +38,7 @@ export class Motion {
   #held = new Map();  // by input: {speed} or {turn}, [-1, 1], or {} for an input that only must be released
   #gamepad = new GamepadInput();
   #owns = { speed: false, turn: false };
-  #gates = { control: false, focus: true, visible: true, link: true };
+  #gates = { control: false, focus: true, visible: true, link: true, robot: true };
   #isLatched = true;
   #latches = 0;  // number of times that motion was latched
   #isPresent = false;
@@ -192,12 +193,20 @@ export class Motion {
     return messages;
   }
 
-  // No motion until every input has been neutral: another robot is driven, or the robot itself has stopped. It stands.
+  // No motion until every input has been neutral: another robot is driven. It stands.
   latch() {
     this.#isLatched = true;
     ++this.#latches;
     this.#owns = { speed: false, turn: false };
     this.#commanded = this.#cruise = 0;
+  }
+
+  // The robot has stopped for a reason of its own, or for that of another stop. An order that was on its way meanwhile may
+  // have moved it again, so that it is stopped once more; a robot that stands keeps the reason of its stop.
+  noteRobotStop(now) {
+    const wasLatched = this.#isLatched;
+    this.latch();
+    return wasLatched ? [] : this.#stop(now, 'requires the release of all inputs after a stop');
   }
 
   get #isEnabled() {
