@@ -57,6 +57,8 @@ struct RemoteState {
   bool stalled = false;            ///< its last motion was clipped
   /// Number of its stops with a reason, also of those whose why_stopped a later order has cleared.
   std::uint32_t stops = 0;
+  /// Length of its path in this run, by odometry; nullopt for a robot without odometry.
+  std::optional<double> driven_m{};
   bool operator==(const RemoteState&) const = default;
 };
 

@@ -9,7 +9,8 @@
 namespace robosim {
 
 /// Drives a robot by a joystick: a JoystickDriver, which also latches
-/// - after a stop of the robot for a reason of its own (RemoteState::stops), after which the robot is stopped once more,
+/// - after a stop of the robot for a reason of its own (RemoteState::stops), after which the robot is stopped once
+/// more,
 ///   because an order that was still on its way may have moved it again,
 /// - while the robot cannot be driven: it is disconnected, or has another driver,
 /// - while the robot does not report: kLost without an update. The robot is then stopped.

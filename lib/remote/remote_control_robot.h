@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <mrpt/math/TPose2D.h>
+
 #include "control/controller.h"
 #include "hardware/hardware.h"
 #include "remote/drive_command_filter.h"
@@ -59,6 +61,7 @@ class RemoteControlRobot {
   class ControllersView;
   void stop(const RemoteOrder& order, Clock::time_point now);
   void logStop(const std::string& before);
+  void addDriven(const Readings& readings);
 
   Hardware& hardware_;
   std::unique_ptr<Controller> controller_;
@@ -74,7 +77,8 @@ class RemoteControlRobot {
   Clock::time_point order_received_;
   bool wants_check_win_ = false;
   ///@}
-  bool was_autonomous_ = true;  ///< in the last step
+  bool was_autonomous_ = true;                          ///< in the last step
+  std::optional<mrpt::math::TPose2D> odom_from_robot_;  ///< in the last step
 };
 
 }  // namespace robosim

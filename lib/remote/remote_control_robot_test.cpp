@@ -276,6 +276,20 @@ TEST_F(RemoteControlRobotTest, RequestsCheckWinOnceAndCountsRefusals) {
   EXPECT_EQ(robot.state().win_refusals, 1u);
 }
 
+TEST_F(RemoteControlRobotTest, AddsTheDistanceDrivenInAllModes) {
+  hardware.mutableOdometry().odom_from_robot = {5, 5, 0};  // where the odometry begins does not count
+  step();
+  EXPECT_EQ(robot.state().driven_m, 0);
+  robot.take("Anna", false);
+  hardware.mutableOdometry().odom_from_robot = {8, 9, 0};
+  step();
+  EXPECT_DOUBLE_EQ(*robot.state().driven_m, 5);
+  robot.setAutonomous(true);
+  hardware.mutableOdometry().odom_from_robot = {8, 7, 1};
+  step();
+  EXPECT_DOUBLE_EQ(*robot.state().driven_m, 7);
+}
+
 TEST_F(RemoteControlRobotTest, ReportsTheWinnerAndHalts) {
   hardware.mutableReadings().winner = "other";
   step();

@@ -19,7 +19,8 @@ const shows = (page, cause) => page.waitForSelector(`#banner[data-cause="${cause
 
 for (const [state, cause, text] of [
   ['down', 'robot_down', /^Pioneer1 is down: no robot answers at 127\.0\.0\.1:9001/],
-  ['won', 'won', /^Pioneer1 has won after 2:00\.\d and \d+\.\d m\. All robots have halted\.$/],
+  ['won', 'won', /^Pioneer1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
+  ['won by another', 'won', /^Scout1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
   ['over', 'run_over', /^The run is over\.$/],
   ['gone', 'environment_gone', /^The environment does not answer: no answer for 1 s/],
   ['frozen', 'robot_frozen', /^Pioneer1 does not answer\. Its readings are outdated\.$/],
