@@ -50,6 +50,9 @@ export const STATES = {
   'recording failed': { run: { recording: { problem: '/data/run_part2.rawlog: No space left on device; free space on the disk' } } },
   'recording, driver': { may_operate: false, run: { recording: { state: 'on', file: 'run.rawlog' } } },
   'not recorded': { run: { recording: { state: 'none', may_change: false } } },
+  help: { dialog: 'help' },
+  'help, watching': { dialog: 'help', holder: 2 },
+  login: { dialog: 'login' },
   '30 robots': { robots: 30, has_map: true },
   '200 robots': { robots: 200, has_long_names: true },
 };
@@ -89,6 +92,13 @@ class Script {
     this.updates = 0;
     this.sendUpdate();
     this.pulse ??= setInterval(() => this.send({ type: 'pulse' }), 250);
+  }
+
+  // The page requests a token.
+  refuse() {
+    this.end();
+    this.send({ type: 'refused', text: 'The token is unknown or has expired.' });
+    return this.socket.close({ code: 1008, reason: 'The token is unknown or has expired.' });
   }
 
   // Otherwise the pulse would keep the test's process alive.
@@ -177,5 +187,10 @@ export async function visitScripted(browser, state, { hasClock = false, init, ..
   await page.goto(ORIGIN);
   await page.waitForFunction(() => document.body.dataset.step > 0);
   if (STATES[state].has_map) await page.click('#map-toggle');
+  if (STATES[state].dialog === 'help') await page.click('#help-open');
+  if (STATES[state].dialog === 'login') {
+    await page.script.refuse();
+    await page.waitForSelector('#login[open]');
+  }
   return page;
 }

@@ -79,6 +79,19 @@ for (const [what, focus, release] of [
   }
 }
 
+test('the Stop button in the head of the help stops a cruising robot, and the help stays open', async () => {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('+');
+  await page.waitForFunction(() => document.querySelector('#r-speed').textContent.includes('target 0.10'));
+  await page.click('#help-open');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Close', 'Enter closes the help');
+  await page.click('#help-stop');
+  await page.waitForFunction(() => document.querySelector('#r-speed').textContent.includes('target 0.00'));
+  assert.ok(await page.isVisible('#help'));
+  await page.click('#help .primary');
+  await session.truth.standstill('Ann');
+});
+
 test('a key held across Space has no effect until pressed again', async () => {
   await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.down('ArrowUp');

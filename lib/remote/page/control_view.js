@@ -50,7 +50,7 @@ export class ControlView {
     const may = this.hasControl() && Boolean(primary?.up && primary.is_yours);
     const steers = may && !primary.autonomous && primary.activity === 'active';
     for (const id of ['accelerate', 'decelerate', 'turn-left', 'turn-right', 'check-win']) $(id).disabled = !steers;
-    for (const id of ['stop', 'autonomous']) $(id).disabled = !may;
+    for (const id of ['stop', 'help-stop', 'autonomous']) $(id).disabled = !may;
     $('next').disabled = !this.hasControl() || !this.state.team.robots.slice(1).some((robot) => robot.fit);
     $('autonomous').setAttribute('aria-pressed', String(Boolean(primary?.autonomous)));
     this.drive.enable(steers);

@@ -252,7 +252,7 @@ const nextRobot = () => {
 for (const [id, command] of [['accelerate'], ['decelerate'], ['check-win'], ['turn-left', heldTurn(1)], ['turn-right', heldTurn(-1)]]) {
   makeOrderButton($(id), id.replace('-', '_'), drive, command);
 }
-makeStopButton($('stop'), drive);
+for (const id of ['stop', 'help-stop']) makeStopButton($(id), drive);
 $('autonomous').addEventListener('click', toggleAutonomous);
 $('next').addEventListener('click', nextRobot);
 $('map-toggle').addEventListener('click', toggleMap);
