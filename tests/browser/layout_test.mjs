@@ -29,8 +29,13 @@ async function resize(page, [width, height]) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
-// Violations at a size are collected in `all`, so that a failed test lists every one.
+// Violations at a size are collected in `all`, so that a failed test lists every one. An answer to CheckWin is displayed for
+// some seconds only.
 async function check(page, what, all) {
+  if (page.script.refuses) {
+    ++page.script.refusals;
+    await page.waitForSelector('#verdict', { state: 'visible' });
+  }
   for (const found of await page.evaluate(violations)) all.push(`${what}: ${found}`);
 }
 

@@ -46,6 +46,7 @@ export const STATES = {
   paused: { is_silent: true, run: { phase: 'paused' } },
   stalled: { is_stalled: true },
   'no camera': { has_camera: false },
+  'no camera, refused': { has_camera: false, refuses: true },
   recording: { run: { recording: { state: 'on', file: 'run_part2.rawlog' } } },
   'recording failed': { run: { recording: { problem: '/data/run_part2.rawlog: No space left on device; free space on the disk' } } },
   'recording, driver': { may_operate: false, run: { recording: { state: 'on', file: 'run.rawlog' } } },
@@ -58,9 +59,9 @@ export const STATES = {
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, run = {} }) {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
     const isSilent = is_silent;
-    Object.assign(this, { socket, holder, is_down, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0, stops: 0, driven_m: 48.2 });
+    Object.assign(this, { socket, refuses, holder, is_down, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
   }
@@ -155,7 +156,7 @@ class Script {
     };
     const json = Buffer.from(JSON.stringify({
       type: 'update', robot: this.names[0], step: this.step, time_s, driven_m: this.driven_m, stalled: this.is_stalled, laser_pan_rad: 0,
-      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? 1 : 0, stops: this.stops },
+      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? this.refusals : 0, stops: this.stops },
       measurements: sensors(this.has_camera).map(({ kind }) => measured[kind]), ...(this.has_camera ? { picture_step: this.step } : {}),
     }));
     const length = Buffer.alloc(4);
