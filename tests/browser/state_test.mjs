@@ -90,6 +90,9 @@ test('values, ranges and lamps are grey 1 s after the last update, and not befor
   const look = () => page.evaluate(() => ({
     isStale: document.body.classList.contains('stale'),
     value: getComputedStyle(document.querySelector('#r-speed')).color,
+    heat: getComputedStyle(document.querySelector('#heat.hot')).color,
+    hudHeat: getComputedStyle(document.querySelector('#hud-heat-gauge.hot b')).color,
+    teamHeat: getComputedStyle(document.querySelector('.team .heat-now.warm')).color,
     radar: getComputedStyle(document.querySelector('#radar')).filter,
     camera: getComputedStyle(document.querySelector('#camera')).filter,
     lamp: getComputedStyle(document.querySelector('.team .lamp.up')).outlineColor,
@@ -112,8 +115,9 @@ test('values, ranges and lamps are grey 1 s after the last update, and not befor
   await run(drawn_ms + 1050 - since_ms);
   const stale = await look();
   assert.equal(stale.isStale, true);
-  for (const part of ['value', 'radar', 'camera', 'lamp']) assert.notEqual(stale[part], fresh[part], part);
+  for (const part of ['value', 'heat', 'hudHeat', 'teamHeat', 'radar', 'camera', 'lamp']) assert.notEqual(stale[part], fresh[part], part);
   assert.match(stale.radar, /grayscale/);
+  assert.deepEqual([stale.heat, stale.teamHeat], [stale.value, stale.value], 'a hot value is grey, too');
   page.script.sendUpdate({ isForced: true });
   while (await page.evaluate((step) => document.body.dataset.step !== String(step), page.script.step)) await run(10);
   await run(60);
