@@ -163,6 +163,28 @@ test('a gamepad that is disconnected stops the robot', () => {
   assert.deepEqual(flat(motion.tick(100, null)), [{ type: 'stop', why: 'has lost its gamepad' }]);
 });
 
+test('buttons from the fifth on of every gamepad stop, and are not neutral while pressed; other inputs of a second one have no effect', () => {
+  const motion = ready(pad(0, 0));
+  const other = (...pressed) => [{ index: 1, ...pad(1, 1, pressed) }];
+  assert.ok(motion.tick(50, pad(0, -1), other()).some(isMotion));
+  assert.ok(motion.tick(100, pad(0, -1), other(3)).every(({ type }) => type === 'drive'), 'only the first one accelerates');
+  assert.deepEqual(flat(motion.tick(150, pad(0, -1), other(7))), [{ type: 'stop' }]);
+  assert.deepEqual(motion.tick(160, pad(0, 0), other(7)), [], 'one stop for each press');
+  assert.deepEqual(motion.inputs, ['gamepad 1:7']);
+  assert.ok(!motion.tick(200, pad(0, -1), other(7)).some(isMotion), 'the button is held');
+  motion.tick(250, pad(0, 0), other());
+  assert.ok(motion.tick(300, pad(0, -1), other()).some(isMotion));
+});
+
+test('a gamepad that takes the place of the one that drives stops the robot, and commands nothing until released', () => {
+  const motion = ready({ index: 0, ...pad(0, 0) });
+  assert.ok(motion.tick(50, { index: 0, ...pad(0, -1) }, [{ index: 1, ...pad(0, 1) }]).some(isMotion));
+  assert.deepEqual(flat(motion.tick(100, { index: 1, ...pad(0, 1) })), [{ type: 'stop', why: 'has lost its gamepad' }]);
+  assert.ok(!motion.tick(150, { index: 1, ...pad(0, 1) }).some(isMotion));
+  motion.tick(200, { index: 1, ...pad(0, 0) });
+  assert.ok(motion.tick(250, { index: 1, ...pad(0, 1) }).some(isMotion));
+});
+
 for (const [gate, why] of [
   ['focus', 'has lost the focus'], ['visible', 'is hidden'], ['link', 'has received nothing from the console for 2 s'],
   ['robot', 'has received nothing from the robot for 2 s'],

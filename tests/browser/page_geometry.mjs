@@ -91,7 +91,7 @@ export function violations() {
   }
 
   // A name that is cut off is in its title.
-  for (const { element } of all('.team b, #robot-name')) {
+  for (const { element } of all('.team b, #robot-name, #who')) {
     if (element.scrollWidth > element.clientWidth && element.title !== element.textContent) found.push(`${element.textContent} is cut off and has no title`);
   }
   const radar = all('#radar')[0];

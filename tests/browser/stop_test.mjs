@@ -161,6 +161,17 @@ for (const [what, act] of [
     await forget();
     await page.evaluate(() => document.exitFullscreen());
   }],
+  ["a second gamepad's button", async () => {
+    await page.evaluate(() => {
+      const buttons = emulatedGamepad.buttons.map((_, i) => ({ pressed: i === 6 }));
+      const second = { connected: true, index: 1, axes: [0, 0], buttons };
+      const { getGamepads } = navigator;
+      navigator.getGamepads = () => [emulatedGamepad, second];
+      window.removeSecond = () => { navigator.getGamepads = getGamepads; };
+    });
+    await wasSent(['stop']);
+    await page.evaluate(() => removeSecond());
+  }],
   ['a gamepad button', async () => {
     await page.evaluate(() => { emulatedGamepad.buttons[5].pressed = true; });
     await wasSent(['stop']);

@@ -17,6 +17,7 @@ export class ControlView {
     const hasControl = this.hasControl();
     if (hasControl) $('who').textContent = hasOtherDriver ? `${primary.driver} drives ${primary.name} with another remote control` : '';
     else $('who').textContent = lock.holder ? `${lock.name} drives; you may watch` : 'No driver';
+    $('who').title = $('who').textContent;  // which may be shortened
     // A page with the control lock but without the robot may request it again. The lock may be released if others watch.
     const mayTake = hasControl ? !primary.driver && !primary.is_yours && primary.up : lock.holder === 0;
     const mayRelease = hasControl && !mayTake && pages > 1;

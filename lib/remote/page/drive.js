@@ -156,8 +156,8 @@ export class Drive extends EventTarget {
   }
 
   #poll() {
-    const gamepad = [...(navigator.getGamepads?.() ?? [])].find((pad) => pad?.connected) ?? null;
-    this.#send(this.#motion.tick(now(), gamepad));
+    const [gamepad = null, ...others] = [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.connected);
+    this.#send(this.#motion.tick(now(), gamepad, others));
   }
 
   #tick() {

@@ -162,11 +162,12 @@ export class Motion {
   }
 
   // To be called about every 50 ms, and before hold(), move() and order(), because only this releases the latch: the state of
-  // the stick is known here. `gamepad`: {axes, buttons: [{pressed}]}, null for none. `switch` is returned like a message.
-  tick(now, gamepad) {
+  // the stick is known here. `gamepad`: the one that drives, {index, axes, buttons: [{pressed}]}, null for none; `others`: those
+  // of which only the buttons that stop have an effect. `switch` is returned like a message.
+  tick(now, gamepad, others = []) {
     const isSuspended = now - this.#ticked >= SUSPENDED_MS;
     this.#ticked = now;
-    const { orders, stops, connected, disconnected } = this.#gamepad.read(gamepad, now);
+    const { orders, stops, connected, disconnected } = this.#gamepad.read(gamepad, others, now);
     if (stops) return this.stop(now);
     if (isSuspended || disconnected) {
       this.latch();
