@@ -40,6 +40,7 @@ struct RemoteArguments {
   ListenerArguments listener;
   ConnectionArguments connection;
   std::optional<int> joystick;
+  int top_speed_percent = 100;
 };
 
 void log(const std::string& line) { logInfo("remote", line); }
@@ -81,7 +82,7 @@ void openJoystick(const RemoteArguments& arguments) {
   options.connect_options = arguments.connection.connectOptions();
   RemoteControl control(readTeam(arguments.robots), options);
   driveByJoystick(
-      control, *arguments.joystick, [&] { return interrupt.isRequested(); }, log);
+      control, *arguments.joystick, arguments.top_speed_percent / 100.0, [&] { return interrupt.isRequested(); }, log);
 }
 
 }  // namespace
@@ -95,14 +96,23 @@ void addRemote(CLI::App& program) {
       ->required();
   auto* listen =
       command->add_option("--listen", a->listen, "address of the page")->type_name("HOST:PORT")->capture_default_str();
+  auto* joystick =
+      command
+          ->add_option(
+              "--joystick", a->joystick,
+              "drive with this joystick, 0 for the first, without a page: the stick steers; button 1 switches to the "
+              "next robot, 2 checks win, 3 accelerates, 4 decelerates, every other button stops")
+          ->check(wholeNumberIn(0, 31))
+          ->type_name("N")
+          ->excludes(listen);
   command
-      ->add_option(
-          "--joystick", a->joystick,
-          "drive with this joystick, 0 for the first, without a page: the stick steers; button 1 switches to the "
-          "next robot, 2 checks win, 3 accelerates, 4 decelerates, every other button stops")
-      ->check(wholeNumberIn(0, 31))
-      ->type_name("N")
-      ->excludes(listen);
+      ->add_option("--top-speed", a->top_speed_percent,
+                   "with --joystick, the top speed of stick and buttons in percent of the robot's maximum, 10 to 100; "
+                   "the page has a slider")
+      ->check(wholeNumberIn(10, 100))
+      ->type_name("PERCENT")
+      ->needs(joystick)
+      ->capture_default_str();
   addListenerOptions(*command, a->listener);
   addConnectionOptions(*command, a->connection);
   command->footer(kRemoteSession);

@@ -11,7 +11,7 @@
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "remote/joystick.h"
-#include "remote/joystick_driver.h"
+#include "remote/joystick_control.h"
 #include "remote/team_events.h"
 
 namespace robosim {
@@ -89,10 +89,10 @@ class StatusLine {
 
 }  // namespace
 
-void driveByJoystick(RemoteControl& control, int number, const std::function<bool()>& interrupted,
+void driveByJoystick(RemoteControl& control, int number, double top_speed, const std::function<bool()>& interrupted,
                      const std::function<void(const std::string&)>& log) {
   Joystick joystick(number);
-  JoystickDriver driver;
+  JoystickControl driver(top_speed);
   TeamEvents events;
   StatusLine line;
   const std::string device = "joystick " + std::to_string(number);
@@ -102,7 +102,6 @@ void driveByJoystick(RemoteControl& control, int number, const std::function<boo
   };
   bool has_stick = false;
   bool has_reported = false;
-  std::string last_why_stopped;
   while (!interrupted()) {
     const auto now = Clock::now();
     control.tick();
@@ -118,19 +117,16 @@ void driveByJoystick(RemoteControl& control, int number, const std::function<boo
                              "): connect a joystick and check its read permission; the robot stands still");
     }
     has_reported = true;
-    if (!stick) driver = JoystickDriver();
-    const std::string why_stopped = robots.front().news.state.why_stopped;
-    if (why_stopped != last_why_stopped && !why_stopped.empty()) driver.latch();
-    last_why_stopped = why_stopped;
-    if (stick && robots.front().news.info) {
-      const auto output = driver.convert(*stick, robots.front().news.info->limits, now);
-      if (output.order) control.send(*output.order);
-      if (output.checks_win) control.send({.type = RemoteType::check_win});
+    if (stick) {
+      const auto output = driver.next(robots.front().news, *stick, now);
+      for (const auto& order : output.orders) control.send(order);
       if (output.switches) {
         const bool done = control.switchPrimary();
-        if (done) driver.latch();
+        if (done) driver.switchRobot(now);
         report(done ? device + " drives " + control.primary().name : "no other robot can be driven now");
       }
+    } else {
+      driver.loseStick();
     }
     line.show(statusText(robots.front()), now);
     std::this_thread::sleep_for(kPause);

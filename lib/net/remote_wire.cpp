@@ -190,6 +190,8 @@ void encode(const RemoteState& state, v1::RobotState& out) {
   out.set_winner(state.winner);
   out.set_win_refusals(state.win_refusals);
   out.set_stalled(state.stalled);
+  out.set_stops(state.stops);
+  if (state.driven_m) out.set_driven_m(*state.driven_m);
 }
 
 RemoteState decode(const v1::RobotState& in) {
@@ -200,8 +202,19 @@ RemoteState decode(const v1::RobotState& in) {
   if (!std::isfinite(in.speed_mps()) || !std::isfinite(in.turn_radps())) {
     throw WireError("a robot whose command is not finite");
   }
-  return {in.autonomous(), in.driver(),      in.is_yours(), in.speed_mps(),    in.turn_radps(),
-          *activity,       in.why_stopped(), in.winner(),   in.win_refusals(), in.stalled()};
+  if (!std::isfinite(in.driven_m())) throw WireError("a robot whose driven distance is not finite");
+  return {.autonomous = in.autonomous(),
+          .driver = in.driver(),
+          .is_yours = in.is_yours(),
+          .speed_mps = in.speed_mps(),
+          .turn_radps = in.turn_radps(),
+          .activity = *activity,
+          .why_stopped = in.why_stopped(),
+          .winner = in.winner(),
+          .win_refusals = in.win_refusals(),
+          .stalled = in.stalled(),
+          .stops = in.stops(),
+          .driven_m = in.has_driven_m() ? std::optional(in.driven_m()) : std::nullopt};
 }
 
 }  // namespace robosim

@@ -55,6 +55,10 @@ struct RemoteState {
   std::string winner{};            ///< the robot that has won, upon which all halt; empty while there is none
   std::uint32_t win_refusals = 0;  ///< number of its CheckWin requests made too far from the gold
   bool stalled = false;            ///< its last motion was clipped
+  /// Number of its stops with a reason, also of those whose why_stopped a later order has cleared.
+  std::uint32_t stops = 0;
+  /// Length of its path in this run, by odometry; nullopt for a robot without odometry.
+  std::optional<double> driven_m{};
   bool operator==(const RemoteState&) const = default;
 };
 

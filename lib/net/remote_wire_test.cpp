@@ -92,10 +92,14 @@ TEST(RemoteWire, RoundTripsARobotState) {
                           .why_stopped = "why",
                           .winner = "Scout1",
                           .win_refusals = 3,
-                          .stalled = true};
+                          .stalled = true,
+                          .stops = 4,
+                          .driven_m = 12.5};
   v1::RobotState message;
   encode(state, message);
   EXPECT_EQ(decode(message), state);
+  message.clear_driven_m();
+  EXPECT_EQ(decode(message).driven_m, std::nullopt) << "a robot without odometry";
 }
 
 TEST(RemoteWire, RejectsInvalidStates) {
@@ -104,6 +108,11 @@ TEST(RemoteWire, RejectsInvalidStates) {
   EXPECT_THROW(decode(message), WireError);
   message.Clear();
   message.set_speed_mps(std::nan(""));
+  EXPECT_THROW(decode(message), WireError);
+  message.set_speed_mps(0);
+  message.set_activity(v1::ACTIVITY_ACTIVE);
+  EXPECT_NO_THROW(decode(message));
+  message.set_driven_m(std::nan(""));
   EXPECT_THROW(decode(message), WireError);
 }
 

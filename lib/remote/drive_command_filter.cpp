@@ -73,6 +73,7 @@ void DriveCommandFilter::stop(const std::string& why) {
   speed_mps_ = turn_radps_ = 0;
   turn_is_short_ = false;
   why_stopped_ = why;
+  if (!why.empty()) ++stops_;
 }
 
 Command DriveCommandFilter::command(Clock::time_point now, const std::string& driver) {

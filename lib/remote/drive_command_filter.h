@@ -1,6 +1,7 @@
 #pragma once
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 
 #include "hardware/command.h"
@@ -41,6 +42,9 @@ class DriveCommandFilter {
   Command command(Clock::time_point now, const std::string& driver);
   /// Reason why the last order is not executed; empty when it is.
   const std::string& whyStopped() const { return why_stopped_; }
+  /// Number of stops with a reason. A remote control that sees only the newest state detects a stop by it, although a
+  /// later order has already cleared whyStopped().
+  std::uint32_t stops() const { return stops_; }
 
  private:
   void stop(const std::string& why);
@@ -52,6 +56,7 @@ class DriveCommandFilter {
   double speed_mps_ = 0, turn_radps_ = 0;
   float laser_pan_rad_ = 0;
   std::string why_stopped_;
+  std::uint32_t stops_ = 0;
 };
 
 }  // namespace robosim

@@ -119,6 +119,23 @@ TEST_F(DriveCommandFilterTest, StopsAfterTheDeadManTimeoutAndReportsTheReason) {
   EXPECT_EQ(filter.whyStopped(), "no message from Anna for 0.5 s");
 }
 
+TEST_F(DriveCommandFilterTest, CountsStopsWithAReason) {
+  drive(1, 1);
+  order(RemoteType::stop);
+  EXPECT_EQ(filter.stops(), 0u) << "the driver has requested it";
+  drive(1, 1);
+  now += 501ms;
+  command();
+  command();
+  EXPECT_EQ(filter.stops(), 1u) << "the dead-man timeout, once";
+  drive(1, 1);
+  EXPECT_EQ(filter.whyStopped(), "");
+  filter.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
+  EXPECT_EQ(filter.stops(), 2u);
+  filter.begin(now);
+  EXPECT_EQ(filter.stops(), 2u);
+}
+
 TEST_F(DriveCommandFilterTest, AliveResetsTheDeadManTimeout) {
   drive(1, 0);
   for (int i = 0; i < 10; ++i) {

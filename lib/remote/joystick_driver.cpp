@@ -41,6 +41,22 @@ bool JoystickDriver::isNeutral(double speed, double turn) const {
   return speed == 0 && turn == 0 && !pressed_[3] && !pressed_[4] && !is_stop_held;
 }
 
+void JoystickDriver::setCommanded(double part, Clock::time_point now) {
+  if (!set_ || now - *set_ >= kConfirm) commanded_ = part;
+}
+
+/// Whether ACCELERATE (1) or DECELERATE (-1) keeps to the top speed; if so, notes the new speed. The robot rounds its
+/// speed to tenths (DriveCommandFilter).
+bool JoystickDriver::mayChangeSpeed(int tenths, Clock::time_point now) {
+  constexpr double kTenths = 10;
+  const double next = (static_cast<double>(std::lround(kTenths * commanded_)) + tenths) / kTenths;
+  const bool is_faster = std::abs(next) > std::abs(commanded_);
+  if (is_faster && std::abs(next) > top_speed_ + 1e-9) return false;
+  commanded_ = next;
+  set_ = now;
+  return true;
+}
+
 JoystickDriver::Output JoystickDriver::convert(const StickState& state, const MotionLimits& limits,
                                                Clock::time_point now) {
   Output output{.order = RemoteOrder{}};
@@ -48,7 +64,7 @@ JoystickDriver::Output JoystickDriver::convert(const StickState& state, const Mo
   output.checks_win = isPressed(state, 2, false, now);
   const bool accelerates = isPressed(state, 3, true, now);
   const bool decelerates = isPressed(state, 4, true, now);
-  const double speed = -shaped(state.y);
+  const double speed = -top_speed_ * shaped(state.y);
   const double turn = -shaped(state.x);
   const bool is_stop = stops(state);
   is_neutral_ = isNeutral(speed, turn);
@@ -67,13 +83,17 @@ JoystickDriver::Output JoystickDriver::convert(const StickState& state, const Mo
   }
   if (!input_) output.order.reset();
   if (is_latched_ || !input_) return output;
-  if (accelerates || decelerates) {
+  if ((accelerates || decelerates) && mayChangeSpeed(accelerates ? 1 : -1, now)) {
     // The robot executes one order per step: the stick's order follows at the next call.
     output.order->type = accelerates ? RemoteType::accelerate : RemoteType::decelerate;
     return output;
   }
   RemoteOrder& order = *output.order;
-  if (std::exchange(steers_speed_, speed != 0) || speed != 0) order.speed_mps = speed * limits.speed_max_mps;
+  if (std::exchange(steers_speed_, speed != 0) || speed != 0) {
+    commanded_ = speed;
+    set_ = now;
+    order.speed_mps = speed * limits.speed_max_mps;
+  }
   if (std::exchange(steers_turn_, turn != 0) || turn != 0) order.turn_radps = turn * limits.turn_max_radps;
   if (order.speed_mps || order.turn_radps) order.type = RemoteType::drive;
   return output;
@@ -82,6 +102,7 @@ JoystickDriver::Output JoystickDriver::convert(const StickState& state, const Mo
 void JoystickDriver::latch() {
   is_latched_ = !is_neutral_;
   steers_speed_ = steers_turn_ = false;
+  commanded_ = 0;
 }
 
 }  // namespace robosim

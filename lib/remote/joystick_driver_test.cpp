@@ -19,6 +19,8 @@ class JoystickDriverTest : public testing::Test {
     return driver_.convert({x, y, std::move(buttons)}, limits_, now_);
   }
 
+  JoystickDriver::Clock::time_point now() const { return now_; }
+
   JoystickDriver driver_;
 
  private:
@@ -154,6 +156,42 @@ TEST_F(JoystickDriverTest, NoMotionFollowsAStopInRandomSequencesBeforeAllInputsW
     motions += is_motion ? 1 : 0;
   }
   EXPECT_GT(motions, 100'000);
+}
+
+TEST_F(JoystickDriverTest, TheTopSpeedAppliesToTheStickAndToButtons3And4) {
+  driver_ = JoystickDriver(0.25);
+  convert(0, 0);
+  EXPECT_DOUBLE_EQ(*convert(0, -1).order->speed_mps, 0.5) << "a quarter of 2 m/s";
+  EXPECT_DOUBLE_EQ(*convert(0, 1).order->speed_mps, -0.5);
+  EXPECT_DOUBLE_EQ(*convert(-1, 0).order->turn_radps, 1) << "turns are not limited";
+  convert(0, 0);
+  const std::vector<bool> accelerate{false, false, true};
+  const std::vector<bool> decelerate{false, false, false, true};
+  for (const auto& button : {accelerate, decelerate}) {
+    for (int tenths = 1; tenths <= 2; ++tenths) {
+      EXPECT_NE(convert(0, 0, button).order->type, RemoteType::alive) << tenths;
+      convert(0, 0);
+    }
+    EXPECT_EQ(convert(0, 0, button).order->type, RemoteType::alive) << "3 tenths are more than a quarter";
+    driver_.latch();
+    convert(0, 0);
+  }
+}
+
+TEST_F(JoystickDriverTest, TheTopSpeedAppliesToTheSpeedThatTheRobotReports) {
+  driver_ = JoystickDriver(0.5);
+  convert(0, 0);
+  driver_.setCommanded(0.46, now());
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::alive)
+      << "the robot rounds to 5 tenths, and would drive at 6";
+  convert(0, 0);
+  EXPECT_EQ(convert(0, 0, {false, false, false, true}).order->type, RemoteType::decelerate);
+  driver_.setCommanded(0, now());
+  convert(0, 0);
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::accelerate);
+  convert(0, 0);
+  EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::alive)
+      << "the report may be older than the orders, which set 4 and 5 tenths";
 }
 
 TEST_F(JoystickDriverTest, IsLatchedInitially) {

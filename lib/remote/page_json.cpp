@@ -66,12 +66,8 @@ const char* nameOf(RecordingView::State state) {
 }
 
 Json jsonOf(const RecordingView& recording) {
-  return {{"state", nameOf(recording.state)},
-          {"file", recording.file},
-          {"may_change", recording.may_change},
-          {"is_changing", recording.is_changing},
-          {"problem", recording.problem},
-          {"failure", recording.failure}};
+  return {{"state", nameOf(recording.state)},     {"file", recording.file},       {"may_change", recording.may_change},
+          {"is_changing", recording.is_changing}, {"problem", recording.problem}, {"failure", recording.failure}};
 }
 
 Json jsonOf(const mrpt::math::TPose2D& pose) { return {fine(pose.x), fine(pose.y), fine(pose.phi)}; }
@@ -147,11 +143,18 @@ Json jsonOf(const SensorInfo& sensor) {
   return out;
 }
 
+Json numberOrNull(const std::optional<double>& number) { return number ? Json(fine(*number)) : Json(nullptr); }
+
 Json jsonOf(const RemoteState& state) {
-  return {{"autonomous", state.autonomous},       {"driver", state.driver},
-          {"is_yours", state.is_yours},           {"speed_mps", fine(state.speed_mps)},
-          {"turn_radps", fine(state.turn_radps)}, {"activity", nameOf(state.activity)},
-          {"why_stopped", state.why_stopped},     {"win_refusals", state.win_refusals}};
+  return {{"autonomous", state.autonomous},
+          {"driver", state.driver},
+          {"is_yours", state.is_yours},
+          {"speed_mps", fine(state.speed_mps)},
+          {"turn_radps", fine(state.turn_radps)},
+          {"activity", nameOf(state.activity)},
+          {"why_stopped", state.why_stopped},
+          {"win_refusals", state.win_refusals},
+          {"stops", state.stops}};
 }
 
 /// The newest heat reading: of the primary, in its update; of the others, in the answer to a request.
@@ -196,6 +199,7 @@ std::string robotJson(const RobotInfo& robot, double period_s) {
 std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lock) {
   Json team = Json::array();
   std::string winner, world;
+  std::optional<double> winner_driven_m;
   const bool is_any_up =
       std::any_of(robots.begin(), robots.end(), [](const TeamRobot& robot) { return robot.news.is_up; });
   for (const auto& robot : robots) {
@@ -214,6 +218,7 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
     // Robots that have left keep the winner of their run, and those of the next run have none.
     if (news.is_up == is_any_up && !news.state.winner.empty()) winner = news.state.winner;
+    if (news.state.winner == robot.name) winner_driven_m = news.state.driven_m;
     if (!news.world.empty()) world = news.world;
   }
   return textOf({{"type", "team"},
@@ -221,7 +226,8 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                  {"robots", team},
                  {"control_lock", {{"holder", lock.holder}, {"name", lock.name}}},
                  {"pages", lock.pages},
-                 {"winner", winner}});
+                 {"winner", winner},
+                 {"winner_driven_m", winner.empty() ? Json(nullptr) : numberOrNull(winner_driven_m)}});
 }
 
 std::string vitalsJson(const std::vector<TeamRobot>& robots) {
@@ -249,7 +255,7 @@ std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const 
                {"step", readings.time.step},
                {"time_s", rounded(readings.time.seconds(), 1e-3)},
                {"stalled", readings.stalled},
-               {"driven_m", fine(update.driven_m)},
+               {"driven_m", numberOrNull(update.state.driven_m)},
                {"laser_pan_rad", fine(readings.laser_pan_rad)},
                {"state", jsonOf(update.state)},
                {"measurements", measurements}};

@@ -67,6 +67,25 @@ TEST(PageJson, HasHeatAndStallOfEveryConnectedRobot) {
       "Cid": {"heat": null, "stalled": false}}})"));
 }
 
+TEST(PageJson, HasTheWinnersDistanceAlsoIfItIsNotThePrimary) {
+  std::vector<TeamRobot> team(2);
+  team[0].name = "Ann";
+  team[1].name = "Bob";
+  for (auto& robot : team) {
+    robot.news.is_up = true;
+    robot.news.state.driven_m = 3;
+  }
+  const auto distance = [&] { return Json::parse(teamJson(team, {}))["winner_driven_m"]; };
+  EXPECT_EQ(distance(), nullptr) << "there is no winner";
+  for (auto& robot : team) robot.news.state.winner = "Bob";
+  team[1].news.state.driven_m = 12.25;
+  EXPECT_EQ(distance(), 12.25);
+  team[1].news.state.driven_m = std::nullopt;
+  EXPECT_EQ(distance(), nullptr) << "it has no odometry";
+  for (auto& robot : team) robot.news.state.winner = "Cid";
+  EXPECT_EQ(distance(), nullptr) << "it is not in the team";
+}
+
 TEST(PageJson, HasTheColoursOfRobots) {
   std::vector<TeamRobot> team(2);
   RobotInfo info;

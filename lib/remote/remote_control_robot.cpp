@@ -1,8 +1,21 @@
 #include "remote/remote_control_robot.h"
 
 #include <utility>
+#include <variant>
+
+#include "base/portable_math.h"
 
 namespace robosim {
+namespace {
+
+const Odometry* odometryOf(const Readings& readings) {
+  for (const auto& measurement : readings.measurements) {
+    if (const auto* odometry = std::get_if<Odometry>(&measurement)) return odometry;
+  }
+  return nullptr;
+}
+
+}  // namespace
 
 /// The controller's view of the robot: it is frozen during remote control.
 class RemoteControlRobot::ControllersView final : public Hardware {
@@ -93,6 +106,17 @@ void RemoteControlRobot::step() {
   if (!readings.winner.empty()) state_.activity = readings.winner == name() ? Activity::found : Activity::halted;
   if (readings.is_too_far) ++state_.win_refusals;
   state_.stalled = readings.stalled;
+  addDriven(readings);
+}
+
+/// Adds the distance driven since the last step.
+/// @pre holds the mutex
+void RemoteControlRobot::addDriven(const Readings& readings) {
+  const Odometry* const odometry = odometryOf(readings);
+  if (!odometry) return;
+  const auto& now = odometry->odom_from_robot;
+  const auto last = std::exchange(odom_from_robot_, now);
+  state_.driven_m = state_.driven_m.value_or(0) + (last ? portable::hypot(now.x - last->x, now.y - last->y) : 0);
 }
 
 void RemoteControlRobot::take(const std::string& driver, bool autonomous) {
@@ -138,11 +162,18 @@ void RemoteControlRobot::obey(const RemoteOrder& order) {
   }
 }
 
-/// Takes effect at once: an order that follows within the same step must not supersede it.
+/// Takes effect at once: an order that follows within the same step must not supersede it. A stop that the driver has
+/// requested, which has no reason, ends the autonomous mode.
 /// @pre holds the mutex
 void RemoteControlRobot::stop(const RemoteOrder& order, Clock::time_point now) {
   order_.reset();
-  if (state_.autonomous) return;
+  if (state_.autonomous) {
+    if (!order.why.empty()) return;
+    state_.autonomous = false;
+    filter_.begin(now);
+    options_.log(name() + " stops, and is no longer autonomous");
+    return;
+  }
   const std::string before = filter_.whyStopped();
   filter_.obey(order, now);
   logStop(before);
@@ -169,6 +200,7 @@ RemoteState RemoteControlRobot::state() const {
   const std::lock_guard lock(mutex_);
   RemoteState state = state_;
   state.why_stopped = filter_.whyStopped();
+  state.stops = filter_.stops();
   return state;
 }
 

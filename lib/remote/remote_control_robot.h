@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include <mrpt/math/TPose2D.h>
+
 #include "control/controller.h"
 #include "hardware/hardware.h"
 #include "remote/drive_command_filter.h"
@@ -46,7 +48,8 @@ class RemoteControlRobot {
   void setAutonomous(bool autonomous);
   /// Applies an order: steering or CheckWin. Of several steering orders within one step the newest applies; a value
   /// that a DRIVE omits is taken from an earlier DRIVE. STOP takes effect at once, so that no later order supersedes
-  /// it.
+  /// it. A STOP without a reason, which the driver has requested, ends the autonomous mode; a STOP with one, for
+  /// example because the driver's page is hidden, has no effect on an autonomous robot.
   void obey(const RemoteOrder& order);
   /// Removes the driver: a remotely driven robot stops, an autonomous one continues.
   void release(const std::string& why);
@@ -58,6 +61,7 @@ class RemoteControlRobot {
   class ControllersView;
   void stop(const RemoteOrder& order, Clock::time_point now);
   void logStop(const std::string& before);
+  void addDriven(const Readings& readings);
 
   Hardware& hardware_;
   std::unique_ptr<Controller> controller_;
@@ -73,7 +77,8 @@ class RemoteControlRobot {
   Clock::time_point order_received_;
   bool wants_check_win_ = false;
   ///@}
-  bool was_autonomous_ = true;  ///< in the last step
+  bool was_autonomous_ = true;                          ///< in the last step
+  std::optional<mrpt::math::TPose2D> odom_from_robot_;  ///< in the last step
 };
 
 }  // namespace robosim

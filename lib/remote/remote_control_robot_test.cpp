@@ -188,6 +188,30 @@ TEST_F(RemoteControlRobotTest, LogsTheReasonOfARemoteControlsStop) {
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: Anna's page is hidden"});
 }
 
+TEST_F(RemoteControlRobotTest, AStopOfTheDriverEndsTheAutonomousMode) {
+  robot.take("Anna", true);
+  steps(20);
+  EXPECT_EQ(hardware.odometry().speed_mps, 0.5) << "its controller drives";
+  robot.obey(orderOf(RemoteType::stop));
+  EXPECT_FALSE(robot.state().autonomous);
+  step();
+  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
+  EXPECT_EQ(robot.state().why_stopped, "");
+  EXPECT_EQ(log, std::vector<std::string>{"fake stops, and is no longer autonomous"});
+  steps(10);
+  EXPECT_EQ(hardware.odometry().speed_mps, 0) << "it stands until it is steered";
+}
+
+TEST_F(RemoteControlRobotTest, AStopWithAReasonHasNoEffectInAutonomousMode) {
+  robot.take("Anna", true);
+  step();
+  robot.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  step();
+  EXPECT_TRUE(robot.state().autonomous);
+  EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
+  EXPECT_EQ(log, std::vector<std::string>{});
+}
+
 TEST_F(RemoteControlRobotTest, ALaterOrderOfTheSameStepDoesNotSupersedeAStop) {
   robot.take("Anna", false);
   robot.obey(driveAt(0.5, 0));
@@ -250,6 +274,20 @@ TEST_F(RemoteControlRobotTest, RequestsCheckWinOnceAndCountsRefusals) {
   hardware.mutableReadings().is_too_far = false;
   step();
   EXPECT_EQ(robot.state().win_refusals, 1u);
+}
+
+TEST_F(RemoteControlRobotTest, AddsTheDistanceDrivenInAllModes) {
+  hardware.mutableOdometry().odom_from_robot = {5, 5, 0};  // where the odometry begins does not count
+  step();
+  EXPECT_EQ(robot.state().driven_m, 0);
+  robot.take("Anna", false);
+  hardware.mutableOdometry().odom_from_robot = {8, 9, 0};
+  step();
+  EXPECT_DOUBLE_EQ(*robot.state().driven_m, 5);
+  robot.setAutonomous(true);
+  hardware.mutableOdometry().odom_from_robot = {8, 7, 1};
+  step();
+  EXPECT_DOUBLE_EQ(*robot.state().driven_m, 7);
 }
 
 TEST_F(RemoteControlRobotTest, ReportsTheWinnerAndHalts) {

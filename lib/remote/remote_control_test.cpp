@@ -133,6 +133,24 @@ TEST_F(RemoteControlTest, AReconnectedRobotIsDrivenOnlyIfItIsStillThePrimary) {
   EXPECT_TRUE(control->robots()[2].news.state.autonomous) << "A, at the tail";
 }
 
+TEST_F(RemoteControlTest, AReconnectedRobotIsNotAutonomousAfterAStop) {
+  const auto control = start();
+  wait(*control, [&] { return allUp(*control); });
+  control->setAutonomous(true);
+  wait(*control, [&] { return control->primary().news.state.autonomous; });
+  control->send({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  control->send({.type = RemoteType::check_win});
+  wait(*control, [&] { return team[0]->hardware->win_checks > 0; });  // the stop precedes it
+  EXPECT_TRUE(team[0]->robot.state().autonomous) << "the driver has not requested this stop";
+  control->send({.type = RemoteType::stop});
+  wait(*control, [&] { return !control->primary().news.state.autonomous; });
+  team[0]->close();
+  wait(*control, [&] { return !control->primary().news.is_up; });
+  team[0]->reopen();
+  wait(*control, [&] { return control->primary().news.is_up && control->primary().news.state.is_yours; });
+  EXPECT_FALSE(control->primary().news.state.autonomous);
+}
+
 TEST_F(RemoteControlTest, KeepsThePrimaryWithoutAnotherFitRobot) {
   team[1]->close();
   team[2]->close();

@@ -60,6 +60,25 @@ TEST_F(ResponseOutboxTest, TheFirstStateContainsTheWelcome) {
   EXPECT_FALSE(take().has_welcome());
 }
 
+// The newest state replaces one that was not sent. That the robot has stopped follows from `stops` nevertheless.
+TEST_F(ResponseOutboxTest, CountsAStopWhoseReasonANewerStateHasCleared) {
+  RemoteOrder drive{.type = RemoteType::drive};
+  drive.speed_mps = 0.5;
+  const auto order = [&](const RemoteOrder& next) {
+    robot.obey(next);
+    robot.step();
+    outbox.addState(true);
+  };
+  robot.take("Anna", false);
+  order(drive);
+  order({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  order(drive);
+  const auto message = take();
+  EXPECT_EQ(message.state().why_stopped(), "");
+  EXPECT_EQ(message.state().speed_mps(), 0.5);
+  EXPECT_EQ(message.state().stops(), 1u);
+}
+
 TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
   step();
   EXPECT_TRUE(outbox.isEmpty());

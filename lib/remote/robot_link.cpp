@@ -6,7 +6,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/portable_math.h"
 #include "net/client_stream.h"
 #include "net/robot_wire.h"
 #include "net/tls.h"
@@ -29,23 +28,6 @@ std::string problemOf(const grpc::Status& status, const ConnectOptions& connect_
   if (!why.empty()) return "no TLS with " + connect_options.address + ": " + why;
   return "no robot answers at " + connect_options.address + "; is 'robosim robot " + robot +
          " --remote-port …' running?";
-}
-
-const Odometry* odometryOf(const Readings& readings) {
-  for (const auto& measurement : readings.measurements) {
-    if (const auto* odometry = std::get_if<Odometry>(&measurement)) return odometry;
-  }
-  return nullptr;
-}
-
-/// @param before the previous update; null for none
-double drivenDistance(const RobotUpdate* before, const Readings& now) {
-  if (!before) return 0;
-  const Odometry* const from = odometryOf(before->readings);
-  const Odometry* const to = odometryOf(now);
-  if (!from || !to) return before->driven_m;
-  return before->driven_m + portable::hypot(to->odom_from_robot.x - from->odom_from_robot.x,
-                                            to->odom_from_robot.y - from->odom_from_robot.y);
 }
 
 }  // namespace
@@ -242,7 +224,6 @@ void RobotLink::Impl::processUpdate(const v1::ControlResponse::AllReadings& all)
   decode(all.readings(), news.info->name, update->readings);
   update->readings.winner = news.state.winner;
   update->state = news.state;
-  update->driven_m = drivenDistance(news.update.get(), update->readings);
   bool is_first_camera = true;
   for (std::size_t i = 0; i < update->readings.measurements.size(); ++i) {
     auto* image = std::get_if<Image>(&update->readings.measurements[i]);
@@ -301,8 +282,10 @@ void RobotLink::claim(const std::string& driver, bool autonomous) {
 
 void RobotLink::send(const RemoteOrder& order) {
   const std::lock_guard lock(impl_->mutex);
-  // A disconnected robot receives the switch with its next INIT.
+  // A disconnected robot receives the switch with its next INIT. A stop of the driver ends the autonomous mode.
   if (order.type == RemoteType::set_mode && impl_->init) impl_->init->autonomous = order.autonomous;
+  const bool is_drivers_stop = order.type == RemoteType::stop && order.why.empty();
+  if (is_drivers_stop && impl_->init) impl_->init->autonomous = false;
   if (!impl_->news.is_up) return;
   switch (order.type) {
     case RemoteType::init:

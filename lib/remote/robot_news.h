@@ -14,7 +14,6 @@ namespace robosim {
 struct RobotUpdate {
   Readings readings;  ///< without camera pictures: see RobotPicture
   RemoteState state;
-  double driven_m = 0;  ///< path by odometry, over the updates received since the robot was connected
 };
 
 /// A camera's picture, separate because cameras do not take one in every step.

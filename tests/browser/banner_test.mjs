@@ -5,7 +5,8 @@ import { test } from 'node:test';
 
 import { pageModule } from './page_module.mjs';
 
-const { bannerOf, CAUSES, statusOf } = await pageModule('banner.js');
+const { bannerOf, CAUSES, standsStill, statusOf } = await pageModule('banner.js');
+const { Freshness, LOST_MS } = await pageModule('freshness.js');
 const BOOLEANS = [false, true];
 const PHASES = ['unknown', 'gone', 'waiting', 'paused', 'running', 'ended'];
 
@@ -50,4 +51,28 @@ test('"You drive" is shown only while commands are sent and arrive at an active 
     assert.equal(text === 'You drive', drives);
     if (!isOpen || isSilent) assert.equal(text, 'No connection');
   }
+});
+
+test('a run stands still for a reason that is not the primary\'s if it is paused, over, or waits for others', () => {
+  for (const phase of PHASES) {
+    for (const absent of [[], ['Ann'], ['Ann', 'Bob']]) {
+      const expected = ['paused', 'ended'].includes(phase) || (phase === 'waiting' && absent.includes('Bob'));
+      assert.equal(standsStill({ phase, absent }, 'Ann'), expected, `${phase}, absent: ${absent}`);
+    }
+  }
+});
+
+test('a robot is lost 2 s after its last update, or after updates were expected first', () => {
+  const freshness = new Freshness();
+  assert.equal(LOST_MS, 2000);
+  assert.ok(freshness.isRobotLost(0), 'there is none');
+  freshness.forgetUpdates(1000);  // another robot
+  assert.ok(!freshness.isFresh(1000));
+  assert.ok(!freshness.isRobotLost(2999));
+  assert.ok(freshness.isRobotLost(3000));
+  freshness.noteUpdate(4000);
+  assert.ok(!freshness.isRobotLost(5999));
+  freshness.expectNoUpdates(5999);  // the run is paused
+  assert.ok(!freshness.isRobotLost(7998));
+  assert.ok(freshness.isRobotLost(7999));
 });

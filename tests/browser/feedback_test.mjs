@@ -146,6 +146,29 @@ test('the map names every robot of a small team, and the list keeps its place wh
   assert.equal(await page.evaluate(() => document.querySelector('#team').scrollTop), scrolled);
 }));
 
+test('the map names all of 30 robots in a small window, and any robot at which a pointer or a finger points', async () => {
+  await withPage('30 robots', async (page) => {
+    await page.setViewportSize({ width: 1366, height: 650 });
+    await page.waitForFunction(() => JSON.parse(document.querySelector('#map').dataset.names ?? '[]').length === 30);
+  });
+  await withPage('200 robots', async (page) => {
+    await page.click('#map-toggle');
+    await page.waitForFunction(() => JSON.parse(document.querySelector('#map').dataset.names ?? '[]').length > 0);
+    const { x, y, width, height } = await page.locator('#map').boundingBox();
+    const poses = JSON.parse(await page.getAttribute('#map', 'data-robots'));
+    const names = JSON.parse(await page.getAttribute('#map', 'data-names'));
+    const i = page.script.names.findIndex((name) => !names.includes(name));
+    const unit = Math.min((width - 12) / 12, (height - 12) / 9);  // the map is 12 x 9 m
+    const at = [x + width / 2 + unit * poses[i][0], y + height / 2 - unit * poses[i][1]];
+    await page.mouse.move(...at);
+    assert.equal(await page.getAttribute('#map', 'data-pointed-at'), page.script.names[i]);
+    await page.mouse.move(x + 2, y + height + 20);
+    assert.equal(await page.getAttribute('#map', 'data-pointed-at'), '');
+    await page.touchscreen.tap(...at);
+    assert.equal(await page.getAttribute('#map', 'data-pointed-at'), page.script.names[i], 'it remains after the finger is gone');
+  }, { hasTouch: true });
+});
+
 test('there is no native list box, which would take the keys of a stop', () => withPage('driving', async (page) => {
   assert.equal(await page.locator('select, input[list], input[type="number"]').count(), 0);
 }));

@@ -29,8 +29,13 @@ async function resize(page, [width, height]) {
   await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 }
 
-// Violations at a size are collected in `all`, so that a failed test lists every one.
+// Violations at a size are collected in `all`, so that a failed test lists every one. An answer to CheckWin is displayed for
+// some seconds only.
 async function check(page, what, all) {
+  if (page.script.refuses) {
+    ++page.script.refusals;
+    await page.waitForSelector('#verdict', { state: 'visible' });
+  }
   for (const found of await page.evaluate(violations)) all.push(`${what}: ${found}`);
 }
 
@@ -58,7 +63,9 @@ Object.keys(STATES).forEach((state, k) => {
         await page.emulateMedia({ colorScheme });
         await checkAccessibility(page, `${what}, ${colorScheme}`, all);
       }
-      if (STATES[state].has_map) continue;
+      if (STATES[state].dialog) await page.evaluate(() => { const dialog = document.querySelector('dialog[open]'); dialog.scrollTop = dialog.scrollHeight; });
+      if (STATES[state].dialog) await check(page, `${what}, scrolled to its end`, all);
+      if (STATES[state].has_map || STATES[state].dialog) continue;
       for (const tab of TABS) {
         if (!(await page.isVisible(tab)) || (await page.getAttribute(tab, 'aria-selected')) === 'true') continue;
         await page.click(tab);

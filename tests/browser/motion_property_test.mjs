@@ -23,7 +23,7 @@ const COMMANDS = {
   'pad:1': { speed: 1, turn: 1 }, 'pad:2': {}, 'turn_left:1': heldTurn(1), 'turn_left:2': heldTurn(1), 'stop:3': {}, 'accelerate:4': {},
 };
 const INPUTS = Object.keys(COMMANDS);
-const GATES = ['control', 'focus', 'visible', 'link'];
+const GATES = ['control', 'focus', 'visible', 'link', 'robot'];
 const ORDERS = ['accelerate', 'decelerate', 'turn_left', 'turn_right', 'check_win'];
 const LIMITS = [0.1, 0.3, 0.6, 1];
 
@@ -44,12 +44,12 @@ function randomEvent(random) {
   if (kind < 10) return { wait, do: 'find', id: INPUTS[random(2)] };
   if (kind < 11) return random(2) ? { wait, do: 'stop' } : { wait, do: 'stopBy', id: ['key:Space', 'stop:3'][random(2)] };
   if (kind < 13) return { wait, do: 'order', type: ORDERS[random(ORDERS.length)] };
-  if (kind < 14) return { wait, do: 'gate', gate: GATES[random(4)], isOpen: random(4) > 0 };
+  if (kind < 14) return { wait, do: 'gate', gate: GATES[random(GATES.length)], isOpen: random(4) > 0 };
   if (kind < 15) return { wait, do: 'gates' };
   if (kind < 16) return { wait, do: 'limit', part: LIMITS[random(4)] };
   if (kind < 17) return { wait, do: 'commanded', part: (random(21) - 10) / 10 };
-  if (kind < 18) return random(2) ? { wait, do: 'latch' } : { wait, do: 'move', id: 'pad:1', command: { speed: random(3) - 1, turn: random(3) - 1 } };
-  if (kind < 20) return { wait, do: 'neutral' };
+  if (kind < 18) return random(2) ? { wait, do: random(2) ? 'latch' : 'robotStop' } : { wait, do: 'move', id: 'pad:1', command: { speed: random(3) - 1, turn: random(3) - 1 } };
+  if (kind < 20) return random(8) ? { wait, do: 'neutral' } : { wait, do: 'others', others: [Array.from({ length: 8 }, () => random(6) === 0)] };
   if (kind < 21) {
     const isNeutral = random(2) === 0;
     const buttons = Array.from({ length: 8 }, () => !isNeutral && random(8) === 0);
@@ -68,8 +68,9 @@ class Run {
     this.held = new Set();
     this.pad = null;  // as it is
     this.polled = null;  // as last read
+    this.others = this.polledOthers = [];  // buttons of further gamepads
     this.ticked = null;
-    this.open = { control: false, focus: true, visible: true, link: true };
+    this.open = { control: false, focus: true, visible: true, link: true, robot: true };
     this.isLatched = true;
     this.limit = 0.6;
     this.input = -Infinity;
@@ -79,6 +80,7 @@ class Run {
   }
 
   #isNeutral(pad) {
+    if (this.polledOthers.some((buttons) => buttons.slice(4).some(Boolean))) return false;
     return this.held.size === 0 && (!pad || (pad.axes.every((axis) => axis === 0) && !pad.buttons.slice(2).some(Boolean)));
   }
   #settle(pad = this.polled) {
@@ -154,11 +156,21 @@ class Run {
         this.commanded = 0;
         motion.latch();
         break;
+      case 'robotStop':
+        mustStop = !motion.isLatched;
+        this.isLatched = true;
+        this.commanded = 0;
+        messages = motion.noteRobotStop(now);
+        break;
       case 'neutral':
         for (const id of this.held) messages.push(...motion.release(id, now));
         if (this.held.size) this.input = now;
         this.held.clear();
         this.pad = this.pad && { axes: [0, 0], buttons: this.pad.buttons.map(() => false) };
+        this.others = [];
+        break;
+      case 'others':
+        this.others = event.others;
         break;
       case 'pad':
         this.pad = event.pad;
@@ -190,16 +202,19 @@ class Run {
   #tick() {
     const before = this.polled;
     this.polled = this.pad;
-    const stopsNow = this.pad?.buttons.some((pressed, i) => i >= 4 && pressed && !before?.buttons[i]) ?? false;
+    const isNew = (buttons, former) => buttons?.some((pressed, i) => i >= 4 && pressed && !former?.[i]) ?? false;
+    const stopsNow = isNew(this.pad?.buttons, before?.buttons) || isNew(this.others[0], this.polledOthers[0]);
+    this.polledOthers = this.others;
     const wasSuspended = this.ticked !== null && this.now - this.ticked >= 2000;
     this.ticked = this.now;
     const isUsed = this.pad && (this.pad.axes.some((axis) => axis !== 0) || this.pad.buttons.some(Boolean));
     const isDeflected = isUsed && (this.pad.axes.some((axis) => axis !== 0) || this.pad.buttons.slice(2).some(Boolean));
     const mustStop = stopsNow || wasSuspended || Boolean(before && !this.pad) || (!before && isDeflected);
     if (mustStop) this.isLatched = true;
-    if (isUsed || this.held.size) this.input = this.now;
+    if (isUsed || this.held.size || this.others.some((buttons) => buttons.slice(4).some(Boolean))) this.input = this.now;
     if (!mustStop && this.open.focus && this.open.visible) this.#settle();
-    const messages = this.motion.tick(this.now, this.pad && { axes: this.pad.axes, buttons: this.pad.buttons.map((pressed) => ({ pressed })) });
+    const messages = this.motion.tick(this.now, this.pad && { axes: this.pad.axes, buttons: this.pad.buttons.map((pressed) => ({ pressed })) },
+        this.others.map((buttons, i) => ({ index: i + 1, buttons: buttons.map((pressed) => ({ pressed })) })));
     return { messages, mustStop };
   }
 

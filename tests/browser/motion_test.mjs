@@ -136,9 +136,9 @@ test('a stick has a dead zone and a progressive response', () => {
   assert.equal(shaped(NaN), 0);
 });
 
-test('a gamepad that is deflected when it is connected commands nothing until released', () => {
+test('a gamepad that is deflected when it is connected stops with a reason, and commands nothing until released', () => {
   const motion = ready();
-  assert.ok(!motion.tick(50, pad(0, -1)).some(isMotion));
+  assert.deepEqual(flat(motion.tick(50, pad(0, -1))), [{ type: 'stop', why: 'has a new gamepad that is not neutral' }]);
   assert.ok(!motion.tick(100, pad(0, -1)).some(isMotion));
   motion.tick(150, pad(0, 0));
   assert.ok(motion.tick(200, pad(0, -1)).some(isMotion));
@@ -163,8 +163,31 @@ test('a gamepad that is disconnected stops the robot', () => {
   assert.deepEqual(flat(motion.tick(100, null)), [{ type: 'stop', why: 'has lost its gamepad' }]);
 });
 
+test('buttons from the fifth on of every gamepad stop, and are not neutral while pressed; other inputs of a second one have no effect', () => {
+  const motion = ready(pad(0, 0));
+  const other = (...pressed) => [{ index: 1, ...pad(1, 1, pressed) }];
+  assert.ok(motion.tick(50, pad(0, -1), other()).some(isMotion));
+  assert.ok(motion.tick(100, pad(0, -1), other(3)).every(({ type }) => type === 'drive'), 'only the first one accelerates');
+  assert.deepEqual(flat(motion.tick(150, pad(0, -1), other(7))), [{ type: 'stop' }]);
+  assert.deepEqual(motion.tick(160, pad(0, 0), other(7)), [], 'one stop for each press');
+  assert.deepEqual(motion.inputs, ['gamepad 1:7']);
+  assert.ok(!motion.tick(200, pad(0, -1), other(7)).some(isMotion), 'the button is held');
+  motion.tick(250, pad(0, 0), other());
+  assert.ok(motion.tick(300, pad(0, -1), other()).some(isMotion));
+});
+
+test('a gamepad that takes the place of the one that drives stops the robot, and commands nothing until released', () => {
+  const motion = ready({ index: 0, ...pad(0, 0) });
+  assert.ok(motion.tick(50, { index: 0, ...pad(0, -1) }, [{ index: 1, ...pad(0, 1) }]).some(isMotion));
+  assert.deepEqual(flat(motion.tick(100, { index: 1, ...pad(0, 1) })), [{ type: 'stop', why: 'has lost its gamepad' }]);
+  assert.ok(!motion.tick(150, { index: 1, ...pad(0, 1) }).some(isMotion));
+  motion.tick(200, { index: 1, ...pad(0, 0) });
+  assert.ok(motion.tick(250, { index: 1, ...pad(0, 1) }).some(isMotion));
+});
+
 for (const [gate, why] of [
   ['focus', 'has lost the focus'], ['visible', 'is hidden'], ['link', 'has received nothing from the console for 2 s'],
+  ['robot', 'has received nothing from the robot for 2 s'],
 ]) {
   test(`when the page ${why}, it stops the robot, sends no alive, and drives on only after all inputs were neutral`, () => {
     const motion = ready(pad(0, 0));
@@ -188,6 +211,17 @@ test('a page without the focus sends neither alive nor orders of a gamepad, but 
   assert.deepEqual(flat(motion.tick(550, pad(0, -1, [1, 3, 6]))), [{ type: 'stop' }]);
 });
 
+test('after a stop of the robot for a reason of its own, a held key stops it once more, and commands nothing until released', () => {
+  const motion = ready();
+  motion.hold('key:KeyW', heldKey('KeyW'), 1);
+  assert.deepEqual(flat(motion.noteRobotStop(50)), [{ type: 'stop', why: 'requires the release of all inputs after a stop' }]);
+  assert.deepEqual(motion.noteRobotStop(60), [], 'motion is latched already');
+  for (let t = 100; t < 1000; t += 50) assert.ok(!motion.tick(t, null).some(isMotion));
+  motion.release('key:KeyW', 1000);
+  motion.tick(1050, null);
+  assert.ok(motion.hold('key:KeyW', heldKey('KeyW'), 1060).some(isMotion));
+});
+
 test('a suspended page stops the robot when it continues', () => {
   const motion = ready();
   motion.hold('key:KeyW', heldKey('KeyW'), 1);
@@ -199,7 +233,7 @@ test('a suspended page stops the robot when it continues', () => {
 test('a repeated key whose press was not reported stops the robot and is not neutral', () => {
   const motion = ready();
   motion.hold('pad:1', { speed: 1, turn: 0 }, 1);
-  assert.deepEqual(flat(motion.find('key:KeyW', 20)), [{ type: 'stop' }]);
+  assert.deepEqual(flat(motion.find('key:KeyW', 20)), [{ type: 'stop', why: 'has a held input whose press it did not receive' }]);
   motion.release('pad:1', 30);
   assert.ok(!motion.hold('pad:1', { speed: 1, turn: 0 }, 40).some(isMotion));
   motion.release('pad:1', 50);

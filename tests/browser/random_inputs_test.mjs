@@ -1,6 +1,6 @@
-// A thousand random events of keyboard, mouse, touch, gamepad, focus, dialog and connection on the page: after a stop, no
-// motion command is sent until every input has been neutral at the same time. motion_property_test.mjs tests the state
-// machine alone with a million.
+// A thousand random events of keyboard, mouse, touch, gamepad, focus, visibility, dialog, connection, control lock and robot on
+// the page: after a stop, and after a lost connection or control lock, no motion command is sent until every input has been
+// neutral at the same time while the page could drive. motion_property_test.mjs tests the state machine alone with a million.
 
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
@@ -19,7 +19,7 @@ after(async () => { await browser?.close(); });
 // held, when a stop was requested, and what the page sends.
 function spectate() {
   const held = new Set();
-  const seen = { isBlocked: false, motions: 0, stops: 0, violations: [], log: [] };
+  const seen = { isBlocked: false, isDriving: false, motions: 0, stops: 0, breaks: 0, hidings: 0, losses: 0, violations: [], log: [] };
   window.spectator = seen;
   const MOTION = ['drive', 'accelerate', 'decelerate', 'turn_left', 'turn_right'];
   const KEYS = ['ArrowUp', 'ArrowDown', 'ArrowLeft', 'ArrowRight', 'KeyW', 'KeyA', 'KeyS', 'KeyD', 'Space', 'Escape', 'Equal', 'Minus'];
@@ -28,7 +28,7 @@ function spectate() {
     if (seen.log.length > 30) seen.log.shift();
   };
   const isGamepadNeutral = () => !emulatedGamepad || (emulatedGamepad.axes.every((axis) => Math.abs(axis) < 0.12) && !emulatedGamepad.buttons.some(({ pressed }, i) => pressed && i >= 2));
-  const settle = () => { if (held.size === 0 && isGamepadNeutral()) seen.isBlocked = false; };
+  const settle = () => { if (seen.isDriving && held.size === 0 && isGamepadNeutral()) seen.isBlocked = false; };
   seen.settle = settle;
   const block = (why) => {
     note(`stop by ${why}`);
@@ -73,7 +73,37 @@ function spectate() {
     held.delete('focus');
     settle();
   }, true);
+  document.addEventListener('visibilitychange', () => {
+    if (!document.hidden) {
+      held.delete('hidden');
+      settle();
+      return;
+    }
+    ++seen.hidings;
+    held.clear();  // nor to a page that is hidden
+    block('hiding the page');
+    held.add('hidden');
+  }, true);
+  const setDriving = (isDriving, why) => {
+    if (seen.isDriving && !isDriving) block(why);
+    seen.isDriving = isDriving;
+    settle();
+  };
   window.WebSocket = class extends WebSocket {
+    constructor(...members) {
+      super(...members);
+      this.addEventListener('close', () => {
+        ++seen.breaks;
+        setDriving(false, 'a break of the connection');
+      });
+      this.addEventListener('message', ({ data }) => {
+        const message = typeof data === 'string' ? JSON.parse(data) : {};
+        if (message.type !== 'team') return;
+        if (seen.isDriving && message.control_lock.holder !== 1) ++seen.losses;
+        setDriving(message.control_lock.holder === 1, 'the loss of the control lock');
+      });
+    }
+
     send(text) {
       const { type, ...members } = JSON.parse(text);
       const isMotion = MOTION.includes(type) && !(type === 'drive' && !members.speed && !members.turn);
@@ -90,6 +120,17 @@ function spectate() {
   };
 }
 
+// As the browser does when the user selects another tab, and returns.
+function emulateVisibility() {
+  let isHidden = false;
+  Object.defineProperty(document, 'hidden', { get: () => isHidden });
+  window.setHidden = (value) => {
+    if (value === isHidden) return;
+    isHidden = value;
+    document.dispatchEvent(new Event('visibilitychange'));
+  };
+}
+
 function randomOf(seed) {
   let state = seed;
   return (bound) => {
@@ -99,7 +140,7 @@ function randomOf(seed) {
 }
 
 test(`after a stop, ${EVENTS} random events cause no motion command before all inputs were neutral`, async () => {
-  const page = await visitScripted(browser, 'driving', { hasTouch: true, init: `(${emulateGamepad})(); (${spectate})();` });
+  const page = await visitScripted(browser, 'driving', { hasTouch: true, init: `(${emulateGamepad})(); (${emulateVisibility})(); (${spectate})();` });
   const touch = await page.context().newCDPSession(page);
   const random = randomOf(20);
   const KEYS = ['ArrowUp', 'KeyS', 'ArrowLeft', 'KeyD', 'Equal', 'Minus', 'Space', 'Escape'];
@@ -122,6 +163,7 @@ test(`after a stop, ${EVENTS} random events cause no motion command before all i
     await page.evaluate(() => {
       emulatedGamepad.axes = [0, 0, 0, 0];
       for (const button of emulatedGamepad.buttons) button.pressed = false;
+      setHidden(false);
       dispatchEvent(new Event('focus'));
       spectator.settle();
     });
@@ -167,13 +209,17 @@ test(`after a stop, ${EVENTS} random events cause no motion command before all i
     () => page.evaluate(([i, on]) => { emulatedGamepad.buttons[i].pressed = on; spectator.settle(); }, [random(8), random(2) === 0]),
     tick,
     async () => {
-      const pick = random(6);
+      const pick = random(9);
       if (pick === 0) await page.evaluate(() => { dispatchEvent(new Event('blur')); });
       if (pick === 1) await page.evaluate(() => { dispatchEvent(new Event('focus')); });
       if (pick === 2) await page.evaluate(() => { const help = document.querySelector('#help'); if (help.open) help.close(); else help.showModal(); });
       if (pick === 3) await page.focus(['#limit', '#autonomous', '#tab-team', '#team-filter'][random(4)], { timeout: 100 }).catch(() => {});
       if (pick === 4) { page.script.holder = 3 - page.script.holder; page.script.sendTeam(); }
       if (pick === 5 && random(4) === 0) await page.script.socket.close({ code: 1001, reason: 'a break' });
+      if (pick === 6) await page.evaluate((hidden) => setHidden(hidden), random(2) === 0);
+      if (pick === 7) page.script.isSilent = !page.script.isSilent;
+      if (pick === 7) page.script.sendUpdate();
+      if (pick === 8) ++page.script.stops;
     },
   ];
   for (let i = 0; i < EVENTS; ++i) {
@@ -182,14 +228,16 @@ test(`after a stop, ${EVENTS} random events cause no motion command before all i
     if (i % 100 === 99) {  // begins afresh, driving
       await releaseAll();
       await page.evaluate(() => document.querySelector('#help').close());
-      page.script.holder = 1;
+      Object.assign(page.script, { holder: 1, isSilent: false });
       page.script.sendTeam();
+      page.script.sendUpdate();
     }
   }
-  const { violations, motions, stops } = await page.evaluate(() => window.spectator);
+  const { violations, motions, stops, breaks, hidings, losses } = await page.evaluate(() => window.spectator);
   assert.equal(violations[0] ?? '', '');
   assert.ok(motions > 100, `${motions} motion commands were sent, so that stops matter`);
   assert.ok(stops > 50, `${stops} stops were sent`);
+  assert.ok(breaks > 0 && hidings > 0 && losses > 0, `${breaks} breaks, ${hidings} hidings, ${losses} losses of the control lock`);
   await page.context().close();
 });
 
@@ -216,5 +264,54 @@ test('two fingers on the drive pad: the first drives, the second prevents nothin
   await until(({ type }) => type === 'alive');
   await until(() => sent.filter(({ type }) => type === 'alive').length >= 5);
   assert.deepEqual(sent.filter(isDrive), []);
+  await page.context().close();
+});
+
+for (const [what, lose, why] of [
+  ['does not report for 2 s', (script) => { script.isSilent = true; }, 'has received nothing from the robot for 2 s'],
+  ['has counted a stop whose reason is already cleared', (script) => { ++script.stops; }, 'requires the release of all inputs after a stop'],
+]) {
+  test(`a robot that ${what} is stopped, and a key that is held has no effect until released`, async () => {
+    const page = await visitScripted(browser, 'driving');
+    const sent = [];
+    page.script.onMessage = (message) => sent.push(message);
+    const until = async (holds) => { while (!sent.some(holds)) await page.evaluate(() => new Promise((done) => { setTimeout(done, 20); })); };
+    await page.keyboard.down('ArrowUp');
+    await until(({ type }) => type === 'drive');
+    lose(page.script);
+    await page.waitForFunction(() => document.querySelector('#hint').textContent.startsWith('Stopped. Release all keys'));
+    assert.deepEqual(sent.find(({ type }) => type === 'stop'), { type: 'stop', why });
+    page.script.isSilent = false;
+    page.script.sendUpdate();
+    sent.length = 0;
+    await until(({ type }) => type === 'alive');
+    assert.deepEqual(sent.filter(({ type }) => type === 'drive'), []);
+    await page.keyboard.up('ArrowUp');
+    await until(({ type }) => type === 'alive');
+    await page.waitForFunction(() => document.querySelector('#hint').hidden);
+    await page.keyboard.down('ArrowUp');
+    await until(({ type }) => type === 'drive');
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+  });
+}
+
+test('a paused run does not stop a robot, however long it reports nothing', async () => {
+  const page = await visitScripted(browser, 'driving', { hasClock: true });
+  await page.clock.pauseAt(Date.now() + 60_000);
+  const sent = [];
+  page.script.onMessage = (message) => sent.push(message.type);
+  page.script.sendUpdate({ isForced: true });
+  await page.clock.runFor(500);
+  await page.keyboard.down('ArrowUp');
+  page.script.sendRun({ phase: 'paused' });
+  page.script.isSilent = true;
+  await page.waitForFunction(() => document.body.dataset.step > 0);
+  for (let i = 0; i < 40; ++i) {
+    page.script.send({ type: 'pulse' });
+    await page.clock.runFor(100);
+  }
+  assert.ok(sent.includes('drive'));
+  assert.ok(!sent.includes('stop'), `${sent}`);
   await page.context().close();
 });

@@ -86,6 +86,18 @@ test('the console is suspended and resumed: the robot stands still until command
   await hold();
 });
 
+test('the robot is suspended and resumed: it stands still until all inputs were released', async () => {
+  await hold();
+  session.robots.Ann.signal('SIGSTOP');
+  await shows('#hint', 'Stopped. Release all keys');
+  session.robots.Ann.signal('SIGCONT');
+  await stops(/Ann stops: (Ada's page has received nothing from the robot for 2 s|no message from Ada for 3 s)/);
+  await session.truth.standstill('Ann', 50);
+  await page.keyboard.up('ArrowLeft');
+  await page.waitForSelector('#banner', { state: 'hidden' });
+  await hold();
+});
+
 test('the console ends: the robot stops, and the page reports it and reconnects', async () => {
   await hold();
   session.console.signal('SIGKILL');

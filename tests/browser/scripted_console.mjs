@@ -38,6 +38,7 @@ export const STATES = {
   watching: { holder: 2 },
   down: { is_down: true },
   won: { winner: 'Pioneer1', run: { phase: 'ended', may_restart: true } },
+  'won by another': { winner: 'Scout1', run: { phase: 'ended', may_restart: true } },
   over: { run: { phase: 'ended' } },
   gone: { is_silent: true, run: { phase: 'gone', problem: 'no answer for 1 s from environment.example:10000; is \'robosim serve\' running there?' } },
   frozen: { is_silent: true },
@@ -45,18 +46,22 @@ export const STATES = {
   paused: { is_silent: true, run: { phase: 'paused' } },
   stalled: { is_stalled: true },
   'no camera': { has_camera: false },
+  'no camera, refused': { has_camera: false, refuses: true },
   recording: { run: { recording: { state: 'on', file: 'run_part2.rawlog' } } },
   'recording failed': { run: { recording: { problem: '/data/run_part2.rawlog: No space left on device; free space on the disk' } } },
   'recording, driver': { may_operate: false, run: { recording: { state: 'on', file: 'run.rawlog' } } },
   'not recorded': { run: { recording: { state: 'none', may_change: false } } },
+  help: { dialog: 'help' },
+  'help, watching': { dialog: 'help', holder: 2 },
+  login: { dialog: 'login' },
   '30 robots': { robots: 30, has_map: true },
   '200 robots': { robots: 200, has_long_names: true },
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, run = {} }) {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
     const isSilent = is_silent;
-    Object.assign(this, { socket, holder, is_down, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0 });
+    Object.assign(this, { socket, refuses, holder, is_down, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
   }
@@ -90,6 +95,13 @@ class Script {
     this.pulse ??= setInterval(() => this.send({ type: 'pulse' }), 250);
   }
 
+  // The page requests a token.
+  refuse() {
+    this.end();
+    this.send({ type: 'refused', text: 'The token is unknown or has expired.' });
+    return this.socket.close({ code: 1008, reason: 'The token is unknown or has expired.' });
+  }
+
   // Otherwise the pulse would keep the test's process alive.
   end() {
     clearInterval(this.pulse);
@@ -106,7 +118,7 @@ class Script {
 
   sendTeam() {
     this.send({
-      type: 'team', world: 'open_house', pages: 2, winner: this.winner,
+      type: 'team', world: 'open_house', pages: 2, winner: this.winner, winner_driven_m: this.winner ? this.driven_m : null,
       control_lock: { holder: this.holder, name: this.holder === 1 ? 'Ada' : 'Bea Sommerfeld' },
       robots: this.names.map((name, i) => ({
         name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !(this.is_down && i === 0) && i % 7 !== 5,
@@ -143,8 +155,8 @@ class Script {
       odometry: { x_m: 0.4 * time_s, y_m: Math.sin(time_s / 3), heading_rad: 0.3, speed_mps: 0.42, turn_radps: -0.35 }, compass: 0.3, battery: 12.61,
     };
     const json = Buffer.from(JSON.stringify({
-      type: 'update', robot: this.names[0], step: this.step, time_s, driven_m: 0.4 * time_s, stalled: this.is_stalled, laser_pan_rad: 0,
-      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? 1 : 0 },
+      type: 'update', robot: this.names[0], step: this.step, time_s, driven_m: this.driven_m, stalled: this.is_stalled, laser_pan_rad: 0,
+      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? this.refusals : 0, stops: this.stops },
       measurements: sensors(this.has_camera).map(({ kind }) => measured[kind]), ...(this.has_camera ? { picture_step: this.step } : {}),
     }));
     const length = Buffer.alloc(4);
@@ -176,5 +188,10 @@ export async function visitScripted(browser, state, { hasClock = false, init, ..
   await page.goto(ORIGIN);
   await page.waitForFunction(() => document.body.dataset.step > 0);
   if (STATES[state].has_map) await page.click('#map-toggle');
+  if (STATES[state].dialog === 'help') await page.click('#help-open');
+  if (STATES[state].dialog === 'login') {
+    await page.script.refuse();
+    await page.waitForSelector('#login[open]');
+  }
   return page;
 }

@@ -19,7 +19,8 @@ const shows = (page, cause) => page.waitForSelector(`#banner[data-cause="${cause
 
 for (const [state, cause, text] of [
   ['down', 'robot_down', /^Pioneer1 is down: no robot answers at 127\.0\.0\.1:9001/],
-  ['won', 'won', /^Pioneer1 has won after 2:00\.\d and \d+\.\d m\. All robots have halted\.$/],
+  ['won', 'won', /^Pioneer1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
+  ['won by another', 'won', /^Scout1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
   ['over', 'run_over', /^The run is over\.$/],
   ['gone', 'environment_gone', /^The environment does not answer: no answer for 1 s/],
   ['frozen', 'robot_frozen', /^Pioneer1 does not answer\. Its readings are outdated\.$/],
@@ -89,6 +90,9 @@ test('values, ranges and lamps are grey 1 s after the last update, and not befor
   const look = () => page.evaluate(() => ({
     isStale: document.body.classList.contains('stale'),
     value: getComputedStyle(document.querySelector('#r-speed')).color,
+    heat: getComputedStyle(document.querySelector('#heat.hot')).color,
+    hudHeat: getComputedStyle(document.querySelector('#hud-heat-gauge.hot b')).color,
+    teamHeat: getComputedStyle(document.querySelector('.team .heat-now.warm')).color,
     radar: getComputedStyle(document.querySelector('#radar')).filter,
     camera: getComputedStyle(document.querySelector('#camera')).filter,
     lamp: getComputedStyle(document.querySelector('.team .lamp.up')).outlineColor,
@@ -111,8 +115,9 @@ test('values, ranges and lamps are grey 1 s after the last update, and not befor
   await run(drawn_ms + 1050 - since_ms);
   const stale = await look();
   assert.equal(stale.isStale, true);
-  for (const part of ['value', 'radar', 'camera', 'lamp']) assert.notEqual(stale[part], fresh[part], part);
+  for (const part of ['value', 'heat', 'hudHeat', 'teamHeat', 'radar', 'camera', 'lamp']) assert.notEqual(stale[part], fresh[part], part);
   assert.match(stale.radar, /grayscale/);
+  assert.deepEqual([stale.heat, stale.teamHeat], [stale.value, stale.value], 'a hot value is grey, too');
   page.script.sendUpdate({ isForced: true });
   while (await page.evaluate((step) => document.body.dataset.step !== String(step), page.script.step)) await run(10);
   await run(60);

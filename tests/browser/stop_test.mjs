@@ -79,6 +79,19 @@ for (const [what, focus, release] of [
   }
 }
 
+test('the Stop button in the head of the help stops a cruising robot, and the help stays open', async () => {
+  await page.evaluate(() => document.activeElement.blur());
+  await page.keyboard.press('+');
+  await page.waitForFunction(() => document.querySelector('#r-speed').textContent.includes('target 0.10'));
+  await page.click('#help-open');
+  assert.equal(await page.evaluate(() => document.activeElement.textContent), 'Close', 'Enter closes the help');
+  await page.click('#help-stop');
+  await page.waitForFunction(() => document.querySelector('#r-speed').textContent.includes('target 0.00'));
+  assert.ok(await page.isVisible('#help'));
+  await page.click('#help .primary');
+  await session.truth.standstill('Ann');
+});
+
 test('a key held across Space has no effect until pressed again', async () => {
   await page.evaluate(() => document.activeElement.blur());
   await page.keyboard.down('ArrowUp');
@@ -147,6 +160,17 @@ for (const [what, act] of [
     await page.evaluate(() => document.documentElement.requestFullscreen());
     await forget();
     await page.evaluate(() => document.exitFullscreen());
+  }],
+  ["a second gamepad's button", async () => {
+    await page.evaluate(() => {
+      const buttons = emulatedGamepad.buttons.map((_, i) => ({ pressed: i === 6 }));
+      const second = { connected: true, index: 1, axes: [0, 0], buttons };
+      const { getGamepads } = navigator;
+      navigator.getGamepads = () => [emulatedGamepad, second];
+      window.removeSecond = () => { navigator.getGamepads = getGamepads; };
+    });
+    await wasSent(['stop']);
+    await page.evaluate(() => removeSecond());
   }],
   ['a gamepad button', async () => {
     await page.evaluate(() => { emulatedGamepad.buttons[5].pressed = true; });

@@ -79,6 +79,7 @@ class JoystickDrive : public testing::Test {
       robot->waitForError(says);
       const std::string text = robot->error();
       const int port = std::atoi(text.c_str() + text.find(says) + says.size());
+      if (robot == &pioneer_) pioneer_port_ = port;
       list << "<robot><hostname>127.0.0.1</hostname><port>" << port << "</port><name>"
            << (robot == &pioneer_ ? "Pioneer1" : "Scout1") << "</name><primary>" << (robot == &pioneer_ ? 1 : 0)
            << "</primary></robot>\n";
@@ -86,9 +87,9 @@ class JoystickDrive : public testing::Test {
     list << "</RobotInfo>\n";
   }
 
-  StartedProgram robot(const std::string& name) {
+  StartedProgram robot(const std::string& name, int port = 0) {
     return StartedProgram({"robot", name, "--environment", serving_.address(), "--controller", "still", "--remote-port",
-                           "0", "--dead-man", "5"});
+                           std::to_string(port), "--dead-man", "5"});
   }
   std::string arguments(int joystick) const {
     return "remote '" + team_.string() + "' --environment " + serving_.address() + " --joystick " +
@@ -115,6 +116,7 @@ class JoystickDrive : public testing::Test {
 
   const fs::path folder_ = emptyFolder();
   const fs::path team_ = folder_ / "team.xml";
+  int pioneer_port_ = 0;  ///< for remote control
   const fs::path rawlog_ = folder_ / "driven.rawlog";
   Serving serving_{{"--wait-for-robots", "--speed", "2", "--step", "0.02", "--record", rawlog_}};
   StartedProgram pioneer_ = robot("Pioneer1");
@@ -188,6 +190,27 @@ TEST_F(JoystickDrive, DrivesSwitchesAndIsRecorded) {
   EXPECT_TRUE(turned_left);
   EXPECT_TRUE(backed);
   EXPECT_TRUE(scout_drove);
+}
+
+// A robot whose process has been replaced is driven by the same remote control: the stick that is held has no effect.
+TEST_F(JoystickDrive, AStickHeldAcrossALostConnectionHasNoEffectUntilItHasBeenCentred) {
+  EmulatedJoystick stick(folder_ / "dev");
+  StartedProgram remote = stick.start(arguments(0));
+  remote.waitForOutput("you drive");
+  const auto start = at(0);
+  stick.moveAxis(kX, kLeft);
+  waitUntil(0, [&](const auto& pose) { return std::abs(pose.phi - start.phi) > 0.1; });
+  pioneer_.signal(SIGKILL);
+  remote.waitForError("Pioneer1 is down");
+  pioneer_.wait();
+  StartedProgram next = robot("Pioneer1", pioneer_port_);
+  remote.waitForError("Pioneer1 is up");
+  waitUntilStill(0);
+  stick.moveAxis(kX, 0);
+  waitUntilStill(0);
+  stick.moveAxis(kX, kLeft);
+  waitUntil(0, [&, phi = at(0).phi](const auto& pose) { return std::abs(pose.phi - phi) > 0.1; });
+  stick.moveAxis(kX, 0);
 }
 
 TEST_F(JoystickDrive, NamesTheMissingDevice) {

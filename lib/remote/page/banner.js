@@ -13,6 +13,14 @@ export const CAUSES = ['console_gone', 'won', 'run_over', 'environment_gone', 'r
 
 const listed = (names) => (names.length > 3 ? `${names.slice(0, 3).join(', ')} and ${names.length - 3} more` : names.join(', '));
 
+// Robots without a process, for which the run waits; not the primary.
+const absentOthers = (run, primary) => run.absent.filter((name) => name !== primary);
+
+// Whether the run stands still for a reason that is not the primary's, so that no robot reports.
+export function standsStill(run, primary) {
+  return run.phase === 'paused' || run.phase === 'ended' || (run.phase === 'waiting' && absentOthers(run, primary).length > 0);
+}
+
 // state: {
 //   link: {isOpen, isSilent, why},                whether the console answers; why it was lost
 //   team: null, or {winner, robots: [{name, up, problem, …}, …]}, the primary first
@@ -32,7 +40,7 @@ export function bannerOf({ link, team, run, isFresh }) {
   if (primary.up && isFresh) return null;
   if (run.phase === 'gone') return banner('environment_gone', 'bad', `The environment does not answer${because(run.problem)}`);
   if (!primary.up) return banner('robot_down', 'bad', `${primary.name} is down${because(primary.problem)}`);
-  const others = run.absent.filter((name) => name !== primary.name);
+  const others = absentOthers(run, primary.name);
   if (run.phase === 'waiting' && others.length > 0) return banner('waiting', 'warn', `The run waits for ${listed(others)}.`);
   if (run.phase === 'paused') return banner('paused', 'info', 'The run is paused.');
   if (run.phase === 'running' || run.phase === 'waiting') {

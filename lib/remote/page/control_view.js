@@ -17,6 +17,7 @@ export class ControlView {
     const hasControl = this.hasControl();
     if (hasControl) $('who').textContent = hasOtherDriver ? `${primary.driver} drives ${primary.name} with another remote control` : '';
     else $('who').textContent = lock.holder ? `${lock.name} drives; you may watch` : 'No driver';
+    $('who').title = $('who').textContent;  // which may be shortened
     // A page with the control lock but without the robot may request it again. The lock may be released if others watch.
     const mayTake = hasControl ? !primary.driver && !primary.is_yours && primary.up : lock.holder === 0;
     const mayRelease = hasControl && !mayTake && pages > 1;
@@ -50,7 +51,7 @@ export class ControlView {
     const may = this.hasControl() && Boolean(primary?.up && primary.is_yours);
     const steers = may && !primary.autonomous && primary.activity === 'active';
     for (const id of ['accelerate', 'decelerate', 'turn-left', 'turn-right', 'check-win']) $(id).disabled = !steers;
-    for (const id of ['stop', 'autonomous']) $(id).disabled = !may;
+    for (const id of ['stop', 'help-stop', 'autonomous']) $(id).disabled = !may;
     $('next').disabled = !this.hasControl() || !this.state.team.robots.slice(1).some((robot) => robot.fit);
     $('autonomous').setAttribute('aria-pressed', String(Boolean(primary?.autonomous)));
     this.drive.enable(steers);

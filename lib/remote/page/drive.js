@@ -16,12 +16,13 @@ export class Drive extends EventTarget {
   #suppressed = new Set();  // stop keys that are down: their release must not click a button
 
   // `mayDrive` returns whether this page holds the control lock, and so may at least stop the robot; `isLost` whether
-  // the console does not answer
-  constructor(link, mayDrive, isLost) {
+  // the console does not answer; `isRobotLost` whether the robot does not report
+  constructor(link, mayDrive, isLost, isRobotLost) {
     super();
     this.link = link;
     this.mayDrive = mayDrive;
     this.isLost = isLost;
+    this.isRobotLost = isRobotLost;
     // In the capture phase, so that no focused element and no dialog intercepts a stop.
     addEventListener('keydown', (event) => this.#keyDown(event), true);
     addEventListener('keyup', (event) => this.#keyUp(event), true);
@@ -32,10 +33,6 @@ export class Drive extends EventTarget {
     addEventListener('focus', () => this.#setGate('focus', document.hasFocus()));
     document.addEventListener('visibilitychange', () => this.#setGate('visible', !document.hidden));
     for (const type of ['pagehide', 'freeze']) addEventListener(type, () => this.#setGate('visible', false));
-    // Esc leaves full screen, and the page does not receive it.
-    document.addEventListener('fullscreenchange', () => {
-      if (!document.fullscreenElement) this.stop('has left full screen');
-    });
     setInterval(() => this.#tick(), TICK_MS);
   }
 
@@ -49,9 +46,12 @@ export class Drive extends EventTarget {
   setCommanded(part) {
     this.#motion.setCommanded(part, now());
   }
-  // Another robot has become the primary, or the robot has stopped for a reason of its own.
+  // Another robot has become the primary.
   latch() {
     this.#motion.latch();
+  }
+  noteRobotStop() {
+    this.#send(this.#motion.noteRobotStop(now()));
   }
   // See Motion.
   get latches() {
@@ -82,6 +82,7 @@ export class Drive extends EventTarget {
   release(id) {
     this.#send(this.#motion.release(id, now()));
   }
+  // `why`: nothing for a stop that the user requests
   stop(why) {
     this.#send(this.#motion.stop(now(), why));
   }
@@ -155,14 +156,15 @@ export class Drive extends EventTarget {
   }
 
   #poll() {
-    const gamepad = [...(navigator.getGamepads?.() ?? [])].find((pad) => pad?.connected) ?? null;
-    this.#send(this.#motion.tick(now(), gamepad));
+    const [gamepad = null, ...others] = [...(navigator.getGamepads?.() ?? [])].filter((pad) => pad?.connected);
+    this.#send(this.#motion.tick(now(), gamepad, others));
   }
 
   #tick() {
     this.#setGate('focus', document.hasFocus());
     this.#setGate('visible', !document.hidden);
     this.#setGate('link', !this.isLost());
+    this.#setGate('robot', !this.isRobotLost());
     this.#poll();
     this.dispatchEvent(new Event('tick'));
   }

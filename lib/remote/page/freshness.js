@@ -6,11 +6,12 @@
 // broken connection, also while the run is paused.
 
 export const FRESH_MS = 1000;  // after which values are outdated
-export const LOST_MS = 2000;  // of silence of the console, after which the page stops and latches
+export const LOST_MS = 2000;  // of silence of the console or of the robot, after which the page stops and latches
 
 export class Freshness {
   #heard = -Infinity;
   #updated = -Infinity;
+  #expected = -Infinity;  // from then on, updates are
 
   // Something was received from the console; the connection was established.
   noteMessage(now) {
@@ -20,8 +21,13 @@ export class Freshness {
     this.#heard = this.#updated = now;
   }
   // Another robot is the primary.
-  forgetUpdates() {
+  forgetUpdates(now) {
     this.#updated = -Infinity;
+    this.#expected = now;
+  }
+  // No updates are expected: the run stands still.
+  expectNoUpdates(now) {
+    this.#expected = now;
   }
 
   isFresh(now) {
@@ -32,6 +38,9 @@ export class Freshness {
   }
   isLost(now) {
     return now - this.#heard >= LOST_MS;
+  }
+  isRobotLost(now) {
+    return now - Math.max(this.#updated, this.#expected) >= LOST_MS;
   }
   // Time since the last update [ms]; Infinity without one.
   age(now) {

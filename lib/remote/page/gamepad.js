@@ -2,7 +2,7 @@
 //
 // Buttons count from 1, as on the joystick of 2005: 1 switches to the next robot, 2 checks for a win, 3 accelerates and 4
 // decelerates. Every other button stops the robot, so that any of them may be hit in a hurry. `lib/remote/joystick_driver.h`
-// follows the same rules.
+// follows the same rules. The first gamepad drives; of all others, the buttons that stop do so, too.
 
 export const REPEAT_MS = 250;  // of accelerate and decelerate while their button is held
 const DEAD_ZONE = 0.12;
@@ -20,21 +20,27 @@ export class GamepadInput {
   stick = { speed: 0, turn: 0 };  // fractions of the robot's maximum
   #since = [];  // by button: time of its last order; 0 while released
   #isConnected = false;
+  #index = null;  // of the gamepad that drives
+  #others = new Set();  // pressed buttons of the other gamepads that stop
 
   // Deflected stick, or pressed buttons that move or stop the robot: none when the gamepad is neutral.
   get held() {
     const buttons = this.#since.flatMap((since, i) => (since && i >= 2 ? [`gamepad:${i + 1}`] : []));
-    return this.stick.speed || this.stick.turn ? ['gamepad:stick', ...buttons] : buttons;
+    const stick = this.stick.speed || this.stick.turn ? ['gamepad:stick'] : [];
+    return [...stick, ...buttons, ...this.#others];
   }
 
   // Returns what has happened since the last state: `orders` of buttons; whether a button stops; whether the gamepad has
-  // been connected or disconnected. `gamepad`: null for none.
-  read(gamepad, now) {
+  // been connected or disconnected; one that takes the place of another has been, too. `gamepad`: null for none; `others`:
+  // {index, buttons} of the other gamepads.
+  read(gamepad, others, now) {
     const wasConnected = this.#isConnected;
     this.#isConnected = Boolean(gamepad);
+    const isReplaced = wasConnected && this.#isConnected && gamepad.index !== this.#index;
+    this.#index = gamepad?.index;
     this.stick = { speed: -shaped(gamepad?.axes[1] ?? 0) || 0, turn: -shaped(gamepad?.axes[0] ?? 0) || 0 };
     const orders = [];
-    let stops = false;
+    let stops = this.#readOthers(others);
     for (let i = 0; i < Math.max(gamepad?.buttons.length ?? 0, this.#since.length); ++i) {
       const since = this.#since[i] ?? 0;
       const isPressed = Boolean(gamepad?.buttons[i]?.pressed);
@@ -44,6 +50,14 @@ export class GamepadInput {
       if (isOrder && i >= ORDERS.length) stops = true;
       if (isOrder || !isPressed) this.#since[i] = isPressed ? Math.max(now, 1) : 0;
     }
-    return { orders, stops, connected: this.#isConnected && !wasConnected, disconnected: !this.#isConnected && wasConnected };
+    return { orders, stops, connected: this.#isConnected && !wasConnected, disconnected: isReplaced || (!this.#isConnected && wasConnected) };
+  }
+
+  // Returns whether a button of another gamepad stops.
+  #readOthers(others) {
+    const before = this.#others;
+    this.#others = new Set(others.flatMap(({ index, buttons }) =>
+      buttons.flatMap(({ pressed }, i) => (pressed && i >= ORDERS.length ? [`gamepad ${index}:${i + 1}`] : []))));
+    return [...this.#others].some((button) => !before.has(button));
   }
 }

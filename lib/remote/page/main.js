@@ -1,5 +1,6 @@
 // The console's page: connects the console's messages, the user's inputs and the parts of the page.
 
+import { standsStill } from './banner.js';
 import { Camera } from './camera.js';
 import { redrawOnResize } from './canvas.js';
 import { Collision } from './collision.js';
@@ -37,7 +38,10 @@ const UNKNOWN_RUN = {
 const state = { you: 0, mayOperate: false, team: null, run: UNKNOWN_RUN, robot: null, update: null, whyLost: '', isFirstTeam: true };
 const link = new Link(identity);
 const hasControl = () => link.isOpen && state.team?.control_lock.holder === state.you;
-const drive = new Drive(link, hasControl, () => link.isLost);
+const drive = new Drive(link, hasControl, () => link.isLost, () => {
+  if (standsStill(state.run, state.robot?.name)) link.freshness.expectNoUpdates(performance.now());
+  return link.freshness.isRobotLost(performance.now());
+});
 const view = new StateView(drive, link);
 const signals = new Signals(link, $('latency'), $('fps'));
 const camera = new Camera($('camera'), $('no-camera'), () => signals.pictureDrawn());
@@ -94,7 +98,7 @@ link.addEventListener('run', ({ detail }) => { state.run = detail; });
 
 link.addEventListener('robot', ({ detail: robot }) => {
   Object.assign(state, { robot, update: null });
-  link.freshness.forgetUpdates();
+  link.freshness.forgetUpdates(performance.now());
   readings.reset(robot);
   $('robot-name').textContent = $('robot-name').title = robot.name;
   $('robot-model').textContent = robot.model;
@@ -172,8 +176,10 @@ function setRange(slot, measurement, time_s) {
 
 function setUpdate(update) {
   if (!state.robot || update.robot !== state.robot.name) return;
-  const { why_stopped: why } = update.state;
-  if (why && why !== state.update?.state.why_stopped) drive.latch();
+  // `stops` also counts those whose reason a later order has cleared.
+  const { why_stopped: why, stops } = update.state;
+  const before = state.update?.state;
+  if ((before && stops !== before.stops) || (why && why !== before?.why_stopped)) drive.noteRobotStop();
   state.update = update;
   readings.set(update);
   verdict.set(update.robot, update.state.win_refusals);
@@ -246,11 +252,11 @@ const nextRobot = () => {
 for (const [id, command] of [['accelerate'], ['decelerate'], ['check-win'], ['turn-left', heldTurn(1)], ['turn-right', heldTurn(-1)]]) {
   makeOrderButton($(id), id.replace('-', '_'), drive, command);
 }
-makeStopButton($('stop'), drive);
+for (const id of ['stop', 'help-stop']) makeStopButton($(id), drive);
 $('autonomous').addEventListener('click', toggleAutonomous);
 $('next').addEventListener('click', nextRobot);
 $('map-toggle').addEventListener('click', toggleMap);
-const toggleFullScreen = makeFullScreen($('fullscreen'));
+const toggleFullScreen = makeFullScreen($('fullscreen'), drive);
 $('control').addEventListener('click', () => link.send($('control').dataset.message));
 $('limit').addEventListener('input', () => {
   drive.setLimit(Number($('limit').value) / 100);

@@ -1,16 +1,23 @@
 // Map of the true poses of all robots. Drivers normally use readings only, so that the map is shown only on request.
 
 import { begin, color, drawRobot } from './canvas.js';
-import { placeLabels } from './labels.js';
+import { markerAt, placeLabels } from './labels.js';
+
+const REACH_PX = { mouse: 6, touch: 16 };  // around a robot, within which pointing at it shows its name
 
 export class Map2D {
   #map = null;
   #poses = [];
+  #primary = '';
+  #markers = [];  // as drawn
+  #pointedAt = '';  // the robot whose name is shown in any case
 
   constructor(card, canvas, note) {
     this.card = card;
     this.canvas = canvas;
     this.note = note;
+    for (const type of ['pointermove', 'pointerdown']) canvas.addEventListener(type, (event) => this.#pointAt(event));
+    canvas.addEventListener('pointerleave', (event) => { if (event.pointerType !== 'touch') this.#pointAt(null); });
   }
 
   set(map) {
@@ -31,6 +38,7 @@ export class Map2D {
 
   // `primary`: the name of the robot that is driven
   draw(primary) {
+    this.#primary = primary;
     const area = begin(this.canvas);
     if (!area || !this.#map) return;
     const { g, width, height } = area;
@@ -65,27 +73,64 @@ export class Map2D {
     this.#drawNames(area, unit, primary);
   }
 
-  // Names beside the robots; where there is no place for all, the primary's has precedence.
+  // A pointer over a robot, or a finger on it, shows its name: those of a dense team are not all shown. `event`: null for none.
+  #pointAt(event) {
+    const box = this.canvas.getBoundingClientRect();
+    const reach = REACH_PX[event?.pointerType] ?? REACH_PX.mouse;
+    const name = event ? markerAt(this.#markers, event.clientX - box.left, event.clientY - box.top, reach)?.name ?? '' : '';
+    if (name === this.#pointedAt) return;
+    this.#pointedAt = name;
+    this.draw(this.#primary);
+  }
+
+  // Names beside the robots, or at a line; where there is no place for all, the primary's has precedence.
   #drawNames({ g, width, height, rem }, unit, primary) {
     const { x_m: [left, right], y_m: [bottom, top], robots } = this.#map;
     const markers = robots.flatMap(({ name, radius_m }, i) => {
       const at = this.#poses[i]?.at;
-      if (!at) return [];
+      if (!at || this.#poses[i].activity === 'absent') return [];
       const x = width / 2 + unit * (at[0] - (left + right) / 2);
       const y = height / 2 - unit * (at[1] - (bottom + top) / 2);
       return [{ name, x, y, radius: Math.max(radius_m * unit, 5) + (name === primary ? 4 : 1), isFirst: name === primary }];
     });
+    this.#markers = markers;
     g.textBaseline = 'middle';
     g.lineJoin = 'round';
+    const labels = placeLabels(markers, (text) => g.measureText(text).width, 0.85 * rem, { width, height });
+    g.strokeStyle = color('muted');
+    g.lineWidth = 1;
+    g.beginPath();
+    for (const { leader } of labels.filter((label) => label.leader)) {
+      g.moveTo(...leader.from);
+      g.lineTo(...leader.to);
+    }
+    g.stroke();
     g.lineWidth = 3;
     g.strokeStyle = color('surface');
     g.fillStyle = color('text');
-    const labels = placeLabels(markers, (text) => g.measureText(text).width, 0.85 * rem, { width, height });
     for (const { text, x, y } of labels) {
       g.strokeText(text, x, y);
       g.fillText(text, x, y);
     }
     this.canvas.dataset.names = JSON.stringify(labels.map(({ name }) => name));
+    this.#drawPointedAt(g, width, rem);
+  }
+
+  // Complete, on a ground of its own, above all others.
+  #drawPointedAt(g, width, rem) {
+    const marker = this.#markers.find(({ name }) => name === this.#pointedAt);
+    this.canvas.dataset.pointedAt = marker?.name ?? '';
+    if (!marker) return;
+    const size = Math.min(g.measureText(marker.name).width, width - 0.75 * rem);
+    const x = Math.max(0.375 * rem, Math.min(marker.x - size / 2, width - 0.375 * rem - size));
+    const isAbove = marker.y - marker.radius > 1.75 * rem;
+    const y = marker.y + (isAbove ? -1 : 1) * (marker.radius + 0.875 * rem);
+    g.fillStyle = color('text');
+    g.beginPath();
+    g.roundRect(x - 0.375 * rem, y - 0.6875 * rem, size + 0.75 * rem, 1.375 * rem, 0.3125 * rem);
+    g.fill();
+    g.fillStyle = color('surface');
+    g.fillText(marker.name, x, y, size);
   }
 
   #drawObject(g, object) {

@@ -4,10 +4,11 @@
 // 1. A stop latches. While latched, no motion command is returned. The latch is released when every input is neutral at
 //    the same time: no motion key, stop key, drive pad, button or further finger on them is held, the stick is in its
 //    dead zone, and no gamepad button that moves or stops the robot is pressed. A stop also ends the cruise, that is, the
-//    speed set by accelerate.
+//    speed set by accelerate. A stop that the user requests has no reason (`why`), and also ends the robot's autonomous
+//    mode; every other stop has a reason, and has no effect on an autonomous robot.
 // 2. Motion is possible only while all gates are open: this page drives a robot that is active (`control`), the window has
-//    the focus (`focus`), the page is visible (`visible`), and the console answers (`link`). A gate that closes latches
-//    and, except for `control`, stops.
+//    the focus (`focus`), the page is visible (`visible`), the console answers (`link`), and the robot reports (`robot`). A
+//    gate that closes latches and, except for `control`, stops.
 // 3. A held input is a command at every tick. An input that was released sets its speed or turn to 0, once.
 // 4. `alive` is returned only while an input is held, or for PRESENCE_MS after the user's last input. After that a robot
 //    that cruises (no input held) is stopped.
@@ -29,6 +30,7 @@ export const MOTION_KEYS = {
 export const MOTION_ORDERS = new Set(['accelerate', 'decelerate', 'turn_left', 'turn_right']);
 const WHY_CLOSED = {
   focus: 'has lost the focus', visible: 'is hidden', link: 'has received nothing from the console for 2 s',
+  robot: 'has received nothing from the robot for 2 s',
 };
 
 export class Motion {
@@ -36,7 +38,7 @@ export class Motion {
   #held = new Map();  // by input: {speed} or {turn}, [-1, 1], or {} for an input that only must be released
   #gamepad = new GamepadInput();
   #owns = { speed: false, turn: false };
-  #gates = { control: false, focus: true, visible: true, link: true };
+  #gates = { control: false, focus: true, visible: true, link: true, robot: true };
   #isLatched = true;
   #latches = 0;  // number of times that motion was latched
   #isPresent = false;
@@ -131,7 +133,7 @@ export class Motion {
     this.#held.set(id, {});
     if (this.#isLatched) return [];
     this.latch();
-    return this.#stop(now);
+    return this.#stop(now, 'has a held input whose press it did not receive');
   }
 
   // `id` names the input that stops, which is held from now on.
@@ -160,11 +162,12 @@ export class Motion {
   }
 
   // To be called about every 50 ms, and before hold(), move() and order(), because only this releases the latch: the state of
-  // the stick is known here. `gamepad`: {axes, buttons: [{pressed}]}, null for none. `switch` is returned like a message.
-  tick(now, gamepad) {
+  // the stick is known here. `gamepad`: the one that drives, {index, axes, buttons: [{pressed}]}, null for none; `others`: those
+  // of which only the buttons that stop have an effect. `switch` is returned like a message.
+  tick(now, gamepad, others = []) {
     const isSuspended = now - this.#ticked >= SUSPENDED_MS;
     this.#ticked = now;
-    const { orders, stops, connected, disconnected } = this.#gamepad.read(gamepad, now);
+    const { orders, stops, connected, disconnected } = this.#gamepad.read(gamepad, others, now);
     if (stops) return this.stop(now);
     if (isSuspended || disconnected) {
       this.latch();
@@ -172,7 +175,7 @@ export class Motion {
     }
     if (connected && this.#gamepad.held.length > 0) {  // deflected initially
       this.latch();
-      return this.#stop(now);
+      return this.#stop(now, 'has a new gamepad that is not neutral');
     }
     if (!this.#gates.focus || !this.#gates.visible) return [];
     this.#settle();
@@ -191,12 +194,20 @@ export class Motion {
     return messages;
   }
 
-  // No motion until every input has been neutral: another robot is driven, or the robot itself has stopped. It stands.
+  // No motion until every input has been neutral: another robot is driven. It stands.
   latch() {
     this.#isLatched = true;
     ++this.#latches;
     this.#owns = { speed: false, turn: false };
     this.#commanded = this.#cruise = 0;
+  }
+
+  // The robot has stopped for a reason of its own, or for that of another stop. An order that was on its way meanwhile may
+  // have moved it again, so that it is stopped once more; a robot that stands keeps the reason of its stop.
+  noteRobotStop(now) {
+    const wasLatched = this.#isLatched;
+    this.latch();
+    return wasLatched ? [] : this.#stop(now, 'requires the release of all inputs after a stop');
   }
 
   get #isEnabled() {

@@ -19,23 +19,15 @@ function meter(bar, part) {
 export class Readings {
   #robot = null;
   #update = null;
-  #odometry = null;  // of the last update with odometry
-  #driven_m = 0;
 
   reset(robot) {
     this.#robot = robot;
-    this.#update = this.#odometry = null;
-    this.#driven_m = 0;
+    this.#update = null;
   }
 
   // The update's newest readings; drawn by draw().
   set(update) {
     this.#update = update;
-    const odometry = this.#reading('odometry');
-    if (!odometry) return;
-    const last = this.#odometry;
-    if (last) this.#driven_m += Math.hypot(odometry.x_m - last.x_m, odometry.y_m - last.y_m);
-    this.#odometry = odometry;
   }
 
   draw() {
@@ -48,7 +40,7 @@ export class Readings {
     $('step').textContent = update.step.toLocaleString('en');
     $('r-heading').textContent = compass === null ? `${degrees(odometry?.heading_rad ?? 0)}° (odometry)` : `${degrees(compass)}°`;
     $('r-odometry').textContent = odometry ? `${odometry.x_m.toFixed(2)}, ${odometry.y_m.toFixed(2)} m, ${degrees(odometry.heading_rad)}°` : 'none';
-    $('r-driven').textContent = `${this.#driven_m.toFixed(1)} m`;
+    $('r-driven').textContent = update.driven_m === null ? 'unknown' : `${update.driven_m.toFixed(1)} m`;
     const bumper = this.#reading('bumper');
     const pressed = bumper?.filter(Boolean).length ?? 0;
     $('r-bumper').textContent = bumper === null ? 'none' : pressed ? 'contact' : update.stalled ? 'stalled' : 'free';

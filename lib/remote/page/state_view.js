@@ -13,10 +13,11 @@ export function setPill(pill, text, kind) {
 }
 
 // "after 1:23.4 and 12.3 m", the time and the distance that the winner has driven, as far as they are known.
-export function resultOf(winner, robot, update) {
-  if (!winner || !update) return '';
-  const distance = robot?.name === winner && update.driven_m !== undefined ? ` and ${update.driven_m.toFixed(1)} m` : '';
-  return ` after ${clock(update.time_s)}${distance}`;
+export function resultOf({ winner_driven_m: distance_m }, update) {
+  const parts = [];
+  if (update) parts.push(clock(update.time_s));
+  if (typeof distance_m === 'number') parts.push(`${distance_m.toFixed(1)} m`);
+  return parts.length > 0 ? ` after ${parts.join(' and ')}` : '';
 }
 
 // What the user can do to drive on; empty for nothing. `inputs`: those that are not neutral.
@@ -37,7 +38,7 @@ export class StateView {
     $('play-again').addEventListener('click', () => link.send('play_again'));
   }
 
-  // `state`: see bannerOf() and statusOf(); besides {robot, update, mayRestart}
+  // `state`: see bannerOf() and statusOf(); besides {update, mayRestart}
   show(state) {
     const { text, kind } = statusOf(state);
     setPill($('status'), text, kind);
@@ -59,7 +60,8 @@ export class StateView {
     element.dataset.cause = banner.cause;
     element.dataset.winner = winner;
     if (element.className !== `banner ${banner.kind}`) element.className = `banner ${banner.kind}`;
-    const text = banner.text.replace(' has won.', ` has won${resultOf(winner, state.robot, state.update)}.`);
+    const result = winner ? resultOf(state.team, state.update) : '';
+    const text = banner.text.replace(' has won.', ` has won${result}.`);
     if ($('banner-text').textContent !== text) $('banner-text').textContent = text;
     $('banner-trophy').toggleAttribute('hidden', !winner);
     $('banner-close').hidden = !winner;
