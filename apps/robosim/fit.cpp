@@ -50,7 +50,8 @@ void addFit(CLI::App& program) {
       ->required();
   command
       ->add_option("--sensor", a->sensor,
-                   "label of the scanner, or its part after '/'; required if the rawlog has several")
+                   "label of the scanner, or its part after '/'; required if the rawlog has several; LABEL#1, LABEL#2 "
+                   "... for scanners of one label at different poses on the robot")
       ->type_name("LABEL");
   command->add_option("-o,--output", a->output, "write the errors as a <laser> element; default: print it")
       ->type_name("FILE")

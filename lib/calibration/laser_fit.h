@@ -21,6 +21,7 @@ constexpr std::size_t kFewestDifferences = 30;
 /// outliers is half of that of jumps, because each affects two differences. The rate of lost echoes is left to the
 /// scene's reflectivities, which decide which beams flicker, so that dropout is 0.
 /// @throws ConfigError without a band of kFewestDifferences
+/// @throws Interrupted when a signal requests the end
 LaserFit fitLaser(const PairStatistics& statistics, double quantum_m);
 
 }  // namespace robosim

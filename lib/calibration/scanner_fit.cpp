@@ -93,7 +93,7 @@ ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, Rest
   const Interrupt interrupt;
   fit.criterion = criterion;
   fit.series = readScans(rawlog, sensor, [&](std::uint64_t entries) {
-    if (interrupt.isRequested()) throw Interrupted("interrupted; nothing was written");
+    throwIfInterrupted("nothing was written");
     if (progress.due()) progress.show("reading: " + withCommas(entries) + " entries …");
   });
   fit.candidates = standingPairs(fit.series);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interrupt.h"
 #include "sensors/beam_mounts.h"
 #include "sensors/laser_scanner.h"
 
@@ -145,6 +146,7 @@ PairStatistics simulatePairs(const ScanSeries& series, const std::vector<ScanPai
   for (const auto& group : standingGroups(series, pairs)) {
     StandingScanner scanner(series, seenSurfaces(series, group), errors, seed++);
     for (std::size_t i = 0; i < count * group.size(); ++i) {
+      throwIfInterrupted("nothing was written");
       const auto first = scanner.scan();
       statistics.add(first, scanner.scan());
     }

@@ -22,6 +22,7 @@ std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vecto
 /// SeenSurface::flips. Beams without valid readings see nothing. The walls are narrower than the distance of the beams,
 /// so that no beam sees a wall of another.
 /// @param count number of simulated pairs for each given pair
+/// @throws Interrupted when a signal requests the end
 PairStatistics simulatePairs(const ScanSeries& series, const std::vector<ScanPair>& pairs, const LaserErrors& errors,
                              std::size_t count, std::uint64_t seed);
 
