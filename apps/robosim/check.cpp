@@ -15,6 +15,7 @@
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
 #include "robots/free_space.h"
+#include "robots/robot_type_includes.h"
 #include "robots/scatter.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
@@ -167,7 +168,8 @@ void checkRobotList(const std::string& file, const XmlElement& root, Checked& ch
   }
 }
 
-void checkRobotModel(const std::string& file, const XmlElement& root, Checked& checked) {
+void checkRobotModel(const std::string& file, const XmlElement& element, Checked& checked) {
+  const XmlElement root = withIncludedFiles(element, file);
   const RobotModel model = modelOf(root, file, {}, checked.errors);
   checked.robots.push_back(model.name);
   checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "base/xml_parser.h"
+#include "robots/robot_type_includes.h"
 #include "sensors/noise_settings.h"
 
 namespace robosim {
@@ -14,14 +14,6 @@ void addNoise(const std::string& name, const std::vector<XmlElement>& sensors, c
     const std::string noise = noiseTextOf(sensor, {1, model.radius_m, model.body.height_m, model.sensors, 0});
     if (!noise.empty()) rows.push_back({"  " + name, sensor.name + ": " + noise});
   }
-}
-
-/// The <sensors> of a robot type.
-std::vector<XmlElement> sensorsOf(const XmlElement& type) {
-  for (const auto& child : type.children) {
-    if (child.name == "sensors") return child.children;
-  }
-  return {};
 }
 
 }  // namespace
@@ -38,7 +30,7 @@ void addErrors(const World& world, const Fleet& fleet, const RobotTypes& types, 
     if (!placed.sensors.empty()) {
       addNoise(placed.name, placed.sensors, *fleet.robots[i].model, rows);
     } else if (type != types.end() && listed.insert(placed.model).second) {
-      addNoise(placed.model, sensorsOf(type->second.read()), *fleet.robots[i].model, rows);
+      addNoise(placed.model, sensorsOf(readRobotType(type->second)), *fleet.robots[i].model, rows);
     }
   }
   const Communication& radio = world.communication;

@@ -72,6 +72,7 @@ void addFit(CLI::App& program) {
       ->default_str("scans");
   command->footer(
       "Try:  robosim fit real.rawlog -o laser.xml --report laser.html\n"
+      "A robot type includes the file in its <sensors>: <include file=\"laser.xml\" z_m=\"0.3\"/>\n"
       "Each pair of scans at rest is compared with simulated scans of a model that is fitted to the other half of the "
       "pairs; the written model is fitted to all.");
   command->callback([a] { fit(*a); });

@@ -158,7 +158,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
   std::string text = toXml(laser);
   const std::string comment = "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
-                              ". For the <sensors> of a robot type. -->\n";
+                              ". In the <sensors> of a robot type: <include file=\"laser.xml\" z_m=\"0.3\"/> -->\n";
   return text.insert(text.find('\n') + 1, comment);  // after the declaration
 }
 

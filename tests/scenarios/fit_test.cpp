@@ -69,6 +69,36 @@ TEST_F(Fit, WritesAnElementThatARobotTypeAcceptsAndAReportWithoutExternalReferen
   }
 }
 
+TEST_F(Fit, WritesAFileThatARobotTypeIncludes) {
+  std::filesystem::create_directories(in("robots/sensors"));
+  ASSERT_EQ(runProgram("fit '" + std::string(kSena) + "' -o " + quoted(in("robots/sensors/sick.xml"))).exit_code, 0);
+  std::ofstream(in("robots/scanner.xml"))
+      << "<robot name='scanner'><body radius_m='0.2' height_m='0.5'/><limits speed_max_mps='1' accel_mps2='1' "
+         "decel_mps2='1' turn_max_degps='90' turn_accel_degps2='180'/>\n<sensors><odometry/>\n"
+         "<include file='sensors/sick.xml' z_m='0.3' label='sick'/></sensors></robot>";
+  const auto world = in("w.xml");
+  std::ofstream(world) << "<world><surface><size><xmin>-3</xmin><xmax>3</xmax><ymin>-3</ymin><ymax>3</ymax></size>"
+                          "<object><shape><robot><model>scanner</model><name>R</name><x>0</x><y>0</y></robot></shape>"
+                          "</object></surface></world>";
+  const std::string run = "run " + quoted(world) + " --controller still --time 1";
+  const Ended first = runProgram(run + " --record " + quoted(in("r.rawlog")));
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  const Ended replayed = runProgram("replay " + quoted(in("r.rawlog")) + " --check");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err << "the recording contains the included sensor";
+  const Ended checked = runProgram("check " + quoted(world));
+  EXPECT_NE(checked.out.find("laser: noise; tail 0.03"), std::string::npos) << checked.out;
+  const Ended refused = runProgram(run + " --record " + quoted(in("robots/sensors/sick.xml")));
+  EXPECT_NE(refused.err.find("sick.xml, which this command reads"), std::string::npos) << refused.err;
+  std::ofstream(in("robots/sensors/sick.xml")) << "<laser>\n<noise std_m='2'/></laser>";
+  for (const std::string& command : {run, "check " + quoted(world), "check " + quoted(in("robots/scanner.xml"))}) {
+    const Ended faulty = runProgram(command);
+    EXPECT_EQ(faulty.exit_code, 1) << command;
+    EXPECT_NE((faulty.out + faulty.err).find("robots/sensors/sick.xml:2: <noise std_m=\"2\">: must lie in [0, 1]"),
+              std::string::npos)
+        << faulty.out << faulty.err;
+  }
+}
+
 TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
   std::ofstream(in("room.xml"))
       << "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
