@@ -80,6 +80,14 @@ double ScannerFit::ksBoundOf(std::size_t band) const {
   return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
 }
 
+double HeldOutFit::ksBoundOf(std::size_t band) const {
+  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
+}
+
+bool ScannerFit::isBeyondBound(const HeldOutFit& half, std::size_t band) const {
+  return !half.real.differences_m[band].empty() && ksOf(half.real, half.simulated, band) > half.ksBoundOf(band);
+}
+
 bool ScannerFit::isAccepted() const {
   for (std::size_t band = 0; band < kBands; ++band) {
     if (!real.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
@@ -174,14 +182,22 @@ std::string summaryOf(const ScannerFit& fit) {
   text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
   text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
           " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
-  Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "KS, even"}};
+  std::string beyond;  // halves
+  Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "bound", "KS, even", "bound"}};
   for (std::size_t band = 0; band < kBands; ++band) {
     const std::size_t n = fit.real.differences_m[band].size();
     if (n == 0) continue;
     rows.push_back({bandName(band), fit.model.std_m[band] > 0 ? fixed(1000 * fit.model.std_m[band], 1) + " mm" : "–",
                     withCommas(n), withCommas(fit.simulated.differences_m[band].size()), fixed(fit.ksOf(band), 3),
                     fixed(fit.ksBoundOf(band), 3)});
-    for (const auto& fold : fit.folds) rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3));
+    for (std::size_t half = 0; half < fit.folds.size(); ++half) {
+      const HeldOutFit& fold = fit.folds[half];
+      const bool is_beyond = fit.isBeyondBound(fold, band);
+      rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + (is_beyond ? " !" : ""));
+      rows.back().push_back(fixed(fold.ksBoundOf(band), 3));
+      if (!is_beyond) continue;
+      beyond += (beyond.empty() ? "" : ", ") + std::string(half == 0 ? "odd" : "even") + " pairs at " + bandName(band);
+    }
   }
   text += table(rows);
   rows = {{"share of the beams", "odd, real", "simulated", "even, real", "simulated"}};
@@ -196,8 +212,10 @@ std::string summaryOf(const ScannerFit& fit) {
   add("changes of validity", &PairStatistics::flipRate);
   add("invalid in both", &PairStatistics::invalidRate);
   text += "\n" + table(rows);
-  return text + (fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
-                                  : "\nThe held-out pairs differ from the model by more than the bounds.\n");
+  text += fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
+                           : "\nThe held-out pairs differ from the model by more than the bounds.\n";
+  if (!beyond.empty()) text += "! One half alone exceeds its bound: " + beyond + ".\n";
+  return text;
 }
 
 }  // namespace robosim

@@ -58,12 +58,17 @@ TEST_F(Fit, WritesAnElementThatARobotTypeAcceptsAndAReportWithoutExternalReferen
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_NE(fit.out.find("7 pairs of scans; 4 excluded"), std::string::npos) << fit.out;
   EXPECT_NE(fit.out.find("The held-out pairs agree with the model."), std::string::npos) << fit.out;
+  const auto marked = fit.out.find(" !");
+  ASSERT_NE(marked, std::string::npos) << fit.out;
+  EXPECT_EQ(fit.out.find(" !", marked + 1), std::string::npos) << "one of the halves: " << fit.out;
+  EXPECT_NE(fit.out.find("! One half alone exceeds its bound: odd pairs at 0 … 2 m."), std::string::npos) << fit.out;
   const auto laser = sensorFrom(textOf(in("laser.xml")));
   EXPECT_EQ(laser->info().beams.size(), 361u);
   EXPECT_GT(laser->info().noise_std_m, 0.003);
   const std::string report = textOf(in("report.html"));
   EXPECT_NE(report.find("<svg"), std::string::npos);
   EXPECT_NE(report.find("standard errors) at unchanged odometry"), std::string::npos);
+  EXPECT_NE(report.find("(<strong>differs</strong>)"), std::string::npos);
   for (const char* reference : {"<script", "<link", "src=", "href="}) {
     EXPECT_EQ(report.find(reference), std::string::npos) << reference;
   }
