@@ -74,7 +74,7 @@ TEST(Check, PrintsTheErrorsOfSensorsAndRadioWithAllSettings) {
 </surface><communication range="9" delay_s="0.2"/></world>)";
   const std::string compass =
       "compass: noise; hard_iron_deg 5; by default std_deg 2, offset_deg 0, hard_iron_at_deg 0, soft_iron_deg 0, "
-      "soft_iron_at_deg 0\n";
+      "soft_iron_at_deg 0, gyro_drift_deg_per_h 0\n";
   for (const auto& file : {world, folder / "robots" / "noisy.xml"}) {
     const std::string out = runProgram("check '" + file.string() + "'").out;
     EXPECT_NE(out.find("sonar: noise polaroid; dropout 0.05; by default std_m 0, std_per_m 0.01,"), std::string::npos)
