@@ -50,6 +50,7 @@ std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const st
 LaserFit modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
   LaserFit model = fitLaser(statisticsOf(series, pairs), quantum_m);
   model.errors.fading = 0.1;
+  model.errors.dropout = dropoutOf(series, pairs);
   for (const auto& group : standingGroups(series, pairs)) {
     model.errors.reach_m = std::max(model.errors.reach_m, reachFor(seenSurfaces(series, group), model.errors.fading));
   }
@@ -154,6 +155,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   set("tail", e.tail, 4);
   set("tail_factor", e.tail_factor, 1);
   set("quantum_m", e.quantum_m, 4);
+  set("dropout", e.dropout, 6);
   set("outlier", e.outlier, 6);
   set("reach_m", e.reach_m, 1);
   set("fading", e.fading, 3);
@@ -178,7 +180,8 @@ std::string summaryOf(const ScannerFit& fit) {
                      " excluded, because the scans contradict the odometry\n";
   const LaserErrors& e = fit.model.errors;
   text += "errors    quantum " + fixed(e.quantum_m, 3) + " m, tail " + fixed(e.tail, 3) + " × " +
-          fixed(e.tail_factor, 0) + ", outliers " + percent(e.outlier) + ", reach " + fixed(e.reach_m, 0) + " m\n";
+          fixed(e.tail_factor, 0) + ", lost " + percent(e.dropout) + ", outliers " + percent(e.outlier) + ", reach " +
+          fixed(e.reach_m, 0) + " m\n";
   text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
   text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
           " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
