@@ -15,6 +15,7 @@
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
 #include "robots/free_space.h"
+#include "robots/robot_type_includes.h"
 #include "robots/scatter.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
@@ -33,7 +34,8 @@ struct Checked {
   std::size_t maps = 0;
   double open_edge_m = 0;
   std::vector<std::string> warnings;
-  Rows contents;  ///< text output
+  Rows contents;             ///< text output
+  ErrorModels error_models;  ///< of a world or a robot type
 };
 
 /// A pose in metres and degrees, to the millimetre and the tenth of a degree.
@@ -153,7 +155,10 @@ void checkWorld(const std::string& file, World world_in_file, const Additions& a
   if (fleet.robots.size() > kMaxListed) {
     checked.contents.push_back({"  …", std::to_string(fleet.robots.size() - kMaxListed) + " more"});
   }
-  if (checked.errors.empty()) addErrors(world, fleet, types, checked.contents);
+  if (checked.errors.empty()) {
+    checked.error_models = errorModelsOf(world, fleet, types);
+    checked.error_models.addTo(checked.contents);
+  }
   if (checked.errors.empty()) checkEdge(world, fleet, checked);
 }
 
@@ -167,13 +172,16 @@ void checkRobotList(const std::string& file, const XmlElement& root, Checked& ch
   }
 }
 
-void checkRobotModel(const std::string& file, const XmlElement& root, Checked& checked) {
+void checkRobotModel(const std::string& file, const XmlElement& element, Checked& checked) {
+  const XmlElement root = withIncludedFiles(element, file);
   const RobotModel model = modelOf(root, file, {}, checked.errors);
   checked.robots.push_back(model.name);
   checked.contents = {{"robot type", model.name}, {"radius", fixed(model.radius_m, 3) + " m"}};
   if (!model.sensor_infos) return;
   for (const auto& sensor : *model.sensor_infos) checked.contents.push_back({"  " + sensor.label, nameOf(sensor.kind)});
-  if (checked.errors.empty()) addSensorErrors(root, model, checked.contents);
+  if (!checked.errors.empty()) return;
+  checked.error_models = errorModelsOf(root, model);
+  checked.error_models.addTo(checked.contents);
 }
 
 Checked check(const std::string& file, const Additions& additions) {
@@ -220,7 +228,8 @@ void report(const std::string& file, const Checked& checked, bool as_json) {
                            {"open_edge_m", checked.open_edge_m},
                            {"robots", checked.robots},
                            {"objects", checked.objects},
-                           {"maps", checked.maps}})
+                           {"maps", checked.maps},
+                           {"error_models", checked.error_models.json()}})
               << '\n';
   } else if (ok) {
     std::cout << "ok: " << printableText(file) << " (" << checked.kind << ")\n" << listing(checked.contents);
@@ -258,7 +267,7 @@ void addCheck(CLI::App& program) {
       ->capture_default_str();
   command->add_flag("--json", arguments->json,
                     "print one JSON object: ok, errors, warnings, open_edge_m, robots (names), objects and maps "
-                    "(counts)");
+                    "(counts), error_models (sensors, communication, reflectivity)");
   command->callback(
       [arguments] { report(arguments->file, check(arguments->file, arguments->additions), arguments->json); });
 }

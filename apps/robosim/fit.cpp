@@ -50,7 +50,8 @@ void addFit(CLI::App& program) {
       ->required();
   command
       ->add_option("--sensor", a->sensor,
-                   "label of the scanner, or its part after '/'; required if the rawlog has several")
+                   "label of the scanner, or its part after '/'; required if the rawlog has several; LABEL#1, LABEL#2 "
+                   "... for scanners of one label at different poses on the robot")
       ->type_name("LABEL");
   command->add_option("-o,--output", a->output, "write the errors as a <laser> element; default: print it")
       ->type_name("FILE")
@@ -71,6 +72,7 @@ void addFit(CLI::App& program) {
       ->default_str("scans");
   command->footer(
       "Try:  robosim fit real.rawlog -o laser.xml --report laser.html\n"
+      "A robot type includes the file in its <sensors>: <include file=\"laser.xml\" z_m=\"0.3\"/>\n"
       "Each pair of scans at rest is compared with simulated scans of a model that is fitted to the other half of the "
       "pairs; the written model is fitted to all.");
   command->callback([a] { fit(*a); });

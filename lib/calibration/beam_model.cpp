@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/interrupt.h"
+
 namespace robosim {
 namespace {
 
@@ -21,6 +23,7 @@ BeamModel fitBeamModel(const std::vector<ExpectedReading>& readings, double rang
   constexpr double kSmallestSigma_m = 1e-4;
   BeamModel model;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
+    throwIfInterrupted("nothing was written");
     double hit = 0, brief = 0, max = 0, random = 0, squares_m2 = 0, short_sum_m = 0;
     for (const auto& reading : readings) {
       if (std::isnan(reading.read_m)) {

@@ -22,6 +22,7 @@ struct ExpectedReading {
 /// Estimates the model by expectation maximisation (Table 6.2 of the book), until no parameter changes by more than
 /// 1e-6, in at most 200 iterations.
 /// @param readings at least one
+/// @throws Interrupted when a signal requests the end
 BeamModel fitBeamModel(const std::vector<ExpectedReading>& readings, double range_max_m);
 
 }  // namespace robosim

@@ -91,7 +91,14 @@ std::string bandsOf(const ScannerFit& fit) {
     const double ks = fit.ksOf(band), bound = fit.ksBoundOf(band);
     html += "<p>KS distance " + fixed(ks, 3) + ", bound " + fixed(bound, 3) + " (" +
             (ks <= bound ? "agrees" : "differs") + "); " + withCommas(n) + " real and " +
-            withCommas(fit.simulated.differences_m[band].size()) + " simulated differences.</p>\n";
+            withCommas(fit.simulated.differences_m[band].size()) + " simulated differences.";
+    for (std::size_t half = 0; half < fit.folds.size(); ++half) {
+      const HeldOutFit& fold = fit.folds[half];
+      html += (half == 0 ? " Odd pairs alone: " : "; even pairs alone: ") +
+              fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + ", bound " + fixed(fold.ksBoundOf(band), 3) +
+              (fit.isBeyondBound(fold, band) ? " (<strong>differs</strong>)" : " (agrees)");
+    }
+    html += ".</p>\n";
     html += histogramOf(fit, band);
   }
   return html;

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "base/error_list.h"
+#include "base/interrupt.h"
 
 namespace robosim {
 namespace {
@@ -88,6 +89,7 @@ LaserFit fitLaser(const PairStatistics& statistics, double quantum_m) {
   double best = -std::numeric_limits<double>::infinity();
   for (const double tail : {0.0, 0.005, 0.01, 0.02, 0.03, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3}) {
     for (const double factor : {2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0}) {
+      throwIfInterrupted("nothing was written");
       double sum = 0;
       std::array<double, kBands> std_m{};
       for (std::size_t band = 0; band < kBands; ++band) {

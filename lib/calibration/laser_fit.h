@@ -18,9 +18,10 @@ constexpr std::size_t kFewestDifferences = 30;
 /// Estimates errors by maximum likelihood of the differences, which are binned to the quantum (1 mm without one). The
 /// error of a reading has the density (1 − t) N(0, σ²) + t N(0, (kσ)²), with σ of the band and common t (tail) and k
 /// (tail_factor), which are searched on a grid; readings are rounded to the quantum after a uniform phase. The rate of
-/// outliers is half of that of jumps, because each affects two differences. The rate of lost echoes is left to the
-/// scene's reflectivities, which decide which beams flicker, so that dropout is 0.
+/// outliers is half of that of jumps, because each affects two differences. Lost echoes depend on the beam and are
+/// estimated by dropoutOf(); dropout is 0 here.
 /// @throws ConfigError without a band of kFewestDifferences
+/// @throws Interrupted when a signal requests the end
 LaserFit fitLaser(const PairStatistics& statistics, double quantum_m);
 
 }  // namespace robosim

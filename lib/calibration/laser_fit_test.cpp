@@ -48,6 +48,36 @@ TEST(LaserFit, RefusesTooFewDifferences) {
   EXPECT_THROW(fitLaser(few, 0), ConfigError);
 }
 
+/// Loses echoes of all beams at random.
+void loseEchoes(ScanSeries& series, double share, std::size_t first_beam = 0, std::size_t last_beam = 180) {
+  Rng rng(7);
+  for (auto& scan : series.scans) {
+    for (std::size_t i = first_beam; i <= last_beam; ++i) {
+      if (rng.uniform() < share) scan.ranges_m[i] = std::nan("");
+    }
+  }
+}
+
+TEST(Dropout, IsTheShareOfLostEchoesOfSteadyBeams) {
+  LaserErrors errors;
+  errors.std_m = 0.005;
+  ScanSeries series = standingSeries(200, errors);
+  const auto pairs = standingPairs(series);
+  EXPECT_EQ(dropoutOf(series, pairs), 0);
+  loseEchoes(series, 0.01);
+  loseEchoes(series, 0.5, 0, 9);  // surfaces at the limit of detection
+  // 171 steady beams: standard error √(0.01 / 34,200) = 0.00054.
+  const double dropout = dropoutOf(series, pairs);
+  EXPECT_NEAR(dropout, 0.01, 4 * 0.00054);
+  errors.dropout = dropout;
+  errors.reach_m = 100;
+  errors.fading = 0.1;
+  const double real = statisticsOf(series, pairs).flipRate();
+  // (171 · 2 · 0.01 · 0.99 + 10 · 2 · 0.5 · 0.5) / 181; the losses of all scans are known, those of a pair vary.
+  EXPECT_NEAR(real, 0.0463, 0.004);
+  EXPECT_NEAR(simulatePairs(series, pairs, errors, 2, 1).flipRate(), real, 0.003);
+}
+
 TEST(StandingPairs, ExcludeAPairThatTheRobotTurnedInBetween) {
   // Walls at a slope of 5 cm per beam; the second half of the scans is turned by half a beam.
   LaserErrors errors;

@@ -7,6 +7,8 @@
 
 #include <mrpt/math/TPoint2D.h>
 
+#include "base/interrupt.h"
+
 namespace robosim {
 namespace {
 
@@ -155,6 +157,7 @@ MatchedReadings matchScans(const ScanSeries& series) {
   MatchedReadings matched;
   std::deque<Surface> map;
   for (std::size_t k = 0; k < series.scans.size(); ++k) {
+    throwIfInterrupted("nothing was written");
     const RecordedScan& scan = series.scans[k];
     TPose2D map_from_scan;
     if (!map.empty()) {

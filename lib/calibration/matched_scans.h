@@ -20,6 +20,7 @@ constexpr std::size_t kMapScans = 3;
 /// ICP variant using a point-to-line metric", ICRA 2008), from the pose that the odometry predicts. Adjacent points of
 /// a scan are a surface if they are near each other compared with the distance of adjacent beams on it. Readings of
 /// beams that meet no surface of the map are left out.
+/// @throws Interrupted when a signal requests the end
 MatchedReadings matchScans(const ScanSeries& series);
 
 }  // namespace robosim

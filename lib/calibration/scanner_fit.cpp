@@ -50,6 +50,7 @@ std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const st
 LaserFit modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
   LaserFit model = fitLaser(statisticsOf(series, pairs), quantum_m);
   model.errors.fading = 0.1;
+  model.errors.dropout = dropoutOf(series, pairs);
   for (const auto& group : standingGroups(series, pairs)) {
     model.errors.reach_m = std::max(model.errors.reach_m, reachFor(seenSurfaces(series, group), model.errors.fading));
   }
@@ -80,6 +81,14 @@ double ScannerFit::ksBoundOf(std::size_t band) const {
   return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
 }
 
+double HeldOutFit::ksBoundOf(std::size_t band) const {
+  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
+}
+
+bool ScannerFit::isBeyondBound(const HeldOutFit& half, std::size_t band) const {
+  return !half.real.differences_m[band].empty() && ksOf(half.real, half.simulated, band) > half.ksBoundOf(band);
+}
+
 bool ScannerFit::isAccepted() const {
   for (std::size_t band = 0; band < kBands; ++band) {
     if (!real.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
@@ -93,7 +102,7 @@ ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, Rest
   const Interrupt interrupt;
   fit.criterion = criterion;
   fit.series = readScans(rawlog, sensor, [&](std::uint64_t entries) {
-    if (interrupt.isRequested()) throw Interrupted("interrupted; nothing was written");
+    throwIfInterrupted("nothing was written");
     if (progress.due()) progress.show("reading: " + withCommas(entries) + " entries …");
   });
   fit.candidates = standingPairs(fit.series);
@@ -146,6 +155,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   set("tail", e.tail, 4);
   set("tail_factor", e.tail_factor, 1);
   set("quantum_m", e.quantum_m, 4);
+  set("dropout", e.dropout, 6);
   set("outlier", e.outlier, 6);
   set("reach_m", e.reach_m, 1);
   set("fading", e.fading, 3);
@@ -158,7 +168,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
   std::string text = toXml(laser);
   const std::string comment = "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
-                              ". For the <sensors> of a robot type. -->\n";
+                              ". In the <sensors> of a robot type: <include file=\"laser.xml\" z_m=\"0.3\"/> -->\n";
   return text.insert(text.find('\n') + 1, comment);  // after the declaration
 }
 
@@ -170,18 +180,27 @@ std::string summaryOf(const ScannerFit& fit) {
                      " excluded, because the scans contradict the odometry\n";
   const LaserErrors& e = fit.model.errors;
   text += "errors    quantum " + fixed(e.quantum_m, 3) + " m, tail " + fixed(e.tail, 3) + " × " +
-          fixed(e.tail_factor, 0) + ", outliers " + percent(e.outlier) + ", reach " + fixed(e.reach_m, 0) + " m\n";
+          fixed(e.tail_factor, 0) + ", lost " + percent(e.dropout) + ", outliers " + percent(e.outlier) + ", reach " +
+          fixed(e.reach_m, 0) + " m\n";
   text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
   text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
           " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
-  Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "KS, even"}};
+  std::string beyond;  // halves
+  Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "bound", "KS, even", "bound"}};
   for (std::size_t band = 0; band < kBands; ++band) {
     const std::size_t n = fit.real.differences_m[band].size();
     if (n == 0) continue;
     rows.push_back({bandName(band), fit.model.std_m[band] > 0 ? fixed(1000 * fit.model.std_m[band], 1) + " mm" : "–",
                     withCommas(n), withCommas(fit.simulated.differences_m[band].size()), fixed(fit.ksOf(band), 3),
                     fixed(fit.ksBoundOf(band), 3)});
-    for (const auto& fold : fit.folds) rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3));
+    for (std::size_t half = 0; half < fit.folds.size(); ++half) {
+      const HeldOutFit& fold = fit.folds[half];
+      const bool is_beyond = fit.isBeyondBound(fold, band);
+      rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + (is_beyond ? " !" : ""));
+      rows.back().push_back(fixed(fold.ksBoundOf(band), 3));
+      if (!is_beyond) continue;
+      beyond += (beyond.empty() ? "" : ", ") + std::string(half == 0 ? "odd" : "even") + " pairs at " + bandName(band);
+    }
   }
   text += table(rows);
   rows = {{"share of the beams", "odd, real", "simulated", "even, real", "simulated"}};
@@ -196,8 +215,10 @@ std::string summaryOf(const ScannerFit& fit) {
   add("changes of validity", &PairStatistics::flipRate);
   add("invalid in both", &PairStatistics::invalidRate);
   text += "\n" + table(rows);
-  return text + (fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
-                                  : "\nThe held-out pairs differ from the model by more than the bounds.\n");
+  text += fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
+                           : "\nThe held-out pairs differ from the model by more than the bounds.\n";
+  if (!beyond.empty()) text += "! One half alone exceeds its bound: " + beyond + ".\n";
+  return text;
 }
 
 }  // namespace robosim

@@ -23,6 +23,8 @@ struct HeldOutFit {
   LaserFit model;
   PairStatistics real, simulated;  ///< of the held-out pairs, and of the model
 
+  /// Bound of the Kolmogorov–Smirnov distance of a band.
+  double ksBoundOf(std::size_t band) const;
   /// Whether the rates of jumps and of changes of validity agree within kRateTolerance.
   bool ratesAgree() const;
 };
@@ -45,6 +47,8 @@ struct ScannerFit {
   double ksOf(std::size_t band) const { return ksOf(real, simulated, band); }
   double ksOf(const PairStatistics& held_out, const PairStatistics& model, std::size_t band) const;
   double ksBoundOf(std::size_t band) const;
+  /// Whether the distance of one half of the pairs exceeds the bound of its own numbers of differences.
+  bool isBeyondBound(const HeldOutFit& half, std::size_t band) const;
   /// Whether all bands of both folds together are within their bounds, and the rates of each fold agree.
   bool isAccepted() const;
 };
@@ -58,7 +62,7 @@ ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, Rest
 
 /// The fitted errors as a <laser> element's <noise>, with a comment on its origin: an XML document.
 std::string modelXml(const ScannerFit& fit, const std::string& rawlog);
-/// The results as a text table.
+/// The results as a text table. "!" marks a half that is beyond its bound, which isAccepted() does not regard.
 std::string summaryOf(const ScannerFit& fit);
 /// The results with histograms, as one HTML page without external references.
 std::string reportHtml(const ScannerFit& fit, const std::string& rawlog);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/interrupt.h"
 #include "sensors/beam_mounts.h"
 #include "sensors/laser_scanner.h"
 
@@ -15,11 +16,29 @@ constexpr double kDepth_m = 0.01;
 /// Width of a wall, as a share of the distance between adjacent beams.
 constexpr double kWidth = 0.9;
 
-/// Share v of valid readings for which 2 v (1 − v) is the share of changes, because readings are independent in the
-/// simulation.
-double shareOf(const SeenSurface& seen) {
+/// Share of the echoes that the surface returns such that the share v of valid readings gives 2 v (1 − v) changes,
+/// because readings are independent in the simulation.
+double shareOf(const SeenSurface& seen, double dropout) {
   const double off_half = std::sqrt(std::max(0.0, 0.25 - seen.flips / 2));
-  return seen.valid > 0.5 ? 0.5 + off_half : 0.5 - off_half;
+  const double valid = seen.valid > 0.5 ? 0.5 + off_half : 0.5 - off_half;
+  return std::min(1.0, valid / (1 - dropout));
+}
+
+/// The scans of pairs, in order.
+std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs) {
+  std::vector<std::size_t> scans;
+  for (const auto& pair : pairs) {
+    for (const std::size_t scan : {pair.first, pair.first + 1}) {
+      if (scans.empty() || scan > scans.back()) scans.push_back(scan);
+    }
+  }
+  return scans;
+}
+
+/// Whether a rate of lost echoes explains a beam's losses in a number of scans.
+bool isSteady(std::size_t lost, std::size_t scans, double dropout) {
+  const double expected = dropout * static_cast<double>(scans);
+  return dropout > 0 && static_cast<double>(lost) <= 1 + expected + 3 * std::sqrt(expected);
 }
 
 /// Reflectivity at which a share of the echoes from a range is detected; the inverse of the model of LaserErrors.
@@ -89,7 +108,8 @@ class StandingScanner {
       if (seen[i].range_m <= 0) continue;
       walls.push_back(wallFor(bearingOf(series, i), seen[i].range_m, series.step_rad));
       reflectivity_.push_back(static_cast<float>(
-          errors.reach_m > 0 ? reflectivityOf(errors, seen[i].range_m, shareOf(seen[i])) : kReflectivity));
+          errors.reach_m > 0 ? reflectivityOf(errors, seen[i].range_m, shareOf(seen[i], errors.dropout))
+                             : kReflectivity));
     }
     return walls;
   }
@@ -104,13 +124,8 @@ class StandingScanner {
 
 }  // namespace
 
-std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
-  std::vector<std::size_t> scans;
-  for (const auto& pair : pairs) {
-    for (const std::size_t scan : {pair.first, pair.first + 1}) {
-      if (scans.empty() || scan > scans.back()) scans.push_back(scan);
-    }
-  }
+std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs, double dropout) {
+  const std::vector<std::size_t> scans = scansOf(pairs);
   std::vector<SeenSurface> seen(series.scans.empty() ? 0 : series.scans.front().ranges_m.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
     std::vector<double> valid_m;
@@ -135,16 +150,49 @@ std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vecto
       ++near;
     }
     seen[i].range_m = sum_m / near;
+    const std::size_t lost = scans.size() - valid_m.size();
+    if (lost > 0 && isSteady(lost, scans.size(), dropout)) {
+      seen[i].valid = 1;
+      seen[i].flips = 0;
+    }
   }
   return seen;
+}
+
+double dropoutOf(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
+  constexpr std::size_t kFewestScans = 5;  // with fewer, a steady beam with a lost echo is not known from others
+  std::vector<std::pair<std::size_t, std::size_t>> beams;  // lost echoes, scans
+  for (const auto& group : standingGroups(series, pairs)) {
+    const std::vector<std::size_t> scans = scansOf(group);
+    if (scans.size() < kFewestScans) continue;
+    for (std::size_t i = 0; i < series.scans.front().ranges_m.size(); ++i) {
+      std::size_t lost = 0;
+      for (const std::size_t scan : scans) lost += std::isnan(series.scans[scan].ranges_m[i]) ? 1 : 0;
+      if (lost < scans.size()) beams.emplace_back(lost, scans.size());
+    }
+  }
+  constexpr int kIterations = 20;
+  double dropout = std::numeric_limits<double>::min();
+  for (int iteration = 0; iteration < kIterations; ++iteration) {
+    std::size_t lost = 0, all = 0;
+    for (const auto& [beam_lost, scans] : beams) {
+      if (!isSteady(beam_lost, scans, dropout)) continue;
+      lost += beam_lost;
+      all += scans;
+    }
+    if (lost == 0) return 0;
+    dropout = static_cast<double>(lost) / static_cast<double>(all);
+  }
+  return dropout;
 }
 
 PairStatistics simulatePairs(const ScanSeries& series, const std::vector<ScanPair>& pairs, const LaserErrors& errors,
                              std::size_t count, std::uint64_t seed) {
   PairStatistics statistics;
   for (const auto& group : standingGroups(series, pairs)) {
-    StandingScanner scanner(series, seenSurfaces(series, group), errors, seed++);
+    StandingScanner scanner(series, seenSurfaces(series, group, errors.dropout), errors, seed++);
     for (std::size_t i = 0; i < count * group.size(); ++i) {
+      throwIfInterrupted("nothing was written");
       const auto first = scanner.scan();
       statistics.add(first, scanner.scan());
     }

@@ -15,13 +15,21 @@ struct SeenSurface {
 };
 
 /// The surfaces seen in the scans of pairs, which all belong to one pose of the robot.
-std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs);
+/// @param dropout rate of lost echoes of steady beams, dropoutOf(): beams that lose no more echoes than this explains
+/// count as valid in all scans
+std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs, double dropout = 0);
+
+/// Share of lost echoes of the steady beams of a scanner at rest. Steady is a beam with at most one lost echo plus
+/// three standard deviations of what this share explains; the share is iterated to a fixed point, from the beams with
+/// at most one lost echo. Beams with more losses flicker because of their surface.
+double dropoutOf(const ScanSeries& series, const std::vector<ScanPair>& pairs);
 
 /// Pairs of successive scans of RoboSim's scanner with these errors, at rest in an equivalent scene: for each beam a
-/// wall that faces it at SeenSurface::range_m, with a reflectivity at which the validity changes as often as
-/// SeenSurface::flips. Beams without valid readings see nothing. The walls are narrower than the distance of the beams,
-/// so that no beam sees a wall of another.
+/// wall that faces it at SeenSurface::range_m, with a reflectivity at which the validity changes, together with
+/// LaserErrors::dropout, as often as SeenSurface::flips. Beams without valid readings see nothing. The walls are
+/// narrower than the distance of the beams, so that no beam sees a wall of another.
 /// @param count number of simulated pairs for each given pair
+/// @throws Interrupted when a signal requests the end
 PairStatistics simulatePairs(const ScanSeries& series, const std::vector<ScanPair>& pairs, const LaserErrors& errors,
                              std::size_t count, std::uint64_t seed);
 

@@ -10,6 +10,7 @@
 
 #include "base/error_list.h"
 #include "base/printable_text.h"
+#include "base/text_table.h"
 #include "recording/observation_times.h"
 #include "recording/rawlog_reader.h"
 
@@ -19,20 +20,42 @@ namespace {
 constexpr double kInvalid = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnmoved_m = 1e-4, kUnturned_rad = 1e-4;
 constexpr double kApart_s = 2;
+constexpr double kSamePose_m = 1e-3, kSamePose_rad = 1e-3;
 constexpr double kTurnedErrors = 5;
 
 bool isLabel(const std::string& label, const std::string& wanted) {
   return label == wanted || (label.size() > wanted.size() && label.ends_with("/" + wanted));
 }
 
+/// Whether the scanner is mounted upside down.
+bool isInverted(const mrpt::obs::CObservation2DRangeScan& observation) {
+  return observation.sensorPose.getRotationMatrix()(2, 2) < 0;
+}
+
+/// The ranges in anticlockwise order as seen from above, whatever the order and the mounting of the scanner are.
 RecordedScan scanOf(const mrpt::obs::CObservation2DRangeScan& observation, double time_s) {
   RecordedScan scan{.time_s = time_s, .ranges_m = {}, .odometry = {}};
   for (std::size_t i = 0; i < observation.getScanSize(); ++i) {
     const double range_m = static_cast<double>(observation.getScanRange(i));
     scan.ranges_m.push_back(observation.getScanRangeValidity(i) && std::isfinite(range_m) ? range_m : kInvalid);
   }
+  const bool is_anticlockwise = observation.rightToLeft != isInverted(observation);
+  if (!is_anticlockwise) std::reverse(scan.ranges_m.begin(), scan.ranges_m.end());
   return scan;
 }
+
+/// The mounting pose in the plane: its heading is that of the scanner's x axis, also if the scanner is upside down.
+mrpt::math::TPose2D planarPose(const mrpt::poses::CPose3D& pose) {
+  const auto rotation = pose.getRotationMatrix();
+  return {pose.x(), pose.y(), std::atan2(rotation(1, 0), rotation(0, 0))};
+}
+
+/// The scans of one label and one pose on the robot.
+struct MountedScanner {
+  std::string label;
+  mrpt::math::TPose3D pose;
+  ScanSeries series;
+};
 
 ScanSeries emptySeries(const mrpt::obs::CObservation2DRangeScan& observation) {
   ScanSeries series;
@@ -41,39 +64,67 @@ ScanSeries emptySeries(const mrpt::obs::CObservation2DRangeScan& observation) {
   if (observation.getScanSize() > 1)
     series.step_rad = aperture_rad / static_cast<double>(observation.getScanSize() - 1);
   series.first_rad = -aperture_rad / 2;
-  series.robot_from_scanner = mrpt::math::TPose2D(observation.sensorPose.asTPose());
+  series.robot_from_scanner = planarPose(observation.sensorPose);
   series.range_max_m = static_cast<double>(observation.maxRange);
   return series;
 }
 
-/// "'front', 'rear'": at most ten labels.
-std::string namesOf(const std::map<std::string, ScanSeries>& all) {
+bool areSamePose(const mrpt::math::TPose3D& a, const mrpt::math::TPose3D& b) {
+  if (std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) > kSamePose_m) return false;
+  for (const double turn_rad : {a.yaw - b.yaw, a.pitch - b.pitch, a.roll - b.roll}) {
+    if (std::abs(std::remainder(turn_rad, 2 * M_PI)) > kSamePose_rad) return false;
+  }
+  return true;
+}
+
+MountedScanner& scannerOf(const mrpt::obs::CObservation2DRangeScan& observation, std::vector<MountedScanner>& all) {
+  const auto pose = observation.sensorPose.asTPose();
+  for (auto& scanner : all) {
+    if (scanner.label == observation.sensorLabel && areSamePose(scanner.pose, pose)) return scanner;
+  }
+  return all.emplace_back(MountedScanner{observation.sensorLabel, pose, emptySeries(observation)});
+}
+
+/// Appends "#1", "#2" … to labels that several scanners share.
+void numberSharedLabels(std::vector<MountedScanner>& all) {
+  std::map<std::string, int> uses, numbers;
+  for (const auto& scanner : all) ++uses[scanner.label];
+  for (auto& scanner : all) {
+    if (uses[scanner.label] > 1) scanner.series.label += "#" + std::to_string(++numbers[scanner.label]);
+  }
+}
+
+/// "'front', 'rear'": at most ten labels, and the poses of scanners that share one.
+std::string namesOf(const std::vector<MountedScanner>& all) {
   std::string names;
   int count = 0;
-  for (const auto& [label, series] : all) {
+  for (const auto& scanner : all) {
     if (++count > 10) return names + ", …";
-    names += (names.empty() ? "'" : ", '") + quotable(label) + "'";
+    names += (names.empty() ? "'" : ", '") + quotable(scanner.series.label) + "'";
+    if (scanner.series.label == scanner.label) continue;
+    const auto& pose = scanner.series.robot_from_scanner;
+    names += " at (" + fixed(pose.x, 2) + ", " + fixed(pose.y, 2) + ") m, " + fixed(pose.phi * 180 / M_PI, 0) + "°";
   }
   return names;
 }
 
-ScanSeries& chosen(const std::string& rawlog, const std::string& sensor, std::map<std::string, ScanSeries>& all) {
+ScanSeries& chosen(const std::string& rawlog, const std::string& sensor, std::vector<MountedScanner>& all) {
   if (all.empty()) {
     throw ConfigError(rawlog + ": has no laser scans (CObservation2DRangeScan)" +
                       "; use a recording of a laser scanner");
   }
   if (sensor.empty()) {
-    if (all.size() == 1) return all.begin()->second;
+    if (all.size() == 1) return all.front().series;
     throw ConfigError(rawlog + ": has scans of several sensors; choose one of them by --sensor: " + namesOf(all));
   }
   ScanSeries* found = nullptr;
-  for (auto& [label, series] : all) {
-    if (!isLabel(label, sensor)) continue;
+  for (auto& scanner : all) {
+    if (!isLabel(scanner.series.label, sensor)) continue;
     if (found) {
       throw ConfigError("--sensor " + sensor +
                         ": is a scanner of several robots; give the whole label, one of: " + namesOf(all));
     }
-    found = &series;
+    found = &scanner.series;
   }
   if (!found) {
     throw ConfigError("--sensor " + sensor + ": " + rawlog + " has no such scanner; it has " + namesOf(all) +
@@ -126,7 +177,7 @@ ScanSeries readScans(const std::string& rawlog, const std::string& sensor,
                      const std::function<void(std::uint64_t)>& progress) {
   RawlogReader reader(rawlog);
   ObservationTimes times;
-  std::map<std::string, ScanSeries> all;
+  std::vector<MountedScanner> all;
   std::map<std::string, mrpt::math::TPose2D> odometry;  // by robot, the part of the label before "/"
   const auto robotOf = [](const std::string& label) {
     const auto end = label.find('/');
@@ -138,7 +189,7 @@ ScanSeries readScans(const std::string& rawlog, const std::string& sensor,
     if (const auto* odo = dynamic_cast<const mrpt::obs::CObservationOdometry*>(observation.get())) {
       odometry[robotOf(odo->sensorLabel)] = odo->odometry.asTPose();
     } else if (const auto* scan = dynamic_cast<const mrpt::obs::CObservation2DRangeScan*>(observation.get())) {
-      ScanSeries& series = all.try_emplace(scan->sensorLabel, emptySeries(*scan)).first->second;
+      ScanSeries& series = scannerOf(*scan, all).series;
       RecordedScan read = scanOf(*scan, time_s);
       if (!series.scans.empty() && series.scans.front().ranges_m.size() != read.ranges_m.size()) continue;
       const auto at = odometry.find(robotOf(scan->sensorLabel));
@@ -146,6 +197,7 @@ ScanSeries readScans(const std::string& rawlog, const std::string& sensor,
       series.scans.push_back(std::move(read));
     }
   }
+  numberSharedLabels(all);
   return std::move(chosen(rawlog, sensor, all));
 }
 

@@ -11,13 +11,13 @@ namespace robosim {
 /// A scan of a recording.
 struct RecordedScan {
   double time_s = 0;                            ///< since the recording's first observation
-  std::vector<double> ranges_m;                 ///< by beam; NaN for an invalid reading
+  std::vector<double> ranges_m;                 ///< by beam, anticlockwise from above; NaN for an invalid reading
   std::optional<mrpt::math::TPose2D> odometry;  ///< the last one before the scan
 };
 
 /// All scans of one scanner of a recording, in order.
 struct ScanSeries {
-  std::string label;
+  std::string label;       ///< as recorded; with "#1", "#2" … if several scanners have it
   double step_rad = 0;     ///< between adjacent beams, > 0
   double first_rad = 0;    ///< direction of the first beam, in the scanner's frame
   double range_max_m = 0;  ///< as recorded
@@ -25,7 +25,9 @@ struct ScanSeries {
   mrpt::math::TPose2D robot_from_scanner = {};  ///< mounting pose
 };
 
-/// Reads the scans of a scanner (CObservation2DRangeScan) from a rawlog in either of MRPT's formats.
+/// Reads the scans of a scanner (CObservation2DRangeScan) from a rawlog in either of MRPT's formats. Scans of one label
+/// from different poses on the robot (by more than 1 mm or 1 mrad) are those of different scanners. Ranges of clockwise
+/// and of inverted scanners are reversed.
 /// @param sensor label, or its part after "/"; empty: the only scanner
 /// @param progress called with the number of entries so far; may throw to end the reading
 /// @throws ConfigError for a file that is no rawlog, without scans of that sensor, or with several scanners if `sensor`

@@ -7,9 +7,11 @@
 
 #include "base/random.h"
 #include "base/xml_element.h"
+#include "base/xml_parser.h"
 #include "environment/start_poses.h"
 #include "geometry/shapes/path.h"
 #include "robots/free_space.h"
+#include "robots/robot_type_includes.h"
 #include "robots/scatter.h"
 #include "world/map_reader.h"
 #include "world/world_file.h"
@@ -222,8 +224,9 @@ void makeTeam(const WorldSource& source, const RobotTypes& types, int size, std:
 
 /// The text of a type with noise added to its sensors.
 std::string textOf(const RobotTypeFile& type, AddedNoise noise) {
-  if (noise == AddedNoise::none) return type.text ? *type.text : readXmlText(type.file);
-  XmlElement root = type.read();
+  const std::string text = wholeTextOf(type);
+  if (noise == AddedNoise::none) return text;
+  XmlElement root = parseXml(text, type.file.string());
   for (auto& child : root.children) {
     if (child.name == "sensors") addNoise(noise, child.children);
   }

@@ -6,6 +6,7 @@
 #include "base/digest.h"
 #include "base/xml_reader.h"
 #include "robots/arcos_parameters_reader.h"
+#include "robots/robot_type_includes.h"
 #include "robots/sensor_names.h"
 #include "sensors/odometry.h"
 #include "sensors/registry.h"
@@ -69,6 +70,21 @@ void mount(std::vector<XmlReader> readers, double unit_m, Mounted& mounted) {
   }
 }
 
+/// Readers of the sensors of a type, those of included files with the names of these.
+std::vector<XmlReader> sensorReaders(XmlReader& sensors, const std::string& type_file, ErrorList& errors) {
+  std::vector<XmlReader> readers;
+  for (auto& reader : sensors.all()) {
+    const XmlElement& element = reader.element();
+    if (element.name == "include" && element.children.size() == 1) {
+      const auto file = std::filesystem::path(type_file).parent_path() / reader.word("file");
+      readers.emplace_back(element.children.front(), file.string(), errors);
+    } else {
+      readers.push_back(std::move(reader));
+    }
+  }
+  return readers;
+}
+
 std::uint64_t digestOf(const std::vector<XmlElement>& sensors) {
   Digest digest;
   for (const auto& sensor : sensors) {
@@ -108,7 +124,7 @@ void setBody(const Body& body, RobotModel& model) {
 
 RobotModel readRobotModel(const std::filesystem::path& file, ErrorList& errors) {
   try {
-    return modelOf(readXmlFile(file), file.string(), {}, errors);
+    return modelOf(readRobotType({file, std::nullopt}), file.string(), {}, errors);
   } catch (const ConfigError& error) {
     errors.add(error);
     return {};
@@ -139,11 +155,9 @@ RobotModel modelOf(const XmlElement& type, const std::string& type_file, const R
   if (description.sensors) {
     mountDescribed(description, mounted, errors);
   } else if (sensors) {
-    mount(sensors->all(), 1, mounted);
+    mount(sensorReaders(*sensors, type_file, errors), 1, mounted);
     sensors->finish();
-    const auto element = std::find_if(type.children.begin(), type.children.end(),
-                                      [](const XmlElement& child) { return child.name == "sensors"; });
-    model.sensors_digest = digestOf(element->children);
+    model.sensors_digest = digestOf(sensorsOf(type));
   }
   root.finish();
   describeSensors(mounted);

@@ -4,6 +4,7 @@
 
 #include "base/printable_text.h"
 #include "robots/robot_type_folders_text.h"
+#include "robots/robot_type_includes.h"
 
 namespace robosim {
 namespace {
@@ -74,7 +75,7 @@ const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot
     type.was_read = true;
     const std::size_t faults = errors_.count();
     try {
-      type.root = type.file->read();
+      type.root = readRobotType(*type.file);
       RobotModel model = modelOf(type.root, type.file->file.string(), {}, errors_);
       if (errors_.count() == faults) type.model = std::make_shared<const RobotModel>(std::move(model));
     } catch (const ConfigError& error) {

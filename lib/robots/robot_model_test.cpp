@@ -88,6 +88,19 @@ TEST(RobotModel, PioneerHasTheRealRobotsSonarsAndLimits) {
   EXPECT_EQ(laser.range_max_m, 8);
 }
 
+TEST(RobotModel, PolaroidPioneerDiffersFromTheOtherOneByItsSonarsOnly) {
+  const RobotModel real = shipped("pioneer3dx_polaroid"), plain = shipped("pioneer3dx");
+  EXPECT_EQ(labelsOf(real), labelsOf(plain));
+  EXPECT_EQ(real.radius_m, plain.radius_m);
+  for (std::size_t i = 0; i < real.sensors.size(); ++i) EXPECT_EQ(real.sensors[i]->isNoisy(), i == 0) << i;
+  const SensorInfo& sonar = real.sensor_infos->at(0);
+  EXPECT_DOUBLE_EQ(sonar.beam_width_rad, 84 * kRadPerDeg) << "42° to each side";
+  ASSERT_EQ(sonar.beams.size(), 16u);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(sonar.beams[i].robot_from_beam, plain.sensor_infos->at(0).beams[i].robot_from_beam) << i;
+  }
+}
+
 TEST(RobotModel, ScoutHasSixteenEvenlySpacedSonarsAndNoLaser) {
   const RobotModel model = shipped("scout");
   EXPECT_EQ(model.radius_m, 0.19);

@@ -1,6 +1,7 @@
 #include "robots/world_source.h"
 
 #include "base/digest.h"
+#include "robots/robot_type_includes.h"
 #include "robots/scatter.h"
 #include "world/caching_file_provider.h"
 #include "world/world_file.h"
@@ -35,7 +36,7 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   const auto keep_type_of = [&](const RobotPlacement& robot) {
     const auto type = known.find(robot.model);
     if (type == known.end() || source.robot_types.count(robot.model)) return;
-    source.robot_types[robot.model] = {type->second.file, readXmlText(type->second.file)};
+    source.robot_types[robot.model] = {type->second.file, wholeTextOf(type->second)};
   };
   for (const auto& robot : world.robots) keep_type_of(robot);
   for (const auto& scatter : world.scatters) {

@@ -1,7 +1,7 @@
 #include "run/output_files.h"
 
 #include "base/error_list.h"
-#include "robots/robot_types.h"
+#include "robots/robot_type_includes.h"
 #include "world/map_reader.h"
 
 namespace robosim {
@@ -25,7 +25,10 @@ std::vector<fs::path> inputFilesOf(const std::string& world_file, const World& w
     for (const auto& file : filesOfMap(folder / map.file)) files.push_back(file);
   }
   for (const auto& name : world.origin.included) files.push_back(folder / name);
-  for (const auto& [name, type] : robotTypesIn(robotTypeFolders(world_file))) files.push_back(type.file);
+  for (const auto& [name, type] : robotTypesIn(robotTypeFolders(world_file))) {
+    files.push_back(type.file);
+    for (const auto& file : filesIncludedBy(type)) files.push_back(file);
+  }
   return files;
 }
 

@@ -23,6 +23,7 @@ class Compass : public Sensor {
     for (const auto robot : robots) {
       double heading_rad = now.world_from_robot[robot].phi;
       if (!options_.deviation.isNone()) heading_rad += options_.deviation.at(heading_rad);
+      if (options_.gyro_drift_radps != 0) heading_rad += options_.gyro_drift_radps * now.time.seconds();
       if (options_.noise_std_rad > 0) heading_rad += options_.noise_std_rad * now.noise(robot, slot).gaussian();
       readings[robot].measurements[slot] = Scalar{mrpt::math::wrapToPi(heading_rad)};
     }
@@ -41,6 +42,8 @@ CompassOptions CompassOptions::read(XmlReader& reader) {
   if (auto element = reader.child("noise")) {
     o.noise_std_rad = element->angle("std_deg", Bounds::notNegative(180), 2 * M_PI / 180);
     o.deviation = CompassDeviation::read(*element);
+    constexpr double kHour_s = 3600;
+    o.gyro_drift_radps = element->number("gyro_drift_deg_per_h", {-36000, 36000}, 0) * M_PI / 180 / kHour_s;
     element->finish();
   }
   return o;

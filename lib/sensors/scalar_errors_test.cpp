@@ -28,6 +28,20 @@ TEST(CompassDeviation, IsASinusoidOncePerTurnOfHardIronAndTwicePerTurnOfSoftIron
   EXPECT_NEAR(error_deg("offset_deg='-3' hard_iron_deg='10'", 90), 7, 1e-9);
 }
 
+TEST(GyroDrift, GrowsInProportionToTheTime) {
+  // 3600° per hour are 0.1° per step of 0.1 s.
+  const auto gyro = sensorFrom("<compass><noise std_deg='0' gyro_drift_deg_per_h='-3600'/></compass>");
+  EXPECT_FALSE(gyro->isNoisy()) << "not random";
+  SingleRobotScene robot({}, {0, 0, M_PI / 2});
+  const double first_rad = valueOf(robot, *gyro);
+  EXPECT_NEAR(first_rad, M_PI / 2, 0.11 * M_PI / 180);
+  double last_rad = first_rad;
+  for (int step = 0; step < 600; ++step) last_rad = valueOf(robot, *gyro);
+  EXPECT_NEAR(last_rad, first_rad - M_PI / 3, 1e-9);
+  for (int step = 0; step < 1800; ++step) last_rad = valueOf(robot, *gyro);
+  EXPECT_NEAR(std::remainder(last_rad - (first_rad - 4 * M_PI / 3), 2 * M_PI), 0, 1e-9) << "wraps";
+}
+
 TEST(HeatLag, ApproachesTheHeatByTheSameShareOfTheRestInEachStep) {
   // Steps of 0.1 s and a lag of 0.3 s: a quarter of the rest.
   const auto heat = sensorFrom("<heat range_max_m='4'><noise std='0' lag_s='0.3'/></heat>");

@@ -127,8 +127,8 @@ struct Communication {
   double loss_probability = 0;                   ///< of each message, [0, 1]
   double wall_range_m = 0;                       ///< range that each wall between the robots takes, [0, 1e9]
   double wall_loss = 0;                          ///< probability that a message is lost at each wall, [0, 1]
-  double burst_gap_s = 0;                        ///< mean time between bursts of losses, [0, 1e9]; 0: there are none
-  double burst_s = 1;                            ///< mean duration of a burst, (0, 1e9]
+  double burst_gap_s = 0;                        ///< mean time between bursts of losses, [0, 3600]; 0: there are none
+  double burst_s = 1;                            ///< mean duration of a burst, (0, 3600]
   double burst_loss = 1;                         ///< probability that a message is lost in a burst, [0, 1]
   double delay_s = 0;                            ///< beyond the next step, rounded up to whole steps, [0, 60]
   double rate_hz = 0;                            ///< messages that a robot may send per second, [0, 1e6]; 0: unlimited

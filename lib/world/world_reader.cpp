@@ -17,6 +17,10 @@
 namespace robosim {
 namespace {
 
+/// Maximum of the mean durations of bursts of losses and of the times between them: the state of a channel is searched
+/// back over about as many steps, for each message.
+constexpr double kBurstMax_s = 3600;
+
 /// Maximum length unit; files use kilometres at most.
 constexpr double kUnitMax_m = 1000;
 
@@ -164,8 +168,8 @@ class WorldReader {
       communication.errorAt("wall_range", "shortens the range, and there is none; add <range>");
     }
     c.wall_loss = communication.number("wall_loss", {0, 1}, c.wall_loss);
-    c.burst_gap_s = communication.number("burst_gap_s", Bounds::notNegative(), c.burst_gap_s);
-    c.burst_s = communication.number("burst_s", Bounds::positive(), c.burst_s);
+    c.burst_gap_s = communication.number("burst_gap_s", Bounds::notNegative(kBurstMax_s), c.burst_gap_s);
+    c.burst_s = communication.number("burst_s", Bounds::positive(kBurstMax_s), c.burst_s);
     c.burst_loss = communication.number("burst_loss", {0, 1}, c.burst_loss);
     c.delay_s = communication.number("delay_s", {0, 60}, c.delay_s);
     c.rate_hz = communication.number("rate_hz", {0, 1e6}, c.rate_hz);

@@ -227,8 +227,17 @@ TEST(WorldReader, RejectsValuesOutOfBounds) {
   EXPECT_EQ(
       faults(worldOf({}, "<communication wall_range='1' delay_s='61' burst_s='0'/>")),
       (Lines{"a.xml:2: <communication wall_range=\"1\">: shortens the range, and there is none; add <range>",
-             "a.xml:2: <communication burst_s=\"0\">: must be above 0 seconds; drop it for the default, 1",
+             "a.xml:2: <communication burst_s=\"0\">: must lie in (0, 3600] seconds; drop it for the default, 1",
              "a.xml:2: <communication delay_s=\"61\">: must lie in [0, 60] seconds; drop it for the default, 0"}));
+}
+
+TEST(WorldReader, LimitsBurstsOfTheRadioToAnHour) {
+  EXPECT_EQ(faults(worldOf({}, "<communication burst_gap_s='3600' burst_s='3600'/>")), Lines{});
+  EXPECT_EQ(faults(worldOf({}, "<communication burst_gap_s='3601' burst_s='1e9'/>")),
+            (Lines{"a.xml:2: <communication burst_gap_s=\"3601\">: must lie in [0, 3600] seconds; drop it for the "
+                   "default, 0",
+                   "a.xml:2: <communication burst_s=\"1e9\">: must lie in (0, 3600] seconds; drop it for the default, "
+                   "1"}));
 }
 
 TEST(WorldReader, ReadsTheErrorsOfTheRadio) {

@@ -28,6 +28,8 @@ TEST(Check, PrintsTheSummaryAsJson) {
   EXPECT_EQ(ok["errors"], json::array());
   EXPECT_EQ(ok["robots"], (json{"Finder1", "Finder2", "Finder3", "Finder4"}));
   EXPECT_EQ(ok["objects"], 15);
+  EXPECT_EQ(ok["error_models"]["sensors"], json::array());
+  EXPECT_EQ(ok["error_models"]["communication"], nullptr);
 }
 
 TEST(Check, ListsEveryErrorOfAFile) {
@@ -62,24 +64,46 @@ TEST(Check, PrintsTheErrorsOfSensorsAndRadioWithAllSettings) {
   std::ofstream(folder / "robots" / "noisy.xml") << R"(<robot name="noisy"><body radius_m="0.2" height_m="0.3"/>
 <limits speed_max_mps="1" accel_mps2="1" decel_mps2="1" turn_max_degps="90" turn_accel_degps2="90"/>
 <sensors><sonar noise="polaroid"><noise dropout="0.05"/><at/></sonar><heat/><compass><noise hard_iron_deg="5"/></compass>
-<odometry/></sensors></robot>)";
+<odometry/><laser latency_s="0.2"/><laser noise="lms200" rate_hz="5"><noise><at range_m="1" std_m="0.01"/>
+<at range_m="9" std_m="0.02"/></noise></laser></sensors></robot>)";
   const auto world = folder / "world.xml";
   std::ofstream(world) << R"(<world><surface><type>smooth</type><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin>
 <ymax>5</ymax></size><object><shape><robot><model>noisy</model><name>A</name><x>0</x><y>0</y></robot></shape></object>
+<object><shape><primitive><cylinder><name>Mirror</name><x>3</x><y>0</y><z>0.5</z><radius>0.2</radius><height>1</height>
+<reflectivity>0.9</reflectivity></cylinder></primitive></shape></object>
 </surface><communication range="9" delay_s="0.2"/></world>)";
   const std::string compass =
       "compass: noise; hard_iron_deg 5; by default std_deg 2, offset_deg 0, hard_iron_at_deg 0, soft_iron_deg 0, "
-      "soft_iron_at_deg 0\n";
+      "soft_iron_at_deg 0, gyro_drift_deg_per_h 0\n";
   for (const auto& file : {world, folder / "robots" / "noisy.xml"}) {
     const std::string out = runProgram("check '" + file.string() + "'").out;
     EXPECT_NE(out.find("sonar: noise polaroid; dropout 0.05; by default std_m 0, std_per_m 0.01,"), std::string::npos)
         << out;
-    EXPECT_NE(out.find("robot_crosstalk 0.02\n"), std::string::npos) << out;
+    EXPECT_NE(out.find("robot_crosstalk 0.02, firing_interval_s 0, array 8\n"), std::string::npos) << out;
+    EXPECT_NE(out.find("  laser: latency_s 0.2; by default sweep_s 0, rate_hz 0, phase_s 0\n"), std::string::npos)
+        << out;
+    EXPECT_NE(out.find("  laser: noise lms200; at (range_m 1, std_m 0.01), at (range_m 9, std_m 0.02), rate_hz 5; by "
+                       "default tail 0.03"),
+              std::string::npos)
+        << out;
     EXPECT_NE(out.find(compass), std::string::npos) << out;
     EXPECT_EQ(out.find("heat:"), std::string::npos) << out;
   }
-  EXPECT_NE(runProgram("check '" + world.string() + "'").out.find("range 9 m, loss 0, wall_range 0 m, wall_loss 0"),
-            std::string::npos);
+  const std::string out = runProgram("check '" + world.string() + "'").out;
+  EXPECT_NE(out.find("range 9 m, loss 0, wall_range 0 m, wall_loss 0"), std::string::npos) << out;
+  EXPECT_NE(out.find("Mirror 0.9; by default 0.5\n"), std::string::npos) << out;
+  const json models = json::parse(runProgram("check --json '" + world.string() + "'").out)["error_models"];
+  EXPECT_EQ(models["communication"]["range"], 9);
+  EXPECT_EQ(models["communication"]["delay_s"], 0.2);
+  EXPECT_EQ(models["reflectivity"], (json{{"Mirror", 0.9}}));
+  ASSERT_EQ(models["sensors"].size(), 4u) << models;
+  EXPECT_EQ(models["sensors"][0]["of"], "noisy");
+  EXPECT_EQ(models["sensors"][0]["sensor"], "sonar");
+  EXPECT_EQ(models["sensors"][0]["noise"], "polaroid");
+  EXPECT_EQ(models["sensors"][0]["settings"]["dropout"], 0.05);
+  EXPECT_EQ(models["sensors"][0]["settings"]["robot_crosstalk"], 0.02);
+  EXPECT_EQ(models["sensors"][2]["settings"]["latency_s"], 0.2);
+  EXPECT_EQ(models["sensors"][3]["settings"]["at"].size(), 2u);
 }
 
 TEST(Check, ReadsARobotListOf2005) {

@@ -58,14 +58,49 @@ TEST_F(Fit, WritesAnElementThatARobotTypeAcceptsAndAReportWithoutExternalReferen
   EXPECT_EQ(fit.exit_code, 0) << fit.err;
   EXPECT_NE(fit.out.find("7 pairs of scans; 4 excluded"), std::string::npos) << fit.out;
   EXPECT_NE(fit.out.find("The held-out pairs agree with the model."), std::string::npos) << fit.out;
+  const auto marked = fit.out.find(" !");
+  ASSERT_NE(marked, std::string::npos) << fit.out;
+  EXPECT_EQ(fit.out.find(" !", marked + 1), std::string::npos) << "one of the halves: " << fit.out;
+  EXPECT_NE(fit.out.find("! One half alone exceeds its bound: odd pairs at 0 … 2 m."), std::string::npos) << fit.out;
   const auto laser = sensorFrom(textOf(in("laser.xml")));
   EXPECT_EQ(laser->info().beams.size(), 361u);
   EXPECT_GT(laser->info().noise_std_m, 0.003);
   const std::string report = textOf(in("report.html"));
   EXPECT_NE(report.find("<svg"), std::string::npos);
   EXPECT_NE(report.find("standard errors) at unchanged odometry"), std::string::npos);
+  EXPECT_NE(report.find("(<strong>differs</strong>)"), std::string::npos);
   for (const char* reference : {"<script", "<link", "src=", "href="}) {
     EXPECT_EQ(report.find(reference), std::string::npos) << reference;
+  }
+}
+
+TEST_F(Fit, WritesAFileThatARobotTypeIncludes) {
+  std::filesystem::create_directories(in("robots/sensors"));
+  ASSERT_EQ(runProgram("fit '" + std::string(kSena) + "' -o " + quoted(in("robots/sensors/sick.xml"))).exit_code, 0);
+  std::ofstream(in("robots/scanner.xml"))
+      << "<robot name='scanner'><body radius_m='0.2' height_m='0.5'/><limits speed_max_mps='1' accel_mps2='1' "
+         "decel_mps2='1' turn_max_degps='90' turn_accel_degps2='180'/>\n<sensors><odometry/>\n"
+         "<include file='sensors/sick.xml' z_m='0.3' label='sick'/></sensors></robot>";
+  const auto world = in("w.xml");
+  std::ofstream(world) << "<world><surface><size><xmin>-3</xmin><xmax>3</xmax><ymin>-3</ymin><ymax>3</ymax></size>"
+                          "<object><shape><robot><model>scanner</model><name>R</name><x>0</x><y>0</y></robot></shape>"
+                          "</object></surface></world>";
+  const std::string run = "run " + quoted(world) + " --controller still --time 1";
+  const Ended first = runProgram(run + " --record " + quoted(in("r.rawlog")));
+  EXPECT_EQ(first.exit_code, 0) << first.err;
+  const Ended replayed = runProgram("replay " + quoted(in("r.rawlog")) + " --check");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err << "the recording contains the included sensor";
+  const Ended checked = runProgram("check " + quoted(world));
+  EXPECT_NE(checked.out.find("laser: noise; tail 0.03"), std::string::npos) << checked.out;
+  const Ended refused = runProgram(run + " --record " + quoted(in("robots/sensors/sick.xml")));
+  EXPECT_NE(refused.err.find("sick.xml, which this command reads"), std::string::npos) << refused.err;
+  std::ofstream(in("robots/sensors/sick.xml")) << "<laser>\n<noise std_m='2'/></laser>";
+  for (const std::string& command : {run, "check " + quoted(world), "check " + quoted(in("robots/scanner.xml"))}) {
+    const Ended faulty = runProgram(command);
+    EXPECT_EQ(faulty.exit_code, 1) << command;
+    EXPECT_NE((faulty.out + faulty.err).find("robots/sensors/sick.xml:2: <noise std_m=\"2\">: must lie in [0, 1]"),
+              std::string::npos)
+        << faulty.out << faulty.err;
   }
 }
 
