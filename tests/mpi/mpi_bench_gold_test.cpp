@@ -81,7 +81,8 @@ TEST(MpiBenchGold, CompletesTheSameReportAfterCtrlC) {
   const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
   fs::create_directories(folder / "interrupted");
-  std::vector<std::string> of_mpirun{"-n", "2", ROBOSIM_PROGRAM};
+  // Open MPI kills processes that need longer to end.
+  std::vector<std::string> of_mpirun{"--mca", "odls_base_sigkill_timeout", "60", "-n", "2", ROBOSIM_PROGRAM};
   of_mpirun.insert(of_mpirun.end(), arguments.begin(), arguments.end());
   of_mpirun.push_back((folder / "interrupted").string());
   StartedProgram mpirun(ROBOSIM_MPIRUN, of_mpirun);

@@ -100,7 +100,7 @@ TEST(GoldReport, IsTheSameAfterAFullDisk) {
     return runCommand("trap '' XFSZ; ulimit -f " + blocks + "; '" ROBOSIM_PROGRAM "' " + bench +
                       quoted(folder / "full") + " --resume");
   };
-  // The disk is full after some runs, and then when index.html is written.
+  // The disk is full after some runs, and then when the report is written.
   const Ended journal = files_of("4");
   EXPECT_EQ(journal.exit_code, 2);
   EXPECT_EQ(countOf("robosim: ", journal.err), 1u) << journal.err;
