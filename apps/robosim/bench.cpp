@@ -1,4 +1,5 @@
 // robosim bench metrics: tables of observers' metrics over worlds, controllers, parameters and seeds.
+#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -146,11 +147,15 @@ void bench(const BenchArguments& arguments) {
   std::vector<SweepGroup> groups;
   {
     Progress progress;
+    const auto start = Progress::Clock::now();
     groups = sweep(
         worlds, arguments.sweep, [&] { return interrupt.isRequested(); },
         [&](std::size_t done) {
           completed = done;
-          if (progress.due()) progress.show("run " + std::to_string(done) + " of " + std::to_string(planned));
+          if (!progress.due()) return;
+          const double elapsed_s = std::chrono::duration<double>(Progress::Clock::now() - start).count();
+          progress.show("run " + std::to_string(done) + " of " + std::to_string(planned) +
+                        commaRemainingTime(elapsed_s, static_cast<double>(done), static_cast<double>(planned)));
         });
   }
   std::vector<Metric> metrics;

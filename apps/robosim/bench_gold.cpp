@@ -23,6 +23,7 @@
 #include "ranks/agreement.h"
 #include "robosim/arguments.h"
 #include "robosim/bench_arguments.h"
+#include "robosim/plugin_options.h"
 #include "run/output_files.h"
 #include "run/run_observers.h"
 
@@ -36,6 +37,7 @@ constexpr std::size_t kRunsMax = 10'000'000;
 struct GoldArguments {
   std::vector<std::string> files;
   WorldChanges changes;
+  std::vector<std::string> robots;       ///< of `changes`, as given: their headings in degrees
   std::vector<std::string> controllers;  ///< may have lists of values
   std::vector<int> teams;
   std::vector<std::string> conditions;
@@ -71,14 +73,8 @@ std::string commandOf(const GoldArguments& arguments, const SearchPlan& plan) {
   };
   for (std::size_t i = 0; i < arguments.files.size(); ++i)
     command += " " + quoted(worldArgument(arguments.files[i], plan.worlds[i]));
-  for (const auto& robot : arguments.changes.robots) {
-    std::string text = robot.model;
-    if (robot.world_from_robot) {
-      text += "@" + toText(robot.world_from_robot->x) + "," + toText(robot.world_from_robot->y) + "," +
-              toText(robot.world_from_robot->phi * 180 / M_PI);
-    }
-    add("--robot", text);
-  }
+  for (const auto& file : pluginArguments()) add("--plugin", file);
+  for (const auto& robot : arguments.robots) add("--robot", robot);
   if (arguments.changes.random_robots > 0) {
     add("--random-robots", std::to_string(arguments.changes.random_robots) + "," + arguments.changes.random_model);
   }
@@ -164,12 +160,9 @@ class RunProgress {
   void show(std::size_t done) {
     if (!progress_.due()) return;
     const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    const auto made = static_cast<double>(done - done_before_);
-    const double left_s = made > 0 ? elapsed_s / made * static_cast<double>(planned_ - done) : 0;
-    std::string left = ", " + fixed(left_s, 0) + " s left";
-    if (left_s > 120) left = ", " + fixed(left_s / 60, 0) + " min left";
-    if (left_s > 7200) left = ", " + fixed(left_s / 3600, 1) + " h left";
-    progress_.show("run " + std::to_string(done) + " of " + std::to_string(planned_) + (made > 0 ? left : ""));
+    progress_.show("run " + std::to_string(done) + " of " + std::to_string(planned_) +
+                   commaRemainingTime(elapsed_s, static_cast<double>(done - done_before_),
+                                      static_cast<double>(planned_ - done_before_)));
   }
 
  private:
@@ -322,7 +315,8 @@ void addBenchGold(CLI::App& parent) {
       ->type_name("FOLDER")
       ->check(fileName());
   command->add_flag("--resume", a->resume, "continue the interrupted benchmark of the --report folder");
-  command->callback([a] {
+  command->callback([a, command] {
+    a->robots = command->get_option("--robot")->results();
     completePlan(*a);
     bench(*a);
   });

@@ -15,6 +15,12 @@ namespace {
 /// These read no world.
 constexpr std::array kWithoutPlugins{"remote", "control", "generate"};
 
+/// Plugins are loaded once for the whole process.
+std::vector<std::string>& pluginFiles() {
+  static std::vector<std::string> files;
+  return files;
+}
+
 void addTo(CLI::App& command) {
   const auto subcommands = command.get_subcommands([](CLI::App*) { return true; });
   if (subcommands.empty()) {
@@ -22,7 +28,10 @@ void addTo(CLI::App& command) {
         .add_option_function<std::vector<std::string>>(
             "--plugin",
             [](const std::vector<std::string>& files) {
-              for (const auto& file : files) loadPlugin(file);
+              for (const auto& file : files) {
+                loadPlugin(file);
+                pluginFiles().push_back(file);
+              }
             },
             "load this shared library, which adds controllers and sensors; repeatable. Those in the folders of "
             "ROBOSIM_PLUGIN_PATH are always loaded")
@@ -37,6 +46,8 @@ void addTo(CLI::App& command) {
 }
 
 }  // namespace
+
+const std::vector<std::string>& pluginArguments() { return pluginFiles(); }
 
 void addPluginOptions(CLI::App& program) {
   addTo(program);

@@ -45,14 +45,15 @@ struct LocalRunArguments : RunArguments {
   bool isRecorded() const { return !record.empty() || !csv.empty() || !npz.empty(); }
 };
 
-std::string progressText(const LocalRun& run, double wall_s) {
+/// @param limit_s simulated time at which the run ends, if not before
+std::string progressText(const LocalRun& run, double limit_s, double wall_s) {
   const State& state = run.environment().state();
   const auto active = std::count(state.activity.begin(), state.activity.end(), Activity::active);
   const double sim_s = state.time.seconds();
   return "simulated " + fixed(sim_s, 1) + " s, " +
          withCommas(static_cast<std::uint64_t>(sim_s / std::max(1e-9, wall_s))) + " times real time, " +
-         std::to_string(active) + " of " + std::to_string(state.activity.size()) +
-         " robots active (Ctrl-C ends the run)";
+         std::to_string(active) + " of " + std::to_string(state.activity.size()) + " robots active" +
+         commaRemainingTime(wall_s, sim_s, limit_s) + " at most (Ctrl-C ends the run)";
 }
 
 /// Sleeps until a time, in short intervals, because an interrupt does not wake it. @return false when interrupted
@@ -79,7 +80,7 @@ EndedBy drive(LocalRun& run, const RunArguments& arguments, const Interrupt& int
     run.step();
     observe();
     if (progress.due()) {
-      progress.show(progressText(run, std::chrono::duration<double>(Clock::now() - start).count()));
+      progress.show(progressText(run, arguments.time_s, std::chrono::duration<double>(Clock::now() - start).count()));
     }
   }
   return endedByItself(run);

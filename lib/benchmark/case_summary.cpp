@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "base/type_choice.h"
+#include "benchmark/search_pairs.h"
 
 namespace robosim {
 namespace {
@@ -18,57 +18,6 @@ double quantileOf(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double rank = std::ceil(share * static_cast<double>(values.size()));
   return values[static_cast<std::size_t>(std::max(1.0, rank)) - 1];
-}
-
-double medianOf(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  if (values.size() % 2 == 1 || values[half] == values[half - 1]) return values[half];
-  return (values[half - 1] + values[half]) / 2;
-}
-
-const std::optional<SearchRun>& runOf(const SearchPlan& plan, const SearchRuns& runs, const SearchPlan::Case& c,
-                                      std::size_t i) {
-  return runs[plan.indexOf(c) * plan.runs + i];
-}
-
-std::optional<std::size_t> oracleOf(const SearchPlan& plan) {
-  for (std::size_t i = 0; i < plan.strategies.size(); ++i) {
-    const std::string& strategy = plan.strategies[i];
-    if (!strategy.empty() && TypeChoice::parse(strategy).name == kOracle) return i;
-  }
-  return std::nullopt;
-}
-
-/// The times of two cases with equal seeds, where both runs are finished.
-struct Pairs {
-  std::vector<SearchTime> first, second;
-  void add(const SearchPlan& plan, const SearchRuns& runs, const SearchPlan::Case& a, const SearchPlan::Case& b) {
-    for (std::size_t i = 0; i < plan.runs; ++i) {
-      const auto& x = runOf(plan, runs, a, i);
-      const auto& y = runOf(plan, runs, b, i);
-      if (!x || !y) continue;
-      first.push_back(x->searchTime(plan.time_s));
-      second.push_back(y->searchTime(plan.time_s));
-    }
-  }
-};
-
-/// Median of second relative to first, over the pairs of which the first succeeded; nullopt for none.
-std::optional<double> medianRatio(const Pairs& pairs) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < pairs.first.size(); ++i) {
-    const SearchTime& bound = pairs.first[i];
-    const SearchTime& time = pairs.second[i];
-    if (!bound.is_found) continue;
-    if (!time.is_found) {
-      ratios.push_back(kNever);
-    } else {
-      ratios.push_back(bound.time_s > 0 ? time.time_s / bound.time_s : 1);  // at the start: found at once by both
-    }
-  }
-  if (ratios.empty()) return std::nullopt;
-  return medianOf(ratios);
 }
 
 void addMeans(std::span<const SearchRun* const> runs, CaseSummary& summary) {
@@ -125,7 +74,7 @@ std::vector<CaseSummary> summarise(const SearchPlan& plan, const SearchRuns& run
       SearchPlan::Case bound = summary.of;
       bound.strategy = *oracle;
       bound.condition = 0;
-      Pairs pairs;
+      SearchPairs pairs;
       pairs.add(plan, runs, bound, summary.of);
       summary.competitive_ratio = medianRatio(pairs);
     }
@@ -154,7 +103,7 @@ std::vector<StrategyComparison> compareStrategies(const SearchPlan& plan, const 
       for (std::size_t team = 0; team < plan.teams.size(); ++team) {
         for (std::size_t first = 0; first < plan.strategies.size(); ++first) {
           for (std::size_t second = first + 1; second < plan.strategies.size(); ++second) {
-            Pairs pairs;
+            SearchPairs pairs;
             for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
               if (by_world && world != group) continue;
               pairs.add(plan, runs, {world, condition, team, first}, {world, condition, team, second});
@@ -181,7 +130,7 @@ std::vector<Robustness> robustnessOf(const SearchPlan& plan, const SearchRuns& r
   for (std::size_t condition = 1; condition < plan.conditions.size(); ++condition) {
     for (std::size_t team = 0; team < plan.teams.size(); ++team) {
       for (std::size_t strategy = 0; strategy < plan.strategies.size(); ++strategy) {
-        Pairs pairs;
+        SearchPairs pairs;
         for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
           pairs.add(plan, runs, {world, 0, team, strategy}, {world, condition, team, strategy});
         }

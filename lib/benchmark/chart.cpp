@@ -3,96 +3,148 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 #include <cairo-pdf.h>
 #include <cairo.h>
 
 #include "base/html_text.h"
 #include "base/text_table.h"
+#include "base/xml_element.h"
 #include "benchmark/chart_canvas.h"
 #include "rendering/figure_text.h"
 
 namespace robosim {
 namespace {
 
-/// Colours for a dark page: the same hues, lighter where they were dark.
-constexpr std::array<const char*, kSeriesColors> kDarkColors{"#56b4e9", "#e69f00", "#2fc99a", "#ff8f4d",
-                                                             "#d9a0c4", "#8fb8ff", "#f0e442", "#c8c8c8"};
-constexpr std::array<std::array<int, 3>, kSeriesColors> kPaperColors{{{0, 114, 178},
-                                                                      {230, 159, 0},
-                                                                      {0, 158, 115},
-                                                                      {213, 94, 0},
-                                                                      {204, 121, 167},
-                                                                      {86, 180, 233},
-                                                                      {150, 140, 0},
-                                                                      {60, 60, 60}}};
+using Palette = std::array<std::array<int, 3>, kSeriesColors>;
+constexpr Palette kPaperColors{{{0, 146, 255},
+                                {229, 109, 2},
+                                {0, 163, 130},
+                                {75, 25, 155},
+                                {255, 0, 85},
+                                {81, 65, 0},
+                                {255, 0, 213},
+                                {0, 66, 95},
+                                {0, 0, 255},
+                                {119, 18, 62}}};
+constexpr Palette kDarkColors{{{0, 224, 255},
+                               {255, 208, 0},
+                               {0, 141, 90},
+                               {102, 118, 197},
+                               {248, 0, 0},
+                               {174, 239, 100},
+                               {231, 14, 163},
+                               {231, 218, 203},
+                               {154, 80, 255},
+                               {255, 130, 121}}};
 
-std::string hexOf(ChartInk ink) {
+std::string hexOf(const std::array<int, 3>& color) {
   std::string hex = "#";
-  for (const int part : paperColor(ink)) {
+  for (const int part : color) {
     hex += "0123456789abcdef"[part / 16];
     hex += "0123456789abcdef"[part % 16];
   }
   return hex;
 }
 
-std::string variableOf(ChartInk ink) {
-  if (ink.index == ChartInk::kText) return "--chart-text";
-  if (ink.index == ChartInk::kGrid) return "--chart-grid";
-  return "--chart-" + std::to_string(ink.index);
+/// Name of an ink in classes and variables: "t", "g", "0".
+std::string inkName(ChartInk ink) {
+  if (ink.index == ChartInk::kText) return "t";
+  return ink.index == ChartInk::kGrid ? "g" : std::to_string(ink.index);
 }
+
+/// A length with at most one decimal place: "12", "0.5".
+std::string lengthText(long tenths) {
+  const std::string sign = tenths < 0 ? "-" : "";
+  const long size = std::labs(tenths);
+  return sign + std::to_string(size / 10) + (size % 10 == 0 ? "" : "." + std::to_string(size % 10));
+}
+long tenthsOf(double px) { return std::lround(10 * px); }
+
+/// Data of a path element, relative from point to point, which is short: "M62 30h209v122".
+std::string pathOf(const std::vector<ChartLine>& lines) {
+  std::string path;
+  for (const auto& line : lines) {
+    if (line.empty()) continue;
+    long x = tenthsOf(line.front().x), y = tenthsOf(line.front().y);
+    path += "M" + lengthText(x) + " " + lengthText(y);
+    for (const auto& point : line) {
+      const long right = tenthsOf(point.x) - x, down = tenthsOf(point.y) - y;
+      x += right;
+      y += down;
+      if (right != 0 && down != 0) {
+        path += "l" + lengthText(right) + (down < 0 ? "" : " ") + lengthText(down);
+      } else if (right != 0) {
+        path += "h" + lengthText(right);
+      } else if (down != 0) {
+        path += "v" + lengthText(down);
+      }
+    }
+  }
+  return path;
+}
+
+constexpr const char* kPenClasses[] = {"thin", "", "edge"};
+constexpr double kEdgeOpacity = 0.5, kAreaOpacity = 0.2;
 
 class SvgCanvas : public ChartCanvas {
  public:
   explicit SvgCanvas(ChartColors colors) : colors_(colors) {}
-  void line(const std::vector<ChartPoint>& points, ChartInk ink, double width_px, bool is_dashed) override {
-    elements += "<polyline points=\"" + listOf(points) + "\" fill=\"none\" style=\"stroke:" + colorOf(ink) +
-                "\" stroke-width=\"" + fixed(width_px, 1) + "\"" + (is_dashed ? " stroke-dasharray=\"5 3\"" : "") +
-                "/>\n";
+  void lines(const std::vector<ChartLine>& lines, ChartInk ink, ChartPen pen, bool is_dashed) override {
+    elements += "<path ";
+    if (colors_ == ChartColors::page) {
+      const std::string pen_class = kPenClasses[static_cast<int>(pen)];
+      const std::string classes =
+          "c" + inkName(ink) + (pen_class.empty() ? "" : " " + pen_class) + (is_dashed ? " dash" : "");
+      elements += classes.find(' ') == std::string::npos ? "class=" + classes : "class=\"" + classes + "\"";
+    } else {
+      elements += "fill=\"none\" stroke=\"" + hexOf(paperColor(ink)) + "\" stroke-width=\"" + toText(widthOf(pen)) +
+                  "\"" + (pen == ChartPen::edge ? " stroke-opacity=\"" + toText(kEdgeOpacity) + "\"" : "") +
+                  (is_dashed ? " stroke-dasharray=\"5 3\"" : "");
+    }
+    elements += " d=\"" + pathOf(lines) + "\"/>\n";
   }
-  void area(const std::vector<ChartPoint>& points, ChartInk ink) override {
-    elements +=
-        "<polygon points=\"" + listOf(points) + "\" style=\"fill:" + colorOf(ink) + "\" fill-opacity=\"0.2\"/>\n";
+  void area(const ChartLine& points, ChartInk ink) override {
+    elements += "<path ";
+    elements += colors_ == ChartColors::page
+                    ? "class=\"area a" + inkName(ink) + "\""
+                    : "fill=\"" + hexOf(paperColor(ink)) + "\" fill-opacity=\"" + toText(kAreaOpacity) + "\"";
+    elements += " d=\"" + pathOf({points}) + "z\"/>\n";
   }
   void text(const ChartPoint& at, const std::string& text, ChartAnchor anchor, double size_px,
             bool is_upward) override {
-    constexpr const char* kAnchors[] = {"start", "middle", "end"};
-    const std::string place = fixed(at.x, 1) + " " + fixed(at.y, 1);
-    elements += "<text transform=\"translate(" + place + ")" + (is_upward ? " rotate(-90)" : "") + "\" text-anchor=\"" +
-                kAnchors[static_cast<int>(anchor)] + "\" font-size=\"" + fixed(size_px, 0) +
-                "\" style=\"fill:" + colorOf({ChartInk::kText}) + "\">" + escapedHtml(text) + "</text>\n";
+    constexpr const char* kAnchors[] = {"", " text-anchor=\"middle\"", " text-anchor=\"end\""};
+    const std::string x = lengthText(tenthsOf(at.x)), y = lengthText(tenthsOf(at.y));
+    elements += (is_upward ? "<text transform=\"translate(" + x + " " + y + ") rotate(-90)\""
+                           : "<text x=\"" + x + "\" y=\"" + y + "\"") +
+                kAnchors[static_cast<int>(anchor)] +
+                (size_px == kChartText_px ? "" : " font-size=\"" + fixed(size_px, 0) + "\"") + ">" + escapedHtml(text) +
+                "</text>\n";
   }
   std::string elements;
 
  private:
-  std::string colorOf(ChartInk ink) const {
-    return colors_ == ChartColors::fixed ? hexOf(ink) : "var(" + variableOf(ink) + ")";
-  }
-  static std::string listOf(const std::vector<ChartPoint>& points) {
-    std::string list;
-    for (const auto& point : points) {
-      list += (list.empty() ? "" : " ") + fixed(point.x, 1) + "," + fixed(point.y, 1);
-    }
-    return list;
-  }
   ChartColors colors_;
 };
 
 class CairoCanvas : public ChartCanvas {
  public:
   explicit CairoCanvas(cairo_t& context) : context_(context) { useUnhintedText(context); }
-  void line(const std::vector<ChartPoint>& points, ChartInk ink, double width_px, bool is_dashed) override {
-    addPath(points);
-    setColor(ink, 1);
+  void lines(const std::vector<ChartLine>& lines, ChartInk ink, ChartPen pen, bool is_dashed) override {
+    cairo_new_path(&context_);
+    for (const auto& line : lines) addPath(line);
+    setColor(ink, pen == ChartPen::edge ? kEdgeOpacity : 1);
     const double dashes[] = {5, 3};
     cairo_set_dash(&context_, dashes, is_dashed ? 2 : 0, 0);
-    cairo_set_line_width(&context_, width_px);
+    cairo_set_line_width(&context_, widthOf(pen));
     cairo_stroke(&context_);
   }
-  void area(const std::vector<ChartPoint>& points, ChartInk ink) override {
+  void area(const ChartLine& points, ChartInk ink) override {
+    cairo_new_path(&context_);
     addPath(points);
     cairo_close_path(&context_);
-    setColor(ink, 0.2);
+    setColor(ink, kAreaOpacity);
     cairo_fill(&context_);
   }
   void text(const ChartPoint& at, const std::string& text, ChartAnchor anchor, double size_px,
@@ -109,8 +161,8 @@ class CairoCanvas : public ChartCanvas {
   }
 
  private:
-  void addPath(const std::vector<ChartPoint>& points) {
-    cairo_new_path(&context_);
+  void addPath(const ChartLine& points) {
+    cairo_new_sub_path(&context_);
     for (const auto& point : points) cairo_line_to(&context_, point.x, point.y);
   }
   void setColor(ChartInk ink, double opacity) {
@@ -129,24 +181,42 @@ std::array<int, 3> paperColor(ChartInk ink) {
   return kPaperColors[static_cast<std::size_t>(ink.index)];
 }
 
+std::array<int, 3> darkColor(ChartInk ink) {
+  if (ink.index == ChartInk::kText) return {221, 221, 221};
+  if (ink.index == ChartInk::kGrid) return {58, 63, 70};
+  return kDarkColors[static_cast<std::size_t>(ink.index)];
+}
+
 std::string svgOf(const Chart& chart, ChartColors colors) {
   SvgCanvas canvas(colors);
   draw(chart, canvas);
-  const std::string size = fixed(kChartWidth_px, 0) + " " + fixed(kChartHeight_px, 0);
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + size + "\" width=\"" + fixed(kChartWidth_px, 0) +
-         "\" height=\"" + fixed(kChartHeight_px, 0) + "\" font-family=\"sans-serif\" role=\"img\" aria-label=\"" +
-         escapedHtml(chart.title) + "\">\n" + canvas.elements + "</svg>\n";
+  const ChartSize size = sizeOf(chart);
+  const std::string width = fixed(size.width_px, 0), height = fixed(size.height_px, 0);
+  const std::string style = colors == ChartColors::page
+                                ? "class=chart"
+                                : "font-family=\"sans-serif\" font-size=\"" + fixed(kChartText_px, 0) + "\" fill=\"" +
+                                      hexOf(paperColor({ChartInk::kText})) + "\"";
+  const std::string space = colors == ChartColors::page ? "" : "xmlns=\"http://www.w3.org/2000/svg\" ";
+  return "<svg " + space + "viewBox=\"0 0 " + width + " " + height + "\" width=\"" + width + "\" height=\"" + height +
+         "\" " + style + " role=\"img\" aria-label=\"" + escapedHtml(chart.title) + "\">\n" + canvas.elements +
+         "</svg>\n";
 }
 
 std::string chartStyle() {
-  std::string light, dark;
-  for (int i = 0; i < kSeriesColors; ++i) {
-    light += variableOf({i}) + ":" + hexOf({i}) + ";";
-    dark += variableOf({i}) + ":" + kDarkColors[static_cast<std::size_t>(i)] + ";";
+  std::string light, dark, classes;
+  for (int i = ChartInk::kGrid; i < kSeriesColors; ++i) {
+    const std::string name = inkName({i});
+    light += "--c" + name + ":" + hexOf(paperColor({i})) + ";";
+    dark += "--c" + name + ":" + hexOf(darkColor({i})) + ";";
+    classes += ".c" + name + "{stroke:var(--c" + name + ")}";
+    if (i >= 0) classes += ".chart .a" + name + "{fill:var(--c" + name + ")}";
   }
-  light += "--chart-text:#222;--chart-grid:#e0e0e0;";
-  dark += "--chart-text:#ddd;--chart-grid:#3a3f46;";
-  return ":root{" + light + "}@media(prefers-color-scheme:dark){:root{" + dark + "}}";
+  const auto width = [](ChartPen pen) { return "{stroke-width:" + toText(widthOf(pen)); };
+  return ":root{" + light + "}@media(prefers-color-scheme:dark){:root{" + dark + "}}" +
+         ".chart{font:" + fixed(kChartText_px, 0) + "px sans-serif;fill:var(--ct)}.chart path{fill:none}" +
+         ".chart path" + width(ChartPen::line) + "}.chart .thin" + width(ChartPen::thin) + "}.chart .edge" +
+         width(ChartPen::edge) + ";stroke-opacity:" + toText(kEdgeOpacity) + "}.chart .dash{stroke-dasharray:5 3}" +
+         ".chart .area{fill-opacity:" + toText(kAreaOpacity) + "}" + classes;
 }
 
 std::string pdfOf(const Chart& chart) {
@@ -156,8 +226,9 @@ std::string pdfOf(const Chart& chart) {
     static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(bytes), size);
     return CAIRO_STATUS_SUCCESS;
   };
-  cairo_surface_t* const page = cairo_pdf_surface_create_for_stream(append, &document, kPointsPerPixel * kChartWidth_px,
-                                                                    kPointsPerPixel * kChartHeight_px);
+  const ChartSize size = sizeOf(chart);
+  cairo_surface_t* const page = cairo_pdf_surface_create_for_stream(append, &document, kPointsPerPixel * size.width_px,
+                                                                    kPointsPerPixel * size.height_px);
   cairo_pdf_surface_set_metadata(page, CAIRO_PDF_METADATA_TITLE, chart.title.c_str());
   cairo_pdf_surface_set_metadata(page, CAIRO_PDF_METADATA_CREATOR, "RoboSim");
   // The same chart gives the same bytes.

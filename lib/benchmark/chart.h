@@ -13,30 +13,31 @@ struct ChartSeries {
   std::string name;
   std::vector<ChartPoint> points;  ///< in order of x
   bool is_step = false;            ///< constant from each point to the next
-  bool is_dashed = false;
+  bool is_reference = false;       ///< a bound or an ideal: dashed, in the colour of text
   /// Limits of a band around the line, at the points' x; empty: none.
   std::vector<double> low, high;
 };
 
-/// A line chart with a legend on its right.
+/// A line chart with a legend on its right, which is as wide and high as the names of its series need.
 struct Chart {
   std::string title;
   std::string x_label, y_label;
   double x_min = 0, x_max = 1;  ///< x_min < x_max; above 0 on a logarithmic axis
   double y_min = 0, y_max = 1;
   bool is_x_log2 = false;  ///< with a mark at each power of 2
+  bool is_y_log2 = false;  ///< the same
   std::vector<ChartSeries> series;
 };
 
-/// Where the colours of an SVG chart come from.
+/// Where the style of an SVG chart comes from.
 enum class ChartColors {
-  fixed,  ///< those for white paper
-  page,   ///< CSS variables of the page: chartStyle()
+  fixed,  ///< colours for white paper, in the element
+  page,   ///< classes of the page: chartStyle()
 };
 
 /// An SVG element with text as text.
 std::string svgOf(const Chart& chart, ChartColors colors);
-/// The style of a page with charts, for light and dark.
+/// The style of a page with charts, for light and dark; stated once, so that the charts are small.
 std::string chartStyle();
 /// A PDF document of one page; the same chart gives the same bytes.
 std::string pdfOf(const Chart& chart);

@@ -5,88 +5,114 @@
 #include "base/text_table.h"
 #include "base/xml_element.h"
 #include "benchmark/chart_canvas.h"
+#include "benchmark/chart_legend.h"
 
 namespace robosim {
 namespace {
 
-constexpr double kLeft_px = 62, kRight_px = 200, kTop_px = 30, kBottom_px = 46;
-constexpr double kText_px = 12, kTitle_px = 14;
+constexpr double kLeft_px = 62, kPlotWidth_px = 418, kTop_px = 30, kPlotHeight_px = 244, kBottom_px = 46;
+constexpr double kLegendGap_px = 14, kLegendMargin_px = 8, kLegendWidthMin_px = 178;
+constexpr double kTitle_px = 14;
+constexpr double kPlotRight_px = kLeft_px + kPlotWidth_px;
+/// More bands than these are drawn as their edges, because overlapping areas hide each other.
+constexpr std::size_t kFilledBands = 4;
 
 /// From values to pixels.
 class Axes {
  public:
-  explicit Axes(const Chart& chart) : chart_(chart) {}
+  Axes(const Chart& chart, double floor_px) : chart_(chart), floor_px_(floor_px) {}
+  double floor() const { return floor_px_; }
   double x(double value) const {
-    const auto scale = [&](double v) { return chart_.is_x_log2 ? std::log2(v) : v; };
-    const double share = (scale(value) - scale(chart_.x_min)) / (scale(chart_.x_max) - scale(chart_.x_min));
-    return kLeft_px + std::clamp(share, 0.0, 1.0) * (kChartWidth_px - kLeft_px - kRight_px);
+    return kLeft_px + share(value, chart_.x_min, chart_.x_max, chart_.is_x_log2) * kPlotWidth_px;
   }
   double y(double value) const {
-    const double share = (value - chart_.y_min) / (chart_.y_max - chart_.y_min);
-    return kChartHeight_px - kBottom_px - std::clamp(share, 0.0, 1.0) * (kChartHeight_px - kTop_px - kBottom_px);
+    return floor_px_ - share(value, chart_.y_min, chart_.y_max, chart_.is_y_log2) * (floor_px_ - kTop_px);
   }
   ChartPoint at(double px, double py) const { return {x(px), y(py)}; }
 
  private:
+  static double share(double value, double min, double max, bool is_log2) {
+    const auto scale = [&](double v) { return is_log2 ? std::log2(v) : v; };
+    return std::clamp((scale(value) - scale(min)) / (scale(max) - scale(min)), 0.0, 1.0);
+  }
   const Chart& chart_;
+  double floor_px_;
 };
 
-std::vector<ChartPoint> linePoints(const ChartSeries& series, const Axes& axes) {
-  std::vector<ChartPoint> line;
-  for (const auto& point : series.points) {
-    const ChartPoint at = axes.at(point.x, point.y);
-    if (series.is_step && !line.empty()) line.push_back({at.x, line.back().y});
-    line.push_back(at);
+void addPoint(ChartLine& line, const ChartPoint& at, bool is_step) {
+  if (is_step && !line.empty()) line.push_back({at.x, line.back().y});
+  line.push_back(at);
+}
+
+ChartLine linePoints(const ChartSeries& series, const Axes& axes) {
+  ChartLine line;
+  for (const auto& point : series.points) addPoint(line, axes.at(point.x, point.y), series.is_step);
+  return line;
+}
+
+ChartLine edgePoints(const ChartSeries& series, const std::vector<double>& limits, const Axes& axes) {
+  ChartLine line;
+  for (std::size_t i = 0; i < series.points.size(); ++i) {
+    addPoint(line, axes.at(series.points[i].x, limits[i]), series.is_step);
   }
   return line;
 }
 
-std::vector<ChartPoint> bandPoints(const ChartSeries& series, const Axes& axes) {
-  std::vector<ChartPoint> forth, back;
-  const auto add = [&](std::vector<ChartPoint>& side, const std::vector<double>& limits, std::size_t i) {
-    const ChartPoint at = axes.at(series.points[i].x, limits[i]);
-    if (series.is_step && !side.empty()) side.push_back({at.x, side.back().y});
-    side.push_back(at);
-  };
-  for (std::size_t i = 0; i < series.points.size(); ++i) {
-    add(forth, series.high, i);
-    add(back, series.low, i);
+void drawBand(const ChartSeries& series, const Axes& axes, ChartInk ink, bool is_filled, ChartCanvas& canvas) {
+  ChartLine high = edgePoints(series, series.high, axes);
+  const ChartLine low = edgePoints(series, series.low, axes);
+  if (is_filled) {
+    high.insert(high.end(), low.rbegin(), low.rend());
+    canvas.area(high, ink);
+  } else {
+    canvas.lines({high, low}, ink, ChartPen::edge, false);
   }
-  forth.insert(forth.end(), back.rbegin(), back.rend());
-  return forth;
+}
+
+std::vector<double> marksOf(double min, double max, bool is_log2, int count) {
+  std::vector<double> marks;
+  if (!is_log2) {
+    marks = roundMarks(min, max, count);
+    std::erase_if(marks, [&](double mark) { return mark > max; });
+    return marks;
+  }
+  for (double mark = std::exp2(std::ceil(std::log2(min) - 1e-9)); mark <= max; mark *= 2) marks.push_back(mark);
+  return marks;
 }
 
 void drawAxes(const Chart& chart, const Axes& axes, ChartCanvas& canvas) {
-  std::vector<double> marks;
-  if (chart.is_x_log2) {
-    for (double mark = 1; mark <= chart.x_max; mark *= 2) {
-      if (mark >= chart.x_min) marks.push_back(mark);
-    }
-  } else {
-    marks = roundMarks(chart.x_min, chart.x_max, 8);
-  }
-  const double floor_px = axes.y(chart.y_min);
-  for (const double mark : marks) {
-    if (mark > chart.x_max) continue;
+  std::vector<ChartLine> grid;
+  const double floor_px = axes.floor();
+  for (const double mark : marksOf(chart.x_min, chart.x_max, chart.is_x_log2, 8)) {
     const double x_px = axes.x(mark);
-    canvas.line({{x_px, floor_px}, {x_px, kTop_px}}, {ChartInk::kGrid}, 1, false);
-    canvas.text({x_px, floor_px + 17}, toText(mark), ChartAnchor::middle, kText_px);
+    grid.push_back({{x_px, floor_px}, {x_px, kTop_px}});
+    canvas.text({x_px, floor_px + 17}, toText(mark), ChartAnchor::middle, kChartText_px);
   }
-  for (const double mark : roundMarks(chart.y_min, chart.y_max, 5)) {
-    if (mark > chart.y_max) continue;
+  for (const double mark : marksOf(chart.y_min, chart.y_max, chart.is_y_log2, 5)) {
     const double y_px = axes.y(mark);
-    canvas.line({{kLeft_px, y_px}, {kChartWidth_px - kRight_px, y_px}}, {ChartInk::kGrid}, 1, false);
-    canvas.text({kLeft_px - 8, y_px + 4}, toText(mark), ChartAnchor::end, kText_px);
+    grid.push_back({{kLeft_px, y_px}, {kPlotRight_px, y_px}});
+    canvas.text({kLeft_px - 8, y_px + 4}, toText(mark), ChartAnchor::end, kChartText_px);
   }
-  canvas.line({{kLeft_px, kTop_px}, {kLeft_px, floor_px}, {kChartWidth_px - kRight_px, floor_px}}, {ChartInk::kText}, 1,
-              false);
+  canvas.lines(grid, {ChartInk::kGrid}, ChartPen::thin, false);
+  canvas.lines({{{kLeft_px, kTop_px}, {kLeft_px, floor_px}, {kPlotRight_px, floor_px}}}, {ChartInk::kText},
+               ChartPen::thin, false);
   canvas.text({kLeft_px, 18}, chart.title, ChartAnchor::start, kTitle_px);
-  canvas.text({(kLeft_px + kChartWidth_px - kRight_px) / 2, kChartHeight_px - 8}, chart.x_label, ChartAnchor::middle,
-              kText_px);
-  canvas.text({16, (kTop_px + floor_px) / 2}, chart.y_label, ChartAnchor::middle, kText_px, true);
+  canvas.text({(kLeft_px + kPlotRight_px) / 2, floor_px + 38}, chart.x_label, ChartAnchor::middle, kChartText_px);
+  canvas.text({16, (kTop_px + floor_px) / 2}, chart.y_label, ChartAnchor::middle, kChartText_px, true);
 }
 
 }  // namespace
+
+double widthOf(ChartPen pen) {
+  constexpr double kWidths_px[] = {1, 1.8, 0.7};
+  return kWidths_px[static_cast<int>(pen)];
+}
+
+ChartSize sizeOf(const Chart& chart) {
+  const ChartLegend legend(chart);
+  return {kPlotRight_px + kLegendGap_px + std::ceil(std::max(kLegendWidthMin_px, legend.width())) + kLegendMargin_px,
+          kTop_px + std::max(kPlotHeight_px + kBottom_px, legend.height())};
+}
 
 std::vector<double> roundMarks(double min, double max, int count) {
   const double wanted = (max - min) / count;
@@ -105,24 +131,25 @@ std::vector<double> roundMarks(double min, double max, int count) {
 }
 
 void draw(const Chart& chart, ChartCanvas& canvas) {
-  const Axes axes(chart);
+  const ChartLegend legend(chart);
+  const ChartPoint legend_at{kPlotRight_px + kLegendGap_px, kTop_px};
+  const Axes axes(chart, sizeOf(chart).height_px - kBottom_px);
   drawAxes(chart, axes, canvas);
+  const auto bands = std::count_if(chart.series.begin(), chart.series.end(),
+                                   [](const ChartSeries& series) { return !series.low.empty(); });
+  const auto inkOf = [&](std::size_t i) {
+    return ChartInk{chart.series[i].is_reference ? ChartInk::kText : static_cast<int>(i % kSeriesColors)};
+  };
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    if (chart.series[i].low.empty()) continue;
+    drawBand(chart.series[i], axes, inkOf(i), static_cast<std::size_t>(bands) <= kFilledBands, canvas);
+  }
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const ChartSeries& series = chart.series[i];
-    const ChartInk ink{static_cast<int>(i % kSeriesColors)};
-    if (!series.low.empty()) canvas.area(bandPoints(series, axes), ink);
+    const bool is_dashed = series.is_reference || i >= kSeriesColors;
+    canvas.lines({legend.keyOf(i, legend_at), linePoints(series, axes)}, inkOf(i), ChartPen::line, is_dashed);
   }
-  double legend_y_px = kTop_px + 8;
-  const double legend_x_px = kChartWidth_px - kRight_px + 14;
-  for (std::size_t i = 0; i < chart.series.size(); ++i) {
-    const ChartSeries& series = chart.series[i];
-    const ChartInk ink{static_cast<int>(i % kSeriesColors)};
-    const bool is_dashed = series.is_dashed || i >= kSeriesColors;
-    canvas.line(linePoints(series, axes), ink, 1.8, is_dashed);
-    canvas.line({{legend_x_px, legend_y_px}, {legend_x_px + 22, legend_y_px}}, ink, 2.5, is_dashed);
-    canvas.text({legend_x_px + 28, legend_y_px + 4}, series.name, ChartAnchor::start, kText_px);
-    legend_y_px += 19;
-  }
+  legend.drawNames(legend_at, canvas);
 }
 
 }  // namespace robosim

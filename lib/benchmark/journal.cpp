@@ -98,11 +98,11 @@ Journal::Journal(std::filesystem::path file, const SearchPlan& plan, Mode mode,
       throw ConfigError(file_.string() + ": another program writes it; wait for its end, or choose another folder");
     }
     Contents contents = contentsOf(file_, plan);
-    if (::ftruncate(descriptor_, static_cast<off_t>(contents.complete_bytes)) != 0 ||
-        ::lseek(descriptor_, 0, SEEK_END) < 0) {
+    complete_bytes_ = contents.complete_bytes;
+    if (::ftruncate(descriptor_, static_cast<off_t>(complete_bytes_)) != 0) {
       throw ConfigError(file_.string() + ": cannot be written: " + std::strerror(errno));
     }
-    if (contents.complete_bytes == 0) write(headerOf(plan).dump() + "\n");
+    if (complete_bytes_ == 0) write(headerOf(plan).dump() + "\n");
     for (auto& run : contents.runs) {
       const std::size_t index = run.case_index * plan.runs + static_cast<std::size_t>(run.seed - plan.seed);
       finished(index, std::move(run));
@@ -120,14 +120,19 @@ void Journal::add(const SearchRun& run) { write(run.json().dump() + "\n"); }
 void Journal::write(const std::string& line) {
   std::size_t written = 0;
   while (written < line.size()) {
-    const ssize_t bytes = ::write(descriptor_, line.data() + written, line.size() - written);
+    const ssize_t bytes = ::pwrite(descriptor_, line.data() + written, line.size() - written,
+                                   static_cast<off_t>(complete_bytes_ + written));
     if (bytes < 0 && errno == EINTR) continue;
     if (bytes < 0) {
-      throw std::runtime_error(file_.string() + ": cannot be written: " + std::strerror(errno) +
+      const int error = errno;
+      // Removes the part of the line. Where this fails too, the next line overwrites the part, which has no line feed.
+      [[maybe_unused]] const int ignored = ::ftruncate(descriptor_, static_cast<off_t>(complete_bytes_));
+      throw std::runtime_error(file_.string() + ": cannot be written: " + std::strerror(error) +
                                "; the runs in it are kept: free disk space, and add --resume");
     }
     written += static_cast<std::size_t>(bytes);
   }
+  complete_bytes_ += line.size();
 }
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -11,7 +12,7 @@ namespace robosim {
 
 /// File of finished runs, which a benchmark continues from after an interruption: JSON, one document per line, the
 /// first of which is the plan. Each run is written before add() returns, so that the end of a process loses none of
-/// them. A line that was cut off is ignored, and overwritten.
+/// them. A line that was cut off, as by a full disk, is ignored, and overwritten by the next one.
 class Journal {
  public:
   enum class Mode { create, resume };
@@ -25,7 +26,8 @@ class Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  /// @throws std::runtime_error when it cannot be written, as on a full disk; the runs before remain
+  /// @throws std::runtime_error when it cannot be written, as on a full disk; the runs before remain, and others can be
+  /// added when there is space again
   void add(const SearchRun& run);
 
  private:
@@ -33,6 +35,7 @@ class Journal {
 
   std::filesystem::path file_;
   int descriptor_ = -1;
+  std::uint64_t complete_bytes_ = 0;  ///< of complete lines
 };
 
 }  // namespace robosim

@@ -1,11 +1,13 @@
 #include "benchmark/journal.h"
 
+#include <csignal>
 #include <fstream>
 #include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 #include "base/error_list.h"
 #include "base/temporary_directory.h"
@@ -86,6 +88,42 @@ TEST_F(JournalTest, IgnoresALineThatWasCutOff) {
   }
   EXPECT_EQ(open(Mode::resume, smallPlan(), {someRun(0, 11)}).size(), 1u);
   EXPECT_EQ(open(Mode::resume, smallPlan()).size(), 2u);
+}
+
+/// A full disk: files of this process cannot grow beyond a size.
+class SizeLimit {
+ public:
+  explicit SizeLimit(std::uintmax_t bytes) {
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    ::setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~SizeLimit() {
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+  SizeLimit(const SizeLimit&) = delete;
+  SizeLimit& operator=(const SizeLimit&) = delete;
+
+ private:
+  rlimit before_{};
+  void (*handler_)(int) = std::signal(SIGXFSZ, SIG_IGN);
+};
+
+TEST_F(JournalTest, KeepsCompleteLinesOnAFullDiskAndContinuesWhenThereIsSpace) {
+  Journal journal(file_, smallPlan(), Mode::create, {});
+  journal.add(someRun(0, 10));
+  const std::string complete = text();
+  {
+    const SizeLimit limit(complete.size() + 25);  // a part of the next line
+    EXPECT_THROW(journal.add(someRun(0, 11)), std::runtime_error);
+    EXPECT_EQ(text(), complete) << "without the part of a line";
+    EXPECT_THROW(journal.add(someRun(1, 12)), std::runtime_error);
+  }
+  // A run that ends later, on another thread or rank.
+  journal.add(someRun(1, 11));
+  EXPECT_EQ(text(), complete + someRun(1, 11).json().dump() + "\n");
 }
 
 TEST_F(JournalTest, IsNotReplaced) {

@@ -127,7 +127,9 @@ std::exception_ptr makeDistributed(RankGroup& group, const SearchBenchmark& benc
   };
   while (!is_over) {
     try {
-      if (is_interrupted()) give_up();  // also without work: rank 0 waits for the run that was interrupted
+      // Also without work: rank 0 waits for the run that was interrupted. Not again after an error, which it may
+      // repeat.
+      if (!has_given_up && is_interrupted()) give_up();
       if (to_do.empty() || has_given_up) {
         take(kWait_s);
         continue;

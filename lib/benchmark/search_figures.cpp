@@ -81,10 +81,11 @@ std::vector<SearchFigure> speedUpFigures(const SearchPlan& plan, std::span<const
       chart.title = plan.worlds[world] + conditionSuffix(plan, condition);
       chart.x_label = "robots";
       chart.y_label = "speed-up of the median time to the gold";
-      chart.is_x_log2 = true;
+      // Both logarithmic: a linear speed-up is a straight line.
+      chart.is_x_log2 = chart.is_y_log2 = true;
       chart.x_min = *smallest;
       chart.x_max = *largest;
-      chart.y_max = 1;
+      double least = 1, most = 1;
       for (std::size_t strategy = 0; strategy < plan.strategies.size(); ++strategy) {
         ChartSeries series;
         series.name = plan.strategyName(strategy);
@@ -93,20 +94,20 @@ std::vector<SearchFigure> speedUpFigures(const SearchPlan& plan, std::span<const
               summary.of.world == world && summary.of.condition == condition && summary.of.strategy == strategy;
           if (!is_this || !summary.speed_up) continue;
           series.points.push_back({static_cast<double>(plan.teams[summary.of.team]), *summary.speed_up});
-          chart.y_max = std::max(chart.y_max, 1.1 * *summary.speed_up);
+          least = std::min(least, *summary.speed_up);
+          most = std::max(most, *summary.speed_up);
         }
         std::sort(series.points.begin(), series.points.end(),
                   [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; });
         chart.series.push_back(std::move(series));
       }
+      chart.y_min = std::exp2(std::floor(std::log2(least)));
+      chart.y_max = std::exp2(std::max(1.0, std::ceil(std::log2(most))));
       ChartSeries linear;
       linear.name = "linear";
-      linear.is_dashed = true;
+      linear.is_reference = true;
       const double last = std::min(chart.x_max, chart.y_max * chart.x_min);
-      for (int i = 0; i <= 32; ++i) {
-        const double robots = chart.x_min * std::pow(last / chart.x_min, i / 32.0);
-        linear.points.push_back({robots, robots / chart.x_min});
-      }
+      linear.points = {{chart.x_min, 1}, {last, last / chart.x_min}};
       chart.series.push_back(std::move(linear));
       figures.push_back({"speed_up_" + fileName(chart.title), world, std::move(chart)});
     }

@@ -19,7 +19,8 @@ struct SearchFigure {
 /// world, condition and team.
 std::vector<SearchFigure> survivalFigures(const SearchPlan& plan, std::span<const CaseSummary> summaries);
 
-/// Speed-up over the number of robots: one chart for each world and condition; none when the plan has one team.
+/// Speed-up over the number of robots, both logarithmic: one chart for each world and condition; none when the plan has
+/// one team.
 std::vector<SearchFigure> speedUpFigures(const SearchPlan& plan, std::span<const CaseSummary> summaries);
 
 }  // namespace robosim

@@ -71,7 +71,11 @@ std::string runsJson(const SearchPlan& plan, const SearchRuns& runs, const std::
     json.erase("case");
     all.push_back(std::move(json));
   }
-  return jsonText({{"command", command}, {"plan", plan.json()}, {"runs", std::move(all)}}) + "\n";
+  return jsonText({{"robosim_version", ROBOSIM_VERSION},
+                   {"command", command},
+                   {"plan", plan.json()},
+                   {"runs", std::move(all)}}) +
+         "\n";
 }
 
 std::string comparisonsCsv(const SearchPlan& plan, const SearchRuns& runs) {

@@ -13,7 +13,7 @@ std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std
 
 /// One line per run, with header.
 std::string runsCsv(const SearchPlan& plan, const SearchRuns& runs);
-/// The plan, the command, and all runs.
+/// The version of RoboSim, the command, the plan, and all runs.
 std::string runsJson(const SearchPlan& plan, const SearchRuns& runs, const std::string& command);
 /// One line per world, condition, team and pair of strategies.
 std::string comparisonsCsv(const SearchPlan& plan, const SearchRuns& runs);

@@ -54,6 +54,7 @@ void writePicture(ViewSource& source, ViewDrawing& drawing, Size size, const Vie
 void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewTimes& times, const std::string& file) {
   const Interrupt interrupt;
   Progress progress;
+  const auto start = Progress::Clock::now();
   VideoFile video(file, size.width_px, size.height_px, times.fps);
   if (const auto duration_s = source.duration()) {
     const double end_s = endOf(*duration_s, times);
@@ -69,7 +70,11 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
       source.seek(t);
       source.advance(0);
       video.add(drawing.draw(size));
-      if (progress.due()) progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s …");
+      if (progress.due()) {
+        const double elapsed_s = std::chrono::duration<double>(Progress::Clock::now() - start).count();
+        progress.show(fixed(t, 1) + " of " + fixed(end_s, 1) + " s" +
+                      commaRemainingTime(elapsed_s, t - begin_s, end_s - begin_s));
+      }
       if (t >= end_s - rounding_s) break;
       // The last frame shows the end, also when it is less than a period after the frame before.
       t = std::min(begin_s + static_cast<double>(++frame) * speed / times.fps, end_s);

@@ -39,32 +39,80 @@ test('the page loads nothing else and has no errors', () => {
   assert.deepEqual(problems, []);
 });
 
-test('tables are sorted by the column whose header is clicked, and then the other way round', async () => {
+/** The numbers of a column of a table, by its name. */
+const column = async (table, name) => {
+  const index = (await table.locator('thead tr').last().locator('th').allTextContents()).indexOf(name);
+  return table.locator('tbody tr').evaluateAll((rows, i) => rows.map((row) => Number(row.cells[i].textContent)), index);
+};
+
+test('the page begins with the strategies over all worlds, for each condition', async () => {
+  const titles = await page.locator('h2, h3').allTextContents();
+  assert.deepEqual(titles.slice(0, 3), ['All worlds', 'ideal', 'noise']);
   const table = page.locator('table').first();
-  const column = async (name) => {
-    const names = await table.locator('thead th').allTextContents();
-    const index = names.indexOf(name);
-    return table.locator('tbody tr').evaluateAll((rows, i) => rows.map((row) => Number(row.cells[i].dataset.value)), index);
-  };
-  const before = await column('driven [m]');
-  assert.equal(before.length, 8);
-  const ascending = [...before].sort((a, b) => a - b);
-  await table.getByRole('button', { name: 'driven [m]' }).click();
-  assert.deepEqual(await column('driven [m]'), ascending);
-  assert.equal(await table.locator('th[aria-sort=ascending]').count(), 1);
-  await table.getByRole('button', { name: 'driven [m]' }).click();
-  assert.deepEqual(await column('driven [m]'), ascending.reverse());
+  assert.deepEqual(await table.locator('thead .group').allTextContents(), ['found [%]', 'median [s]']);
+  assert.deepEqual(await table.locator('tbody th').allTextContents(), ['wander', 'gold_finder']);
+  const before_charts = await page.evaluate(() =>
+    [...document.querySelectorAll('tbody tr')].filter((row) =>
+      row.compareDocumentPosition(document.querySelector('svg')) & Node.DOCUMENT_POSITION_FOLLOWING).length);
+  assert.equal(before_charts, 4);
 });
 
-test('searches that did not find the gold are sorted behind all others', async () => {
+test('tables are sorted by the column whose header is clicked, and then the other way round', async () => {
+  const table = page.locator('details[open] table').first();
+  const before = await column(table, 'driven [m]');
+  assert.equal(before.length, 4);
+  const ascending = [...before].sort((a, b) => a - b);
+  await table.getByRole('button', { name: 'driven [m]' }).click();
+  assert.deepEqual(await column(table, 'driven [m]'), ascending);
+  assert.equal(await table.locator('th[aria-sort=ascending]').count(), 1);
+  await table.getByRole('button', { name: 'driven [m]' }).click();
+  assert.deepEqual(await column(table, 'driven [m]'), ascending.reverse());
+});
+
+test('searches that did not find the gold are sorted behind all others, missing figures before them', async () => {
   const values = await page.evaluate(() => {
-    const table = document.querySelector('table');
-    const column = [...table.tHead.rows[0].cells].findIndex((head) => head.textContent === 'median [s]');
-    table.tBodies[0].rows[0].cells[column].dataset.value = 'inf';
-    table.tHead.rows[0].cells[column].querySelector('button').click();
-    return [...table.tBodies[0].rows].map((row) => row.cells[column].dataset.value);
+    const table = document.querySelector('details[open] table');
+    const heads = [...table.tHead.rows].at(-1).cells;
+    const column = [...heads].findIndex((head) => head.textContent === 'median [s]');
+    ['never', '12.5', '–', '3.0'].forEach((text, i) => (table.tBodies[0].rows[i].cells[column].textContent = text));
+    heads[column].querySelector('button').click();
+    return [...table.tBodies[0].rows].map((row) => row.cells[column].textContent);
   });
-  assert.equal(values.at(-1), 'inf');
+  assert.deepEqual(values, ['–', '3.0', '12.5', 'never']);
+});
+
+test('strategy, robots and header stay in view when a table is scrolled', async () => {
+  for (const [width, height] of [[1280, 800], [390, 844]]) {
+    await page.setViewportSize({ width, height });
+    const [before, after] = await page.evaluate(() => {
+      const box = document.querySelector('details[open] .wide');
+      box.style.maxHeight = '6rem';
+      const rows = box.querySelector('tbody').rows;
+      const places = () => {
+        const head = box.querySelector('thead').getBoundingClientRect();
+        return [rows[0].cells[0].getBoundingClientRect().x, rows[0].cells[1].getBoundingClientRect().x, head.y];
+      };
+      box.scrollTo(0, 0);
+      const at_first = places();
+      box.scrollTo(10000, 10000);
+      if (box.scrollLeft === 0 || box.scrollTop === 0) throw new Error('nothing was scrolled');
+      const scrolled = places();
+      box.style.maxHeight = '';
+      box.scrollTo(0, 0);
+      return [at_first, scrolled];
+    });
+    for (const i of [0, 1, 2]) assert.ok(Math.abs(before[i] - after[i]) <= 1.5, `${width}: ${before} ${after}`);
+  }
+});
+
+test('charts keep their texts legible on a phone', async () => {
+  await page.setViewportSize({ width: 390, height: 844 });
+  const size_px = await page.evaluate(() => {
+    const svg = document.querySelector('svg');
+    return 12 * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
+  });
+  assert.ok(size_px >= 9, `${size_px} px`);
+  await page.setViewportSize({ width: 1280, height: 800 });
 });
 
 for (const colorScheme of ['light', 'dark']) {
@@ -79,7 +127,7 @@ for (const colorScheme of ['light', 'dark']) {
   });
 }
 
-test('on a phone nothing but tables is wider than the window', async () => {
+test('on a phone nothing but tables and charts is wider than the window', async () => {
   await page.setViewportSize({ width: 360, height: 640 });
   assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 360), 'the page scrolls sideways');
 });

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/mpi/full_disk.h"
 #include "tests/scenarios/program.h"
 
 namespace robosim {
@@ -17,10 +18,12 @@ Ended runOnRanks(int ranks, const std::string& arguments) {
 
 std::vector<std::filesystem::path> shippedWorlds() {
   std::vector<std::filesystem::path> worlds;
-  for (const auto& entry : std::filesystem::directory_iterator(ROBOSIM_SOURCE_DIR "/worlds")) {
-    if (entry.path().extension() == ".xml") worlds.push_back(entry.path());
+  for (const char* folder : {ROBOSIM_SOURCE_DIR "/worlds", ROBOSIM_SOURCE_DIR "/worlds/benchmark"}) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() == ".xml") worlds.push_back(entry.path());
+    }
   }
-  EXPECT_GE(worlds.size(), 8u);
+  EXPECT_GE(worlds.size(), 8u + 12u);
   return worlds;
 }
 
@@ -59,6 +62,16 @@ TEST(MpiRun, EqualsThatOfOneProcessInEveryShippedWorld) {
   for (const auto& world : shippedWorlds()) {
     SCOPED_TRACE(world);
     expectSameOnRanks(quoted(world) + " --time 3", {2, 3}, folder);
+  }
+}
+
+/// Messages between ranks of all kinds (MAP, BID, TRAIL), and the map that `oracle` knows.
+TEST(MpiRun, EqualsThatOfOneProcessWithEverySearchStrategy) {
+  const auto folder = emptyFolder();
+  for (const std::string strategy : {"random_walk", "levy_walk", "wall_search", "heat_gradient", "stigmergy",
+                                     "gold_finder", "coordinated_frontiers", "market", "oracle"}) {
+    SCOPED_TRACE(strategy);
+    expectSameOnRanks("worlds/benchmark/gold_office_20.xml --time 10 --controller " + strategy, {2}, folder);
   }
 }
 
@@ -190,9 +203,13 @@ TEST(MpiRun, ThatLosesARankEndsWithoutAFileUnderTheFinalName) {
 }
 
 TEST(MpiRun, ReportsAFullDiskOnce) {
-  const Ended ended = runOnRanks(2, "run worlds/open_100.xml --time 30 --record /dev/full");
-  EXPECT_NE(ended.exit_code, 0);
+  const auto folder = emptyFolder();
+  const std::string run = "run worlds/open_100.xml --time 30 --record " + quoted(folder / "r.rawlog");
+  const Ended ended = onFullDisk(2, run, 200);
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
   EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+  EXPECT_EQ(countOf("File too large", ended.err), 1u) << ended.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.rawlog")) << "it is not complete";
 }
 
 }  // namespace

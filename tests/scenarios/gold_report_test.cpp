@@ -68,6 +68,57 @@ TEST(GoldReport, ContainsTheCommandThatReproducesIt) {
   EXPECT_EQ(reportOf(folder / "first"), reportOf(folder / "second"));
 }
 
+TEST(GoldReport, StatesTheVersion) {
+  const auto folder = emptyFolder();
+  const Ended bench = runProgram("bench gold worlds/small_maze.xml --runs 1 --time 1 --report " + quoted(folder / "r"));
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  const Ended version = runProgram("--version");
+  std::string number = version.out.substr(version.out.find_first_of("0123456789"));
+  number = number.substr(0, number.find_first_not_of("0123456789."));
+  EXPECT_EQ(nlohmann::json::parse(textOf(folder / "r" / "runs.json"))["robosim_version"], number);
+  EXPECT_NE(textOf(folder / "r" / "index.html").find("RoboSim " + number + "."), std::string::npos);
+}
+
+TEST(GoldReport, ReproducesRobotsWithAnyHeading) {
+  // 69° and 138° in radians are not exactly the same degrees again.
+  const auto folder = emptyFolder();
+  const std::string robots = "--robot pioneer3dx@1,2,69 --robot pioneer3dx@2,2,138";
+  const Ended bench =
+      runProgram("bench gold worlds/small_maze.xml " + robots + " --runs 1 --time 1 --report " + quoted(folder / "r"));
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  const std::string command = nlohmann::json::parse(textOf(folder / "r" / "runs.json"))["command"];
+  EXPECT_NE(command.find(" " + robots + " "), std::string::npos) << command;
+}
+
+TEST(GoldReport, IsTheSameAfterAFullDisk) {
+  const auto folder = emptyFolder();
+  const std::string bench = "bench gold worlds/small_maze.xml --controller wander --runs 12 --time 20 --report ";
+  const Ended whole = runProgram(bench + quoted(folder / "whole"));
+  ASSERT_EQ(whole.exit_code, 0) << whole.err;
+  const auto files_of = [&](const std::string& blocks) {
+    // In blocks of 512 bytes.
+    return runCommand("trap '' XFSZ; ulimit -f " + blocks + "; '" ROBOSIM_PROGRAM "' " + bench +
+                      quoted(folder / "full") + " --resume");
+  };
+  // The disk is full after some runs, and then when the report is written.
+  const Ended journal = files_of("4");
+  EXPECT_EQ(journal.exit_code, 2);
+  EXPECT_EQ(countOf("robosim: ", journal.err), 1u) << journal.err;
+  EXPECT_NE(journal.err.find("journal.jsonl: cannot be written"), std::string::npos) << journal.err;
+  EXPECT_NE(journal.err.find("free disk space, and add --resume"), std::string::npos) << journal.err;
+  const std::string runs = textOf(folder / "full" / "journal.jsonl");
+  EXPECT_GT(std::count(runs.begin(), runs.end(), '\n'), 1) << "the plan and some runs";
+  EXPECT_TRUE(runs.ends_with("}\n")) << "complete lines only";
+  const Ended report = files_of("24");
+  EXPECT_EQ(report.exit_code, 2);
+  EXPECT_EQ(countOf("robosim: ", report.err), 1u) << report.err;
+  EXPECT_NE(report.err.find("cannot be written (File too large)"), std::string::npos) << report.err;
+  EXPECT_FALSE(fs::exists(folder / "full" / "index.html"));
+  const Ended resumed = runProgram(bench + quoted(folder / "full") + " --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(reportOf(folder / "full"), reportOf(folder / "whole"));
+}
+
 TEST(GoldReport, IsTheSameAfterAnInterruption) {
   const auto folder = emptyFolder();
   const Ended whole = runProgram(kBench + quoted(folder / "whole"));
@@ -90,17 +141,48 @@ TEST(GoldReport, IsTheSameAfterAnInterruption) {
 
 TEST(GoldReport, ContinuesAfterCtrlC) {
   const auto folder = emptyFolder();
-  const std::vector<std::string> arguments{"bench",  "gold",     "worlds/small_maze.xml",
-                                           "--runs", "1000000",  "--time",
-                                           "5",      "--report", (folder / "report").string()};
+  const std::vector<std::string> arguments{"bench", "gold", "worlds/small_maze.xml", "--runs", "400", "--report"};
+  std::string bench;
+  for (const auto& word : arguments) bench += word + " ";
+  const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
   fs::create_directories(folder / "report");
-  StartedProgram bench(arguments);
-  bench.waitForFile(folder / "report" / "journal.jsonl");
-  bench.interrupt();
-  const Ended ended = bench.wait();
+  std::vector<std::string> of_interrupted = arguments;
+  of_interrupted.push_back((folder / "report").string());
+  StartedProgram interrupted(of_interrupted);
+  const auto journal = folder / "report" / "journal.jsonl";
+  interrupted.waitForFile(journal);
+  // Until some runs are in the journal.
+  while (interrupted.isRunning() && textOf(journal).size() < 3000) {
+  }
+  interrupted.interrupt();
+  const Ended ended = interrupted.wait();
   EXPECT_EQ(ended.exit_code, 130);
   EXPECT_NE(ended.err.find("--resume makes the others"), std::string::npos) << ended.err;
   EXPECT_FALSE(fs::exists(folder / "report" / "index.html"));
+  const std::string before = textOf(journal);
+  const Ended resumed = runProgram(bench + quoted(folder / "report") + " --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(textOf(journal).substr(0, before.size()), before);
+  EXPECT_EQ(reportOf(folder / "report"), reportOf(folder / "alone"));
+}
+
+TEST(GoldReport, IsWrittenAndContinuedByTheScriptForSlurm) {
+  const auto folder = emptyFolder();
+  // In place of srun: fewer and shorter runs, in one process.
+  std::ofstream(folder / "srun") << "#!/bin/sh\nshift 2\n"
+                                    "exec '" ROBOSIM_PROGRAM
+                                    "' $(echo \"$@\" | sed 's/--runs 100/--runs 1 --time 1/')\n";
+  fs::permissions(folder / "srun", fs::perms::owner_all);
+  const std::string script = "PATH=" + quoted(folder) + ":$PATH doc/examples/slurm_bench_gold.sh ";
+  const Ended begun = runCommand(script + quoted(folder / "report"));
+  ASSERT_EQ(begun.exit_code, 0) << begun.err;
+  const auto report = contentsOf(folder / "report");
+  EXPECT_TRUE(report.contains("index.html"));
+  const Ended continued = runCommand(script + quoted(folder / "report"));
+  EXPECT_EQ(continued.exit_code, 0) << continued.err;
+  EXPECT_EQ(contentsOf(folder / "report"), report);
+  EXPECT_NE(runCommand(script).exit_code, 0) << "without a folder";
 }
 
 TEST(GoldReport, RefusesWhatMakesNoSense) {

@@ -71,6 +71,20 @@ TEST_F(Sdk, PluginsWorkInEverySubcommandThatRunsControllers) {
   }
 }
 
+TEST_F(Sdk, TheCommandOfAReportNamesThePlugins) {
+  const std::string bench = "bench gold flock.xml --controller flocking --runs 1 --time 2 --report ";
+  const Ended ended = run(bench + "first " + plugin("flocking"));
+  ASSERT_EQ(ended.exit_code, 0) << ended.err;
+  const auto json = nlohmann::json::parse(textOf(project() / "first" / "runs.json"));
+  std::string command = json["command"];
+  ASSERT_TRUE(command.starts_with("robosim bench gold ")) << command;
+  ASSERT_TRUE(command.ends_with(" FOLDER")) << command;
+  command.replace(command.size() - 6, 6, "second");
+  const Ended again = run(command.substr(8));
+  ASSERT_EQ(again.exit_code, 0) << command << again.err;
+  EXPECT_EQ(textOf(project() / "second" / "index.html"), textOf(project() / "first" / "index.html"));
+}
+
 TEST_F(Sdk, ASensorIsRecordedByItsOwnCodec) {
   ASSERT_EQ(run("run flock.xml --time 1 --record wind.rawlog " + plugin("flocking")).exit_code, 0);
   const Ended found =

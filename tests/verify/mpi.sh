@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs on 1 to 8 ranks of MPI with 1 to 3 threads equal those of one process, byte for byte: summary, recording, table and
-# picture, in all shipped worlds and in random ones. Some minutes.
+# picture, in all shipped worlds, with every search strategy, and in random worlds. Some minutes.
 set -euo pipefail
 robosim=$PWD/build/release/bin/robosim
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
@@ -30,7 +30,10 @@ compare() {
   echo "same on 1 to 8 ranks: $*"
 }
 
-for world in worlds/*.xml; do compare "$world" --time "${ROBOSIM_MPI_TIME:-5}"; done
+for world in worlds/*.xml worlds/benchmark/*.xml; do compare "$world" --time "${ROBOSIM_MPI_TIME:-5}"; done
+for strategy in random_walk levy_walk wall_search heat_gradient stigmergy gold_finder coordinated_frontiers market oracle; do
+  compare worlds/benchmark/gold_office_20.xml --controller $strategy --time "${ROBOSIM_MPI_TIME:-5}"
+done
 for seed in 1 2 3; do
   for kind in maze cave office open; do
     "$robosim" generate $kind "$folder/$kind.xml" --seed $seed >/dev/null
