@@ -21,8 +21,8 @@ class JoystickControl {
   static constexpr std::chrono::seconds kLost{2};
 
   struct Output {
-    std::vector<RemoteOrder> orders;  ///< to send now, in this sequence
-    bool switches = false;            ///< the next robot is requested
+    std::vector<RemoteOrder> orders{};  ///< to send now, in this sequence
+    bool switches = false;              ///< the next robot is requested
   };
 
   /// @param top_speed fraction of the robot's maximum, (0, 1]

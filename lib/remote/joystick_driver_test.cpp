@@ -19,7 +19,7 @@ class JoystickDriverTest : public testing::Test {
     return driver_.convert({x, y, std::move(buttons)}, limits_, now_);
   }
 
-  JoystickDriver::Clock::time_point now() const { return now_; }
+  JoystickDriver::Clock::time_point time() const { return now_; }
 
   JoystickDriver driver_;
 
@@ -181,12 +181,12 @@ TEST_F(JoystickDriverTest, TheTopSpeedAppliesToTheStickAndToButtons3And4) {
 TEST_F(JoystickDriverTest, TheTopSpeedAppliesToTheSpeedThatTheRobotReports) {
   driver_ = JoystickDriver(0.5);
   convert(0, 0);
-  driver_.setCommanded(0.46, now());
+  driver_.setCommanded(0.46, time());
   EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::alive)
       << "the robot rounds to 5 tenths, and would drive at 6";
   convert(0, 0);
   EXPECT_EQ(convert(0, 0, {false, false, false, true}).order->type, RemoteType::decelerate);
-  driver_.setCommanded(0, now());
+  driver_.setCommanded(0, time());
   convert(0, 0);
   EXPECT_EQ(convert(0, 0, {false, false, true}).order->type, RemoteType::accelerate);
   convert(0, 0);

@@ -94,6 +94,12 @@ export function violations() {
   for (const { element } of all('.team b, #robot-name, #who')) {
     if (element.scrollWidth > element.clientWidth && element.title !== element.textContent) found.push(`${element.textContent} is cut off and has no title`);
   }
+  // The readings end with a whole row.
+  const [readings] = all('#p-state .scroll');
+  for (const row of readings?.element.scrollTop === 0 ? document.querySelectorAll('.readings div') : []) {
+    const { top, bottom } = row.getBoundingClientRect();
+    if (top < readings.bottom - 1 && bottom > readings.bottom + 1) found.push(`the reading ${row.textContent} is cut off`);
+  }
   const radar = all('#radar')[0];
   if (radar && Math.abs(radar.width - radar.height) > 1) found.push(`the radar is ${radar.width} x ${radar.height}`);
   return [...new Set(found)];

@@ -35,6 +35,12 @@ function leaderOf({ x, y, radius }, [right, down], distance) {
   return { from: at(radius), to: at(radius + distance) };
 }
 
+// Whether a line passes through a name.
+const crosses = ({ from, to }, box) => [0.2, 0.4, 0.6, 0.8].some((part) => {
+  const [x, y] = [from[0] + part * (to[0] - from[0]), from[1] + part * (to[1] - from[1])];
+  return x > box.left && x < box.right && y > box.top && y < box.bottom;
+});
+
 // Whether a line passes through a marker.
 function passes({ from, to }, { x, y, radius }) {
   const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
@@ -49,7 +55,8 @@ export function placeLabels(markers, widthOf, line, size) {
   const taken = markers.map(({ x, y, radius }) => ({ left: x - radius, right: x + radius, top: y - radius, bottom: y + radius }));
   const fits = (box) => box.left >= 0 && box.right <= size.width && box.top >= 0 && box.bottom <= size.height && !taken.some((other) => overlaps(box, other));
   const labels = [];
-  const put = (marker, places, distances, hasLeader) => {
+  // `mayCross`: whether the name's line may pass behind other names
+  const put = (marker, places, distances, hasLeader, mayCross = true) => {
     const text = shortened(marker.name);
     const width = widthOf(text);
     for (const distance of distances) {
@@ -58,6 +65,7 @@ export function placeLabels(markers, widthOf, line, size) {
         if (!fits(box)) continue;
         const leader = hasLeader ? leaderOf(marker, place, distance) : null;
         if (leader && markers.some((other) => other !== marker && passes(leader, other))) continue;
+        if (leader && !mayCross && taken.slice(markers.length).some((other) => crosses(leader, other))) continue;
         taken.push(box);
         labels.push({ name: marker.name, text, x: box.left, y: (box.top + box.bottom) / 2, leader });
         return true;
@@ -68,7 +76,8 @@ export function placeLabels(markers, widthOf, line, size) {
   const sorted = [...markers].sort((a, b) => Boolean(b.isFirst) - Boolean(a.isFirst));
   const rest = sorted.filter((marker) => !put(marker, NEAR, [2], false));
   if (markers.length > MAX_LEADERS) return labels;
-  for (const marker of rest) put(marker, FAR, FAR_LINES.map((lines) => lines * line), true);
+  const distances = FAR_LINES.map((lines) => lines * line);
+  for (const marker of rest) if (!put(marker, FAR, distances, true, false)) put(marker, FAR, distances, true);
   return labels;
 }
 
