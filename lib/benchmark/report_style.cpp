@@ -35,9 +35,9 @@ std::string reportStyle() {
          "pre{background:var(--stripe);border:1px solid var(--line);border-radius:6px;padding:.8rem;overflow-x:auto;"
          "white-space:pre-wrap;overflow-wrap:anywhere}"
          // Charts keep a size at which their texts can be read, and scroll on narrow pages.
-         ".charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,38rem),1fr));gap:.5rem 1.5rem;"
+         ".charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,36rem),1fr));gap:.5rem 1.5rem;"
          "overflow-x:auto}"
-         ".chart{min-width:38rem;max-width:100%;height:auto;display:block;margin:.4rem 0}"
+         ".chart{min-width:36rem;max-width:100%;height:auto;display:block;margin:.4rem 0}"
          "summary{cursor:pointer;font-weight:600;padding:.3rem 0}"
          ".sure{color:var(--good);font-weight:600}"
          "@media print{.wide{max-height:none}}";

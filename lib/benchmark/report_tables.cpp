@@ -87,8 +87,8 @@ std::string overviewTable(const SearchPlan& plan, const SearchRuns& runs, std::s
   std::vector<std::string> names{"strategy"};
   std::vector<std::pair<std::string, int>> spans{{"", 1}};
   for (const auto& [name, figures] : groups) {
-    spans.emplace_back(name, static_cast<int>(teams));
-    for (std::size_t team = 0; team < teams; ++team) names.push_back(plan.teamName(team));
+    spans.emplace_back(name + ", by robots", static_cast<int>(teams));
+    for (std::size_t team = 0; team < teams; ++team) names.push_back(teamCell(plan, team));
   }
   HtmlTable table(names, false);
   table.addGroups(spans);

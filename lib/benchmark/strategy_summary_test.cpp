@@ -56,7 +56,7 @@ TEST_F(StrategySummaryTest, HasNoRatioWithoutTheOracle) {
 
 TEST_F(StrategySummaryTest, IsATableWithTheBestBesideTheOracleInBold) {
   EXPECT_NE(overviewTable(plan_, runs_, 0)
-                .find("<th scope=col>strategy<th scope=col>1 robot<th scope=col>1 robot<th scope=col>1 robot<tbody>\n"
+                .find("<th scope=col>strategy<th scope=col>1<th scope=col>1<th scope=col>1<tbody>\n"
                       "<tr><th scope=row>oracle<td>100.0<td>4.0<td>1.00\n"
                       "<tr><th scope=row>wander<td><b>75.0</b><td><b>12.0</b><td><b>4.00</b>\n</table>"),
             std::string::npos)

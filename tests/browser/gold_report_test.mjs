@@ -49,7 +49,7 @@ test('the page begins with the strategies over all worlds, for each condition', 
   const titles = await page.locator('h2, h3').allTextContents();
   assert.deepEqual(titles.slice(0, 3), ['All worlds', 'ideal', 'noise']);
   const table = page.locator('table').first();
-  assert.deepEqual(await table.locator('thead .group').allTextContents(), ['found [%]', 'median [s]']);
+  assert.deepEqual(await table.locator('thead .group').allTextContents(), ['found [%], by robots', 'median [s], by robots']);
   assert.deepEqual(await table.locator('tbody th').allTextContents(), ['wander', 'gold_finder']);
   const before_charts = await page.evaluate(() =>
     [...document.querySelectorAll('tbody tr')].filter((row) =>
