@@ -15,7 +15,7 @@ struct ChartSeries {
   bool is_step = false;            ///< constant from each point to the next
   bool is_reference = false;       ///< a bound or an ideal: dashed, in the colour of text
   /// Limits of a band around the line, at the points' x; empty: none.
-  std::vector<double> low, high;
+  std::vector<double> low{}, high{};
 };
 
 /// A line chart with a legend on its right, which is as wide and high as the names of its series need.

@@ -89,10 +89,10 @@ void writeVideo(ViewSource& source, ViewDrawing& drawing, Size size, const ViewT
   } else {
     // Live run: draws the latest snapshot whenever a frame is due.
     using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    const auto first = Clock::now();
     for (std::uint64_t frame = 0;; ++frame) {
       const std::chrono::duration<double> due(static_cast<double>(frame) / times.fps);
-      std::this_thread::sleep_until(start + std::chrono::duration_cast<Clock::duration>(due));
+      std::this_thread::sleep_until(first + std::chrono::duration_cast<Clock::duration>(due));
       if (interrupt.isRequested() || (times.for_s && due.count() > *times.for_s)) break;
       source.advance(1 / times.fps);
       video.add(drawing.draw(size));
