@@ -65,6 +65,7 @@ Object.keys(STATES).forEach((state, k) => {
       }
       if (STATES[state].dialog) await page.evaluate(() => { const dialog = document.querySelector('dialog[open]'); dialog.scrollTop = dialog.scrollHeight; });
       if (STATES[state].dialog) await check(page, `${what}, scrolled to its end`, all);
+      if (STATES[state].dialog) await page.evaluate(() => { document.querySelector('dialog[open]').scrollTop = 0; });
       if (STATES[state].has_map || STATES[state].dialog) continue;
       for (const tab of TABS) {
         if (!(await page.isVisible(tab)) || (await page.getAttribute(tab, 'aria-selected')) === 'true') continue;

@@ -78,7 +78,7 @@ export function violations() {
   // Ranges in the picture's place are not covered, unless a panel lies over them.
   if (!isPictureOnly && !(isCompact && document.body.classList.contains('has-panel'))) {
     for (const part of all('#radar, .legend')) {
-      for (const box of all('.hud, .verdict, .hint, .view-head, .signals')) if (overlap(part, box)) found.push(`${name(box.element)} covers ${name(part.element)}`);
+      for (const box of all('.hud, .verdict, .hint')) if (overlap(part, box)) found.push(`${name(box.element)} covers ${name(part.element)}`);
     }
   }
   const view = boxOf(document.querySelector('.view'));

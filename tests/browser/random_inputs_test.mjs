@@ -222,8 +222,14 @@ test(`after a stop, ${EVENTS} random events cause no motion command before all i
       if (pick === 8) ++page.script.stops;
     },
   ];
+  const LOSSES = {
+    30: () => page.evaluate(() => setHidden(true)),
+    60: () => { page.script.holder = 2; page.script.sendTeam(); },
+    90: () => page.script.socket.close({ code: 1001, reason: 'a break' }),
+  };
   for (let i = 0; i < EVENTS; ++i) {
     await ACTIONS[random(ACTIONS.length)]();
+    await LOSSES[i % 200]?.();  // each at least five times
     if (random(12) === 0) await releaseAll();
     if (i % 100 === 99) {  // begins afresh, driving
       await releaseAll();
