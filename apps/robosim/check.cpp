@@ -34,7 +34,7 @@ struct Checked {
   std::size_t maps = 0;
   double open_edge_m = 0;
   std::vector<std::string> warnings;
-  Rows contents;            ///< text output
+  Rows contents;             ///< text output
   ErrorModels error_models;  ///< of a world or a robot type
 };
 

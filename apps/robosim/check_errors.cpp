@@ -17,9 +17,9 @@ void addSensors(const std::string& of, const std::vector<XmlElement>& sensors, c
 
 /// Settings of the radio besides its range.
 std::vector<std::pair<const char*, double>> settingsOf(const Communication& radio) {
-  return {{"loss", radio.loss_probability}, {"wall_range", radio.wall_range_m}, {"wall_loss", radio.wall_loss},
-          {"burst_gap_s", radio.burst_gap_s}, {"burst_s", radio.burst_s}, {"burst_loss", radio.burst_loss},
-          {"delay_s", radio.delay_s}, {"rate_hz", radio.rate_hz}};
+  return {{"loss", radio.loss_probability},   {"wall_range", radio.wall_range_m}, {"wall_loss", radio.wall_loss},
+          {"burst_gap_s", radio.burst_gap_s}, {"burst_s", radio.burst_s},         {"burst_loss", radio.burst_loss},
+          {"delay_s", radio.delay_s},         {"rate_hz", radio.rate_hz}};
 }
 
 nlohmann::ordered_json jsonOf(const SensorErrorSettings& errors) {
@@ -73,8 +73,7 @@ nlohmann::ordered_json ErrorModels::json() const {
   for (const auto& [name, value] : reflectivities) all["reflectivity"][name] = value;
   if (!radio) return all;
   auto& communication = all["communication"];
-  communication["range"] =
-      radio->range_m ? nlohmann::ordered_json(*radio->range_m) : nlohmann::ordered_json(nullptr);
+  communication["range"] = radio->range_m ? nlohmann::ordered_json(*radio->range_m) : nlohmann::ordered_json(nullptr);
   for (const auto& [name, value] : settingsOf(*radio)) communication[name] = value;
   return all;
 }

@@ -29,8 +29,7 @@ ScanSeries drivingSeries(double std_m) {
     const mrpt::math::TPose2D pose(-1 + 0.1 * k, 0.05 * k, 0.03 * k);
     RecordedScan scan;
     scan.odometry = mrpt::math::TPose2D(-1 + 0.11 * k, 0.05 * k, 0.032 * k);
-    for (int i = 0; i < 181; ++i)
-      scan.ranges_m.push_back(wallOf(pose, (i - 90) * M_PI / 180) + std_m * rng.gaussian());
+    for (int i = 0; i < 181; ++i) scan.ranges_m.push_back(wallOf(pose, (i - 90) * M_PI / 180) + std_m * rng.gaussian());
     series.scans.push_back(std::move(scan));
   }
   return series;

@@ -74,8 +74,8 @@ TEST_F(RecordedScans, AreAnticlockwiseWhateverTheScannersDirectionAndMountingAre
 
 TEST_F(RecordedScans, HaveTheHeadingOfTheScannersAxisIfItIsPitchedOver) {
   // Half a turn about y: the x axis points backward, and the scanner is upside down.
-  const ScanSeries series = readAfter(
-      [](mrpt::obs::CObservation2DRangeScan& scan, int) { scan.setSensorPose(mounted(0, 0, 180, 0)); });
+  const ScanSeries series =
+      readAfter([](mrpt::obs::CObservation2DRangeScan& scan, int) { scan.setSensorPose(mounted(0, 0, 180, 0)); });
   EXPECT_NEAR(std::abs(series.robot_from_scanner.phi), M_PI, 1e-6);
   EXPECT_EQ(series.scans.at(0).ranges_m, (RangeList{3, 2, 1}));
 }
@@ -85,7 +85,7 @@ TEST_F(RecordedScans, OfOneLabelAndTwoPosesAreThoseOfTwoScanners) {
     return [label](mrpt::obs::CObservation2DRangeScan& scan, int number) {
       scan.sensorLabel = label;
       const bool is_rear = number % 2 == 1;
-      scan.setSensorPose(mounted(is_rear ? -0.2 : 0.2, is_rear ? 180 : 0, 0, 0));
+      scan.setSensorPose(mounted(is_rear ? -0.2 : 0.2, is_rear ? 170 : 0, 0, 0));
       if (is_rear) scan.setScanRange(0, 7);
     };
   };
@@ -102,7 +102,7 @@ TEST_F(RecordedScans, OfOneLabelAndTwoPosesAreThoseOfTwoScanners) {
     FAIL() << "the choice is ambiguous";
   } catch (const ConfigError& error) {
     EXPECT_NE(error.errors().at(0).find("has scans of several sensors; choose one of them by --sensor: "
-                                        "'#1' at (0.20, 0.00) m, 0°, '#2' at (-0.20, 0.00) m, 180°"),
+                                        "'#1' at (0.20, 0.00) m, 0°, '#2' at (-0.20, 0.00) m, 170°"),
               std::string::npos)
         << error.what();
   }

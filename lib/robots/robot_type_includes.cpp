@@ -17,8 +17,8 @@ constexpr const char* kInclude = "include";
 constexpr const char* kOnlyBelow = "; only files in the robot type's folder, or below it, are included";
 
 XmlElement* sensorsElementOf(XmlElement& type) {
-  const auto found =
-      std::find_if(type.children.begin(), type.children.end(), [](const auto& child) { return child.name == "sensors"; });
+  const auto found = std::find_if(type.children.begin(), type.children.end(),
+                                  [](const auto& child) { return child.name == "sensors"; });
   return found == type.children.end() ? nullptr : &*found;
 }
 

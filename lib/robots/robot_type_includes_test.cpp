@@ -58,8 +58,9 @@ TEST_F(RobotTypeInclude, StandsForTheSensorOfTheFile) {
 
 TEST_F(RobotTypeInclude, ReplacesSettingsByItsOwnAttributes) {
   write("sensors/laser.xml", "<laser beams='3' x_m='1'><z_m>0.1</z_m></laser>");
-  const RobotModel model = modelFrom(typeWith("<include file='sensors/laser.xml' x_m='0.1' z_m='0.3' label='front'/>"
-                                              "<include file='sensors/laser.xml' label='rear' angle_deg='180'/>"));
+  const RobotModel model =
+      modelFrom(typeWith("<include file='sensors/laser.xml' x_m='0.1' z_m='0.3' label='front'/>"
+                         "<include file='sensors/laser.xml' label='rear' angle_deg='180'/>"));
   ASSERT_EQ(model.sensor_infos->size(), 2u);
   const SensorInfo& front = model.sensor_infos->at(0);
   EXPECT_EQ(front.label, "front");
@@ -106,11 +107,13 @@ TEST_F(RobotTypeInclude, IsRefusedOutsideTheFolderAndForOtherContents) {
   };
   const std::string type = pathOf("r.xml") + ":3: <include";
   EXPECT_EQ(faultOf("<include file='/etc/a.xml'/>"),
-            type + " file=\"/etc/a.xml\">: is an absolute path; only files in the robot type's folder, or below it, are "
-                   "included");
+            type +
+                " file=\"/etc/a.xml\">: is an absolute path; only files in the robot type's folder, or below it, are "
+                "included");
   EXPECT_EQ(faultOf("<include file='../a.xml'/>"),
-            type + " file=\"../a.xml\">: contains '..'; only files in the robot type's folder, or below it, are "
-                   "included");
+            type +
+                " file=\"../a.xml\">: contains '..'; only files in the robot type's folder, or below it, are "
+                "included");
   EXPECT_EQ(faultOf("<include file='a.png'/>"), type + " file=\"a.png\">: must end in .xml");
   EXPECT_TRUE(faultOf("<include file='none.xml'/>").starts_with(type + " file=\"none.xml\">: "));
   const std::string not_a_sensor = ": is not a sensor; the first element of an included file is one, such as <laser>";

@@ -34,9 +34,8 @@ TEST(LaserTypes, DocumentedScannersHaveTheGeometryOfTheirDataSheets) {
     std::size_t beams;
     double step_deg, range_min_m, range_max_m;
   };
-  const std::map<std::string, DataSheet> sheets{{"lms200", {181, 1, 0, 80}},
-                                                {"urg04lx", {682, 360.0 / 1024, 0.02, 5.6}},
-                                                {"utm30lx", {1081, 0.25, 0.1, 30}}};
+  const std::map<std::string, DataSheet> sheets{
+      {"lms200", {181, 1, 0, 80}}, {"urg04lx", {682, 360.0 / 1024, 0.02, 5.6}}, {"utm30lx", {1081, 0.25, 0.1, 30}}};
   for (const auto& [name, sheet] : sheets) {
     ASSERT_NE(laserTypeNamed(name), nullptr);
     const auto laser = sensorFrom(documented[name]);

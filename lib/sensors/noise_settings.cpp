@@ -14,7 +14,8 @@ constexpr std::string_view kWithinNoise = "noise/";
 std::string listOf(const SensorErrorSettings::Settings& settings) {
   std::string text;
   for (const auto& [name, value] : settings) {
-    text += (text.empty() ? "" : ", ") + name + (value.find(',') == std::string::npos ? " " + value : " (" + value + ")");
+    text +=
+        (text.empty() ? "" : ", ") + name + (value.find(',') == std::string::npos ? " " + value : " (" + value + ")");
   }
   return text;
 }
@@ -23,7 +24,9 @@ std::string listOf(const SensorErrorSettings::Settings& settings) {
 bool isTime(const std::string& kind, const std::string& setting) {
   constexpr std::array<std::string_view, 4> kOfLaser{"sweep_s", "latency_s", "rate_hz", "phase_s"};
   constexpr std::array<std::string_view, 2> kOfSonar{"firing_interval_s", "array"};
-  const auto is_among = [&](const auto& names) { return std::find(names.begin(), names.end(), setting) != names.end(); };
+  const auto is_among = [&](const auto& names) {
+    return std::find(names.begin(), names.end(), setting) != names.end();
+  };
   return kind == "laser" ? is_among(kOfLaser) : kind == "sonar" && is_among(kOfSonar);
 }
 
@@ -79,8 +82,8 @@ SensorErrorSettings errorSettingsOf(const XmlElement& sensor, const Mount& mount
   reader.describeTo(settings);
   (sensor.name == "sensor" && type->read_2005 ? type->read_2005 : type->read)(reader, mount);
   times.clear();
-  const bool has_table = std::any_of(errors.given.begin(), errors.given.end(),
-                                     [](const auto& setting) { return setting.first == "at"; });
+  const bool has_table =
+      std::any_of(errors.given.begin(), errors.given.end(), [](const auto& setting) { return setting.first == "at"; });
   for (const auto& setting : settings) {
     if (setting.default_text.empty()) continue;  // required within an element that need not exist, such as <at>
     if (has_table && (setting.name == "noise/std_m" || setting.name == "noise/std_per_m")) continue;
