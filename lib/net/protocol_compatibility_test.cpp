@@ -179,10 +179,10 @@ TEST(ProtocolCompatibility, DetectsAFieldMessageEnumValueAndMethodThatIsNotStore
   }
   Differences additions = additionsTo(stored);
   std::sort(additions.begin(), additions.end());
-  EXPECT_EQ(additions,
-            (Differences{"robosim.v1.Activity.ACTIVITY_FOUND is missing",
-                         "robosim.v1.ControlPanel.Pause is missing or has changed",
-                         "robosim.v1.PauseRequest is missing", "robosim.v1.RunStatus.recording_failure = 23 is missing"}));
+  EXPECT_EQ(additions, (Differences{"robosim.v1.Activity.ACTIVITY_FOUND is missing",
+                                    "robosim.v1.ControlPanel.Pause is missing or has changed",
+                                    "robosim.v1.PauseRequest is missing",
+                                    "robosim.v1.RunStatus.recording_failure = 23 is missing"}));
 }
 
 TEST(ProtocolCompatibility, DetectsARemovedOrRenumberedField) {

@@ -25,7 +25,7 @@ struct RecordingStatus {
     off,
   };
   State state = State::none;
-  std::string file{};  ///< current or last file, its name without folder; empty while there is none
+  std::string file{};     ///< current or last file, its name without folder; empty while there is none
   std::string failure{};  ///< why the last recording ended before it was stopped; empty if it did not
 };
 
