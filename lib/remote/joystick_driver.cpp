@@ -51,8 +51,9 @@ bool JoystickDriver::mayChangeSpeed(int tenths, Clock::time_point now) {
   constexpr double kTenths = 10;
   const double next = (static_cast<double>(std::lround(kTenths * commanded_)) + tenths) / kTenths;
   const bool is_faster = std::abs(next) > std::abs(commanded_);
-  if (is_faster && std::abs(next) > top_speed_ + 1e-9) return false;
-  commanded_ = next;
+  // At its own maximum the robot limits the speed itself.
+  if (is_faster && top_speed_ < 1 && std::abs(next) > top_speed_ + 1e-9) return false;
+  commanded_ = std::clamp(next, -1.0, 1.0);
   set_ = now;
   return true;
 }
