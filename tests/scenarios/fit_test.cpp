@@ -83,12 +83,13 @@ TEST_F(Fit, WritesAFileThatARobotTypeIncludes) {
          "<include file='sensors/sick.xml' z_m='0.3' label='sick'/></sensors></robot>";
   const auto world = in("w.xml");
   std::ofstream(world) << "<world><surface><size><xmin>-3</xmin><xmax>3</xmax><ymin>-3</ymin><ymax>3</ymax></size>"
-                          "<object><shape><robot><model>scanner</model><name>R</name><x>0</x><y>0</y></robot></shape>"
+                          "<object><shape><robot><model>scanner</model><name>R</name><controller>still</"
+                          "controller><x>0</x><y>0</y></robot></shape>"
                           "</object></surface></world>";
-  const std::string run = "run " + quoted(world) + " --controller still --time 1";
+  const std::string run = "run " + quoted(world) + " --time 1";
   const Ended first = runProgram(run + " --record " + quoted(in("r.rawlog")));
   EXPECT_EQ(first.exit_code, 0) << first.err;
-  const Ended replayed = runProgram("replay " + quoted(in("r.rawlog")) + " --check");
+  const Ended replayed = runProgram("replay " + quoted(in("r.rawlog")) + " --check " + quoted(world));
   EXPECT_EQ(replayed.exit_code, 0) << replayed.err << "the recording contains the included sensor";
   const Ended checked = runProgram("check " + quoted(world));
   EXPECT_NE(checked.out.find("laser: noise; tail 0.03"), std::string::npos) << checked.out;

@@ -82,7 +82,7 @@ TEST(GoldReport, StatesTheVersion) {
 TEST(GoldReport, ReproducesRobotsWithAnyHeading) {
   // 69° and 138° in radians are not exactly the same degrees again.
   const auto folder = emptyFolder();
-  const std::string robots = "--robot pioneer3dx@1,2,69 --robot pioneer3dx@2,2,138";
+  const std::string robots = "--robot pioneer3dx@1,2,69 --robot pioneer3dx@1,1,138";
   const Ended bench =
       runProgram("bench gold worlds/small_maze.xml " + robots + " --runs 1 --time 1 --report " + quoted(folder / "r"));
   ASSERT_EQ(bench.exit_code, 0) << bench.err;
@@ -109,7 +109,7 @@ TEST(GoldReport, IsTheSameAfterAFullDisk) {
   const std::string runs = textOf(folder / "full" / "journal.jsonl");
   EXPECT_GT(std::count(runs.begin(), runs.end(), '\n'), 1) << "the plan and some runs";
   EXPECT_TRUE(runs.ends_with("}\n")) << "complete lines only";
-  const Ended report = files_of("24");
+  const Ended report = files_of("12");
   EXPECT_EQ(report.exit_code, 2);
   EXPECT_EQ(countOf("robosim: ", report.err), 1u) << report.err;
   EXPECT_NE(report.err.find("cannot be written (File too large)"), std::string::npos) << report.err;
