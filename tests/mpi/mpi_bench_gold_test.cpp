@@ -72,37 +72,6 @@ TEST(MpiBenchGold, CompletesTheSameReportAfterAFailedRank) {
   EXPECT_EQ(reportOf(folder / "killed"), reportOf(folder / "alone"));
 }
 
-TEST(MpiBenchGold, CompletesTheSameReportAfterCtrlC) {
-  const auto folder = emptyFolder();
-  const std::vector<std::string> arguments{
-      "bench", "gold", "worlds/small_maze.xml", "--controller", "gold_finder", "--runs", "400", "--report"};
-  std::string bench;
-  for (const auto& word : arguments) bench += word + " ";
-  const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
-  ASSERT_EQ(alone.exit_code, 0) << alone.err;
-  fs::create_directories(folder / "interrupted");
-  // Open MPI kills processes that need longer to end.
-  std::vector<std::string> of_mpirun{"--mca", "odls_base_sigkill_timeout", "60", "-n", "2", ROBOSIM_PROGRAM};
-  of_mpirun.insert(of_mpirun.end(), arguments.begin(), arguments.end());
-  of_mpirun.push_back((folder / "interrupted").string());
-  StartedProgram mpirun(ROBOSIM_MPIRUN, of_mpirun);
-  const auto journal = folder / "interrupted" / "journal.jsonl";
-  mpirun.waitForFile(journal);
-  // Until some runs are in the journal.
-  while (mpirun.isRunning() && textOf(journal).size() < 5000) {
-  }
-  mpirun.interrupt();
-  const Ended ended = mpirun.wait();
-  EXPECT_NE(ended.exit_code, 0);
-  EXPECT_NE(ended.err.find("--resume makes the others"), std::string::npos) << ended.err;
-  EXPECT_FALSE(fs::exists(folder / "interrupted" / "index.html"));
-  const std::string before = textOf(journal);
-  const Ended resumed = benchOnRanks(2, bench + quoted(folder / "interrupted") + " --resume");
-  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(textOf(journal).substr(0, before.size()), before);
-  EXPECT_EQ(reportOf(folder / "interrupted"), reportOf(folder / "alone"));
-}
-
 TEST(MpiBenchGold, ReportsAFullDiskOnceAndContinues) {
   const auto folder = emptyFolder();
   const std::string bench = "bench gold worlds/small_maze.xml --controller wander --runs 20 --time 20 --report ";
