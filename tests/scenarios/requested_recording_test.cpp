@@ -81,9 +81,13 @@ TEST(RequestedRecording, RepeatsNoStepInTheNextPart) {
   run.must("record on");
   run.must("step 5");
   run.end();
-  const Ended part = runProgram("replay --print " + quoted(run.folder / "run_part2.rawlog"));
-  EXPECT_EQ(part.exit_code, 0) << part.err;
-  std::cout << part.out << std::endl;
+  // Steps 11 to 15: five of each channel, of which the first and the last are 0.4 s apart.
+  const Ended part = runProgram("replay --json " + quoted(run.folder / "run_part2.rawlog"));
+  ASSERT_EQ(part.exit_code, 0) << part.err;
+  const auto content = nlohmann::json::parse(part.out);
+  EXPECT_EQ(content["duration_s"], 0.4);
+  EXPECT_GT(content["channels"].size(), 10u);
+  for (const auto& channel : content["channels"]) EXPECT_EQ(channel["count"], 5) << channel;
 }
 
 TEST(RequestedRecording, MayHaveNoSteps) {
@@ -94,7 +98,10 @@ TEST(RequestedRecording, MayHaveNoSteps) {
   run.must("record off");
   run.end();
   const Ended none = runProgram("replay --json " + quoted(run.folder / "run_part2.rawlog"));
-  EXPECT_EQ(none.exit_code, 0) << none.err;
+  ASSERT_EQ(none.exit_code, 0) << none.err;
+  const auto content = nlohmann::json::parse(none.out);
+  EXPECT_EQ(content["observations"], 0);
+  EXPECT_EQ(content["whole"], true);
 }
 
 TEST(RequestedRecording, EndsWhenAStepCannotBeWrittenAndTheRunContinues) {
