@@ -75,8 +75,8 @@ TEST_F(Sdk, TheCommandOfAReportNamesThePlugins) {
   const std::string bench = "bench gold flock.xml --controller flocking --runs 1 --time 2 --report ";
   const Ended ended = run(bench + "first " + plugin("flocking"));
   ASSERT_EQ(ended.exit_code, 0) << ended.err;
-  const auto json = nlohmann::json::parse(textOf(project() / "first" / "runs.json"));
-  std::string command = json["command"];
+  const auto report = nlohmann::json::parse(textOf(project() / "first" / "runs.json"));
+  std::string command = report["command"];
   ASSERT_TRUE(command.starts_with("robosim bench gold ")) << command;
   ASSERT_TRUE(command.ends_with(" FOLDER")) << command;
   command.replace(command.size() - 6, 6, "second");
