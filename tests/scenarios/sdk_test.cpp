@@ -17,9 +17,9 @@ namespace fs = std::filesystem;
 class Sdk : public testing::Test {
  protected:
   void SetUp() override {
-    if (!installed_) installed_ = std::make_unique<InstalledProject>("flocking", buildFaultyPlugins);
+    if (!installed) installed = std::make_unique<InstalledProject>("flocking", buildFaultyPlugins);
   }
-  static void TearDownTestSuite() { installed_.reset(); }
+  static void TearDownTestSuite() { installed.reset(); }
 
   /// Appends plugins with one fault each to the project.
   static void buildFaultyPlugins(const fs::path& folder) {
@@ -46,18 +46,18 @@ ROBOSIM_PLUGIN(registry) {
 })");
   }
 
-  static fs::path project() { return installed_->folder(); }
-  static std::string plugin(const std::string& name) { return "--plugin " + quoted(installed_->library(name)); }
-  static Ended run(const std::string& arguments) { return installed_->run(arguments); }
+  static fs::path project() { return installed->folder(); }
+  static std::string plugin(const std::string& name) { return "--plugin " + quoted(installed->library(name)); }
+  static Ended run(const std::string& arguments) { return installed->run(arguments); }
   static void expectRefusal(const std::string& arguments, const std::string& reason) {
     const Ended ended = run("run flock.xml --time 1 " + arguments);
     EXPECT_EQ(ended.exit_code, 1) << arguments;
     EXPECT_NE(ended.err.find(reason), std::string::npos) << ended.err;
   }
 
-  static std::unique_ptr<InstalledProject> installed_;
+  static std::unique_ptr<InstalledProject> installed;
 };
-std::unique_ptr<InstalledProject> Sdk::installed_;
+std::unique_ptr<InstalledProject> Sdk::installed;
 
 TEST_F(Sdk, PluginsWorkInEverySubcommandThatRunsControllers) {
   const std::string flocking = plugin("flocking");
@@ -106,7 +106,7 @@ TEST_F(Sdk, PluginsAreLoadedFromTheFoldersOfThePath) {
   fs::create_directory(project() / "plugins");
   fs::copy(project() / "build" / "libflocking.so", project() / "plugins");
   const Ended ended = runCommand("cd " + quoted(project()) + " && ROBOSIM_PLUGIN_PATH=plugins " +
-                                 quoted(installed_->program()) + " check flock.xml");
+                                 quoted(installed->program()) + " check flock.xml");
   EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
   expectRefusal("", "anemometer");  // no world makes the program load code
 }
@@ -175,14 +175,14 @@ class FlockServer {
 };
 
 TEST_F(Sdk, ARobotProcessRunsAPluginsController) {
-  FlockServer server(installed_->program(), project(), installed_->library("flocking"));
+  FlockServer server(installed->program(), project(), installed->library("flocking"));
   const Ended robots = run("robot" + server.robots() + plugin("flocking"));
   EXPECT_EQ(robots.exit_code, 0) << robots.err;
   EXPECT_EQ(server.wait().exit_code, 0);
 }
 
 TEST_F(Sdk, AnExceptionOfAControllerUnderRemoteControlNamesItAndItsRobot) {
-  FlockServer server(installed_->program(), project(), installed_->library("flocking"));
+  FlockServer server(installed->program(), project(), installed->library("flocking"));
   const Ended robots = run("robot" + server.robots() + "--remote-port 127.0.0.1:0 --controller failing " +
                            plugin("flocking") + " " + plugin("failing"));
   EXPECT_EQ(robots.exit_code, 2) << robots.out;
@@ -213,7 +213,7 @@ TEST_F(Sdk, AnOwnProgramHasAllSubcommands) {
 }
 
 TEST_F(Sdk, APluginNeedsTheEngineAndTheRecordingOnly) {
-  const Ended readelf = runCommand("readelf --dynamic " + quoted(installed_->library("flocking")));
+  const Ended readelf = runCommand("readelf --dynamic " + quoted(installed->library("flocking")));
   ASSERT_EQ(readelf.exit_code, 0) << readelf.err;
   for (const char* library : {"rendering", "maps", "program", "serving", "viewing"}) {
     EXPECT_EQ(readelf.out.find(std::string("librobosim-") + library), std::string::npos) << readelf.out;
