@@ -41,6 +41,12 @@ test('of the causes that are true, the banner states the first, and none if none
   assert.deepEqual([...seen].sort(), [...CAUSES, null].sort());
 });
 
+test('a reason that is a sentence is followed by one period', () => {
+  const link = { isOpen: false, isSilent: false, why: 'The token is unknown or has expired.' };
+  const { text } = bannerOf({ link, team: null, run: { phase: 'unknown', problem: '', absent: [] }, isFresh: false });
+  assert.equal(text, 'No connection to the console: The token is unknown or has expired. The robot stops. Reconnecting…');
+});
+
 test('"You drive" is shown only while commands are sent and arrive at an active robot of this page', () => {
   for (const isOpen of BOOLEANS) for (const isSilent of BOOLEANS) for (const up of BOOLEANS) for (const isYours of BOOLEANS)
   for (const autonomous of BOOLEANS) for (const activity of ['active', 'halted']) for (const isFresh of BOOLEANS)

@@ -30,7 +30,7 @@ export function standsStill(run, primary) {
 // Returns null, or {cause, text, kind}, kind: bad, warn, info or gold.
 export function bannerOf({ link, team, run, isFresh }) {
   const banner = (cause, kind, text) => ({ cause, kind, text });
-  const because = (why) => (why ? `: ${why}` : '');
+  const because = (why) => (why ? `: ${why.replace(/\.$/, '')}` : '');  // a sentence or a part of one
   if (!team && link.isOpen) return null;  // the first messages follow
   if (!link.isOpen) return banner('console_gone', 'bad', `No connection to the console${because(link.why)}. The robot stops. Reconnecting…`);
   if (link.isSilent) return banner('console_gone', 'bad', 'The console does not answer. The robot stops.');
