@@ -1,4 +1,5 @@
 // `robosim bench gold` on several ranks, started by mpirun.
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 #include <map>
@@ -70,6 +71,36 @@ TEST(MpiBenchGold, CompletesTheSameReportAfterAFailedRank) {
   const Ended resumed = benchOnRanks(3, bench + quoted(folder / "killed") + " --resume");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(reportOf(folder / "killed"), reportOf(folder / "alone"));
+}
+
+TEST(MpiBenchGold, CompletesTheSameReportAfterCtrlC) {
+  const auto folder = emptyFolder();
+  // Each run takes long enough that most are missing when the signal arrives.
+  const std::string bench = "bench gold maze_20x20 --controller random_walk --runs 20 --time 1000 --report ";
+  const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  fs::create_directories(folder / "interrupted");
+  // The shell becomes mpirun, which receives the signal as from a terminal.
+  StartedProgram mpirun(
+      "/bin/sh", {"-c", "exec " ROBOSIM_MPIRUN " -n 2 " ROBOSIM_PROGRAM " " + bench + quoted(folder / "interrupted")});
+  const auto journal = folder / "interrupted" / "journal.jsonl";
+  mpirun.waitForFile(journal);
+  const auto runs = [&journal] {
+    const std::string text = textOf(journal);
+    return std::count(text.begin(), text.end(), '\n') - 1;  // the first line is the plan
+  };
+  while (mpirun.isRunning() && runs() < 1) {
+  }
+  mpirun.interrupt();
+  EXPECT_NE(mpirun.wait().exit_code, 0);
+  EXPECT_FALSE(fs::exists(folder / "interrupted" / "index.html"));
+  EXPECT_GE(runs(), 1);
+  EXPECT_LT(runs(), 20);
+  const std::string before = textOf(journal);
+  const Ended resumed = benchOnRanks(3, bench + quoted(folder / "interrupted") + " --resume");
+  ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
+  EXPECT_EQ(textOf(journal).substr(0, before.size()), before) << "no finished run is made again";
+  EXPECT_EQ(reportOf(folder / "interrupted"), reportOf(folder / "alone"));
 }
 
 TEST(MpiBenchGold, ReportsAFullDiskOnceAndContinues) {
