@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "tests/scenarios/program.h"
+#include "tests/scenarios/recorded_run.h"
 #include "viewing/view_source.h"
 
 namespace robosim {
@@ -17,12 +17,6 @@ json run(const std::string& arguments) {
   const Ended ended = runProgram("run --json " + arguments);
   EXPECT_EQ(ended.exit_code, 0) << arguments << "\n" << ended.err;
   return json::parse(ended.out, nullptr, false);
-}
-
-std::string refusal(const std::string& arguments) {
-  const Ended ended = runProgram(arguments);
-  EXPECT_EQ(ended.exit_code, 1) << arguments;
-  return ended.err;
 }
 
 fs::path write(const std::string& name, const std::string& text) {
@@ -58,14 +52,15 @@ TEST(WorldChanges, ShowTheRandomRobotsOfTheSeed) {
 }
 
 TEST(WorldChanges, RejectARobotInsideAWall) {
-  const std::string error = refusal("run maps/lab.yaml --robot scout@0,0");
+  const std::string error = refusalOf("run maps/lab.yaml --robot scout@0,0");
   EXPECT_NE(error.find("maps/lab.yaml: robot 'Robot1' at (0, 0) m overlaps an obstacle of the map 'lab.yaml'"),
             std::string::npos)
       << error;
-  EXPECT_NE(refusal("run maps/lab.yaml --robot scout").find("must be TYPE@X,Y or TYPE@X,Y,HEADING"), std::string::npos);
-  EXPECT_NE(refusal("run maps/lab.yaml --random-robots many").find("must be a whole number from 1 to 100000"),
+  EXPECT_NE(refusalOf("run maps/lab.yaml --robot scout").find("must be TYPE@X,Y or TYPE@X,Y,HEADING"),
             std::string::npos);
-  EXPECT_NE(refusal("view tests/data/none.rawlog --robot scout@0,0").find("none.rawlog"), std::string::npos);
+  EXPECT_NE(refusalOf("run maps/lab.yaml --random-robots many").find("must be a whole number from 1 to 100000"),
+            std::string::npos);
+  EXPECT_NE(refusalOf("view tests/data/none.rawlog --robot scout@0,0").find("none.rawlog"), std::string::npos);
 }
 
 TEST(WorldChanges, AreStoredInARecording) {
@@ -141,7 +136,7 @@ TEST(Check, DoesNotWarnOfEdgesInShippedWorlds) {
 }
 
 TEST(BenchGold, RefusesAWorldWithoutGold) {
-  EXPECT_NE(refusal("bench gold maps/office.map --runs 1").find("maps/office.map: has no gold"), std::string::npos);
+  EXPECT_NE(refusalOf("bench gold maps/office.map --runs 1").find("maps/office.map: has no gold"), std::string::npos);
 }
 
 TEST(Export, KeepsAMapsUnknownCellsOriginAndResolution) {
