@@ -46,3 +46,7 @@ export async function takeControl(page) {
     return false;
   });
 }
+
+// Waits until the element contains the text.
+export const showsText = (page, selector, text) =>
+  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, afterEach, before, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { emulateGamepad, moveStick, pressButton } from './emulated_gamepad.mjs';
 import { writeTestWorld } from './test_world.mjs';
 import { Session } from './session.mjs';
@@ -25,8 +25,7 @@ after(async () => {
 afterEach(() => assert.deepEqual(page.problems, [], 'nothing goes wrong on the page'));
 
 const { hypot } = Math;
-const shows = (selector, text) =>
-  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
+const shows = (selector, text) => showsText(page, selector, text);
 const enabled = (selector) => page.waitForSelector(`${selector}:enabled`);
 
 // Waits until Ann has driven this far ahead (behind: below 0) from her position.

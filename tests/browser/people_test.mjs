@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { writeTestWorld } from './test_world.mjs';
 import { Session } from './session.mjs';
 import { RawSocket, spectate } from './web_socket.mjs';
@@ -21,9 +21,6 @@ after(async () => {
   await session?.close();
 });
 
-const shows = (page, selector, text) =>
-  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
-
 async function canDrive(page) {
   const { phi } = await session.truth.standstill('Ann');
   await page.keyboard.down('ArrowLeft');
@@ -34,8 +31,8 @@ async function canDrive(page) {
 
 test('a second page sees the driver and may only watch, until the first releases control or disconnects', async () => {
   const bea = await visit(browser, session.url, { name: 'Bea' });
-  await shows(bea, '#who', 'Ada drives; you may watch');
-  await shows(bea, '#status', 'Watching');
+  await showsText(bea, '#who', 'Ada drives; you may watch');
+  await showsText(bea, '#status', 'Watching');
   for (const id of ['accelerate', 'decelerate', 'turn-left', 'turn-right', 'stop', 'check-win', 'autonomous', 'next']) {
     assert.ok(await bea.isDisabled(`#${id}`), id);
   }
@@ -50,7 +47,7 @@ test('a second page sees the driver and may only watch, until the first releases
 
   await ada.click('#control');  // releases control
   await takeControl(bea);
-  await shows(ada, '#who', 'Bea drives; you may watch');
+  await showsText(ada, '#who', 'Bea drives; you may watch');
   await canDrive(bea);
   await bea.click('#control');
   await takeControl(ada);
@@ -67,8 +64,8 @@ test('a second console reports the driver of a robot in use, and watches', async
   const other = session.start('remote', ...session.remoteArguments, '--listen', '127.0.0.1:0');
   const url = (await other.says(/the console is at (\S+)/))[1];
   const cleo = await visit(browser, url, { name: 'Cleo' });
-  await shows(cleo, '#mode', 'driven by Ada');
-  await shows(cleo, '#team', 'driven by Ada');
+  await showsText(cleo, '#mode', 'driven by Ada');
+  await showsText(cleo, '#team', 'driven by Ada');
   assert.ok(await cleo.isDisabled('#accelerate'));
   await cleo.context().close();
   await other.end();
@@ -79,12 +76,12 @@ test('fifty spectators, ten of which never read, do not affect the driver', asyn
   const all = await Promise.all(Array.from({ length: 50 }, (_, i) => spectate(session.url, `Spectator ${i}`)));
   const asleep = all.splice(0, 10);
   for (const one of asleep) one.stopReading();
-  await shows(ada, '#spectators', '50 watching');
+  await showsText(ada, '#spectators', '50 watching');
   await canDrive(ada);
   const before = all.map((one) => one.pictures);
   await Promise.all(all.map((one, i) => one.until(({ pictures }) => pictures > before[i] + 10)));
   // Pages that acknowledge nothing for 6 s are disconnected.
-  await shows(ada, '#spectators', '40 watching');
+  await showsText(ada, '#spectators', '40 watching');
   await canDrive(ada);
   for (const one of [...all, ...asleep]) one.destroy();
   await ada.waitForFunction(() => document.querySelector('#spectators').textContent === '');

@@ -3,7 +3,7 @@
 import assert from 'node:assert/strict';
 import { after, before, beforeEach, afterEach, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { writeTestWorld } from './test_world.mjs';
 import { Session } from './session.mjs';
 
@@ -23,8 +23,7 @@ beforeEach(async () => {
 });
 afterEach(() => page.context().close());
 
-const shows = (selector, text) =>
-  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
+const shows = (selector, text) => showsText(page, selector, text);
 const stops = (why) => session.robots.Ann.until(({ error }) => error.slice(session.readTo).match(why), `it said ${why}`);
 
 // Ann turns on the spot while the key is held.

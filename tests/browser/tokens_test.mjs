@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { writeTestWorld } from './test_world.mjs';
 import { Session } from './session.mjs';
 
@@ -36,8 +36,6 @@ after(async () => {
 });
 
 const come = (token, name) => visit(browser, `${session.url}#token=${token}`, { name, ignoreHTTPSErrors: true });
-const shows = (page, selector, text) =>
-  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
 
 test('without TLS and tokens the console refuses to listen on other interfaces', async () => {
   const open = session.start('remote', session.remoteArguments[0], '--listen', '0.0.0.0:0');
@@ -51,7 +49,7 @@ test('a viewer token permits watching, a robot token driving', async () => {
   assert.ok(session.url.startsWith('https:'));
   assert.equal(new URL(viewer.url()).hash, '', 'the token does not stay in the address');
   await viewer.click('#control');
-  await shows(viewer, '#notes', 'Your token permits watching, not driving.');
+  await showsText(viewer, '#notes', 'Your token permits watching, not driving.');
   assert.ok(await viewer.isDisabled('#accelerate'));
 
   const driver = await come(DRIVER, 'Ada');
@@ -70,10 +68,10 @@ test('a page without a valid token requests one', async () => {
   const context = await browser.newContext({ ignoreHTTPSErrors: true });
   const page = await context.newPage();
   await page.goto(session.url);
-  await shows(page, '#login-why', 'This console requires a token.');
+  await showsText(page, '#login-why', 'This console requires a token.');
   await page.fill('#token', WRONG);
   await page.keyboard.press('Enter');
-  await shows(page, '#login-why', 'The token is unknown');
+  await showsText(page, '#login-why', 'The token is unknown');
   await page.fill('#token', VIEWER);
   await page.keyboard.press('Enter');
   await page.waitForFunction(() => document.body.dataset.step > 0);

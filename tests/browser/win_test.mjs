@@ -7,7 +7,7 @@ import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 
-import { openBrowser, takeControl, visit } from './browser.mjs';
+import { openBrowser, showsText, takeControl, visit } from './browser.mjs';
 import { emulateGamepad, moveStick } from './emulated_gamepad.mjs';
 import { Program, ROBOSIM } from './program.mjs';
 import { Session } from './session.mjs';
@@ -34,8 +34,7 @@ after(async () => {
   if (folder) rmSync(folder, { recursive: true });
 });
 
-const shows = (selector, text) =>
-  page.waitForFunction(([selector, text]) => document.querySelector(selector).textContent.includes(text), [selector, text]);
+const shows = (selector, text) => showsText(page, selector, text);
 
 // Controls the stick so that the robot reaches (x, y), from poses on the map.
 async function driveTo(x, y) {
