@@ -139,7 +139,7 @@ function randomOf(seed) {
   };
 }
 
-test(`after a stop, ${EVENTS} random events cause no motion command before all inputs were neutral`, async () => {
+test(`after a stop, ${EVENTS} random events or more cause no motion command before all inputs were neutral`, async () => {
   const page = await visitScripted(browser, 'driving', { hasTouch: true, init: `(${emulateGamepad})(); (${emulateVisibility})(); (${spectate})();` });
   const touch = await page.context().newCDPSession(page);
   const random = randomOf(20);
@@ -227,7 +227,9 @@ test(`after a stop, ${EVENTS} random events cause no motion command before all i
     60: () => { page.script.holder = 2; page.script.sendTeam(); },
     90: () => page.script.socket.close({ code: 1001, reason: 'a break' }),
   };
-  for (let i = 0; i < EVENTS; ++i) {
+  // How many of the events change anything depends on the machine's speed.
+  let isEnough = false;
+  for (let i = 0; i < EVENTS || (!isEnough && i < 10 * EVENTS); ++i) {
     await ACTIONS[random(ACTIONS.length)]();
     await LOSSES[i % 200]?.();  // each at least five times
     if (random(12) === 0) await releaseAll();
@@ -237,12 +239,12 @@ test(`after a stop, ${EVENTS} random events cause no motion command before all i
       Object.assign(page.script, { holder: 1, isSilent: false });
       page.script.sendTeam();
       page.script.sendUpdate();
+      isEnough = await page.evaluate(() => spectator.motions > 100 && spectator.stops > 50);
     }
   }
   const { violations, motions, stops, breaks, hidings, losses } = await page.evaluate(() => window.spectator);
   assert.equal(violations[0] ?? '', '');
-  assert.ok(motions > 100, `${motions} motion commands were sent, so that stops matter`);
-  assert.ok(stops > 50, `${stops} stops were sent`);
+  assert.ok(isEnough, `${motions} motion commands and ${stops} stops were sent`);
   assert.ok(breaks > 0 && hidings > 0 && losses > 0, `${breaks} breaks, ${hidings} hidings, ${losses} losses of the control lock`);
   await page.context().close();
 });
