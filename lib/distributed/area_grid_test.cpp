@@ -48,13 +48,16 @@ TEST(AreaGrid, ContainsAllPointsWithinReachAndNoneTwoCellsBeyond) {
       const TPose2D at = somewhere();
       bool is_near = false, is_far = true;
       for (std::size_t k = 2; k < 7; ++k) {
-        const double off_m = std::max(std::abs(at.x - poses[k].x), std::abs(at.y - poses[k].y));
-        is_near = is_near || off_m <= reach_m;
-        is_far = is_far && off_m > 2 * reach_m;  // a cell is half the reach wide
+        const auto off_m = [&](double x, double y) { return std::max(std::abs(at.x - x), std::abs(at.y - y)); };
+        is_near = is_near || off_m(poses[k].x, poses[k].y) <= reach_m;
+        // A cell is half the reach wide. A robot beyond the surface is in a cell at its edge.
+        const double x = std::clamp(poses[k].x, -width_m, width_m), y = std::clamp(poses[k].y, 5.0, 5 + length_m);
+        is_far = is_far && off_m(x, y) > 2 * reach_m;
       }
       const bool is_inside = std::abs(at.x) <= width_m && at.y >= 5 && at.y <= 5 + length_m;
-      if (is_near) EXPECT_TRUE(contains(area, grid.cellAt(at))) << round;
-      if (is_far && is_inside) EXPECT_FALSE(contains(area, grid.cellAt(at))) << round;
+      const bool is_contained = contains(area, grid.cellAt(at));
+      EXPECT_FALSE(is_near && !is_contained) << round;
+      EXPECT_FALSE(is_far && is_inside && is_contained) << round;
     }
   }
 }

@@ -17,15 +17,17 @@ Interaction Interaction::of(const World& world, const Fleet& fleet, double perio
   Interaction interaction;
   if (world.communication.range_m || world.communication.hasWalls())
     interaction.unlimited_by = "messages depend on the positions of their senders and receivers";
-  std::unordered_set<const RobotModel*> models;
   double sensor_m = 0, radius_max_m = 0, speed_max_mps = 0;
   for (const FleetRobot& robot : fleet.robots) {
     radius_max_m = std::max(radius_max_m, robot.info.radius_m);
     speed_max_mps = std::max(speed_max_mps, robot.info.limits.speed_max_mps);
     if (robot.body.heat_celsius != 0) interaction.unlimited_by = "robot '" + robot.info.name + "' is hot";
+  }
+  std::unordered_set<const RobotModel*> models;
+  for (const FleetRobot& robot : fleet.robots) {
     if (!models.insert(robot.model.get()).second) continue;
     for (const auto& sensor : robot.model->sensors) {
-      const double reach_m = sensor->robotReach(robot.info.limits.speed_max_mps);
+      const double reach_m = sensor->robotReach(speed_max_mps);  // robots of a model may differ in speed
       sensor_m = std::max(sensor_m, reach_m);
       if (!std::isfinite(reach_m))
         interaction.unlimited_by = "sensor '" + sensor->info().label + "' of robot '" + robot.info.name +

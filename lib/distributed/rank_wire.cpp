@@ -1,5 +1,7 @@
 #include "distributed/rank_wire.h"
 
+#include <array>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -70,6 +72,15 @@ void forItems(StateReader& in, RobotRange from, const Read& read) {
   }
 }
 
+/// Unlike ==, distinguishes 0 and -0, as the digest of a run does.
+bool haveSameBits(const Command& a, const Command& b) {
+  const auto numbers = [](const Command& command) {
+    return std::array{std::bit_cast<std::uint64_t>(command.speed_mps), std::bit_cast<std::uint64_t>(command.turn_radps),
+                      std::uint64_t{std::bit_cast<std::uint32_t>(command.laser_pan_rad)}};
+  };
+  return a == b && numbers(a) == numbers(b);
+}
+
 void addCommand(StateWriter& writer, const Command& command) {
   writer.addNumber(command.speed_mps);
   writer.addNumber(command.turn_radps);
@@ -96,6 +107,10 @@ void OrdersWriter::begin(const StepOrders& orders, RobotRange robots) {
   sent_.clear();
   for (std::size_t i = robots.begin; i < robots.end; ++i)
     sent_.push_back({orders.outboxes[i].messages.size(), orders.outboxes[i].surplus});
+}
+
+bool OrdersWriter::hasChanged(const StepOrders& orders, std::size_t robot) const {
+  return !haveSameBits(orders.commands[robot], commands_[robot - robots_.begin]);
 }
 
 void OrdersWriter::end(const StepOrders& orders) {

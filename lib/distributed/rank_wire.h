@@ -29,9 +29,7 @@ class OrdersWriter {
     std::size_t messages;
     std::uint64_t surplus;
   };
-  bool hasChanged(const StepOrders& orders, std::size_t robot) const {
-    return !(orders.commands[robot] == commands_[robot - robots_.begin]);
-  }
+  bool hasChanged(const StepOrders& orders, std::size_t robot) const;
 
   RobotRange robots_;
   std::vector<Command> commands_;
