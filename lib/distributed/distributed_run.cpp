@@ -76,6 +76,8 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
   });
   chooseExchange();
   setWork(shares_.work);
+  measured_ = {};
+  busy_ = {};
   last_s_ = secondsNow();
   last_processor_s_ = processorSeconds();
   observe();  // observers may end the run before its first step
