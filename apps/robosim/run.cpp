@@ -3,6 +3,7 @@
 #include <chrono>
 #include <exception>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -32,9 +33,13 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+const std::map<std::string, RankExchange> kExchanges{
+    {"auto", RankExchange::automatic}, {"near", RankExchange::near}, {"all", RankExchange::all}};
+
 struct LocalRunArguments : RunArguments {
   std::string csv, npz;              ///< files; empty for none
   std::uint64_t balance_steps = 50;  ///< DistributionOptions::balance_steps
+  std::string exchange = "auto";     ///< name in kExchanges
 
   std::vector<RecordingOutput> tables() const {
     std::vector<RecordingOutput> tables;
@@ -180,8 +185,10 @@ void logTimes(const std::vector<DistributedRun::Measured>& ranks) {
     for (std::size_t i = 0; i < kNames.size(); ++i)
       text += std::string(i == 0 ? " " : ", ") + kNames[i] + " " + fixed(measured.time_s[i] / steps * 1e3, 3) +
               " (processor " + fixed(measured.processor_s[i] / steps * 1e3, 3) + ")";
-    logDebug("run", text + "; sent " + fixed(static_cast<double>(measured.bytes_sent) / steps, 1) +
-                        " bytes per step; memory " + withCommas(measured.memory_max_bytes >> 20) + " MiB");
+    const auto per_step = [&](std::uint64_t number) { return fixed(static_cast<double>(number) / steps, 1); };
+    logDebug("run", text + "; per step sent " + per_step(measured.bytes_sent) + " and received " +
+                        per_step(measured.bytes_received) + " bytes, moved " + per_step(measured.robots_moved) +
+                        " robots; memory " + withCommas(measured.memory_max_bytes >> 20) + " MiB");
   }
 }
 
@@ -196,7 +203,10 @@ void runOnRanks(const LocalRunArguments& arguments, RankGroup& group) {
   });
   DistributedRun run(group, std::move(world), arguments.run,
                      {.first_needs_readings = arguments.isRecorded() || !arguments.run.observers.empty(),
-                      .balance_steps = arguments.balance_steps});
+                      .balance_steps = arguments.balance_steps,
+                      .first_needs_poses = !arguments.picture.empty(),
+                      .exchange = kExchanges.at(arguments.exchange)});
+  if (group.isFirst()) logDebug("run", run.exchangeText());
   std::optional<RunFiles> files;
   agree(group, [&] {
     if (group.isFirst()) files.emplace(arguments, run.run(), source);
@@ -263,6 +273,13 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
       ->add_option("--balance", arguments->balance_steps,
                    "with mpirun: divide moves and sensors again by the processes' times after every N steps; 0: never")
       ->type_name("N")
+      ->capture_default_str();
+  command
+      ->add_option("--exchange", arguments->exchange,
+                   "with mpirun: whether each process knows all robots, or only those near its own; auto: those near "
+                   "its own if that is possible and spares work")
+      ->type_name("auto|near|all")
+      ->check(CLI::IsMember({"auto", "near", "all"}))
       ->capture_default_str();
   auto has_view = std::make_shared<bool>(false);
   command->add_flag(

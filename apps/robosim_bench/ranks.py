@@ -18,6 +18,7 @@ def parse_arguments():
     parser.add_argument('--rounds', type=int, default=5, help='measurements of each (default: 5)')
     parser.add_argument('--steps', type=int, help='steps of 0.1 s (default: 2,000,000 robot-steps, at least 10 steps)')
     parser.add_argument('--workload', default='sonar', help='workload of robosim_bench speed (default: sonar)')
+    parser.add_argument('--exchange', default='auto', help='robosim run --exchange: auto, near or all (default: auto)')
     return parser.parse_args()
 
 
@@ -43,7 +44,7 @@ def main():
                             arguments.workload, '--robots', str(robots)], check=True, stdout=subprocess.DEVNULL)
             alone = [f'{arguments.programs}/robosim', 'run', f'{folder}/{arguments.workload}.xml', '--json', '--time',
                      str(steps / 10)]
-            on_ranks = ['mpirun', '-n', str(arguments.ranks)] + alone
+            on_ranks = ['mpirun', '-n', str(arguments.ranks)] + alone + ['--exchange', arguments.exchange]
             threads, ranks, digests, processor, text = [], [], set(), [], ''
             for i in range(arguments.rounds):
                 # The order changes, so that a machine that becomes slower favours neither.

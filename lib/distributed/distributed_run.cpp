@@ -59,6 +59,7 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
       has_observers_(!options.observers.empty()),
       to_(shares_.ranks()),
       last_s_(secondsNow()) {
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed_.push_back(shares_.needed(rank));
   if (own_ > 0) options.observers.clear();
   options.environment.share = RobotShare{shares_.kept(own_), shares_.digested[own_]};
   std::vector<std::uint8_t> elsewhere(shares_.robots, 1);
@@ -73,14 +74,28 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
     throw ConfigError("this process has read another world than rank 0, or another version of RoboSim runs it; give " +
                       std::string("all machines the same files"));
   });
+  chooseExchange();
+  setWork(shares_.work);
+  measured_ = {};
+  busy_ = {};
   last_s_ = secondsNow();
   last_processor_s_ = processorSeconds();
   observe();  // observers may end the run before its first step
 }
 
+void DistributedRun::setWork(const std::vector<RobotRange>& work) {
+  shares_.work = work;
+  sends_readings_ = overlapOtherRanks(work, needed_);
+  if (!near_) motion_of_ = {listOf(work[own_])};
+}
+
 void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failure) {
   Environment& environment = run_->environment();
   finished(rest);
+  if (near_ && environment.time().step == near_until_step_) {
+    findKnownRobots();
+    limitToKnownRobots();
+  }
   exchangeOrders(failure);
   environment.begin();
   finished(moves);
@@ -91,12 +106,12 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   finished(judgements);
   exchangeStays(is_end_requested);
   environment.move();
+  measured_.robots_moved += near_ ? known_.size() : shares_.robots;
   finished(moves);
   environment.senseFully(shares_.work[own_]);
   finished(sensors);
-  std::vector<RobotRange> needed;
-  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed.push_back(shares_.needed(rank));
-  exchangeReadings(shares_.work, needed);
+  if (sends_readings_) exchangeReadings(shares_.work, needed_);
+  exchangeWinCandidates();
   environment.conclude();
   const std::exception_ptr observer_failure = failureOf([&] { run_->noteOutcome(); });
   finished(rest);
@@ -112,6 +127,37 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
 void DistributedRun::allGather() {
   measured_.bytes_sent += out_.size();
   group_.allGather(out_, all_);
+  countReceived();
+}
+
+void DistributedRun::exchange() {
+  for (const auto& bytes : to_) measured_.bytes_sent += bytes.size();
+  group_.exchange(to_, all_);
+  countReceived();
+}
+
+void DistributedRun::countReceived() {
+  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    if (rank != own_) measured_.bytes_received += all_[rank].size();
+  }
+}
+
+template <typename Write>
+void DistributedRun::exchangeOf(Part part, const RobotsByRank& known, const Write& write) {
+  if (!near_) {
+    out_.clear();
+    write(known[0], out_);
+    finished(part);
+    allGather();
+  } else {
+    for (std::size_t rank = 0; rank < to_.size(); ++rank) {
+      to_[rank].clear();
+      if (rank != own_) write(known[rank], to_[rank]);
+    }
+    finished(part);
+    exchange();
+  }
+  finished(waiting);
 }
 
 void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
@@ -120,21 +166,25 @@ void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
   std::exception_ptr own = failure;
   if (!own) own = failureOf([&] { run_->decide(); });
   finished(controllers);
+  orders_.end(run_->environment().orders());
   // A rank with an error sends only that, behind a byte.
-  out_.assign(1, own ? 1 : 0);
-  if (own) {
-    out_ += errorBytes(own);
-  } else {
-    orders_.write(run_->environment().orders(), home, out_);
-  }
-  finished(commands);
-  allGather();
-  finished(waiting);
+  const std::string error = errorBytes(own);
+  exchangeOf(commands, orders_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
+    out.push_back(own ? 1 : 0);
+    if (own) {
+      out += error;
+      return;
+    }
+    orders_.write(run_->environment().orders(), known, out);
+    if (out.size() == 1) out.clear();
+  });
   std::vector<std::string_view> errors;
-  for (const auto& bytes : all_) errors.push_back(bytes[0] ? std::string_view(bytes).substr(1) : std::string_view());
+  for (const auto& bytes : all_)
+    errors.push_back(!bytes.empty() && bytes[0] ? std::string_view(bytes).substr(1) : std::string_view());
+  errors[own_] = error;
   throwFirstError(group_, errors, own);
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
-    if (rank == own_) continue;
+    if (rank == own_ || all_[rank].empty()) continue;
     readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], run_->environment().orders());
   }
   finished(commands);
@@ -142,11 +192,8 @@ void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
 
 void DistributedRun::exchangePaths() {
   const PhaseResults results = run_->environment().results();
-  out_.clear();
-  writePaths(results, shares_.work[own_], out_);
-  finished(clips);
-  allGather();
-  finished(waiting);
+  exchangeOf(clips, motion_of_,
+             [&](std::span<const std::uint32_t> known, std::string& out) { writePaths(results, known, out); });
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
     if (rank != own_) readPaths(all_[rank], shares_.work[rank], results);
   }
@@ -155,32 +202,31 @@ void DistributedRun::exchangePaths() {
 
 void DistributedRun::exchangeStays(bool is_end_requested) {
   const PhaseResults results = run_->environment().results();
-  out_.assign(1, is_end_requested ? 1 : 0);
-  writeStays(results, shares_.work[own_], out_);
-  finished(judgements);
-  allGather();
-  finished(waiting);
+  is_end_requested_ |= is_end_requested;
+  exchangeOf(judgements, motion_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
+    out.push_back(is_end_requested ? 1 : 0);
+    writeStays(results, known, out);
+    if (out.size() == 1 && !is_end_requested) out.clear();
+  });
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    if (rank == own_ || all_[rank].empty()) continue;
     if (all_[rank][0]) is_end_requested_ = true;
-    if (rank != own_) readStays(std::string_view(all_[rank]).substr(1), shares_.work[rank], results);
+    readStays(std::string_view(all_[rank]).substr(1), shares_.work[rank], results);
   }
   finished(judgements);
 }
 
 void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
-  if (!overlapOtherRanks(from, to)) return;
   const PhaseResults results = run_->environment().results();
   for (std::size_t rank = 0; rank < to.size(); ++rank) {
     to_[rank].clear();
-    if (rank == own_) continue;
-    writeReadings(results, intersection(from[own_], to[rank]), to_[rank]);
-    measured_.bytes_sent += to_[rank].size();
+    if (rank != own_) writeReadings(results, intersection(from[own_], to[rank]), to_[rank]);
   }
   finished(rest);
-  group_.exchange(to_, from_);
+  exchange();
   finished(waiting);
   for (std::size_t rank = 0; rank < from.size(); ++rank) {
-    if (rank != own_) readReadings(from_[rank], intersection(from[rank], to[own_]), results);
+    if (rank != own_) readReadings(all_[rank], intersection(from[rank], to[own_]), results);
   }
   finished(rest);
 }
@@ -210,19 +256,26 @@ void DistributedRun::balance() {
   const std::vector<RobotRange> before = shares_.work;
   const std::vector<RobotRange> after = balancedWork(before, busy);
   if (after == before) return;
-  shares_.work = after;
+  std::vector<RobotRange> kept_before;
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) kept_before.push_back(shares_.kept(rank));
+  setWork(after);
   const RobotRange kept = shares_.kept(own_);
   // Both the readings to be sent and those to be received, until they are.
   Environment& environment = run_->environment();
   environment.keepReadings(hull(kept, before[own_]));
-  exchangeReadings(before, after);
+  if (overlapOtherRanks(before, after)) exchangeReadings(before, after);
   environment.keepReadings(kept);
+  if (!near_) return;
+  exchangeMovedShares(before, kept_before);
+  findKnownRobots();
+  limitToKnownRobots();
 }
 
 void DistributedRun::finish(const std::exception_ptr& failure) {
   agree(group_, [&] {
     if (failure) std::rethrow_exception(failure);
   });
+  if (near_) gatherMotion();
   RunDigest* const digest = run_->environment().results().digest;
   out_.assign(1, run_->hasDrawnRandomNumbers() ? 1 : 0);
   if (digest) digest->save(shares_.digested[own_], out_);

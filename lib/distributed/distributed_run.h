@@ -3,9 +3,11 @@
 #include <cstdint>
 #include <exception>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "distributed/near_robots.h"
 #include "distributed/rank_shares.h"
 #include "distributed/rank_wire.h"
 #include "ranks/rank_group.h"
@@ -13,23 +15,33 @@
 
 namespace robosim {
 
+/// Of which robots each rank receives commands and motion.
+enum class RankExchange {
+  automatic,  ///< of near ones, if that is possible and spares most of the others
+  near,       ///< of those near its own, if possible
+  all
+};
+
 /// Settings of a run on several ranks; the same on all. They do not affect the run.
 struct DistributionOptions {
   bool first_needs_readings = false;  ///< whether rank 0 needs the readings of all robots after each step
   std::uint64_t balance_steps = 50;   ///< steps after which moves and sensors are divided again; 0: never
+  bool first_needs_poses = false;     ///< whether rank 0 needs the poses of all robots after each step
+  RankExchange exchange = RankExchange::automatic;
 };
 
-/// One run on several ranks. Each rank has the state of all robots, and computes it itself from the commands of all
-/// controllers; it runs the controllers, has the readings, and computes moves and sensors of its own robots
-/// (RankShares). In each step the ranks exchange commands and messages, clipped paths, robots that stay, and readings
-/// that another rank needs. The run is the same, bit for bit, as in one process.
+/// One run on several ranks. Each rank runs the controllers, has the readings, and computes moves and sensors of its
+/// own robots (RankShares). It knows these and the robots near them (NearRobots), or all, whose state it computes
+/// itself from the commands of their controllers. In each step the ranks exchange commands and messages, clipped paths,
+/// robots that stay, and readings that another rank needs. The run is the same, bit for bit, as in one process.
 class DistributedRun {
  public:
   /// A collective operation. @param world the same on all ranks @param options observers are only used on rank 0
   /// @throws as LocalRun, on all ranks if on one; ConfigError when the worlds differ
   DistributedRun(RankGroup& group, LoadedWorld world, RunOptions options, const DistributionOptions& distribution);
 
-  /// This rank's part of the run.
+  /// This rank's part of the run. Before finish(), and on other ranks than 0, the state of robots that are not known
+  /// is invalid, except their activity.
   LocalRun& run() { return *run_; }
   const LocalRun& run() const { return *run_; }
 
@@ -55,15 +67,42 @@ class DistributedRun {
   struct Measured {
     std::array<double, kParts> time_s{};       ///< elapsed
     std::array<double, kParts> processor_s{};  ///< of all threads; of a part that waits, the transport's
-    std::uint64_t bytes_sent = 0;
+    std::uint64_t bytes_sent = 0;              ///< to all ranks at once: counted once
+    std::uint64_t bytes_received = 0;          ///< from other ranks
+    std::uint64_t robots_moved = 0;            ///< sum over steps: those that the rank knows
     std::uint64_t steps = 0;
     std::uint64_t memory_max_bytes = 0;  ///< of this process
   };
   /// At rank 0, what each rank has measured; elsewhere empty. A collective operation.
   std::vector<Measured> measured();
   const RankShares& shares() const { return shares_; }
+  /// Of which robots the ranks receive commands and motion, and why, for a log.
+  const std::string& exchangeText() const { return exchange_text_; }
 
  private:
+  using RobotsByRank = std::vector<std::vector<std::uint32_t>>;
+
+  /// Changes RankShares::work.
+  void setWork(const std::vector<RobotRange>& work);
+  /// Sends to each rank what `write` appends for the robots that it knows, of those of this rank; all_ is what the
+  /// others have sent. @param part in which write() takes time
+  template <typename Write>
+  void exchangeOf(Part part, const RobotsByRank& known, const Write& write);
+
+  /// @name Known robots (distributed_run_known.cpp)
+  ///@{
+  void chooseExchange();
+  /// Exchanges the areas of ranks, and the motion of the robots in them.
+  void findKnownRobots();
+  void limitToKnownRobots();
+  /// Sends motion to the ranks that newly keep robots. @param before RankShares::work and kept() until now, by rank
+  void exchangeMovedShares(const std::vector<RobotRange>& before, const std::vector<RobotRange>& kept_before);
+  /// Sends the poses that the referee needs to all ranks.
+  void exchangeWinCandidates();
+  /// Gives rank 0 the motion of all robots.
+  void gatherMotion();
+  bool firstNeedsAll() const { return distribution_.first_needs_readings || distribution_.first_needs_poses; }
+  ///@}
   void exchangeOrders(const std::exception_ptr& failure);
   void exchangePaths();
   void exchangeStays(bool is_end_requested);
@@ -71,7 +110,11 @@ class DistributedRun {
   void exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to);
   void observe();
   void balance();
+  /// Sends out_ to all ranks; all_ is then what all have sent.
   void allGather();
+  /// Sends to_ to the ranks; all_ is then what they have sent to this one.
+  void exchange();
+  void countReceived();
   /// Adds the time since the last call to a part.
   void finished(Part part);
 
@@ -80,13 +123,21 @@ class DistributedRun {
   DistributionOptions distribution_;
   std::size_t own_;  ///< rank
   bool has_observers_;
+  std::vector<RobotRange> needed_;  ///< by rank: RankShares::needed()
+  bool sends_readings_ = false;     ///< whether ranks need readings that others compute
   std::unique_ptr<LocalRun> run_;
+  std::unique_ptr<NearRobots> near_;    ///< null: every rank knows all robots
+  std::uint64_t near_until_step_ = 0;   ///< when the areas must be renewed
+  RobotsByRank orders_of_, motion_of_;  ///< robots whose controllers run here, and that move here, by the ranks that
+                                        ///< know them; one list when every rank knows all
+  std::vector<std::uint32_t> known_;    ///< by this rank; empty: all
+  std::string exchange_text_;
   OrdersWriter orders_;
   bool is_end_requested_ = false;
   bool is_over_ = false;
   std::string out_;               ///< bytes of this rank in an exchange
+  std::vector<std::string> to_;   ///< the same, by the rank to which they are sent
   std::vector<std::string> all_;  ///< bytes of all ranks
-  std::vector<std::string> to_, from_;
   Measured measured_;
   BusyTime busy_;  ///< since the last balance()
   double last_s_ = 0, last_processor_s_ = 0;

@@ -1,5 +1,7 @@
 #include "distributed/rank_wire.h"
 
+#include <array>
+#include <bit>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +21,7 @@ class CountedWriter {
     ++count_;
     out_.addNumber(static_cast<std::uint32_t>(robot));
   }
+  bool isEmpty() const { return count_ == 0; }
 
  private:
   StateWriter& out_;
@@ -26,18 +29,29 @@ class CountedWriter {
   std::uint32_t count_ = 0;
 };
 
-/// Appends what `write` writes.
+/// Appends what `write` writes, if it returns true.
 template <typename Write>
 void append(std::string& out, const Write& write) {
+  const std::size_t before = out.size();
   StateWriter writer;
   writer.bytes = std::move(out);
-  write(writer);
+  const bool is_needed = write(writer);
   out = std::move(writer.bytes);
+  if (!is_needed) out.resize(before);
 }
 
-/// Calls read(reader), for bytes of which it must leave nothing.
+/// Appends the items that write(items) writes, if there is any. @return whether there is
+template <typename Write>
+bool addItems(StateWriter& writer, const Write& write) {
+  CountedWriter items(writer);
+  write(items);
+  return !items.isEmpty();
+}
+
+/// Calls read(reader), for bytes of which it must leave nothing, unless there are none.
 template <typename Read>
 void readAll(std::string_view bytes, const char* what, const Read& read) {
+  if (bytes.empty()) return;
   try {
     StateReader in(bytes);
     read(in);
@@ -58,9 +72,35 @@ void forItems(StateReader& in, RobotRange from, const Read& read) {
   }
 }
 
+/// Unlike ==, distinguishes 0 and -0, as the digest of a run does.
+bool haveSameBits(const Command& a, const Command& b) {
+  const auto numbers = [](const Command& command) {
+    return std::array{std::bit_cast<std::uint64_t>(command.speed_mps), std::bit_cast<std::uint64_t>(command.turn_radps),
+                      std::uint64_t{std::bit_cast<std::uint32_t>(command.laser_pan_rad)}};
+  };
+  return a == b && numbers(a) == numbers(b);
+}
+
+void addCommand(StateWriter& writer, const Command& command) {
+  writer.addNumber(command.speed_mps);
+  writer.addNumber(command.turn_radps);
+  writer.addNumber(command.laser_pan_rad);
+  writer.addNumber(static_cast<std::uint8_t>(command.activity));
+  writer.addNumber(std::uint8_t{command.by_driver});
+}
+
+void takeCommand(StateReader& in, Command& command) {
+  command.speed_mps = in.takeFinite();
+  command.turn_radps = in.takeFinite();
+  command.laser_pan_rad = in.takeNumber<float>();
+  command.activity = in.takeActivity();
+  command.by_driver = in.takeFlag();
+}
+
 }  // namespace
 
 void OrdersWriter::begin(const StepOrders& orders, RobotRange robots) {
+  robots_ = robots;
   const auto begin = static_cast<std::ptrdiff_t>(robots.begin), end = static_cast<std::ptrdiff_t>(robots.end);
   commands_.assign(orders.commands.begin() + begin, orders.commands.begin() + end);
   win_requests_.assign(orders.win_requests.begin() + begin, orders.win_requests.begin() + end);
@@ -69,26 +109,25 @@ void OrdersWriter::begin(const StepOrders& orders, RobotRange robots) {
     sent_.push_back({orders.outboxes[i].messages.size(), orders.outboxes[i].surplus});
 }
 
-void OrdersWriter::write(const StepOrders& orders, RobotRange robots, std::string& out) {
-  append(out, [&](StateWriter& writer) {
-    {
-      CountedWriter items(writer);
-      for (std::size_t i = robots.begin; i < robots.end; ++i) {
-        const Command& command = orders.commands[i];
-        if (command == commands_[i - robots.begin]) continue;
+bool OrdersWriter::hasChanged(const StepOrders& orders, std::size_t robot) const {
+  return !haveSameBits(orders.commands[robot], commands_[robot - robots_.begin]);
+}
+
+void OrdersWriter::end(const StepOrders& orders) {
+  of_all_.clear();
+  has_changes_of_all_ = false;
+  append(of_all_, [&](StateWriter& writer) {
+    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+      for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
+        if (orders.commands[i].activity == commands_[i - robots_.begin].activity) continue;
         items.beginItem(i);
-        writer.addNumber(command.speed_mps);
-        writer.addNumber(command.turn_radps);
-        writer.addNumber(command.laser_pan_rad);
-        writer.addNumber(static_cast<std::uint8_t>(command.activity));
-        writer.addNumber(std::uint8_t{command.by_driver});
+        writer.addNumber(static_cast<std::uint8_t>(orders.commands[i].activity));
       }
-    }
-    {
-      CountedWriter items(writer);
-      for (std::size_t i = robots.begin; i < robots.end; ++i) {
+    });
+    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+      for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         const Outbox& outbox = orders.outboxes[i];
-        const Sent& before = sent_[i - robots.begin];
+        const Sent& before = sent_[i - robots_.begin];
         if (outbox.messages.size() == before.messages && outbox.surplus == before.surplus) continue;
         items.beginItem(i);
         writer.addNumber(outbox.surplus);
@@ -98,26 +137,41 @@ void OrdersWriter::write(const StepOrders& orders, RobotRange robots, std::strin
           writer.addText(outbox.messages[k].text);
         }
       }
-    }
-    CountedWriter items(writer);
-    for (std::size_t i = robots.begin; i < robots.end; ++i) {
-      if (orders.win_requests[i] != win_requests_[i - robots.begin]) items.beginItem(i);
-    }
+    });
+    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+      for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
+        if (orders.win_requests[i] != win_requests_[i - robots_.begin]) items.beginItem(i);
+      }
+    });
+    return true;
+  });
+}
+
+void OrdersWriter::write(const StepOrders& orders, std::span<const std::uint32_t> known, std::string& out) const {
+  append(out, [&](StateWriter& writer) {
+    const bool has_commands = addItems(writer, [&](CountedWriter& items) {
+      for (const std::uint32_t i : known) {
+        if (!hasChanged(orders, i)) continue;
+        items.beginItem(i);
+        addCommand(writer, orders.commands[i]);
+      }
+    });
+    writer.bytes += of_all_;
+    return has_commands || has_changes_of_all_;
   });
 }
 
 void readOrders(std::string_view bytes, RobotRange from, const StepOrders& orders) {
   readAll(bytes, "commands", [&](StateReader& in) {
+    forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
+    // Of robots whose commands are not sent.
     forItems(in, from, [&](std::size_t i) {
-      Command& command = orders.commands[i];
-      command.speed_mps = in.takeFinite();
-      command.turn_radps = in.takeFinite();
-      command.laser_pan_rad = in.takeNumber<float>();
-      command.activity = in.takeActivity();
-      command.by_driver = in.takeFlag();
+      const Activity activity = in.takeActivity();
+      if (orders.activity[i] == Activity::active && activity != Activity::absent) orders.activity[i] = activity;
     });
     forItems(in, from, [&](std::size_t i) {
       Outbox& outbox = orders.outboxes[i];
+      orders.may_send[i] = 1;
       outbox.surplus = in.takeNumber<std::uint64_t>();
       for (auto left = in.takeNumber<std::uint32_t>(); left > 0; --left) {
         PendingMessage& message = outbox.messages.emplace_back();
@@ -130,14 +184,15 @@ void readOrders(std::string_view bytes, RobotRange from, const StepOrders& order
   });
 }
 
-void writePaths(const PhaseResults& results, RobotRange robots, std::string& out) {
+void writePaths(const PhaseResults& results, std::span<const std::uint32_t> robots, std::string& out) {
   append(out, [&](StateWriter& writer) {
-    CountedWriter items(writer);
-    for (std::size_t i = robots.begin; i < robots.end; ++i) {
-      if (results.paths[i].end_fraction == 1) continue;
-      items.beginItem(i);
-      writer.addNumber(results.paths[i].end_fraction);
-    }
+    return addItems(writer, [&](CountedWriter& items) {
+      for (const std::uint32_t i : robots) {
+        if (results.paths[i].end_fraction == 1) continue;
+        items.beginItem(i);
+        writer.addNumber(results.paths[i].end_fraction);
+      }
+    });
   });
 }
 
@@ -147,12 +202,13 @@ void readPaths(std::string_view bytes, RobotRange from, const PhaseResults& resu
   });
 }
 
-void writeStays(const PhaseResults& results, RobotRange robots, std::string& out) {
+void writeStays(const PhaseResults& results, std::span<const std::uint32_t> robots, std::string& out) {
   append(out, [&](StateWriter& writer) {
-    CountedWriter items(writer);
-    for (std::size_t i = robots.begin; i < robots.end; ++i) {
-      if (results.stays[i]) items.beginItem(i);
-    }
+    return addItems(writer, [&](CountedWriter& items) {
+      for (const std::uint32_t i : robots) {
+        if (results.stays[i]) items.beginItem(i);
+      }
+    });
   });
 }
 
@@ -164,12 +220,52 @@ void readStays(std::string_view bytes, RobotRange from, const PhaseResults& resu
 void writeReadings(const PhaseResults& results, RobotRange robots, std::string& out) {
   append(out, [&](StateWriter& writer) {
     for (std::size_t i = robots.begin; i < robots.end; ++i) writeMeasurements(results.readings[i], writer);
+    return true;
   });
 }
 
 void readReadings(std::string_view bytes, RobotRange robots, const PhaseResults& results) {
   readAll(bytes, "readings", [&](StateReader& in) {
     for (std::size_t i = robots.begin; i < robots.end; ++i) readMeasurements(in, results.readings[i]);
+  });
+}
+
+void writeMotion(const MotionState& motion, const StepOrders& orders, std::span<const std::uint32_t> robots,
+                 std::string& out) {
+  append(out, [&](StateWriter& writer) {
+    return addItems(writer, [&](CountedWriter& items) {
+      for (const std::uint32_t i : robots) {
+        items.beginItem(i);
+        writer.addPose(motion.world_from_robot[i]);
+        writer.addNumber(motion.speed_mps[i]);
+        writer.addNumber(motion.turn_radps[i]);
+        writer.addNumber(motion.last_motion[i].length_m);
+        writer.addNumber(motion.last_motion[i].turn_rad);
+        writer.addNumber(motion.driven_m[i]);
+        writer.addNumber(motion.stalled[i]);
+        writer.addNumber(motion.laser_pan_rad[i]);
+        addCommand(writer, orders.commands[i]);
+      }
+    });
+  });
+}
+
+void readMotion(std::string_view bytes, RobotRange from, const MotionState& motion, const StepOrders& orders,
+                std::vector<std::uint32_t>& read) {
+  readAll(bytes, "states of robots", [&](StateReader& in) {
+    forItems(in, from, [&](std::size_t i) {
+      motion.world_from_robot[i] = in.takePose();
+      motion.speed_mps[i] = in.takeFinite();
+      motion.turn_radps[i] = in.takeFinite();
+      motion.last_motion[i].length_m = in.takeFinite();
+      motion.last_motion[i].turn_rad = in.takeFinite();
+      motion.driven_m[i] = in.takeFinite();
+      motion.stalled[i] = in.takeFlag() ? 1 : 0;
+      motion.laser_pan_rad[i] = in.takeNumber<float>();
+      takeCommand(in, orders.commands[i]);
+      requireContents(read.empty() || read.back() < i, "the robots are not in ascending order");
+      read.push_back(static_cast<std::uint32_t>(i));
+    });
   });
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "environment/known_robots.h"
 #include "environment/message_router.h"
 #include "environment/move_authorisation.h"
 #include "environment/referee.h"
@@ -79,6 +80,8 @@ struct Environment::Impl {
   Referee referee;
   RobotGroups robot_groups;
   std::vector<CompactRobot> compact_robots;
+  KnownRobots known;
+  RobotRange counted;  ///< known robots whose stalls are counted
   std::vector<Path> paths;
   std::vector<double> base_z_m;          ///< height of each robot's underside
   std::vector<double> antenna_z_m;       ///< height of each robot's top, where its antenna is
@@ -87,7 +90,8 @@ struct Environment::Impl {
   std::vector<float> reflectivity;       ///< by body; empty if all have the default
   std::uint64_t placements = 0;
   bool has_absent_robots = false;
-  bool may_have_messages = true;  ///< false: all inboxes are empty
+  bool may_have_messages = true;       ///< false: all inboxes are empty
+  std::vector<std::uint8_t> may_send;  ///< MessageRouter::Robots::may_send
   RobotShare share;
 
   /// @param the_share of a process that shares the run; nullopt: all robots
@@ -104,6 +108,8 @@ struct Environment::Impl {
         referee(model->world),
         robot_groups(fleet, model->period_s),
         compact_robots(compactRobots(fleet)),
+        known(fleet.robots.size()),
+        counted(everyRobot()),
         paths(fleet.robots.size()),
         frames(fleet.robots.size()),
         share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
@@ -120,7 +126,22 @@ struct Environment::Impl {
     for (std::size_t i = 0; i < objects.size(); ++i)
       addReflectivity(objects[i].body, BodyId(static_cast<std::uint32_t>(i)));
     for (std::size_t i = 0; i < fleet.robots.size(); ++i) addReflectivity(fleet.robots[i].body, scene.movingBody(i));
+    noteState();
     placeBodies();
+  }
+
+  /// After the state was replaced.
+  void noteState() {
+    noteAbsentRobots();
+    may_have_messages = true;
+    may_send.resize(state.outboxes.size());
+    std::transform(state.outboxes.begin(), state.outboxes.end(), may_send.begin(),
+                   [](const Outbox& outbox) -> std::uint8_t { return outbox == Outbox() ? 0 : 1; });
+  }
+
+  void noteAbsentRobots() {
+    has_absent_robots =
+        std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
   }
 
   void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
@@ -136,13 +157,16 @@ struct Environment::Impl {
   bool isAbsent(std::size_t robot) const { return state.activity[robot] == Activity::absent; }
 
   void placeBodies() {
-    has_absent_robots = workers.anyOf(fleet.robots.size(), [&](std::size_t i) { return isAbsent(i); });
-    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+    known.forEach(workers, kChunk, [&](std::size_t i) {
       if (isAbsent(i)) return scene.remove(i);
       if (share.kept.contains(i)) frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
       scene.place(i, solidOf(i));
     });
-    scene.freeze(workers);
+    if (known.areAll()) {
+      scene.freeze(workers);
+    } else {
+      scene.freeze(workers, known.some());
+    }
     for (auto& source : heat_sources) {
       if (static_cast<std::size_t>(source.body) < scene.stationaryCount()) continue;
       const std::size_t robot = scene.movingIndex(source.body);
@@ -163,7 +187,10 @@ struct Environment::Impl {
 
   void takeCommands() {
     const bool have_messages = std::exchange(may_have_messages, false);
-    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+    if (have_messages && !known.areAll()) {
+      for (Readings& readings : state.readings) readings.inbox.clear();
+    }
+    known.forEach(workers, kChunk, [&](std::size_t i) {
       Command& command = state.commands[i];
       if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
         state.activity[i] = command.activity;
@@ -181,8 +208,8 @@ struct Environment::Impl {
   }
 
   void move() {
-    move_authorisation.conclude(workers, paths, state.stalled);
-    workers.forEach(fleet.robots.size(), kChunk, [&](std::size_t i) {
+    move_authorisation.conclude(workers, known, paths, state.stalled);
+    known.forEach(workers, kChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
       state.last_motion[i] = {path.clippedLength(), path.turn_rad};
@@ -191,10 +218,10 @@ struct Environment::Impl {
     });
     const auto stalls_of = [&](std::size_t begin, std::size_t end) {
       std::uint64_t stalls = 0;
-      for (std::size_t i = begin; i < end; ++i) stalls += state.stalled[i];
+      for (std::size_t i = counted.begin + begin; i < counted.begin + end; ++i) stalls += state.stalled[i];
       return stalls;
     };
-    state.stalls += workers.reduce(state.stalled.size(), std::uint64_t{0}, stalls_of, std::plus<>());
+    state.stalls += workers.reduce(counted.end - counted.begin, std::uint64_t{0}, stalls_of, std::plus<>());
     placeBodies();
   }
 
@@ -271,6 +298,7 @@ struct Environment::Impl {
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
     if (isAbsent(robot)) reset(robot, Activity::active);
     ++placements;
+    noteAbsentRobots();
     placeBodies();
     return true;
   }
@@ -282,7 +310,9 @@ struct Environment::Impl {
       reset(robot, Activity::absent);
       ++placements;
     }
-    if (placements != placements_before) placeBodies();
+    if (placements == placements_before) return;
+    noteAbsentRobots();
+    placeBodies();
   }
 
   /// The state of a robot that has neither moved nor measured.
@@ -306,12 +336,12 @@ struct Environment::Impl {
   void begin() {
     ++state.time.step;
     takeCommands();
-    move_authorisation.begin(workers, paths);
+    move_authorisation.begin(workers, known, paths);
   }
 
   void deliverMessages() {
-    const auto counts = message_router.deliver(workers, state.seed, state.time,
-                                               {scene, state.world_from_robot, antenna_z_m, state.activity},
+    const auto counts = message_router.deliver(state.seed, state.time,
+                                               {scene, state.world_from_robot, antenna_z_m, state.activity, may_send},
                                                state.outboxes, state.messages_in_flight, state.readings);
     state.messages_delivered += counts.delivered;
     may_have_messages |= counts.delivered > 0;
@@ -341,7 +371,7 @@ struct Environment::Impl {
       readings.laser_pan_rad = state.laser_pan_rad[i];
       readings.is_too_far = false;
     });
-    if (workers.anyOf(state.win_requests.size(), [&](std::size_t i) { return state.win_requests[i] != 0; })) {
+    if (anyFlag(state.win_requests)) {
       if (!state.winner) decideWinner();
       std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
     }
@@ -386,7 +416,7 @@ struct Environment::Impl {
   void restore(const State& saved) {
     requireSameShape(saved, state);
     state = saved;
-    may_have_messages = true;
+    noteState();
     placeBodies();
   }
 
@@ -429,6 +459,7 @@ const std::vector<std::string>& Environment::robotNames() const { return impl_->
 
 void Environment::send(std::size_t from, const std::string& to, const std::string& text) {
   impl_->message_router.send(from, to, text, impl_->state.outboxes[from]);
+  impl_->may_send[from] = 1;
 }
 
 void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot] = 1; }
@@ -474,7 +505,7 @@ PhaseResults Environment::results() {
 }
 StepOrders Environment::orders() {
   State& state = impl_->state;
-  return {state.commands, state.outboxes, state.win_requests};
+  return {state.commands, state.outboxes, impl_->may_send, state.win_requests, state.activity};
 }
 
 void Environment::senseFully(RobotRange range) {
@@ -486,6 +517,18 @@ void Environment::conclude() {
   impl_->conclude();
 }
 void Environment::keepReadings(RobotRange range) { impl_->keepReadings(range); }
+
+void Environment::limitTo(std::span<const std::uint32_t> known, RobotRange counted) {
+  impl_->known.limitTo(known);
+  impl_->counted = counted;
+  impl_->placeBodies();
+}
+
+MotionState Environment::motion() {
+  State& state = impl_->state;
+  return {state.world_from_robot, state.speed_mps, state.turn_radps,    state.last_motion,
+          state.driven_m,         state.stalled,   state.laser_pan_rad, state.stalls};
+}
 
 bool Environment::allHalted() const {
   const auto& activity = impl_->state.activity;

@@ -41,7 +41,20 @@ struct PhaseResults {
 struct StepOrders {
   std::span<Command> commands;
   std::span<Outbox> outboxes;
+  std::span<std::uint8_t> may_send;  ///< 1 for a robot whose outbox may have messages
   std::span<std::uint8_t> win_requests;
+  std::span<Activity> activity;  ///< of the last step; set for robots that are not known and change it
+};
+
+/// What determines where robots are and drive next, in addition to StepOrders (Environment::motion()), by robot.
+struct MotionState {
+  std::span<mrpt::math::TPose2D> world_from_robot;
+  std::span<double> speed_mps, turn_radps;
+  std::span<Motion> last_motion;
+  std::span<double> driven_m;
+  std::span<std::uint8_t> stalled;
+  std::span<float> laser_pan_rad;
+  std::uint64_t& stalls;  ///< State::stalls
 };
 
 /// Advances the State of a Model by time steps. It uses no socket, wall clock or global: the same model and commands
@@ -148,6 +161,18 @@ class Environment {
   /// Changes RobotShare::kept: the readings of other robots have no measurements. New ones are blank, and the caller
   /// sets them. restore() and restart() require those of all robots.
   void keepReadings(RobotRange range);
+  ///@}
+
+  /// @name The robots that a process knows, for one that shares a run with others
+  ///@{
+  /// From this step on, only these robots are moved, indexed and sensed here; the state of the others becomes invalid,
+  /// except their activity, messages and CheckWin requests. Before, the caller sets orders() and motion() of robots
+  /// that were not known. clip(), judge() and senseFully() are then called for robots near which all others are known
+  /// (Sensor::robotReach()), and conclude() requires the poses of robots that request CheckWin.
+  /// @param known in ascending order; contains RobotShare::kept. All: as in the beginning
+  /// @param counted known robots whose stalls are added to State::stalls here
+  void limitTo(std::span<const std::uint32_t> known, RobotRange counted);
+  MotionState motion();
   ///@}
 
   /// Whether every robot has halted or found the gold. An absent robot may still come.

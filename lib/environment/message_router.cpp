@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "environment/known_robots.h"
+
 namespace robosim {
 
 MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication)
@@ -46,11 +48,50 @@ void MessageRouter::receive(std::uint32_t from, std::uint32_t to, std::string&& 
   ++counts.delivered;
 }
 
-MessageCounts MessageRouter::deliver(const ParallelExecutor& workers, std::uint64_t seed, SimTime now,
-                                     const Robots& robots, std::span<Outbox> outboxes,
+void MessageRouter::deliverFrom(std::uint32_t from, std::uint64_t seed, SimTime now, const Robots& robots,
+                                std::span<Outbox> outboxes, std::vector<MessageInFlight>& in_flight,
+                                std::span<Readings> readings, MessageCounts& counts) {
+  Outbox& outbox = outboxes[from];
+  if (robots.activity[from] == Activity::absent) outbox = {};
+  counts.dropped += std::exchange(outbox.surplus, 0);
+  if (outbox.messages.empty()) return;
+  const std::uint64_t delay_steps = delaySteps(communication_, now.period_s);
+  const auto sent =
+      static_cast<std::size_t>(std::min<std::uint64_t>(outbox.messages.size(), messagesAllowed(communication_, now)));
+  for (std::size_t i = 0; i < sent; ++i) {
+    auto& message = outbox.messages[i];
+    if (robots.activity[message.to] == Activity::absent) {
+      ++counts.lost.absent;
+      continue;
+    }
+    switch (channel_.fateOf(seed, now, robots.scene,
+                            {from, message.to, i, robots.antenna(from), robots.antenna(message.to)})) {
+      case MessageFate::out_of_range:
+        ++counts.lost.out_of_range;
+        break;
+      case MessageFate::stopped_by_walls:
+        ++counts.lost.stopped_by_walls;
+        break;
+      case MessageFate::lost_by_chance:
+        ++counts.lost.by_chance;
+        break;
+      case MessageFate::lost_in_burst:
+        ++counts.lost.in_bursts;
+        break;
+      case MessageFate::arrives:
+        if (delay_steps > 0) {
+          in_flight.push_back({from, message.to, now.step + delay_steps, std::move(message.text)});
+        } else {
+          receive(from, message.to, std::move(message.text), readings, counts);
+        }
+    }
+  }
+  outbox.messages.erase(outbox.messages.begin(), outbox.messages.begin() + static_cast<std::ptrdiff_t>(sent));
+}
+
+MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
                                      std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
   MessageCounts counts;
-  const std::uint64_t delay_steps = delaySteps(communication_, now.period_s);
   if (!in_flight.empty()) {
     const auto is_due = [&](const MessageInFlight& message) { return message.due_step <= now.step; };
     const auto due_end = std::find_if_not(in_flight.begin(), in_flight.end(), is_due);
@@ -63,54 +104,16 @@ MessageCounts MessageRouter::deliver(const ParallelExecutor& workers, std::uint6
     }
     in_flight.erase(in_flight.begin(), due_end);
   }
-  // Most outboxes are empty: several threads find the others.
-  constexpr std::size_t kPiece = 4096;
-  has_sent_.assign((outboxes.size() + kPiece - 1) / kPiece, 0);
-  workers.forChunks(outboxes.size(), kPiece, [&](std::size_t begin, std::size_t end) {
-    has_sent_[begin / kPiece] = std::any_of(
-        outboxes.begin() + static_cast<std::ptrdiff_t>(begin), outboxes.begin() + static_cast<std::ptrdiff_t>(end),
-        [](const Outbox& outbox) { return outbox.surplus > 0 || !outbox.messages.empty(); });
-  });
-  for (std::uint32_t from = 0; from < outboxes.size(); ++from) {
-    if (from % kPiece == 0 && !has_sent_[from / kPiece]) {
-      from += kPiece - 1;
-      continue;
-    }
-    Outbox& outbox = outboxes[from];
-    if (robots.activity[from] == Activity::absent) outbox = {};
-    counts.dropped += std::exchange(outbox.surplus, 0);
-    if (outbox.messages.empty()) continue;
-    const auto sent =
-        static_cast<std::size_t>(std::min<std::uint64_t>(outbox.messages.size(), messagesAllowed(communication_, now)));
-    for (std::size_t i = 0; i < sent; ++i) {
-      auto& message = outbox.messages[i];
-      if (robots.activity[message.to] == Activity::absent) {
-        ++counts.lost.absent;
-        continue;
-      }
-      switch (channel_.fateOf(seed, now, robots.scene,
-                              {from, message.to, i, robots.antenna(from), robots.antenna(message.to)})) {
-        case MessageFate::out_of_range:
-          ++counts.lost.out_of_range;
-          break;
-        case MessageFate::stopped_by_walls:
-          ++counts.lost.stopped_by_walls;
-          break;
-        case MessageFate::lost_by_chance:
-          ++counts.lost.by_chance;
-          break;
-        case MessageFate::lost_in_burst:
-          ++counts.lost.in_bursts;
-          break;
-        case MessageFate::arrives:
-          if (delay_steps > 0) {
-            in_flight.push_back({from, message.to, now.step + delay_steps, std::move(message.text)});
-          } else {
-            receive(from, message.to, std::move(message.text), readings, counts);
-          }
-      }
-    }
-    outbox.messages.erase(outbox.messages.begin(), outbox.messages.begin() + static_cast<std::ptrdiff_t>(sent));
+  const auto deliver_from = [&](std::size_t from) {
+    deliverFrom(static_cast<std::uint32_t>(from), seed, now, robots, outboxes, in_flight, readings, counts);
+  };
+  if (robots.may_send.empty()) {
+    for (std::size_t from = 0; from < outboxes.size(); ++from) deliver_from(from);
+  } else {
+    forFlags(robots.may_send, [&](std::size_t from) {
+      deliver_from(from);
+      robots.may_send[from] = outboxes[from].messages.empty() ? 0 : 1;
+    });
   }
   for (const auto robot : filled_) limits_[robot] = {};
   filled_.clear();

@@ -78,6 +78,8 @@ class MessageRouter {
     std::span<const mrpt::math::TPose2D> world_from_robot;
     std::span<const double> antenna_z_m;  ///< heights of the antennas
     std::span<const Activity> activity;
+    /// 0: the robot's outbox is empty, 1: perhaps not. Updated by deliver(). Empty: unknown.
+    std::span<std::uint8_t> may_send = {};
 
     mrpt::math::TPoint3D antenna(std::size_t robot) const {
       return {world_from_robot[robot].x, world_from_robot[robot].y, antenna_z_m[robot]};
@@ -89,11 +91,14 @@ class MessageRouter {
   /// beyond Communication::rate_hz wait in their outbox. Messages beyond the sender's kMaxMessagesSent or the
   /// receiver's InboxLimit are dropped.
   /// @param seed of the loss of messages @param in_flight ordered by due_step @pre the inboxes are empty
-  MessageCounts deliver(const ParallelExecutor& workers, std::uint64_t seed, SimTime now, const Robots& robots,
-                        std::span<Outbox> outboxes, std::vector<MessageInFlight>& in_flight,
-                        std::span<Readings> readings);
+  MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
+                        std::vector<MessageInFlight>& in_flight, std::span<Readings> readings);
 
  private:
+  /// Moves the messages of one outbox.
+  void deliverFrom(std::uint32_t from, std::uint64_t seed, SimTime now, const Robots& robots,
+                   std::span<Outbox> outboxes, std::vector<MessageInFlight>& in_flight, std::span<Readings> readings,
+                   MessageCounts& counts);
   /// Puts a message into the inbox of its receiver.
   void receive(std::uint32_t from, std::uint32_t to, std::string&& text, std::span<Readings> readings,
                MessageCounts& counts);
@@ -102,9 +107,8 @@ class MessageRouter {
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
   RadioChannel channel_{communication_};
-  std::vector<InboxLimit> limits_;      ///< by receiver; unused ones between two calls of deliver()
-  std::vector<std::uint8_t> has_sent_;  ///< by piece of the robots, in a call of deliver()
-  std::vector<std::uint32_t> filled_;   ///< receivers of messages in this call of deliver()
+  std::vector<InboxLimit> limits_;     ///< by receiver; unused ones between two calls of deliver()
+  std::vector<std::uint32_t> filled_;  ///< receivers of messages in this call of deliver()
 };
 
 }  // namespace robosim

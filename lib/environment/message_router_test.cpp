@@ -30,8 +30,8 @@ struct Fixture {
   std::size_t step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    const auto counts = message_router.deliver(ParallelExecutor(1), seed, time, {scene, poses, antenna_z_m, activity},
-                                               outboxes, in_flight, readings);
+    const auto counts =
+        message_router.deliver(seed, time, {scene, poses, antenna_z_m, activity}, outboxes, in_flight, readings);
     dropped = counts.dropped;
     lost = counts.lost;
     return counts.delivered;

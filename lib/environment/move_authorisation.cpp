@@ -20,13 +20,15 @@ MoveAuthorisation::MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& 
   for (const auto& mover : movers_) radius_max_m_ = std::max(radius_max_m_, mover.radius_m);
 }
 
-void MoveAuthorisation::begin(const ParallelExecutor& workers, std::span<const Path> paths) {
-  const auto longest_of = [&](std::size_t begin, std::size_t end) {
-    double longest_m = 0;
-    for (std::size_t i = begin; i < end; ++i) longest_m = std::max(longest_m, std::abs(paths[i].length_m));
-    return longest_m;
-  };
-  length_max_m_ = workers.reduce(paths.size(), 0.0, longest_of, [](double a, double b) { return std::max(a, b); });
+void MoveAuthorisation::begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths) {
+  length_max_m_ = known.inOrder([&](const auto& order) {
+    const auto longest_of = [&](std::size_t begin, std::size_t end) {
+      double longest_m = 0;
+      for (std::size_t k = begin; k < end; ++k) longest_m = std::max(longest_m, std::abs(paths[order[k]].length_m));
+      return longest_m;
+    };
+    return workers.reduce(order.size(), 0.0, longest_of, [](double a, double b) { return std::max(a, b); });
+  });
   // Conservative for the robots that another process clips; judge() then checks.
   std::fill(may_have_neighbours_.begin(), may_have_neighbours_.end(), 1);
   std::fill(stays_.begin(), stays_.end(), 0);
@@ -51,9 +53,9 @@ void MoveAuthorisation::judge(const Scene& scene, const ParallelExecutor& worker
   });
 }
 
-void MoveAuthorisation::conclude(const ParallelExecutor& workers, std::span<Path> paths,
+void MoveAuthorisation::conclude(const ParallelExecutor& workers, const KnownRobots& known, std::span<Path> paths,
                                  std::span<std::uint8_t> stalled) {
-  workers.forEach(paths.size(), kPathChunk, [&](std::size_t i) {
+  known.forEach(workers, kPathChunk, [&](std::size_t i) {
     if (stays_[i]) paths[i].end_fraction = 0;
     stalled[i] = paths[i].end_fraction < 1 ? 1 : 0;
   });

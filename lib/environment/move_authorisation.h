@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/parallel_executor.h"
+#include "environment/known_robots.h"
 #include "environment/robot_range.h"
 #include "geometry/scene.h"
 
@@ -17,13 +18,14 @@ struct Mover {
 
 /// Authorises moves: decides how far each robot may go in a step (the rule is in environment.h). Calls in order:
 /// begin(), clip() for all robots, judge() for all, conclude(). Reuses its working memory between steps. `scene` is
-/// frozen at the robots' current poses, and `paths` holds all robots' paths in each call.
+/// frozen at the robots' current poses, and `paths` holds all robots' paths in each call. If only some robots are
+/// known, the scene has only those; clip() and judge() are then called for robots near which all others are known.
 class MoveAuthorisation {
  public:
   MoveAuthorisation(std::vector<Mover> movers, const Bounds2D& surface);
 
   /// Starts a step in which no robot is known to stay.
-  void begin(const ParallelExecutor& workers, std::span<const Path> paths);
+  void begin(const ParallelExecutor& workers, const KnownRobots& known, std::span<const Path> paths);
   /// Rule (a): clips the paths of some robots at their first contact. The result is Path::end_fraction, which may also
   /// come from another process.
   void clip(const Scene& scene, const ParallelExecutor& workers, RobotRange range, std::span<Path> paths);
@@ -33,7 +35,8 @@ class MoveAuthorisation {
   std::span<std::uint8_t> stays() { return stays_; }
   /// Sets the end of the path of each robot that stays to 0.
   /// @param stalled set to 1 for each robot whose path was clipped or that stays
-  void conclude(const ParallelExecutor& workers, std::span<Path> paths, std::span<std::uint8_t> stalled);
+  void conclude(const ParallelExecutor& workers, const KnownRobots& known, std::span<Path> paths,
+                std::span<std::uint8_t> stalled);
 
  private:
   void clip(const Scene& scene, std::size_t robot, std::span<Path> paths);

@@ -30,8 +30,7 @@ struct TwoRobots {
   void step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    counts = router.deliver(ParallelExecutor(2), 7, time, {scene, poses, antenna_z_m, activity}, outboxes, in_flight,
-                            readings);
+    counts = router.deliver(7, time, {scene, poses, antenna_z_m, activity}, outboxes, in_flight, readings);
   }
   std::size_t received() const { return readings[1].inbox.size(); }
 };

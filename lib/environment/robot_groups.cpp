@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <map>
 
-#include "base/portable_math.h"
 #include "geometry/shapes/path.h"
 
 namespace robosim {
@@ -17,15 +16,7 @@ double reachOf(const RobotModel& model, double period_s) {
 
 }  // namespace
 
-double reachOf(const Sensor& sensor) {
-  double reach_m = 0;
-  if (!sensor.usesNeighbours()) return reach_m;
-  const SensorInfo& info = sensor.info();
-  for (const auto& beam : info.beams) {
-    reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
-  }
-  return reach_m;
-}
+double reachOf(const Sensor& sensor) { return sensor.usesNeighbours() ? beamReach(sensor.info()) : 0; }
 
 std::span<const std::uint32_t> RobotGroup::within(RobotRange range) const {
   const auto begin = std::lower_bound(robots.begin(), robots.end(), range.begin);

@@ -140,6 +140,9 @@ void Scene::place(std::size_t i, const Solid& solid) { index_->moving.set(i, sol
 void Scene::remove(std::size_t i) { index_->moving.remove(i); }
 void Scene::freeze() { index_->moving.build(); }
 void Scene::freeze(const ParallelExecutor& workers) { index_->moving.build(workers); }
+void Scene::freeze(const ParallelExecutor& workers, std::span<const std::uint32_t> moving) {
+  index_->moving.build(workers, moving);
+}
 
 void Scene::updateNeighbours(std::size_t i, double reach_m) {
   const GridItem& owner = index_->moving.items()[i];

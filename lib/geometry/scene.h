@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "base/parallel_executor.h"
@@ -50,6 +51,9 @@ class Scene {
   void remove(std::size_t i);
   void freeze();
   void freeze(const ParallelExecutor& workers);  ///< on several threads
+  /// The same for some of the moving solids, each once, in time linear in their number. No query finds the others until
+  /// the next freeze.
+  void freeze(const ParallelExecutor& workers, std::span<const std::uint32_t> moving);
   /// Updates the neighbours of a moving solid, if necessary: the stationary solids within `reach_m` of its centre, or
   /// the nearest ones if there are very many. May be called for different solids simultaneously.
   void updateNeighbours(std::size_t i, double reach_m);

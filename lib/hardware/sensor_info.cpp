@@ -30,6 +30,14 @@ std::optional<SensorKind> sensorKindNamed(std::string_view name) {
   return static_cast<SensorKind>(found - kSensorKindNames.begin());
 }
 
+double beamReach(const SensorInfo& info) {
+  double reach_m = 0;
+  for (const auto& beam : info.beams) {
+    reach_m = std::max(reach_m, info.range_max_m + portable::hypot(beam.robot_from_beam.x, beam.robot_from_beam.y));
+  }
+  return reach_m;
+}
+
 double CameraInfo::focalLength() const {
   const auto [sin, cos] = portable::sincos(field_of_view_rad / 2);
   return width_px / 2.0 * cos / sin;

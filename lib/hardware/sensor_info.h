@@ -97,4 +97,7 @@ struct SensorInfo {
   std::vector<Quantity> quantities = {};  ///< values: the numbers that it measures
 };
 
+/// Distance from the robot's centre that no beam of a range sensor exceeds [m].
+double beamReach(const SensorInfo&);
+
 }  // namespace robosim

@@ -1,6 +1,7 @@
 #include "run/local_run.h"
 
 #include <algorithm>
+#include <cstring>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -224,11 +225,14 @@ void LocalRun::decide() {
 void LocalRun::noteOutcome() {
   const State& state = environment_.state();
   if (!gold_.found_s) {
-    for (std::size_t i = 0; i < state.activity.size(); ++i) {
-      if (state.activity[i] != Activity::found) continue;
-      gold_.found_by = environment_.fleet().robots[i].info.name;
+    static_assert(sizeof(Activity) == 1);
+    const Activity* const begin = state.activity.data();
+    const void* const found =
+        begin ? std::memchr(begin, static_cast<int>(Activity::found), state.activity.size()) : nullptr;
+    if (found) {
+      const auto robot = static_cast<std::size_t>(static_cast<const Activity*>(found) - begin);
+      gold_.found_by = environment_.fleet().robots[robot].info.name;
       gold_.found_s = state.time.seconds();
-      break;
     }
   }
   if (state.winner && !gold_.won_by) {

@@ -17,6 +17,7 @@ class Battery : public Sensor {
   Measurement blank() const override { return Scalar{options_.full_v}; }
   bool isNoisy() const override { return options_.load.noise_std_v > 0; }
   bool sensesInHostProcess() const override { return true; }
+  double robotReach(double) const override { return 0; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

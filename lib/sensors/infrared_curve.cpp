@@ -18,6 +18,7 @@ class CurvedInfrared : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return exact_->isNoisy() || curve_.voltage_std_v > 0; }
+  double robotReach(double speed_max_mps) const override { return exact_->robotReach(speed_max_mps); }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

@@ -28,6 +28,9 @@ class LaserScanner : public Sensor {
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return errors_.isRandom(); }
   bool sensesInHostProcess() const override { return timing_.rate_hz > 0; }
+  double robotReach(double speed_max_mps) const override {
+    return beamReach(info_) + speed_max_mps * (timing_.sweep_s + timing_.latency_s);
+  }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

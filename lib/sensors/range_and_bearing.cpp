@@ -40,6 +40,7 @@ class RangeAndBearing : public Sensor {
   std::size_t rayCount() const override { return options_.count; }
   bool sensesInHostProcess() const override { return true; }  // its measurement is not Echoes
   bool usesNeighbours() const override { return false; }      // those are stationary solids
+  double robotReach(double) const override { return options_.info.range_max_m; }
 
   Measurement blank() const override {
     Values none;

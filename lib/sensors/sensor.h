@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -90,6 +91,13 @@ class Sensor {
   virtual bool sensesInHostProcess() const { return false; }
   /// Whether sense() casts its beams with the robot as owner, whose neighbours then cover the beams.
   virtual bool usesNeighbours() const { return true; }
+  /// Distance from its robot's centre beyond which no part of another robot affects its measurement [m]; infinite if
+  /// there is no such distance. Ranks of a distributed run have the state of the robots within it only.
+  /// @param speed_max_mps of its robot
+  virtual double robotReach(double speed_max_mps) const {
+    static_cast<void>(speed_max_mps);
+    return std::numeric_limits<double>::infinity();
+  }
   /// Replaces readings[r].measurements[slot] for each r of `robots`; the old value is that of the step before, and is
   /// the only memory of a sensor. A sensor with sensesInHostProcess() may read slots before its own, which are already
   /// updated.

@@ -21,6 +21,7 @@ class ThinBeams : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return noise_.on; }
+  double robotReach(double) const override { return beamReach(info_); }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Runs on 1 to 8 ranks of MPI with 1 to 3 threads equal those of one process, byte for byte: summary, recording, table and
-# picture, in all shipped worlds, with every search strategy, and in random worlds. Some minutes.
+# picture, in all shipped worlds, with every search strategy, and in random worlds; whether ranks know all robots or
+# those near their own. Half an hour.
 set -euo pipefail
 robosim=$PWD/build/release/bin/robosim
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
@@ -8,24 +9,38 @@ export OMPI_MCA_mpi_yield_when_idle=1
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
-# outputs NAME COMMAND…: runs it with all outputs
+# outputs NAME COMMAND…: runs it with all files, which rank 0 writes, so that it knows all robots
 outputs() {
-  "${@:2}" --json --record "$folder/r.rawlog" --picture "$folder/p.png" --csv "$folder/t.csv" |
-    grep -vE '"(wall_s|real_time_factor)"' >"$folder/r.json"
-  (cd "$folder" && sha256sum r.json r.rawlog p.png t.csv) >"$folder/$1"
+  summary "$@" --record "$folder/r.rawlog" --picture "$folder/p.png" --csv "$folder/t.csv"
+  (cd "$folder" && sha256sum r.rawlog p.png t.csv) >>"$folder/$1"
+}
+
+# summary NAME COMMAND…: runs it without files
+summary() {
+  "${@:2}" --json | grep -vE '"(wall_s|real_time_factor)"' >"$folder/$1"
+}
+
+# same NAME OTHER TEXT
+same() {
+  cmp "$folder/$1" "$folder/$2" || {
+    echo "mpi.sh: $3 differs from one process"
+    exit 1
+  }
 }
 
 # compare WORLD [OPTION…]
 compare() {
-  local ranks threads
+  local ranks options exchange
   outputs alone "$robosim" run "$@"
+  summary alone_without_files "$robosim" run "$@"
   for ranks in 1 2 3 4 5 6 7 8; do
-    threads=$((1 + ranks % 3))
-    outputs distributed mpirun -n "$ranks" "$robosim" run "$@" --threads "$threads" --balance $((ranks % 4))
-    cmp "$folder/alone" "$folder/distributed" || {
-      echo "mpi.sh: $*: $ranks ranks of $threads threads differ from one process"
-      exit 1
-    }
+    options="--threads $((1 + ranks % 3)) --balance $((ranks % 4))"
+    for exchange in near auto; do
+      outputs distributed mpirun -n "$ranks" "$robosim" run "$@" $options --exchange $exchange
+      same alone distributed "$*: $ranks ranks, $options --exchange $exchange"
+    done
+    summary distributed mpirun -n "$ranks" "$robosim" run "$@" $options --exchange near
+    same alone_without_files distributed "$*: $ranks ranks, $options --exchange near, without files"
   done
   echo "same on 1 to 8 ranks: $*"
 }

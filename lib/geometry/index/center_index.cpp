@@ -22,6 +22,13 @@ struct Spread {
   double extent() const { return max - min; }
 };
 
+/// The order of all items.
+struct EveryItem {
+  std::size_t count;
+  std::size_t size() const { return count; }
+  std::size_t operator[](std::size_t k) const { return k; }
+};
+
 }  // namespace
 
 CenterIndex::CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle)
@@ -30,7 +37,8 @@ CenterIndex::CenterIndex(std::size_t solids, const mrpt::math::TPoint2D& middle)
   begin_.reserve(3 * (solids + static_cast<std::size_t>(kExtraCells)) + 2);
 }
 
-void CenterIndex::chooseCells(const ParallelExecutor& workers) {
+template <typename Order>
+void CenterIndex::chooseCells(const ParallelExecutor& workers, const Order& order) {
   struct Centers {
     Bounds2D bounds{kInfinity, -kInfinity, kInfinity, -kInfinity};
     double reach_max_m = 0;
@@ -39,8 +47,8 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers) {
   };
   const auto centers_in = [&](std::size_t begin, std::size_t end) {
     Centers found;
-    for (std::size_t i = begin; i < end; ++i) {
-      const GridItem& item = items_[i];
+    for (std::size_t k = begin; k < end; ++k) {
+      const GridItem& item = items_[order[k]];
       if (item.isRemoved()) continue;
       ++found.solids;
       found.reach_max_m = std::max(found.reach_max_m, item.reach());
@@ -51,7 +59,7 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers) {
     }
     return found;
   };
-  const auto all = workers.reduce(items_.size(), Centers{}, centers_in, [](const Centers& a, const Centers& b) {
+  const auto all = workers.reduce(order.size(), Centers{}, centers_in, [](const Centers& a, const Centers& b) {
     return Centers{{std::min(a.bounds.x_min, b.bounds.x_min), std::max(a.bounds.x_max, b.bounds.x_max),
                     std::min(a.bounds.y_min, b.bounds.y_min), std::max(a.bounds.y_max, b.bounds.y_max)},
                    std::max(a.reach_max_m, b.reach_max_m),
@@ -69,8 +77,8 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers) {
   };
   const auto deviations_in = [&](std::size_t begin, std::size_t end) {
     Deviations sum;
-    for (std::size_t i = begin; i < end; ++i) {
-      const GridItem& item = items_[i];
+    for (std::size_t k = begin; k < end; ++k) {
+      const GridItem& item = items_[order[k]];
       if (item.isRemoved()) continue;
       sum.x += std::abs(item.x - mean_x);
       sum.y += std::abs(item.y - mean_y);
@@ -78,7 +86,7 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers) {
     return sum;
   };
   const auto off =
-      workers.reduce(items_.size(), Deviations{}, deviations_in, [](const Deviations& a, const Deviations& b) {
+      workers.reduce(order.size(), Deviations{}, deviations_in, [](const Deviations& a, const Deviations& b) {
         return Deviations{a.x + b.x, a.y + b.y};
       });
   const Spread x = Spread::of(mean_x, off.x / count, centers_.x_min, centers_.x_max);
@@ -92,11 +100,13 @@ void CenterIndex::chooseCells(const ParallelExecutor& workers) {
   rows_ = cellsIn(y.extent(), cell_m_);
 }
 
-void CenterIndex::build(const ParallelExecutor& workers) {
-  chooseCells(workers);
-  if (workers.threads() > 1 && ParallelExecutor::piecesOf(items_.size()) > 1) return sortInParallel(workers);
+template <typename Order>
+void CenterIndex::buildOf(const ParallelExecutor& workers, const Order& order) {
+  chooseCells(workers, order);
+  if (workers.threads() > 1 && ParallelExecutor::piecesOf(order.size()) > 1) return sortInParallel(workers, order);
   begin_.assign(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_) + 1, 0);
-  for (std::size_t i = 0; i < items_.size(); ++i) {
+  for (std::size_t k = 0; k < order.size(); ++k) {
+    const std::size_t i = order[k];
     const GridItem& item = items_[i];
     if (item.isRemoved()) continue;
     cell_[i] = static_cast<std::uint32_t>(cellAt(row(item.y), column(item.x)));
@@ -105,7 +115,8 @@ void CenterIndex::build(const ParallelExecutor& workers) {
   std::uint32_t sum = 0;
   for (auto& begin : begin_) begin = sum += begin;  // each cell's end until the entries are filled in
   // Filled from the back, so that each cell's end becomes its begin and its solids keep the order given.
-  for (std::size_t i = items_.size(); i-- > 0;) {
+  for (std::size_t k = order.size(); k-- > 0;) {
+    const std::size_t i = order[k];
     if (items_[i].isRemoved()) continue;
     entries_[--begin_[cell_[i]]] = {CullDisc::from(items_[i], middle()), static_cast<std::uint32_t>(i)};
   }
@@ -113,16 +124,17 @@ void CenterIndex::build(const ParallelExecutor& workers) {
 
 // First the solids are sorted by part of the grid, as many cells in each, in the order given within a part; then each
 // part by cell, as above.
-void CenterIndex::sortInParallel(const ParallelExecutor& workers) {
+template <typename Order>
+void CenterIndex::sortInParallel(const ParallelExecutor& workers, const Order& order) {
   const std::size_t cells = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
-  const std::size_t pieces = ParallelExecutor::piecesOf(items_.size());
+  const std::size_t pieces = ParallelExecutor::piecesOf(order.size());
   const int part_bits = std::bit_width(cells / ParallelExecutor::kPiecesMax);  // of a cell's index within its part
   const std::size_t parts = (cells >> part_bits) + 1;
   using PerPart = std::array<std::uint32_t, ParallelExecutor::kPiecesMax + 1>;
   std::array<PerPart, ParallelExecutor::kPiecesMax> at{};  // by piece: numbers of solids, then their places
   const auto for_piece = [&](std::size_t piece, const auto& work) {
-    for (std::size_t i = piece * items_.size() / pieces; i < (piece + 1) * items_.size() / pieces; ++i) {
-      if (!items_[i].isRemoved()) work(i);
+    for (std::size_t k = piece * order.size() / pieces; k < (piece + 1) * order.size() / pieces; ++k) {
+      if (const std::size_t i = order[k]; !items_[i].isRemoved()) work(i);
     }
   };
   workers.forEach(pieces, 1, [&](std::size_t piece) {
@@ -137,7 +149,7 @@ void CenterIndex::sortInParallel(const ParallelExecutor& workers) {
     part_begin[part] = sum;
     for (std::size_t piece = 0; piece < pieces; ++piece) sum += std::exchange(at[piece][part], sum);
   }
-  by_part_.resize(items_.size());
+  by_part_.resize(order.size());
   workers.forEach(pieces, 1, [&](std::size_t piece) {
     for_piece(piece, [&](std::size_t i) {
       by_part_[at[piece][cell_[i] >> part_bits]++] = {cell_[i], static_cast<std::uint32_t>(i)};
@@ -158,6 +170,11 @@ void CenterIndex::sortInParallel(const ParallelExecutor& workers) {
       entries_[--begin_[solid.cell]] = {CullDisc::from(items_[solid.solid], middle()), solid.solid};
     }
   });
+}
+
+void CenterIndex::build(const ParallelExecutor& workers) { buildOf(workers, EveryItem{items_.size()}); }
+void CenterIndex::build(const ParallelExecutor& workers, std::span<const std::uint32_t> solids) {
+  buildOf(workers, solids);
 }
 
 }  // namespace robosim

@@ -34,6 +34,8 @@ class CenterIndex {
   void remove(std::size_t i) { items_[i] = GridItem::removed(); }
   /// The same index, bit for bit, for any number of threads.
   void build(const ParallelExecutor& workers = ParallelExecutor(1));
+  /// The same for some solids, each once. No query finds the others until the next build.
+  void build(const ParallelExecutor& workers, std::span<const std::uint32_t> solids);
 
   /// The solids, in the order given, removed ones included.
   std::span<const GridItem> items() const { return items_; }
@@ -80,8 +82,13 @@ class CenterIndex {
 
  private:
   /// Chooses the grid's area and cell size from the solids' centres.
-  void chooseCells(const ParallelExecutor& workers);
-  void sortInParallel(const ParallelExecutor& workers);
+  /// @param order indices of the solids to be indexed
+  template <typename Order>
+  void chooseCells(const ParallelExecutor& workers, const Order& order);
+  template <typename Order>
+  void buildOf(const ParallelExecutor& workers, const Order& order);
+  template <typename Order>
+  void sortInParallel(const ParallelExecutor& workers, const Order& order);
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
   static constexpr double kMargin_m = 1e-6;  ///< exceeds all rounding errors

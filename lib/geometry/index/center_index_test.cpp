@@ -67,6 +67,41 @@ TEST(CenterIndex, AppliesChangesOnlyAtBuild) {
   EXPECT_EQ(near(index, {6, 8, 6, 8}), (std::vector<std::uint32_t>{0, 2}));
 }
 
+TEST(CenterIndex, BuiltOfSomeSolidsFindsOnlyThoseUntilTheNextBuild) {
+  CenterIndex index(4);
+  for (std::size_t i = 0; i < 4; ++i) index.set(i, {Circle{{static_cast<double>(i), 1}, 0.25}, {0, 1}});
+  index.remove(3);
+  const ParallelExecutor one(1);
+  index.build(one, std::vector<std::uint32_t>{0, 2, 3});
+  EXPECT_EQ(near(index, {-9, 9, -9, 9}), (std::vector<std::uint32_t>{0, 2}));
+  EXPECT_EQ(index.items().size(), 4u);
+  index.build(one, {});
+  EXPECT_EQ(near(index, {-9, 9, -9, 9}), std::vector<std::uint32_t>());
+  index.build();
+  EXPECT_EQ(near(index, {-9, 9, -9, 9}), (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
+TEST(CenterIndex, BuiltOfSomeSolidsIsTheSameForAnyNumberOfThreads) {
+  constexpr std::size_t kCount = 30'000;
+  Rng rng(1);
+  const auto solids = randomSolids(rng, kCount, {.area = {-300, 300, -200, 200}, .size_max_m = 1});
+  std::vector<std::uint32_t> some;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    if (rng.below(2) == 0) some.push_back(i);
+  }
+  const auto all_of = [&](int threads) {
+    CenterIndex index(kCount);
+    for (std::size_t i = 0; i < kCount; ++i) index.set(i, solids[i]);
+    index.build(ParallelExecutor(threads), some);
+    std::vector<std::uint32_t> found;
+    index.visitNear({-999, 999, -999, 999}, [&](const CenterIndex::Entry& entry) { found.push_back(entry.index); });
+    return found;
+  };
+  const auto found = all_of(1);
+  EXPECT_EQ(found, all_of(3));
+  EXPECT_EQ(found.size(), some.size());
+}
+
 TEST(CenterIndex, VisitsAllSolidsNearAnAreaOrRayOnce) {
   for (std::uint64_t seed = 1; seed <= 400; ++seed) {
     Rng rng(seed);

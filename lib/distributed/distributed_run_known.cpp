@@ -1,0 +1,139 @@
+// The part of DistributedRun about the robots that each rank knows.
+#include <utility>
+
+#include "base/text_table.h"
+#include "distributed/distributed_run.h"
+#include "environment/known_robots.h"
+#include "environment/state_stream.h"
+
+namespace robosim {
+namespace {
+
+/// Of the robots of other ranks, the share that ranks may know on average. Beyond, an exchange with all is as cheap.
+constexpr double kKnownShareMax = 0.5;
+
+}  // namespace
+
+void DistributedRun::chooseExchange() {
+  const Environment& environment = run_->environment();
+  const auto interaction = Interaction::of(environment.world(), environment.fleet(), environment.time().period_s);
+  std::string reason = interaction.unlimited_by;
+  if (distribution_.exchange == RankExchange::all) reason = "as requested";
+  if (shares_.ranks() == 1) reason = "there is one rank";
+  if (reason.empty()) {
+    near_ = std::make_unique<NearRobots>(environment.world().bounds, interaction);
+    findKnownRobots();
+    StateWriter own;
+    own.addNumber(static_cast<std::uint64_t>(known_.size()));
+    out_ = std::move(own.bytes);
+    allGather();
+    std::uint64_t known = 0;  // by all ranks
+    for (const auto& bytes : all_) known += StateReader(bytes).takeNumber<std::uint64_t>();
+    const double of_others = static_cast<double>(known - shares_.robots) / static_cast<double>(shares_.ranks() - 1) /
+                             static_cast<double>(shares_.robots);
+    const std::string share = fixed(100 * of_others, 1) + " % of the robots of other ranks are within " +
+                              fixed(near_->reach(), 1) + " m of a rank's own";
+    if (distribution_.exchange == RankExchange::near || of_others <= kKnownShareMax) {
+      exchange_text_ = "ranks know the robots near their own: " + share + ", which is renewed every " +
+                       std::to_string(near_->steps()) + " steps";
+      return limitToKnownRobots();
+    }
+    reason = share;
+  }
+  near_.reset();
+  exchange_text_ = "ranks know all robots: " + reason;
+  orders_of_ = {listOf(shares_.home[own_])};  // setWork() sets the other
+}
+
+void DistributedRun::findKnownRobots() {
+  Environment& environment = run_->environment();
+  const MotionState motion = environment.motion();
+  out_ = near_->areaOf(motion.world_from_robot, shares_.work[own_]);
+  finished(moves);
+  allGather();
+  finished(waiting);
+  const auto known_of = [&](RobotRange robots) {
+    return near_->neededBy(motion.world_from_robot, robots, all_, shares_, own_, firstNeedsAll());
+  };
+  motion_of_ = known_of(shares_.work[own_]);
+  orders_of_ = shares_.home[own_] == shares_.work[own_] ? motion_of_ : known_of(shares_.home[own_]);
+  for (std::size_t rank = 0; rank < to_.size(); ++rank) {
+    to_[rank].clear();
+    writeMotion(motion, environment.orders(), motion_of_[rank], to_[rank]);
+  }
+  finished(moves);
+  exchange();
+  finished(waiting);
+  known_.clear();
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
+    if (rank != own_) {
+      readMotion(all_[rank], shares_.work[rank], motion, environment.orders(), known_);
+    } else {
+      for (std::size_t i = shares_.work[own_].begin; i < shares_.work[own_].end; ++i)
+        known_.push_back(static_cast<std::uint32_t>(i));
+    }
+  }
+}
+
+void DistributedRun::limitToKnownRobots() {
+  const bool knows_all = own_ == 0 && firstNeedsAll();
+  run_->environment().limitTo(known_, knows_all ? RobotRange{0, shares_.robots} : shares_.work[own_]);
+  near_until_step_ = run_->environment().time().step + near_->steps();
+  finished(moves);
+}
+
+void DistributedRun::exchangeMovedShares(const std::vector<RobotRange>& before,
+                                         const std::vector<RobotRange>& kept_before) {
+  Environment& environment = run_->environment();
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
+    to_[rank].clear();
+    if (rank == own_) continue;
+    const RobotRange sent = intersection(before[own_], shares_.kept(rank));
+    std::vector<std::uint32_t> robots = listOf(sent);
+    std::erase_if(robots, [&](std::uint32_t robot) { return kept_before[rank].contains(robot); });
+    writeMotion(environment.motion(), environment.orders(), robots, to_[rank]);
+  }
+  finished(rest);
+  exchange();
+  finished(waiting);
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
+    std::vector<std::uint32_t> received;
+    if (rank != own_) readMotion(all_[rank], before[rank], environment.motion(), environment.orders(), received);
+  }
+}
+
+void DistributedRun::exchangeWinCandidates() {
+  Environment& environment = run_->environment();
+  // The requests are the same on all ranks.
+  if (!near_ || environment.state().winner || !anyFlag(environment.orders().win_requests)) return;
+  std::vector<std::uint32_t> candidates = listOf(shares_.work[own_]);
+  std::erase_if(candidates, [&](std::uint32_t robot) { return !environment.orders().win_requests[robot]; });
+  out_.clear();
+  writeMotion(environment.motion(), environment.orders(), candidates, out_);
+  finished(rest);
+  allGather();
+  finished(waiting);
+  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
+    std::vector<std::uint32_t> received;
+    if (rank != own_) readMotion(all_[rank], shares_.work[rank], environment.motion(), environment.orders(), received);
+  }
+}
+
+void DistributedRun::gatherMotion() {
+  Environment& environment = run_->environment();
+  const MotionState motion = environment.motion();
+  StateWriter own;
+  own.addNumber(motion.stalls);
+  out_ = std::move(own.bytes);
+  writeMotion(motion, environment.orders(), listOf(shares_.work[own_]), out_);
+  group_.gather(out_, all_);
+  if (own_ > 0) return;
+  for (std::size_t rank = 1; rank < shares_.ranks(); ++rank) {
+    const std::string_view bytes = all_[rank];
+    if (!firstNeedsAll()) motion.stalls += StateReader(bytes).takeNumber<std::uint64_t>();
+    std::vector<std::uint32_t> received;
+    readMotion(bytes.substr(sizeof motion.stalls), shares_.work[rank], motion, environment.orders(), received);
+  }
+}
+
+}  // namespace robosim
