@@ -1,6 +1,7 @@
 #include "sensors/laser_errors.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 #include "base/portable_math.h"
@@ -100,12 +101,21 @@ ErrorProcess::ErrorProcess(const LaserErrors& errors, const SensorInfo& info)
       tail_to_(tail_from_ + errors.tail * (1 - tail_from_)),
       per_quantum_(errors.quantum_m > 0 ? 1 / errors.quantum_m : 0),
       lost_power_(portable::exp(-errors.fading * kLogisticMax)),
-      certain_power_(portable::exp(errors.fading * kLogisticMax)) {}
+      certain_power_(portable::exp(errors.fading * kLogisticMax)) {
+  for (std::size_t n = 0; n < sufficient_power_.size(); ++n) {
+    constexpr double kMargin = 1e-9;  // more than rounding errors
+    sufficient_power_[n] = portable::exp(errors.fading * M_LN2 * static_cast<double>(n)) * (1 + kMargin);
+  }
+}
 
 /// Whether log(power) + fading × (a logistic number) is positive.
 bool ErrorProcess::isDetected(double power, double uniform) const {
   if (power > certain_power_) return true;
   if (power < lost_power_) return false;
+  // For a number u of at least 2^-n, ln((1 - u) / u) is below n ln 2. The exponent of a double gives n without
+  // logarithms.
+  const auto n = static_cast<std::size_t>(1023 - (std::bit_cast<std::uint64_t>(uniform) >> 52));
+  if (n < sufficient_power_.size() && power > sufficient_power_[n]) return true;
   return portable::log(power) + errors_.fading * portable::log(uniform / (1 - uniform)) > 0;
 }
 

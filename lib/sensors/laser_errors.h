@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -80,6 +81,8 @@ class ErrorProcess {
   double tail_from_, tail_to_;  ///< the events of a wide error
   double per_quantum_;
   double lost_power_, certain_power_;  ///< below and above which the detection is not random
+  /// By n: the power above which an echo is detected for all numbers of at least 2^-n.
+  std::array<double, 34> sufficient_power_;
 };
 
 }  // namespace robosim

@@ -1,5 +1,6 @@
 #include "sensors/laser_scanner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,7 +27,7 @@ class LaserScanner : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  bool isNoisy() const override { return errors_.isRandom(); }
+  bool isNoisy() const override { return errors_.isRandom() || timing_.latency_std_s > 0; }
   bool sensesInHostProcess() const override { return timing_.rate_hz > 0; }
   double robotReach(double speed_max_mps) const override {
     return beamReach(info_) + speed_max_mps * (timing_.sweep_s + timing_.latency_s);
@@ -40,7 +41,7 @@ class LaserScanner : public Sensor {
     for (const auto robot : robots) {
       const double pan_rad = info_.pans ? now.laser_pan_rad[robot] : 0;
       hits.reset(beams_, now.frames[robot], pan_rad);
-      cast(now, robot, pan_rad, hits);
+      cast(now, robot, slot, pan_rad, hits);
       if (has_errors_) applyErrors(now, robot, slot, drift_m, hits);
       setEchoes(fields_, info_, PlanarTransform(PlanarTransform(), pan_rad), hits.distance_m,
                 std::get<Echoes>(readings[robot].measurements[slot]));
@@ -48,20 +49,29 @@ class LaserScanner : public Sensor {
   }
 
  private:
-  void cast(const Snapshot& now, std::uint32_t robot, double pan_rad, BeamHits& hits) const {
+  void cast(const Snapshot& now, std::uint32_t robot, std::size_t slot, double pan_rad, BeamHits& hits) const {
     const Motion& motion = now.last_motion[robot];
     const bool has_moved = motion.length_m != 0 || motion.turn_rad != 0;
-    if (has_moved && (timing_.sweep_s > 0 || timing_.latency_s > 0)) return castSwept(now, robot, pan_rad, hits);
+    const double latency_s = has_moved ? latencyOf(now, robot, slot) : 0;
+    if (has_moved && (timing_.sweep_s > 0 || latency_s > 0)) return castSwept(now, robot, latency_s, pan_rad, hits);
     beams_.cast(now, robot, pan_rad, info_.range_max_m,
                 [&](std::size_t i, double distance_m, BodyId body) { hits.set(i, distance_m, body); });
   }
 
-  void castSwept(const Snapshot& now, std::uint32_t robot, double pan_rad, BeamHits& hits) const {
+  /// Age of the last beam. Its random number is that of one beam more than the scanner has.
+  double latencyOf(const Snapshot& now, std::uint32_t robot, std::size_t slot) const {
+    if (timing_.latency_std_s == 0) return timing_.latency_s;
+    Rng rng(now.seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), now.time.step);
+    rng.skipToBlock(static_cast<std::uint32_t>(beams_.size()));
+    return std::max(0.0, timing_.latency_s + timing_.latency_std_s * rng.gaussian());
+  }
+
+  void castSwept(const Snapshot& now, std::uint32_t robot, double latency_s, double pan_rad, BeamHits& hits) const {
     const PlanarTransform pan(PlanarTransform(), pan_rad);
     const double period_s = now.time.period_s;
     const std::size_t last = beams_.size() - 1;
     const double step_s = last > 0 ? timing_.sweep_s / static_cast<double>(last) : 0;
-    const double oldest = (timing_.latency_s + step_s * static_cast<double>(last)) / period_s;
+    const double oldest = (latency_s + step_s * static_cast<double>(last)) / period_s;
     SweptPose pose(now.frames[robot], now.last_motion[robot], oldest, step_s / period_s);
     hits.moved.resize(beams_.size());
     for (std::size_t i = 0; i <= last; ++i, pose.next()) {

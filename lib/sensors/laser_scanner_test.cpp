@@ -104,6 +104,43 @@ TEST(LaserScanner, MeasuresFromWhereItWasBeforeItsLatency) {
       << "the last motion is extrapolated";
 }
 
+TEST(LaserScanner, VariesTheAgeOfItsScans) {
+  // 2 m/s straight ahead: an age of 0.1 s with a standard deviation of 0.02 s is 0.2 m with 0.04 m.
+  SingleRobotScene robot({block(2.5, 0, 1, 40)});
+  robot.motion.length_m = 0.2;
+  const auto laser = sensorFrom("<laser beams='3' field_of_view_deg='120' latency_s='0.1' latency_std_s='0.02'/>");
+  EXPECT_TRUE(laser->isNoisy());
+  constexpr int n = 4000;
+  double sum_m = 0, sum_m2 = 0;
+  for (int i = 0; i < n; ++i) {
+    const auto ranges = robot.ranges(*laser);
+    EXPECT_NEAR(ranges[0], 2 * ranges[1], kTolerance_m) << "all beams have the same age";
+    EXPECT_NEAR(ranges[2], 2 * ranges[1], kTolerance_m);
+    const double moved_m = ranges[1] - 2;
+    sum_m += moved_m;
+    sum_m2 += moved_m * moved_m;
+  }
+  const double mean_m = sum_m / n;
+  EXPECT_NEAR(mean_m, 0.2, 4 * 0.04 / std::sqrt(n));
+  EXPECT_NEAR(std::sqrt(sum_m2 / n - mean_m * mean_m), 0.04, 4 * 0.04 / std::sqrt(2.0 * n));
+  robot.motion.length_m = 0;
+  EXPECT_NEAR(robot.ranges(*laser)[1], 2, kTolerance_m) << "at rest the age has no effect";
+}
+
+TEST(LaserScanner, MeasuresNoScanFromTheFuture) {
+  SingleRobotScene robot({block(2.5, 0, 1, 40)});
+  robot.motion.length_m = 0.2;
+  const auto laser = sensorFrom("<laser beams='1' latency_std_s='0.02'/>");
+  int now = 0;
+  constexpr int n = 1000;
+  for (int i = 0; i < n; ++i) {
+    const double range_m = robot.ranges(*laser)[0];
+    EXPECT_GE(range_m, 2 - kTolerance_m);
+    now += range_m < 2 + kTolerance_m;
+  }
+  EXPECT_NEAR(now, n / 2, 4 * std::sqrt(n / 4.0)) << "half of the normal distribution is below 0";
+}
+
 TEST(SweptPose, LiesOnTheArcOfTheLastMotion) {
   // A quarter circle of radius 1 about (0, 1) that ends at (1, 1), heading 90°, with half of it at 45°.
   const PlanarTransform now({1, 1, M_PI_2}, 0.5);

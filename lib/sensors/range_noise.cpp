@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace robosim {
+namespace {
+
+constexpr int kGaussianDraws = 4;  ///< numbers that Rng::gaussian() draws
+
+}  // namespace
 
 RangeNoise RangeNoise::read(XmlReader& noise, const RangeNoise& data_sheet) {
   return {.on = true,
@@ -15,8 +20,11 @@ RangeNoise RangeNoise::read(XmlReader& noise, const RangeNoise& data_sheet) {
 
 double RangeNoise::apply(double range_m, Rng& rng) const {
   if (rng.uniform() < dropout) return std::numeric_limits<double>::infinity();
-  const double error_m = stdAt(range_m) * rng.gaussian();
-  return std::isfinite(range_m) ? std::max(0.0, range_m + error_m) : range_m;
+  if (!std::isfinite(range_m)) {
+    for (int i = 0; i < kGaussianDraws; ++i) rng();
+    return range_m;
+  }
+  return std::max(0.0, range_m + stdAt(range_m) * rng.gaussian());
 }
 
 }  // namespace robosim

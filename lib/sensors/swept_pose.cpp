@@ -24,29 +24,4 @@ SweptPose::SweptPose(const PlanarTransform& now, const Motion& last_motion, doub
   place();
 }
 
-void SweptPose::next() {
-  share_ -= step_share_;
-  const double cos = half_cos_ * half_step_cos_ + half_sin_ * half_step_sin_;
-  half_sin_ = half_sin_ * half_step_cos_ - half_cos_ * half_step_sin_;
-  half_cos_ = cos;
-  place();
-}
-
-void SweptPose::place() {
-  // The chord of an arc has the direction of its middle.
-  const double chord_m = is_straight_ ? length_m_ * share_ : diameter_m_ * half_sin_;
-  x_ = -chord_m * half_cos_;
-  y_ = chord_m * half_sin_;
-  cos_ = half_cos_ * half_cos_ - half_sin_ * half_sin_;
-  sin_ = -2 * half_sin_ * half_cos_;
-}
-
-mrpt::math::TPoint3D SweptPose::pointToWorld(const mrpt::math::TPoint3D& p) const {
-  return now_.pointToWorld(mrpt::math::TPoint3D(x_ + cos_ * p.x - sin_ * p.y, y_ + sin_ * p.x + cos_ * p.y, p.z));
-}
-
-mrpt::math::TPoint3D SweptPose::turnToWorld(const mrpt::math::TPoint3D& v) const {
-  return now_.turnToWorld(mrpt::math::TPoint3D(cos_ * v.x - sin_ * v.y, sin_ * v.x + cos_ * v.y, v.z));
-}
-
 }  // namespace robosim

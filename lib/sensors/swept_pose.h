@@ -13,12 +13,31 @@ class SweptPose {
   SweptPose(const PlanarTransform& now, const Motion& last_motion, double first_share, double step_share);
 
   /// Advances to the next pose.
-  void next();
-  mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const;
-  mrpt::math::TPoint3D turnToWorld(const mrpt::math::TPoint3D& in_robot) const;
+  void next() {
+    share_ -= step_share_;
+    const double cos = half_cos_ * half_step_cos_ + half_sin_ * half_step_sin_;
+    half_sin_ = half_sin_ * half_step_cos_ - half_cos_ * half_step_sin_;
+    half_cos_ = cos;
+    place();
+  }
+  mrpt::math::TPoint3D pointToWorld(const mrpt::math::TPoint3D& in_robot) const {
+    return now_.pointToWorld(mrpt::math::TPoint3D(x_ + cos_ * in_robot.x - sin_ * in_robot.y,
+                                                  y_ + sin_ * in_robot.x + cos_ * in_robot.y, in_robot.z));
+  }
+  mrpt::math::TPoint3D turnToWorld(const mrpt::math::TPoint3D& in_robot) const {
+    return now_.turnToWorld(
+        mrpt::math::TPoint3D(cos_ * in_robot.x - sin_ * in_robot.y, sin_ * in_robot.x + cos_ * in_robot.y, in_robot.z));
+  }
 
  private:
-  void place();
+  void place() {
+    // The chord of an arc has the direction of its middle.
+    const double chord_m = is_straight_ ? length_m_ * share_ : diameter_m_ * half_sin_;
+    x_ = -chord_m * half_cos_;
+    y_ = chord_m * half_sin_;
+    cos_ = half_cos_ * half_cos_ - half_sin_ * half_sin_;
+    sin_ = -2 * half_sin_ * half_cos_;
+  }
 
   PlanarTransform now_;
   double length_m_;    ///< of the whole last motion

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <utility>
 
 #include "base/text_table.h"
 #include "tests/instructions/loads.h"
@@ -47,6 +48,25 @@ std::vector<std::string> growthOf(const InstructionCounts& now, const Instructio
                      now.compiler + " for " + now.vectors + ": they may differ for that reason alone.");
   }
   faults.emplace_back("If what was gained is worth it, keep the new counts: ./dev bench --instructions --update");
+  return faults;
+}
+
+std::vector<std::string> costlyErrorsOf(const InstructionCounts& now) {
+  constexpr std::pair<const char*, double> kLimits[] = {{", Gaussian noise", 2.5}, {", all errors", 5}};
+  std::vector<std::string> faults;
+  for (const auto& [name, count] : now.instructions) {
+    for (const auto& [ending, limit] : kLimits) {
+      const auto at = name.find(ending);
+      if (at == std::string::npos) continue;
+      const auto exact = now.instructions.find(name.substr(0, at));
+      if (exact == now.instructions.end()) {
+        faults.push_back(name + ": there is no load without errors to compare with");
+      } else if (count > limit * exact->second) {
+        faults.push_back(name + ": " + fixed(count / exact->second, 2) + " times the instructions of " + exact->first +
+                         "; " + fixed(limit, 1) + " times is allowed: make the error model cheaper");
+      }
+    }
+  }
   return faults;
 }
 

@@ -27,14 +27,38 @@ InstructionWork robots(const Workload& workload) {
 
 InstructionWork robots(const char* workload) { return robots(workloadNamed(workload)); }
 
-/// The workload `laser` with errors of its scanner: its attributes, and its content.
-InstructionWork laserWith(const std::string& attributes, const std::string& content) {
-  Workload workload = workloadNamed("laser");
-  std::string sensors = workload.sensors;
-  const std::string exact = " range_max_m='8'/>";
-  sensors.replace(sensors.rfind(exact), exact.size(), " range_max_m='8' " + attributes + ">" + content + "</laser>");
+/// A workload with attributes and content added to each sensor of one kind, of which all ends are "/>".
+std::string withErrors(std::string sensors, const std::string& kind, const std::string& attributes,
+                       const std::string& content) {
+  const auto begin = sensors.find('<' + kind + ' ');
+  const auto end = sensors.find('>', begin);
+  if (sensors[end - 1] == '/') return sensors.replace(end - 1, 2, ' ' + attributes + '>' + content + "</" + kind + '>');
+  return sensors.replace(end, 1, ' ' + attributes + '>' + content);
+}
+
+InstructionWork robots(Workload workload, const std::string& sensors) {
   workload.sensors = sensors.c_str();
   return robots(workload);
+}
+
+/// The workload `laser` with errors of its scanner: its attributes, and its content.
+InstructionWork laserWith(const std::string& attributes, const std::string& content) {
+  const Workload workload = workloadNamed("laser");
+  return robots(workload, withErrors(workload.sensors, "laser", attributes, content));
+}
+
+/// The workload `sonar` with errors of its sonars.
+InstructionWork sonarWith(const std::string& attributes, const std::string& content) {
+  const Workload workload = workloadNamed("sonar");
+  return robots(workload, withErrors(workload.sensors, "sonar", attributes, content));
+}
+
+/// The workload `laser` with the errors that `--noise all` adds to its scanner and sonars.
+InstructionWork allErrors() {
+  const Workload workload = workloadNamed("laser");
+  const std::string sonars =
+      withErrors(workload.sensors, "sonar", "noise='polaroid' beam_width_deg='84' firing_interval_s='0.04'", "");
+  return robots(workload, withErrors(sonars, "laser", "noise='lms200'", "<noise drift_m='0.01'/>"));
 }
 
 /// 50 worlds of one robot each, after some warm-up steps.
@@ -114,6 +138,9 @@ constexpr InstructionLoad kLoads[] = {
     {"laser, reflectivity", "robot-step", [] { return laserWith("", "<noise reach_m='20'/>"); }},
     {"laser, sweep", "robot-step", [] { return laserWith("sweep_s='0.00667' latency_s='0.01'", ""); }},
     {"laser, all errors", "robot-step", [] { return laserWith("noise='lms200' latency_s='0.01'", ""); }},
+    {"laser, all errors of laser and sonars", "robot-step", allErrors},
+    {"sonar, Gaussian noise", "robot-step", [] { return sonarWith("", "<noise/>"); }},
+    {"sonar, all errors", "robot-step", [] { return sonarWith("noise='polaroid'", ""); }},
     {"infrared", "robot-step", [] { return robots("infrared"); }},
     {"batch of laser", "agent-step", batch},
     {"rays, scans to 8 m", "ray", [] { return rays(&RayCaster::castScans, 8); }},

@@ -1,5 +1,7 @@
 // Counts the instructions of fixed small loads, which makes a change of cost visible independently of other load:
-//   robosim_instructions FILE            counts under callgrind, and fails if a count exceeds that in FILE
+//   robosim_instructions FILE            counts under callgrind, and fails if a count exceeds that in FILE, or if
+//   errors of
+//                                        sensors cost more than their limits
 //   robosim_instructions FILE --update   counts, and stores the counts in FILE
 //   robosim_instructions --do TALLY      runs the loads once: the program that callgrind runs
 #include <fstream>
@@ -82,11 +84,13 @@ bool countAndCompare(const std::filesystem::path& file, bool update) {
   const InstructionCounts kept = readCounts(file);
   const InstructionCounts now = countAll();
   std::cout << toTable(now, kept);
+  auto faults = costlyErrorsOf(now);
   if (update) {
     writeCounts(file, now);
-    return true;
+  } else {
+    const auto growth = growthOf(now, kept);
+    faults.insert(faults.end(), growth.begin(), growth.end());
   }
-  const auto faults = growthOf(now, kept);
   for (const auto& fault : faults) std::cout << fault << '\n';
   return faults.empty();
 }

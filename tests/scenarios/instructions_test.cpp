@@ -48,6 +48,23 @@ TEST(Instructions, ReportNewAndMissingLoads) {
                                                        "laser: a count is kept, but there is no such load", kMend}));
 }
 
+TEST(Instructions, LimitTheCostOfErrorsOfSensors) {
+  InstructionCounts now = counts(1000, 20000);
+  now.instructions["sonar, Gaussian noise"] = 2500;
+  now.instructions["sonar, all errors"] = 5000;
+  now.instructions["laser, mixed pixels"] = 900000;
+  EXPECT_EQ(costlyErrorsOf(now), Lines{});
+  now.instructions["sonar, Gaussian noise"] = 2510;
+  now.instructions["laser, all errors of laser and sonars"] = 101000;
+  now.instructions["radar, all errors"] = 1;
+  EXPECT_EQ(costlyErrorsOf(now),
+            (Lines{"laser, all errors of laser and sonars: 5.05 times the instructions of laser; 5.0 times is allowed: "
+                   "make the error model cheaper",
+                   "radar, all errors: there is no load without errors to compare with",
+                   "sonar, Gaussian noise: 2.51 times the instructions of sonar; 2.5 times is allowed: make the error "
+                   "model cheaper"}));
+}
+
 TEST(Instructions, AreStoredInAFile) {
   const auto file = emptyFolder() / "counts.json";
   EXPECT_TRUE(readCounts(file).instructions.empty()) << "no file, no counts";

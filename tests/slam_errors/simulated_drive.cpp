@@ -1,0 +1,101 @@
+#include "tests/slam_errors/simulated_drive.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/xml_parser.h"
+#include "sensors/registry.h"
+
+namespace robosim {
+namespace {
+
+using mrpt::math::TPose2D;
+
+/// The arc that leads to a pose: its chord, with the sign of the direction of travel, and its turn.
+Motion arcTo(const TPose2D& from, const TPose2D& to) {
+  const TPose2D moved = to - from;
+  const double turn_rad = std::remainder(moved.phi, 2 * M_PI);
+  const double chord_m = std::copysign(std::hypot(moved.x, moved.y), moved.x);
+  const double half = turn_rad / 2;
+  return {chord_m * (half == 0 ? 1 : half / std::sin(half)), turn_rad};
+}
+
+TPose2D after(const TPose2D& from, const Motion& motion) {
+  const double half = motion.turn_rad / 2;
+  const double chord_m = motion.length_m * (half == 0 ? 1 : std::sin(half) / half);
+  return from + TPose2D(chord_m * std::cos(half), chord_m * std::sin(half), motion.turn_rad);
+}
+
+std::unique_ptr<Sensor> sensorOf(const std::string& robot_type, const std::string& kind) {
+  ErrorList errors;
+  const XmlElement type = readXmlFile(robot_type);
+  std::unique_ptr<Sensor> sensor;
+  for (const auto& child : type.children) {
+    if (child.name != "sensors") continue;
+    for (const auto& element : child.children) {
+      if (element.name != kind) continue;
+      XmlReader reader(element, robot_type, errors);
+      sensor = readSensor(reader, {1, 0.3, 1});
+    }
+  }
+  errors.throwIfAny();
+  if (!sensor) throw ConfigError(robot_type + ": has no <" + kind + ">; add one");
+  return sensor;
+}
+
+}  // namespace
+
+ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>& path, const std::vector<Solid>& solids,
+                         const std::string& robot_type, std::uint64_t seed) {
+  const auto laser = sensorOf(robot_type, "laser");
+  const auto odometry = sensorOf(robot_type, "odometry");
+  const SensorInfo& info = laser->info();
+  ScanSeries drive;
+  drive.label = info.label;
+  drive.first_rad = info.beams.front().robot_from_beam.yaw;
+  drive.step_rad =
+      (info.beams.back().robot_from_beam.yaw - drive.first_rad) / static_cast<double>(info.beams.size() - 1);
+  drive.range_max_m = info.range_max_m;
+  drive.robot_from_scanner = {info.beams.front().robot_from_beam.x, info.beams.front().robot_from_beam.y, 0};
+
+  constexpr double kArea_m = 60;
+  Scene scene(solids, 1, {-kArea_m, kArea_m, -kArea_m, kArea_m});
+  std::vector<Readings> readings(1);
+  readings[0].measurements = {laser->blank(), odometry->blank()};
+  TPose2D pose;
+  SimTime time;
+  for (std::size_t k = 0; k < recorded.scans.size(); ++k) {
+    Motion motion;
+    if (k > 0) {
+      motion = arcTo(path[k - 1], path[k]);
+      time = {k, recorded.scans[k].time_s - recorded.scans[k - 1].time_s};
+    }
+    pose = after(pose, motion);
+    scene.place(0, {Circle{{pose.x, pose.y}, 0.1}, {0, 0.1}});
+    scene.freeze();
+    const PlanarTransform frame(pose, 0);
+    const float pan_rad = 0;
+    const std::uint32_t robot = 0;
+    const Snapshot now{.scene = scene,
+                       .heat_sources = {},
+                       .world_from_robot = {&pose, 1},
+                       .frames = {&frame, 1},
+                       .last_motion = {&motion, 1},
+                       .laser_pan_rad = {&pan_rad, 1},
+                       .time = time,
+                       .seed = seed};
+    laser->sense(now, {&robot, 1}, 0, readings);
+    odometry->sense(now, {&robot, 1}, 1, readings);
+    RecordedScan scan{.time_s = recorded.scans[k].time_s, .ranges_m = {}, .odometry = {}};
+    for (const auto& echo : std::get<Echoes>(readings[0].measurements[0])) {
+      const bool is_valid = echo.range_m < static_cast<float>(info.no_echo_m);
+      scan.ranges_m.push_back(is_valid ? static_cast<double>(echo.range_m) : std::numeric_limits<double>::quiet_NaN());
+    }
+    scan.odometry = std::get<Odometry>(readings[0].measurements[1]).odom_from_robot;
+    drive.scans.push_back(std::move(scan));
+  }
+  return drive;
+}
+
+}  // namespace robosim
