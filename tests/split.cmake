@@ -1,6 +1,7 @@
 # With ROBOSIM_SPLIT_TESTS, as in .ci/run, a test is built and run either in Release or with the sanitizers: Release for
-# browsers, programs of others, digests, vectorised code, limits of memory, and output; the sanitizers for everything else,
-# above all for what reads untrusted input. ./dev test and ./dev verify sanitize run every test in their builds.
+# browsers, programs of others, digests, vectorised code, limits of memory, output, and statistics of many runs; the
+# sanitizers for everything else, above all for what reads untrusted input. ./dev test and ./dev verify sanitize run every
+# test in their builds.
 option(ROBOSIM_SPLIT_TESTS "Build each test only in Release or only with sanitizers, as .ci/run does" OFF)
 set(ROBOSIM_RUNS_RELEASE_TESTS ON)
 set(ROBOSIM_RUNS_SANITIZED_TESTS ON)
@@ -18,6 +19,6 @@ endif()
 set(ROBOSIM_MODULES_TESTED_TWICE geometry environment recording)
 # Files of tests/scenarios, without _test.cpp, that run in Release.
 set(ROBOSIM_RELEASE_SCENARIOS
-  aria_examples bench_parts bench_speed bench_views check digest error_texts export installation instructions laser_grid
-  libraries lockstep output_files printed_text python_robot rawlogs reverse_proxy run sdk security shared_step slam standstill
-  table1 world_changes)
+  aria_examples bench_parts bench_speed bench_views check digest error_texts export fit gold_report installation instructions
+  laser_grid libraries lockstep output_files printed_text python_robot rawlogs reverse_proxy run sdk search_strategies security
+  shared_step slam standstill table1 world_changes)
