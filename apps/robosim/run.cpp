@@ -39,7 +39,7 @@ const std::map<std::string, RankExchange> kExchanges{
 struct LocalRunArguments : RunArguments {
   std::string csv, npz;              ///< files; empty for none
   std::uint64_t balance_steps = 50;  ///< DistributionOptions::balance_steps
-  std::string exchange = "all";      ///< name in kExchanges
+  std::string exchange = "auto";     ///< name in kExchanges
 
   std::vector<RecordingOutput> tables() const {
     std::vector<RecordingOutput> tables;

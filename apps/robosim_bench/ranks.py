@@ -18,7 +18,7 @@ def parse_arguments():
     parser.add_argument('--rounds', type=int, default=5, help='measurements of each (default: 5)')
     parser.add_argument('--steps', type=int, help='steps of 0.1 s (default: 2,000,000 robot-steps, at least 10 steps)')
     parser.add_argument('--workload', default='sonar', help='workload of robosim_bench speed (default: sonar)')
-    parser.add_argument('--exchange', default='all', help='robosim run --exchange: auto, near or all (default: all)')
+    parser.add_argument('--exchange', default='auto', help='robosim run --exchange: auto, near or all (default: auto)')
     return parser.parse_args()
 
 
