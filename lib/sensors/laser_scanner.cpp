@@ -30,6 +30,8 @@ class LaserScanner : public Sensor {
   bool isNoisy() const override { return errors_.isRandom() || timing_.latency_std_s > 0; }
   bool sensesInHostProcess() const override { return timing_.rate_hz > 0; }
   double robotReach(double speed_max_mps) const override {
+    // A scan's age that is distributed normally has no limit.
+    if (timing_.latency_std_s > 0) return Sensor::robotReach(speed_max_mps);
     return beamReach(info_) + speed_max_mps * (timing_.sweep_s + timing_.latency_s);
   }
 

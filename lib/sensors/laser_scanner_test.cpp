@@ -127,6 +127,15 @@ TEST(LaserScanner, VariesTheAgeOfItsScans) {
   EXPECT_NEAR(robot.ranges(*laser)[1], 2, kTolerance_m) << "at rest the age has no effect";
 }
 
+TEST(LaserScanner, ReachesRobotsFartherByTheMotionDuringItsSweepAndWithoutLimitIfItsAgeHasNone) {
+  const auto reach = [](const std::string& timing) {
+    return sensorFrom("<laser beams='3' range_max_m='8' x_m='0.1' y_m='0' " + timing + "/>")->robotReach(2);
+  };
+  EXPECT_NEAR(reach(""), 8.1, 1e-9);
+  EXPECT_NEAR(reach("sweep_s='0.1' latency_s='0.2'"), 8.7, 1e-9);
+  EXPECT_TRUE(std::isinf(reach("latency_s='0.2' latency_std_s='0.01'")));
+}
+
 TEST(LaserScanner, MeasuresNoScanFromTheFuture) {
   SingleRobotScene robot({block(2.5, 0, 1, 40)});
   robot.motion.length_m = 0.2;
