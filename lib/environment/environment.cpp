@@ -10,6 +10,7 @@
 #include "environment/known_robots.h"
 #include "environment/message_router.h"
 #include "environment/move_authorisation.h"
+#include "environment/placed_bodies.h"
 #include "environment/referee.h"
 #include "environment/robot_groups.h"
 #include "environment/run_digest.h"
@@ -18,53 +19,22 @@
 namespace robosim {
 namespace {
 
-constexpr std::size_t kChunk = 64;
-
-std::vector<Mover> moversOf(const Fleet& fleet) {
-  std::vector<Mover> movers;
-  movers.reserve(fleet.robots.size());
-  for (const auto& robot : fleet.robots) movers.push_back({robot.info.radius_m, robot.body.heights()});
-  return movers;
+/// A property of each robot. In an array of its own, because to look it up in the fleet would cost a cache miss or
+/// more.
+template <typename Property>
+auto ofRobots(const Fleet& fleet, const Property& property) {
+  std::vector<std::decay_t<decltype(property(fleet.robots.front()))>> values;
+  values.reserve(fleet.robots.size());
+  for (const auto& robot : fleet.robots) values.push_back(property(robot));
+  return values;
 }
 
-std::vector<std::string> namesOf(const Fleet& fleet) {
-  std::vector<std::string> names;
-  names.reserve(fleet.robots.size());
-  for (const auto& robot : fleet.robots) names.push_back(robot.info.name);
-  return names;
-}
-
-/// What a step needs of a robot's model, in an array: to look it up in the fleet would cost a cache miss or more.
-struct CompactRobot {
-  MotionLimits limits;
-  std::optional<double> disc_radius_m;  ///< nullopt for a body that is no disc
-  HeightSpan heights;
-};
-
-std::vector<CompactRobot> compactRobots(const Fleet& fleet) {
-  std::vector<CompactRobot> robots;
-  robots.reserve(fleet.robots.size());
-  for (const auto& robot : fleet.robots) {
-    CompactRobot& compact = robots.emplace_back(CompactRobot{robot.info.limits, {}, robot.body.heights()});
-    if (const auto* cylinder = std::get_if<Cylinder>(&robot.body.shape)) compact.disc_radius_m = cylinder->radius_m;
-  }
-  return robots;
-}
+Mover moverOf(const FleetRobot& robot) { return {robot.info.radius_m, robot.body.heights()}; }
 
 /// Selects sensors by Sensor::sensesInHostProcess().
 enum class SensorGroup { anywhere, in_host_process };
 
 double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
-
-/// @throws std::invalid_argument for a state of another model than `own`
-void requireSameShape(const State& saved, const State& own) {
-  if (haveSameShape(saved, own)) return;
-  const auto described = [](const State& state) {
-    return std::to_string(state.readings.size()) + " robots and steps of " + std::to_string(state.time.period_s) + " s";
-  };
-  throw std::invalid_argument("a state of " + described(saved) + " does not fit a world of " + described(own) +
-                              ", or the sensors differ; use a state of the same world");
-}
 
 }  // namespace
 
@@ -74,20 +44,17 @@ struct Environment::Impl {
   ImageSource* images;
   ParallelExecutor workers;
   State state;
-  Scene scene;
+  PlacedBodies bodies;
+  Scene& scene;  ///< of the bodies
   MoveAuthorisation move_authorisation;
   MessageRouter message_router;
   Referee referee;
   RobotGroups robot_groups;
-  std::vector<CompactRobot> compact_robots;
+  std::vector<MotionLimits> limits;  ///< by robot
   KnownRobots known;
   RobotRange counted;  ///< known robots whose stalls are counted
   std::vector<Path> paths;
-  std::vector<double> base_z_m;          ///< height of each robot's underside
-  std::vector<double> antenna_z_m;       ///< height of each robot's top, where its antenna is
-  std::vector<PlanarTransform> frames;   ///< current frames of the robots whose readings are kept
-  std::vector<HeatSource> heat_sources;  ///< hot objects, then hot robots
-  std::vector<float> reflectivity;       ///< by body; empty if all have the default
+  std::vector<double> antenna_z_m;  ///< by robot
   std::uint64_t placements = 0;
   bool has_absent_robots = false;
   bool may_have_messages = true;       ///< false: all inboxes are empty
@@ -102,30 +69,18 @@ struct Environment::Impl {
         images(the_images),
         workers(threads),
         state(std::move(the_state)),
-        scene(stationarySolids(model->world), fleet.robots.size(), model->world.bounds),
-        move_authorisation(moversOf(fleet), model->world.bounds),
-        message_router(namesOf(fleet), model->world.communication),
+        bodies(*model),
+        scene(bodies.scene()),
+        move_authorisation(ofRobots(fleet, moverOf), model->world.bounds),
+        message_router(ofRobots(fleet, [](const auto& robot) { return robot.info.name; }), model->world.communication),
         referee(model->world),
         robot_groups(fleet, model->period_s),
-        compact_robots(compactRobots(fleet)),
+        limits(ofRobots(fleet, [](const auto& robot) { return robot.info.limits; })),
         known(fleet.robots.size()),
         counted(everyRobot()),
         paths(fleet.robots.size()),
-        frames(fleet.robots.size()),
+        antenna_z_m(ofRobots(fleet, [](const auto& robot) { return robot.body.heights().z_max_m; })),
         share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
-    for (const auto& robot : fleet.robots) {
-      base_z_m.push_back(robot.body.heights().z_min_m);
-      antenna_z_m.push_back(robot.body.heights().z_max_m);
-    }
-    const auto& objects = model->world.objects;
-    for (std::size_t i = 0; i < objects.size(); ++i) {
-      const auto& pose = objects[i].body.world_from_body;
-      addHeatSource(objects[i].body, {pose.x, pose.y}, BodyId(static_cast<std::uint32_t>(i)));
-    }
-    for (std::size_t i = 0; i < fleet.robots.size(); ++i) addHeatSource(fleet.robots[i].body, {}, scene.movingBody(i));
-    for (std::size_t i = 0; i < objects.size(); ++i)
-      addReflectivity(objects[i].body, BodyId(static_cast<std::uint32_t>(i)));
-    for (std::size_t i = 0; i < fleet.robots.size(); ++i) addReflectivity(fleet.robots[i].body, scene.movingBody(i));
     noteState();
     placeBodies();
   }
@@ -144,53 +99,14 @@ struct Environment::Impl {
         std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
   }
 
-  void addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
-    if (body.heat_celsius != 0) heat_sources.push_back({center, body.heat_celsius, id});
-  }
-
-  void addReflectivity(const Body& body, BodyId id) {
-    if (body.reflectivity == kReflectivity) return;
-    reflectivity.resize(scene.stationaryCount() + scene.movingCount(), static_cast<float>(kReflectivity));
-    reflectivity[static_cast<std::size_t>(id)] = static_cast<float>(body.reflectivity);
-  }
-
-  bool isAbsent(std::size_t robot) const { return state.activity[robot] == Activity::absent; }
-
-  void placeBodies() {
-    known.forEach(workers, kChunk, [&](std::size_t i) {
-      if (isAbsent(i)) return scene.remove(i);
-      if (share.kept.contains(i)) frames[i] = PlanarTransform(state.world_from_robot[i], base_z_m[i]);
-      scene.place(i, solidOf(i));
-    });
-    if (known.areAll()) {
-      scene.freeze(workers);
-    } else {
-      scene.freeze(workers, known.some());
-    }
-    for (auto& source : heat_sources) {
-      if (static_cast<std::size_t>(source.body) < scene.stationaryCount()) continue;
-      const std::size_t robot = scene.movingIndex(source.body);
-      const auto& pose = state.world_from_robot[robot];
-      source.center = {pose.x, pose.y};
-      source.heat_celsius = isAbsent(robot) ? 0 : fleet.robots[robot].body.heat_celsius;
-    }
-  }
-
-  Solid solidOf(std::size_t robot) const {
-    const auto& pose = state.world_from_robot[robot];
-    const CompactRobot& compact = compact_robots[robot];
-    if (compact.disc_radius_m) return {Circle{{pose.x, pose.y}, *compact.disc_radius_m}, compact.heights};
-    Body body = fleet.robots[robot].body;
-    body.world_from_body = pose;
-    return body.solid();
-  }
+  void placeBodies() { bodies.place(state, known, share.kept, workers); }
 
   void takeCommands() {
     const bool have_messages = std::exchange(may_have_messages, false);
     if (have_messages && !known.areAll()) {
       for (Readings& readings : state.readings) readings.inbox.clear();
     }
-    known.forEach(workers, kChunk, [&](std::size_t i) {
+    known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       Command& command = state.commands[i];
       if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
         state.activity[i] = command.activity;
@@ -199,8 +115,8 @@ struct Environment::Impl {
       if (have_messages) state.readings[i].inbox.clear();
       state.laser_pan_rad[i] =
           std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2));
-      const DriveSpeeds speeds = reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command,
-                                                 compact_robots[i].limits, model->period_s);
+      const DriveSpeeds speeds =
+          reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command, limits[i], model->period_s);
       state.speed_mps[i] = speeds.speed_mps;
       state.turn_radps[i] = speeds.turn_radps;
       paths[i] = pathOf(state.world_from_robot[i], speeds, model->period_s);
@@ -209,7 +125,7 @@ struct Environment::Impl {
 
   void move() {
     move_authorisation.conclude(workers, known, paths, state.stalled);
-    known.forEach(workers, kChunk, [&](std::size_t i) {
+    known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       const Path& path = paths[i];
       if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
       state.last_motion[i] = {path.clippedLength(), path.turn_rad};
@@ -231,32 +147,16 @@ struct Environment::Impl {
   std::span<const std::uint32_t> presentOf(std::span<const std::uint32_t> robots,
                                            std::vector<std::uint32_t>& kept) const {
     if (!has_absent_robots) return robots;
-    std::copy_if(robots.begin(), robots.end(), std::back_inserter(kept), [&](auto robot) { return !isAbsent(robot); });
+    std::copy_if(robots.begin(), robots.end(), std::back_inserter(kept),
+                 [&](auto robot) { return !state.isAbsent(robot); });
     return kept;
   }
 
-  Snapshot snapshot() const {
-    return {.scene = scene,
-            .heat_sources = heat_sources,
-            .world_from_robot = state.world_from_robot,
-            .frames = frames,
-            .last_motion = state.last_motion,
-            .laser_pan_rad = state.laser_pan_rad,
-            .activity = state.activity,
-            .time = state.time,
-            .seed = state.seed,
-            .images = images,
-            .surface = model->world.bounds,
-            .paths = paths,
-            .driven_m = state.driven_m,
-            .reflectivity = reflectivity};
-  }
-
   void sense(RobotRange range, SensorGroup which) {
-    const Snapshot now = snapshot();
+    const Snapshot now = bodies.snapshot(state, paths, images);
     for (const RobotGroup& group : robot_groups.groups) {
       const auto of_group = group.within(range);
-      workers.forChunks(of_group.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+      workers.forChunks(of_group.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
         std::vector<std::uint32_t> kept;
         const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
         for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
@@ -270,9 +170,9 @@ struct Environment::Impl {
   }
 
   void measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
-    const Snapshot now = snapshot();
+    const Snapshot now = bodies.snapshot(state, paths, images);
     const double sensor_reach_m = reachOf(sensor) + kContactGap_m;
-    workers.forChunks(robots.size(), kChunk, [&](std::size_t begin, std::size_t end) {
+    workers.forChunks(robots.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         const auto robot = robots[i];
         // The reach of the model too, so that its own sensors find the same neighbours in the next step.
@@ -282,21 +182,12 @@ struct Environment::Impl {
     });
   }
 
-  bool isFree(std::size_t robot, const Circle& disc) const {
-    if (!model->world.bounds.covers(boundsOf(disc))) return false;
-    const Solid solid{disc, fleet.robots[robot].body.heights()};
-    std::vector<BodyId> near;
-    scene.findBodies(boundsOf(disc), near);
-    return std::none_of(near.begin(), near.end(), [&](BodyId body) {
-      return body != scene.movingBody(robot) && overlap(solid, scene.solid(body));
-    });
-  }
-
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
-    if (!isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m})) return false;
+    if (!bodies.isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m}))
+      return false;
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
-    if (isAbsent(robot)) reset(robot, Activity::active);
+    if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet.robots[robot].model);
     ++placements;
     noteAbsentRobots();
     placeBodies();
@@ -306,31 +197,13 @@ struct Environment::Impl {
   void remove(std::span<const std::size_t> robots) {
     const auto placements_before = placements;
     for (const std::size_t robot : robots) {
-      if (isAbsent(robot)) continue;
-      reset(robot, Activity::absent);
+      if (state.isAbsent(robot)) continue;
+      resetRobot(state, robot, Activity::absent, *fleet.robots[robot].model);
       ++placements;
     }
     if (placements == placements_before) return;
     noteAbsentRobots();
     placeBodies();
-  }
-
-  /// The state of a robot that has neither moved nor measured.
-  void reset(std::size_t robot, Activity activity) {
-    state.speed_mps[robot] = state.turn_radps[robot] = 0;
-    state.last_motion[robot] = {};
-    state.stalled[robot] = 0;
-    state.activity[robot] = activity;
-    state.laser_pan_rad[robot] = 0;
-    state.commands[robot] = {.activity = activity};
-    state.outboxes[robot] = {};
-    state.win_requests[robot] = 0;
-    Readings& readings = state.readings[robot];
-    readings.inbox.clear();
-    readings.stalled = readings.is_too_far = false;
-    readings.laser_pan_rad = 0;
-    const auto& sensors = fleet.robots[robot].model->sensors;
-    for (std::size_t slot = 0; slot < sensors.size(); ++slot) readings.measurements[slot] = sensors[slot]->blank();
   }
 
   void begin() {
@@ -346,12 +219,7 @@ struct Environment::Impl {
     state.messages_delivered += counts.delivered;
     may_have_messages |= counts.delivered > 0;
     state.messages_dropped += counts.dropped;
-    MessageLosses& lost = state.messages_lost;
-    lost.out_of_range += counts.lost.out_of_range;
-    lost.stopped_by_walls += counts.lost.stopped_by_walls;
-    lost.by_chance += counts.lost.by_chance;
-    lost.in_bursts += counts.lost.in_bursts;
-    lost.absent += counts.lost.absent;
+    state.messages_lost += counts.lost;
   }
 
   /// The phase after all sensing.
@@ -363,7 +231,7 @@ struct Environment::Impl {
 
   /// The phase after all sensing and the delivery of messages.
   void conclude() {
-    workers.forEach(share.kept.end - share.kept.begin, kChunk, [&](std::size_t k) {
+    workers.forEach(share.kept.end - share.kept.begin, kRobotChunk, [&](std::size_t k) {
       const std::size_t i = share.kept.begin + k;
       Readings& readings = state.readings[i];
       readings.time = state.time;

@@ -104,17 +104,10 @@ MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robo
     }
     in_flight.erase(in_flight.begin(), due_end);
   }
-  const auto deliver_from = [&](std::size_t from) {
+  forFlags(robots.may_send, [&](std::size_t from) {
     deliverFrom(static_cast<std::uint32_t>(from), seed, now, robots, outboxes, in_flight, readings, counts);
-  };
-  if (robots.may_send.empty()) {
-    for (std::size_t from = 0; from < outboxes.size(); ++from) deliver_from(from);
-  } else {
-    forFlags(robots.may_send, [&](std::size_t from) {
-      deliver_from(from);
-      robots.may_send[from] = outboxes[from].messages.empty() ? 0 : 1;
-    });
-  }
+    robots.may_send[from] = outboxes[from].messages.empty() ? 0 : 1;
+  });
   for (const auto robot : filled_) limits_[robot] = {};
   filled_.clear();
   return counts;

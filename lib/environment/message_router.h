@@ -48,6 +48,13 @@ struct MessageLosses {
   bool operator==(const MessageLosses&) const = default;
 
   std::uint64_t total() const { return out_of_range + stopped_by_walls + by_chance + in_bursts + absent; }
+  void operator+=(const MessageLosses& more) {
+    out_of_range += more.out_of_range;
+    stopped_by_walls += more.stopped_by_walls;
+    by_chance += more.by_chance;
+    in_bursts += more.in_bursts;
+    absent += more.absent;
+  }
 };
 
 /// Numbers of messages of a run so far, by their fate.
@@ -78,8 +85,8 @@ class MessageRouter {
     std::span<const mrpt::math::TPose2D> world_from_robot;
     std::span<const double> antenna_z_m;  ///< heights of the antennas
     std::span<const Activity> activity;
-    /// 0: the robot's outbox is empty, 1: perhaps not. Updated by deliver(). Empty: unknown.
-    std::span<std::uint8_t> may_send = {};
+    /// 0: the robot's outbox is empty, 1: perhaps not. Updated by deliver().
+    std::span<std::uint8_t> may_send;
 
     mrpt::math::TPoint3D antenna(std::size_t robot) const {
       return {world_from_robot[robot].x, world_from_robot[robot].y, antenna_z_m[robot]};

@@ -15,6 +15,7 @@ struct Fixture {
   std::vector<Activity> activity{Activity::active, Activity::active, Activity::active};
   SimTime time;
   std::vector<double> antenna_z_m{0.3, 0.3, 0.3};
+  std::vector<std::uint8_t> may_send{0, 0, 0};
   std::vector<MessageInFlight> in_flight;
   Scene scene{{}, 0, {-10, 110, -10, 10}};
   std::size_t dropped = 0;  ///< in the last step
@@ -26,12 +27,13 @@ struct Fixture {
       : seed(the_seed), message_router({"a", "b", "c"}, communication) {}
   void send(std::size_t from, const std::string& to, const std::string& text) {
     message_router.send(from, to, text, outboxes[from]);
+    may_send[from] = 1;
   }
   std::size_t step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    const auto counts =
-        message_router.deliver(seed, time, {scene, poses, antenna_z_m, activity}, outboxes, in_flight, readings);
+    const auto counts = message_router.deliver(seed, time, {scene, poses, antenna_z_m, activity, may_send}, outboxes,
+                                               in_flight, readings);
     dropped = counts.dropped;
     lost = counts.lost;
     return counts.delivered;

@@ -18,6 +18,7 @@ struct TwoRobots {
   std::vector<double> antenna_z_m{0.3, 0.3};
   std::vector<Activity> activity{Activity::active, Activity::active};
   std::vector<Outbox> outboxes = std::vector<Outbox>(2);
+  std::vector<std::uint8_t> may_send{0, 0};
   std::vector<MessageInFlight> in_flight;
   std::vector<Readings> readings = std::vector<Readings>(2);
   SimTime time;
@@ -26,11 +27,14 @@ struct TwoRobots {
 
   explicit TwoRobots(const Communication& communication, const std::vector<Solid>& solids = {})
       : scene(solids, 0, {-20, 20, -20, 20}), router({"a", "b"}, communication) {}
-  void send(const std::string& text) { router.send(0, "b", text, outboxes[0]); }
+  void send(const std::string& text) {
+    router.send(0, "b", text, outboxes[0]);
+    may_send[0] = 1;
+  }
   void step() {
     ++time.step;
     for (auto& robot : readings) robot.inbox.clear();
-    counts = router.deliver(7, time, {scene, poses, antenna_z_m, activity}, outboxes, in_flight, readings);
+    counts = router.deliver(7, time, {scene, poses, antenna_z_m, activity, may_send}, outboxes, in_flight, readings);
   }
   std::size_t received() const { return readings[1].inbox.size(); }
 };

@@ -12,6 +12,9 @@ struct RobotRange {
   bool contains(std::size_t robot) const { return robot >= begin && robot < end; }
 };
 
+/// Number of robots that one thread takes at a time.
+constexpr std::size_t kRobotChunk = 64;
+
 /// The robots of a process that shares a run with others.
 struct RobotShare {
   RobotRange kept;      ///< whose readings it needs

@@ -39,6 +39,21 @@ bool digestFits(const State& state) {
   return !state.digest || state.digest->chunkCount() == RunDigest::chunkCountOf(state.readings.size());
 }
 
+bool haveSameShape(const State& a, const State& b) {
+  std::vector<std::size_t> sizes_a, sizes_b;
+  forArrays(a, [&](const auto& array) { sizes_a.push_back(array.size()); });
+  forArrays(b, [&](const auto& array) { sizes_b.push_back(array.size()); });
+  const auto same_measurement = [](const Measurement& x, const Measurement& y) {
+    return x.index() == y.index() && sizeOf(x) == sizeOf(y);
+  };
+  const auto same_measurements = [&](const Readings& x, const Readings& y) {
+    return std::equal(x.measurements.begin(), x.measurements.end(), y.measurements.begin(), y.measurements.end(),
+                      same_measurement);
+  };
+  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && digestFits(a) && digestFits(b) &&
+         std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
+}
+
 }  // namespace
 
 State initialState(const Model& model) { return initialState(model, {0, model.fleet.robots.size()}); }
@@ -59,26 +74,36 @@ State initialState(const Model& model, RobotRange with_readings) {
   return state;
 }
 
-bool haveSameShape(const State& a, const State& b) {
-  std::vector<std::size_t> sizes_a, sizes_b;
-  forArrays(a, [&](const auto& array) { sizes_a.push_back(array.size()); });
-  forArrays(b, [&](const auto& array) { sizes_b.push_back(array.size()); });
-  const auto same_measurement = [](const Measurement& x, const Measurement& y) {
-    return x.index() == y.index() && sizeOf(x) == sizeOf(y);
-  };
-  const auto same_measurements = [&](const Readings& x, const Readings& y) {
-    return std::equal(x.measurements.begin(), x.measurements.end(), y.measurements.begin(), y.measurements.end(),
-                      same_measurement);
-  };
-  return a.time.period_s == b.time.period_s && sizes_a == sizes_b && digestFits(a) && digestFits(b) &&
-         std::equal(a.readings.begin(), a.readings.end(), b.readings.begin(), same_measurements);
-}
-
 std::vector<Measurement> blankMeasurements(const RobotModel& model) {
   std::vector<Measurement> measurements;
   measurements.reserve(model.sensors.size());
   for (const auto& sensor : model.sensors) measurements.push_back(sensor->blank());
   return measurements;
+}
+
+void resetRobot(State& state, std::size_t robot, Activity activity, const RobotModel& model) {
+  state.speed_mps[robot] = state.turn_radps[robot] = 0;
+  state.last_motion[robot] = {};
+  state.stalled[robot] = 0;
+  state.activity[robot] = activity;
+  state.laser_pan_rad[robot] = 0;
+  state.commands[robot] = {.activity = activity};
+  state.outboxes[robot] = {};
+  state.win_requests[robot] = 0;
+  Readings& readings = state.readings[robot];
+  readings.inbox.clear();
+  readings.stalled = readings.is_too_far = false;
+  readings.laser_pan_rad = 0;
+  readings.measurements = blankMeasurements(model);
+}
+
+void requireSameShape(const State& saved, const State& own) {
+  if (haveSameShape(saved, own)) return;
+  const auto described = [](const State& state) {
+    return std::to_string(state.readings.size()) + " robots and steps of " + std::to_string(state.time.period_s) + " s";
+  };
+  throw std::invalid_argument("a state of " + described(saved) + " does not fit a world of " + described(own) +
+                              ", or the sensors differ; use a state of the same world");
 }
 
 std::uint64_t messagesSent(const State& state) {

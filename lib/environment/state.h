@@ -43,6 +43,8 @@ struct State {
   std::vector<MessageInFlight> messages_in_flight;  ///< delayed ones, ordered by due_step
   /// Of all steps so far; nullopt: none is computed, which saves its cost in each step. restore() keeps that choice.
   std::optional<RunDigest> digest;
+
+  bool isAbsent(std::size_t robot) const { return activity[robot] == Activity::absent; }
   bool operator==(const State&) const = default;
 };
 
@@ -57,8 +59,11 @@ State initialState(const Model&, RobotRange with_readings);
 /// Of a robot that has not measured yet.
 std::vector<Measurement> blankMeasurements(const RobotModel&);
 
-/// Whether two states have the same time step, number of robots, and kinds and sizes of measurements, as all states of
-/// a model do.
-bool haveSameShape(const State&, const State&);
+/// Makes a robot one that has neither moved nor measured.
+void resetRobot(State& state, std::size_t robot, Activity activity, const RobotModel& model);
+
+/// @throws std::invalid_argument unless the states have the same time step, number of robots, and kinds and sizes of
+/// measurements, as all states of a model do
+void requireSameShape(const State& saved, const State& own);
 
 }  // namespace robosim

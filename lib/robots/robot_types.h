@@ -5,17 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "base/xml_parser.h"
-
 namespace robosim {
 
 /// Source of a robot type: a file, or a text received from elsewhere.
 struct RobotTypeFile {
   std::filesystem::path file;       ///< names it in errors
   std::optional<std::string> text;  ///< nullopt: the text of the file
-
-  /// @throws ConfigError as readXmlFile() does.
-  XmlElement read() const { return text ? parseXml(*text, file.string()) : readXmlFile(file); }
 };
 
 /// Robot types by name.

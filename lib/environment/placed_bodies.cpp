@@ -1,0 +1,99 @@
+#include "environment/placed_bodies.h"
+
+#include <algorithm>
+
+namespace robosim {
+
+PlacedBodies::PlacedBodies(const Model& model)
+    : model_(model),
+      scene_(stationarySolids(model.world), model.fleet.robots.size(), model.world.bounds),
+      frames_(model.fleet.robots.size()) {
+  const auto& objects = model.world.objects;
+  const auto& robots = model.fleet.robots;
+  robot_bodies_.reserve(robots.size());
+  for (const auto& robot : robots) {
+    CompactBody& compact = robot_bodies_.emplace_back(CompactBody{{}, robot.body.heights()});
+    if (const auto* cylinder = std::get_if<Cylinder>(&robot.body.shape)) compact.disc_radius_m = cylinder->radius_m;
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    const auto id = static_cast<BodyId>(i);
+    const auto& pose = objects[i].body.world_from_body;
+    addHeatSource(objects[i].body, {pose.x, pose.y}, id);
+    addReflectivity(objects[i].body, id);
+  }
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    addHeatSource(robots[i].body, {}, scene_.movingBody(i));
+    addReflectivity(robots[i].body, scene_.movingBody(i));
+  }
+}
+
+void PlacedBodies::addHeatSource(const Body& body, const mrpt::math::TPoint2D& center, BodyId id) {
+  if (body.heat_celsius != 0) heat_sources_.push_back({center, body.heat_celsius, id});
+}
+
+void PlacedBodies::addReflectivity(const Body& body, BodyId id) {
+  if (body.reflectivity == kReflectivity) return;
+  reflectivity_.resize(scene_.stationaryCount() + scene_.movingCount(), static_cast<float>(kReflectivity));
+  reflectivity_[static_cast<std::size_t>(id)] = static_cast<float>(body.reflectivity);
+}
+
+void PlacedBodies::place(const State& state, const KnownRobots& known, RobotRange kept,
+                         const ParallelExecutor& workers) {
+  known.forEach(workers, kRobotChunk, [&](std::size_t i) {
+    if (state.isAbsent(i)) return scene_.remove(i);
+    const auto& pose = state.world_from_robot[i];
+    if (kept.contains(i)) frames_[i] = PlanarTransform(pose, robot_bodies_[i].heights.z_min_m);
+    scene_.place(i, solidOf(i, pose));
+  });
+  if (known.areAll()) {
+    scene_.freeze(workers);
+  } else {
+    scene_.freeze(workers, known.some());
+  }
+  for (auto& source : heat_sources_) {
+    if (static_cast<std::size_t>(source.body) < scene_.stationaryCount()) continue;
+    const std::size_t robot = scene_.movingIndex(source.body);
+    const auto& pose = state.world_from_robot[robot];
+    source.center = {pose.x, pose.y};
+    source.heat_celsius = state.isAbsent(robot) ? 0 : model_.fleet.robots[robot].body.heat_celsius;
+  }
+}
+
+Solid PlacedBodies::solidOf(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) const {
+  const CompactBody& compact = robot_bodies_[robot];
+  if (compact.disc_radius_m) {
+    return {Circle{{world_from_robot.x, world_from_robot.y}, *compact.disc_radius_m}, compact.heights};
+  }
+  Body body = model_.fleet.robots[robot].body;
+  body.world_from_body = world_from_robot;
+  return body.solid();
+}
+
+bool PlacedBodies::isFree(std::size_t robot, const Circle& disc) const {
+  if (!model_.world.bounds.covers(boundsOf(disc))) return false;
+  const Solid solid{disc, robot_bodies_[robot].heights};
+  std::vector<BodyId> near;
+  scene_.findBodies(boundsOf(disc), near);
+  return std::none_of(near.begin(), near.end(), [&](BodyId body) {
+    return body != scene_.movingBody(robot) && overlap(solid, scene_.solid(body));
+  });
+}
+
+Snapshot PlacedBodies::snapshot(const State& state, std::span<const Path> paths, ImageSource* images) const {
+  return {.scene = scene_,
+          .heat_sources = heat_sources_,
+          .world_from_robot = state.world_from_robot,
+          .frames = frames_,
+          .last_motion = state.last_motion,
+          .laser_pan_rad = state.laser_pan_rad,
+          .activity = state.activity,
+          .time = state.time,
+          .seed = state.seed,
+          .images = images,
+          .surface = model_.world.bounds,
+          .paths = paths,
+          .driven_m = state.driven_m,
+          .reflectivity = reflectivity_};
+}
+
+}  // namespace robosim
