@@ -7,7 +7,7 @@
 namespace robosim {
 namespace {
 
-const mrpt::math::TPose2D kStart(2, 2, 0);  // in the middle of region (0, 0)
+const mrpt::math::TPose2D kMarketStart(2, 2, 0);  // in the middle of region (0, 0)
 
 struct MarketTest : testing::Test {
   MarketTest() { hardware.robot_names = {"fake", "other", "third"}; }
@@ -26,7 +26,7 @@ struct MarketTest : testing::Test {
   }
   FakeHardware hardware;
   Robot robot{hardware};
-  Market market{{.seed = 1, .world_from_start = kStart}};
+  Market market{{.seed = 1, .world_from_start = kMarketStart}};
 };
 
 TEST_F(MarketTest, AuctionsTheRegionOfItsNextFrontier) {
@@ -101,7 +101,7 @@ TEST(Market, FindsTheGold) {
   walls.push_back(FakeMaze::box(2.5, 0.85, 0.1, 3.7));
   FakeMaze maze(walls, {5.3, -0.4}, 20);
   Robot robot(maze.hardware);
-  Market market({.seed = 3, .world_from_start = kStart});
+  Market market({.seed = 3, .world_from_start = kMarketStart});
   for (int i = 0; i < 1500 && robot.activity() == Activity::active; ++i) {
     market.step(robot);
     maze.hardware.advance();

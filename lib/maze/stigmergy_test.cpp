@@ -9,7 +9,7 @@
 namespace robosim {
 namespace {
 
-const mrpt::math::TPose2D kStart(0.4, 0.4, 0);  // in the middle of cell (0, 0) of 0.8 m
+const mrpt::math::TPose2D kCellStart(0.4, 0.4, 0);  // in the middle of cell (0, 0) of 0.8 m
 
 TEST(ClearanceTowards, IsTheDistanceFromTheRobotsEdgeInThatLane) {
   FakeHardware hardware;
@@ -23,7 +23,7 @@ TEST(Stigmergy, MarksTheCellsThatItEnters) {
   FakeHardware hardware;
   hardware.robot_names = {"fake", "other", "third"};
   Robot robot(hardware);
-  Stigmergy controller({.world_from_start = kStart});
+  Stigmergy controller({.world_from_start = kCellStart});
   controller.step(robot);
   ASSERT_EQ(hardware.sent.size(), 2u);
   EXPECT_EQ(hardware.sent[0], (RobotMessage{"fake", "other", "TRAIL 0 0"}));
@@ -35,13 +35,13 @@ TEST(Stigmergy, MarksTheCellsThatItEnters) {
   EXPECT_EQ(hardware.sent.size(), 2u) << "it is still in the cell";
 }
 
-/// Heading [rad] of a robot at kStart after its first turn, if these cells were visited by another robot.
+/// Heading [rad] of a robot at kCellStart after its first turn, if these cells were visited by another robot.
 double headingAfter(const std::vector<Cell>& visited, const std::vector<std::size_t>& blocked_sonars = {}) {
   FakeHardware hardware;
   hardware.robot_names = {"fake", "other"};
   for (const auto sonar : blocked_sonars) hardware.setSonarRange(sonar, 0.2);
   Robot robot(hardware);
-  Stigmergy controller({.world_from_start = kStart});
+  Stigmergy controller({.world_from_start = kCellStart});
   for (const auto& cell : visited) {
     hardware.mutableReadings().inbox.push_back({"other", "fake", TrailMessage{cell}.text()});
   }
