@@ -7,7 +7,7 @@ namespace robosim {
 namespace {
 
 using Type = PageMessage::Type;
-using Right = MessageRule::Right;
+using MessageRight = MessageRule::Right;
 using Result = Authorization::Result;
 
 using Page = MessageRule::Page;
@@ -15,28 +15,28 @@ using Primary = MessageRule::Primary;
 
 /// `stop`, `alive` and `release` are permitted during a switch, so that no stop is lost.
 constexpr std::array<MessageRule, PageMessage::kTypes> kRules{{
-    {Type::hello, Right::none, Page::any, Primary::any},
-    {Type::ack, Right::none, Page::admitted, Primary::any},
-    {Type::ping, Right::none, Page::admitted, Primary::any},
-    {Type::live, Right::none, Page::admitted, Primary::any},
-    {Type::map, Right::look, Page::admitted, Primary::any},
-    {Type::req_heat, Right::none, Page::admitted, Primary::any},
-    {Type::req_laser, Right::none, Page::admitted, Primary::any},
-    {Type::req_sonar, Right::none, Page::admitted, Primary::any},
-    {Type::take, Right::drive_primary, Page::admitted, Primary::settled},
-    {Type::release, Right::none, Page::holds_lock, Primary::any},
-    {Type::drive, Right::drive_primary, Page::holds_lock, Primary::known},
-    {Type::accelerate, Right::drive_primary, Page::holds_lock, Primary::settled},
-    {Type::decelerate, Right::drive_primary, Page::holds_lock, Primary::settled},
-    {Type::turn_left, Right::drive_primary, Page::holds_lock, Primary::settled},
-    {Type::turn_right, Right::drive_primary, Page::holds_lock, Primary::settled},
-    {Type::stop, Right::drive_primary, Page::holds_lock, Primary::any},
-    {Type::alive, Right::drive_primary, Page::holds_lock, Primary::any},
-    {Type::check_win, Right::drive_primary, Page::holds_lock, Primary::settled},
-    {Type::autonomous, Right::drive_primary, Page::holds_lock, Primary::settled},
-    {Type::switch_primary, Right::drive_primary_and_target, Page::holds_lock, Primary::settled},
-    {Type::play_again, Right::operate, Page::holds_lock, Primary::any},
-    {Type::record, Right::operate, Page::holds_lock, Primary::any},
+    {Type::hello, MessageRight::none, Page::any, Primary::any},
+    {Type::ack, MessageRight::none, Page::admitted, Primary::any},
+    {Type::ping, MessageRight::none, Page::admitted, Primary::any},
+    {Type::live, MessageRight::none, Page::admitted, Primary::any},
+    {Type::map, MessageRight::look, Page::admitted, Primary::any},
+    {Type::req_heat, MessageRight::none, Page::admitted, Primary::any},
+    {Type::req_laser, MessageRight::none, Page::admitted, Primary::any},
+    {Type::req_sonar, MessageRight::none, Page::admitted, Primary::any},
+    {Type::take, MessageRight::drive_primary, Page::admitted, Primary::settled},
+    {Type::release, MessageRight::none, Page::holds_lock, Primary::any},
+    {Type::drive, MessageRight::drive_primary, Page::holds_lock, Primary::known},
+    {Type::accelerate, MessageRight::drive_primary, Page::holds_lock, Primary::settled},
+    {Type::decelerate, MessageRight::drive_primary, Page::holds_lock, Primary::settled},
+    {Type::turn_left, MessageRight::drive_primary, Page::holds_lock, Primary::settled},
+    {Type::turn_right, MessageRight::drive_primary, Page::holds_lock, Primary::settled},
+    {Type::stop, MessageRight::drive_primary, Page::holds_lock, Primary::any},
+    {Type::alive, MessageRight::drive_primary, Page::holds_lock, Primary::any},
+    {Type::check_win, MessageRight::drive_primary, Page::holds_lock, Primary::settled},
+    {Type::autonomous, MessageRight::drive_primary, Page::holds_lock, Primary::settled},
+    {Type::switch_primary, MessageRight::drive_primary_and_target, Page::holds_lock, Primary::settled},
+    {Type::play_again, MessageRight::operate, Page::holds_lock, Primary::any},
+    {Type::record, MessageRight::operate, Page::holds_lock, Primary::any},
 }};
 
 constexpr bool isRuleAtItsIndex() {
@@ -49,12 +49,12 @@ static_assert(isRuleAtItsIndex(), "a type's rule is at its index");
 
 /// Why a token lacks a right; empty when it has it.
 std::string denial(const Access& access, const Identity& client, const PageState& state, const PageMessage& message) {
-  const Right right = ruleOf(message.type).right;
-  if (right == Right::none) return "";
-  if (right == Right::look) {
+  const MessageRight right = ruleOf(message.type).right;
+  if (right == MessageRight::none) return "";
+  if (right == MessageRight::look) {
     return mayLook(access, client) ? "" : "Your token does not permit the map, which shows true poses.";
   }
-  if (right == Right::operate) {
+  if (right == MessageRight::operate) {
     if (mayOperate(access, client)) return "";
     return message.type == Type::record ? "Your token does not permit recording the run."
                                         : "Your token does not permit starting a run.";
@@ -63,7 +63,7 @@ std::string denial(const Access& access, const Identity& client, const PageState
     return mayLook(access, client) ? "Your token permits watching, not driving."
                                    : "Your token is not for " + state.primary + ".";
   }
-  const bool names_target = right == Right::drive_primary_and_target && !message.robot.empty();
+  const bool names_target = right == MessageRight::drive_primary_and_target && !message.robot.empty();
   if (names_target && !mayDrive(access, client, message.robot)) return "Your token is not for " + message.robot + ".";
   return "";
 }
