@@ -18,11 +18,6 @@ using mrpt::math::TPoint3D;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-Outline rectangle(const Bounds2D& b) {
-  return OrientedBox{
-      {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2}, {1, 0}, (b.x_max - b.x_min) / 2, (b.y_max - b.y_min) / 2};
-}
-
 testing::AssertionResult isSame(const Hit& fast, const Hit& slow) {
   const std::string difference = whatDiffers(fast, slow);
   return difference.empty() ? testing::AssertionSuccess() : testing::AssertionFailure() << difference;

@@ -17,11 +17,6 @@ std::vector<std::uint32_t> listed(const GridIndex& grid, int column, int row) {
   return numbers;
 }
 
-Outline rectangle(const Bounds2D& b) {
-  return OrientedBox{
-      {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2}, {1, 0}, (b.x_max - b.x_min) / 2, (b.y_max - b.y_min) / 2};
-}
-
 /// Area represented by a cell: its square, extended outwards at the border.
 Outline partOf(const GridIndex& grid, int column, int row) {
   constexpr double kFar_m = 1000;

@@ -13,7 +13,7 @@ using mrpt::math::TPoint2D;
 
 constexpr double kRadius_m = 0.25;
 constexpr double kStep_m = 0.05;
-constexpr double kOffsets_m[] = {0, 1e3, 1e5, 5e6};
+constexpr double kOriginOffsets_m[] = {0, 1e3, 1e5, 5e6};
 
 class PathFarFromTheOrigin : public testing::TestWithParam<double> {};
 
@@ -96,7 +96,7 @@ TEST_P(PathFarFromTheOrigin, LetsTwoTouchingDiscsDriveSideBySide) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Offsets, PathFarFromTheOrigin, testing::ValuesIn(kOffsets_m),
+INSTANTIATE_TEST_SUITE_P(Offsets, PathFarFromTheOrigin, testing::ValuesIn(kOriginOffsets_m),
                          [](const auto& test) { return "m" + std::to_string(static_cast<long>(test.param)); });
 
 // A disc that touches a box, at the distance of a clipped move or slightly nearer because of rounding.

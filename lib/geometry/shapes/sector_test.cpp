@@ -16,8 +16,8 @@ constexpr double k10Deg = M_PI / 18;
 constexpr double k45Deg = M_PI / 4;
 const HeightSpan kHigh{0, 2};
 
-Solid disc(double x, double y, double radius_m) { return {Circle{{x, y}, radius_m}, kHigh}; }
-Solid box(double x, double y, double length_m, double width_m, double turn_rad = 0) {
+Solid highDisc(double x, double y, double radius_m) { return {Circle{{x, y}, radius_m}, kHigh}; }
+Solid highBox(double x, double y, double length_m, double width_m, double turn_rad = 0) {
   return {OrientedBox::from({x, y, turn_rad}, length_m, width_m), kHigh};
 }
 
@@ -149,69 +149,69 @@ TEST(Sector, ContainsTheDirectionsBetweenItsEdges) {
 }
 
 TEST(Sector, FindsTheNearestPointOfWhatLiesAhead) {
-  expectHit(ahead(k10Deg), disc(5, 0, 1), 4, {4, 0});
-  expectHit(ahead(k10Deg), box(5, 0, 2, 2), 4, {4, 0});
-  expectHit(ahead(k45Deg), disc(4, 3, 1), 4, {3.2, 2.4});
+  expectHit(ahead(k10Deg), highDisc(5, 0, 1), 4, {4, 0});
+  expectHit(ahead(k10Deg), highBox(5, 0, 2, 2), 4, {4, 0});
+  expectHit(ahead(k45Deg), highDisc(4, 3, 1), 4, {3.2, 2.4});
   // A box rotated by 45°: its nearest corner is √2/2 before its centre.
-  expectHit(ahead(k10Deg), box(5, 0, 1, 1, k45Deg), 5 - std::sqrt(0.5), {5 - std::sqrt(0.5), 0});
+  expectHit(ahead(k10Deg), highBox(5, 0, 1, 1, k45Deg), 5 - std::sqrt(0.5), {5 - std::sqrt(0.5), 0});
   // The corner (3, 4) lies 53.13° to the left: within 60°, and nearer than any other point of the box.
-  expectHit(ahead(M_PI / 3), box(5, 5, 4, 2), 5, {3, 4});
+  expectHit(ahead(M_PI / 3), highBox(5, 5, 4, 2), 5, {3, 4});
 }
 
 TEST(Sector, FindsThePointOnItsEdgeWhenTheNearestPointLiesOutside) {
   // The wall y = 3 within 45° of x: the nearest point, (0, 3), is outside; the edge y = x hits it at (3, 3).
-  expectHit(ahead(k45Deg), box(0, 4, 100, 2), std::sqrt(18), {3, 3});
-  expectHit(ahead(k45Deg), box(0, -4, 100, 2), std::sqrt(18), {3, -3});
+  expectHit(ahead(k45Deg), highBox(0, 4, 100, 2), std::sqrt(18), {3, 3});
+  expectHit(ahead(k45Deg), highBox(0, -4, 100, 2), std::sqrt(18), {3, -3});
   // A disc about (0, 5) with radius 4: the edge y = x hits it where x² + (x - 5)² = 16, so x = (5 - √7) / 2.
   const double x = (5 - std::sqrt(7)) / 2;
-  expectHit(ahead(k45Deg), disc(0, 5, 4), x * std::sqrt(2), {x, x});
-  expectHit(ahead(k45Deg), disc(0, -5, 4), x * std::sqrt(2), {x, -x});
+  expectHit(ahead(k45Deg), highDisc(0, 5, 4), x * std::sqrt(2), {x, x});
+  expectHit(ahead(k45Deg), highDisc(0, -5, 4), x * std::sqrt(2), {x, -x});
 }
 
 TEST(Sector, IsInvariantUnderRotation) {
   for (double turn : {0.3, 1.7, M_PI, -M_PI, -2.5, 3 * M_PI, -7.0}) {
     const TPoint2D at{std::cos(turn) * 5, std::sin(turn) * 5};
-    EXPECT_NEAR(nearestIn({{0, 0, 1}, turn, k10Deg}, disc(at.x, at.y, 1)).distance_m, 4, 1e-13) << turn;
-    EXPECT_FALSE(nearestIn({{0, 0, 1}, turn + 0.6, k10Deg}, disc(at.x, at.y, 1))) << turn;
-    EXPECT_FALSE(nearestIn({{0, 0, 1}, turn + M_PI, k10Deg}, disc(at.x, at.y, 1))) << turn;
+    EXPECT_NEAR(nearestIn({{0, 0, 1}, turn, k10Deg}, highDisc(at.x, at.y, 1)).distance_m, 4, 1e-13) << turn;
+    EXPECT_FALSE(nearestIn({{0, 0, 1}, turn + 0.6, k10Deg}, highDisc(at.x, at.y, 1))) << turn;
+    EXPECT_FALSE(nearestIn({{0, 0, 1}, turn + M_PI, k10Deg}, highDisc(at.x, at.y, 1))) << turn;
   }
 }
 
 TEST(Sector, FindsNothingBehindOrAside) {
-  EXPECT_FALSE(nearestIn(ahead(k45Deg), disc(-5, 0, 1)));
-  EXPECT_FALSE(nearestIn(ahead(k45Deg), box(-5, 0, 2, 20)));
-  EXPECT_FALSE(nearestIn(ahead(k45Deg), box(-5, -5, 2, 20))) << "behind, across both sides' lines";
-  EXPECT_FALSE(nearestIn(ahead(k10Deg), disc(3, 3, 1)));
-  EXPECT_FALSE(nearestIn(ahead(k10Deg), box(1, 5, 2, 6)));
+  EXPECT_FALSE(nearestIn(ahead(k45Deg), highDisc(-5, 0, 1)));
+  EXPECT_FALSE(nearestIn(ahead(k45Deg), highBox(-5, 0, 2, 20)));
+  EXPECT_FALSE(nearestIn(ahead(k45Deg), highBox(-5, -5, 2, 20))) << "behind, across both sides' lines";
+  EXPECT_FALSE(nearestIn(ahead(k10Deg), highDisc(3, 3, 1)));
+  EXPECT_FALSE(nearestIn(ahead(k10Deg), highBox(1, 5, 2, 6)));
   // tan 10° · 5 = 0.8816: a disc of radius 1 about (5, 2.0) reaches below that line, about (5, 1.9) too; its distance
   // from the line is (y - 0.8816) · cos 10°, equal to 1 at y = 1.8970.
   const double y = 5 * std::tan(k10Deg) + 1 / std::cos(k10Deg);
-  EXPECT_TRUE(nearestIn(ahead(k10Deg), disc(5, y - 1e-9, 1)));
-  EXPECT_FALSE(nearestIn(ahead(k10Deg), disc(5, y + 1e-9, 1)));
+  EXPECT_TRUE(nearestIn(ahead(k10Deg), highDisc(5, y - 1e-9, 1)));
+  EXPECT_FALSE(nearestIn(ahead(k10Deg), highDisc(5, y + 1e-9, 1)));
 }
 
 TEST(Sector, FindsABoxWithoutACornerInside) {
-  expectHit(ahead(k10Deg), box(5, 0, 1, 100), 4.5, {4.5, 0});
+  expectHit(ahead(k10Deg), highBox(5, 0, 1, 100), 4.5, {4.5, 0});
   // A wall along (-1, 1) through (3, 0), 0.1 m thick: its near face is x + y = 3 - 0.1·√½. The foot of the
   // perpendicular lies at 45°, outside; the edge at 10° hits the face where r (cos 10° + sin 10°) = x + y.
   const double c = 3 - 0.1 * std::sqrt(0.5), r = c / (std::cos(k10Deg) + std::sin(k10Deg));
-  expectHit(ahead(k10Deg), box(3, 0, 0.1, 100, k45Deg), r, {r * std::cos(k10Deg), r * std::sin(k10Deg)});
+  expectHit(ahead(k10Deg), highBox(3, 0, 0.1, 100, k45Deg), r, {r * std::cos(k10Deg), r * std::sin(k10Deg)});
 }
 
 TEST(Sector, IsAtZeroWithinASolidAndOnItsOutline) {
-  expectHit(ahead(k10Deg), disc(0.5, 0.5, 1), 0, {0, 0});
-  expectHit(ahead(k10Deg), box(-0.5, 0, 2, 2), 0, {0, 0});
-  expectHit(ahead(k10Deg), disc(1, 0, 1), 0, {0, 0});
-  expectHit(ahead(k10Deg), box(1, 1, 2, 2), 0, {0, 0});
-  expectHit(ahead(k10Deg), box(-1, 0, 2, 2), 0, {0, 0});
+  expectHit(ahead(k10Deg), highDisc(0.5, 0.5, 1), 0, {0, 0});
+  expectHit(ahead(k10Deg), highBox(-0.5, 0, 2, 2), 0, {0, 0});
+  expectHit(ahead(k10Deg), highDisc(1, 0, 1), 0, {0, 0});
+  expectHit(ahead(k10Deg), highBox(1, 1, 2, 2), 0, {0, 0});
+  expectHit(ahead(k10Deg), highBox(-1, 0, 2, 2), 0, {0, 0});
 }
 
 TEST(Sector, ConsidersItsHeight) {
-  EXPECT_TRUE(nearestIn(ahead(k10Deg, 0), disc(5, 0, 1)));
-  EXPECT_TRUE(nearestIn(ahead(k10Deg, 2), disc(5, 0, 1)));
-  EXPECT_FALSE(nearestIn(ahead(k10Deg, 2.001), disc(5, 0, 1)));
-  EXPECT_FALSE(nearestIn(ahead(k10Deg, -0.001), box(5, 0, 1, 1)));
-  EXPECT_FALSE(nearestIn(ahead(k10Deg, 2.001), box(0, 0, 1, 1))) << "above a solid is not inside it";
+  EXPECT_TRUE(nearestIn(ahead(k10Deg, 0), highDisc(5, 0, 1)));
+  EXPECT_TRUE(nearestIn(ahead(k10Deg, 2), highDisc(5, 0, 1)));
+  EXPECT_FALSE(nearestIn(ahead(k10Deg, 2.001), highDisc(5, 0, 1)));
+  EXPECT_FALSE(nearestIn(ahead(k10Deg, -0.001), highBox(5, 0, 1, 1)));
+  EXPECT_FALSE(nearestIn(ahead(k10Deg, 2.001), highBox(0, 0, 1, 1))) << "above a solid is not inside it";
 }
 
 TEST(Sector, AgreesWithClippingAndBisectionOverRandomSolids) {

@@ -32,6 +32,11 @@ HeightSpan randomHeights(Rng& rng, const SolidSpread& spread) {
 
 }  // namespace
 
+Outline rectangle(const Bounds2D& b) {
+  return OrientedBox{
+      {(b.x_min + b.x_max) / 2, (b.y_min + b.y_max) / 2}, {1, 0}, (b.x_max - b.x_min) / 2, (b.y_max - b.y_min) / 2};
+}
+
 TPoint2D randomPoint(Rng& rng, const Bounds2D& area) {
   const double x = rng.uniform(area.x_min, area.x_max);
   return {x, rng.uniform(area.y_min, area.y_max)};

@@ -25,6 +25,9 @@ struct SolidSpread {
   double lattice_m = 0;
 };
 
+/// The outline of an area, as a box.
+Outline rectangle(const Bounds2D&);
+
 mrpt::math::TPoint2D randomPoint(Rng&, const Bounds2D&);
 Circle randomCircle(Rng&, const SolidSpread&);
 OrientedBox randomBox(Rng&, const SolidSpread&);
