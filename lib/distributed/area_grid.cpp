@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "environment/state_stream.h"
+#include "distributed/rank_bytes.h"
 
 namespace robosim {
 
@@ -43,16 +43,17 @@ void writeArea(const Area& area, std::string& out) {
 }
 
 Area readArea(std::string_view bytes, std::uint32_t cells) {
-  StateReader in(bytes);
   Area area;
-  std::uint32_t end = 0;
-  while (!in.isAtEnd()) {
-    CellRange& range = area.emplace_back();
-    range.begin = in.takeNumber<std::uint32_t>();
-    range.end = in.takeNumber<std::uint32_t>();
-    requireContents(range.begin >= end && range.begin < range.end && range.end <= cells, "a range of cells is wrong");
-    end = range.end;
-  }
+  readRankBytes(bytes, "areas", [&](StateReader& in) {
+    std::uint32_t end = 0;
+    while (!in.isAtEnd()) {
+      CellRange& range = area.emplace_back();
+      range.begin = in.takeNumber<std::uint32_t>();
+      range.end = in.takeNumber<std::uint32_t>();
+      requireContents(range.begin >= end && range.begin < range.end && range.end <= cells, "a range of cells is wrong");
+      end = range.end;
+    }
+  });
   return area;
 }
 

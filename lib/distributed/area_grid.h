@@ -47,7 +47,7 @@ class AreaGrid {
 
 /// Appends an area's bytes, in the machine's byte order.
 void writeArea(const Area& area, std::string& out);
-/// @param cells of the grid @throws ConfigError for bytes that writeArea() cannot have written
+/// @param cells of the grid @throws std::runtime_error for bytes that writeArea() cannot have written
 Area readArea(std::string_view bytes, std::uint32_t cells);
 
 /// Robots by the cells in which they are.

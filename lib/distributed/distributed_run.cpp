@@ -10,7 +10,7 @@
 #include <time.h>
 
 #include "base/error_list.h"
-#include "environment/state_stream.h"
+#include "distributed/rank_bytes.h"
 #include "ranks/agreement.h"
 
 namespace robosim {
@@ -249,9 +249,10 @@ void DistributedRun::balance() {
   finished(waiting);
   std::vector<BusyTime> busy;
   for (const auto& bytes : all_) {
-    StateReader in(bytes);
-    const double work_s = in.takeFinite();
-    busy.push_back({work_s, in.takeFinite()});
+    readRankBytes(bytes, "times", [&](StateReader& in) {
+      const auto work_s = in.takeNumber<double>();
+      busy.push_back({work_s, in.takeNumber<double>()});
+    });
   }
   const std::vector<RobotRange> before = shares_.work;
   const std::vector<RobotRange> after = balancedWork(before, busy);

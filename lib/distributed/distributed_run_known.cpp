@@ -3,8 +3,8 @@
 
 #include "base/text_table.h"
 #include "distributed/distributed_run.h"
+#include "distributed/rank_bytes.h"
 #include "environment/known_robots.h"
-#include "environment/state_stream.h"
 
 namespace robosim {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <bit>
-#include <stdexcept>
 #include <utility>
 
+#include "distributed/rank_bytes.h"
 #include "environment/measurement_bytes.h"
 
 namespace robosim {
@@ -48,20 +48,6 @@ bool addItems(StateWriter& writer, const Write& write) {
   return !items.isEmpty();
 }
 
-/// Calls read(reader), for bytes of which it must leave nothing, unless there are none.
-template <typename Read>
-void readAll(std::string_view bytes, const char* what, const Read& read) {
-  if (bytes.empty()) return;
-  try {
-    StateReader in(bytes);
-    read(in);
-    requireContents(in.isAtEnd(), "they are too long");
-  } catch (const ConfigError& error) {
-    throw std::runtime_error("another rank has sent invalid " + std::string(what) + " (" + error.what() +
-                             "); use the same version of RoboSim on all machines");
-  }
-}
-
 /// Calls read(robot) for each item that CountedWriter has written.
 template <typename Read>
 void forItems(StateReader& in, RobotRange from, const Read& read) {
@@ -90,8 +76,8 @@ void addCommand(StateWriter& writer, const Command& command) {
 }
 
 void takeCommand(StateReader& in, Command& command) {
-  command.speed_mps = in.takeFinite();
-  command.turn_radps = in.takeFinite();
+  command.speed_mps = in.takeNumber<double>();
+  command.turn_radps = in.takeNumber<double>();
   command.laser_pan_rad = in.takeNumber<float>();
   command.activity = in.takeActivity();
   command.by_driver = in.takeFlag();
@@ -162,7 +148,7 @@ void OrdersWriter::write(const StepOrders& orders, std::span<const std::uint32_t
 }
 
 void readOrders(std::string_view bytes, RobotRange from, const StepOrders& orders) {
-  readAll(bytes, "commands", [&](StateReader& in) {
+  readRankBytes(bytes, "commands", [&](StateReader& in) {
     forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
     // Of robots whose commands are not sent.
     forItems(in, from, [&](std::size_t i) {
@@ -197,8 +183,8 @@ void writePaths(const PhaseResults& results, std::span<const std::uint32_t> robo
 }
 
 void readPaths(std::string_view bytes, RobotRange from, const PhaseResults& results) {
-  readAll(bytes, "paths", [&](StateReader& in) {
-    forItems(in, from, [&](std::size_t i) { results.paths[i].end_fraction = in.takeFinite(); });
+  readRankBytes(bytes, "paths", [&](StateReader& in) {
+    forItems(in, from, [&](std::size_t i) { results.paths[i].end_fraction = in.takeNumber<double>(); });
   });
 }
 
@@ -213,8 +199,8 @@ void writeStays(const PhaseResults& results, std::span<const std::uint32_t> robo
 }
 
 void readStays(std::string_view bytes, RobotRange from, const PhaseResults& results) {
-  readAll(bytes, "robots that stay",
-          [&](StateReader& in) { forItems(in, from, [&](std::size_t i) { results.stays[i] = 1; }); });
+  readRankBytes(bytes, "robots that stay",
+                [&](StateReader& in) { forItems(in, from, [&](std::size_t i) { results.stays[i] = 1; }); });
 }
 
 void writeReadings(const PhaseResults& results, RobotRange robots, std::string& out) {
@@ -225,8 +211,9 @@ void writeReadings(const PhaseResults& results, RobotRange robots, std::string& 
 }
 
 void readReadings(std::string_view bytes, RobotRange robots, const PhaseResults& results) {
-  readAll(bytes, "readings", [&](StateReader& in) {
-    for (std::size_t i = robots.begin; i < robots.end; ++i) readMeasurements(in, results.readings[i]);
+  readRankBytes(bytes, "readings", [&](StateReader& in) {
+    for (std::size_t i = robots.begin; i < robots.end; ++i)
+      readMeasurements(in, results.readings[i], NumberCheck::none);
   });
 }
 
@@ -252,14 +239,15 @@ void writeMotion(const MotionState& motion, const StepOrders& orders, std::span<
 
 void readMotion(std::string_view bytes, RobotRange from, const MotionState& motion, const StepOrders& orders,
                 std::vector<std::uint32_t>& read) {
-  readAll(bytes, "states of robots", [&](StateReader& in) {
+  readRankBytes(bytes, "states of robots", [&](StateReader& in) {
     forItems(in, from, [&](std::size_t i) {
-      motion.world_from_robot[i] = in.takePose();
-      motion.speed_mps[i] = in.takeFinite();
-      motion.turn_radps[i] = in.takeFinite();
-      motion.last_motion[i].length_m = in.takeFinite();
-      motion.last_motion[i].turn_rad = in.takeFinite();
-      motion.driven_m[i] = in.takeFinite();
+      auto& pose = motion.world_from_robot[i];
+      for (double* value : {&pose.x, &pose.y, &pose.phi}) *value = in.takeNumber<double>();
+      motion.speed_mps[i] = in.takeNumber<double>();
+      motion.turn_radps[i] = in.takeNumber<double>();
+      motion.last_motion[i].length_m = in.takeNumber<double>();
+      motion.last_motion[i].turn_rad = in.takeNumber<double>();
+      motion.driven_m[i] = in.takeNumber<double>();
       motion.stalled[i] = in.takeFlag() ? 1 : 0;
       motion.laser_pan_rad[i] = in.takeNumber<float>();
       takeCommand(in, orders.commands[i]);

@@ -10,8 +10,7 @@ namespace robosim {
 
 /// @file
 /// What ranks exchange in a step, as bytes in the machines' byte order. Only what differs from the state or the default
-/// that the ranks have is sent: no bytes if nothing does. The readers check the bytes' structure: they throw
-/// std::runtime_error for bytes that the writers, of the same version of RoboSim, cannot have written.
+/// that the ranks have is sent: no bytes if nothing does. The readers throw as readRankBytes() does.
 
 /// What the controllers of some robots request in a step.
 class OrdersWriter {

@@ -79,5 +79,38 @@ TEST(OrdersWriter, ReadsOnlyOrdersOfTheSendersRobots) {
   EXPECT_THROW(readOrders(bytes.substr(1), {1, 4}, to.all()), std::runtime_error);
 }
 
+/// Results of a robot with a sensor that measures named numbers, on one rank.
+struct Measured {
+  std::vector<Readings> readings{1};
+
+  explicit Measured(std::vector<double> values) { readings[0].measurements = {Values{std::move(values)}}; }
+  PhaseResults results() { return {{}, {}, readings, nullptr}; }
+};
+
+TEST(ReadingsBytes, ContainAnyNumberThatASensorMeasures) {
+  Measured from({std::nan(""), -INFINITY, 1}), to({0, 0, 0});
+  std::string bytes;
+  writeReadings(from.results(), {0, 1}, bytes);
+  readReadings(bytes, {0, 1}, to.results());
+  const auto& values = std::get<Values>(to.readings[0].measurements[0]).values;
+  EXPECT_TRUE(std::isnan(values[0]));
+  EXPECT_EQ(values[1], -INFINITY);
+  EXPECT_EQ(values[2], 1);
+}
+
+TEST(ReadingsBytes, OfAnotherSizeAreRejectedWithAnErrorAboutRanks) {
+  Measured from({1, 2}), to({0, 0, 0});
+  std::string bytes, error;
+  writeReadings(from.results(), {0, 1}, bytes);
+  try {
+    readReadings(bytes, {0, 1}, to.results());
+  } catch (const std::runtime_error& e) {
+    error = e.what();
+  }
+  EXPECT_EQ(error,
+            "another rank has sent invalid readings: they end too early; use the same version of RoboSim on all "
+            "machines");
+}
+
 }  // namespace
 }  // namespace robosim
