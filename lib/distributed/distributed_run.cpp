@@ -9,8 +9,8 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "base/error_list.h"
 #include "distributed/rank_bytes.h"
+#include "distributed/run_identity.h"
 #include "ranks/agreement.h"
 
 namespace robosim {
@@ -60,20 +60,19 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
       to_(shares_.ranks()),
       last_s_(secondsNow()) {
   for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed_.push_back(shares_.needed(rank));
+  const RunOptions given = options;
   if (own_ > 0) options.observers.clear();
   options.environment.share = RobotShare{shares_.kept(own_), shares_.digested[own_]};
   std::vector<std::uint8_t> elsewhere(shares_.robots, 1);
   for (std::size_t i = shares_.home[own_].begin; i < shares_.home[own_].end; ++i) elsewhere[i] = 0;
-  agree(group_, [&] { run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere); });
-
-  StateWriter digest;
-  digest.addNumber(digestOf(*run_->environment().model()));
-  group_.allGather(digest.bytes, all_);
+  std::string identity;
   agree(group_, [&] {
-    if (all_[own_] == all_[0]) return;
-    throw ConfigError("this process has read another world than rank 0, or another version of RoboSim runs it; give " +
-                      std::string("all machines the same files"));
+    run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere);
+    identity = identityOf(*run_->environment().model(), given, distribution_);
   });
+
+  group_.allGather(identity, all_);
+  agree(group_, [&] { requireSameRun(all_[own_], all_[0]); });
   chooseExchange();
   setWork(shares_.work);
   measured_ = {};

@@ -1,11 +1,14 @@
 #include "distributed/distributed_run.h"
 
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "base/error_list.h"
+#include "distributed/run_identity.h"
 #include "ranks/testing/thread_ranks.h"
 
 namespace robosim {
@@ -134,19 +137,57 @@ TEST(DistributedRun, ThrowsOnAllRanksTheFailureOfOne) {
   EXPECT_EQ(failed, 3);
 }
 
-TEST(DistributedRun, RefusesWorldsThatDifferBetweenRanks) {
-  int refused = 0;
+/// The errors by which two ranks refuse a run; empty for none. @param change of what rank 1 is given
+std::vector<std::string> refusalsOf(
+    const std::function<void(LoadedWorld&, RunOptions&, DistributionOptions&)>& change) {
+  std::vector<std::string> errors;
   std::mutex mutex;
   runThreadRanks(2, [&](RankGroup& group) {
-    const Settings settings{group.isFirst() ? "open_100" : "small_maze"};
+    const Settings settings{"open_100"};
+    LoadedWorld world = loaded(settings);
+    RunOptions options = optionsOf(settings, 1 + group.rank());
+    DistributionOptions distribution;
+    if (!group.isFirst()) change(world, options, distribution);
     try {
-      DistributedRun run(group, loaded(settings), optionsOf(settings, 1), {});
+      DistributedRun run(group, std::move(world), options, distribution);
     } catch (const ConfigError& error) {
       const std::lock_guard lock(mutex);
-      refused += std::string(error.what()).find("another world than rank 0") != std::string::npos ? 1 : 0;
+      errors.push_back(error.what());
     }
   });
-  EXPECT_EQ(refused, 2);
+  return errors;
+}
+
+TEST(DistributedRun, RefusesWorldsThatDifferBetweenRanks) {
+  const auto expect_refused = [](const std::string& text, const auto& change) {
+    const auto errors = refusalsOf(change);
+    ASSERT_EQ(errors.size(), 2u) << text;
+    for (const auto& error : errors) EXPECT_EQ(error.find(text), 0u) << error;
+  };
+  EXPECT_EQ(refusalsOf([](auto&, auto&, auto&) {}).size(), 0u);
+  const std::string another_world = "this process has read another world than rank 0";
+  expect_refused(another_world, [](auto& world, auto&, auto&) { world = loaded({"small_maze"}); });
+  expect_refused(another_world, [](auto&, auto& options, auto&) { options.environment.seed = 2; });
+  const std::string other_controllers = "this process has read a world with other controllers, neighbours or types";
+  expect_refused(other_controllers,
+                 [](auto& world, auto&, auto&) { world.fleet.robots[3].controller = "random_walk"; });
+  expect_refused(other_controllers, [](auto& world, auto&, auto&) { world.fleet.robots[3].info.neighbour = "x"; });
+  expect_refused(other_controllers, [](auto&, auto& options, auto&) { options.controller = "random_walk"; });
+  const std::string other_options = "this process was given other options than rank 0";
+  expect_refused(other_options, [](auto&, auto& options, auto&) { options.breakdown_mean_s = 60; });
+  expect_refused(other_options, [](auto&, auto&, auto& distribution) { distribution.balance_steps = 3; });
+}
+
+TEST(RunIdentity, DistinguishesVersionsOfRoboSim) {
+  const std::string same(24, 'x');
+  requireSameRun(same + "1.2.3", same + "1.2.3");
+  try {
+    requireSameRun(same + "1.2.3", same + "1.2.4");
+    ADD_FAILURE() << "not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "this process is RoboSim 1.2.3, and rank 0 is RoboSim 1.2.4; use the same version on all machines");
+  }
 }
 
 }  // namespace
