@@ -92,9 +92,15 @@ class DistributedRun {
   /// @name Known robots (distributed_run_known.cpp)
   ///@{
   void chooseExchange();
+  /// Of the robots of other ranks, the share that a rank knows on average after findKnownRobots(); without rank 0, if
+  /// that needs all in any case.
+  double gatherKnownShare();
   /// Exchanges the areas of ranks, and the motion of the robots in them.
   void findKnownRobots();
   void limitToKnownRobots();
+  /// Reads all_: motion of robots of the other ranks. @param of_rank ranges of robots, in ascending order
+  /// @return the robots that are in all_, in ascending order
+  std::vector<std::uint32_t> readMotionOfOthers(const std::vector<RobotRange>& of_rank);
   /// Sends motion to the ranks that newly keep robots. @param before RankShares::work and kept() until now, by rank
   void exchangeMovedShares(const std::vector<RobotRange>& before, const std::vector<RobotRange>& kept_before);
   /// Sends the poses that the referee needs to all ranks.
@@ -130,7 +136,7 @@ class DistributedRun {
   std::uint64_t near_until_step_ = 0;   ///< when the areas must be renewed
   RobotsByRank orders_of_, motion_of_;  ///< robots whose controllers run here, and that move here, by the ranks that
                                         ///< know them; one list when every rank knows all
-  std::vector<std::uint32_t> known_;    ///< by this rank; empty: all
+  std::vector<std::uint32_t> known_;    ///< by this rank; empty when every rank knows all
   std::string exchange_text_;
   OrdersWriter orders_;
   bool is_end_requested_ = false;

@@ -263,6 +263,19 @@ TEST(NearExchange, IsOfAFractionOfTheRobotsAndBytes) {
   EXPECT_LT(near_bytes, all_bytes / 3);
 }
 
+TEST(NearExchange, IsChosenByTheRobotsThatRanksKnowWithoutNeedingAll) {
+  // Two ranks in a world of 40 rows, of which each knows 3 to 4 of the other rank's 20. Rank 0 records the run.
+  const LoadedWorld world = crowdedWorld({.columns = 13, .rows = 40}, 2);
+  for (const auto& options : {DistributionOptions{.first_needs_readings = true, .balance_steps = 0},
+                              DistributionOptions{.balance_steps = 0, .first_needs_poses = true}}) {
+    const OnRanks chosen = runOf(world, 5, 2, options);
+    EXPECT_EQ(chosen.exchange.find("ranks know the robots near their own: "), 0u) << chosen.exchange;
+    EXPECT_NE(chosen.exchange.find(" m of a rank's own, except rank 0, which needs all"), std::string::npos);
+    EXPECT_EQ(chosen.measured[0].robots_moved, world.fleet.robots.size() * 5);
+    EXPECT_LT(chosen.measured[1].robots_moved, world.fleet.robots.size() * 5 * 7 / 10);
+  }
+}
+
 TEST(NearExchange, FallsBackToAllRobotsWhereNearOnesDoNotSuffice) {
   constexpr int kSteps = 20;
   LoadedWorld world = crowdedWorld({}, 1);
