@@ -107,7 +107,7 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   environment.move();
   measured_.robots_moved += near_ ? known_.size() : shares_.robots;
   finished(moves);
-  environment.senseFully(shares_.work[own_]);
+  sensor_failure_ = failureOf([&] { environment.senseFully(shares_.work[own_]); });
   finished(sensors);
   if (sends_readings_) exchangeReadings(shares_.work, needed_);
   exchangeWinCandidates();
@@ -162,7 +162,7 @@ void DistributedRun::exchangeOf(Part part, const RobotsByRank& known, const Writ
 void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
   const RobotRange home = shares_.home[own_];
   orders_.begin(run_->environment().orders(), home);
-  std::exception_ptr own = failure;
+  std::exception_ptr own = sensor_failure_ ? sensor_failure_ : failure;
   if (!own) own = failureOf([&] { run_->decide(); });
   finished(controllers);
   orders_.end(run_->environment().orders());
@@ -177,16 +177,21 @@ void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
     orders_.write(run_->environment().orders(), known, out);
     if (out.size() == 1) out.clear();
   });
-  std::vector<std::string_view> errors;
-  for (const auto& bytes : all_)
-    errors.push_back(!bytes.empty() && bytes[0] ? std::string_view(bytes).substr(1) : std::string_view());
-  errors[own_] = error;
-  throwFirstError(group_, errors, own);
+  throwFirstSent(own);
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
     if (rank == own_ || all_[rank].empty()) continue;
     readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], run_->environment().orders());
   }
   finished(commands);
+}
+
+void DistributedRun::throwFirstSent(const std::exception_ptr& own) {
+  std::vector<std::string_view> errors;
+  for (const auto& bytes : all_)
+    errors.push_back(!bytes.empty() && bytes[0] ? std::string_view(bytes).substr(1) : std::string_view());
+  const std::string error = errorBytes(own);
+  errors[own_] = error;
+  throwFirstError(group_, errors, own);
 }
 
 void DistributedRun::exchangePaths() {
@@ -217,15 +222,26 @@ void DistributedRun::exchangeStays(bool is_end_requested) {
 
 void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
   const PhaseResults results = run_->environment().results();
+  // To all ranks, so that all throw in this step; and behind a byte, as in exchangeOrders().
+  const std::string error = errorBytes(sensor_failure_);
   for (std::size_t rank = 0; rank < to.size(); ++rank) {
     to_[rank].clear();
-    if (rank != own_) writeReadings(results, intersection(from[own_], to[rank]), to_[rank]);
+    const RobotRange sent = intersection(from[own_], to[rank]);
+    if (rank == own_ || (sent.empty() && !sensor_failure_)) continue;
+    to_[rank].push_back(sensor_failure_ ? 1 : 0);
+    if (sensor_failure_) {
+      to_[rank] += error;
+    } else {
+      writeReadings(results, sent, to_[rank]);
+    }
   }
   finished(rest);
   exchange();
   finished(waiting);
+  throwFirstSent(sensor_failure_);
   for (std::size_t rank = 0; rank < from.size(); ++rank) {
-    if (rank != own_) readReadings(all_[rank], intersection(from[rank], to[own_]), results);
+    if (rank == own_ || all_[rank].empty()) continue;
+    readReadings(std::string_view(all_[rank]).substr(1), intersection(from[rank], to[own_]), results);
   }
   finished(rest);
 }
@@ -273,6 +289,7 @@ void DistributedRun::balance() {
 
 void DistributedRun::finish(const std::exception_ptr& failure) {
   agree(group_, [&] {
+    if (sensor_failure_) std::rethrow_exception(sensor_failure_);
     if (failure) std::rethrow_exception(failure);
   });
   if (near_) gatherMotion();

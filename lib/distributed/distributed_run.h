@@ -48,7 +48,9 @@ class DistributedRun {
   /// Runs the controllers and takes one time step; a collective operation.
   /// @param is_end_requested whether this rank wants the run to end after the step, as after an interrupt
   /// @param failure of this rank since the last step; null for none
-  /// @throws the error of the first rank with one, on all ranks: a failure, an exception of a controller or an observer
+  /// @throws the error of the first rank with one, on all ranks: a failure, an exception of a controller, a sensor or
+  /// an observer. That of a sensor is thrown in the same step if ranks need readings of others, as rank 0 does to
+  /// record them; otherwise by the next call of this function or of finish().
   void step(bool is_end_requested, const std::exception_ptr& failure);
   /// Whether a rank has requested the end.
   bool isEndRequested() const { return is_end_requested_; }
@@ -110,6 +112,8 @@ class DistributedRun {
   bool firstNeedsAll() const { return distribution_.first_needs_readings || distribution_.first_needs_poses; }
   ///@}
   void exchangeOrders(const std::exception_ptr& failure);
+  /// Throws the first error in all_, where that of a rank follows a byte 1. @param own of this rank; null: none
+  void throwFirstSent(const std::exception_ptr& own);
   void exchangePaths();
   void exchangeStays(bool is_end_requested);
   /// Sends readings from the ranks that have those of `from` to those that need those of `to`.
@@ -139,6 +143,7 @@ class DistributedRun {
   std::vector<std::uint32_t> known_;    ///< by this rank; empty when every rank knows all
   std::string exchange_text_;
   OrdersWriter orders_;
+  std::exception_ptr sensor_failure_;  ///< of this rank in the last step, not known to the others
   bool is_end_requested_ = false;
   bool is_over_ = false;
   std::string out_;               ///< bytes of this rank in an exchange

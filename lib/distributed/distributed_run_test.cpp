@@ -9,6 +9,7 @@
 
 #include "base/error_list.h"
 #include "distributed/run_identity.h"
+#include "environment/testing/small_world.h"
 #include "ranks/testing/thread_ranks.h"
 
 namespace robosim {
@@ -135,6 +136,98 @@ TEST(DistributedRun, ThrowsOnAllRanksTheFailureOfOne) {
     }
   });
   EXPECT_EQ(failed, 3);
+}
+
+/// A sensor whose electronics fail in step 5 of the world's last robot.
+class FailingSensor : public Sensor {
+ public:
+  FailingSensor() {
+    info_.kind = SensorKind::values;
+    info_.label = "failing";
+    info_.quantities = {{"current", "A"}};
+  }
+  const SensorInfo& info() const override { return info_; }
+  bool sensesInHostProcess() const override { return true; }
+  bool usesNeighbours() const override { return false; }
+  double robotReach(double) const override { return 0; }
+  void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t,
+             std::span<Readings>) const override {
+    for (const auto robot : robots) {
+      if (robot + 1 == now.world_from_robot.size() && now.time.step == 5) throw std::runtime_error("no current");
+    }
+  }
+
+ private:
+  SensorInfo info_;
+};
+
+/// Adds a FailingSensor to all robots of a world.
+LoadedWorld withFailingSensor(LoadedWorld world) {
+  for (FleetRobot& robot : world.fleet.robots) {
+    auto model = std::make_shared<RobotModel>(*robot.model);
+    auto infos = std::make_shared<std::vector<SensorInfo>>(*robot.info.sensors);
+    model->sensors.push_back(std::make_shared<FailingSensor>());
+    infos->push_back(model->sensors.back()->info());
+    model->sensor_infos = infos;
+    robot.model = model;
+    robot.info.sensors = infos;
+  }
+  return world;
+}
+
+TEST(DistributedRun, ThrowsOnAllRanksTheFailureOfASensor) {
+  const LoadedWorld world = withFailingSensor(loaded({"open_100"}));
+  for (const RankExchange exchange : {RankExchange::all, RankExchange::near}) {
+    for (const bool first_needs_readings : {true, false}) {
+      int failed = 0;
+      std::mutex mutex;
+      runThreadRanks(3, [&](RankGroup& group) {
+        DistributedRun run(group, world, optionsOf({"open_100"}, 1),
+                           {.first_needs_readings = first_needs_readings, .exchange = exchange});
+        std::uint64_t steps = 0;  // complete ones
+        std::string what;
+        try {
+          for (; steps < 9; ++steps) run.step(false, nullptr);
+        } catch (const std::runtime_error& error) {
+          what = error.what();
+        }
+        // In one process, too, the fifth step fails. All 100 robots are in one chunk of the digest, so that rank 0
+        // needs all readings in any case.
+        EXPECT_EQ(steps, 4u);
+        EXPECT_EQ(what, group.rank() == 2 ? "no current" : "no current (on rank 2)");
+        const std::lock_guard lock(mutex);
+        ++failed;
+      });
+      EXPECT_EQ(failed, 3);
+    }
+  }
+}
+
+TEST(DistributedRun, ThrowsTheFailureOfASensorAtItsEndIfNoRankNeedsReadingsOfOthers) {
+  // Two whole chunks of the digest, one per rank.
+  LoadedWorld world{emptyWorld(20), {}};
+  for (int i = 0; i < 512; ++i)
+    addDisc(world.world, world.fleet, "r" + std::to_string(i), {i % 32 - 16.0, i / 32 - 8.0, 0});
+  for (FleetRobot& robot : world.fleet.robots) robot.controller = "random_walk";
+  world = withFailingSensor(std::move(world));
+  for (const int steps : {5, 6}) {
+    int failed = 0;
+    std::mutex mutex;
+    runThreadRanks(2, [&](RankGroup& group) {
+      DistributedRun run(group, world, {}, {.balance_steps = 0});
+      std::string what;
+      try {
+        for (int i = 0; i < steps; ++i) run.step(false, nullptr);
+        run.finish(nullptr);
+      } catch (const std::runtime_error& error) {
+        what = error.what();
+      }
+      EXPECT_EQ(what, group.rank() == 1 ? "no current" : "no current (on rank 1)");
+      const std::lock_guard lock(mutex);
+      ++failed;
+    });
+    EXPECT_EQ(failed, 2);
+  }
 }
 
 /// The errors by which two ranks refuse a run; empty for none. @param change of what rank 1 is given

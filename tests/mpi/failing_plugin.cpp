@@ -1,4 +1,4 @@
-// A controller that fails on the last robot of a world, which is not on rank 0.
+// A controller and a sensor that fail on the last robot of a world, which is not on rank 0.
 #include <stdexcept>
 
 #include "run/plugin.h"
