@@ -126,18 +126,26 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
 void DistributedRun::allGather() {
   measured_.bytes_sent += out_.size();
   group_.allGather(out_, all_);
-  countReceived();
+  countReceived(all_);
 }
 
 void DistributedRun::exchange() {
   for (const auto& bytes : to_) measured_.bytes_sent += bytes.size();
   group_.exchange(to_, all_);
-  countReceived();
+  countReceived(all_);
 }
 
-void DistributedRun::countReceived() {
-  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
-    if (rank != own_) measured_.bytes_received += all_[rank].size();
+void DistributedRun::exchangeAndGather() {
+  for (const auto& bytes : to_) measured_.bytes_sent += bytes.size();
+  measured_.bytes_sent += out_.size();
+  group_.exchangeAndGather(to_, out_, from_, all_);
+  countReceived(from_);
+  countReceived(all_);
+}
+
+void DistributedRun::countReceived(const std::vector<std::string>& by_rank) {
+  for (std::size_t rank = 0; rank < by_rank.size(); ++rank) {
+    if (rank != own_) measured_.bytes_received += by_rank[rank].size();
   }
 }
 
@@ -165,22 +173,31 @@ void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
   std::exception_ptr own = sensor_failure_ ? sensor_failure_ : failure;
   if (!own) own = failureOf([&] { run_->decide(); });
   finished(controllers);
-  orders_.end(run_->environment().orders());
-  // A rank with an error sends only that, behind a byte.
-  const std::string error = errorBytes(own);
-  exchangeOf(commands, orders_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
-    out.push_back(own ? 1 : 0);
-    if (own) {
-      out += error;
-      return;
-    }
-    orders_.write(run_->environment().orders(), known, out);
-    if (out.size() == 1) out.clear();
-  });
+  const StepOrders orders = run_->environment().orders();
+  orders_.end(orders, near_ ? std::span<const std::uint32_t>() : std::span<const std::uint32_t>(orders_of_[0]));
+  // For all ranks. A rank with an error sends only that, behind a byte.
+  out_.clear();
+  if (own) {
+    out_ = '\1' + errorBytes(own);
+  } else if (!orders_.forAll().empty()) {
+    (out_ = '\0') += orders_.forAll();
+  }
+  for (std::size_t rank = 0; near_ && rank < to_.size(); ++rank) {
+    to_[rank].clear();
+    if (rank != own_ && !own) orders_.writeCommands(orders, orders_of_[rank], to_[rank]);
+  }
+  finished(commands);
+  if (near_) {
+    exchangeAndGather();
+  } else {
+    allGather();
+  }
+  finished(waiting);
   throwFirstSent(own);
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
-    if (rank == own_ || all_[rank].empty()) continue;
-    readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], run_->environment().orders());
+    if (rank == own_) continue;
+    if (near_) readCommands(from_[rank], shares_.home[rank], orders);
+    if (!all_[rank].empty()) readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], orders);
   }
   finished(commands);
 }

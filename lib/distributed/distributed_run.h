@@ -124,7 +124,9 @@ class DistributedRun {
   void allGather();
   /// Sends to_ to the ranks; all_ is then what they have sent to this one.
   void exchange();
-  void countReceived();
+  /// Both: from_ is then what the ranks have sent to this one, and all_ what each has sent to all.
+  void exchangeAndGather();
+  void countReceived(const std::vector<std::string>& by_rank);
   /// Adds the time since the last call to a part.
   void finished(Part part);
 
@@ -146,9 +148,9 @@ class DistributedRun {
   std::exception_ptr sensor_failure_;  ///< of this rank in the last step, not known to the others
   bool is_end_requested_ = false;
   bool is_over_ = false;
-  std::string out_;               ///< bytes of this rank in an exchange
-  std::vector<std::string> to_;   ///< the same, by the rank to which they are sent
-  std::vector<std::string> all_;  ///< bytes of all ranks
+  std::string out_;                      ///< bytes of this rank in an exchange
+  std::vector<std::string> to_;          ///< the same, by the rank to which they are sent
+  std::vector<std::string> all_, from_;  ///< bytes of all ranks
   Measured measured_;
   BusyTime busy_;  ///< since the last balance()
   double last_s_ = 0, last_processor_s_ = 0;

@@ -276,6 +276,31 @@ TEST(NearExchange, IsChosenByTheRobotsThatRanksKnowWithoutNeedingAll) {
   }
 }
 
+TEST(NearExchange, SendsAMessageOnceToAllRanks) {
+  struct Caller : Controller {
+    void step(Robot& robot) override {
+      if (robot.name() == "r0") robot.send(robot.robots().back(), std::string(4000, 'x'));
+    }
+  };
+  Registry registry;
+  registry.controllers.add(
+      {"caller", "Sends.", {}, {}, [](const auto&, const auto&) { return std::make_unique<Caller>(); }});
+  addToProgram(registry);
+  LoadedWorld made;
+  made.world = emptyWorld(200);
+  for (int i = 0; i < 500; ++i) {
+    addDisc(made.world, made.fleet, "r" + std::to_string(i), {i % 10 * 4.0 - 20, i / 10 * 4.0 - 100, 0});
+    made.fleet.robots.back().controller = "caller";
+  }
+  const OnRanks near = runOf(made, 10, 5, {.balance_steps = 0, .exchange = kNear});
+  EXPECT_EQ(near.exchange.find("ranks know the robots near their own: "), 0u) << near.exchange;
+  EXPECT_EQ(near.result, resultAlone(made, 10));
+  // Ten messages, and the motion of near robots; not four times as much.
+  EXPECT_GT(near.measured[0].bytes_sent, 40'000u);
+  EXPECT_LT(near.measured[0].bytes_sent, 80'000u);
+  for (std::size_t rank = 1; rank < 5; ++rank) EXPECT_GT(near.measured[rank].bytes_received, 40'000u) << rank;
+}
+
 TEST(NearExchange, FallsBackToAllRobotsWhereNearOnesDoNotSuffice) {
   constexpr int kSteps = 20;
   LoadedWorld world = crowdedWorld({}, 1);

@@ -99,18 +99,29 @@ bool OrdersWriter::hasChanged(const StepOrders& orders, std::size_t robot) const
   return !haveSameBits(orders.commands[robot], commands_[robot - robots_.begin]);
 }
 
-void OrdersWriter::end(const StepOrders& orders) {
-  of_all_.clear();
-  has_changes_of_all_ = false;
-  append(of_all_, [&](StateWriter& writer) {
-    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+bool OrdersWriter::addCommands(StateWriter& writer, const StepOrders& orders,
+                               std::span<const std::uint32_t> known) const {
+  return addItems(writer, [&](CountedWriter& items) {
+    for (const std::uint32_t i : known) {
+      if (!hasChanged(orders, i)) continue;
+      items.beginItem(i);
+      addCommand(writer, orders.commands[i]);
+    }
+  });
+}
+
+void OrdersWriter::end(const StepOrders& orders, std::span<const std::uint32_t> known_to_all) {
+  for_all_.clear();
+  append(for_all_, [&](StateWriter& writer) {
+    bool has_changes = addCommands(writer, orders, known_to_all);
+    has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         if (orders.commands[i].activity == commands_[i - robots_.begin].activity) continue;
         items.beginItem(i);
         writer.addNumber(static_cast<std::uint8_t>(orders.commands[i].activity));
       }
     });
-    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+    has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         const Outbox& outbox = orders.outboxes[i];
         const Sent& before = sent_[i - robots_.begin];
@@ -124,31 +135,28 @@ void OrdersWriter::end(const StepOrders& orders) {
         }
       }
     });
-    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+    has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         if (orders.win_requests[i] != win_requests_[i - robots_.begin]) items.beginItem(i);
       }
     });
-    return true;
+    return has_changes;
   });
 }
 
-void OrdersWriter::write(const StepOrders& orders, std::span<const std::uint32_t> known, std::string& out) const {
-  append(out, [&](StateWriter& writer) {
-    const bool has_commands = addItems(writer, [&](CountedWriter& items) {
-      for (const std::uint32_t i : known) {
-        if (!hasChanged(orders, i)) continue;
-        items.beginItem(i);
-        addCommand(writer, orders.commands[i]);
-      }
-    });
-    writer.bytes += of_all_;
-    return has_commands || has_changes_of_all_;
+void OrdersWriter::writeCommands(const StepOrders& orders, std::span<const std::uint32_t> known,
+                                 std::string& out) const {
+  append(out, [&](StateWriter& writer) { return addCommands(writer, orders, known); });
+}
+
+void readCommands(std::string_view bytes, RobotRange from, const StepOrders& orders) {
+  readRankBytes(bytes, "commands", [&](StateReader& in) {
+    forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
   });
 }
 
 void readOrders(std::string_view bytes, RobotRange from, const StepOrders& orders) {
-  readRankBytes(bytes, "commands", [&](StateReader& in) {
+  readRankBytes(bytes, "orders", [&](StateReader& in) {
     forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
     // Of robots whose commands are not sent.
     forItems(in, from, [&](std::size_t i) {

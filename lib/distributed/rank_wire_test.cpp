@@ -23,16 +23,14 @@ struct Orders {
   StepOrders all() { return {commands, outboxes, may_send, win_requests, activity}; }
 };
 
-/// Bytes about robots 1 to 3 of 5, of which the receiver knows 1 and 3, after `decide` has changed the orders.
+/// Bytes about robots 1 to 3 of 5, of which all receivers know 1 and 3, after `decide` has changed the orders.
 template <typename Decide>
 std::string bytesAfter(Orders& orders, const Decide& decide) {
   OrdersWriter writer;
   writer.begin(orders.all(), {1, 4});
   decide();
-  writer.end(orders.all());
-  std::string bytes;
-  writer.write(orders.all(), std::vector<std::uint32_t>{1, 3}, bytes);
-  return bytes;
+  writer.end(orders.all(), std::vector<std::uint32_t>{1, 3});
+  return std::string(writer.forAll());
 }
 
 TEST(OrdersWriter, WritesChangedCommandsOfRobotsThatTheReceiverKnows) {
@@ -45,6 +43,24 @@ TEST(OrdersWriter, WritesChangedCommandsOfRobotsThatTheReceiverKnows) {
   EXPECT_EQ(to.commands[2], Command());
   EXPECT_EQ(to.commands[3], from.commands[3]);
   EXPECT_EQ(bytesAfter(from, [&] { from.commands[2].speed_mps = 3; }), "") << "the receiver does not know robot 2";
+}
+
+TEST(OrdersWriter, WritesCommandsForOneReceiverSeparately) {
+  Orders from(5), to(5);
+  OrdersWriter writer;
+  writer.begin(from.all(), {1, 4});
+  from.commands[1].speed_mps = 1;
+  from.commands[3].speed_mps = 3;
+  writer.end(from.all(), {});
+  EXPECT_EQ(writer.forAll(), "");
+  std::string bytes, none;
+  writer.writeCommands(from.all(), std::vector<std::uint32_t>{2, 3}, bytes);
+  readCommands(bytes, {1, 4}, to.all());
+  EXPECT_EQ(to.commands[1], Command());
+  EXPECT_EQ(to.commands[3], from.commands[3]);
+  writer.writeCommands(from.all(), std::vector<std::uint32_t>{2}, none);
+  EXPECT_EQ(none, "");
+  EXPECT_THROW(readCommands(bytes, {1, 3}, to.all()), std::runtime_error);
 }
 
 TEST(OrdersWriter, DistinguishesNegativeZero) {
