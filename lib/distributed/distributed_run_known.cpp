@@ -22,7 +22,7 @@ void DistributedRun::chooseExchange() {
   if (distribution_.exchange == RankExchange::all) reason = "as requested";
   if (shares_.ranks() == 1) reason = "there is one rank";
   if (reason.empty()) {
-    near_ = std::make_unique<NearRobots>(environment.world().bounds, interaction);
+    near_ = std::make_unique<NearRobots>(environment.world().bounds, shares_.robots, interaction);
     findKnownRobots();
     const double of_others = gatherKnownShare();
     const std::string share = fixed(100 * of_others, 1) + " % of the robots of other ranks are within " +
