@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -20,11 +21,12 @@ struct CellRange {
 /// A part of the surface, in ascending order of cells, without common ones.
 using Area = std::vector<CellRange>;
 
-/// A coarse grid over the surface of a world. Its border cells extend outwards without limit.
+/// A coarse grid over the surface of a world. Its border cells extend outwards without limit. Its number of cells is
+/// limited in proportion to that of robots, and so are the time and memory of the functions below.
 class AreaGrid {
  public:
   /// @param reach_m distance for which around() is called
-  AreaGrid(const Bounds2D& surface, double reach_m);
+  AreaGrid(const Bounds2D& surface, std::size_t robots, double reach_m);
 
   std::uint32_t cells() const { return columns_ * rows_; }
   std::uint32_t cellAt(const mrpt::math::TPose2D& pose) const { return row(pose.y) * columns_ + column(pose.x); }
@@ -33,7 +35,6 @@ class AreaGrid {
   Area around(std::span<const mrpt::math::TPose2D> poses, RobotRange robots, double reach_m) const;
 
  private:
-  static constexpr double kCellsMax = 65536;  ///< approximately
   static std::uint32_t index(double cells, std::uint32_t count) {
     return cells > 0 ? static_cast<std::uint32_t>(std::min(cells, count - 1.0)) : 0;
   }
@@ -47,13 +48,13 @@ class AreaGrid {
 
 /// Appends an area's bytes, in the machine's byte order.
 void writeArea(const Area& area, std::string& out);
-/// @param cells of the grid @throws ConfigError for bytes that writeArea() cannot have written
+/// @param cells of the grid @throws std::runtime_error for bytes that writeArea() cannot have written
 Area readArea(std::string_view bytes, std::uint32_t cells);
 
 /// Robots by the cells in which they are.
 class RobotsByCell {
  public:
-  explicit RobotsByCell(const AreaGrid& grid) : grid_(grid), begin_(grid.cells() + 1) {}
+  explicit RobotsByCell(const AreaGrid& grid) : grid_(grid) {}
 
   /// Replaces them. @param poses of all robots
   void assign(std::span<const mrpt::math::TPose2D> poses, RobotRange robots);
@@ -62,7 +63,8 @@ class RobotsByCell {
 
  private:
   const AreaGrid& grid_;
-  std::vector<std::uint32_t> begin_;   ///< of each cell in robots_, and the end
+  CellRange cells_;                    ///< contains all robots
+  std::vector<std::uint32_t> begin_;   ///< of each of cells_ in robots_, and the end
   std::vector<std::uint32_t> robots_;  ///< sorted by cell
   std::vector<std::uint32_t> cell_;    ///< of each robot, in the order assigned
 };

@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error_list.h"
 #include "base/random.h"
 
 namespace robosim {
@@ -20,7 +19,7 @@ bool contains(const Area& area, std::uint32_t cell) {
 
 TEST(AreaGrid, ListsTheCellsWithinReachByRows) {
   // Cells of 2 m: 6 columns and rows, since the surface's upper edges are in cells of their own.
-  const AreaGrid grid({0, 10, 0, 10}, 4);
+  const AreaGrid grid({0, 10, 0, 10}, 2, 4);
   EXPECT_EQ(grid.cells(), 36u);
   EXPECT_EQ(grid.cellAt({0, 0, 0}), 0u);
   EXPECT_EQ(grid.cellAt({5, 3, 0}), 8u);
@@ -36,7 +35,7 @@ TEST(AreaGrid, ContainsAllPointsWithinReachAndNoneTwoCellsBeyond) {
   Rng rng(1);
   for (int round = 0; round < 300; ++round) {
     const double width_m = rng.uniform(0.1, 300), length_m = rng.uniform(0.1, 300), reach_m = rng.uniform(4, 40);
-    const AreaGrid grid({-width_m, width_m, 5, 5 + length_m}, reach_m);
+    const AreaGrid grid({-width_m, width_m, 5, 5 + length_m}, 10, reach_m);
     const auto somewhere = [&] { return TPose2D(rng.uniform(-1.1, 1.1) * width_m, rng.uniform(0, 1.1) * length_m, 0); };
     std::vector<TPose2D> poses;
     for (int i = 0; i < 10; ++i) poses.push_back(somewhere());
@@ -62,11 +61,25 @@ TEST(AreaGrid, ContainsAllPointsWithinReachAndNoneTwoCellsBeyond) {
   }
 }
 
-TEST(AreaGrid, HasNotManyMoreThan65536Cells) {
+TEST(AreaGrid, HasNotManyMoreCellsThan65536OrFourTimesTheRobots) {
   for (const Bounds2D& surface : {Bounds2D{0, 1e6, 0, 1e6}, Bounds2D{0, 1e6, 0, 0.5}, Bounds2D{0, 0, 0, 1e6}}) {
-    const AreaGrid grid(surface, 1);
-    EXPECT_LE(grid.cells(), 3 * 65536u + 1);
-    EXPECT_GE(grid.cells(), 65536u);
+    for (const std::uint32_t robots : {1u, 100'000u}) {
+      const std::uint32_t expected = std::max(65536u, 4 * robots);
+      const AreaGrid grid(surface, robots, 1);
+      EXPECT_LE(grid.cells(), 3 * expected + 1);
+      EXPECT_GE(grid.cells(), expected);
+    }
+  }
+}
+
+TEST(AreaGrid, HasCellsOfHalfTheReachInWorldsOfMillionsOfRobots) {
+  // 16 m² per robot, as in the benchmark of ranks, and cells of 4.05 m.
+  constexpr double kReach_m = 8.1;
+  for (const std::size_t rows : {1'000u, 3'162u}) {
+    const double side_m = 4 * static_cast<double>(rows);
+    const AreaGrid grid({0, side_m, 0, side_m}, rows * rows, kReach_m);
+    const auto cells_per_side = static_cast<std::uint32_t>(side_m / 4.05) + 1;
+    EXPECT_EQ(grid.cells(), cells_per_side * cells_per_side);
   }
 }
 
@@ -78,14 +91,14 @@ TEST(AreaGrid, RejectsBytesThatAreNoArea) {
   };
   EXPECT_EQ(readArea("", 10), Area());
   for (const Area& area : {Area{{3, 3}}, Area{{3, 11}}, Area{{3, 5}, {4, 6}}, Area{{3, 5}, {1, 2}}}) {
-    EXPECT_THROW(readArea(bytes_of(area), 10), ConfigError);
+    EXPECT_THROW(readArea(bytes_of(area), 10), std::runtime_error);
   }
-  EXPECT_THROW(readArea(bytes_of({{3, 5}}).substr(1), 10), ConfigError);
+  EXPECT_THROW(readArea(bytes_of({{3, 5}}).substr(1), 10), std::runtime_error);
 }
 
 TEST(RobotsByCell, FindsThoseInTheCellsOfAnArea) {
   Rng rng(1);
-  const AreaGrid grid({0, 50, 0, 50}, 10);
+  const AreaGrid grid({0, 50, 0, 50}, 500, 10);
   RobotsByCell by_cell(grid);
   std::vector<TPose2D> poses;
   for (int i = 0; i < 500; ++i) poses.emplace_back(rng.uniform(0, 50), rng.uniform(0, 50), 0);

@@ -9,8 +9,8 @@
 #include <sys/resource.h>
 #include <time.h>
 
-#include "base/error_list.h"
-#include "environment/state_stream.h"
+#include "distributed/rank_bytes.h"
+#include "distributed/run_identity.h"
 #include "ranks/agreement.h"
 
 namespace robosim {
@@ -60,20 +60,19 @@ DistributedRun::DistributedRun(RankGroup& group, LoadedWorld world, RunOptions o
       to_(shares_.ranks()),
       last_s_(secondsNow()) {
   for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) needed_.push_back(shares_.needed(rank));
+  const RunOptions given = options;
   if (own_ > 0) options.observers.clear();
   options.environment.share = RobotShare{shares_.kept(own_), shares_.digested[own_]};
   std::vector<std::uint8_t> elsewhere(shares_.robots, 1);
   for (std::size_t i = shares_.home[own_].begin; i < shares_.home[own_].end; ++i) elsewhere[i] = 0;
-  agree(group_, [&] { run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere); });
-
-  StateWriter digest;
-  digest.addNumber(digestOf(*run_->environment().model()));
-  group_.allGather(digest.bytes, all_);
+  std::string identity;
   agree(group_, [&] {
-    if (all_[own_] == all_[0]) return;
-    throw ConfigError("this process has read another world than rank 0, or another version of RoboSim runs it; give " +
-                      std::string("all machines the same files"));
+    run_ = std::make_unique<LocalRun>(std::move(world), options, elsewhere);
+    identity = identityOf(*run_->environment().model(), given, distribution_);
   });
+
+  group_.allGather(identity, all_);
+  agree(group_, [&] { requireSameRun(all_[own_], all_[0]); });
   chooseExchange();
   setWork(shares_.work);
   measured_ = {};
@@ -108,7 +107,7 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   environment.move();
   measured_.robots_moved += near_ ? known_.size() : shares_.robots;
   finished(moves);
-  environment.senseFully(shares_.work[own_]);
+  sensor_failure_ = failureOf([&] { environment.senseFully(shares_.work[own_]); });
   finished(sensors);
   if (sends_readings_) exchangeReadings(shares_.work, needed_);
   exchangeWinCandidates();
@@ -127,18 +126,26 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
 void DistributedRun::allGather() {
   measured_.bytes_sent += out_.size();
   group_.allGather(out_, all_);
-  countReceived();
+  countReceived(all_);
 }
 
 void DistributedRun::exchange() {
   for (const auto& bytes : to_) measured_.bytes_sent += bytes.size();
   group_.exchange(to_, all_);
-  countReceived();
+  countReceived(all_);
 }
 
-void DistributedRun::countReceived() {
-  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
-    if (rank != own_) measured_.bytes_received += all_[rank].size();
+void DistributedRun::exchangeAndGather() {
+  for (const auto& bytes : to_) measured_.bytes_sent += bytes.size();
+  measured_.bytes_sent += out_.size();
+  group_.exchangeAndGather(to_, out_, from_, all_);
+  countReceived(from_);
+  countReceived(all_);
+}
+
+void DistributedRun::countReceived(const std::vector<std::string>& by_rank) {
+  for (std::size_t rank = 0; rank < by_rank.size(); ++rank) {
+    if (rank != own_) measured_.bytes_received += by_rank[rank].size();
   }
 }
 
@@ -163,31 +170,45 @@ void DistributedRun::exchangeOf(Part part, const RobotsByRank& known, const Writ
 void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
   const RobotRange home = shares_.home[own_];
   orders_.begin(run_->environment().orders(), home);
-  std::exception_ptr own = failure;
+  std::exception_ptr own = sensor_failure_ ? sensor_failure_ : failure;
   if (!own) own = failureOf([&] { run_->decide(); });
   finished(controllers);
-  orders_.end(run_->environment().orders());
-  // A rank with an error sends only that, behind a byte.
-  const std::string error = errorBytes(own);
-  exchangeOf(commands, orders_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
-    out.push_back(own ? 1 : 0);
-    if (own) {
-      out += error;
-      return;
-    }
-    orders_.write(run_->environment().orders(), known, out);
-    if (out.size() == 1) out.clear();
-  });
+  const StepOrders orders = run_->environment().orders();
+  orders_.end(orders, near_ ? std::span<const std::uint32_t>() : std::span<const std::uint32_t>(orders_of_[0]));
+  // For all ranks. A rank with an error sends only that, behind a byte.
+  out_.clear();
+  if (own) {
+    out_ = '\1' + errorBytes(own);
+  } else if (!orders_.forAll().empty()) {
+    (out_ = '\0') += orders_.forAll();
+  }
+  for (std::size_t rank = 0; near_ && rank < to_.size(); ++rank) {
+    to_[rank].clear();
+    if (rank != own_ && !own) orders_.writeCommands(orders, orders_of_[rank], to_[rank]);
+  }
+  finished(commands);
+  if (near_) {
+    exchangeAndGather();
+  } else {
+    allGather();
+  }
+  finished(waiting);
+  throwFirstSent(own);
+  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
+    if (rank == own_) continue;
+    if (near_) readCommands(from_[rank], shares_.home[rank], orders);
+    if (!all_[rank].empty()) readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], orders);
+  }
+  finished(commands);
+}
+
+void DistributedRun::throwFirstSent(const std::exception_ptr& own) {
   std::vector<std::string_view> errors;
   for (const auto& bytes : all_)
     errors.push_back(!bytes.empty() && bytes[0] ? std::string_view(bytes).substr(1) : std::string_view());
+  const std::string error = errorBytes(own);
   errors[own_] = error;
   throwFirstError(group_, errors, own);
-  for (std::size_t rank = 0; rank < all_.size(); ++rank) {
-    if (rank == own_ || all_[rank].empty()) continue;
-    readOrders(std::string_view(all_[rank]).substr(1), shares_.home[rank], run_->environment().orders());
-  }
-  finished(commands);
 }
 
 void DistributedRun::exchangePaths() {
@@ -218,15 +239,26 @@ void DistributedRun::exchangeStays(bool is_end_requested) {
 
 void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
   const PhaseResults results = run_->environment().results();
+  // To all ranks, so that all throw in this step; and behind a byte, as in exchangeOrders().
+  const std::string error = errorBytes(sensor_failure_);
   for (std::size_t rank = 0; rank < to.size(); ++rank) {
     to_[rank].clear();
-    if (rank != own_) writeReadings(results, intersection(from[own_], to[rank]), to_[rank]);
+    const RobotRange sent = intersection(from[own_], to[rank]);
+    if (rank == own_ || (sent.empty() && !sensor_failure_)) continue;
+    to_[rank].push_back(sensor_failure_ ? 1 : 0);
+    if (sensor_failure_) {
+      to_[rank] += error;
+    } else {
+      writeReadings(results, sent, to_[rank]);
+    }
   }
   finished(rest);
   exchange();
   finished(waiting);
+  throwFirstSent(sensor_failure_);
   for (std::size_t rank = 0; rank < from.size(); ++rank) {
-    if (rank != own_) readReadings(all_[rank], intersection(from[rank], to[own_]), results);
+    if (rank == own_ || all_[rank].empty()) continue;
+    readReadings(std::string_view(all_[rank]).substr(1), intersection(from[rank], to[own_]), results);
   }
   finished(rest);
 }
@@ -249,9 +281,10 @@ void DistributedRun::balance() {
   finished(waiting);
   std::vector<BusyTime> busy;
   for (const auto& bytes : all_) {
-    StateReader in(bytes);
-    const double work_s = in.takeFinite();
-    busy.push_back({work_s, in.takeFinite()});
+    readRankBytes(bytes, "times", [&](StateReader& in) {
+      const auto work_s = in.takeNumber<double>();
+      busy.push_back({work_s, in.takeNumber<double>()});
+    });
   }
   const std::vector<RobotRange> before = shares_.work;
   const std::vector<RobotRange> after = balancedWork(before, busy);
@@ -273,6 +306,7 @@ void DistributedRun::balance() {
 
 void DistributedRun::finish(const std::exception_ptr& failure) {
   agree(group_, [&] {
+    if (sensor_failure_) std::rethrow_exception(sensor_failure_);
     if (failure) std::rethrow_exception(failure);
   });
   if (near_) gatherMotion();

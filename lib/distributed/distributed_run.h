@@ -48,7 +48,9 @@ class DistributedRun {
   /// Runs the controllers and takes one time step; a collective operation.
   /// @param is_end_requested whether this rank wants the run to end after the step, as after an interrupt
   /// @param failure of this rank since the last step; null for none
-  /// @throws the error of the first rank with one, on all ranks: a failure, an exception of a controller or an observer
+  /// @throws the error of the first rank with one, on all ranks: a failure, an exception of a controller, a sensor or
+  /// an observer. That of a sensor is thrown in the same step if ranks need readings of others, as rank 0 does to
+  /// record them; otherwise by the next call of this function or of finish().
   void step(bool is_end_requested, const std::exception_ptr& failure);
   /// Whether a rank has requested the end.
   bool isEndRequested() const { return is_end_requested_; }
@@ -92,9 +94,15 @@ class DistributedRun {
   /// @name Known robots (distributed_run_known.cpp)
   ///@{
   void chooseExchange();
+  /// Of the robots of other ranks, the share that a rank knows on average after findKnownRobots(); without rank 0, if
+  /// that needs all in any case.
+  double gatherKnownShare();
   /// Exchanges the areas of ranks, and the motion of the robots in them.
   void findKnownRobots();
   void limitToKnownRobots();
+  /// Reads all_: motion of robots of the other ranks. @param of_rank ranges of robots, in ascending order
+  /// @return the robots that are in all_, in ascending order
+  std::vector<std::uint32_t> readMotionOfOthers(const std::vector<RobotRange>& of_rank);
   /// Sends motion to the ranks that newly keep robots. @param before RankShares::work and kept() until now, by rank
   void exchangeMovedShares(const std::vector<RobotRange>& before, const std::vector<RobotRange>& kept_before);
   /// Sends the poses that the referee needs to all ranks.
@@ -104,6 +112,8 @@ class DistributedRun {
   bool firstNeedsAll() const { return distribution_.first_needs_readings || distribution_.first_needs_poses; }
   ///@}
   void exchangeOrders(const std::exception_ptr& failure);
+  /// Throws the first error in all_, where that of a rank follows a byte 1. @param own of this rank; null: none
+  void throwFirstSent(const std::exception_ptr& own);
   void exchangePaths();
   void exchangeStays(bool is_end_requested);
   /// Sends readings from the ranks that have those of `from` to those that need those of `to`.
@@ -114,7 +124,9 @@ class DistributedRun {
   void allGather();
   /// Sends to_ to the ranks; all_ is then what they have sent to this one.
   void exchange();
-  void countReceived();
+  /// Both: from_ is then what the ranks have sent to this one, and all_ what each has sent to all.
+  void exchangeAndGather();
+  void countReceived(const std::vector<std::string>& by_rank);
   /// Adds the time since the last call to a part.
   void finished(Part part);
 
@@ -130,14 +142,15 @@ class DistributedRun {
   std::uint64_t near_until_step_ = 0;   ///< when the areas must be renewed
   RobotsByRank orders_of_, motion_of_;  ///< robots whose controllers run here, and that move here, by the ranks that
                                         ///< know them; one list when every rank knows all
-  std::vector<std::uint32_t> known_;    ///< by this rank; empty: all
+  std::vector<std::uint32_t> known_;    ///< by this rank; empty when every rank knows all
   std::string exchange_text_;
   OrdersWriter orders_;
+  std::exception_ptr sensor_failure_;  ///< of this rank in the last step, not known to the others
   bool is_end_requested_ = false;
   bool is_over_ = false;
-  std::string out_;               ///< bytes of this rank in an exchange
-  std::vector<std::string> to_;   ///< the same, by the rank to which they are sent
-  std::vector<std::string> all_;  ///< bytes of all ranks
+  std::string out_;                      ///< bytes of this rank in an exchange
+  std::vector<std::string> to_;          ///< the same, by the rank to which they are sent
+  std::vector<std::string> all_, from_;  ///< bytes of all ranks
   Measured measured_;
   BusyTime busy_;  ///< since the last balance()
   double last_s_ = 0, last_processor_s_ = 0;

@@ -1,10 +1,11 @@
 // The part of DistributedRun about the robots that each rank knows.
+#include <algorithm>
 #include <utility>
 
 #include "base/text_table.h"
 #include "distributed/distributed_run.h"
+#include "distributed/rank_bytes.h"
 #include "environment/known_robots.h"
-#include "environment/state_stream.h"
 
 namespace robosim {
 namespace {
@@ -21,18 +22,12 @@ void DistributedRun::chooseExchange() {
   if (distribution_.exchange == RankExchange::all) reason = "as requested";
   if (shares_.ranks() == 1) reason = "there is one rank";
   if (reason.empty()) {
-    near_ = std::make_unique<NearRobots>(environment.world().bounds, interaction);
+    near_ = std::make_unique<NearRobots>(environment.world().bounds, shares_.robots, interaction);
     findKnownRobots();
-    StateWriter own;
-    own.addNumber(static_cast<std::uint64_t>(known_.size()));
-    out_ = std::move(own.bytes);
-    allGather();
-    std::uint64_t known = 0;  // by all ranks
-    for (const auto& bytes : all_) known += StateReader(bytes).takeNumber<std::uint64_t>();
-    const double of_others = static_cast<double>(known - shares_.robots) / static_cast<double>(shares_.ranks() - 1) /
-                             static_cast<double>(shares_.robots);
+    const double of_others = gatherKnownShare();
     const std::string share = fixed(100 * of_others, 1) + " % of the robots of other ranks are within " +
-                              fixed(near_->reach(), 1) + " m of a rank's own";
+                              fixed(near_->reach(), 1) + " m of a rank's own" +
+                              (firstNeedsAll() ? ", except rank 0, which needs all" : "");
     if (distribution_.exchange == RankExchange::near || of_others <= kKnownShareMax) {
       exchange_text_ = "ranks know the robots near their own: " + share + ", which is renewed every " +
                        std::to_string(near_->steps()) + " steps";
@@ -41,8 +36,23 @@ void DistributedRun::chooseExchange() {
     reason = share;
   }
   near_.reset();
+  known_ = {};
   exchange_text_ = "ranks know all robots: " + reason;
   orders_of_ = {listOf(shares_.home[own_])};  // setWork() sets the other
+}
+
+double DistributedRun::gatherKnownShare() {
+  StateWriter own;
+  own.addNumber(static_cast<std::uint64_t>(known_.size()));
+  out_ = std::move(own.bytes);
+  allGather();
+  std::uint64_t known = 0, others = 0;
+  for (std::size_t rank = firstNeedsAll() ? 1 : 0; rank < shares_.ranks(); ++rank) {
+    const std::size_t work = shares_.work[rank].end - shares_.work[rank].begin;
+    readRankBytes(all_[rank], "numbers", [&](StateReader& in) { known += in.takeNumber<std::uint64_t>() - work; });
+    others += shares_.robots - work;
+  }
+  return others == 0 ? 0 : static_cast<double>(known) / static_cast<double>(others);
 }
 
 void DistributedRun::findKnownRobots() {
@@ -64,15 +74,18 @@ void DistributedRun::findKnownRobots() {
   finished(moves);
   exchange();
   finished(waiting);
-  known_.clear();
+  known_ = readMotionOfOthers(shares_.work);
+  const std::vector<std::uint32_t> own = listOf(shares_.work[own_]);
+  if (!own.empty()) known_.insert(std::lower_bound(known_.begin(), known_.end(), own[0]), own.begin(), own.end());
+}
+
+std::vector<std::uint32_t> DistributedRun::readMotionOfOthers(const std::vector<RobotRange>& of_rank) {
+  Environment& environment = run_->environment();
+  std::vector<std::uint32_t> robots;
   for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
-    if (rank != own_) {
-      readMotion(all_[rank], shares_.work[rank], motion, environment.orders(), known_);
-    } else {
-      for (std::size_t i = shares_.work[own_].begin; i < shares_.work[own_].end; ++i)
-        known_.push_back(static_cast<std::uint32_t>(i));
-    }
+    if (rank != own_) readMotion(all_[rank], of_rank[rank], environment.motion(), environment.orders(), robots);
   }
+  return robots;
 }
 
 void DistributedRun::limitToKnownRobots() {
@@ -96,10 +109,7 @@ void DistributedRun::exchangeMovedShares(const std::vector<RobotRange>& before,
   finished(rest);
   exchange();
   finished(waiting);
-  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
-    std::vector<std::uint32_t> received;
-    if (rank != own_) readMotion(all_[rank], before[rank], environment.motion(), environment.orders(), received);
-  }
+  readMotionOfOthers(before);
 }
 
 void DistributedRun::exchangeWinCandidates() {
@@ -113,10 +123,7 @@ void DistributedRun::exchangeWinCandidates() {
   finished(rest);
   allGather();
   finished(waiting);
-  for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
-    std::vector<std::uint32_t> received;
-    if (rank != own_) readMotion(all_[rank], shares_.work[rank], environment.motion(), environment.orders(), received);
-  }
+  readMotionOfOthers(shares_.work);
 }
 
 void DistributedRun::gatherMotion() {
@@ -129,11 +136,13 @@ void DistributedRun::gatherMotion() {
   group_.gather(out_, all_);
   if (own_ > 0) return;
   for (std::size_t rank = 1; rank < shares_.ranks(); ++rank) {
-    const std::string_view bytes = all_[rank];
-    if (!firstNeedsAll()) motion.stalls += StateReader(bytes).takeNumber<std::uint64_t>();
-    std::vector<std::uint32_t> received;
-    readMotion(bytes.substr(sizeof motion.stalls), shares_.work[rank], motion, environment.orders(), received);
+    const auto counted = std::string_view(all_[rank]).substr(0, sizeof motion.stalls);
+    std::uint64_t stalls = 0;
+    readRankBytes(counted, "numbers", [&](StateReader& in) { stalls = in.takeNumber<std::uint64_t>(); });
+    if (!firstNeedsAll()) motion.stalls += stalls;
+    all_[rank].erase(0, counted.size());
   }
+  readMotionOfOthers(shares_.work);
 }
 
 }  // namespace robosim

@@ -1,11 +1,15 @@
 #include "distributed/distributed_run.h"
 
+#include <functional>
 #include <mutex>
 #include <optional>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
+#include "base/error_list.h"
+#include "distributed/run_identity.h"
+#include "environment/testing/small_world.h"
 #include "ranks/testing/thread_ranks.h"
 
 namespace robosim {
@@ -134,19 +138,149 @@ TEST(DistributedRun, ThrowsOnAllRanksTheFailureOfOne) {
   EXPECT_EQ(failed, 3);
 }
 
-TEST(DistributedRun, RefusesWorldsThatDifferBetweenRanks) {
-  int refused = 0;
+/// A sensor whose electronics fail in step 5 of the world's last robot.
+class FailingSensor : public Sensor {
+ public:
+  FailingSensor() {
+    info_.kind = SensorKind::values;
+    info_.label = "failing";
+    info_.quantities = {{"current", "A"}};
+  }
+  const SensorInfo& info() const override { return info_; }
+  bool sensesInHostProcess() const override { return true; }
+  bool usesNeighbours() const override { return false; }
+  double robotReach(double) const override { return 0; }
+  void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t,
+             std::span<Readings>) const override {
+    for (const auto robot : robots) {
+      if (robot + 1 == now.world_from_robot.size() && now.time.step == 5) throw std::runtime_error("no current");
+    }
+  }
+
+ private:
+  SensorInfo info_;
+};
+
+/// Adds a FailingSensor to all robots of a world.
+LoadedWorld withFailingSensor(LoadedWorld world) {
+  for (FleetRobot& robot : world.fleet.robots) {
+    auto model = std::make_shared<RobotModel>(*robot.model);
+    auto infos = std::make_shared<std::vector<SensorInfo>>(*robot.info.sensors);
+    model->sensors.push_back(std::make_shared<FailingSensor>());
+    infos->push_back(model->sensors.back()->info());
+    model->sensor_infos = infos;
+    robot.model = model;
+    robot.info.sensors = infos;
+  }
+  return world;
+}
+
+TEST(DistributedRun, ThrowsOnAllRanksTheFailureOfASensor) {
+  const LoadedWorld world = withFailingSensor(loaded({"open_100"}));
+  for (const RankExchange exchange : {RankExchange::all, RankExchange::near}) {
+    for (const bool first_needs_readings : {true, false}) {
+      int failed = 0;
+      std::mutex mutex;
+      runThreadRanks(3, [&](RankGroup& group) {
+        DistributedRun run(group, world, optionsOf({"open_100"}, 1),
+                           {.first_needs_readings = first_needs_readings, .exchange = exchange});
+        std::uint64_t steps = 0;  // complete ones
+        std::string what;
+        try {
+          for (; steps < 9; ++steps) run.step(false, nullptr);
+        } catch (const std::runtime_error& error) {
+          what = error.what();
+        }
+        // In one process, too, the fifth step fails. All 100 robots are in one chunk of the digest, so that rank 0
+        // needs all readings in any case.
+        EXPECT_EQ(steps, 4u);
+        EXPECT_EQ(what, group.rank() == 2 ? "no current" : "no current (on rank 2)");
+        const std::lock_guard lock(mutex);
+        ++failed;
+      });
+      EXPECT_EQ(failed, 3);
+    }
+  }
+}
+
+TEST(DistributedRun, ThrowsTheFailureOfASensorAtItsEndIfNoRankNeedsReadingsOfOthers) {
+  // Two whole chunks of the digest, one per rank.
+  LoadedWorld world{emptyWorld(20), {}};
+  for (int i = 0; i < 512; ++i)
+    addDisc(world.world, world.fleet, "r" + std::to_string(i), {i % 32 - 16.0, i / 32 - 8.0, 0});
+  for (FleetRobot& robot : world.fleet.robots) robot.controller = "random_walk";
+  world = withFailingSensor(std::move(world));
+  for (const int steps : {5, 6}) {
+    int failed = 0;
+    std::mutex mutex;
+    runThreadRanks(2, [&](RankGroup& group) {
+      DistributedRun run(group, world, {}, {.balance_steps = 0});
+      std::string what;
+      try {
+        for (int i = 0; i < steps; ++i) run.step(false, nullptr);
+        run.finish(nullptr);
+      } catch (const std::runtime_error& error) {
+        what = error.what();
+      }
+      EXPECT_EQ(what, group.rank() == 1 ? "no current" : "no current (on rank 1)");
+      const std::lock_guard lock(mutex);
+      ++failed;
+    });
+    EXPECT_EQ(failed, 2);
+  }
+}
+
+/// The errors by which two ranks refuse a run; empty for none. @param change of what rank 1 is given
+std::vector<std::string> refusalsOf(
+    const std::function<void(LoadedWorld&, RunOptions&, DistributionOptions&)>& change) {
+  std::vector<std::string> errors;
   std::mutex mutex;
   runThreadRanks(2, [&](RankGroup& group) {
-    const Settings settings{group.isFirst() ? "open_100" : "small_maze"};
+    const Settings settings{"open_100"};
+    LoadedWorld world = loaded(settings);
+    RunOptions options = optionsOf(settings, 1 + group.rank());
+    DistributionOptions distribution;
+    if (!group.isFirst()) change(world, options, distribution);
     try {
-      DistributedRun run(group, loaded(settings), optionsOf(settings, 1), {});
+      DistributedRun run(group, std::move(world), options, distribution);
     } catch (const ConfigError& error) {
       const std::lock_guard lock(mutex);
-      refused += std::string(error.what()).find("another world than rank 0") != std::string::npos ? 1 : 0;
+      errors.push_back(error.what());
     }
   });
-  EXPECT_EQ(refused, 2);
+  return errors;
+}
+
+TEST(DistributedRun, RefusesWorldsThatDifferBetweenRanks) {
+  const auto expect_refused = [](const std::string& text, const auto& change) {
+    const auto errors = refusalsOf(change);
+    ASSERT_EQ(errors.size(), 2u) << text;
+    for (const auto& error : errors) EXPECT_EQ(error.find(text), 0u) << error;
+  };
+  EXPECT_EQ(refusalsOf([](auto&, auto&, auto&) {}).size(), 0u);
+  const std::string another_world = "this process has read another world than rank 0";
+  expect_refused(another_world, [](auto& world, auto&, auto&) { world = loaded({"small_maze"}); });
+  expect_refused(another_world, [](auto&, auto& options, auto&) { options.environment.seed = 2; });
+  const std::string other_controllers = "this process has read a world with other controllers, neighbours or types";
+  expect_refused(other_controllers,
+                 [](auto& world, auto&, auto&) { world.fleet.robots[3].controller = "random_walk"; });
+  expect_refused(other_controllers, [](auto& world, auto&, auto&) { world.fleet.robots[3].info.neighbour = "x"; });
+  expect_refused(other_controllers, [](auto&, auto& options, auto&) { options.controller = "random_walk"; });
+  const std::string other_options = "this process was given other options than rank 0";
+  expect_refused(other_options, [](auto&, auto& options, auto&) { options.breakdown_mean_s = 60; });
+  expect_refused(other_options, [](auto&, auto&, auto& distribution) { distribution.balance_steps = 3; });
+}
+
+TEST(RunIdentity, DistinguishesVersionsOfRoboSim) {
+  const std::string same(24, 'x');
+  requireSameRun(same + "1.2.3", same + "1.2.3");
+  try {
+    requireSameRun(same + "1.2.3", same + "1.2.4");
+    ADD_FAILURE() << "not refused";
+  } catch (const ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "this process is RoboSim 1.2.3, and rank 0 is RoboSim 1.2.4; use the same version on all machines");
+  }
 }
 
 }  // namespace

@@ -1,57 +1,16 @@
 // Runs in which each rank knows only the robots near its own.
 #include <cmath>
-#include <mutex>
-#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "base/random.h"
-#include "distributed/distributed_run.h"
+#include "distributed/testing/crowd_runs.h"
 #include "environment/testing/small_world.h"
-#include "ranks/testing/thread_ranks.h"
 #include "run/registry.h"
 #include "sensors/testing/single_robot_scene.h"
 
 namespace robosim {
 namespace {
-
-/// Drives fast, turns at random and away from what its laser sees. Some robots send messages, upon which the receiver
-/// turns, ask whether they have won, or halt.
-class Dasher : public Controller {
- public:
-  explicit Dasher(const ControllerSetup& setup) : rng_(setup.seed, RandomPurpose::controller, setup.robot) {}
-
-  void step(Robot& robot) override {
-    if (robot.activity() != Activity::active) return;
-    const auto step = robot.stepNumber();
-    if (rng_.below(10) == 0) turn_radps_ = rng_.uniform(-2, 2);
-    if (!robot.inbox().empty()) turn_radps_ = -turn_radps_;
-    double nearest_m = 10;
-    for (const auto& echo : robot.laser()) nearest_m = std::min<double>(nearest_m, echo.range_m);
-    robot.drive(nearest_m < 0.4 ? -1 : 3, nearest_m < 0.8 ? 3 : turn_radps_);
-    const std::uint32_t chance = rng_.below(1000);
-    const auto other = rng_.below(static_cast<std::uint32_t>(robot.robots().size()));
-    if (chance < 5) robot.send(robot.robots()[other], "turn in step " + std::to_string(step));
-    if (chance == 5) robot.checkWin();
-    if (chance == 6) robot.halt();
-  }
-
- private:
-  Rng rng_;
-  double turn_radps_ = 0;
-};
-
-void addDasher() {
-  static const bool is_added = [] {
-    Registry registry;
-    registry.controllers.add({"dasher", "Drives fast.", {}, {}, [](const ControllerSetup& setup, const auto&) {
-                                return std::make_unique<Dasher>(setup);
-                              }});
-    addToProgram(registry);
-    return true;
-  }();
-  ASSERT_TRUE(is_added);
-}
 
 /// The model of a robot with further sensors.
 std::shared_ptr<const RobotModel> withSensors(const RobotModel& model, const std::vector<std::string>& sensors) {
@@ -103,49 +62,6 @@ LoadedWorld crowdedWorld(const Crowd& crowd, std::uint64_t seed) {
   if (crowd.has_gold) addGold(made.world, half_m - 0.5, half_m - 0.5);
   made.world.win_distance_m = 3;
   return made;
-}
-
-/// What a run has in common with one in one process.
-std::string resultOf(const LocalRun& run) {
-  const State& state = run.environment().state();
-  std::ostringstream text;
-  text.precision(17);
-  text << run.environment().digest() << ' ' << state.time.step << ' ' << state.stalls << ' ' << state.messages_delivered
-       << ' ' << state.messages_dropped << ' ' << messagesSent(state) << ' ' << run.gold().won_by.value_or("-") << ' '
-       << run.gold().found_by.value_or("-") << ' ' << run.gold().all_halted_s.value_or(-1);
-  for (std::size_t i = 0; i < state.world_from_robot.size(); ++i) {
-    const auto& pose = state.world_from_robot[i];
-    text << '\n'
-         << pose.x << ' ' << pose.y << ' ' << pose.phi << ' ' << state.driven_m[i] << ' '
-         << static_cast<int>(state.activity[i]) << ' ' << static_cast<int>(state.stalled[i]);
-  }
-  return text.str();
-}
-
-std::string resultAlone(const LoadedWorld& world, int steps) {
-  LocalRun run(world, {});
-  for (int i = 0; i < steps && !run.isOver(); ++i) run.step();
-  return resultOf(run);
-}
-
-struct OnRanks {
-  std::string result;
-  std::string exchange;
-  std::vector<DistributedRun::Measured> measured;
-};
-
-OnRanks runOf(const LoadedWorld& world, int steps, int ranks, DistributionOptions options) {
-  OnRanks out;
-  RunOptions run_options;
-  run_options.environment.threads = 1 + ranks % 2;
-  runThreadRanks(ranks, [&](RankGroup& group) {
-    DistributedRun run(group, world, run_options, options);
-    for (int i = 0; i < steps && !run.run().isOver(); ++i) run.step(false, nullptr);
-    run.finish(nullptr);
-    auto measured = run.measured();
-    if (group.isFirst()) out = {resultOf(run.run()), run.exchangeText(), std::move(measured)};
-  });
-  return out;
 }
 
 constexpr RankExchange kNear = RankExchange::near;
@@ -261,6 +177,44 @@ TEST(NearExchange, IsOfAFractionOfTheRobotsAndBytes) {
   EXPECT_GT(rows, 64 + 2 * 3 * 2);
   EXPECT_LT(rows, 64 + 2 * 3 * 4);
   EXPECT_LT(near_bytes, all_bytes / 3);
+}
+
+TEST(NearExchange, IsChosenByTheRobotsThatRanksKnowWithoutNeedingAll) {
+  // Two ranks in a world of 40 rows, of which each knows 3 to 4 of the other rank's 20. Rank 0 records the run.
+  const LoadedWorld world = crowdedWorld({.columns = 13, .rows = 40}, 2);
+  for (const auto& options : {DistributionOptions{.first_needs_readings = true, .balance_steps = 0},
+                              DistributionOptions{.balance_steps = 0, .first_needs_poses = true}}) {
+    const OnRanks chosen = runOf(world, 5, 2, options);
+    EXPECT_EQ(chosen.exchange.find("ranks know the robots near their own: "), 0u) << chosen.exchange;
+    EXPECT_NE(chosen.exchange.find(" m of a rank's own, except rank 0, which needs all"), std::string::npos);
+    EXPECT_EQ(chosen.measured[0].robots_moved, world.fleet.robots.size() * 5);
+    EXPECT_LT(chosen.measured[1].robots_moved, world.fleet.robots.size() * 5 * 7 / 10);
+  }
+}
+
+TEST(NearExchange, SendsAMessageOnceToAllRanks) {
+  struct Caller : Controller {
+    void step(Robot& robot) override {
+      if (robot.name() == "r0") robot.send(robot.robots().back(), std::string(4000, 'x'));
+    }
+  };
+  Registry registry;
+  registry.controllers.add(
+      {"caller", "Sends.", {}, {}, [](const auto&, const auto&) { return std::make_unique<Caller>(); }});
+  addToProgram(registry);
+  LoadedWorld made;
+  made.world = emptyWorld(200);
+  for (int i = 0; i < 500; ++i) {
+    addDisc(made.world, made.fleet, "r" + std::to_string(i), {i % 10 * 4.0 - 20, i / 10 * 4.0 - 100, 0});
+    made.fleet.robots.back().controller = "caller";
+  }
+  const OnRanks near = runOf(made, 10, 5, {.balance_steps = 0, .exchange = kNear});
+  EXPECT_EQ(near.exchange.find("ranks know the robots near their own: "), 0u) << near.exchange;
+  EXPECT_EQ(near.result, resultAlone(made, 10));
+  // Ten messages, and the motion of near robots; not four times as much.
+  EXPECT_GT(near.measured[0].bytes_sent, 40'000u);
+  EXPECT_LT(near.measured[0].bytes_sent, 80'000u);
+  for (std::size_t rank = 1; rank < 5; ++rank) EXPECT_GT(near.measured[rank].bytes_received, 40'000u) << rank;
 }
 
 TEST(NearExchange, FallsBackToAllRobotsWhereNearOnesDoNotSuffice) {

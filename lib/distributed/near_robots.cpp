@@ -19,10 +19,10 @@ std::uint64_t stepsFor(const Interaction& interaction) {
 
 }  // namespace
 
-NearRobots::NearRobots(const Bounds2D& surface, const Interaction& interaction)
+NearRobots::NearRobots(const Bounds2D& surface, std::size_t robots, const Interaction& interaction)
     : steps_(stepsFor(interaction)),
       reach_m_(interaction.reach_m + 2 * interaction.step_m * static_cast<double>(steps_)),
-      grid_(surface, reach_m_),
+      grid_(surface, robots, reach_m_),
       by_cell_(grid_) {}
 
 std::string NearRobots::areaOf(std::span<const mrpt::math::TPose2D> poses, RobotRange work) const {

@@ -15,7 +15,8 @@ namespace robosim {
 /// the surroundings of its robots as an Area, from which the others conclude which of theirs it must know.
 class NearRobots {
  public:
-  NearRobots(const Bounds2D& surface, const Interaction& interaction);
+  /// @param robots number of all
+  NearRobots(const Bounds2D& surface, std::size_t robots, const Interaction& interaction);
   NearRobots(const NearRobots&) = delete;  // by_cell_ refers to grid_
   NearRobots& operator=(const NearRobots&) = delete;
 

@@ -2,9 +2,9 @@
 
 #include <array>
 #include <bit>
-#include <stdexcept>
 #include <utility>
 
+#include "distributed/rank_bytes.h"
 #include "environment/measurement_bytes.h"
 
 namespace robosim {
@@ -48,20 +48,6 @@ bool addItems(StateWriter& writer, const Write& write) {
   return !items.isEmpty();
 }
 
-/// Calls read(reader), for bytes of which it must leave nothing, unless there are none.
-template <typename Read>
-void readAll(std::string_view bytes, const char* what, const Read& read) {
-  if (bytes.empty()) return;
-  try {
-    StateReader in(bytes);
-    read(in);
-    requireContents(in.isAtEnd(), "they are too long");
-  } catch (const ConfigError& error) {
-    throw std::runtime_error("another rank has sent invalid " + std::string(what) + " (" + error.what() +
-                             "); use the same version of RoboSim on all machines");
-  }
-}
-
 /// Calls read(robot) for each item that CountedWriter has written.
 template <typename Read>
 void forItems(StateReader& in, RobotRange from, const Read& read) {
@@ -90,8 +76,8 @@ void addCommand(StateWriter& writer, const Command& command) {
 }
 
 void takeCommand(StateReader& in, Command& command) {
-  command.speed_mps = in.takeFinite();
-  command.turn_radps = in.takeFinite();
+  command.speed_mps = in.takeNumber<double>();
+  command.turn_radps = in.takeNumber<double>();
   command.laser_pan_rad = in.takeNumber<float>();
   command.activity = in.takeActivity();
   command.by_driver = in.takeFlag();
@@ -113,18 +99,29 @@ bool OrdersWriter::hasChanged(const StepOrders& orders, std::size_t robot) const
   return !haveSameBits(orders.commands[robot], commands_[robot - robots_.begin]);
 }
 
-void OrdersWriter::end(const StepOrders& orders) {
-  of_all_.clear();
-  has_changes_of_all_ = false;
-  append(of_all_, [&](StateWriter& writer) {
-    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+bool OrdersWriter::addCommands(StateWriter& writer, const StepOrders& orders,
+                               std::span<const std::uint32_t> known) const {
+  return addItems(writer, [&](CountedWriter& items) {
+    for (const std::uint32_t i : known) {
+      if (!hasChanged(orders, i)) continue;
+      items.beginItem(i);
+      addCommand(writer, orders.commands[i]);
+    }
+  });
+}
+
+void OrdersWriter::end(const StepOrders& orders, std::span<const std::uint32_t> known_to_all) {
+  for_all_.clear();
+  append(for_all_, [&](StateWriter& writer) {
+    bool has_changes = addCommands(writer, orders, known_to_all);
+    has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         if (orders.commands[i].activity == commands_[i - robots_.begin].activity) continue;
         items.beginItem(i);
         writer.addNumber(static_cast<std::uint8_t>(orders.commands[i].activity));
       }
     });
-    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+    has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         const Outbox& outbox = orders.outboxes[i];
         const Sent& before = sent_[i - robots_.begin];
@@ -138,31 +135,28 @@ void OrdersWriter::end(const StepOrders& orders) {
         }
       }
     });
-    has_changes_of_all_ |= addItems(writer, [&](CountedWriter& items) {
+    has_changes |= addItems(writer, [&](CountedWriter& items) {
       for (std::size_t i = robots_.begin; i < robots_.end; ++i) {
         if (orders.win_requests[i] != win_requests_[i - robots_.begin]) items.beginItem(i);
       }
     });
-    return true;
+    return has_changes;
   });
 }
 
-void OrdersWriter::write(const StepOrders& orders, std::span<const std::uint32_t> known, std::string& out) const {
-  append(out, [&](StateWriter& writer) {
-    const bool has_commands = addItems(writer, [&](CountedWriter& items) {
-      for (const std::uint32_t i : known) {
-        if (!hasChanged(orders, i)) continue;
-        items.beginItem(i);
-        addCommand(writer, orders.commands[i]);
-      }
-    });
-    writer.bytes += of_all_;
-    return has_commands || has_changes_of_all_;
+void OrdersWriter::writeCommands(const StepOrders& orders, std::span<const std::uint32_t> known,
+                                 std::string& out) const {
+  append(out, [&](StateWriter& writer) { return addCommands(writer, orders, known); });
+}
+
+void readCommands(std::string_view bytes, RobotRange from, const StepOrders& orders) {
+  readRankBytes(bytes, "commands", [&](StateReader& in) {
+    forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
   });
 }
 
 void readOrders(std::string_view bytes, RobotRange from, const StepOrders& orders) {
-  readAll(bytes, "commands", [&](StateReader& in) {
+  readRankBytes(bytes, "orders", [&](StateReader& in) {
     forItems(in, from, [&](std::size_t i) { takeCommand(in, orders.commands[i]); });
     // Of robots whose commands are not sent.
     forItems(in, from, [&](std::size_t i) {
@@ -197,8 +191,8 @@ void writePaths(const PhaseResults& results, std::span<const std::uint32_t> robo
 }
 
 void readPaths(std::string_view bytes, RobotRange from, const PhaseResults& results) {
-  readAll(bytes, "paths", [&](StateReader& in) {
-    forItems(in, from, [&](std::size_t i) { results.paths[i].end_fraction = in.takeFinite(); });
+  readRankBytes(bytes, "paths", [&](StateReader& in) {
+    forItems(in, from, [&](std::size_t i) { results.paths[i].end_fraction = in.takeNumber<double>(); });
   });
 }
 
@@ -213,8 +207,8 @@ void writeStays(const PhaseResults& results, std::span<const std::uint32_t> robo
 }
 
 void readStays(std::string_view bytes, RobotRange from, const PhaseResults& results) {
-  readAll(bytes, "robots that stay",
-          [&](StateReader& in) { forItems(in, from, [&](std::size_t i) { results.stays[i] = 1; }); });
+  readRankBytes(bytes, "robots that stay",
+                [&](StateReader& in) { forItems(in, from, [&](std::size_t i) { results.stays[i] = 1; }); });
 }
 
 void writeReadings(const PhaseResults& results, RobotRange robots, std::string& out) {
@@ -225,8 +219,9 @@ void writeReadings(const PhaseResults& results, RobotRange robots, std::string& 
 }
 
 void readReadings(std::string_view bytes, RobotRange robots, const PhaseResults& results) {
-  readAll(bytes, "readings", [&](StateReader& in) {
-    for (std::size_t i = robots.begin; i < robots.end; ++i) readMeasurements(in, results.readings[i]);
+  readRankBytes(bytes, "readings", [&](StateReader& in) {
+    for (std::size_t i = robots.begin; i < robots.end; ++i)
+      readMeasurements(in, results.readings[i], NumberCheck::none);
   });
 }
 
@@ -252,14 +247,15 @@ void writeMotion(const MotionState& motion, const StepOrders& orders, std::span<
 
 void readMotion(std::string_view bytes, RobotRange from, const MotionState& motion, const StepOrders& orders,
                 std::vector<std::uint32_t>& read) {
-  readAll(bytes, "states of robots", [&](StateReader& in) {
+  readRankBytes(bytes, "states of robots", [&](StateReader& in) {
     forItems(in, from, [&](std::size_t i) {
-      motion.world_from_robot[i] = in.takePose();
-      motion.speed_mps[i] = in.takeFinite();
-      motion.turn_radps[i] = in.takeFinite();
-      motion.last_motion[i].length_m = in.takeFinite();
-      motion.last_motion[i].turn_rad = in.takeFinite();
-      motion.driven_m[i] = in.takeFinite();
+      auto& pose = motion.world_from_robot[i];
+      for (double* value : {&pose.x, &pose.y, &pose.phi}) *value = in.takeNumber<double>();
+      motion.speed_mps[i] = in.takeNumber<double>();
+      motion.turn_radps[i] = in.takeNumber<double>();
+      motion.last_motion[i].length_m = in.takeNumber<double>();
+      motion.last_motion[i].turn_rad = in.takeNumber<double>();
+      motion.driven_m[i] = in.takeNumber<double>();
       motion.stalled[i] = in.takeFlag() ? 1 : 0;
       motion.laser_pan_rad[i] = in.takeNumber<float>();
       takeCommand(in, orders.commands[i]);

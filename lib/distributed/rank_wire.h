@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "environment/environment.h"
+#include "environment/state_stream.h"
 
 namespace robosim {
 
 /// @file
 /// What ranks exchange in a step, as bytes in the machines' byte order. Only what differs from the state or the default
-/// that the ranks have is sent: no bytes if nothing does. The readers check the bytes' structure: they throw
-/// std::runtime_error for bytes that the writers, of the same version of RoboSim, cannot have written.
+/// that the ranks have is sent: no bytes if nothing does. The readers throw as readRankBytes() does.
 
 /// What the controllers of some robots request in a step.
 class OrdersWriter {
@@ -19,10 +19,13 @@ class OrdersWriter {
   /// Remembers what other ranks know, before the controllers run.
   void begin(const StepOrders& orders, RobotRange robots);
   /// Finds what has changed since begin(), after they have run.
-  void end(const StepOrders& orders);
-  /// Appends what has changed: of all robots of begin() messages, CheckWin requests and activity, of some the commands.
-  /// @param known robots of begin() whose commands the receiver needs
-  void write(const StepOrders& orders, std::span<const std::uint32_t> known, std::string& out) const;
+  /// @param known_to_all robots of begin() whose commands all other ranks need
+  void end(const StepOrders& orders, std::span<const std::uint32_t> known_to_all);
+  /// Bytes of the changes that all other ranks need: messages, CheckWin requests and activity of all robots of begin(),
+  /// and commands of some. Empty for none.
+  std::string_view forAll() const { return for_all_; }
+  /// Appends changed commands. @param known robots of begin() whose commands the receiver needs besides
+  void writeCommands(const StepOrders& orders, std::span<const std::uint32_t> known, std::string& out) const;
 
  private:
   struct Sent {
@@ -30,15 +33,17 @@ class OrdersWriter {
     std::uint64_t surplus;
   };
   bool hasChanged(const StepOrders& orders, std::size_t robot) const;
+  bool addCommands(StateWriter& writer, const StepOrders& orders, std::span<const std::uint32_t> known) const;
 
   RobotRange robots_;
   std::vector<Command> commands_;
   std::vector<Sent> sent_;
   std::vector<std::uint8_t> win_requests_;
-  std::string of_all_;  ///< bytes of the changes that all ranks need
-  bool has_changes_of_all_ = false;
+  std::string for_all_;
 };
-/// @param from robots whose orders the bytes may contain
+/// Reads OrdersWriter::writeCommands(). @param from robots whose orders the bytes may contain
+void readCommands(std::string_view bytes, RobotRange from, const StepOrders& orders);
+/// Reads OrdersWriter::forAll().
 void readOrders(std::string_view bytes, RobotRange from, const StepOrders& orders);
 
 /// Clipped paths: PhaseResults::paths.

@@ -23,16 +23,14 @@ struct Orders {
   StepOrders all() { return {commands, outboxes, may_send, win_requests, activity}; }
 };
 
-/// Bytes about robots 1 to 3 of 5, of which the receiver knows 1 and 3, after `decide` has changed the orders.
+/// Bytes about robots 1 to 3 of 5, of which all receivers know 1 and 3, after `decide` has changed the orders.
 template <typename Decide>
 std::string bytesAfter(Orders& orders, const Decide& decide) {
   OrdersWriter writer;
   writer.begin(orders.all(), {1, 4});
   decide();
-  writer.end(orders.all());
-  std::string bytes;
-  writer.write(orders.all(), std::vector<std::uint32_t>{1, 3}, bytes);
-  return bytes;
+  writer.end(orders.all(), std::vector<std::uint32_t>{1, 3});
+  return std::string(writer.forAll());
 }
 
 TEST(OrdersWriter, WritesChangedCommandsOfRobotsThatTheReceiverKnows) {
@@ -45,6 +43,24 @@ TEST(OrdersWriter, WritesChangedCommandsOfRobotsThatTheReceiverKnows) {
   EXPECT_EQ(to.commands[2], Command());
   EXPECT_EQ(to.commands[3], from.commands[3]);
   EXPECT_EQ(bytesAfter(from, [&] { from.commands[2].speed_mps = 3; }), "") << "the receiver does not know robot 2";
+}
+
+TEST(OrdersWriter, WritesCommandsForOneReceiverSeparately) {
+  Orders from(5), to(5);
+  OrdersWriter writer;
+  writer.begin(from.all(), {1, 4});
+  from.commands[1].speed_mps = 1;
+  from.commands[3].speed_mps = 3;
+  writer.end(from.all(), {});
+  EXPECT_EQ(writer.forAll(), "");
+  std::string bytes, none;
+  writer.writeCommands(from.all(), std::vector<std::uint32_t>{2, 3}, bytes);
+  readCommands(bytes, {1, 4}, to.all());
+  EXPECT_EQ(to.commands[1], Command());
+  EXPECT_EQ(to.commands[3], from.commands[3]);
+  writer.writeCommands(from.all(), std::vector<std::uint32_t>{2}, none);
+  EXPECT_EQ(none, "");
+  EXPECT_THROW(readCommands(bytes, {1, 3}, to.all()), std::runtime_error);
 }
 
 TEST(OrdersWriter, DistinguishesNegativeZero) {
@@ -77,6 +93,39 @@ TEST(OrdersWriter, ReadsOnlyOrdersOfTheSendersRobots) {
   EXPECT_THROW(readOrders(bytes, {1, 3}, to.all()), std::runtime_error);
   EXPECT_THROW(readOrders(bytes + "x", {1, 4}, to.all()), std::runtime_error);
   EXPECT_THROW(readOrders(bytes.substr(1), {1, 4}, to.all()), std::runtime_error);
+}
+
+/// Results of a robot with a sensor that measures named numbers, on one rank.
+struct Measured {
+  std::vector<Readings> readings{1};
+
+  explicit Measured(std::vector<double> values) { readings[0].measurements = {Values{std::move(values)}}; }
+  PhaseResults results() { return {{}, {}, readings, nullptr}; }
+};
+
+TEST(ReadingsBytes, ContainAnyNumberThatASensorMeasures) {
+  Measured from({std::nan(""), -INFINITY, 1}), to({0, 0, 0});
+  std::string bytes;
+  writeReadings(from.results(), {0, 1}, bytes);
+  readReadings(bytes, {0, 1}, to.results());
+  const auto& values = std::get<Values>(to.readings[0].measurements[0]).values;
+  EXPECT_TRUE(std::isnan(values[0]));
+  EXPECT_EQ(values[1], -INFINITY);
+  EXPECT_EQ(values[2], 1);
+}
+
+TEST(ReadingsBytes, OfAnotherSizeAreRejectedWithAnErrorAboutRanks) {
+  Measured from({1, 2}), to({0, 0, 0});
+  std::string bytes, error;
+  writeReadings(from.results(), {0, 1}, bytes);
+  try {
+    readReadings(bytes, {0, 1}, to.results());
+  } catch (const std::runtime_error& e) {
+    error = e.what();
+  }
+  EXPECT_EQ(error,
+            "another rank has sent invalid readings: they end too early; use the same version of RoboSim on all "
+            "machines");
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ struct Environment::Impl {
   std::vector<double> antenna_z_m;  ///< by robot
   std::uint64_t placements = 0;
   bool has_absent_robots = false;
-  bool may_have_messages = true;       ///< false: all inboxes are empty
+  bool may_have_messages = true;       ///< in any inbox; false: only in those of MessageRouter::receivers()
   std::vector<std::uint8_t> may_send;  ///< MessageRouter::Robots::may_send
   RobotShare share;
 
@@ -101,18 +101,23 @@ struct Environment::Impl {
 
   void placeBodies() { bodies.place(state, known, share.kept, workers); }
 
-  void takeCommands() {
-    const bool have_messages = std::exchange(may_have_messages, false);
-    if (have_messages && !known.areAll()) {
-      for (Readings& readings : state.readings) readings.inbox.clear();
+  void clearInboxes() {
+    const auto clear = [&](std::size_t i) { state.readings[i].inbox.clear(); };
+    if (std::exchange(may_have_messages, false)) {
+      workers.forEach(state.readings.size(), kRobotChunk, clear);
+      return;
     }
+    const std::vector<std::uint32_t>& receivers = message_router.receivers();
+    workers.forEach(receivers.size(), kRobotChunk, [&](std::size_t k) { clear(receivers[k]); });
+  }
+
+  void takeCommands() {
     known.forEach(workers, kRobotChunk, [&](std::size_t i) {
       Command& command = state.commands[i];
       if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
         state.activity[i] = command.activity;
       }
       command.activity = state.activity[i];
-      if (have_messages) state.readings[i].inbox.clear();
       state.laser_pan_rad[i] =
           std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2));
       const DriveSpeeds speeds =
@@ -208,6 +213,7 @@ struct Environment::Impl {
 
   void begin() {
     ++state.time.step;
+    clearInboxes();
     takeCommands();
     move_authorisation.begin(workers, known, paths);
   }
@@ -217,7 +223,6 @@ struct Environment::Impl {
                                                {scene, state.world_from_robot, antenna_z_m, state.activity, may_send},
                                                state.outboxes, state.messages_in_flight, state.readings);
     state.messages_delivered += counts.delivered;
-    may_have_messages |= counts.delivered > 0;
     state.messages_dropped += counts.dropped;
     state.messages_lost += counts.lost;
   }
@@ -261,11 +266,13 @@ struct Environment::Impl {
       const auto& pose = state.world_from_robot[robot];
       return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};
     });
+    if (!state.winner) {
+      forFlags(state.win_requests, [&](std::size_t i) {
+        if (share.kept.contains(i)) state.readings[i].is_too_far = true;
+      });
+      return;
+    }
     for (std::size_t i = 0; i < state.readings.size(); ++i) {
-      if (!state.winner) {
-        state.readings[i].is_too_far = state.win_requests[i] != 0;
-        continue;
-      }
       state.readings[i].winner = fleet.robots[*state.winner].info.name;
       if (state.activity[i] == Activity::active) {
         state.activity[i] = i == *state.winner ? Activity::found : Activity::halted;

@@ -76,6 +76,35 @@ TEST(KnownRobots, NeitherMoveNorMeetTheOthers) {
   EXPECT_EQ(environment.state().stalls, stalls);
 }
 
+TEST(KnownRobots, AreNotTheOnlyOnesWhoseMessagesAreRemovedAfterAStep) {
+  World world = emptyWorld(5);
+  Fleet fleet;
+  for (const char* name : {"a", "b", "c"})
+    addDisc(world, fleet, name, {static_cast<double>(fleet.robots.size()), 0, 0});
+  Environment environment(world, fleet, {});
+  environment.limitTo(std::vector<std::uint32_t>{0}, {0, 1});
+  const auto messages = [&] {
+    std::vector<std::size_t> counts;
+    for (const auto& readings : environment.state().readings) counts.push_back(readings.inbox.size());
+    return counts;
+  };
+  using Counts = std::vector<std::size_t>;
+  environment.send(0, "b", "x");
+  environment.send(0, "c", "y");
+  environment.step();
+  EXPECT_EQ(messages(), (Counts{0, 1, 1}));
+  const State with_messages = environment.state();
+  environment.send(0, "c", "z");
+  environment.step();
+  EXPECT_EQ(messages(), (Counts{0, 0, 1}));
+  environment.step();
+  EXPECT_EQ(messages(), (Counts{0, 0, 0}));
+  environment.restore(with_messages);
+  EXPECT_EQ(messages(), (Counts{0, 1, 1}));
+  environment.step();
+  EXPECT_EQ(messages(), (Counts{0, 0, 0})) << "of a state that was restored";
+}
+
 TEST(KnownRobots, HaveTheMotionThatAnotherProcessHasComputed) {
   World world = emptyWorld(5);
   Fleet fleet;

@@ -43,7 +43,7 @@ void MessageRouter::receive(std::uint32_t from, std::uint32_t to, std::string&& 
     return;
   }
   auto& inbox = readings[to].inbox;
-  if (inbox.empty()) filled_.push_back(to);
+  if (inbox.empty()) receivers_.push_back(to);
   inbox.push_back({names_[from], names_[to], std::move(text)});
   ++counts.delivered;
 }
@@ -91,6 +91,7 @@ void MessageRouter::deliverFrom(std::uint32_t from, std::uint64_t seed, SimTime 
 
 MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
                                      std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
+  receivers_.clear();
   MessageCounts counts;
   if (!in_flight.empty()) {
     const auto is_due = [&](const MessageInFlight& message) { return message.due_step <= now.step; };
@@ -108,8 +109,7 @@ MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robo
     deliverFrom(static_cast<std::uint32_t>(from), seed, now, robots, outboxes, in_flight, readings, counts);
     robots.may_send[from] = outboxes[from].messages.empty() ? 0 : 1;
   });
-  for (const auto robot : filled_) limits_[robot] = {};
-  filled_.clear();
+  for (const auto robot : receivers_) limits_[robot] = {};
   return counts;
 }
 

@@ -100,6 +100,8 @@ class MessageRouter {
   /// @param seed of the loss of messages @param in_flight ordered by due_step @pre the inboxes are empty
   MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
                         std::vector<MessageInFlight>& in_flight, std::span<Readings> readings);
+  /// The robots into whose inboxes the last call of deliver() has put messages, each once.
+  const std::vector<std::uint32_t>& receivers() const { return receivers_; }
 
  private:
   /// Moves the messages of one outbox.
@@ -114,8 +116,8 @@ class MessageRouter {
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
   Communication communication_;
   RadioChannel channel_{communication_};
-  std::vector<InboxLimit> limits_;     ///< by receiver; unused ones between two calls of deliver()
-  std::vector<std::uint32_t> filled_;  ///< receivers of messages in this call of deliver()
+  std::vector<InboxLimit> limits_;  ///< by receiver; unused ones between two calls of deliver()
+  std::vector<std::uint32_t> receivers_;
 };
 
 }  // namespace robosim

@@ -107,6 +107,20 @@ TEST(MessageRouter, DropsAndCountsMessagesBeyondTheSendersLimit) {
   EXPECT_EQ(fixture.dropped, 0u);
 }
 
+TEST(MessageRouter, NamesTheReceiversOfTheLastDelivery) {
+  Fixture fixture({.delay_s = 0.1});
+  fixture.send(0, "c", "x");
+  fixture.send(1, "c", "y");
+  fixture.send(2, "a", "z");
+  using Robots = std::vector<std::uint32_t>;
+  fixture.step();
+  EXPECT_EQ(fixture.message_router.receivers(), Robots()) << "the messages are in flight";
+  fixture.step();
+  EXPECT_EQ(fixture.message_router.receivers(), (Robots{2, 0}));
+  fixture.step();
+  EXPECT_EQ(fixture.message_router.receivers(), Robots());
+}
+
 TEST(MessageRouter, DropsAndCountsMessagesBeyondTheReceiversLimit) {
   Fixture fixture;
   for (std::size_t i = 0; i < InboxLimit::kMaxMessages; ++i) fixture.send(0, "b", "a");

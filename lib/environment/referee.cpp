@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "environment/known_robots.h"
+
 namespace robosim {
 
 Referee::Referee(const World& world) : win_distance_m_(world.win_distance_m) {
@@ -21,13 +23,12 @@ std::optional<std::size_t> Referee::decide(std::span<const std::uint8_t> request
                                            const std::function<Circle(std::size_t robot)>& disc_of) const {
   std::optional<std::size_t> winner;
   double winner_m = win_distance_m_;
-  for (std::size_t i = 0; i < requests.size(); ++i) {
-    if (!requests[i]) continue;
+  forFlags(requests, [&](std::size_t i) {
     const double away_m = distanceToGold(disc_of(i));
-    if (away_m > winner_m || (away_m == winner_m && winner)) continue;
+    if (away_m > winner_m || (away_m == winner_m && winner)) return;
     winner = i;
     winner_m = away_m;
-  }
+  });
   return winner;
 }
 

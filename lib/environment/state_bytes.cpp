@@ -66,6 +66,7 @@ struct MeasurementWriter {
 /// Fills a blank measurement.
 struct MeasurementReader {
   StateReader& in;
+  NumberCheck check;
 
   template <typename M>
   void operator()(M& measurement) const {
@@ -73,12 +74,15 @@ struct MeasurementReader {
     if constexpr (kHasPresenceFlag<M>) D::isPresent(measurement) = in.takeFlag();
     if constexpr (kIsFile<M>) {
       D::file(measurement) = in.takeText(kPictureBytesMax);
+      if (check == NumberCheck::none) return;
       requireContents(D::fileFaultOf(D::file(measurement)).empty(), "a picture is no JPEG file");
     } else {
       forNumbers(measurement, [&](const auto& field, auto& number, std::size_t) {
         number = in.takeNumber<std::remove_reference_t<decltype(number)>>();
+        if (check == NumberCheck::none) return;
         requireContents(isPermitted(field, number), "a measurement is impossible");
       });
+      if (check == NumberCheck::none) return;
       if constexpr (requires { D::faultOf(*D::records(measurement).begin()); }) {
         for (const auto& record : D::records(measurement))
           requireContents(!D::faultOf(record), "a record is impossible");
@@ -93,8 +97,8 @@ void writeMeasurements(const Readings& readings, StateWriter& out) {
   for (const Measurement& measurement : readings.measurements) std::visit(MeasurementWriter{out}, measurement);
 }
 
-void readMeasurements(StateReader& in, Readings& readings) {
-  for (Measurement& measurement : readings.measurements) std::visit(MeasurementReader{in}, measurement);
+void readMeasurements(StateReader& in, Readings& readings, NumberCheck check) {
+  for (Measurement& measurement : readings.measurements) std::visit(MeasurementReader{in, check}, measurement);
 }
 
 namespace {
@@ -174,7 +178,7 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   }
 
   Readings& readings = state.readings[i];
-  readMeasurements(in, readings);
+  readMeasurements(in, readings, NumberCheck::permitted);
   readings.is_too_far = in.takeFlag();
   const auto received = in.takeNumber<std::uint32_t>();
   requireContents(received <= InboxLimit::kMaxMessages, "a robot has received too many messages");
@@ -298,7 +302,12 @@ State stateFromBytes(const Model& model, std::string_view bytes) {
         "the saved state belongs to another world, other robots or sensors, or another seed or time step; "
         "load it with those of the run that saved it");
   }
-  return readContents(model, StateReader(checked.substr(kHeaderBytes)));
+  try {
+    return readContents(model, StateReader(checked.substr(kHeaderBytes)));
+  } catch (const InvalidContents& fault) {
+    throw ConfigError(std::string("the contents of a saved state are invalid: ") + fault.what() +
+                      "; save the state again");
+  }
 }
 
 }  // namespace robosim

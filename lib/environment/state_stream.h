@@ -2,24 +2,29 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 #include <mrpt/math/TPose2D.h>
 
-#include "base/error_list.h"
 #include "hardware/command.h"
 
 namespace robosim {
 
 /// @file
-/// Writing and reading of the values in a saved state (state_bytes.h), in the machine's byte order.
+/// Writing and reading of the values in a saved state (state_bytes.h), and of those that processes exchange, in the
+/// machine's byte order.
 
-/// @throws ConfigError for contents of a saved state that the writer cannot have written
+/// What is wrong with bytes that StateWriter cannot have written, without where they are from and how to fix it.
+struct InvalidContents : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// @throws InvalidContents unless the contents are valid
 inline void requireContents(bool are_valid, const char* fault) {
-  if (are_valid) return;
-  throw ConfigError(std::string("the contents of a saved state are invalid: ") + fault + "; save the state again");
+  if (!are_valid) throw InvalidContents(fault);
 }
 
 /// Appends values to bytes.
@@ -42,7 +47,7 @@ class StateWriter {
   std::string bytes;
 };
 
-/// Takes values from bytes. Every function throws ConfigError when too few bytes are left or a value is invalid.
+/// Takes values from bytes. Every function throws InvalidContents when too few bytes are left or a value is invalid.
 class StateReader {
  public:
   explicit StateReader(std::string_view bytes) : left_(bytes) {}

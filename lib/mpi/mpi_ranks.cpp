@@ -1,6 +1,7 @@
 #include "mpi/mpi_ranks.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <iostream>
@@ -70,21 +71,7 @@ class MpiRanks final : public RankGroup {
     const std::uint64_t size = own.size();
     sizes_.resize(static_cast<std::size_t>(size_));
     check(MPI_Allgather(&size, 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD), "allgather");
-    all.resize(sizes_.size());
-    const auto total = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
-    if (total <= piece_bytes_) {
-      allGatherAtOnce(own, total, all);
-      return;
-    }
-    for (int from = 0; from < size_; ++from) {
-      std::string& bytes = all[at(from)];
-      if (from == rank_) {
-        bytes.assign(own);
-      } else {
-        bytes.resize(sizes_[at(from)]);
-      }
-      broadcastPieces(bytes, from);
-    }
+    gatherSized(own, all);
   }
 
   void exchange(const std::vector<std::string>& to, std::vector<std::string>& from) override {
@@ -92,13 +79,25 @@ class MpiRanks final : public RankGroup {
     for (std::size_t i = 0; i < to_sizes.size(); ++i) to_sizes[i] = to[i].size();
     sizes_.resize(to_sizes.size());
     check(MPI_Alltoall(to_sizes.data(), 1, MPI_UINT64_T, sizes_.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD), "exchange");
-    from.resize(sizes_.size());
-    from[at(rank_)] = to[at(rank_)];
-    for (int other = 0; other < size_; ++other) {
-      if (other == rank_) continue;
-      startReceiving(from[at(other)], sizes_[at(other)], other);
-      startSending(to[at(other)], other);
-    }
+    startExchange(to, from);
+    finish("exchange");
+  }
+
+  void exchangeAndGather(const std::vector<std::string>& to, std::string_view own, std::vector<std::string>& from,
+                         std::vector<std::string>& all) override {
+    using SizePair = std::array<std::uint64_t, 2>;  // of the bytes for one rank, and of those for all
+    std::vector<SizePair> to_sizes(static_cast<std::size_t>(size_)), from_sizes(to_sizes.size());
+    for (std::size_t i = 0; i < to_sizes.size(); ++i) to_sizes[i] = {to[i].size(), own.size()};
+    check(MPI_Alltoall(to_sizes.data(), 2, MPI_UINT64_T, from_sizes.data(), 2, MPI_UINT64_T, MPI_COMM_WORLD),
+          "exchange");
+    const auto take = [&](std::size_t which) {
+      sizes_.clear();
+      for (const SizePair& sizes : from_sizes) sizes_.push_back(sizes[which]);
+    };
+    take(0);
+    startExchange(to, from);
+    take(1);
+    gatherSized(own, all);
     finish("exchange");
   }
 
@@ -159,11 +158,45 @@ class MpiRanks final : public RankGroup {
     });
   }
 
+  /// Sends to all others, and receives, what sizes_ has the sizes of; until finish().
+  void startExchange(const std::vector<std::string>& to, std::vector<std::string>& from) {
+    from.resize(sizes_.size());
+    from[at(rank_)] = to[at(rank_)];
+    for (int other = 0; other < size_; ++other) {
+      if (other == rank_) continue;
+      startReceiving(from[at(other)], sizes_[at(other)], other);
+      startSending(to[at(other)], other);
+    }
+  }
+
+  /// allGather() of bytes whose sizes are in sizes_.
+  void gatherSized(std::string_view own, std::vector<std::string>& all) {
+    all.resize(sizes_.size());
+    const auto total = std::accumulate(sizes_.begin(), sizes_.end(), std::uint64_t{0});
+    if (total <= piece_bytes_) {
+      allGatherAtOnce(own, total, all);
+      return;
+    }
+    for (int from = 0; from < size_; ++from) {
+      std::string& bytes = all[at(from)];
+      if (from == rank_) {
+        bytes.assign(own);
+      } else {
+        bytes.resize(sizes_[at(from)]);
+      }
+      broadcastPieces(bytes, from);
+    }
+  }
+
   void allGatherAtOnce(std::string_view own, std::uint64_t total, std::vector<std::string>& all) {
     counts_.assign(sizes_.begin(), sizes_.end());
     begins_.resize(counts_.size());
     std::exclusive_scan(counts_.begin(), counts_.end(), begins_.begin(), 0);
     joined_.resize(total);
+    if (total == 0) {
+      for (auto& bytes : all) bytes.clear();
+      return;
+    }
     check(MPI_Allgatherv(own.data(), static_cast<int>(own.size()), MPI_BYTE, joined_.data(), counts_.data(),
                          begins_.data(), MPI_BYTE, MPI_COMM_WORLD),
           "allgather");

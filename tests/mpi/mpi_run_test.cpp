@@ -124,6 +124,28 @@ TEST(MpiRun, EndsOnAllRanksWithTheErrorOfAController) {
   EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
 }
 
+/// Until it fails, the sensor measures NaN, which the ranks exchange.
+TEST(MpiRun, EndsOnAllRanksWithTheErrorOfASensorAndACompleteRecording) {
+  const auto folder = emptyFolder();
+  std::filesystem::create_directory(folder / "robots");
+  std::ofstream(folder / "robots/failing.xml") << R"(<robot name="failing" help="Has a failing sensor.">
+    <body radius_m="0.2" height_m="0.3"/>
+    <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" turn_max_degps="100" turn_accel_degps2="200"/>
+    <sensors><failing_sensor/><odometry/></sensors></robot>)";
+  std::ofstream(folder / "failing.xml") << R"(<world><surface><size xmin="-5" xmax="5" ymin="-5" ymax="5"/>
+    <scatter count="3"><robot model="failing" name="R" controller="random_walk"/></scatter></surface></world>)";
+  const std::string run = "run " + quoted(folder / "failing.xml") + " --plugin " ROBOSIM_FAILING_PLUGIN " --record ";
+  const Ended alone = runProgram(run + quoted(folder / "alone.rawlog"));
+  const Ended ended = runOnRanks(2, run + quoted(folder / "ranks.rawlog"));
+  EXPECT_EQ(alone.exit_code, 2) << alone.err;
+  EXPECT_EQ(ended.exit_code, 2) << ended.err;
+  EXPECT_EQ(countOf("robosim: lost the current", alone.err), 1u) << alone.err;
+  EXPECT_EQ(countOf("robosim: lost the current (on rank 1)", ended.err), 1u) << ended.err;
+  EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+  EXPECT_GT(textOf(folder / "ranks.rawlog").size(), 100u);
+  EXPECT_EQ(textOf(folder / "ranks.rawlog"), textOf(folder / "alone.rawlog"));
+}
+
 TEST(MpiRun, RefusesSubcommandsThatRunInOneProcess) {
   for (const std::string arguments : {"serve worlds/small_maze.xml", "view worlds/small_maze.xml",
                                       "run --view worlds/small_maze.xml", "check worlds/small_maze.xml"}) {

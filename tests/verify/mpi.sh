@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Runs on 1 to 8 ranks of MPI with 1 to 3 threads equal those of one process, byte for byte: summary, recording, table and
-# picture, in all shipped worlds, with every search strategy, and in random worlds; whether ranks know all robots or
+# picture, in all shipped worlds, with every search strategy, in mixed crowds, and in random worlds; whether ranks know all robots or
 # those near their own. Half an hour.
 set -euo pipefail
 robosim=$PWD/build/release/bin/robosim
@@ -48,6 +48,10 @@ compare() {
 for world in worlds/*.xml worlds/benchmark/*.xml; do compare "$world" --time "${ROBOSIM_MPI_TIME:-5}"; done
 for strategy in random_walk levy_walk wall_search heat_gradient stigmergy gold_finder coordinated_frontiers market oracle; do
   compare worlds/benchmark/gold_office_20.xml --controller $strategy --time "${ROBOSIM_MPI_TIME:-5}"
+done
+for seed in 1 2 3 4; do
+  tests/verify/mixed_world.py $seed "$folder"
+  compare "$folder/mixed_$seed.xml" --time 3
 done
 for seed in 1 2 3; do
   for kind in maze cave office open; do

@@ -41,6 +41,17 @@ std::string faultOf(RankGroup& group) {
     if (from.at(static_cast<std::size_t>(i)) != textFrom(i, rank)) return "exchange from " + std::to_string(i);
   }
 
+  for (int round = 0; round < 4; ++round) {
+    const bool has_texts_for_all = round != 1;
+    const auto for_all = [&](int i) { return has_texts_for_all ? textFrom(i, round) : std::string(); };
+    group.exchangeAndGather(to, for_all(rank), from, all);
+    for (int i = 0; i < size; ++i) {
+      if (from.at(static_cast<std::size_t>(i)) != textFrom(i, rank))
+        return "exchangeAndGather from " + std::to_string(i);
+      if (all.at(static_cast<std::size_t>(i)) != for_all(i)) return "exchangeAndGather for all of " + std::to_string(i);
+    }
+  }
+
   // Two messages of each other rank, in the order sent, answered by one.
   group.barrier();
   constexpr double kLong_s = 60;
