@@ -9,7 +9,7 @@
 namespace robosim {
 namespace {
 
-constexpr double kTolerance_m = 1e-6;
+constexpr double kRayTolerance_m = 1e-6;
 
 TEST(Laser, ScansASquareRoomFromRightToLeft) {
   // The robot is in the middle of a room of 4 m × 4 m; beam i of 181 faces i - 90 degrees.
@@ -19,7 +19,7 @@ TEST(Laser, ScansASquareRoomFromRightToLeft) {
   for (int i = 0; i <= 180; ++i) {
     const double angle = (i - 90) * M_PI / 180;
     const double wall = 2 / std::max(std::abs(std::cos(angle)), std::abs(std::sin(angle)));
-    EXPECT_NEAR(ranges[static_cast<std::size_t>(i)], wall, kTolerance_m) << i;
+    EXPECT_NEAR(ranges[static_cast<std::size_t>(i)], wall, kRayTolerance_m) << i;
   }
 }
 
@@ -27,9 +27,9 @@ TEST(Laser, StartsAtItsMountingPoseAndReportsPointsInTheRobotsFrame) {
   SingleRobotScene robot({block(2.5, 0, 1, 6)}, {1, 0, 0});
   const auto laser = sensorFrom("<laser x_m='0.1' z_m='0.25' beams='1'/>");
   const auto echo = std::get<Echoes>(robot.sense(*laser))[0];
-  EXPECT_NEAR(echo.range_m, 0.9, kTolerance_m);
-  EXPECT_NEAR(echo.point_m.x, 1.0, kTolerance_m);
-  EXPECT_NEAR(echo.point_m.z, 0.25, kTolerance_m);
+  EXPECT_NEAR(echo.range_m, 0.9, kRayTolerance_m);
+  EXPECT_NEAR(echo.point_m.x, 1.0, kRayTolerance_m);
+  EXPECT_NEAR(echo.point_m.z, 0.25, kRayTolerance_m);
 }
 
 TEST(Laser, Format2005IsOnePanningBeamThatReadsTheRangePlusOneUnitWithoutHit) {
@@ -37,18 +37,18 @@ TEST(Laser, Format2005IsOnePanningBeamThatReadsTheRangePlusOneUnitWithoutHit) {
   const auto laser =
       sensorFrom("<sensor><type>laser</type><position><x-relative>1</x-relative><range>20</range></position></sensor>",
                  Mount{0.1, 0.2, 0.3});
-  EXPECT_NEAR(robot.ranges(*laser)[0], 2.1, kTolerance_m) << "nothing ahead: 20 + 1 units";
+  EXPECT_NEAR(robot.ranges(*laser)[0], 2.1, kRayTolerance_m) << "nothing ahead: 20 + 1 units";
   robot.laser_pan_rad = static_cast<float>(M_PI_2);
   const auto echo = std::get<Echoes>(robot.sense(*laser))[0];
-  EXPECT_NEAR(echo.range_m, 2.1, kTolerance_m) << "the wall is 2 m to the left, not nearer than 20 units";
+  EXPECT_NEAR(echo.range_m, 2.1, kRayTolerance_m) << "the wall is 2 m to the left, not nearer than 20 units";
   robot.world_from_robot = {0, 0.5, 0};
-  EXPECT_NEAR(robot.ranges(*laser)[0], 1.5, kTolerance_m);
+  EXPECT_NEAR(robot.ranges(*laser)[0], 1.5, kRayTolerance_m);
 }
 
 TEST(Laser, IgnoresThePanWithoutThePansFlag) {
   SingleRobotScene robot({block(0, 2.5, 6, 1)});
   robot.laser_pan_rad = static_cast<float>(M_PI_2);
-  EXPECT_NEAR(robot.ranges(*sensorFrom("<laser beams='1'/>"))[0], 8, kTolerance_m);
+  EXPECT_NEAR(robot.ranges(*sensorFrom("<laser beams='1'/>"))[0], 8, kRayTolerance_m);
 }
 
 TEST(Laser, NoiseHasTheDataSheetsSpread) {
@@ -63,8 +63,8 @@ TEST(Laser, NoiseHasTheDataSheetsSpread) {
 TEST(Infrared, ReadsItsRangeWithoutHit) {
   const auto infrared = sensorFrom("<infrared><at x_m='0.2'/><at x_m='-0.2' angle_deg='180'/></infrared>");
   const auto ranges = SingleRobotScene({block(1.2, 0, 1, 6)}).ranges(*infrared);  // its face 0.7 m ahead of the centre
-  EXPECT_NEAR(ranges[0], 0.5, kTolerance_m);
-  EXPECT_NEAR(ranges[1], 0.8, kTolerance_m);
+  EXPECT_NEAR(ranges[0], 0.5, kRayTolerance_m);
+  EXPECT_NEAR(ranges[1], 0.8, kRayTolerance_m);
 }
 
 TEST(Infrared, NoiseOfTheDataSheetIsTwoPercentOfTheRange) {
@@ -92,7 +92,7 @@ TEST(Infrared, DropsTheGivenShareOfItsEchoes) {
   int dropped = 0;
   for (int i = 0; i < kSamples; ++i) {
     const double range_m = robot.ranges(*infrared)[0];
-    EXPECT_NEAR(range_m, range_m > 0.6 ? 0.8 : 0.4, kTolerance_m) << "an echo is exact, or absent";
+    EXPECT_NEAR(range_m, range_m > 0.6 ? 0.8 : 0.4, kRayTolerance_m) << "an echo is exact, or absent";
     dropped += range_m > 0.6;
   }
   EXPECT_NEAR(dropped, 1000, 4 * 27.4) << "standard deviation sqrt(4000 * 0.25 * 0.75) = 27.4";
