@@ -44,7 +44,7 @@ void fit(const FitArguments& a) {
 void addFit(CLI::App& program) {
   auto* command = addSubcommand(program, "fit");
   auto a = std::make_shared<FitArguments>();
-  command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog of a real robot with a laser scanner, partly at rest")
+  command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog of a real robot with a laser scanner, best at rest")
       ->transform(inputFile())
       ->type_name("FILE")
       ->required();
@@ -74,7 +74,9 @@ void addFit(CLI::App& program) {
       "Try:  robosim fit real.rawlog -o laser.xml --report laser.html\n"
       "A robot type includes the file in its <sensors>: <include file=\"laser.xml\" z_m=\"0.3\"/>\n"
       "Each pair of scans at rest is compared with simulated scans of a model that is fitted to the other half of the "
-      "pairs; the written model is fitted to all.");
+      "pairs; the written model is fitted to all. A recording without two such pairs is fitted to the residuals of its "
+      "scans about the map of the scans before them, which also contain errors of the motion and of the map: upper "
+      "bounds of the scanner's errors.");
   command->callback([a] { fit(*a); });
 }
 

@@ -35,6 +35,10 @@ std::string pathOf(const std::vector<double>& shares, double largest) {
   return path + " L" + fixed(kWidth_px - kMargin_px, 0) + " " + fixed(floor_px, 0);
 }
 
+std::string valuesOf(const ScannerFit& fit) {
+  return fit.basis == FitBasis::scans_at_rest ? "differences" : "residuals";
+}
+
 std::string histogramOf(const ScannerFit& fit, std::size_t band) {
   const double bin_m = std::max(fit.model.errors.quantum_m, 0.002);
   const auto real = sharesOf(fit.real.differences_m[band], bin_m);
@@ -56,7 +60,7 @@ std::string histogramOf(const ScannerFit& fit, std::size_t band) {
            "\" font-size=\"11\" text-anchor=\"middle\">" + std::to_string(cm) + (cm == 15 ? " cm" : "") + "</text>\n";
   }
   svg += "<text x=\"" + std::to_string(kMargin_px) + "\" y=\"16\" font-size=\"11\">" + fixed(100 * largest, 0) +
-         " % of the differences</text>\n";
+         " % of the " + valuesOf(fit) + "</text>\n";
   return svg + "</svg>\n";
 }
 
@@ -85,17 +89,19 @@ std::string bandsOf(const ScannerFit& fit) {
     const std::size_t n = fit.real.differences_m[band].size();
     html += "<h3>" + escapedHtml(bandName(band)) + "</h3>\n";
     if (n == 0) {
-      html += "<p>No held-out differences.</p>\n";
+      html += "<p>No held-out " + valuesOf(fit) + ".</p>\n";
       continue;
     }
     const double ks = fit.ksOf(band), bound = fit.ksBoundOf(band);
+    const std::string parts = fit.basis == FitBasis::scans_at_rest ? " pairs" : " scans";
     html += "<p>KS distance " + fixed(ks, 3) + ", bound " + fixed(bound, 3) + " (" +
             (ks <= bound ? "agrees" : "differs") + "); " + withCommas(n) + " real and " +
-            withCommas(fit.simulated.differences_m[band].size()) + " simulated differences.";
+            withCommas(fit.simulated.differences_m[band].size()) + " simulated " + valuesOf(fit) + ".";
     for (std::size_t half = 0; half < fit.folds.size(); ++half) {
       const HeldOutFit& fold = fit.folds[half];
-      html += (half == 0 ? " Odd pairs alone: " : "; even pairs alone: ") +
-              fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + ", bound " + fixed(fold.ksBoundOf(band), 3) +
+      html += (half == 0 ? " Odd" : "; even") + parts +
+              " alone: " + fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + ", bound " +
+              fixed(fold.ksBoundOf(band), 3) +
               (fit.isBeyondBound(fold, band) ? " (<strong>differs</strong>)" : " (agrees)");
     }
     html += ".</p>\n";
@@ -114,9 +120,17 @@ std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
       "table{border-collapse:collapse}th,td{border:1px solid #bbb;padding:.2em .6em;text-align:left}"
       "pre{background:#f5f5f5;padding:.8em;overflow-x:auto}svg{max-width:100%}</style>\n</head>\n<body>\n";
   html += "<h1>Laser errors of " + escapedHtml(rawlog) + "</h1>\n<pre>" + escapedHtml(summaryOf(fit)) + "</pre>\n";
-  html +=
-      "<h2>Differences of scans at rest</h2>\n<p>Second minus first range of two successive scans. Filled: held-out "
-      "pairs of the recording. Line: simulated by RoboSim's scanner with the fitted errors.</p>\n";
+  if (fit.basis == FitBasis::scans_at_rest) {
+    html +=
+        "<h2>Differences of scans at rest</h2>\n<p>Second minus first range of two successive scans. Filled: held-out "
+        "pairs of the recording. Line: simulated by RoboSim's scanner with the fitted errors.</p>\n";
+  } else {
+    html +=
+        "<h2>Residuals of the scans of a drive</h2>\n<p>Range minus that of the local map, which consists of the "
+        "aligned scans before. <strong>The residuals also contain errors of the motion and of the map, so that the "
+        "fitted errors are upper bounds of the scanner's own.</strong> Filled: held-out scans of the recording. Line: "
+        "simulated by the errors of RoboSim's scanner that are fitted to the other scans.</p>\n";
+  }
   html += bandsOf(fit);
   html += "<h2>Excluded pairs</h2>\n" + excludedOf(fit);
   html += "<h2>Model</h2>\n<pre>" + escapedHtml(modelXml(fit, rawlog)) + "</pre>\n</body>\n</html>\n";

@@ -26,8 +26,24 @@ double probabilityOf(long n, double std) {
   return std::max(0.0, rampOf(x + 1, std) - 2 * rampOf(x, std) + rampOf(x - 1, std));
 }
 
+/// What a histogram counts: differences of two readings, or residuals of one reading about its expected range.
+enum class Sample { differences, residuals };
+
+/// Log-likelihood of residuals for readings of standard deviation `std` units. The rounding of a reading and the bins
+/// cause the same triangle as the rounding of two readings.
+double residualLikelihoodOf(const Histogram& histogram, double std, double tail, double factor) {
+  double sum = 0;
+  for (const auto& [n, count] : histogram) {
+    double p = (1 - tail) * probabilityOf(n, std);
+    if (tail > 0) p += tail * probabilityOf(n, std * factor);
+    sum += count * std::log(std::max(p, 1e-30));
+  }
+  return sum;
+}
+
 /// Log-likelihood for readings of standard deviation `std` units.
-double likelihoodOf(const Histogram& histogram, double std, double tail, double factor) {
+double likelihoodOf(Sample sample, const Histogram& histogram, double std, double tail, double factor) {
+  if (sample == Sample::residuals) return residualLikelihoodOf(histogram, std, tail, factor);
   const double single = std * M_SQRT2;
   const double mixed = std * std::sqrt(1 + factor * factor);
   const double wide = single * factor;
@@ -41,10 +57,10 @@ double likelihoodOf(const Histogram& histogram, double std, double tail, double 
 }
 
 /// The standard deviation of the largest likelihood, by golden-section search of its logarithm.
-std::pair<double, double> bestStd(const Histogram& histogram, double tail, double factor) {
+std::pair<double, double> bestStd(Sample sample, const Histogram& histogram, double tail, double factor) {
   constexpr double kGolden = 0.6180339887498949;
   double low = std::log(0.05), high = std::log(100.0);
-  const auto at = [&](double log_std) { return likelihoodOf(histogram, std::exp(log_std), tail, factor); };
+  const auto at = [&](double log_std) { return likelihoodOf(sample, histogram, std::exp(log_std), tail, factor); };
   double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
   double at_a = at(a), at_b = at(b);
   for (int i = 0; i < 30; ++i) {
@@ -69,9 +85,7 @@ double middleOf(std::size_t band) {
   return band + 1 < kBands ? (kBandLimits_m[band] + kBandLimits_m[band + 1]) / 2 : kBandLimits_m[band] * 1.5;
 }
 
-}  // namespace
-
-LaserFit fitLaser(const PairStatistics& statistics, double quantum_m) {
+LaserFit fitSample(Sample sample, const PairStatistics& statistics, double quantum_m) {
   const double bin_m = quantum_m > 0 ? quantum_m : 0.001;
   std::array<Histogram, kBands> histograms;
   bool has_any = false;
@@ -82,8 +96,10 @@ LaserFit fitLaser(const PairStatistics& statistics, double quantum_m) {
     for (const double difference_m : differences_m) histograms[band][std::lround(difference_m / bin_m)] += 1;
   }
   if (!has_any) {
-    throw ConfigError("the scans at rest have fewer than " + std::to_string(kFewestDifferences) +
-                      " ranges in every band; use a longer recording of a scanner at rest");
+    const bool is_at_rest = sample == Sample::differences;
+    throw ConfigError(std::string(is_at_rest ? "the scans at rest have" : "half of the scans have") + " fewer than " +
+                      std::to_string(kFewestDifferences) + " ranges in every band; use a longer recording" +
+                      (is_at_rest ? " of a scanner at rest" : ""));
   }
   LaserFit fit;
   double best = -std::numeric_limits<double>::infinity();
@@ -94,7 +110,7 @@ LaserFit fitLaser(const PairStatistics& statistics, double quantum_m) {
       std::array<double, kBands> std_m{};
       for (std::size_t band = 0; band < kBands; ++band) {
         if (histograms[band].empty()) continue;
-        const auto [std, likelihood] = bestStd(histograms[band], tail, factor);
+        const auto [std, likelihood] = bestStd(sample, histograms[band], tail, factor);
         std_m[band] = std * bin_m;
         sum += likelihood;
       }
@@ -110,7 +126,21 @@ LaserFit fitLaser(const PairStatistics& statistics, double quantum_m) {
     if (fit.std_m[band] > 0) fit.errors.std_at.push_back({middleOf(band), fit.std_m[band]});
   }
   fit.errors.quantum_m = quantum_m;
+  return fit;
+}
+
+}  // namespace
+
+LaserFit fitLaser(const PairStatistics& statistics, double quantum_m) {
+  LaserFit fit = fitSample(Sample::differences, statistics, quantum_m);
   fit.errors.outlier = statistics.jumpRate() / 2;
+  return fit;
+}
+
+LaserFit fitResiduals(const PairStatistics& residuals, double quantum_m) {
+  LaserFit fit = fitSample(Sample::residuals, residuals, quantum_m);
+  fit.errors.outlier = residuals.jumpRate();
+  fit.errors.dropout = residuals.flipRate();
   return fit;
 }
 

@@ -1,6 +1,7 @@
 #include "calibration/matched_scans.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -135,25 +136,40 @@ std::size_t align(const ScanSeries& series, const std::vector<double>& ranges_m,
   return near;
 }
 
-/// Range at which a ray meets the map; infinite for none.
-double castInto(const std::deque<Surface>& map, const TPoint2D& from, const TPoint2D& direction) {
+/// Range at which a ray meets a surface; infinite for none.
+double castInto(const Surface& surface, const TPoint2D& from, const TPoint2D& direction) {
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (const auto& surface : map) {
-    for (const auto& segment : surface.segments) {
-      const TPoint2D along = segment.to - segment.from, out = segment.from - from;
-      const double across = direction.x * along.y - direction.y * along.x;
-      if (across == 0) continue;
-      const double at_m = (out.x * along.y - out.y * along.x) / across;
-      const double share = (out.x * direction.y - out.y * direction.x) / across;
-      if (at_m > 0 && share >= 0 && share <= 1) nearest_m = std::min(nearest_m, at_m);
-    }
+  for (const auto& segment : surface.segments) {
+    const TPoint2D along = segment.to - segment.from, out = segment.from - from;
+    const double across = direction.x * along.y - direction.y * along.x;
+    if (across == 0) continue;
+    const double at_m = (out.x * along.y - out.y * along.x) / across;
+    const double share = (out.x * direction.y - out.y * direction.x) / across;
+    if (at_m > 0 && share >= 0 && share <= 1) nearest_m = std::min(nearest_m, at_m);
   }
   return nearest_m;
 }
 
+/// Range at which a ray meets the map; infinite for none.
+double castInto(const std::deque<Surface>& map, const TPoint2D& from, const TPoint2D& direction, MapRange range) {
+  std::array<double, kMapScans> each_m;
+  each_m.fill(std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < map.size(); ++i) each_m[i] = castInto(map[i], from, direction);
+  const double nearest_m = *std::min_element(each_m.begin(), each_m.end());
+  if (range == MapRange::nearest || std::isinf(nearest_m)) return nearest_m;
+  double sum_m = 0;
+  int same = 0;
+  for (const double at_m : each_m) {
+    if (at_m > nearest_m + kSameSurface_m) continue;
+    sum_m += at_m;
+    ++same;
+  }
+  return sum_m / same;
+}
+
 }  // namespace
 
-MatchedReadings matchScans(const ScanSeries& series) {
+MatchedReadings matchScans(const ScanSeries& series, MapRange range) {
   MatchedReadings matched;
   std::deque<Surface> map;
   for (std::size_t k = 0; k < series.scans.size(); ++k) {
@@ -172,10 +188,11 @@ MatchedReadings matchScans(const ScanSeries& series) {
         map.clear();
       } else {
         ++matched.matched;
+        matched.first_of_scan.push_back(matched.readings.size());
         for (std::size_t i = 0; i < scan.ranges_m.size(); ++i) {
           const TPoint2D ahead = map_from_scan.composePoint(pointOf(series, i, 1));
           const TPoint2D from(map_from_scan.x, map_from_scan.y);
-          const double expected_m = castInto(map, from, ahead - from);
+          const double expected_m = castInto(map, from, ahead - from, range);
           if (expected_m < series.range_max_m) matched.readings.push_back({scan.ranges_m[i], expected_m});
         }
       }

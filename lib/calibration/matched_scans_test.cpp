@@ -8,6 +8,7 @@
 #include "base/interrupt.h"
 #include "base/random.h"
 #include "calibration/laser_fit.h"
+#include "calibration/map_residuals.h"
 #include "calibration/simulated_pairs.h"
 
 namespace robosim {
@@ -46,6 +47,48 @@ TEST(MatchedScans, HaveTheNoiseOfTheScannerAsResidualDespiteWrongOdometry) {
   // Noise of the reading and of the map, which consists of points with the same noise; the nearest of three surfaces.
   EXPECT_GT(model.sigma_hit_m, kStd_m);
   EXPECT_LT(model.sigma_hit_m, 2 * kStd_m);
+}
+
+TEST(MapResiduals, BoundTheNoiseOfTheScannerFromAbove) {
+  constexpr double kStd_m = 0.01;
+  const MatchedReadings matched = matchScans(drivingSeries(kStd_m), MapRange::mean);
+  ASSERT_EQ(matched.first_of_scan.size(), 19u);
+  const LaserFit fit = fitResiduals(residualsOf(matched.readings), 0);
+  // Variance of a point between two others: 2/3 on average; of the mean of three surfaces 2/9, of those before the
+  // first two scans 2/3 and 1/3. (17 · 2/9 + 2/3 + 1/3) / 19 = 0.25, so √1.25 = 1.118 times the noise of the reading.
+  // Some 1000 readings in each band: standard error 2.2 %.
+  for (const std::size_t band : {1u, 2u}) EXPECT_NEAR(fit.std_m[band], 1.118 * kStd_m, 0.07 * kStd_m) << band;
+  EXPECT_EQ(fit.errors.outlier, 0);
+  EXPECT_EQ(fit.errors.dropout, 0);
+}
+
+TEST(MapResiduals, AreSimulatedWithTheErrorsOfTheScanner) {
+  const std::vector<ExpectedReading> readings(1000, {0, 3});
+  LaserErrors errors;
+  errors.std_m = 0.02;
+  errors.dropout = 0.1;
+  errors.outlier = 0.05;
+  const PairStatistics simulated = simulateResiduals(readings, errors, 20, 10, 1);
+  EXPECT_EQ(simulated.beams, 10'000u);
+  EXPECT_NEAR(simulated.flipRate(), 0.1, 0.012) << "four standard errors";
+  // 5 % of all are 5.56 % of those with an echo, and 1.5 % of the outliers are within 15 cm.
+  EXPECT_NEAR(simulated.jumpRate(), 0.0547, 0.0096) << "four standard errors";
+  const LaserFit fit = fitResiduals(simulated, 0);
+  EXPECT_NEAR(fit.std_m[1], 0.02, 0.0008);
+  EXPECT_NEAR(fit.errors.dropout, 0.1, 0.012);
+}
+
+TEST(MapResiduals, AreThoseOfEveryOtherScan) {
+  MatchedReadings matched;
+  matched.readings = {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {5, 1}};
+  matched.first_of_scan = {0, 2, 2, 4};
+  const auto readOf = [&](std::size_t first) {
+    std::vector<double> read_m;
+    for (const auto& reading : readingsOfScans(matched, first, 2)) read_m.push_back(reading.read_m);
+    return read_m;
+  };
+  EXPECT_EQ(readOf(0), (std::vector<double>{1, 2, 3, 4}));
+  EXPECT_EQ(readOf(1), (std::vector<double>{5}));
 }
 
 TEST(MatchedScans, EndWhenASignalRequestsIt) {

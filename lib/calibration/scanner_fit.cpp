@@ -3,9 +3,11 @@
 #include <cmath>
 
 #include "base/error_list.h"
+#include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "base/xml_element.h"
+#include "calibration/map_residuals.h"
 #include "calibration/simulated_pairs.h"
 
 namespace robosim {
@@ -13,6 +15,8 @@ namespace {
 
 /// Simulated pairs for each held-out one.
 constexpr std::size_t kSimulatedPerPair = 40;
+/// Simulated readings for each held-out one of a drive.
+constexpr std::size_t kSimulatedPerReading = 4;
 constexpr std::uint64_t kSeed = 1;
 
 /// Every second pair of `all`, from `first` on.
@@ -55,6 +59,64 @@ LaserFit modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, d
     model.errors.reach_m = std::max(model.errors.reach_m, reachFor(seenSurfaces(series, group), model.errors.fading));
   }
   return model;
+}
+
+/// Fits the errors to the pairs of scans at rest.
+void fitPairs(ScannerFit& fit, Progress& progress) {
+  progress.show("fitting …");
+  const double quantum_m = quantumOf(fit.series);
+  fit.model = modelOf(fit.series, fit.used, quantum_m);
+  for (std::size_t i = 0; i < fit.folds.size(); ++i) {
+    progress.show("comparing with held-out pairs …");
+    HeldOutFit& fold = fit.folds[i];
+    fold.fitted = everySecond(fit.used, i);
+    fold.held_out = everySecond(fit.used, 1 - i);
+    fold.model = modelOf(fit.series, fold.fitted, quantum_m);
+    fold.real = statisticsOf(fit.series, fold.held_out);
+    fold.simulated = simulatePairs(fit.series, fold.fitted, fold.model.errors, kSimulatedPerPair, kSeed + i);
+  }
+  fit.beam_model = fitBeamModel(expectedReadings(fit.series, fit.used), fit.series.range_max_m);
+  progress.show("matching scans …");
+  fit.map_readings = matchScans(fit.series);
+  if (!fit.map_readings.readings.empty()) {
+    fit.map_model = fitBeamModel(fit.map_readings.readings, fit.series.range_max_m);
+  }
+}
+
+/// Fits the errors to the residuals of all scans about the local map.
+void fitDrive(ScannerFit& fit, const std::string& rawlog, Progress& progress) {
+  progress.show("matching scans …");
+  fit.map_readings = matchScans(fit.series, MapRange::mean);
+  if (fit.map_readings.matched < kFewestMatchedScans) {
+    throw ConfigError(rawlog + ": has " + std::to_string(fit.used.size()) + " pairs of scans at rest of '" +
+                      quotable(fit.series.label) + "', of " + std::to_string(fit.series.scans.size()) + " scans, and " +
+                      std::to_string(fit.map_readings.matched) + " scans that can be aligned with those before them; " +
+                      std::to_string(kFewestPairs) + " pairs or " + std::to_string(kFewestMatchedScans) +
+                      " aligned scans are required, so record the scanner while the robot stands, or longer while it " +
+                      "drives among walls" + (fit.candidates.size() >= kFewestPairs ? ", or use --rest odometry" : ""));
+  }
+  progress.show("fitting …");
+  const double quantum_m = quantumOf(fit.series), range_max_m = fit.series.range_max_m;
+  fit.model = fitResiduals(residualsOf(fit.map_readings.readings), quantum_m);
+  fit.map_model = fitBeamModel(fit.map_readings.readings, range_max_m);
+  for (std::size_t i = 0; i < fit.folds.size(); ++i) {
+    progress.show("comparing with held-out scans …");
+    HeldOutFit& fold = fit.folds[i];
+    const auto held_out = readingsOfScans(fit.map_readings, 1 - i, 2);
+    fold.model = fitResiduals(residualsOf(readingsOfScans(fit.map_readings, i, 2)), quantum_m);
+    fold.real = residualsOf(held_out);
+    fold.simulated = simulateResiduals(held_out, fold.model.errors, range_max_m, kSimulatedPerReading, kSeed + i);
+  }
+}
+
+std::string basisOf(const ScannerFit& fit) {
+  if (fit.basis == FitBasis::scans_at_rest) return std::to_string(fit.used.size()) + " pairs of scans at rest";
+  return "the residuals of " + withCommas(fit.map_readings.matched) + " scans about the map of the scans before them";
+}
+
+std::string boundsOf(const ScannerFit& fit) {
+  if (fit.basis == FitBasis::scans_at_rest) return "";
+  return ", which contain errors of the motion and of the map: upper bounds of the scanner's own errors";
 }
 
 std::string textOf(const BeamModel& b) {
@@ -109,31 +171,15 @@ ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, Rest
   for (const auto& pair : fit.candidates) {
     if (criterion == RestCriterion::odometry || pair.is_at_rest) fit.used.push_back(pair);
   }
-  if (fit.used.size() < 2) {
-    throw ConfigError(rawlog + ": has " + std::to_string(fit.used.size()) + " pairs of scans at rest of '" +
-                      fit.series.label + "', of " + std::to_string(fit.series.scans.size()) +
-                      " scans; at least two are required, so record the scanner while the robot stands" +
-                      (fit.candidates.size() > fit.used.size() ? ", or use --rest odometry" : ""));
+  if (fit.used.size() < kFewestPairs) {
+    fit.basis = FitBasis::local_map;
+    fitDrive(fit, rawlog, progress);
+  } else {
+    fitPairs(fit, progress);
   }
-  progress.show("fitting …");
-  const double quantum_m = quantumOf(fit.series);
-  fit.model = modelOf(fit.series, fit.used, quantum_m);
-  for (std::size_t i = 0; i < fit.folds.size(); ++i) {
-    progress.show("comparing with held-out pairs …");
-    HeldOutFit& fold = fit.folds[i];
-    fold.fitted = everySecond(fit.used, i);
-    fold.held_out = everySecond(fit.used, 1 - i);
-    fold.model = modelOf(fit.series, fold.fitted, quantum_m);
-    fold.real = statisticsOf(fit.series, fold.held_out);
-    fold.simulated = simulatePairs(fit.series, fold.fitted, fold.model.errors, kSimulatedPerPair, kSeed + i);
+  for (const auto& fold : fit.folds) {
     fit.real.add(fold.real);
     fit.simulated.add(fold.simulated);
-  }
-  fit.beam_model = fitBeamModel(expectedReadings(fit.series, fit.used), fit.series.range_max_m);
-  progress.show("matching scans …");
-  fit.map_readings = matchScans(fit.series);
-  if (!fit.map_readings.readings.empty()) {
-    fit.map_model = fitBeamModel(fit.map_readings.readings, fit.series.range_max_m);
   }
   return fit;
 }
@@ -157,34 +203,38 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   set("quantum_m", e.quantum_m, 4);
   set("dropout", e.dropout, 6);
   set("outlier", e.outlier, 6);
-  set("reach_m", e.reach_m, 1);
-  set("fading", e.fading, 3);
+  if (e.reach_m > 0) {  // unknown from a drive
+    set("reach_m", e.reach_m, 1);
+    set("fading", e.fading, 3);
+  }
   for (const auto& at : e.std_at) {
     XmlElement& point = noise.add("at");
     point.attributes = {{"range_m", fixed(at.range_m, 2)}, {"std_m", fixed(at.std_m, 5)}};
   }
-  const std::size_t pairs = fit.used.size();
   std::string name = rawlog.substr(rawlog.find_last_of('/') + 1);
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
   std::string text = toXml(laser);
-  const std::string comment = "<!-- Fitted to " + std::to_string(pairs) + " pairs of scans at rest of " + name +
+  const std::string comment = "<!-- Fitted to " + basisOf(fit) + " of " + name + boundsOf(fit) +
                               ". In the <sensors> of a robot type: <include file=\"laser.xml\" z_m=\"0.3\"/> -->\n";
   return text.insert(text.find('\n') + 1, comment);  // after the declaration
 }
 
 std::string summaryOf(const ScannerFit& fit) {
+  const bool is_at_rest = fit.basis == FitBasis::scans_at_rest;
   std::string text = "scanner   '" + fit.series.label + "', " + withCommas(fit.series.scans.size()) + " scans of " +
                      std::to_string(fit.series.scans.front().ranges_m.size()) + " beams\nat rest   " +
                      std::to_string(fit.used.size()) + " pairs of scans; " +
                      std::to_string(fit.candidates.size() - fit.used.size()) +
                      " excluded, because the scans contradict the odometry\n";
+  if (!is_at_rest) text += "fitted    to " + basisOf(fit) + boundsOf(fit) + "\n";
   const LaserErrors& e = fit.model.errors;
   text += "errors    quantum " + fixed(e.quantum_m, 3) + " m, tail " + fixed(e.tail, 3) + " × " +
-          fixed(e.tail_factor, 0) + ", lost " + percent(e.dropout) + ", outliers " + percent(e.outlier) + ", reach " +
-          fixed(e.reach_m, 0) + " m\n";
-  text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
+          fixed(e.tail_factor, 0) + ", lost " + percent(e.dropout) + ", outliers " + percent(e.outlier) +
+          (e.reach_m > 0 ? ", reach " + fixed(e.reach_m, 0) + " m" : "") + "\n";
+  if (is_at_rest) text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
   text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
           " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
+  const std::string parts = is_at_rest ? "pairs" : "scans";
   std::string beyond;  // halves
   Rows rows{{"held out", "std", "real", "simulated", "KS", "bound", "KS, odd", "bound", "KS, even", "bound"}};
   for (std::size_t band = 0; band < kBands; ++band) {
@@ -199,7 +249,8 @@ std::string summaryOf(const ScannerFit& fit) {
       rows.back().push_back(fixed(fit.ksOf(fold.real, fold.simulated, band), 3) + (is_beyond ? " !" : ""));
       rows.back().push_back(fixed(fold.ksBoundOf(band), 3));
       if (!is_beyond) continue;
-      beyond += (beyond.empty() ? "" : ", ") + std::string(half == 0 ? "odd" : "even") + " pairs at " + bandName(band);
+      beyond +=
+          (beyond.empty() ? "" : ", ") + std::string(half == 0 ? "odd " : "even ") + parts + " at " + bandName(band);
     }
   }
   text += table(rows);
@@ -211,12 +262,11 @@ std::string summaryOf(const ScannerFit& fit) {
       rows.back().push_back(percent((fold.simulated.*rate)()));
     }
   };
-  add("jumps above 15 cm", &PairStatistics::jumpRate);
-  add("changes of validity", &PairStatistics::flipRate);
-  add("invalid in both", &PairStatistics::invalidRate);
-  text += "\n" + table(rows);
-  text += fit.isAccepted() ? "\nThe held-out pairs agree with the model.\n"
-                           : "\nThe held-out pairs differ from the model by more than the bounds.\n";
+  add(is_at_rest ? "jumps above 15 cm" : "residuals above 15 cm", &PairStatistics::jumpRate);
+  add(is_at_rest ? "changes of validity" : "lost echoes", &PairStatistics::flipRate);
+  if (is_at_rest) add("invalid in both", &PairStatistics::invalidRate);
+  text += "\n" + table(rows) + "\nThe held-out " + parts +
+          (fit.isAccepted() ? " agree with the model.\n" : " differ from the model by more than the bounds.\n");
   if (!beyond.empty()) text += "! One half alone exceeds its bound: " + beyond + ".\n";
   return text;
 }

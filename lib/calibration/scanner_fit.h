@@ -17,11 +17,20 @@ enum class RestCriterion {
   odometry,  ///< unchanged odometry only: also counts a robot that rocks
 };
 
-/// A model estimated from every other pair of scans at rest, and compared with the other pairs.
+/// What the errors are estimated from.
+enum class FitBasis {
+  scans_at_rest,  ///< differences of pairs of scans at rest
+  /// Residuals of the scans of a drive about the local map, for a recording with fewer than kFewestPairs pairs at rest.
+  /// They also contain errors of the motion and of the map.
+  local_map,
+};
+
+/// A model estimated from every other pair of scans at rest, or from every other scan of a drive, and compared with the
+/// others.
 struct HeldOutFit {
-  std::vector<ScanPair> fitted, held_out;
+  std::vector<ScanPair> fitted, held_out;  ///< empty for FitBasis::local_map
   LaserFit model;
-  PairStatistics real, simulated;  ///< of the held-out pairs, and of the model
+  PairStatistics real, simulated;  ///< of the held-out pairs or scans, and of the model
 
   /// Bound of the Kolmogorov–Smirnov distance of a band.
   double ksBoundOf(std::size_t band) const;
@@ -29,17 +38,18 @@ struct HeldOutFit {
   bool ratesAgree() const;
 };
 
-/// A model of a scanner, estimated from all pairs of scans at rest. Two-fold cross-validation compares each pair with a
-/// model that is not fitted to it.
+/// A model of a scanner, estimated from all pairs of scans at rest, or from all scans of a drive. Two-fold
+/// cross-validation compares each pair or scan with a model that is not fitted to it.
 struct ScannerFit {
   ScanSeries series;
+  FitBasis basis = FitBasis::scans_at_rest;
   RestCriterion criterion = RestCriterion::scans;
   std::vector<ScanPair> candidates;  ///< all pairs at unchanged odometry
   std::vector<ScanPair> used;        ///< of these, by the criterion
-  LaserFit model;                    ///< of all of them
-  std::array<HeldOutFit, 2> folds;   ///< fitted to the pairs of even and of odd number
+  LaserFit model;                    ///< of all of them, or of all scans
+  std::array<HeldOutFit, 2> folds;   ///< fitted to the pairs (scans) of even and of odd number
   PairStatistics real, simulated;    ///< of both folds
-  BeamModel beam_model;              ///< of all readings at rest, about the mean range of each beam
+  BeamModel beam_model;              ///< of all readings at rest, about the mean range of each beam; unless local_map
   MatchedReadings map_readings;
   BeamModel map_model;  ///< of these
 
@@ -55,8 +65,13 @@ struct ScannerFit {
 
 /// Largest accepted difference of a rate.
 constexpr double kRateTolerance = 0.003;
+/// Fewest pairs of scans at rest from which errors are estimated.
+constexpr std::size_t kFewestPairs = 2;
+/// Fewest aligned scans from which errors are estimated otherwise.
+constexpr std::size_t kFewestMatchedScans = 10;
 
-/// @throws ConfigError when the file is no rawlog, has no such scanner, or the scanner is never at rest
+/// @throws ConfigError when the file is no rawlog, has no such scanner, or the scanner is never at rest and too few of
+/// its scans can be aligned
 /// @throws Interrupted when a signal requests the end
 ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion);
 

@@ -222,6 +222,14 @@ void makeTeam(const WorldSource& source, const RobotTypes& types, int size, std:
   }
 }
 
+/// Whether a world file has a <communication>; a map has none.
+bool specifiesCommunication(const WorldSource& source) {
+  if (isMapFile(source.file)) return false;
+  const XmlElement root = parseXml(source.text, source.file);
+  return std::any_of(root.children.begin(), root.children.end(),
+                     [](const XmlElement& child) { return child.name == "communication"; });
+}
+
 /// The text of a type with noise added to its sensors.
 std::string textOf(const RobotTypeFile& type, AddedNoise noise) {
   const std::string text = wholeTextOf(type);
@@ -265,6 +273,7 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   const mrpt::math::TPose2D home = world.robots.empty() ? mrpt::math::TPose2D() : world.robots.front().world_from_robot;
   if (changes.addsRobots() && isMapFile(source.file)) world.robots.clear();
   if (changes.team) makeTeam(source, types, *changes.team, seed, world);
+  if (changes.adds_radio_errors && !specifiesCommunication(source)) world.communication = kAddedRadio;
   if (changes.message_loss) world.communication.loss_probability = *changes.message_loss;
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);

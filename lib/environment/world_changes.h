@@ -6,6 +6,7 @@
 
 #include "robots/world_source.h"
 #include "sensors/added_noise.h"
+#include "world/world.h"
 
 namespace robosim {
 
@@ -22,6 +23,10 @@ struct AddedRobot {
   static AddedRobot parse(const std::string& text);
 };
 
+/// Errors of the radio that WorldChanges::adds_radio_errors adds (doc/fidelity.md).
+inline constexpr Communication kAddedRadio{
+    .range_m = 100, .loss_probability = 0.01, .wall_range_m = 5, .burst_gap_s = 10, .burst_s = 0.5, .delay_s = 0.1};
+
 /// Changes that a run makes to a world.
 struct WorldChanges {
   std::vector<AddedRobot> robots;
@@ -34,10 +39,12 @@ struct WorldChanges {
   std::optional<double> message_loss;   ///< instead of Communication::loss_probability, [0, 1]
   bool has_random_starts = false;       ///< shuffleStartPoses()
   AddedNoise noise = AddedNoise::none;  ///< added to every sensor that supports noise and has none
+  bool adds_radio_errors = false;       ///< kAddedRadio, unless the world specifies its communication
 
   bool addsRobots() const { return !robots.empty() || random_robots > 0; }
   bool isNone() const {
-    return !addsRobots() && !team && !message_loss && !has_random_starts && noise == AddedNoise::none;
+    return !addsRobots() && !team && !message_loss && !has_random_starts && noise == AddedNoise::none &&
+           !adds_radio_errors;
   }
 };
 

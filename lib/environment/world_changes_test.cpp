@@ -175,6 +175,24 @@ TEST(WorldChanges, SetTheLossOfMessages) {
   EXPECT_EQ(changed(changes).world.communication.loss_probability, 0.25);
 }
 
+TEST(WorldChanges, AddErrorsOfTheRadioToAWorldThatDoesNotSpecifyIt) {
+  const auto radioOf = [](const WorldChanges& changes, const std::string& radio) {
+    WorldSource source = square();
+    source.text.insert(source.text.find("</world>"), radio);
+    return changed(changes, 1, source).world.communication;
+  };
+  WorldChanges changes = robots({"pioneer3dx@3,0"});
+  EXPECT_EQ(radioOf(changes, ""), Communication());
+  changes.adds_radio_errors = true;
+  EXPECT_EQ(radioOf(changes, ""), kAddedRadio);
+  EXPECT_EQ(radioOf(changes, "<communication/>"), Communication()) << "exact";
+  EXPECT_EQ(radioOf(changes, "<communication delay_s='0.5'/>"), (Communication{.delay_s = 0.5}));
+  changes.message_loss = 0.25;
+  Communication lossy = kAddedRadio;
+  lossy.loss_probability = 0.25;
+  EXPECT_EQ(radioOf(changes, ""), lossy);
+}
+
 TEST(WorldChanges, MoveOnlyTheStartPoses) {
   const std::string robot =
       "<object><shape><robot><model>scout</model><name>A</name><x>30</x><y>0</y><controller>wander</controller>"

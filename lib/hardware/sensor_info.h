@@ -10,6 +10,7 @@
 #include <mrpt/math/TPose3D.h>
 
 #include "hardware/lens_distortion.h"
+#include "hardware/measurement_times.h"
 
 namespace robosim {
 
@@ -95,6 +96,10 @@ struct SensorInfo {
   CameraInfo camera = {};     ///< camera, and a blob finder's camera
   std::vector<std::string> colors = {};   ///< blob finder: the names of its target colours
   std::vector<Quantity> quantities = {};  ///< values: the numbers that it measures
+  double bearing_std_rad = 0;             ///< range and bearing: standard deviation of a bearing, 0 when noise is off
+  /// Steps in which a reading is new. Sonars that fire in turn: those in which one of them fires. Not of a camera,
+  /// which keeps no picture: CameraInfo::rate_hz.
+  MeasurementTimes times = {};
 };
 
 /// Distance from the robot's centre that no beam of a range sensor exceeds [m].

@@ -23,6 +23,8 @@ std::vector<SensorInfo> everySensor() {
     sensor.kind = kind;
     sensor.label = nameOf(kind);
     sensor.range_max_m = 5;
+    sensor.times = {.rate_hz = 5, .phase_s = 0.05};
+    sensor.bearing_std_rad = 0.25;
     if (kind != SensorKind::heat && kind != SensorKind::odometry && kind != SensorKind::compass) {
       sensor.beams = {{{0.1, 0.2, 0.3, 0.4, 0, 0}}, {{0.5, 0, 0, -1, 0.1, 0.2}}};
     }
@@ -311,6 +313,8 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   EXPECT_EQ((*decoded.robots[0].info.sensors)[8].colors, (std::vector<std::string>{"gold", "red"}));
   EXPECT_EQ((*decoded.robots[0].info.sensors)[9].quantities,
             (std::vector<Quantity>{{"co2", "ppm"}, {"humidity", "%"}}));
+  EXPECT_EQ((*decoded.robots[0].info.sensors)[1].times, (MeasurementTimes{5, 0.05}));
+  EXPECT_EQ((*decoded.robots[0].info.sensors)[9].bearing_std_rad, 0.25);
   EXPECT_EQ(decoded.all_robots, someWelcome().all_robots);
   v1::RobotsWelcome again;
   encode(decoded, again);

@@ -52,6 +52,9 @@ void encode(const SensorInfo& sensor, v1::SensorDescription& out) {
   out.set_beam_width_rad(sensor.beam_width_rad);
   out.set_noise_std_m(sensor.noise_std_m);
   out.set_pans(sensor.pans);
+  out.set_bearing_std_rad(sensor.bearing_std_rad);
+  out.set_rate_hz(sensor.times.rate_hz);
+  out.set_phase_s(sensor.times.phase_s);
   if (sensor.camera.width_px != 0) {
     auto& camera = *out.mutable_camera();
     camera.set_width_px(sensor.camera.width_px);
@@ -98,6 +101,9 @@ SensorInfo decode(const v1::SensorDescription& in) {
   sensor.beam_width_rad = in.beam_width_rad();
   sensor.noise_std_m = in.noise_std_m();
   sensor.pans = in.pans();
+  checkFinite({in.bearing_std_rad(), in.rate_hz(), in.phase_s()});
+  sensor.bearing_std_rad = in.bearing_std_rad();
+  sensor.times = {in.rate_hz(), in.phase_s()};
   const bool has_camera = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
   if (has_camera && sensor.beams.size() != 1) throw WireError("a camera has one place on the robot");
   if (has_camera) sensor.camera = decode(in.camera());

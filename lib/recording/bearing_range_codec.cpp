@@ -23,6 +23,7 @@ class BearingRangeCodec : public CodecOf<mrpt::obs::CObservationBearingRange, Va
     observation.fieldOfView_pitch = 0;
     observation.maxSensorDistance = static_cast<float>(sensor.range_max_m);
     observation.sensor_std_range = static_cast<float>(sensor.noise_std_m);
+    observation.sensor_std_yaw = static_cast<float>(sensor.bearing_std_rad);
     observation.sensorLocationOnRobot = mrpt::poses::CPose3D(mountOf(sensor));
   }
   void set(Observation& observation, const SensorInfo&, const Values& measured, float) const override {

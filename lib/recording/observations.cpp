@@ -65,7 +65,24 @@ RobotObservations::RobotObservations(const RobotInfo& robot, PictureFolder* pict
     const bool is_camera = (*sensors_)[slot].kind == SensorKind::camera;
     stems_.push_back(is_camera && pictures_ ? pictures_->stemFor(label) : "");
   }
+  forget();
   makeTemplates();
+  forget();
+}
+
+void RobotObservations::forget() {
+  kept_.assign(sensors_->size(), 0);
+  last_.clear();
+  for (const auto& sensor : *sensors_) last_.push_back(blankMeasurement(sensor));
+}
+
+bool RobotObservations::isKept(std::size_t slot, const Readings& readings) {
+  const MeasurementTimes& times = (*sensors_)[slot].times;
+  if (times.rate_hz == 0) return false;
+  const Measurement& measurement = readings.measurements[slot];
+  if (!times.isDue(readings.time) && measurement == last_[slot]) return true;
+  last_[slot] = measurement;
+  return false;
 }
 
 std::span<const CObservation::Ptr> RobotObservations::of(const Readings& readings,
@@ -81,6 +98,8 @@ std::span<const CObservation::Ptr> RobotObservations::of(const Readings& reading
     CObservation& observation = *observations_[1 + i];
     const Measurement& measurement = readings.measurements[slots_[i]];
     if (!std::visit([](const auto& kind) { return isPresent(kind); }, measurement)) continue;
+    kept_[slots_[i]] = isKept(slots_[i], readings) ? 1 : 0;
+    if (kept_[slots_[i]]) continue;
     observation.timestamp = timestamp;
     codecs_[i]->fill(observation, (*sensors_)[slots_[i]], measurement, readings.laser_pan_rad);
     if (!stems_[1 + i].empty())

@@ -34,7 +34,9 @@ double secondsSinceStart(mrpt::Clock::time_point);
 
 /// Converts one robot's readings to stock MRPT observations, by the Codec of each sensor (codecs.h; table in
 /// doc/rawlog.md), and ground truth to CObservationRobotPose. A step in which a camera takes no image has no
-/// observation of the camera or its blob finder. measurementFrom() (measurements.h) is the inverse.
+/// observation of the camera or its blob finder, and a step in which another sensor keeps its reading, because it does
+/// not measure (SensorInfo::times), none of this sensor. A reading that differs from the one before, which is that of
+/// blankMeasurement() at first, always has an observation. measurementFrom() (measurements.h) is the inverse.
 class RobotObservations {
  public:
   /// @param pictures folder to which of() and write() save cameras' images; must outlive this. Null: images are
@@ -51,7 +53,13 @@ class RobotObservations {
   /// Serialises the observations of of(), about three times as fast as `archive << observation` for each.
   void write(const Readings&, const std::optional<mrpt::math::TPose2D>& world_from_robot, ByteArchive& archive);
 
+  /// By sensor: whether it had no observation in the last of() or write(), because it keeps its reading.
+  const std::vector<std::uint8_t>& kept() const { return kept_; }
+  /// Forgets the readings of the step before, of a robot that is absent.
+  void forget();
+
  private:
+  bool isKept(std::size_t slot, const Readings& readings);
   void saveExternally(JpegObservation& picture, const std::string& stem, const SimTime& time);
   void fillGroundTruth(const mrpt::math::TPose2D& world_from_robot, mrpt::Clock::time_point timestamp);
   void makeTemplates();
@@ -63,6 +71,8 @@ class RobotObservations {
   std::vector<mrpt::obs::CObservation::Ptr> observations_;  ///< ground truth, and one per sensor
   PictureFolder* pictures_;
   std::vector<std::string> stems_;                    ///< prefixes of a camera's file names; indexed as observations_
+  std::vector<Measurement> last_;                     ///< by sensor: the last recorded one, if it has a rate
+  std::vector<std::uint8_t> kept_;                    ///< by sensor
   std::vector<std::size_t> present_;                  ///< indices of the observations of this step
   std::vector<mrpt::obs::CObservation::Ptr> result_;  ///< the observations of this step
   std::vector<std::optional<SerializedTemplate>> templates_;  ///< indexed as observations_; for a pan angle of 0

@@ -289,6 +289,8 @@ TEST(Observations, RecordValuesAsAnalogueInputs) {
 TEST(Observations, RecordRangesAndBearingsOfNeighboursByTheirNumbers) {
   auto board = plainSensor(SensorKind::values, "range_and_bearing", {beamAt(0, 0, 0.1, 0)});
   board.range_max_m = 3;
+  board.noise_std_m = 0.125;
+  board.bearing_std_rad = 0.0625;
   board.quantities = neighbourQuantities(3);
   const Values measured{{7, 1.5, -0.25, 2, 2.5, 3, -1, 0, 0}};  // robots 7 and 2, and a free place
   const auto neighbours = recorded<mrpt::obs::CObservationBearingRange>(board, measured);
@@ -298,6 +300,8 @@ TEST(Observations, RecordRangesAndBearingsOfNeighboursByTheirNumbers) {
   EXPECT_EQ(neighbours.sensedData[0].yaw, -0.25f);
   EXPECT_EQ(neighbours.sensedData[1].landmarkID, 2);
   EXPECT_EQ(neighbours.maxSensorDistance, 3);
+  EXPECT_EQ(neighbours.sensor_std_range, 0.125f);
+  EXPECT_EQ(neighbours.sensor_std_yaw, 0.0625f);
   EXPECT_NEAR(neighbours.sensorLocationOnRobot.z(), 0.1, 1e-9);
   EXPECT_EQ(codecOf(board).measurementFrom(neighbours, board, 0, ""), Measurement(measured));
 }

@@ -92,11 +92,13 @@ void appendPair(RobotSerializer& serializer, const Readings& readings, const std
   mrpt::obs::CSensoryFrame frame;
   if (isAbsent(command)) {
     serializer.odom_from_robot.reset();
+    serializer.observations.forget();
   } else {
     for (const auto& observation : serializer.observations.of(readings, truth)) frame.push_back(observation);
   }
   if (command) {
-    for (const auto& observation : serializer.status_record.of(readings, *command)) frame.push_back(observation);
+    const auto& kept = serializer.observations.kept();
+    for (const auto& observation : serializer.status_record.of(readings, *command, kept)) frame.push_back(observation);
   }
   archive << actions << frame;
 }
@@ -140,8 +142,15 @@ void RawlogWriter::Impl::record(const Step& step) {
     const auto truth = step.world_from_robot.empty() ? std::nullopt : std::make_optional(step.world_from_robot[i]);
     const auto command = step.commands.empty() ? std::nullopt : std::make_optional(step.commands[i]);
     if (format == RawlogFormat::observations) {
-      if (!isAbsent(command)) serializer.observations.write(step.readings[i], truth, outputs[0]->archive);
-      if (command) serializer.status_record.write(step.readings[i], *command, outputs[0]->archive);
+      ByteArchive& archive = outputs[0]->archive;
+      if (isAbsent(command)) {
+        serializer.observations.forget();
+      } else {
+        serializer.observations.write(step.readings[i], truth, archive);
+      }
+      if (command) {
+        serializer.status_record.write(step.readings[i], *command, archive, serializer.observations.kept());
+      }
     } else {
       appendPair(serializer, step.readings[i], truth, command, outputs[i]->archive);
     }

@@ -35,7 +35,28 @@ RecordedRobot blank(const RobotInfo& robot, SimTime time) {
 
 RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s, Pictures pictures)
     : reader_(reader), robots_(std::move(robots)), period_s_(period_s), pictures_(pictures) {
+  kept_.resize(robots_.size());
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) forget(robot);
   lookahead_ = nextRobotObservation();
+}
+
+void RecordedSteps::forget(std::size_t robot) {
+  kept_[robot].clear();
+  for (const auto& sensor : *robots_[robot].sensors) kept_[robot].push_back({blankMeasurement(sensor)});
+}
+
+/// Notes where the readings are that the sensors keep in a step.
+void RecordedSteps::addPlace(std::uint64_t position) {
+  Place place{position, position};
+  bool has_rate = false;
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+    for (std::size_t slot = 0; slot < kept_[robot].size(); ++slot) {
+      if ((*robots_[robot].sensors)[slot].times.rate_hz == 0) continue;
+      has_rate = true;
+      place.first = std::min(place.first, kept_[robot][slot].position);
+    }
+  }
+  if (has_rate && (places_.empty() || places_.back().position < position)) places_.push_back(place);
 }
 
 CObservation::Ptr RecordedSteps::nextRobotObservation() {
@@ -52,8 +73,14 @@ CObservation::Ptr RecordedSteps::nextRobotObservation() {
 }
 
 void RecordedSteps::seek(std::uint64_t position) {
-  reader_.seek(position);
+  const auto place = std::lower_bound(places_.begin(), places_.end(), position,
+                                      [](const Place& a, std::uint64_t b) { return a.position < b; });
+  const bool is_known = place != places_.end() && place->position == position;
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) forget(robot);
+  reader_.seek(is_known ? place->first : position);
   lookahead_ = nextRobotObservation();
+  while (lookahead_position_ < position && next()) {
+  }
 }
 
 std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
@@ -63,6 +90,7 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
   if (!(steps > -0.5 && steps < 1e18))
     throw RecordingError(lookahead_->sensorLabel + ": has a timestamp that is not of a run of RoboSim");
   const auto step = static_cast<std::uint64_t>(std::llround(steps));
+  const std::uint64_t position = lookahead_position_;
 
   std::vector<Observations> by_robot(robots_.size());
   std::size_t robot = 0;
@@ -92,7 +120,7 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
       robots.back().is_missing = true;
       continue;
     }
-    auto complete = assemble(robots_[i], by_robot[i], step);
+    auto complete = assemble(i, by_robot[i], step, position);
     if (!complete) {
       throw RecordingError("robot \"" + robots_[i].name + "\" is incomplete in step " + std::to_string(step) +
                            " of the recording; give the world that it was made with");
@@ -105,11 +133,13 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
   if (winner != robots.end()) {
     for (auto& one : robots) one.readings.winner = winner->readings.winner;
   }
+  addPlace(position);
   return robots;
 }
 
-std::optional<RecordedRobot> RecordedSteps::assemble(const RobotInfo& robot, const Observations& observations,
-                                                     std::uint64_t step) const {
+std::optional<RecordedRobot> RecordedSteps::assemble(std::size_t index, const Observations& observations,
+                                                     std::uint64_t step, std::uint64_t position) {
+  const RobotInfo& robot = robots_[index];
   RecordedRobot recorded;
   Readings& readings = recorded.readings;
   readings.time = {step, period_s_};
@@ -121,16 +151,19 @@ std::optional<RecordedRobot> RecordedSteps::assemble(const RobotInfo& robot, con
     readings.is_too_far = recorded_status.is_too_far;
     if (recorded_status.has_won) readings.winner = robot.name;
     if (recorded_status.command.activity == Activity::absent) {
+      forget(index);
       RecordedRobot absent = blank(robot, readings.time);
       absent.command = recorded_status.command;
       return absent;
     }
   }
-  for (const auto& sensor : *robot.sensors) {
+  for (std::size_t slot = 0; slot < robot.sensors->size(); ++slot) {
+    const SensorInfo& sensor = (*robot.sensors)[slot];
+    Kept& kept = kept_[index][slot];
     const auto observation = find(observations, sensor.label);
     if (!observation) {
-      if (!isIntermittent(sensor)) return std::nullopt;
-      readings.measurements.push_back(blankMeasurement(sensor));
+      if (!isIntermittent(sensor) && sensor.times.isDue(readings.time)) return std::nullopt;
+      readings.measurements.push_back(kept.measurement);
       continue;
     }
     if (sensor.kind == SensorKind::camera && pictures_ == Pictures::leave_out) {
@@ -142,6 +175,7 @@ std::optional<RecordedRobot> RecordedSteps::assemble(const RobotInfo& robot, con
     auto* const echoes = std::get_if<Echoes>(&readings.measurements.back());
     const auto points = find(observations, Label{"", sensor.label, kPoints}.withinRobot());
     if (echoes && points) restorePoints(*points, *echoes);
+    if (sensor.times.rate_hz > 0) kept = {readings.measurements.back(), position};
   }
   if (const auto inbox = find(observations, kInbox)) readings.inbox = inboxFrom(*inbox, robot.name);
   if (const auto truth =

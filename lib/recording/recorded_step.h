@@ -31,7 +31,8 @@ inline bool isAbsent(const RecordedRobot& robot) {
 /// unavailable.
 enum class Pictures { keep, leave_out };
 
-/// Reads a recording of RoboSim step by step, with the exact readings of every robot.
+/// Reads a recording of RoboSim step by step, with the exact readings of every robot. In steps in which a sensor keeps
+/// its reading (SensorInfo::times), it has no observation; next() returns the last one before.
 class RecordedSteps {
  public:
   /// @param robots of the recorded world, in any order
@@ -47,7 +48,8 @@ class RecordedSteps {
   static constexpr std::uint64_t kEnd = ~std::uint64_t{0};
   /// Position of the next step, for seek(); kEnd at the end.
   std::uint64_t position() const { return lookahead_position_; }
-  /// Continues at a step that next() has returned or would return next; requires a reader with random access.
+  /// Continues at a step that next() has returned or would return next; requires a reader with random access. If
+  /// sensors keep readings in that step, it reads them in the steps before.
   void seek(std::uint64_t position);
 
   /// The last note read so far; empty for none.
@@ -57,8 +59,21 @@ class RecordedSteps {
   /// Observations of one robot and one step, by the sensor part of their labels.
   using Observations = std::vector<std::pair<std::string, mrpt::obs::CObservation::Ptr>>;
 
-  std::optional<RecordedRobot> assemble(const RobotInfo& robot, const Observations& observations,
-                                        std::uint64_t step) const;
+  /// A reading that a sensor keeps, and where it is in the file.
+  struct Kept {
+    Measurement measurement;
+    std::uint64_t position = kEnd;  ///< of its step; kEnd for a blank measurement
+  };
+  /// A step that next() has returned.
+  struct Place {
+    std::uint64_t position = 0;
+    std::uint64_t first = 0;  ///< position of the first step that contains a reading kept in this one
+  };
+
+  std::optional<RecordedRobot> assemble(std::size_t robot, const Observations& observations, std::uint64_t step,
+                                        std::uint64_t position);
+  void forget(std::size_t robot);
+  void addPlace(std::uint64_t position);
   mrpt::obs::CObservation::Ptr nextRobotObservation();
 
   RawlogReader& reader_;
@@ -66,6 +81,8 @@ class RecordedSteps {
   double period_s_;
   Pictures pictures_;
   std::vector<std::uint8_t> is_missing_;  ///< by robot; empty before the first step
+  std::vector<std::vector<Kept>> kept_;   ///< by robot and sensor
+  std::vector<Place> places_;             ///< ascending; empty if no sensor has a rate
   std::string note_;
   mrpt::obs::CObservation::Ptr lookahead_;  ///< first observation of the next step
   std::uint64_t lookahead_position_ = 0;

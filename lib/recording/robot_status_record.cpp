@@ -110,18 +110,20 @@ void RobotStatusRecord::TemplatedObservation::write(ByteArchive& archive) {
   }
 }
 
-std::vector<CObservation::Ptr> RobotStatusRecord::of(const Readings& readings, const Command& command) {
+std::vector<CObservation::Ptr> RobotStatusRecord::of(const Readings& readings, const Command& command,
+                                                     std::span<const std::uint8_t> kept) {
   fillStatus(readings, command);
   std::vector<CObservation::Ptr> all{status_.observation};
-  forPoints(readings, [&](const TemplatedObservation& points) { all.push_back(points.observation); });
+  forPoints(readings, kept, [&](const TemplatedObservation& points) { all.push_back(points.observation); });
   if (!readings.inbox.empty()) all.push_back(inboxOf(readings));
   return all;
 }
 
-void RobotStatusRecord::write(const Readings& readings, const Command& command, ByteArchive& archive) {
+void RobotStatusRecord::write(const Readings& readings, const Command& command, ByteArchive& archive,
+                              std::span<const std::uint8_t> kept) {
   fillStatus(readings, command);
   status_.write(archive);
-  forPoints(readings, [&](TemplatedObservation& points) { points.write(archive); });
+  forPoints(readings, kept, [&](TemplatedObservation& points) { points.write(archive); });
   if (!readings.inbox.empty()) archive << *inboxOf(readings);
 }
 
@@ -140,8 +142,9 @@ void RobotStatusRecord::fillStatus(const Readings& readings, const Command& comm
 }
 
 template <typename Visit>
-void RobotStatusRecord::forPoints(const Readings& readings, const Visit& visit) {
+void RobotStatusRecord::forPoints(const Readings& readings, std::span<const std::uint8_t> kept, const Visit& visit) {
   for (std::size_t slot = 0; slot < sensors_->size(); ++slot) {
+    if (slot < kept.size() && kept[slot]) continue;
     const auto* echoes = std::get_if<Echoes>(&readings.measurements[slot]);
     if (!echoes || isAlongAxes(slot, *echoes, (*sensors_)[slot].pans ? readings.laser_pan_rad : 0)) continue;
     CObservationRawDAQ& points = *points_[slot].observation;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -24,7 +25,8 @@ namespace robosim {
 ///    activity, and 1 when a person drives; analog inputs (double) are the pan angle of the panning sensors [rad], then
 ///    1 for stalled, for a refused CheckWin, and for having won;
 ///  * POINTS, for a sensor with echoes off its beams' axes or not at the reported ranges (the nearest point in a wide
-///    sonar cone, an object nearer than the minimum range): analog inputs (float), x y z [m] of each echo, robot frame;
+///    sonar cone, an object nearer than the minimum range), in steps with an observation of it: analog inputs (float),
+///    x y z [m] of each echo, robot frame;
 ///  * INBOX, in steps with received messages: digital inputs are bytes: sender and text of each message, each as a
 ///    32-bit length (little-endian) and its bytes.
 class RobotStatusRecord {
@@ -34,9 +36,11 @@ class RobotStatusRecord {
   RobotStatusRecord& operator=(const RobotStatusRecord&) = delete;
 
   /// The observations of this step. The objects of STATUS and POINTS are reused by the next call.
-  std::vector<mrpt::obs::CObservation::Ptr> of(const Readings&, const Command&);
+  /// @param kept RobotObservations::kept(); of no sensor beyond its end
+  std::vector<mrpt::obs::CObservation::Ptr> of(const Readings&, const Command&,
+                                               std::span<const std::uint8_t> kept = {});
   /// Serialises the observations of of().
-  void write(const Readings&, const Command&, ByteArchive& archive);
+  void write(const Readings&, const Command&, ByteArchive& archive, std::span<const std::uint8_t> kept = {});
 
  private:
   struct Axis {
@@ -51,7 +55,7 @@ class RobotStatusRecord {
   void fillStatus(const Readings&, const Command&);
   /// Calls visit(TemplatedObservation) for the POINTS of this step.
   template <typename Visit>
-  void forPoints(const Readings&, const Visit& visit);
+  void forPoints(const Readings&, std::span<const std::uint8_t> kept, const Visit& visit);
   mrpt::obs::CObservation::Ptr inboxOf(const Readings&) const;
   bool isAlongAxes(std::size_t slot, const Echoes& echoes, double pan_rad) const;
 

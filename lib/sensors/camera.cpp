@@ -84,13 +84,6 @@ CameraOptions CameraOptions::read(XmlReader& reader) {
 
 std::unique_ptr<Sensor> makeCamera(const CameraOptions& options) { return std::make_unique<Camera>(options); }
 
-bool takesPicture(double rate_hz, const SimTime& now) {
-  if (now.step == 0) return true;
-  constexpr double kTolerance = 1e-6;  // in pictures; absorbs the rounding error of the time
-  const auto due = [&](std::uint64_t step) {
-    return std::floor(static_cast<double>(step) * now.period_s * rate_hz + kTolerance);
-  };
-  return due(now.step) > due(now.step - 1);
-}
+bool takesPicture(double rate_hz, const SimTime& now) { return MeasurementTimes{.rate_hz = rate_hz}.isDue(now); }
 
 }  // namespace robosim

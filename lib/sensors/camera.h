@@ -21,8 +21,7 @@ struct CameraOptions {
 
 std::unique_ptr<Sensor> makeCamera(const CameraOptions&);
 
-/// Whether a camera of this rate takes a picture in a step: in step 0, then in each first step that ends no earlier
-/// than the next due time. At a rate above the step rate it takes one in every step.
+/// Whether a camera of this rate takes a picture in a step (MeasurementTimes::isDue()).
 bool takesPicture(double rate_hz, const SimTime& now);
 
 }  // namespace robosim

@@ -37,8 +37,8 @@ void readTiming(XmlReader& reader, LaserTiming& timing) {
   timing.sweep_s = reader.number("sweep_s", Bounds::notNegative(10), timing.sweep_s);
   timing.latency_s = reader.number("latency_s", Bounds::notNegative(10), 0);
   timing.latency_std_s = reader.number("latency_std_s", Bounds::notNegative(10), 0);
-  timing.rate_hz = reader.number("rate_hz", Bounds::notNegative(1000), 0);
-  timing.phase_s = reader.number("phase_s", Bounds::notNegative(1e6), 0);
+  timing.times.rate_hz = reader.number("rate_hz", Bounds::notNegative(1000), 0);
+  timing.times.phase_s = reader.number("phase_s", Bounds::notNegative(1e6), 0);
 }
 
 }  // namespace

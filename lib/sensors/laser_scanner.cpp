@@ -23,12 +23,13 @@ class LaserScanner : public Sensor {
  public:
   LaserScanner(const SensorInfo& info, const LaserErrors& errors, const LaserTiming& timing)
       : info_(info), errors_(errors), process_(errors, info), timing_(timing), beams_(info.beams) {
+    info_.times = timing.times;
     for (std::size_t i = 0; i < beams_.size(); ++i) fields_.add(beams_[i]);
   }
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return errors_.isRandom() || timing_.latency_std_s > 0; }
-  bool sensesInHostProcess() const override { return timing_.rate_hz > 0; }
+  bool sensesInHostProcess() const override { return timing_.times.rate_hz > 0; }
   double robotReach(double speed_max_mps) const override {
     // A scan's age that is distributed normally has no limit.
     if (timing_.latency_std_s > 0) return Sensor::robotReach(speed_max_mps);
@@ -37,7 +38,7 @@ class LaserScanner : public Sensor {
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
-    if (!timing_.isDue(now.time)) return;
+    if (!timing_.times.isDue(now.time)) return;
     static thread_local BeamHits hits;  // reused for all robots of a thread
     const double drift_m = errors_.driftAt(now.time.seconds());
     for (const auto robot : robots) {
@@ -139,15 +140,6 @@ class LaserScanner : public Sensor {
 };
 
 }  // namespace
-
-bool LaserTiming::isDue(const SimTime& now) const {
-  if (rate_hz == 0 || now.step == 0) return true;
-  constexpr double kTolerance = 1e-6;  // in scans; absorbs the rounding error of the time
-  const auto scans = [&](std::uint64_t step) {
-    return std::floor((static_cast<double>(step) * now.period_s - phase_s) * rate_hz + kTolerance);
-  };
-  return scans(now.step) > scans(now.step - 1);
-}
 
 std::unique_ptr<Sensor> makeLaserScanner(const SensorInfo& info, const LaserErrors& errors, const LaserTiming& timing) {
   return std::make_unique<LaserScanner>(info, errors, timing);

@@ -12,11 +12,8 @@ struct LaserTiming {
   double latency_s = 0;  ///< mean age of the last beam at the time step, [0, 10]
   /// Standard deviation of that age from scan to scan, [0, 10]: normal, and at least 0. All beams of a scan share it.
   double latency_std_s = 0;
-  double rate_hz = 0;  ///< scans per second of simulated time, at most one per step, [0, 1000]; 0: in every step
-  double phase_s = 0;  ///< time of a scan, modulo the period, [0, 1e6]
+  MeasurementTimes times = {};  ///< of the scans: rate_hz in [0, 1000], phase_s in [0, 1e6]
 
-  /// Whether a scan is due in a step. Between two scans the sensor keeps its reading.
-  bool isDue(const SimTime& now) const;
   bool operator==(const LaserTiming&) const = default;
 };
 

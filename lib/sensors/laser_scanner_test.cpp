@@ -183,6 +183,9 @@ TEST(LaserScanner, KeepsItsReadingBetweenScans) {
   EXPECT_EQ(changes("<laser beams='1' rate_hz='4' phase_s='0.1'><noise/></laser>"), "1 4 6 9 11 ");
   EXPECT_EQ(changes("<laser beams='1' rate_hz='100'><noise/></laser>"), "1 2 3 4 5 6 7 8 9 10 11 ");
   EXPECT_TRUE(sensorFrom("<laser rate_hz='4'/>")->sensesInHostProcess());
+  EXPECT_EQ(sensorFrom("<laser rate_hz='4' phase_s='0.1'/>")->info().times, (MeasurementTimes{4, 0.1}));
+  EXPECT_EQ(sensorFrom("<sonar firing_interval_s='0.04'><at/></sonar>")->info().times, (MeasurementTimes{25, 0}));
+  EXPECT_EQ(sensorFrom("<sonar><at/></sonar>")->info().times, MeasurementTimes());
   EXPECT_FALSE(sensorFrom("<laser noise='lms200'/>")->sensesInHostProcess());
 }
 

@@ -133,6 +133,7 @@ std::unique_ptr<Sensor> readRangeAndBearing(XmlReader& reader, const Mount&) {
     o.noise = RangeNoise::read(*noise, {.on = true, .std_m = 0.05});
     o.bearing_std_rad = noise->angle("bearing_std_deg", {0, 180}, 5 * M_PI / 180);
     o.info.noise_std_m = o.noise.stdAt(o.info.range_max_m);
+    o.info.bearing_std_rad = o.bearing_std_rad;
     noise->finish();
   }
   return std::make_unique<RangeAndBearing>(o);

@@ -87,6 +87,8 @@ TEST(RangeAndBearing, MeasuresNoMoreRobotsThanItsCount) {
 
 TEST(RangeAndBearing, NoiseHasTheGivenDeviations) {
   const auto sensor = sensorFrom("<range_and_bearing><noise std_m='0.1' bearing_std_deg='10'/></range_and_bearing>");
+  EXPECT_DOUBLE_EQ(sensor->info().bearing_std_rad, M_PI / 18);
+  EXPECT_EQ(sensorFrom("<range_and_bearing/>")->info().bearing_std_rad, 0);
   EXPECT_TRUE(sensor->isNoisy());
   constexpr int kSamples = 4000;
   double range_squares = 0, bearing_squares = 0;

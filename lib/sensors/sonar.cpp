@@ -55,7 +55,8 @@ SensorInfo infoOf(const SonarOptions& options) {
           .no_echo_m = options.no_echo_m,
           .beam_width_rad = options.beam_width_rad,
           .noise_std_m = options.noise.range.stdAt(options.range_max_m),
-          .pans = false};
+          .pans = false,
+          .times = {.rate_hz = options.firing.isSimultaneous() ? 0 : 1 / options.firing.interval_s}};
 }
 
 class Sonar : public Sensor {

@@ -1,4 +1,5 @@
 // `robosim fit` on real recordings (package mrpt-common) and on recordings of RoboSim.
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -14,7 +15,7 @@ namespace {
 
 /// SENA, a wheelchair with a SICK LMS 200 (361 beams, centimetres), in a building of the University of Málaga, 2006.
 constexpr const char* kSena = "/usr/share/mrpt/datasets/2006-01ENE-21-SENA_Telecom Faculty_one_loop_only.rawlog";
-/// The same vehicle, never at rest.
+/// The same vehicle, never at rest: 37 scans in 9 s.
 constexpr const char* kMoving = "/usr/share/mrpt/datasets/localization_demo.rawlog";
 
 class Fit : public TestFolder {
@@ -131,16 +132,88 @@ TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
   }
 }
 
+/// Records a robot that drives about in a room for `time_s`.
+void recordDrive(const std::filesystem::path& world, const std::filesystem::path& rawlog, const std::string& time_s) {
+  std::ofstream(world)
+      << "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
+         "<object><shape><primitive><cube><name>a</name><x>5</x><y>0</y><z>0.5</z><length>0.2</length><width>10</width>"
+         "<height>1</height><direction>0.3</direction></cube></primitive></shape></object>"
+         "<object><shape><primitive><cube><name>b</name><x>0</x><y>3.1</y><z>0.5</z><length>6</length><width>0.2</"
+         "width>"
+         "<height>1</height></cube></primitive></shape></object>"
+         "<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors><odometry/>"
+         "<laser z_m='0.2' beams='181' field_of_view_deg='180' range_max_m='20'>"
+         "<noise std_m='0.02' dropout='0.02' "
+         "outlier='0.01'/></laser></sensors></robot></shape></object></surface></world>";
+  const Ended run =
+      runProgram("run " + quoted(world) + " --controller wander --time " + time_s + " --record " + quoted(rawlog));
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+}
+
+TEST_F(Fit, BoundsTheErrorsOfARecordingOfRoboSimThatIsNeverAtRest) {
+  recordDrive(in("room.xml"), in("drive.rawlog"), "20");
+  const ScannerFit fit = fitScanner(in("drive.rawlog"), "laser", RestCriterion::scans);
+  EXPECT_EQ(fit.basis, FitBasis::local_map);
+  EXPECT_GT(fit.map_readings.matched, 100u);
+  const LaserErrors& errors = fit.model.errors;
+  // Noise of the reading, and of a point between two others (2/3 of the variance) of the mean of one to three scans:
+  // √(1 + 2/3) to √(1 + 2/9) times 0.02 m, if the scans were aligned without error.
+  for (const std::size_t band : {0u, 1u, 2u}) {
+    const double std_m =
+        fit.model.std_m[band] * std::sqrt(1 + errors.tail * (errors.tail_factor * errors.tail_factor - 1));
+    EXPECT_GT(std_m, 0.02 * std::sqrt(1 + 2.0 / 9) * 0.97) << bandName(band);
+    EXPECT_LT(std_m, 0.02 * std::sqrt(1 + 2.0 / 3)) << bandName(band);
+  }
+  EXPECT_EQ(errors.quantum_m, 0);
+  EXPECT_EQ(errors.reach_m, 0) << "unknown from a drive";
+  EXPECT_NEAR(errors.dropout, 0.02, 0.005) << "of 14,000 readings: standard error 0.0012";
+  EXPECT_NEAR(errors.outlier, 0.01, 0.0035) << "of 14,000 readings: standard error 0.0008";
+  EXPECT_TRUE(fit.isAccepted()) << summaryOf(fit);
+}
+
+TEST_F(Fit, StatesThatTheErrorsOfARecordingThatIsNeverAtRestAreUpperBounds) {
+  const Ended fit = runProgram("fit " + quoted(kMoving) + " -o " + quoted(in("laser.xml")) + " --report " +
+                               quoted(in("report.html")));
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  const std::string bounds = "errors of the motion and of the map: upper bounds of the scanner's own errors";
+  EXPECT_NE(fit.out.find("at rest   0 pairs of scans"), std::string::npos) << fit.out;
+  EXPECT_NE(fit.out.find("the residuals of 36 scans about the map of the scans before them"), std::string::npos)
+      << fit.out;
+  EXPECT_NE(fit.out.find(bounds), std::string::npos) << fit.out;
+  const std::string xml = textOf(in("laser.xml")), report = textOf(in("report.html"));
+  EXPECT_NE(xml.find(bounds), std::string::npos) << xml;
+  EXPECT_EQ(xml.find("reach_m"), std::string::npos) << xml;
+  EXPECT_NE(report.find("Residuals of the scans of a drive"), std::string::npos);
+  EXPECT_NE(report.find("upper bounds of the scanner's own.</strong>"), std::string::npos);
+  const auto laser = sensorFrom(xml);
+  EXPECT_EQ(laser->info().beams.size(), 361u);
+
+  // The scanner is the type of SENA: 5 mm at rest.
+  const ScannerFit fitted = fitScanner(kMoving, "", RestCriterion::scans);
+  EXPECT_DOUBLE_EQ(fitted.model.errors.quantum_m, 0.01);
+  for (std::size_t band = 0; band < kBands; ++band) {
+    EXPECT_GT(fitted.model.std_m[band], 0.005) << bandName(band);
+    EXPECT_LT(fitted.model.std_m[band], 0.020) << bandName(band);
+  }
+  for (std::size_t band = 1; band < kBands; ++band) {
+    EXPECT_LE(fitted.ksOf(band), fitted.ksBoundOf(band)) << bandName(band);
+  }
+  EXPECT_GT(fitted.map_model.z_hit, 0.94);
+}
+
 TEST_F(Fit, RefusesRecordingsThatCannotBeFitted) {
   const auto errorOf = [](const std::string& file, const std::string& options = "") {
     const Ended fit = runProgram("fit '" + file + "' " + options);
     EXPECT_EQ(fit.exit_code, 1);
     return fit.err;
   };
-  EXPECT_NE(
-      errorOf(kMoving).find("has 0 pairs of scans at rest of '', of 37 scans; at least two are required, so record "
-                            "the scanner while the robot stands"),
-      std::string::npos);
+  recordDrive(in("room.xml"), in("short.rawlog"), "0.5");
+  const std::string few = errorOf(in("short.rawlog").string());
+  EXPECT_NE(few.find("pairs of scans at rest of 'R/laser', of 6 scans, and 5 scans that can be aligned with those "
+                     "before them; 2 pairs or 10 aligned scans are required, so record the scanner while the robot "
+                     "stands, or longer while it drives among walls"),
+            std::string::npos)
+      << few;
   EXPECT_NE(errorOf("/usr/share/mrpt/datasets/kf-slam_demo.rawlog").find("has no laser scans"), std::string::npos);
   EXPECT_NE(errorOf(kSena, "--sensor rear").find("--sensor rear: "), std::string::npos);
   std::ofstream(in("text.rawlog")) << "no recording, but a text that is long enough to have a header\n";

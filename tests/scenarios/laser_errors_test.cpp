@@ -5,8 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/testing/test_folder.h"
+#include "recording/observations.h"
+#include "recording/rawlog_reader.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/serving.h"
+#include "viewing/recorded_moments.h"
 
 namespace robosim {
 namespace {
@@ -76,6 +79,51 @@ TEST_F(LaserErrorsInRuns, AreReportedByCheckWithFileAndLine) {
                       "urg04lx, utm30lx"),
             std::string::npos)
       << checked.out << checked.err;
+}
+
+TEST_F(LaserErrorsInRuns, AreRecordedOnceForEachScan) {
+  const auto world = in("world.xml"), rawlog = in("run.rawlog");
+  std::ofstream(world) << worldWith(
+      "<laser label='scanner' noise='lms200' z_m='0.2' beams='360' field_of_view_deg='359' rate_hz='5'/>");
+  ASSERT_EQ(runProgram("run " + quoted(world) + " --time 10 --record " + quoted(rawlog)).exit_code, 0);
+
+  // Five scans per second from 0 s to 10 s.
+  std::vector<double> times_s;
+  RawlogReader reader(rawlog);
+  while (const auto observation = reader.next()) {
+    if (observation->sensorLabel == "R1/scanner") times_s.push_back(secondsSinceStart(observation->timestamp));
+  }
+  ASSERT_EQ(times_s.size(), 51u);
+  for (std::size_t i = 0; i < times_s.size(); ++i) EXPECT_NEAR(times_s[i], 0.2 * static_cast<double>(i), 1e-6);
+
+  const Ended summary = runProgram("replay " + quoted(rawlog) + " --json");
+  for (const auto& channel : nlohmann::json::parse(summary.out)["channels"]) {
+    if (channel["label"] != "R1/scanner") continue;
+    EXPECT_EQ(channel["count"], 51);
+    EXPECT_NEAR(channel["rate_hz"].get<double>(), 5, 1e-6);
+  }
+  const Ended checked = runProgram("replay " + quoted(rawlog) + " --check " + quoted(world));
+  EXPECT_NE(checked.out.find("The same run: 101 steps"), std::string::npos) << checked.out << checked.err;
+  const Ended driven = runProgram("replay " + quoted(rawlog) + " --controller recorded");
+  EXPECT_NE(driven.out.find("all 100 commands are the recorded ones"), std::string::npos) << driven.out << driven.err;
+
+  // At 4.1 s and 4.9 s, the scans of 4.0 s and 4.8 s are shown.
+  const auto moments = readMoments(rawlog.string());
+  ASSERT_EQ(moments->times().size(), 101u);
+  const auto scan_at = [&](std::size_t step) {
+    const RunSnapshot moment = moments->at(step);
+    EXPECT_NEAR(moment.time_s, 0.1 * static_cast<double>(step), 1e-9);
+    const auto& sensors = *moments->world().fleet.robots[1].info.sensors;
+    for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+      if (sensors[slot].label == "scanner") return moment.robots[1].readings->measurements[slot];
+    }
+    return Measurement();
+  };
+  const Measurement of_48 = scan_at(48);
+  EXPECT_EQ(scan_at(49), of_48);
+  EXPECT_NE(scan_at(50), of_48);
+  EXPECT_EQ(scan_at(41), scan_at(40));
+  EXPECT_NE(scan_at(41), of_48);
 }
 
 }  // namespace
