@@ -60,12 +60,15 @@ class LaserScanner : public Sensor {
                 [&](std::size_t i, double distance_m, BodyId body) { hits.set(i, distance_m, body); });
   }
 
-  /// Age of the last beam. Its random number is that of one beam more than the scanner has.
+  /// Age of the last beam. Its random numbers are those of one beam more than the scanner has.
   double latencyOf(const Snapshot& now, std::uint32_t robot, std::size_t slot) const {
     if (timing_.latency_std_s == 0) return timing_.latency_s;
     Rng rng(now.seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), now.time.step);
     rng.skipToBlock(static_cast<std::uint32_t>(beams_.size()));
-    return std::max(0.0, timing_.latency_s + timing_.latency_std_s * rng.gaussian());
+    const double normal = rng.gaussian();
+    const bool is_in_tail = timing_.latency_tail > 0 && rng.uniform() < timing_.latency_tail;
+    const double std_s = timing_.latency_std_s * (is_in_tail ? timing_.latency_tail_factor : 1);
+    return std::max(0.0, timing_.latency_s + std_s * normal);
   }
 
   void castSwept(const Snapshot& now, std::uint32_t robot, double latency_s, double pan_rad, BeamHits& hits) const {

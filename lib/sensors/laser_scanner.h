@@ -12,6 +12,8 @@ struct LaserTiming {
   double latency_s = 0;  ///< mean age of the last beam at the time step, [0, 10]
   /// Standard deviation of that age from scan to scan, [0, 10]: normal, and at least 0. All beams of a scan share it.
   double latency_std_s = 0;
+  double latency_tail = 0;         ///< probability that latency_std_s is multiplied by latency_tail_factor, [0, 1]
+  double latency_tail_factor = 3;  ///< [1, 100]
   double rate_hz = 0;  ///< scans per second of simulated time, at most one per step, [0, 1000]; 0: in every step
   double phase_s = 0;  ///< time of a scan, modulo the period, [0, 1e6]
 
