@@ -35,6 +35,7 @@ void readNoise(XmlReader& reader, LaserOptions& o) {
 
 void readTiming(XmlReader& reader, LaserTiming& timing) {
   timing.sweep_s = reader.number("sweep_s", Bounds::notNegative(10), timing.sweep_s);
+  timing.interlace_s = reader.number("interlace_s", Bounds::notNegative(10), 0);
   timing.latency_s = reader.number("latency_s", Bounds::notNegative(10), 0);
   timing.latency_std_s = reader.number("latency_std_s", Bounds::notNegative(10), 0);
   timing.latency_tail = reader.number("latency_tail", {0, 1}, 0);

@@ -96,6 +96,24 @@ TEST(LaserScanner, MeasuresEachBeamFromThePoseAtItsTime) {
   EXPECT_NEAR(ranges[2], 2 / std::cos(M_PI / 6), kTolerance_m);
 }
 
+TEST(LaserScanner, MeasuresBeamsOfOddIndexInALaterRevolution) {
+  // 2 m/s straight ahead: 0.02 s are 0.04 m. Beams at -60°, 0° and 60°, of which the middle one is odd.
+  SingleRobotScene robot({block(2.5, 0, 1, 40)});
+  robot.motion.length_m = 0.2;
+  const auto ranges = robot.ranges(*sensorFrom("<laser beams='3' field_of_view_deg='120' interlace_s='0.02'/>"));
+  EXPECT_NEAR(ranges[0], 2 * 2.04, kTolerance_m);
+  EXPECT_NEAR(ranges[1], 2, kTolerance_m);
+  EXPECT_NEAR(ranges[2], 2 * 2.04, kTolerance_m);
+  // With a sweep of 0.01 s and an age of 0.03 s the beams are 0.06 s, 0.035 s and 0.05 s old.
+  const auto all = robot.ranges(
+      *sensorFrom("<laser beams='3' field_of_view_deg='120' interlace_s='0.02' sweep_s='0.01' latency_s='0.03'/>"));
+  EXPECT_NEAR(all[0], 2 * 2.12, kTolerance_m);
+  EXPECT_NEAR(all[1], 2.07, kTolerance_m);
+  EXPECT_NEAR(all[2], 2 * 2.1, kTolerance_m);
+  robot.motion.length_m = 0;
+  EXPECT_NEAR(robot.ranges(*sensorFrom("<laser beams='3' interlace_s='0.02'/>"))[1], 2, kTolerance_m);
+}
+
 TEST(LaserScanner, MeasuresFromWhereItWasBeforeItsLatency) {
   SingleRobotScene robot({block(2.5, 0, 1, 40)});
   robot.motion.length_m = 0.2;  // straight ahead in 0.1 s
@@ -178,6 +196,7 @@ TEST(LaserScanner, ReachesRobotsFartherByTheMotionDuringItsSweepAndWithoutLimitI
   };
   EXPECT_NEAR(reach(""), 8.1, 1e-9);
   EXPECT_NEAR(reach("sweep_s='0.1' latency_s='0.2'"), 8.7, 1e-9);
+  EXPECT_NEAR(reach("sweep_s='0.1' latency_s='0.2' interlace_s='0.05'"), 8.8, 1e-9);
   EXPECT_TRUE(std::isinf(reach("latency_s='0.2' latency_std_s='0.01'")));
 }
 
