@@ -35,8 +35,14 @@ void readNoise(XmlReader& reader, LaserOptions& o) {
 
 void readTiming(XmlReader& reader, LaserTiming& timing) {
   timing.sweep_s = reader.number("sweep_s", Bounds::notNegative(10), timing.sweep_s);
+  timing.interlace_s = reader.number("interlace_s", Bounds::notNegative(10), 0);
   timing.latency_s = reader.number("latency_s", Bounds::notNegative(10), 0);
   timing.latency_std_s = reader.number("latency_std_s", Bounds::notNegative(10), 0);
+  timing.latency_tail = reader.number("latency_tail", {0, 1}, 0);
+  timing.latency_tail_factor = reader.number("latency_tail_factor", {1, 100}, timing.latency_tail_factor);
+  if (timing.latency_tail > 0 && timing.latency_std_s == 0) {
+    reader.errorAt("latency_tail", "multiplies latency_std_s, which is 0; set latency_std_s");
+  }
   timing.times.rate_hz = reader.number("rate_hz", Bounds::notNegative(1000), 0);
   timing.times.phase_s = reader.number("phase_s", Bounds::notNegative(1e6), 0);
 }

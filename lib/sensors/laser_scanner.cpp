@@ -33,7 +33,7 @@ class LaserScanner : public Sensor {
   double robotReach(double speed_max_mps) const override {
     // A scan's age that is distributed normally has no limit.
     if (timing_.latency_std_s > 0) return Sensor::robotReach(speed_max_mps);
-    return beamReach(info_) + speed_max_mps * (timing_.sweep_s + timing_.latency_s);
+    return beamReach(info_) + speed_max_mps * (timing_.sweep_s + timing_.interlace_s + timing_.latency_s);
   }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
@@ -56,17 +56,22 @@ class LaserScanner : public Sensor {
     const Motion& motion = now.last_motion[robot];
     const bool has_moved = motion.length_m != 0 || motion.turn_rad != 0;
     const double latency_s = has_moved ? latencyOf(now, robot, slot) : 0;
-    if (has_moved && (timing_.sweep_s > 0 || latency_s > 0)) return castSwept(now, robot, latency_s, pan_rad, hits);
+    if (has_moved && (timing_.sweep_s > 0 || timing_.interlace_s > 0 || latency_s > 0)) {
+      return castSwept(now, robot, latency_s, pan_rad, hits);
+    }
     beams_.cast(now, robot, pan_rad, info_.range_max_m,
                 [&](std::size_t i, double distance_m, BodyId body) { hits.set(i, distance_m, body); });
   }
 
-  /// Age of the last beam. Its random number is that of one beam more than the scanner has.
+  /// Age of the last beam. Its random numbers are those of one beam more than the scanner has.
   double latencyOf(const Snapshot& now, std::uint32_t robot, std::size_t slot) const {
     if (timing_.latency_std_s == 0) return timing_.latency_s;
     Rng rng(now.seed, RandomPurpose::sensor_noise, robot, static_cast<std::uint32_t>(slot), now.time.step);
     rng.skipToBlock(static_cast<std::uint32_t>(beams_.size()));
-    return std::max(0.0, timing_.latency_s + timing_.latency_std_s * rng.gaussian());
+    const double normal = rng.gaussian();
+    const bool is_in_tail = timing_.latency_tail > 0 && rng.uniform() < timing_.latency_tail;
+    const double std_s = timing_.latency_std_s * (is_in_tail ? timing_.latency_tail_factor : 1);
+    return std::max(0.0, timing_.latency_s + std_s * normal);
   }
 
   void castSwept(const Snapshot& now, std::uint32_t robot, double latency_s, double pan_rad, BeamHits& hits) const {
@@ -74,11 +79,17 @@ class LaserScanner : public Sensor {
     const double period_s = now.time.period_s;
     const std::size_t last = beams_.size() - 1;
     const double step_s = last > 0 ? timing_.sweep_s / static_cast<double>(last) : 0;
-    const double oldest = (latency_s + step_s * static_cast<double>(last)) / period_s;
-    SweptPose pose(now.frames[robot], now.last_motion[robot], oldest, step_s / period_s);
+    const double sweep_s = step_s * static_cast<double>(last);
+    const double oldest = (latency_s + sweep_s + timing_.interlace_s) / period_s;
     hits.moved.resize(beams_.size());
-    for (std::size_t i = 0; i <= last; ++i, pose.next()) {
-      hits.moved[i] = {pose.pointToWorld(beams_[i].origin), pose.turnToWorld(pan.turnToWorld(beams_[i].direction))};
+    const std::size_t revolutions = timing_.interlace_s > 0 ? 2 : 1;
+    for (std::size_t revolution = 0; revolution < revolutions; ++revolution) {
+      const double first = revolution == 0 ? oldest : (latency_s + sweep_s) / period_s;
+      SweptPose pose(now.frames[robot], now.last_motion[robot], first, step_s / period_s);
+      for (std::size_t i = 0; i <= last; ++i, pose.next()) {
+        if (i % revolutions != revolution) continue;
+        hits.moved[i] = {pose.pointToWorld(beams_[i].origin), pose.turnToWorld(pan.turnToWorld(beams_[i].direction))};
+      }
     }
     const Motion& motion = now.last_motion[robot];
     const double turn_rad = std::abs(motion.turn_rad) * oldest * (1 + kSlack);

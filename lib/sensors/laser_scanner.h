@@ -8,10 +8,14 @@ namespace robosim {
 
 /// Times at which a scanner measures.
 struct LaserTiming {
-  double sweep_s = 0;    ///< from the first to the last beam, which is measured at the time step, [0, 10]
+  double sweep_s = 0;  ///< from the first to the last beam, which is measured at the time step, [0, 10]
+  /// By which the beams of odd index are later than those of even index, which another revolution measures, [0, 10].
+  double interlace_s = 0;
   double latency_s = 0;  ///< mean age of the last beam at the time step, [0, 10]
   /// Standard deviation of that age from scan to scan, [0, 10]: normal, and at least 0. All beams of a scan share it.
   double latency_std_s = 0;
+  double latency_tail = 0;         ///< probability that latency_std_s is multiplied by latency_tail_factor, [0, 1]
+  double latency_tail_factor = 3;  ///< [1, 100]
   MeasurementTimes times = {};  ///< of the scans: rate_hz in [0, 1000], phase_s in [0, 1e6]
 
   bool operator==(const LaserTiming&) const = default;

@@ -96,6 +96,24 @@ TEST(LaserScanner, MeasuresEachBeamFromThePoseAtItsTime) {
   EXPECT_NEAR(ranges[2], 2 / std::cos(M_PI / 6), kTolerance_m);
 }
 
+TEST(LaserScanner, MeasuresBeamsOfOddIndexInALaterRevolution) {
+  // 2 m/s straight ahead: 0.02 s are 0.04 m. Beams at -60°, 0° and 60°, of which the middle one is odd.
+  SingleRobotScene robot({block(2.5, 0, 1, 40)});
+  robot.motion.length_m = 0.2;
+  const auto ranges = robot.ranges(*sensorFrom("<laser beams='3' field_of_view_deg='120' interlace_s='0.02'/>"));
+  EXPECT_NEAR(ranges[0], 2 * 2.04, kTolerance_m);
+  EXPECT_NEAR(ranges[1], 2, kTolerance_m);
+  EXPECT_NEAR(ranges[2], 2 * 2.04, kTolerance_m);
+  // With a sweep of 0.01 s and an age of 0.03 s the beams are 0.06 s, 0.035 s and 0.05 s old.
+  const auto all = robot.ranges(
+      *sensorFrom("<laser beams='3' field_of_view_deg='120' interlace_s='0.02' sweep_s='0.01' latency_s='0.03'/>"));
+  EXPECT_NEAR(all[0], 2 * 2.12, kTolerance_m);
+  EXPECT_NEAR(all[1], 2.07, kTolerance_m);
+  EXPECT_NEAR(all[2], 2 * 2.1, kTolerance_m);
+  robot.motion.length_m = 0;
+  EXPECT_NEAR(robot.ranges(*sensorFrom("<laser beams='3' interlace_s='0.02'/>"))[1], 2, kTolerance_m);
+}
+
 TEST(LaserScanner, MeasuresFromWhereItWasBeforeItsLatency) {
   SingleRobotScene robot({block(2.5, 0, 1, 40)});
   robot.motion.length_m = 0.2;  // straight ahead in 0.1 s
@@ -127,12 +145,58 @@ TEST(LaserScanner, VariesTheAgeOfItsScans) {
   EXPECT_NEAR(robot.ranges(*laser)[1], 2, kTolerance_m) << "at rest the age has no effect";
 }
 
+TEST(LaserScanner, MultipliesTheDeviationOfTheAgeOfAShareOfItsScans) {
+  // 2 m/s straight ahead: an age of 0.5 s is 1 m. Deviations of 0.01 s are 0.02 m, in one of ten scans 0.2 m.
+  const std::vector<Solid> wall{block(2.5, 0, 1, 40)};
+  SingleRobotScene robot(wall), same_robot(wall), same_robot_again(wall);
+  robot.motion.length_m = same_robot.motion.length_m = same_robot_again.motion.length_m = 0.2;
+  const std::string age = "<laser beams='1' latency_s='0.5' latency_std_s='0.01'";
+  const auto normal = sensorFrom(age + "/>");
+  const auto no_tail = sensorFrom(age + " latency_tail='0' latency_tail_factor='10'/>");
+  const auto tail = sensorFrom(age + " latency_tail='0.1' latency_tail_factor='10'/>");
+  constexpr int n = 20000;
+  int in_tail = 0;
+  double sum_m2 = 0;
+  for (int i = 0; i < n; ++i) {
+    const double normal_m = robot.ranges(*normal)[0] - 3;
+    EXPECT_EQ(same_robot.ranges(*no_tail)[0] - 3, normal_m);
+    const double deviation_m = same_robot_again.ranges(*tail)[0] - 3;
+    sum_m2 += deviation_m * deviation_m;
+    if (deviation_m == normal_m) continue;
+    EXPECT_NEAR(deviation_m, 10 * normal_m, 10 * kTolerance_m);
+    ++in_tail;
+  }
+  EXPECT_NEAR(in_tail, 0.1 * n, 4 * std::sqrt(0.1 * 0.9 * n));
+  // Variance: 0.9 + 0.1 · 10² = 10.9 times that of a usual scan. Fourth moment: 3 (0.9 + 0.1 · 10⁴) = 3003 times.
+  EXPECT_NEAR(sum_m2 / n, 10.9 * 0.0004, 4 * 0.0004 * std::sqrt((3003 - 10.9 * 10.9) / n));
+}
+
+TEST(LaserScanner, RejectsATailOfAnAgeThatDoesNotVary) {
+  const auto errorOf = [](const std::string& settings) -> std::string {
+    try {
+      sensorFrom("<laser " + settings + "/>");
+    } catch (const ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(errorOf("latency_s='0.1' latency_tail='0.1'")
+                .find(": <laser latency_tail=\"0.1\">: multiplies latency_std_s, which is 0; set latency_std_s"),
+            std::string::npos)
+      << errorOf("latency_s='0.1' latency_tail='0.1'");
+  EXPECT_NE(errorOf("latency_std_s='0.1' latency_tail='1.1'").find("latency_tail"), std::string::npos);
+  EXPECT_NE(errorOf("latency_std_s='0.1' latency_tail='1' latency_tail_factor='0.9'").find("latency_tail_factor"),
+            std::string::npos);
+  EXPECT_EQ(errorOf("latency_std_s='0.1' latency_tail='1' latency_tail_factor='100'"), "");
+}
+
 TEST(LaserScanner, ReachesRobotsFartherByTheMotionDuringItsSweepAndWithoutLimitIfItsAgeHasNone) {
   const auto reach = [](const std::string& timing) {
     return sensorFrom("<laser beams='3' range_max_m='8' x_m='0.1' y_m='0' " + timing + "/>")->robotReach(2);
   };
   EXPECT_NEAR(reach(""), 8.1, 1e-9);
   EXPECT_NEAR(reach("sweep_s='0.1' latency_s='0.2'"), 8.7, 1e-9);
+  EXPECT_NEAR(reach("sweep_s='0.1' latency_s='0.2' interlace_s='0.05'"), 8.8, 1e-9);
   EXPECT_TRUE(std::isinf(reach("latency_s='0.2' latency_std_s='0.01'")));
 }
 

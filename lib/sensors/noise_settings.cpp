@@ -22,7 +22,9 @@ std::string listOf(const SensorErrorSettings::Settings& settings) {
 
 /// Whether a setting outside <noise> determines when a sensor measures. The rate of a camera is not an error.
 bool isTime(const std::string& kind, const std::string& setting) {
-  constexpr std::array<std::string_view, 5> kOfLaser{"sweep_s", "latency_s", "latency_std_s", "rate_hz", "phase_s"};
+  constexpr std::array<std::string_view, 8> kOfLaser{"sweep_s",       "interlace_s",  "latency_s",
+                                                     "latency_std_s", "latency_tail", "latency_tail_factor",
+                                                     "rate_hz",       "phase_s"};
   constexpr std::array<std::string_view, 2> kOfSonar{"firing_interval_s", "array"};
   const auto is_among = [&](const auto& names) {
     return std::find(names.begin(), names.end(), setting) != names.end();

@@ -112,6 +112,26 @@ class ScanGraph {
     return std::sqrt(squares / weights);
   }
 
+  /// Moves scans of which many points are off the surfaces of the scans next to them to where the odometry predicts.
+  void restartContradictory() {
+    constexpr double kOff_m = 0.15, kMost = 0.3;
+    std::vector<std::size_t> contradictory;
+    for (std::size_t k = 1; k + 1 < scans_.size(); ++k) {
+      double points = 0, on = 0;
+      for (const std::size_t other : {k - 1, k + 1}) {
+        const TPose2D other_from_k = poses_[k] - poses_[other];
+        for (std::size_t beam = 0; beam < scans_[k].size(); ++beam) {
+          const auto point = scans_[k].point(beam);
+          if (!point) continue;
+          points += 1;
+          if (scans_[other].nearest(other_from_k.composePoint(*point), kOff_m)) on += 1;
+        }
+      }
+      if (points - on > kMost * points) contradictory.push_back(k);
+    }
+    for (const auto k : contradictory) poses_[k] = poses_[k - 1] + moved_[k - 1];
+  }
+
   std::vector<TPose2D> startFromRobot() const {
     const TPose2D scanner_from_robot = TPose2D() - series_.robot_from_scanner;
     std::vector<TPose2D> path;
@@ -186,6 +206,8 @@ Registration registerScans(const ScanSeries& series) {
   graph.alignInOrder();
   Registration result;
   for (double far_m = 1.5; far_m > 0.1; far_m *= 0.9) result.residual_m = graph.alignTogether(std::max(0.15, far_m));
+  graph.restartContradictory();
+  for (double far_m = 0.4; far_m > 0.1; far_m *= 0.9) result.residual_m = graph.alignTogether(std::max(0.15, far_m));
   result.start_from_robot = graph.startFromRobot();
   return result;
 }

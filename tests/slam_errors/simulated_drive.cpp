@@ -27,6 +27,33 @@ TPose2D after(const TPose2D& from, const Motion& motion) {
   return from + TPose2D(chord_m * std::cos(half), chord_m * std::sin(half), motion.turn_rad);
 }
 
+/// Duration of each motion at the mean speed of the path within 1 s before and after (the slope of a line fitted to its
+/// length over the recorded times). Slow motions take the recorded time.
+std::vector<double> evenDurations(const ScanSeries& recorded, const std::vector<Motion>& motions) {
+  constexpr double kWithin_s = 1, kSlow_mps = 0.1;
+  const auto& scans = recorded.scans;
+  std::vector<double> driven_m{0};
+  for (std::size_t k = 1; k < scans.size(); ++k) driven_m.push_back(driven_m.back() + motions[k].length_m);
+  std::vector<double> durations_s{0};
+  for (std::size_t k = 1; k < scans.size(); ++k) {
+    double n = 0, t = 0, s = 0, tt = 0, ts = 0;
+    for (std::size_t i = 0; i < scans.size(); ++i) {
+      const double after_s = scans[i].time_s - scans[k].time_s, farther_m = driven_m[i] - driven_m[k];
+      if (std::abs(after_s) > kWithin_s) continue;
+      n += 1;
+      t += after_s;
+      s += farther_m;
+      tt += after_s * after_s;
+      ts += after_s * farther_m;
+    }
+    const double speed_mps = (n * ts - t * s) / (n * tt - t * t);
+    const double recorded_s = scans[k].time_s - scans[k - 1].time_s;
+    const double even_s = motions[k].length_m / speed_mps;
+    durations_s.push_back(std::abs(speed_mps) > kSlow_mps && even_s > 0 ? even_s : recorded_s);
+  }
+  return durations_s;
+}
+
 std::unique_ptr<Sensor> sensorOf(const std::string& robot_type, const std::string& kind) {
   ErrorList errors;
   const XmlElement type = readXmlFile(robot_type);
@@ -63,14 +90,16 @@ ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>&
   Scene scene(solids, 1, {-kArea_m, kArea_m, -kArea_m, kArea_m});
   std::vector<Readings> readings(1);
   readings[0].measurements = {laser->blank(), odometry->blank()};
+  std::vector<Motion> motions(1);
+  for (std::size_t k = 1; k < path.size(); ++k) motions.push_back(arcTo(path[k - 1], path[k]));
+  const std::vector<double> durations_s = evenDurations(recorded, motions);
   TPose2D pose;
   SimTime time;
+  double time_s = recorded.scans[0].time_s;
   for (std::size_t k = 0; k < recorded.scans.size(); ++k) {
-    Motion motion;
-    if (k > 0) {
-      motion = arcTo(path[k - 1], path[k]);
-      time = {k, recorded.scans[k].time_s - recorded.scans[k - 1].time_s};
-    }
+    const Motion& motion = motions[k];
+    if (k > 0) time = {k, durations_s[k]};
+    time_s += durations_s[k];
     pose = after(pose, motion);
     scene.place(0, {Circle{{pose.x, pose.y}, 0.1}, {0, 0.1}});
     scene.freeze();
@@ -87,7 +116,7 @@ ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>&
                        .seed = seed};
     laser->sense(now, {&robot, 1}, 0, readings);
     odometry->sense(now, {&robot, 1}, 1, readings);
-    RecordedScan scan{.time_s = recorded.scans[k].time_s, .ranges_m = {}, .odometry = {}};
+    RecordedScan scan{.time_s = time_s, .ranges_m = {}, .odometry = {}};
     for (const auto& echo : std::get<Echoes>(readings[0].measurements[0])) {
       const bool is_valid = echo.range_m < static_cast<float>(info.no_echo_m);
       scan.ranges_m.push_back(is_valid ? static_cast<double>(echo.range_m) : std::numeric_limits<double>::quiet_NaN());

@@ -10,8 +10,9 @@
 
 namespace robosim {
 
-/// The scans and odometry that a robot type's <laser> and <odometry> would have recorded on the path and at the times
-/// of a recording, among solids. The path consists of arcs between the recorded poses.
+/// The scans and odometry that a robot type's <laser> and <odometry> would have recorded on the path of a recording,
+/// among solids. The path consists of arcs between the recorded poses, and is driven at the recorded speed, averaged
+/// over 2 s: the time stamps of single scans are wrong.
 /// @param robot_type its XML file
 /// @throws ConfigError for an invalid robot type
 ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<mrpt::math::TPose2D>& path,

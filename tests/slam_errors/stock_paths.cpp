@@ -12,6 +12,7 @@
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/serialization/CArchive.h>
 
+#include "base/random.h"
 #include "recording/observation_writer.h"
 #include "tests/stock_tools.h"
 
@@ -105,6 +106,16 @@ double rmsBetween(const RobotPath& path, const RobotPath& reference, bool is_ali
     squares += dx * dx + dy * dy;
   }
   return std::sqrt(squares / n);
+}
+
+ScanSeries dequantised(const ScanSeries& series, std::uint64_t seed) {
+  constexpr double kQuantum_m = 0.01;
+  Rng rng(seed);
+  ScanSeries copy = series;
+  for (auto& scan : copy.scans) {
+    for (double& range_m : scan.ranges_m) range_m += rng.uniform(-kQuantum_m / 2, kQuantum_m / 2);
+  }
+  return copy;
 }
 
 RobotPath icpSlamPath(const ScanSeries& series, const fs::path& folder) {

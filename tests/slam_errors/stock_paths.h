@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <vector>
 
@@ -14,6 +15,10 @@ using RobotPath = std::vector<mrpt::math::TPose2D>;
 /// RMS distance of two paths. @param is_aligned moves one of them by the rigid motion that makes it smallest (J. Sturm
 /// et al., "A benchmark for the evaluation of RGB-D SLAM systems", IROS 2012)
 double rmsBetween(const RobotPath& path, const RobotPath& reference, bool is_aligned);
+
+/// A copy of a drive whose readings, which are in centimetres, are dequantised: changed by a uniform random number
+/// within ±5 mm.
+ScanSeries dequantised(const ScanSeries& series, std::uint64_t seed);
 
 /// The path that stock icp-slam estimates at each scan, with doc/examples/slam/icp-slam.ini.
 /// @throws std::runtime_error with its output if it fails

@@ -23,7 +23,7 @@ constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of se
     <infrared noise="gp2d12"><noise dropout="0.1"/> <ring count="4" radius_m="0.2" z_m="0.1"/></infrared>
     <laser beams="5" field_of_view_deg="180" range_max_m="4" z_m="0.1"><noise/></laser>
     <laser label="sweeping" noise="lms200" beams="21" range_max_m="4" z_m="0.1" rate_hz="7" latency_s="0.02"
-           latency_std_s="0.05"/>
+           latency_std_s="0.05" latency_tail="0.3"/>
     <heat range_max_m="3"><noise lag_s="0.4"/></heat>
     <bumper segments="6"><noise chatter="0.1"/></bumper>
     <odometry><noise diameter_ratio="1.01" wheelbase_ratio="1.02" turn_slip_s="0.05" contact_slip="0.5"/></odometry>
