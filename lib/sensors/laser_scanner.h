@@ -16,7 +16,7 @@ struct LaserTiming {
   double latency_std_s = 0;
   double latency_tail = 0;         ///< probability that latency_std_s is multiplied by latency_tail_factor, [0, 1]
   double latency_tail_factor = 3;  ///< [1, 100]
-  MeasurementTimes times = {};  ///< of the scans: rate_hz in [0, 1000], phase_s in [0, 1e6]
+  MeasurementTimes times = {};     ///< of the scans: rate_hz in [0, 1000], phase_s in [0, 1e6]
 
   bool operator==(const LaserTiming&) const = default;
 };
