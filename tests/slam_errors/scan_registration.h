@@ -17,8 +17,8 @@ struct Registration {
 /// from the pose that the odometry predicts. Then all poses are computed together, by weighted least squares of the
 /// distances of points from the surfaces of scans that are near in time or in space, with correspondences that are
 /// searched again in each iteration (point-to-line distances: Censi, ICRA 2008; weights of Cauchy's distribution).
-/// A scan of which many points contradict the scans next to it, such as one of a tilted robot, is aligned once more from
-/// the pose that the odometry predicts.
+/// A scan of which many points contradict the scans next to it, such as one of a tilted robot, is aligned once more
+/// from the pose that the odometry predicts.
 Registration registerScans(const ScanSeries& series);
 
 }  // namespace robosim
