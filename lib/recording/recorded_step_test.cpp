@@ -11,57 +11,17 @@
 #include <zlib.h>
 
 #include "base/error_list.h"
-#include "base/testing/test_folder.h"
 #include "recording/byte_archive.h"
 #include "recording/memory_bound.h"
 #include "recording/observations.h"
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
-#include "recording/testing/sample_robot.h"
+#include "recording/testing/recorded_steps_test.h"
 
 namespace robosim {
 namespace {
 
 using mrpt::math::TPose2D;
-
-class RecordedStepsTest : public TestFolder {
- protected:
-  /// Records steps of two robots, with messages and commands.
-  void record(std::size_t steps, RawlogFormat format = RawlogFormat::observations) {
-    RawlogWriter writer(file_, robots_, format, RawlogImages::embedded, "first note");
-    for (std::size_t step = 0; step < steps; ++step) {
-      written_.push_back(readingsAt(step));
-      truth_.push_back({TPose2D(1, 0.1 * static_cast<double>(step), 0.25), TPose2D(2, 3, -1)});
-      commands_.push_back({{0.1, 0.2, 0.5F, Activity::active, step == 3}, {0.3, -0.4, 0, Activity::halted}});
-      writer.write(written_.back(), truth_.back(), commands_.back());
-    }
-    writer.close("last note");
-  }
-
-  std::vector<Readings> readingsAt(std::size_t step) const {
-    std::vector<Readings> readings{withoutPictures(sampleReadings(robots_[0], step)),
-                                   withoutPictures(sampleReadings(robots_[1], step + 1000))};
-    readings[1].time.step = step;
-    readings[0].stalled = step % 3 == 0;
-    readings[1].is_too_far = step == 7;
-    if (step >= 40) readings[0].winner = readings[1].winner = "b";
-    if (step % 4 == 1) readings[1].inbox = {{"a", "b", "GOLD"}, {"a", "b", std::string("\0\xff", 2)}};
-    return readings;
-  }
-  /// Images are compressed again when they are read.
-  Readings withoutPictures(Readings readings) const {
-    for (auto& measurement : readings.measurements) {
-      if (auto* image = std::get_if<Image>(&measurement)) *image = {};
-    }
-    return readings;
-  }
-
-  std::filesystem::path file_ = in("run.rawlog");
-  std::vector<RobotInfo> robots_{sampleRobot("a"), sampleRobot("b")};
-  std::vector<std::vector<Readings>> written_;
-  std::vector<std::vector<TPose2D>> truth_;
-  std::vector<std::vector<Command>> commands_;
-};
 
 TEST_F(RecordedStepsTest, RoundTripReadingsCommandsAndMessagesExactly) {
   record(50);
@@ -173,140 +133,6 @@ TEST_F(RecordedStepsTest, SeekToAnyStepReadBefore) {
   }
 }
 
-/// A sample robot whose scanner measures in the steps 0, 1, 5, 9, 13, …: 2.5 times per second, the first time at 0.1 s.
-RobotInfo robotWithScanRate(const std::string& name) {
-  RobotInfo robot = sampleRobot(name);
-  std::vector<SensorInfo> sensors = *robot.sensors;
-  sensors[1].times = {.rate_hz = 2.5, .phase_s = 0.1};
-  robot.sensors = std::make_shared<const std::vector<SensorInfo>>(std::move(sensors));
-  return robot;
-}
-
-class RecordedRates : public RecordedStepsTest {
- protected:
-  RecordedRates() { robots_ = {robotWithScanRate("a"), sampleRobot("b")}; }
-
-  /// Records steps in which the scanner of robot a keeps its reading between two scans.
-  void recordRates(std::size_t from, std::size_t to, RawlogFormat format = RawlogFormat::observations) {
-    RawlogWriter writer(file_, robots_, format);
-    for (std::size_t step = from; step < to; ++step) {
-      auto readings = readingsAt(step);
-      const bool is_absent = step >= absent_from_ && step < absent_to_;
-      auto& scan = readings[0].measurements[1];
-      if (is_absent) {
-        for (std::size_t slot = 0; slot < readings[0].measurements.size(); ++slot)
-          readings[0].measurements[slot] = blankMeasurement((*robots_[0].sensors)[slot]);
-      } else if (!written_.empty() && step > 0 && step % 4 != 1) {
-        scan = written_.back()[0].measurements[1];
-      }
-      written_.push_back(readings);
-      const std::vector<Command> commands{{0.1, 0, 0, is_absent ? Activity::absent : Activity::active}, {}};
-      writer.write(readings, std::vector<TPose2D>(2), commands);
-    }
-    writer.close();
-  }
-  /// Steps with an observation of this label.
-  std::vector<std::size_t> stepsOf(const std::string& label, const std::filesystem::path& file) {
-    std::vector<std::size_t> steps;
-    RawlogReader reader(file);
-    while (const auto observation = reader.next()) {
-      if (observation->sensorLabel != label) continue;
-      steps.push_back(static_cast<std::size_t>(std::llround(secondsSinceStart(observation->timestamp) / 0.1)));
-    }
-    return steps;
-  }
-  void expectEveryReading(RecordedSteps& steps) {
-    for (const auto& written : written_) {
-      const auto step = steps.next();
-      ASSERT_TRUE(step);
-      EXPECT_EQ((*step)[0].readings.time.step, written[0].time.step);
-      for (std::size_t i = 0; i < 2; ++i) {
-        if ((*step)[i].is_missing) continue;
-        EXPECT_EQ((*step)[i].readings.measurements, written[i].measurements) << i << ", step " << written[0].time.step;
-      }
-    }
-    EXPECT_FALSE(steps.next());
-  }
-
-  std::size_t absent_from_ = 0, absent_to_ = 0;
-};
-
-TEST_F(RecordedRates, AreThoseOfTheMeasurements) {
-  recordRates(0, 20);
-  const std::vector<std::size_t> scans{0, 1, 5, 9, 13, 17};
-  EXPECT_EQ(stepsOf("a/laser", file_), scans);
-  EXPECT_EQ(stepsOf("a/laser/POINTS", file_), scans);
-  EXPECT_EQ(stepsOf("a/sonar", file_).size(), 20u);
-  EXPECT_EQ(stepsOf("b/laser", file_).size(), 20u);
-  RawlogReader reader(file_);
-  RecordedSteps steps(reader, robots_, 0.1);
-  expectEveryReading(steps);
-}
-
-TEST_F(RecordedRates, AreThoseOfTheMeasurementsInPairs) {
-  recordRates(0, 20, RawlogFormat::sensory_frames);
-  EXPECT_EQ(stepsOf("a/laser", in("run_a.rawlog")), (std::vector<std::size_t>{0, 1, 5, 9, 13, 17}));
-  RawlogReader reader(in("run_a.rawlog"));
-  RecordedSteps steps(reader, robots_, 0.1);
-  expectEveryReading(steps);
-}
-
-TEST_F(RecordedRates, KeepTheReadingWhenSeekingBetweenTwoScans) {
-  recordRates(0, 20);
-  RawlogReader reader(file_, RawlogReader::Access::random);
-  RecordedSteps steps(reader, robots_, 0.1);
-  std::vector<std::uint64_t> positions;
-  do {
-    positions.push_back(steps.position());
-  } while (steps.next());
-  for (const std::size_t k : {19, 3, 12, 0, 8, 9}) {
-    steps.seek(positions[k]);
-    EXPECT_EQ(steps.position(), positions[k]);
-    const auto step = steps.next();
-    ASSERT_TRUE(step) << k;
-    EXPECT_EQ((*step)[0].readings.time.step, k);
-    EXPECT_EQ((*step)[0].readings.measurements, written_[k][0].measurements) << k;
-    EXPECT_EQ(steps.position(), positions[k + 1]);
-  }
-}
-
-TEST_F(RecordedRates, BeginWithTheKeptReadingOfARecordingStartedBetweenTwoScans) {
-  recordRates(7, 12);
-  EXPECT_EQ(stepsOf("a/laser", file_), (std::vector<std::size_t>{7, 9}));
-  RawlogReader reader(file_);
-  RecordedSteps steps(reader, robots_, 0.1);
-  expectEveryReading(steps);
-}
-
-TEST_F(RecordedRates, BeginAgainWithTheFirstScanOfARobotThatWasAbsent) {
-  absent_from_ = 6;
-  absent_to_ = 8;
-  recordRates(0, 12);
-  EXPECT_EQ(stepsOf("a/laser", file_), (std::vector<std::size_t>{0, 1, 5, 9}));
-  RawlogReader reader(file_, RawlogReader::Access::random);
-  RecordedSteps steps(reader, robots_, 0.1);
-  expectEveryReading(steps);
-}
-
-TEST_F(RecordedRates, MayBeLowerThanThoseOfTheRecording) {
-  robots_ = {sampleRobot("a"), sampleRobot("b")};  // repeats the kept scans
-  recordRates(0, 8);
-  EXPECT_EQ(stepsOf("a/laser", file_).size(), 8u);
-  robots_[0] = robotWithScanRate("a");
-  RawlogReader reader(file_);
-  RecordedSteps steps(reader, robots_, 0.1);
-  expectEveryReading(steps);
-}
-
-std::string refusal(RecordedSteps& steps) {
-  try {
-    steps.next();
-  } catch (const RecordingError& error) {
-    return error.what();
-  }
-  return "none";
-}
-
 TEST_F(RecordedStepsTest, MarkRobotsWithoutObservationsAsAbsent) {
   record(2);
   RawlogReader reader(file_);
@@ -352,17 +178,6 @@ TEST_F(RecordedStepsTest, ReportOtherSensorsAndOtherRobots) {
   RawlogReader again(file_);
   RecordedSteps others(again, {sampleRobot("c"), sampleRobot("d")}, 0.1);
   EXPECT_EQ(refusal(others), "none of these robots is in the recording; give the world that it was made with");
-}
-
-TEST_F(RecordedRates, MustBeThoseOfTheWorld) {
-  recordRates(0, 8);
-  robots_[0] = sampleRobot("a");  // a scan in every step
-  RawlogReader reader(file_);
-  RecordedSteps steps(reader, robots_, 0.1);
-  EXPECT_TRUE(steps.next());
-  EXPECT_TRUE(steps.next());
-  EXPECT_EQ(refusal(steps),
-            "robot \"a\" is incomplete in step 2 of the recording; give the world that it was made with");
 }
 
 TEST_F(RecordedStepsTest, ReadWithoutImagesWhenTheirFolderIsMissing) {
