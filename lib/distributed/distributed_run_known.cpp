@@ -27,7 +27,7 @@ void DistributedRun::chooseExchange() {
     const double of_others = gatherKnownShare();
     const std::string share = fixed(100 * of_others, 1) + " % of the robots of other ranks are within " +
                               fixed(near_->reach(), 1) + " m of a rank's own" +
-                              (firstNeedsAll() ? ", except rank 0, which needs all" : "");
+                              (firstNeedsAll() ? " (without rank 0, which needs all)" : "");
     if (distribution_.exchange == RankExchange::near || of_others <= kKnownShareMax) {
       exchange_text_ = "ranks know the robots near their own: " + share + ", which is renewed every " +
                        std::to_string(near_->steps()) + " steps";

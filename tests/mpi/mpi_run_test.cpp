@@ -131,7 +131,7 @@ TEST(MpiRun, EndsOnAllRanksWithTheErrorOfASensorAndACompleteRecording) {
   std::ofstream(folder / "robots/failing.xml") << R"(<robot name="failing" help="Has a failing sensor.">
     <body radius_m="0.2" height_m="0.3"/>
     <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" turn_max_degps="100" turn_accel_degps2="200"/>
-    <sensors><failing_sensor/><odometry/></sensors></robot>)";
+    <sensors><failing_sensor/><heat range_max_m="3"/><odometry/></sensors></robot>)";
   std::ofstream(folder / "failing.xml") << R"(<world><surface><size xmin="-5" xmax="5" ymin="-5" ymax="5"/>
     <scatter count="3"><robot model="failing" name="R" controller="random_walk"/></scatter></surface></world>)";
   const std::string run = "run " + quoted(folder / "failing.xml") + " --plugin " ROBOSIM_FAILING_PLUGIN " --record ";
