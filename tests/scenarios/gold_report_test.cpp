@@ -57,8 +57,8 @@ TEST(GoldReport, ContainsTheCommandThatReproducesIt) {
   const auto folder = emptyFolder();
   const Ended first = runProgram(kBench + quoted(folder / "first"));
   ASSERT_EQ(first.exit_code, 0) << first.err;
-  const auto json = nlohmann::json::parse(textOf(folder / "first" / "runs.json"));
-  std::string command = json["command"];
+  const auto runs = nlohmann::json::parse(textOf(folder / "first" / "runs.json"));
+  std::string command = runs["command"];
   ASSERT_EQ(command.substr(0, 19), "robosim bench gold ");
   const std::size_t at = command.find("FOLDER");
   ASSERT_NE(at, std::string::npos);

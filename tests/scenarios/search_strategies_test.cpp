@@ -8,14 +8,14 @@
 namespace robosim {
 namespace {
 
-const char* const kWorld = "worlds/benchmark/gold_office_20.xml";
+const char* const kSearchWorld = "worlds/benchmark/gold_office_20.xml";
 constexpr int kTime_s = 30;
 
 class SearchStrategies : public testing::TestWithParam<std::string> {};
 
 nlohmann::json runOf(const std::string& options) {
   const Ended run =
-      runProgram(std::string("run ") + kWorld + " --json --time " + std::to_string(kTime_s) + " " + options);
+      runProgram(std::string("run ") + kSearchWorld + " --json --time " + std::to_string(kTime_s) + " " + options);
   EXPECT_EQ(run.exit_code, 0) << run.err;
   return nlohmann::json::parse(run.out);
 }
@@ -23,7 +23,7 @@ nlohmann::json runOf(const std::string& options) {
 TEST_P(SearchStrategies, GiveTheSameRunInOneProcessAndOverANetwork) {
   const auto in_one = runOf("--controller " + GetParam());
   ServedWorld::Options options;
-  options.world = kWorld;
+  options.world = kSearchWorld;
   options.robots_elsewhere = true;
   options.last_step = in_one["steps"];
   options.server.step_deadline = std::chrono::minutes(10);
@@ -34,7 +34,7 @@ TEST_P(SearchStrategies, GiveTheSameRunInOneProcessAndOverANetwork) {
     std::vector<std::string> words{
         "robot",        names[first], names[first + 1], "--environment", world.connectOptions().address,
         "--controller", GetParam()};
-    if (GetParam() == "oracle") words.insert(words.end(), {"--map", kWorld});
+    if (GetParam() == "oracle") words.insert(words.end(), {"--map", kSearchWorld});
     robots.push_back(std::make_unique<StartedProgram>(words));
   }
   EXPECT_EQ(world.wait(), Served::to_its_end);
@@ -57,7 +57,7 @@ INSTANTIATE_TEST_SUITE_P(All, SearchStrategies,
 
 TEST(SearchStrategy, ThatKnowsTheWorldRequiresItsMapOverANetwork) {
   ServedWorld::Options options;
-  options.world = kWorld;
+  options.world = kSearchWorld;
   options.robots_elsewhere = true;
   ServedWorld world(options);
   const auto robot = startRobots({world.robotNames().front()}, world.connectOptions().address, "oracle");

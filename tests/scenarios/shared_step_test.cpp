@@ -7,13 +7,13 @@ namespace robosim {
 namespace {
 
 const char* const kOpenWorld = ROBOSIM_SOURCE_DIR "/worlds/open_100.xml";
-constexpr int kSteps = 120;
+constexpr int kSharedSteps = 120;
 
 LocalRun startRun() { return {loadWorld(kOpenWorld, checkController), RunOptions{}}; }
 
 std::string digestAlone() {
   LocalRun run = startRun();
-  for (int i = 0; i < kSteps; ++i) run.step();
+  for (int i = 0; i < kSharedSteps; ++i) run.step();
   return run.environment().digest();
 }
 
@@ -68,7 +68,7 @@ TEST(SharedStep, IsIdenticalForAnyPartition) {
   // The replica receives the state when it joins, during the run.
   LoadedWorld world = loadWorld(kOpenWorld, checkController);
   Environment replica(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
-  for (int i = 0; i < kSteps; ++i) {
+  for (int i = 0; i < kSharedSteps; ++i) {
     run.decide();
     if (i < 20) {
       owner.step();
