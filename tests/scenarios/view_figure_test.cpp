@@ -27,7 +27,7 @@ std::string figureOf(const std::string& source, const fs::path& folder, const st
   return fs::exists(file) ? textOf(file) : "";
 }
 
-std::string refusalOf(const std::string& options) {
+std::string refusalOfView(const std::string& options) {
   const Ended view = runProgram("view worlds/small_maze.xml " + options);
   EXPECT_EQ(view.exit_code, 1) << options;
   return view.err;
@@ -86,17 +86,17 @@ TEST(ViewFigure, RefusesSizesForPicturesAndOptionsOfPictures) {
   const auto folder = emptyFolder();
   const std::string png = quoted(folder / "a.png"), svg = quoted(folder / "a.svg");
   EXPECT_NE(
-      refusalOf("--width-mm 88 --offscreen " + png).find("--width-mm: applies to figures of runs in .svg or .pdf"),
+      refusalOfView("--width-mm 88 --offscreen " + png).find("--width-mm: applies to figures of runs in .svg or .pdf"),
       std::string::npos);
-  EXPECT_NE(refusalOf("--font-pt 8 --offscreen " + quoted(folder / "a.mp4")).find("--font-pt: applies to figures"),
+  EXPECT_NE(refusalOfView("--font-pt 8 --offscreen " + quoted(folder / "a.mp4")).find("--font-pt: applies to figures"),
             std::string::npos);
   for (const char* option :
        {"--3d", "--follow Scout1", "--view 2d@Scout1", "--size 640x480", "--scale 2", "--antialias", "--camera"}) {
-    EXPECT_NE(refusalOf(std::string(option) + " --offscreen " + svg).find("applies to pictures and videos"),
+    EXPECT_NE(refusalOfView(std::string(option) + " --offscreen " + svg).find("applies to pictures and videos"),
               std::string::npos)
         << option;
   }
-  EXPECT_NE(refusalOf("--width-mm 5 --offscreen " + svg).find("must be a number in [20, 2000]"), std::string::npos);
+  EXPECT_NE(refusalOfView("--width-mm 5 --offscreen " + svg).find("must be a number in [20, 2000]"), std::string::npos);
   EXPECT_FALSE(fs::exists(folder / "a.svg"));
   EXPECT_FALSE(fs::exists(folder / "a.png"));
 }
