@@ -18,18 +18,18 @@ namespace {
 using namespace std::chrono_literals;
 
 /// A TCP connection to a port of this machine.
-class Connection {
+class PortConnection {
  public:
-  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+  explicit PortConnection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
     sockaddr_in to{};
     to.sin_family = AF_INET;
     to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     to.sin_port = htons(static_cast<std::uint16_t>(port));
     if (connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to) != 0) ADD_FAILURE() << "no connection";
   }
-  ~Connection() { close(socket_); }
-  Connection(const Connection&) = delete;
-  Connection& operator=(const Connection&) = delete;
+  ~PortConnection() { close(socket_); }
+  PortConnection(const PortConnection&) = delete;
+  PortConnection& operator=(const PortConnection&) = delete;
 
   void send(const std::string& bytes) const { EXPECT_GT(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL), 0); }
   /// Reads until the server closes the connection.
@@ -60,16 +60,16 @@ struct OpenPortTest : testing::Test {
 const std::string kPreface = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 const std::string kEmptySettings{0, 0, 0, 4, 0, 0, 0, 0, 0};
 
-TEST_F(OpenPortTest, ClosesAConnectionThatSendsNothing) { Connection(open.number).waitUntilClosed(); }
+TEST_F(OpenPortTest, ClosesAConnectionThatSendsNothing) { PortConnection(open.number).waitUntilClosed(); }
 
 TEST_F(OpenPortTest, ClosesAConnectionThatSendsOnlyPartOfTheConnectionPreface) {
-  const Connection slow(open.number);
+  const PortConnection slow(open.number);
   slow.send(kPreface.substr(0, 10));
   slow.waitUntilClosed();
 }
 
 TEST_F(OpenPortTest, ClosesAConnectionWithoutACall) {
-  const Connection greeting(open.number);
+  const PortConnection greeting(open.number);
   greeting.send(kPreface + kEmptySettings);
   greeting.waitUntilClosed();
 }
@@ -78,7 +78,7 @@ TEST_F(OpenPortTest, KeepsAConnectionWhoseCallIsSilent) {
   grpc::ClientContext context;
   const auto stub = v1::Viewing::NewStub(connect({.address = "127.0.0.1:" + std::to_string(open.number)}));
   const auto silent = stub->Watch(&context);
-  Connection(open.number).waitUntilClosed();  // the idle limit has passed
+  PortConnection(open.number).waitUntilClosed();  // the idle limit has passed
   context.TryCancel();
   EXPECT_EQ(silent->Finish().error_code(), grpc::StatusCode::CANCELLED) << "ended by the client, not by the server";
 }
@@ -100,7 +100,7 @@ TEST(OpenPort, ListensAtEveryAddressOfAName) {
   v1::Viewing::Service service;
   const OpenPort open = openPort("localhost:0", {.tls = {}, .option = "--listen", .idle_limit = 100ms}, {&service});
   EXPECT_GT(open.number, 0);
-  Connection(open.number).waitUntilClosed();
+  PortConnection(open.number).waitUntilClosed();
 }
 
 TEST(OpenPort, RejectsAnAddressOfAnotherMachine) {

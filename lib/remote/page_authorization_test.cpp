@@ -11,7 +11,7 @@ namespace {
 using Type = PageMessage::Type;
 using Result = Authorization::Result;
 
-constexpr const char* kTokens =
+constexpr const char* kPageTokens =
     "viewer-0123456789abcdef viewer\n"
     "only-ann-0123456789abcdef robot Ann\n"
     "only-bob-0123456789abcdef robot Bob\n"
@@ -23,7 +23,7 @@ constexpr std::array kColumns{"viewer-0123456789abcdef", "only-ann-0123456789abc
                               "both-0123456789abcdef",   "operator-0123456789abcdef", "geometry-0123456789abcdef"};
 
 struct PageAuthorizationTest : testing::Test {
-  Access access = Access::parse(kTokens, "tokens");
+  Access access = Access::parse(kPageTokens, "tokens");
 
   Identity client(const std::string& token) const { return access.authenticate(token, "127.0.0.1").identity; }
   static PageMessage message(Type type, const std::string& robot = "") {
@@ -151,7 +151,7 @@ TEST(PageAuthorizationExpiry, DeniesWhatAnExpiredTokenPermitted) {
 }
 
 TEST(PageAuthorizationRoles, AdmitsTokensThatPermitWatchingOrDriving) {
-  const Access access = Access::parse(kTokens, "tokens");
+  const Access access = Access::parse(kPageTokens, "tokens");
   const auto joins = [&](const char* token) {
     return mayJoin(access, access.authenticate(token, "127.0.0.1").identity);
   };

@@ -16,9 +16,9 @@ using nlohmann::json;
 constexpr int kIncomplete = 3;
 
 /// `robosim serve`, paused, with Pioneer1 and Scout1 in a process each, after ten steps.
-class TwoRobots {
+class TwoServedRobots {
  public:
-  explicit TwoRobots(std::vector<std::string> options) : serving_(with(std::move(options))) {
+  explicit TwoServedRobots(std::vector<std::string> options) : serving_(with(std::move(options))) {
     pioneer_ = startRobots({"Pioneer1"}, serving_.address());
     scout_ = startRobots({"Scout1"}, serving_.address());
     serving_.program().waitForError("all robots are connected");
@@ -50,7 +50,7 @@ class TwoRobots {
 json clientsOf(const Ended& ended) { return json::parse(ended.out)["clients"]; }
 
 TEST(LostRobot, IsAwaitedInLockstepAndTheRunIsComplete) {
-  TwoRobots two({"--json"});
+  TwoServedRobots two({"--json"});
   two.killPioneer();
   two.program().waitForError("waiting for Pioneer1");
   StartedProgram steps({"control", two.address(), "step", "5"});
@@ -73,7 +73,7 @@ TEST(LostRobot, IsAwaitedInLockstepAndTheRunIsComplete) {
 }
 
 TEST(LostRobot, MakesTheRunIncompleteIfAbsentAtItsEnd) {
-  TwoRobots two({"--json"});
+  TwoServedRobots two({"--json"});
   two.killPioneer();
   two.control("stop");
   const Ended ended = two.program().wait();
@@ -82,7 +82,7 @@ TEST(LostRobot, MakesTheRunIncompleteIfAbsentAtItsEnd) {
 }
 
 TEST(LostRobot, WithContinueStandsStillAndTheRunIsIncomplete) {
-  TwoRobots two({"--json", "--on-lost-robot", "continue"});
+  TwoServedRobots two({"--json", "--on-lost-robot", "continue"});
   two.killPioneer();
   two.control("step 100");
   two.control("stop");
@@ -96,7 +96,7 @@ TEST(LostRobot, WithContinueStandsStillAndTheRunIsIncomplete) {
 
 TEST(LostRobot, IsNamedInTheSummaryAndInTheRecording) {
   const auto rawlog = emptyFolder() / "run.rawlog";
-  TwoRobots two({"--on-lost-robot", "continue", "--record", rawlog.string()});
+  TwoServedRobots two({"--on-lost-robot", "continue", "--record", rawlog.string()});
   two.killPioneer();
   two.control("step 7");
   two.startPioneerAgain();
@@ -112,7 +112,7 @@ TEST(LostRobot, IsNamedInTheSummaryAndInTheRecording) {
 }
 
 TEST(LostRobot, WithFailEndsTheRun) {
-  TwoRobots two({"--json", "--on-lost-robot", "fail"});
+  TwoServedRobots two({"--json", "--on-lost-robot", "fail"});
   two.killPioneer();
   const Ended ended = two.program().wait();
   EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
@@ -123,7 +123,7 @@ TEST(LostRobot, WithFailEndsTheRun) {
 }
 
 TEST(LostRobot, IsNotAwaitedInRealTime) {
-  TwoRobots two({"--json", "--pace", "realtime", "--speed", "50"});
+  TwoServedRobots two({"--json", "--pace", "realtime", "--speed", "50"});
   two.killPioneer();
   two.control("step 20");
   two.control("stop");
