@@ -19,11 +19,6 @@ class SingleRank final : public RankGroup {
     all[0].assign(own);
   }
   void exchange(const std::vector<std::string>& to, std::vector<std::string>& from) override { from = to; }
-  void exchangeAndGather(const std::vector<std::string>& to, std::string_view own, std::vector<std::string>& from,
-                         std::vector<std::string>& all) override {
-    exchange(to, from);
-    allGather(own, all);
-  }
   void barrier() override {}
   void send(int, std::string_view bytes) override { sent_.push_back({0, std::string(bytes)}); }
   std::optional<RankMessage> receive(double) override {

@@ -35,10 +35,14 @@ class RankGroup {
   virtual void allGather(std::string_view own, std::vector<std::string>& all) = 0;
   /// @param to for each rank, the bytes for it @param from the bytes from each rank; its memory is used again
   virtual void exchange(const std::vector<std::string>& to, std::vector<std::string>& from) = 0;
-  /// exchange() and allGather() in one: only if a rank has bytes for all does it take longer than exchange().
+  /// exchange() and allGather() in one: between processes, it takes longer than exchange() only if a rank has bytes for
+  /// all.
   /// @param own bytes for all ranks @param all the bytes of each rank, at every rank; its memory is used again
   virtual void exchangeAndGather(const std::vector<std::string>& to, std::string_view own,
-                                 std::vector<std::string>& from, std::vector<std::string>& all) = 0;
+                                 std::vector<std::string>& from, std::vector<std::string>& all) {
+    exchange(to, from);
+    allGather(own, all);
+  }
   virtual void barrier() = 0;
   ///@}
 

@@ -36,7 +36,13 @@ RecordedRobot blank(const RobotInfo& robot, SimTime time) {
 RecordedSteps::RecordedSteps(RawlogReader& reader, std::vector<RobotInfo> robots, double period_s, Pictures pictures)
     : reader_(reader), robots_(std::move(robots)), period_s_(period_s), pictures_(pictures) {
   kept_.resize(robots_.size());
-  for (std::size_t robot = 0; robot < robots_.size(); ++robot) forget(robot);
+  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
+    forget(robot);
+    const auto& sensors = *robots_[robot].sensors;
+    for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+      if (sensors[slot].times.rate_hz > 0) with_rates_.emplace_back(robot, slot);
+    }
+  }
   lookahead_ = nextRobotObservation();
 }
 
@@ -47,16 +53,10 @@ void RecordedSteps::forget(std::size_t robot) {
 
 /// Notes where the readings are that the sensors keep in a step.
 void RecordedSteps::addPlace(std::uint64_t position) {
+  if (with_rates_.empty() || (!places_.empty() && places_.back().position >= position)) return;
   Place place{position, position};
-  bool has_rate = false;
-  for (std::size_t robot = 0; robot < robots_.size(); ++robot) {
-    for (std::size_t slot = 0; slot < kept_[robot].size(); ++slot) {
-      if ((*robots_[robot].sensors)[slot].times.rate_hz == 0) continue;
-      has_rate = true;
-      place.first = std::min(place.first, kept_[robot][slot].position);
-    }
-  }
-  if (has_rate && (places_.empty() || places_.back().position < position)) places_.push_back(place);
+  for (const auto& [robot, slot] : with_rates_) place.first = std::min(place.first, kept_[robot][slot].position);
+  places_.push_back(place);
 }
 
 CObservation::Ptr RecordedSteps::nextRobotObservation() {

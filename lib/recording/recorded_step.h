@@ -82,7 +82,9 @@ class RecordedSteps {
   Pictures pictures_;
   std::vector<std::uint8_t> is_missing_;  ///< by robot; empty before the first step
   std::vector<std::vector<Kept>> kept_;   ///< by robot and sensor
-  std::vector<Place> places_;             ///< ascending; empty if no sensor has a rate
+  std::vector<std::pair<std::size_t, std::size_t>>
+      with_rates_;             ///< robots and sensors that do not measure in every step
+  std::vector<Place> places_;  ///< ascending; empty if no sensor has a rate
   std::string note_;
   mrpt::obs::CObservation::Ptr lookahead_;  ///< first observation of the next step
   std::uint64_t lookahead_position_ = 0;

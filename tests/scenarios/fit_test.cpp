@@ -106,17 +106,19 @@ TEST_F(Fit, WritesAFileThatARobotTypeIncludes) {
   }
 }
 
-TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
-  std::ofstream(in("room.xml"))
-      << "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
+/// A room with two walls and a Pioneer with these sensors.
+std::string roomWith(const std::string& sensors) {
+  return "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
          "<object><shape><primitive><cube><name>a</name><x>5</x><y>0</y><z>0.5</z><length>0.2</length><width>10</width>"
          "<height>1</height><direction>0.3</direction></cube></primitive></shape></object>"
-         "<object><shape><primitive><cube><name>b</name><x>0</x><y>3.1</y><z>0.5</z><length>6</length><width>0.2</"
-         "width>"
-         "<height>1</height></cube></primitive></shape></object>"
-         "<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors>"
-         "<laser noise='lms200' z_m='0.2'><noise "
-         "divergence_deg='0'/></laser></sensors></robot></shape></object></surface></world>";
+         "<object><shape><primitive><cube><name>b</name><x>0</x><y>3.1</y><z>0.5</z><length>6</length>"
+         "<width>0.2</width><height>1</height></cube></primitive></shape></object>"
+         "<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors>" +
+         sensors + "</sensors></robot></shape></object></surface></world>";
+}
+
+TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
+  std::ofstream(in("room.xml")) << roomWith("<laser noise='lms200' z_m='0.2'><noise divergence_deg='0'/></laser>");
   for (const std::string format : {"obs", "sf"}) {
     const std::string run = "run " + quoted(in("room.xml")) + " --controller still --time 20 --record " +
                             quoted(in(format + ".rawlog")) + " --rawlog-format " + format;
@@ -134,17 +136,9 @@ TEST_F(Fit, RecoversTheErrorsOfARecordingOfRoboSimInBothFormats) {
 
 /// Records a robot that drives about in a room for `time_s`.
 void recordDrive(const std::filesystem::path& world, const std::filesystem::path& rawlog, const std::string& time_s) {
-  std::ofstream(world)
-      << "<world><surface><type>smooth</type><size><xmin>-6</xmin><xmax>6</xmax><ymin>-6</ymin><ymax>6</ymax></size>"
-         "<object><shape><primitive><cube><name>a</name><x>5</x><y>0</y><z>0.5</z><length>0.2</length><width>10</width>"
-         "<height>1</height><direction>0.3</direction></cube></primitive></shape></object>"
-         "<object><shape><primitive><cube><name>b</name><x>0</x><y>3.1</y><z>0.5</z><length>6</length><width>0.2</"
-         "width>"
-         "<height>1</height></cube></primitive></shape></object>"
-         "<object><shape><robot><model>pioneer3dx</model><name>R</name><x>0</x><y>0</y><sensors><odometry/>"
-         "<laser z_m='0.2' beams='181' field_of_view_deg='180' range_max_m='20'>"
-         "<noise std_m='0.02' dropout='0.02' "
-         "outlier='0.01'/></laser></sensors></robot></shape></object></surface></world>";
+  std::ofstream(world) << roomWith(
+      "<odometry/><laser z_m='0.2' beams='181' field_of_view_deg='180' range_max_m='20'>"
+      "<noise std_m='0.02' dropout='0.02' outlier='0.01'/></laser>");
   const Ended run =
       runProgram("run " + quoted(world) + " --controller wander --time " + time_s + " --record " + quoted(rawlog));
   ASSERT_EQ(run.exit_code, 0) << run.err;

@@ -47,11 +47,6 @@ class ThreadRank final : public RankGroup {
     for (std::size_t i = 0; i < from.size(); ++i) from[i] = (*shared_.posted[i])[own()];
     barrier();
   }
-  void exchangeAndGather(const std::vector<std::string>& to, std::string_view own, std::vector<std::string>& from,
-                         std::vector<std::string>& all) override {
-    exchange(to, from);
-    allGather(own, all);
-  }
   void barrier() override { shared_.barrier.arrive_and_wait(); }
 
   void send(int to, std::string_view bytes) override {
