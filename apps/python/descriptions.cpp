@@ -37,6 +37,19 @@ void bindSensorInfo(py::module_& module) {
       .def_readonly("range_min_m", &SensorInfo::range_min_m, "Smallest range that is reported [m].")
       .def_readonly("range_max_m", &SensorInfo::range_max_m, "Largest range [m].")
       .def_readonly("no_echo_m", &SensorInfo::no_echo_m, "Reading of a beam without an echo [m].")
+      .def_readonly("beam_width_rad", &SensorInfo::beam_width_rad,
+                    "Full opening angle of a beam [rad]; 0 for a thin ray. Of a bumper: width of a segment.")
+      .def_readonly("noise_std_m", &SensorInfo::noise_std_m,
+                    "Largest standard deviation of a range [m]; 0 without noise.")
+      .def_readonly("bearing_std_rad", &SensorInfo::bearing_std_rad,
+                    "Range and bearing: standard deviation of a bearing [rad]; 0 without noise.")
+      .def_property_readonly(
+          "rate_hz", [](const SensorInfo& sensor) { return sensor.times.rate_hz; },
+          "Measurements per second of simulated time, at most one per step; 0: one in every step. Between them the "
+          "sensor keeps its reading. Of a camera 0: it has a rate of its own.")
+      .def_property_readonly(
+          "phase_s", [](const SensorInfo& sensor) { return sensor.times.phase_s; },
+          "Time of a measurement of a sensor with rate_hz [s], modulo the period.")
       .def("__repr__", [](const SensorInfo& sensor) {
         return "<SensorInfo '" + sensor.label + "', " + std::to_string(sensor.beams.size()) + " beams>";
       });

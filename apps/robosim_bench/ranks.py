@@ -25,14 +25,11 @@ def parse_arguments():
 def run(command):
     environment = dict(os.environ, ROBOSIM_LOG_LEVEL='debug', OMPI_ALLOW_RUN_AS_ROOT='1',
                        OMPI_ALLOW_RUN_AS_ROOT_CONFIRM='1', OMPI_MCA_rmaps_base_oversubscribe='1')
-    before = os.times()
     ended = subprocess.run(command, capture_output=True, text=True, env=environment)
     if ended.returncode != 0:
         sys.exit(f'{" ".join(command)}\n{ended.stderr}')
-    after = os.times()
-    processor_s = after.children_user - before.children_user + after.children_system - before.children_system
     figures = json.loads(ended.stdout)
-    return figures['wall_s'] / figures['steps'], figures['digest'], ended.stderr, processor_s
+    return figures['wall_s'] / figures['steps'], figures['digest'], ended.stderr
 
 
 def main():
@@ -45,16 +42,15 @@ def main():
             alone = [f'{arguments.programs}/robosim', 'run', f'{folder}/{arguments.workload}.xml', '--json', '--time',
                      str(steps / 10)]
             on_ranks = ['mpirun', '-n', str(arguments.ranks)] + alone + ['--exchange', arguments.exchange]
-            threads, ranks, digests, processor, text = [], [], set(), [], ''
+            threads, ranks, digests, text = [], [], set(), ''
             for i in range(arguments.rounds):
                 # The order changes, so that a machine that becomes slower favours neither.
                 pair = [(alone + ['--threads', str(arguments.ranks)], threads), (on_ranks, ranks)]
                 for command, times in pair[::1 if i % 2 == 0 else -1]:
-                    step_s, digest, log, processor_s = run(command)
+                    step_s, digest, log = run(command)
                     times.append(step_s)
                     digests.add(digest)
                     text = log or text
-                    processor.append(processor_s)
             ratios = [a / b for a, b in zip(threads, ranks)]
             print(f'{robots:,} robots, {arguments.ranks} threads {statistics.median(threads) * 1e3:.2f} ms per step, '
                   f'{arguments.ranks} ranks {statistics.median(ranks) * 1e3:.2f} ms; efficiency '

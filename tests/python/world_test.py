@@ -28,6 +28,13 @@ class WorldTest(unittest.TestCase):
         self.assertEqual((gold.name, gold.shape, gold.pose[:2], gold.heat_celsius), ("Gold", "cylinder", (2, 1), 20))
         self.assertEqual(gold.size_m, (0.4, 0.4))
 
+    def test_describes_errors_and_measurement_times_of_sensors(self):
+        laser = '<sensors><laser rate_hz="5" phase_s="0.1"><noise std_m="0.02"/></laser><odometry/></sensors></robot>'
+        (robot,) = robosim.World.parse(WORLD.replace("</robot>", laser), name="small").robots
+        (laser,) = [sensor for sensor in robot.sensors if sensor.kind == "laser"]
+        self.assertEqual((laser.rate_hz, laser.phase_s, laser.noise_std_m), (5, 0.1, 0.02))
+        self.assertEqual((laser.beam_width_rad, laser.bearing_std_rad), (0, 0))
+
     def test_reports_all_faults_with_file_and_line(self):
         text = WORLD.replace("pioneer3dx", "tortoise").replace("<xmax>5<", "<xmax>five<")
         with self.assertRaises(robosim.ConfigError) as raised:

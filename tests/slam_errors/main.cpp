@@ -1,7 +1,8 @@
 // Errors of stock SLAM programs on a real recording and on its simulated equivalent:
 //   robosim_slam_errors RAWLOG ROBOT_TYPE SEEDS
 // 1. Offline SLAM of the recording gives a path, and the surfaces that its scans show.
-// 2. A robot of the type drives the same path among these surfaces, with other random errors for each seed.
+// 2. A robot of the type drives the same path among these surfaces, whose reflectivity loses as many echoes as the
+// recording, with other random errors for each seed.
 // 3. For the recording and for each drive alike: offline SLAM, its map, and the RMS distances of the paths of icp-slam
 // (after alignment) and pf-localization (on that map) from the offline path. icp-slam amplifies differences of
 // millimetres, so that its error on one recording is a sample of a distribution; copies with dequantised readings show
@@ -18,6 +19,7 @@
 #include "tests/slam_errors/simulated_drive.h"
 #include "tests/slam_errors/stock_paths.h"
 #include "tests/slam_errors/surface_grid.h"
+#include "tests/slam_errors/surface_light.h"
 
 namespace robosim {
 namespace {
@@ -81,16 +83,17 @@ void measure(const std::string& rawlog, const std::string& robot_type, std::uint
   const ScanSeries recorded = readScans(rawlog, "");
   const Registration offline = registerScans(recorded);
   const SurfaceGrid surfaces(recorded, offline.start_from_robot);
-  const std::vector<Solid> solids = surfaces.solids(offline.start_from_robot, kClear_m);
+  Surroundings around{surfaces.solids(offline.start_from_robot, kClear_m), {}};
+  around.reflectivity = reflectivitiesOf(around.solids, recorded, offline.start_from_robot, laserOf(robot_type).errors);
   Rows rows{{"drive", "scans off surfaces", "odometry", "pf-localization", "icp-slam", "of copies, mean", "10 %",
              "50 %", "90 %"}};
   const Errors real = errorsOf(recorded, offline);
   rows.push_back(rowOf("recorded", real));
-  std::cerr << solids.size() << " solids\n" << table(rows) << std::flush;
+  std::cerr << around.solids.size() << " solids\n" << table(rows) << std::flush;
   Errors mean;
   const auto share = 1 / static_cast<double>(seeds);
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    const ScanSeries drive = simulateDrive(recorded, offline.start_from_robot, solids, robot_type, seed);
+    const ScanSeries drive = simulateDrive(recorded, offline.start_from_robot, around, robot_type, seed);
     const Errors errors = errorsOf(drive, registerScans(drive));
     rows.push_back(rowOf("seed " + std::to_string(seed), errors));
     std::cerr << table({rows.back()}) << std::flush;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/xml_parser.h"
 #include "sensors/registry.h"
@@ -19,12 +22,6 @@ Motion arcTo(const TPose2D& from, const TPose2D& to) {
   const double chord_m = std::copysign(std::hypot(moved.x, moved.y), moved.x);
   const double half = turn_rad / 2;
   return {chord_m * (half == 0 ? 1 : half / std::sin(half)), turn_rad};
-}
-
-TPose2D after(const TPose2D& from, const Motion& motion) {
-  const double half = motion.turn_rad / 2;
-  const double chord_m = motion.length_m * (half == 0 ? 1 : std::sin(half) / half);
-  return from + TPose2D(chord_m * std::cos(half), chord_m * std::sin(half), motion.turn_rad);
 }
 
 /// Duration of each motion at the mean speed of the path within 1 s before and after (the slope of a line fitted to its
@@ -54,29 +51,37 @@ std::vector<double> evenDurations(const ScanSeries& recorded, const std::vector<
   return durations_s;
 }
 
-std::unique_ptr<Sensor> sensorOf(const std::string& robot_type, const std::string& kind) {
+/// Reads an element of the <sensors> of a robot type.
+template <typename Read>
+auto readOf(const std::string& robot_type, const std::string& kind, const Read& read) {
   ErrorList errors;
   const XmlElement type = readXmlFile(robot_type);
-  std::unique_ptr<Sensor> sensor;
+  std::optional<decltype(read(std::declval<XmlReader&>()))> found;
   for (const auto& child : type.children) {
     if (child.name != "sensors") continue;
     for (const auto& element : child.children) {
       if (element.name != kind) continue;
       XmlReader reader(element, robot_type, errors);
-      sensor = readSensor(reader, {1, 0.3, 1});
+      found = read(reader);
     }
   }
   errors.throwIfAny();
-  if (!sensor) throw ConfigError(robot_type + ": has no <" + kind + ">; add one");
-  return sensor;
+  if (!found) throw ConfigError(robot_type + ": has no <" + kind + ">; add one");
+  return *std::move(found);
 }
 
 }  // namespace
 
-ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>& path, const std::vector<Solid>& solids,
+LaserOptions laserOf(const std::string& robot_type) {
+  return readOf(robot_type, "laser", [](XmlReader& reader) { return LaserOptions::read(reader); });
+}
+
+ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>& path, const Surroundings& around,
                          const std::string& robot_type, std::uint64_t seed) {
-  const auto laser = sensorOf(robot_type, "laser");
-  const auto odometry = sensorOf(robot_type, "odometry");
+  const auto laser = makeLaser(laserOf(robot_type));
+  const auto odometry = readOf(robot_type, "odometry", [](XmlReader& reader) {
+    return readSensor(reader, {1, 0.3, 1});
+  });
   const SensorInfo& info = laser->info();
   ScanSeries drive;
   drive.label = info.label;
@@ -87,20 +92,19 @@ ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>&
   drive.robot_from_scanner = {info.beams.front().robot_from_beam.x, info.beams.front().robot_from_beam.y, 0};
 
   constexpr double kArea_m = 60;
-  Scene scene(solids, 1, {-kArea_m, kArea_m, -kArea_m, kArea_m});
+  Scene scene(around.solids, 1, {-kArea_m, kArea_m, -kArea_m, kArea_m});
   std::vector<Readings> readings(1);
   readings[0].measurements = {laser->blank(), odometry->blank()};
   std::vector<Motion> motions(1);
   for (std::size_t k = 1; k < path.size(); ++k) motions.push_back(arcTo(path[k - 1], path[k]));
   const std::vector<double> durations_s = evenDurations(recorded, motions);
-  TPose2D pose;
   SimTime time;
   double time_s = recorded.scans[0].time_s;
   for (std::size_t k = 0; k < recorded.scans.size(); ++k) {
     const Motion& motion = motions[k];
     if (k > 0) time = {k, durations_s[k]};
     time_s += durations_s[k];
-    pose = after(pose, motion);
+    const TPose2D& pose = path[k];
     scene.place(0, {Circle{{pose.x, pose.y}, 0.1}, {0, 0.1}});
     scene.freeze();
     const PlanarTransform frame(pose, 0);
@@ -113,7 +117,8 @@ ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>&
                        .last_motion = {&motion, 1},
                        .laser_pan_rad = {&pan_rad, 1},
                        .time = time,
-                       .seed = seed};
+                       .seed = seed,
+                       .reflectivity = around.reflectivity};
     laser->sense(now, {&robot, 1}, 0, readings);
     odometry->sense(now, {&robot, 1}, 1, readings);
     RecordedScan scan{.time_s = time_s, .ranges_m = {}, .odometry = {}};

@@ -28,9 +28,10 @@ SurfaceGrid::SurfaceGrid(const ScanSeries& series, const std::vector<TPose2D>& s
       const TPoint2D end = start_from_scanner.composePoint(*point);
       traverse(origin, end, [](Cell& cell) { ++cell.passes; });
       if (scan.isJoined(i)) {
-        traverse(end, start_from_scanner.composePoint(*scan.point(i + 1)), [](Cell& cell) { ++cell.ends; });
+        const TPoint2D next = start_from_scanner.composePoint(*scan.point(i + 1));
+        traverse(end, next, [&](Cell& cell) { addSurface(cell, end, next); });
       } else if (Cell* const cell = cellAt(indexOf(end))) {
-        ++cell->ends;
+        addPoint(*cell, end);
       }
     }
   }
@@ -43,6 +44,36 @@ SurfaceGrid::Index SurfaceGrid::indexOf(const TPoint2D& p) const {
 SurfaceGrid::Cell* SurfaceGrid::cellAt(const Index& index) {
   if (index.x < 0 || index.y < 0 || index.x >= 2 * half_ || index.y >= 2 * half_) return nullptr;
   return &cells_[static_cast<std::size_t>(index.y * 2 * half_ + index.x)];
+}
+
+TPoint2D SurfaceGrid::centreOf(const Cell& cell) const {
+  const auto index = static_cast<int>(&cell - cells_.data());
+  return {(index % (2 * half_) - half_ + 0.5) * kCell_m, (index / (2 * half_) - half_ + 0.5) * kCell_m};
+}
+
+void SurfaceGrid::addPoint(Cell& cell, const TPoint2D& p) {
+  ++cell.ends;
+  const TPoint2D off = p - centreOf(cell);
+  cell.x_m += static_cast<float>(off.x);
+  cell.y_m += static_cast<float>(off.y);
+}
+
+/// Adds the point of a surface that is nearest to the middle of a cell, and the surface's direction.
+void SurfaceGrid::addSurface(Cell& cell, const TPoint2D& from, const TPoint2D& to) {
+  const TPoint2D along = to - from, out = centreOf(cell) - from;
+  const double length_m2 = std::max(along.x * along.x + along.y * along.y, 1e-12);
+  addPoint(cell, from + along * std::clamp((out.x * along.x + out.y * along.y) / length_m2, 0.0, 1.0));
+  // A surface has no sense, so directions are added with twice their angle.
+  cell.cos_2 += static_cast<float>((along.x * along.x - along.y * along.y) / length_m2);
+  cell.sin_2 += static_cast<float>(2 * along.x * along.y / length_m2);
+}
+
+/// A thin box along the mean surface of a cell.
+Solid SurfaceGrid::solidOf(const Cell& cell) const {
+  constexpr double kLength_m = 1.5 * kCell_m, kDepth_m = 0.005;  // longer than a diagonal, so that no beam passes
+  const TPoint2D middle = centreOf(cell) + TPoint2D(cell.x_m, cell.y_m) * (1.0 / cell.ends);
+  return {OrientedBox::from({middle.x, middle.y, std::atan2(cell.sin_2, cell.cos_2) / 2}, kLength_m, kDepth_m),
+          {0, kHeight_m}};
 }
 
 bool SurfaceGrid::isOccupied(const Cell& cell) const {
@@ -77,16 +108,8 @@ std::vector<Solid> SurfaceGrid::solids(const std::vector<TPose2D>& path, double 
     }
   }
   std::vector<Solid> solids;
-  for (int y = 0; y < 2 * half_; ++y) {
-    const char* const row = &occupied[static_cast<std::size_t>(y * 2 * half_)];
-    for (int x = 0; x < 2 * half_; ++x) {
-      const int from = x;
-      while (x < 2 * half_ && row[x]) ++x;
-      if (x == from) continue;
-      const double length_m = (x - from) * kCell_m;
-      const TPose2D middle((from - half_) * kCell_m + length_m / 2, (y - half_ + 0.5) * kCell_m, 0);
-      solids.push_back({OrientedBox::from(middle, length_m, kCell_m), {0, kHeight_m}});
-    }
+  for (std::size_t i = 0; i < cells_.size(); ++i) {
+    if (occupied[i]) solids.push_back(solidOf(cells_[i]));
   }
   return solids;
 }

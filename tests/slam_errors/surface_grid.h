@@ -20,13 +20,16 @@ class SurfaceGrid {
   /// @param start_from_robot pose of the robot at each scan
   SurfaceGrid(const ScanSeries& series, const std::vector<mrpt::math::TPose2D>& start_from_robot);
 
-  /// Occupied cells as boxes, of 2 m height; none within `clear_m` of the path.
+  /// A thin box of 2 m height for each occupied cell, along the mean of its surfaces; none within `clear_m` of the
+  /// path.
   std::vector<Solid> solids(const std::vector<mrpt::math::TPose2D>& path, double clear_m) const;
   mrpt::maps::COccupancyGridMap2D gridmap() const;
 
  private:
   struct Cell {
     std::uint16_t ends = 0, passes = 0;
+    float x_m = 0, y_m = 0;      ///< sum of the points of surfaces, from the middle of the cell
+    float cos_2 = 0, sin_2 = 0;  ///< sum of their directions, of twice the angle
   };
   struct Index {
     int x = 0, y = 0;
@@ -35,6 +38,10 @@ class SurfaceGrid {
   Index indexOf(const mrpt::math::TPoint2D& p) const;
   Cell* cellAt(const Index& index);
   bool isOccupied(const Cell& cell) const;
+  mrpt::math::TPoint2D centreOf(const Cell& cell) const;
+  void addPoint(Cell& cell, const mrpt::math::TPoint2D& p);
+  void addSurface(Cell& cell, const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to);
+  Solid solidOf(const Cell& cell) const;
   template <typename Visit>
   void traverse(const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to, const Visit& visit);
 
