@@ -8,7 +8,7 @@ set(ROBOSIM_RUNS_SANITIZED_TESTS ON)
 if(ROBOSIM_SPLIT_TESTS)
   if(CMAKE_BUILD_TYPE STREQUAL "Release")
     set(ROBOSIM_RUNS_SANITIZED_TESTS OFF)
-    # To compile in 20 % to 30 % less time: the tests themselves, and modules in which little time is spent.
+    # To compile in 20 % to 30 % less time: the tests themselves, and modules and programs in which little time is spent.
     list(APPEND ROBOSIM_TEST_OPTIONS -O1)
     set(ROBOSIM_SERVICE_OPTIONS -O1)
   else()
