@@ -24,6 +24,38 @@ Motion arcTo(const TPose2D& from, const TPose2D& to) {
   return {chord_m * (half == 0 ? 1 : half / std::sin(half)), turn_rad};
 }
 
+TPose2D after(const TPose2D& from, const Motion& motion) {
+  const double half = motion.turn_rad / 2;
+  const double chord_m = motion.length_m * (half == 0 ? 1 : std::sin(half) / half);
+  return from + TPose2D(chord_m * std::cos(half), chord_m * std::sin(half), motion.turn_rad);
+}
+
+std::vector<Motion> motionsOf(const std::vector<TPose2D>& path) {
+  std::vector<Motion> motions(1);
+  for (std::size_t k = 1; k < path.size(); ++k) motions.push_back(arcTo(path[k - 1], path[k]));
+  return motions;
+}
+
+/// The pose of a path a time after that of each of its poses, on the arcs between them; at most the last one.
+/// @param durations_s of the motion to each pose
+std::vector<TPose2D> laterPoses(const std::vector<TPose2D>& path, const std::vector<double>& durations_s,
+                                double later_s) {
+  const std::vector<Motion> motions = motionsOf(path);
+  std::vector<TPose2D> later;
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    double rest_s = later_s;
+    std::size_t at = k;
+    while (at + 1 < path.size() && rest_s >= durations_s[at + 1]) rest_s -= durations_s[++at];
+    if (at + 1 == path.size()) {
+      later.push_back(path.back());
+      continue;
+    }
+    const double share = rest_s / durations_s[at + 1];
+    later.push_back(after(path[at], {share * motions[at + 1].length_m, share * motions[at + 1].turn_rad}));
+  }
+  return later;
+}
+
 /// Duration of each motion at the mean speed of the path within 1 s before and after (the slope of a line fitted to its
 /// length over the recorded times). Slow motions take the recorded time.
 std::vector<double> evenDurations(const ScanSeries& recorded, const std::vector<Motion>& motions) {
@@ -78,7 +110,8 @@ LaserOptions laserOf(const std::string& robot_type) {
 
 ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>& path, const Surroundings& around,
                          const std::string& robot_type, std::uint64_t seed) {
-  const auto laser = makeLaser(laserOf(robot_type));
+  const LaserOptions options = laserOf(robot_type);
+  const auto laser = makeLaser(options);
   const auto odometry = readOf(robot_type, "odometry", [](XmlReader& reader) {
     return readSensor(reader, {1, 0.3, 1});
   });
@@ -95,16 +128,17 @@ ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>&
   Scene scene(around.solids, 1, {-kArea_m, kArea_m, -kArea_m, kArea_m});
   std::vector<Readings> readings(1);
   readings[0].measurements = {laser->blank(), odometry->blank()};
-  std::vector<Motion> motions(1);
-  for (std::size_t k = 1; k < path.size(); ++k) motions.push_back(arcTo(path[k - 1], path[k]));
-  const std::vector<double> durations_s = evenDurations(recorded, motions);
+  const std::vector<double> durations_s = evenDurations(recorded, motionsOf(path));
+  // A scan that is as old as the mean is that of the path.
+  const std::vector<TPose2D> driven = laterPoses(path, durations_s, options.timing.latency_s);
+  const std::vector<Motion> motions = motionsOf(driven);
   SimTime time;
   double time_s = recorded.scans[0].time_s;
   for (std::size_t k = 0; k < recorded.scans.size(); ++k) {
     const Motion& motion = motions[k];
     if (k > 0) time = {k, durations_s[k]};
     time_s += durations_s[k];
-    const TPose2D& pose = path[k];
+    const TPose2D& pose = driven[k];
     scene.place(0, {Circle{{pose.x, pose.y}, 0.1}, {0, 0.1}});
     scene.freeze();
     const PlanarTransform frame(pose, 0);
