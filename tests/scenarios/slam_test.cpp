@@ -23,5 +23,20 @@ TEST(IcpSlam, FollowsARecordedRunThroughTheMaze) {
   }
 }
 
+TEST(IcpSlam, CorrectsTheOdometryOfARunWithTheErrorsOfAllSensors) {
+  const auto folder = emptyFolder();
+  const auto rawlog = folder / "run.rawlog";
+  const Ended run =
+      runProgram("run worlds/maze_20x20.xml --noise all --seed 1 --time 60 --record '" + rawlog.string() + "'");
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  for (const std::string robot : {"Pioneer1", "Pioneer4"}) {
+    const PathError error = icpSlamError(rawlog, robot, "laser", "icp-slam.ini", folder / robot);
+    std::printf("%s: icp-slam over %zu poses is %.3f m from the truth (RMS), the odometry %.3f m\n", robot.c_str(),
+                error.poses, error.rms_m, error.odometry_rms_m);
+    EXPECT_LT(error.rms_m, 0.5) << robot;
+    EXPECT_LT(error.rms_m, 0.6 * error.odometry_rms_m) << robot;
+  }
+}
+
 }  // namespace
 }  // namespace robosim
