@@ -83,6 +83,14 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
   return controller;
 }
 
+bool needPictures(const Fleet& fleet, const std::string& instead) {
+  return std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const FleetRobot& robot) {
+    const auto& needs = controllers().typeOf(controllerOf(robot.controller, instead)).needs;
+    return std::any_of(needs.begin(), needs.end(),
+                       [](SensorKind kind) { return kind == SensorKind::camera || kind == SensorKind::blob_finder; });
+  });
+}
+
 void setImageSourceMaker(ImageSourceMaker maker) { imageSourceMaker() = maker; }
 
 bool knowsWorld(const std::string& controller) { return controllers().typeOf(controller).knows_world; }
@@ -132,7 +140,7 @@ LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead
 
 LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
     : options_(options),
-      images_(imagesFor(world)),
+      images_(options.takes_pictures ? imagesFor(world) : nullptr),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log) {

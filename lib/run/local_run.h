@@ -27,6 +27,7 @@ struct RunOptions {
   /// Mean time until a robot breaks down for good, exponentially distributed: it halts, and its controller is called no
   /// more [simulated s]; 0: none does.
   double breakdown_mean_s = 0;
+  bool takes_pictures = true;  ///< otherwise cameras take none, which saves most of the time of a run with cameras
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
@@ -51,6 +52,10 @@ std::string controllerOf(const std::string& in_world, const std::string& instead
 
 /// Whether a robot, of this index in the world's order, needs no controller of RoboSim.
 using DrivenElsewhere = std::function<bool(const FleetRobot&, std::size_t index)>;
+
+/// Whether a controller of a world, or the one `instead` of them, requires a camera or a blob finder.
+/// @throws ConfigError for an unknown controller
+bool needPictures(const Fleet& fleet, const std::string& instead);
 
 /// Adds an error for each robot that lacks a sensor required by its controller. `world_file` is the file name in
 /// errors.

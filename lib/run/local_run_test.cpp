@@ -103,7 +103,7 @@ TEST(LocalRun, ForksRobotsThatAreDrivenElsewhereOnRequestOnly) {
   EXPECT_EQ(fork->environment().state(), run.environment().state());
 }
 
-TEST(LocalRun, RefusesCamerasWithoutAnImageSourceMaker) {
+WorldSource worldWithCamera() {
   WorldSource source;
   source.file = "w.xml";
   source.text =
@@ -114,14 +114,35 @@ TEST(LocalRun, RefusesCamerasWithoutAnImageSourceMaker) {
       "eye.xml",
       "<robot name='eye' help='Sees.'><body radius_m='0.2' height_m='0.3'/><limits speed_max_mps='1' accel_mps2='1' "
       "decel_mps2='1' turn_max_degps='9' turn_accel_degps2='9'/><sensors><camera/></sensors></robot>"};
+  return source;
+}
+
+TEST(LocalRun, RefusesCamerasWithoutAnImageSourceMaker) {
   try {
-    LocalRun(loadWorldToRun(source, "still"), {});
+    LocalRun(loadWorldToRun(worldWithCamera(), "still"), {});
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
                  "robots have cameras, but this program cannot render pictures; it must call "
                  "setImageSourceMaker(makeOffscreenRenderer), of the library robosim::rendering");
   }
+}
+
+TEST(LocalRun, NeedsNoImageSourceMakerWithoutPictures) {
+  RunOptions options;
+  options.takes_pictures = false;
+  LocalRun run(loadWorldToRun(worldWithCamera(), "still"), options);
+  run.step();
+  EXPECT_EQ(run.environment().time().step, 1u);
+}
+
+TEST(LocalRun, NeedsPicturesForControllersThatRequireACamera) {
+  const Fleet fleet = loadWorldToRun(worldWithCamera(), "still").fleet;
+  EXPECT_FALSE(needPictures(fleet, "still"));
+  const auto make = [](const ControllerSetup&, const ParameterValues&) { return std::unique_ptr<Controller>(); };
+  controllers().add(
+      {.name = "watcher", .help = "Watches.", .needs = {SensorKind::camera}, .parameters = {}, .make = make});
+  EXPECT_TRUE(needPictures(fleet, "watcher"));
 }
 
 }  // namespace
