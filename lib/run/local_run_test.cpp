@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "maze/controllers.h"
+
 namespace robosim {
 namespace {
 
