@@ -21,8 +21,8 @@ struct Surroundings {
 LaserOptions laserOf(const std::string& robot_type);
 
 /// The scans and odometry that a robot type's <laser> and <odometry> would have recorded on the path of a recording,
-/// among solids. Scans of the mean age are those from the poses of the path. The robot moves on arcs between these, and at
-/// the recorded speed, averaged over 2 s: the time stamps of single scans are wrong.
+/// among solids. Scans of the mean age are those from the poses of the path. The robot moves on arcs between these, and
+/// at the recorded speed, averaged over 2 s: the time stamps of single scans are wrong.
 /// @param robot_type its XML file
 /// @throws ConfigError for an invalid robot type
 ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<mrpt::math::TPose2D>& path,
