@@ -132,6 +132,7 @@ TEST(LocalRun, RefusesCamerasWithoutAnImageSourceMaker) {
 
 TEST(LocalRun, NeedsNoImageSourceMakerWithoutPictures) {
   RunOptions options;
+  options.controller = "still";
   options.takes_pictures = false;
   LocalRun run(loadWorldToRun(worldWithCamera(), "still"), options);
   run.step();
