@@ -33,7 +33,7 @@ P
 failed=0
 measure() {
   local row
-  row=$(build/release/bin/robosim bench gold "$1" --noise all --runs 100 --threads "$(nproc)" 2>/dev/null | sed -n 2p)
+  row=$(build/release/bin/robosim bench gold "$1" --controller gold_finder --noise all --runs 100 --threads "$(nproc)" 2>/dev/null | sed -n 2p)
   echo "$row"
   (($(awk '{print $3}' <<<"$row") >= 95)) || failed=1
 }
