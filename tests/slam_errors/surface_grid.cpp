@@ -46,21 +46,21 @@ SurfaceGrid::Cell* SurfaceGrid::cellAt(const Index& index) {
   return &cells_[static_cast<std::size_t>(index.y * 2 * half_ + index.x)];
 }
 
-TPoint2D SurfaceGrid::centreOf(const Cell& cell) const {
+TPoint2D SurfaceGrid::centerOf(const Cell& cell) const {
   const auto index = static_cast<int>(&cell - cells_.data());
   return {(index % (2 * half_) - half_ + 0.5) * kCell_m, (index / (2 * half_) - half_ + 0.5) * kCell_m};
 }
 
 void SurfaceGrid::addPoint(Cell& cell, const TPoint2D& p) {
   ++cell.ends;
-  const TPoint2D off = p - centreOf(cell);
+  const TPoint2D off = p - centerOf(cell);
   cell.x_m += static_cast<float>(off.x);
   cell.y_m += static_cast<float>(off.y);
 }
 
 /// Adds the point of a surface that is nearest to the middle of a cell, and the surface's direction.
 void SurfaceGrid::addSurface(Cell& cell, const TPoint2D& from, const TPoint2D& to) {
-  const TPoint2D along = to - from, out = centreOf(cell) - from;
+  const TPoint2D along = to - from, out = centerOf(cell) - from;
   const double length_m2 = std::max(along.x * along.x + along.y * along.y, 1e-12);
   addPoint(cell, from + along * std::clamp((out.x * along.x + out.y * along.y) / length_m2, 0.0, 1.0));
   // A surface has no sense, so directions are added with twice their angle.
@@ -71,7 +71,7 @@ void SurfaceGrid::addSurface(Cell& cell, const TPoint2D& from, const TPoint2D& t
 /// A thin box along the mean surface of a cell.
 Solid SurfaceGrid::solidOf(const Cell& cell) const {
   constexpr double kLength_m = 1.5 * kCell_m, kDepth_m = 0.005;  // longer than a diagonal, so that no beam passes
-  const TPoint2D middle = centreOf(cell) + TPoint2D(cell.x_m, cell.y_m) * (1.0 / cell.ends);
+  const TPoint2D middle = centerOf(cell) + TPoint2D(cell.x_m, cell.y_m) * (1.0 / cell.ends);
   return {OrientedBox::from({middle.x, middle.y, std::atan2(cell.sin_2, cell.cos_2) / 2}, kLength_m, kDepth_m),
           {0, kHeight_m}};
 }

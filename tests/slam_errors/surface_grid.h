@@ -38,7 +38,7 @@ class SurfaceGrid {
   Index indexOf(const mrpt::math::TPoint2D& p) const;
   Cell* cellAt(const Index& index);
   bool isOccupied(const Cell& cell) const;
-  mrpt::math::TPoint2D centreOf(const Cell& cell) const;
+  mrpt::math::TPoint2D centerOf(const Cell& cell) const;
   void addPoint(Cell& cell, const mrpt::math::TPoint2D& p);
   void addSurface(Cell& cell, const mrpt::math::TPoint2D& from, const mrpt::math::TPoint2D& to);
   Solid solidOf(const Cell& cell) const;
