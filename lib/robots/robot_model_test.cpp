@@ -95,6 +95,7 @@ TEST(RobotModel, PolaroidPioneerDiffersFromTheOtherOneByItsSonarsOnly) {
   for (std::size_t i = 0; i < real.sensors.size(); ++i) EXPECT_EQ(real.sensors[i]->isNoisy(), i == 0) << i;
   const SensorInfo& sonar = real.sensor_infos->at(0);
   EXPECT_DOUBLE_EQ(sonar.beam_width_rad, 84 * kRadPerDeg) << "42° to each side";
+  EXPECT_DOUBLE_EQ(plain.sensor_infos->at(0).beam_width_rad, 26 * kRadPerDeg) << "the main lobe";
   ASSERT_EQ(sonar.beams.size(), 16u);
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(sonar.beams[i].robot_from_beam, plain.sensor_infos->at(0).beams[i].robot_from_beam) << i;

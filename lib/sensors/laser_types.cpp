@@ -14,7 +14,7 @@ const LaserType kTypes[] = {
      .sweep_s = 0.00667},
     {.name = "urg04lx",
      .errors = {.std_at = {{1, 0.005}, {4, 0.020}}, .quantum_m = 0.001,
-                .divergence_rad = 0.25 * kRadPerDeg, .reach_m = 5.6, .fading = 0.1},
+                .divergence_rad = 0.57 * kRadPerDeg, .reach_m = 5.6, .fading = 0.1},
      .sweep_s = 0.0666},
     {.name = "utm30lx",
      .errors = {.std_at = {{10, 0.010}, {30, 0.030}}, .quantum_m = 0.001,

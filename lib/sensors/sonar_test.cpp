@@ -152,6 +152,16 @@ TEST(Sonar, SpecularWallReturnsNoEchoBeyondItsAngle) {
   EXPECT_NEAR(robot.ranges(*sonarAhead("", "<noise std_per_m='0' specular_deg='34'/>"))[0], 5, kFloat);
 }
 
+TEST(Sonar, NoisyBeamOfAPioneerDetectsAWallUpTo42DegreesFromItsAxis) {
+  for (const auto& [axis_from_normal_deg, is_detected] : {std::pair{41.5, true}, {42.5, false}}) {
+    const double turned_rad = axis_from_normal_deg * M_PI / 180;
+    // The wall meets the axis 1 m ahead of the sonar.
+    SingleRobotScene robot({block(1.2 + std::cos(turned_rad), std::sin(turned_rad), 2, 20, turned_rad)});
+    const double range_m = robot.ranges(*sonarAhead("beam_width_deg='26'", "<noise std_per_m='0'/>"))[0];
+    EXPECT_EQ(range_m < 1, is_detected) << axis_from_normal_deg;
+  }
+}
+
 TEST(Sonar, ReflectsByTheHorizontalAngleOnly) {
   // 2 m ahead of the sonar, at z = 0.1, is a shelf from z = 0.3 on. The rays that hit it rise by 5.7° or more.
   SingleRobotScene robot({Solid{OrientedBox::from({2.7, 0, 0}, 1, 4), {0.3, 1.0}}});
