@@ -12,8 +12,8 @@ enum class SonarNoiseSet { none, polaroid };
 /// Polaroid 6500 ranging module with the 600 series transducer, as on Pioneer and Scout: ±1 % of the range (data
 /// sheet).
 constexpr RangeNoise kSonarDataSheet{.on = true, .std_m = 0, .std_per_m = 0.01, .dropout = 0};
-/// A flat wall is detected up to 42° from the axis (Cao & Borenstein, see SonarLobe): its nearest point in a beam of 26°,
-/// the transducer's main lobe, then has an angle of incidence of 42° - 13°.
+/// A flat wall is detected up to 42° from the axis (Cao & Borenstein, see SonarLobe): its nearest point in a beam of
+/// 26°, the transducer's main lobe, then has an angle of incidence of 42° - 13°.
 constexpr double kSpecular_deg = 29;
 
 /// Blanking: the module's minimum of 6 inches. Rates of lost echoes, ringing and crosstalk are assumptions.

@@ -25,7 +25,8 @@ class InstalledProject {
                           std::filesystem::copy_options::recursive);
     if (change) change(folder());
     succeed(ROBOSIM_CMAKE " -S " + quoted(folder()) + " -B " + quoted(folder() / "build") +
-            " -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DCMAKE_PREFIX_PATH=" + quoted(prefix()) + " && " ROBOSIM_CMAKE " --build " + quoted(folder() / "build"));
+            " -DCMAKE_CXX_FLAGS_RELEASE=-O0 -DCMAKE_PREFIX_PATH=" + quoted(prefix()) +
+            " && " ROBOSIM_CMAKE " --build " + quoted(folder() / "build"));
   }
 
   std::filesystem::path folder() const { return temporary_ / example_; }
