@@ -1,4 +1,5 @@
 // `robosim run` on several ranks, started by mpirun.
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 
@@ -23,6 +24,7 @@ std::vector<std::filesystem::path> shippedWorlds() {
     if (entry.path().extension() == ".xml") worlds.push_back(entry.path());
   }
   EXPECT_GE(worlds.size(), 8u);
+  std::sort(worlds.begin(), worlds.end());
   for (const char* name : {"gold_cave_15", "gold_perfect_12"}) {
     worlds.push_back(std::string(ROBOSIM_SOURCE_DIR "/worlds/benchmark/") + name + ".xml");
   }
@@ -61,9 +63,11 @@ void expectSameOnRanks(const std::string& arguments, const std::vector<int>& ran
 
 TEST(MpiRun, EqualsThatOfOneProcessInEveryShippedWorld) {
   const auto folder = emptyFolder();
+  int ranks = 2;  // ./dev verify mpi runs each world on 1 to 8
   for (const auto& world : shippedWorlds()) {
     SCOPED_TRACE(world);
-    expectSameOnRanks(quoted(world) + " --time 3", {2, 3}, folder);
+    expectSameOnRanks(quoted(world) + " --time 3", {ranks}, folder);
+    ranks = 5 - ranks;
   }
 }
 
