@@ -26,7 +26,7 @@ std::vector<std::filesystem::path> shippedWorlds() {
   EXPECT_GE(worlds.size(), 8u);
   std::sort(worlds.begin(), worlds.end());
   for (const char* name : {"gold_cave_15", "gold_perfect_12"}) {
-    worlds.push_back(std::string(ROBOSIM_SOURCE_DIR "/worlds/benchmark/") + name + ".xml");
+    worlds.emplace_back(std::string(ROBOSIM_SOURCE_DIR "/worlds/benchmark/") + name + ".xml");
   }
   return worlds;
 }
@@ -193,15 +193,8 @@ TEST(MpiRun, IsTheOnlyOneThatLoadsMpi) {
 
 /// Starts a long run whose recording is not complete before it is ended.
 std::vector<std::string> longRun(const std::filesystem::path& rawlog, int ranks) {
-  return {"-n",
-          std::to_string(ranks),
-          ROBOSIM_PROGRAM,
-          "run",
-          ROBOSIM_SOURCE_DIR "/worlds/open_100.xml",
-          "--speed",
-          "1",
-          "--record",
-          rawlog};
+  const std::string world = ROBOSIM_SOURCE_DIR "/worlds/open_100.xml";
+  return {"-n", std::to_string(ranks), ROBOSIM_PROGRAM, "run", world, "--speed", "1", "--record", rawlog};
 }
 
 TEST(MpiRun, InterruptedEndsAllRanksWithACompleteRecording) {
