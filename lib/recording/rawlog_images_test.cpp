@@ -9,6 +9,7 @@
 
 #include "base/testing/file_size_limit.h"
 #include "base/testing/test_folder.h"
+#include "recording/measurements.h"
 #include "recording/rawlog_writer.h"
 #include "recording/recording_error.h"
 #include "recording/testing/sample_robot.h"

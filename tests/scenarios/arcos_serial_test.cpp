@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <thread>
+#include <utility>  // Boost.Asio 1.74 uses std::exchange without it
 
 #include <boost/asio.hpp>
 #include <fcntl.h>

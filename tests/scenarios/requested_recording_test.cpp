@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "base/testing/file_size_limit.h"
 #include "tests/scenarios/program.h"
