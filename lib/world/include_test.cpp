@@ -52,6 +52,44 @@ TEST(Include, AddsTheObjectsOfTheFile) {
   EXPECT_EQ(world.origin.included, (Lines{"parts/a.xml", "parts/b.xml"}));
 }
 
+TEST(Include, ReadsAllFilesThatAnIncludedFileIncludes) {
+  FileTexts files;
+  std::string includes;
+  Lines names{"long_folder_name/a.xml"};
+  for (int i = 1; i <= 40; ++i) {
+    const std::string name = "b" + std::to_string(i) + ".xml";
+    includes += "<include file='" + name + "'/>";
+    files["long_folder_name/" + name] = "<surface>" + pillarNamed("B" + std::to_string(i)) + "</surface>";
+    names.push_back("long_folder_name/" + name);
+  }
+  files["long_folder_name/a.xml"] = "<surface>" + includes + "</surface>";
+  Lines faults;
+  const World world = read("<include file='long_folder_name/a.xml'/>", files, faults);
+  EXPECT_EQ(faults, Lines{});
+  EXPECT_EQ(world.origin.included, names);
+  ASSERT_EQ(world.objects.size(), 40u);
+  EXPECT_EQ(world.objects[39].name, "B40");
+}
+
+/// A world with a chain of included files, of which the last one is `length` files from the world.
+Lines faultsOfChain(int length) {
+  FileTexts files;
+  for (int i = 1; i <= length; ++i) {
+    files["a" + std::to_string(i) + ".xml"] =
+        i == length ? "<surface/>" : "<surface><include file='a" + std::to_string(i + 1) + ".xml'/></surface>";
+  }
+  return faultsWithFiles("<include file='a1.xml'/>", files);
+}
+
+TEST(Include, RefusesMoreThan100NestedFiles) {
+  EXPECT_EQ(faultsOfChain(100), Lines{});
+  const Lines faults = faultsOfChain(100'000);
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0],
+            "worlds/a100.xml:1: <include file=\"a101.xml\">: is nested more than 100 includes deep; include it from a "
+            "file nearer to the world");
+}
+
 TEST(Include, ReportsLinesOfTheIncludedFile) {
   EXPECT_EQ(
       faultsWithFiles("<include file='a.xml'/>", {{"a.xml", "<surface>\n<size/>\n</surface>"}}),

@@ -26,13 +26,18 @@ void setFile(XmlElement& element, int file) {
 
 }  // namespace
 
-void IncludedFiles::read(XmlReader& surface, const std::string& folder) {
+void IncludedFiles::read(XmlReader& surface, const std::string& folder, int depth) {
   for (auto& include : surface.all("include")) {
     const std::string file = include.word("file");
     include.finish();
     if (file.empty()) continue;
     if (const std::string fault = includeError(file); !fault.empty()) {
       include.errorAt("file", fault);
+      continue;
+    }
+    if (depth > kMaxIncludeDepth) {
+      include.errorAt("file", "is nested more than " + std::to_string(kMaxIncludeDepth) +
+                                  " includes deep; include it from a file nearer to the world");
       continue;
     }
     const std::string name = std::filesystem::path(folder + file).lexically_normal().string();
@@ -50,15 +55,16 @@ void IncludedFiles::read(XmlReader& surface, const std::string& folder) {
       }
       XmlElement& root = roots_.emplace_back(parseXml(std::move(text), files_.pathOf(name)));
       names_.push_back(name);
-      const std::string inner = std::filesystem::path(name).parent_path().string();
-      folders_.push_back(inner.empty() ? "" : inner + "/");
+      std::string inner = std::filesystem::path(name).parent_path().string();
+      if (!inner.empty()) inner += '/';
+      folders_.push_back(inner);
       setFile(root, static_cast<int>(names_.size()));
       XmlReader part(root, files_.pathOf(name), errors_);
       if (part.name() != "surface") {
         part.error("is not a part of a world; the first element of an included file is <surface>");
         continue;
       }
-      read(surfaces_.emplace_back(std::move(part)), folders_.back());
+      read(surfaces_.emplace_back(std::move(part)), inner, depth + 1);
     } catch (const UnreadableFile& error) {
       include.errorAt("file", error.what());
     } catch (const ConfigError& error) {

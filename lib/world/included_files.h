@@ -11,8 +11,11 @@
 
 namespace robosim {
 
+/// Maximum number of files that include each other in a chain: bounds the recursion over untrusted input.
+constexpr int kMaxIncludeDepth = 100;
+
 /// The files that a world includes, directly or through other included files. Each is read once, and lies beside the
-/// world file or below it.
+/// world file or below it. They are nested at most kMaxIncludeDepth deep.
 class IncludedFiles {
  public:
   /// @param errors receives the faults; both must outlive this object
@@ -21,7 +24,7 @@ class IncludedFiles {
   IncludedFiles& operator=(const IncludedFiles&) = delete;
 
   /// Reads all files that the <include> elements of the world's surface name.
-  void read(XmlReader& surface) { read(surface, ""); }
+  void read(XmlReader& surface) { read(surface, "", 1); }
 
   /// Their <surface> elements, each after the one that includes it.
   std::list<XmlReader>& surfaces() { return surfaces_; }
@@ -31,7 +34,9 @@ class IncludedFiles {
   const std::string& folderOf(int file) const { return folders_.at(static_cast<std::size_t>(file - 1)); }
 
  private:
-  void read(XmlReader& surface, const std::string& folder);
+  /// @param folder of the file that contains `surface`; not an element of folders_, which grows
+  /// @param depth number of files on the way from the world to the files that `surface` includes
+  void read(XmlReader& surface, const std::string& folder, int depth);
 
   const FileProvider& files_;
   ErrorList& errors_;
