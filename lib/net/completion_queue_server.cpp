@@ -1,8 +1,11 @@
 #include "net/completion_queue_server.h"
 
 #include <algorithm>
+#include <string>
 #include <thread>
+#include <utility>
 
+#include "base/log.h"
 #include "net/flood_guard.h"
 #include "net/reflection.h"
 
@@ -122,7 +125,7 @@ void CompletionQueueServer::pollAll() {
   }
 }
 
-void CompletionQueueServer::close() {
+void CompletionQueueServer::close(Clock::duration at_most) {
   if (std::exchange(is_closed_, true)) return;
   {
     const std::lock_guard lock(wake_mutex_);
@@ -135,9 +138,14 @@ void CompletionQueueServer::close() {
       if (endpoint.port.server) endpoint.port.server->Shutdown(until);
     }
   });
-  while (calls_ > 0) {
+  const auto until = Clock::now() + at_most;
+  while (*calls_ > 0 && Clock::now() < until) {
     handleSecondaryEvents();
     waitForEvent(timespecOf(Clock::now() + kSecondaryPollInterval));
+  }
+  if (*calls_ > 0) {
+    logError("net", std::to_string(*calls_) + " calls have not ended; the ports are closed without them. This is a " +
+                        "fault of the program: report it with the lines before this one");
   }
   closing.join();
   for (const auto& endpoint : endpoints_) {

@@ -75,22 +75,26 @@ class CompletionQueueServer {
   /// Makes waitUntil() check `is_enough`. Thread-safe; without effect after close().
   void wake();
 
-  /// Accepts no more calls, and waits until the open calls have ended; cancels them after 1 s.
-  void close();
+  /// Accepts no more calls, and waits until the open calls have ended; cancels them after 1 s. Abandons, with a line in
+  /// the log, those that have not ended after `at_most`, which only a fault of this program can cause.
+  void close(Clock::duration at_most = std::chrono::seconds(10));
 
-  /// Registration of a requested or open call; close() waits until all registrations are destroyed.
+  /// Registration of a requested or open call; close() waits until all registrations are destroyed. A registration may
+  /// outlive the server only if close() has abandoned its call.
   class CallRegistration {
    public:
-    explicit CallRegistration(CompletionQueueServer& queue_server) : queue_server_(queue_server) {
-      ++queue_server_.calls_;
+    explicit CallRegistration(CompletionQueueServer& queue_server)
+        : queue_server_(queue_server), calls_(queue_server.calls_) {
+      ++*calls_;
     }
-    ~CallRegistration() { --queue_server_.calls_; }
+    ~CallRegistration() { --*calls_; }
     CallRegistration(const CallRegistration&) = delete;
     CallRegistration& operator=(const CallRegistration&) = delete;
     CompletionQueueServer& queueServer() const { return queue_server_; }
 
    private:
     CompletionQueueServer& queue_server_;
+    const std::shared_ptr<std::size_t> calls_;  ///< shared, because an abandoned call may outlive the server
   };
 
  private:
@@ -108,7 +112,7 @@ class CompletionQueueServer {
 
   std::vector<Endpoint> endpoints_;               ///< the first one's queue is that of all calls
   std::vector<std::size_t> endpoint_of_binding_;  ///< by binding
-  std::size_t calls_ = 0;
+  std::shared_ptr<std::size_t> calls_ = std::make_shared<std::size_t>(0);  ///< number of registrations
   std::mutex* mutex_ = nullptr;
   std::mutex wake_mutex_;  ///< guards the next two members
   bool is_wake_pending_ = false;

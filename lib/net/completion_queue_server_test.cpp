@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <future>
+#include <optional>
 #include <thread>
 
 #include <gtest/gtest.h>
@@ -111,6 +112,17 @@ TEST(CompletionQueueServer, ServesOtherClientsDuringAFloodOfMessages) {
   streams.clear();
   queue_server.close();
   flood.get();
+}
+
+TEST(CompletionQueueServer, ClosesWithoutACallThatNeverEnds) {
+  Service service;
+  std::optional<CompletionQueueServer::CallRegistration> call;
+  {
+    CompletionQueueServer queue_server({{"127.0.0.1:0", &service}}, {});
+    call.emplace(queue_server);
+    queue_server.close(std::chrono::milliseconds(50));
+  }
+  call.reset();  // after the server
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "net/error_status.h"
+
 namespace robosim {
 
 ServerSession::ServerSession(SessionHost& host, const SessionRules& rules)
@@ -12,14 +14,16 @@ void ServerSession::onCalled(bool ok) {
     release();
     return;
   }
-  startOperation();  // completed by onDone()
-  std::exchange(await_next_, nullptr)();
-  peer_ = context_.peer();
-  since_ = host_.now();
-  state_ = State::awaiting_first_message;
-  host_.handshakes_.splice(host_.handshakes_.end(), host_.others_, position_);
-  authorize();
-  begun();
+  startOperation();  // completed by done_
+  endCallOnException([&] {
+    peer_ = context_.peer();
+    since_ = host_.now();
+    state_ = State::awaiting_first_message;
+    host_.handshakes_.splice(host_.handshakes_.end(), host_.others_, position_);
+    std::exchange(await_next_, nullptr)();
+    authorize();
+    begun();
+  });
 }
 
 void ServerSession::authorize() {
@@ -76,21 +80,29 @@ void ServerSession::leave() {
   if (before == State::awaiting_first_message) {
     host_.others_.splice(host_.others_.end(), host_.handshakes_, position_);
   } else if (before == State::established) {
-    left();
+    logException([this] { left(); });  // the call ends in any case
   }
 }
 
 void ServerSession::onDone(bool /*ok*/) {
   is_cancelled_ = context_.IsCancelled();
   if (is_cancelled_) end(grpc::Status::CANCELLED);
-  completeOperation();
 }
 
 void ServerSession::completeOperation() {
   if (--pending_ > 0) return;
-  if (isEstablished()) hasLeft();
+  if (isEstablished()) logException([this] { hasLeft(); });
   if (!isGone()) leave();
   release();
+}
+
+void ServerSession::writeException(const char* what) {
+  host_.logRefusal("internal errors", logName() + ": internal error: " + what);
+}
+
+void ServerSession::endAfterException() {
+  close(errorStatus(v1::ERROR_REASON_INTERNAL,
+                    "an internal error of the server has ended this call; the server's log states the cause"));
 }
 
 void ServerSession::release() {

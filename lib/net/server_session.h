@@ -1,4 +1,5 @@
 #pragma once
+#include <exception>
 #include <functional>
 #include <list>
 #include <memory>
@@ -21,6 +22,18 @@ struct SessionRules {
   std::string_view first_message = "first message";  ///< its name in the text of the deadline
   bool reports_each = false;   ///< whether an established client's disconnection is logged without a rate limit
   bool may_send_more = false;  ///< whether a client may send more than it receives (flood_guard)
+};
+
+/// Tag of a gRPC operation of a session. Any exception of the handler ends the call (ServerSession::complete()).
+template <typename Session>
+class OperationTag final : public CompletionTag {
+ public:
+  OperationTag(Session& session, void (Session::*then)(bool ok)) : session_(session), then_(then) {}
+  void onCompletion(bool ok) override;
+
+ private:
+  Session& session_;
+  void (Session::*then_)(bool);
 };
 
 /// Server side of one call, independent of the kind of call: StreamSession and UnarySession derive from it. A call is
@@ -60,7 +73,8 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   /// Accepts the client, on its first message.
   void establish();
 
-  /// @name Handlers of events; none may throw
+  /// @name Handlers of events
+  /// An exception other than WireError ends the call with ERROR_REASON_INTERNAL and is logged; the server continues.
   ///@{
   /// Whether the call is accepted, apart from the client's rights.
   virtual grpc::Status admit() { return grpc::Status::OK; }
@@ -76,7 +90,6 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
 
   /// @name For the kinds of calls
   ///@{
-  using Tag = MemberCompletionTag<ServerSession>;
   /// Sends the final status; later calls have no effect.
   virtual void end(const grpc::Status& status) = 0;
   /// Called when a client has made the call and has been admitted or disconnected.
@@ -84,17 +97,30 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   /// Whether a message of the client may be handled.
   bool mayReceive();
   void startOperation() { ++pending_; }
-  /// Releases this object when gRPC has completed all operations, which it does last for the end of the call.
-  void completeOperation();
+  /// Handles the completion of an operation that startOperation() has counted. Releases this object when gRPC has
+  /// completed all operations, which it does last for the end of the call.
+  template <typename Handler>
+  void complete(const Handler& handler) {
+    const Completion completion{*this};
+    endCallOnException(handler);
+  }
   CompletionQueueServer& queueServer() const { return registration_.queueServer(); }
 
   SessionHost& host_;
   grpc::ServerContext context_;
-  Tag called_{*this, &ServerSession::onCalled}, done_{*this, &ServerSession::onDone};
+  MemberCompletionTag<ServerSession> called_{*this, &ServerSession::onCalled};
+  OperationTag<ServerSession> done_{*this, &ServerSession::onDone};
   ///@}
 
  private:
   friend class SessionHost;
+  template <typename Session>
+  friend class OperationTag;
+  /// Completes an operation at the end of a scope.
+  struct Completion {
+    ServerSession& session;
+    ~Completion() { session.completeOperation(); }
+  };
   enum class State { requested, awaiting_first_message, established, gone };
 
   void onCalled(bool ok);
@@ -102,6 +128,26 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   void authorize();
   void leave();
   void release();
+  void completeOperation();
+  /// Calls a handler; logs any exception. @return whether there was none
+  template <typename Handler>
+  bool logException(const Handler& handler) {
+    try {
+      handler();
+      return true;
+    } catch (const std::exception& error) {
+      writeException(error.what());
+    } catch (...) {
+      writeException("an exception of an unknown type");
+    }
+    return false;
+  }
+  void writeException(const char* what);
+  template <typename Handler>
+  void endCallOnException(const Handler& handler) {
+    if (!logException(handler)) endAfterException();
+  }
+  void endAfterException();
 
   const SessionRules rules_;
   CompletionQueueServer::CallRegistration registration_;
@@ -115,5 +161,10 @@ class ServerSession : public std::enable_shared_from_this<ServerSession> {
   int pending_ = 0;                                               ///< operations that gRPC has not completed
   bool is_cancelled_ = false;
 };
+
+template <typename Session>
+void OperationTag<Session>::onCompletion(bool ok) {
+  static_cast<ServerSession&>(session_).complete([&] { (session_.*then_)(ok); });
+}
 
 }  // namespace robosim

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <mutex>
 #include <thread>
+#include <variant>
 
 #include <gtest/gtest.h>
 
@@ -19,6 +20,9 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string kViewerToken = "viewer-0123456789abcdef", kWorkerToken = "worker-0123456789abcdef";
+
+/// A value for which the handlers below have a fault.
+constexpr std::uint32_t kFaultyProtocol = 666;
 
 using EchoStreamService = v1::Viewing::WithRawMethod_Watch<v1::Viewing::Service>;
 using EchoUnaryService = v1::ControlPanel::WithAsyncMethod_Step<v1::ControlPanel::Service>;
@@ -99,6 +103,7 @@ class EchoServer {
     }
     ReadPolicy received(const v1::FrameRequest& message) override {
       if (message.protocol() == 0) throw WireError("protocol 0");
+      if (message.protocol() == kFaultyProtocol) throw std::bad_variant_access();
       if (!isEstablished()) establish();
       draft().set_step(message.protocol());
       post();
@@ -118,6 +123,7 @@ class EchoServer {
     std::string logName() const override { return "unary client"; }
     void received(const v1::StepRequest& request) override {
       if (request.steps() == 0) throw WireError("0 steps");
+      if (request.steps() == kFaultyProtocol) throw std::bad_variant_access();
       establish();
       v1::RunStatus reply;
       reply.set_step(2 * request.steps());
@@ -216,6 +222,21 @@ TEST(ServerSession, ReportsAnInvalidMessageToItsSenderAndToTheLog) {
   EXPECT_EQ(server.log(), "client: disconnected: protocol 0\n");
 }
 
+TEST(ServerSession, EndsOnlyTheCallWhoseHandlerThrows) {
+  EchoServer server;
+  EchoClient other(server.connectOptions(kViewerToken)), client(server.connectOptions(kViewerToken));
+  EXPECT_EQ(other.send(7), 7u);
+  EXPECT_EQ(client.send(7), 7u);
+  EXPECT_EQ(client.send(kFaultyProtocol), std::nullopt);
+  const grpc::Status status = client.finish();
+  EXPECT_EQ(status.error_code(), grpc::StatusCode::INTERNAL);
+  EXPECT_EQ(status.error_message(),
+            "an internal error of the server has ended this call; the server's log states the cause");
+  server.waitForLeft(1);
+  EXPECT_EQ(server.log().find("client: internal error: "), 0u) << server.log();
+  EXPECT_EQ(other.send(8), 8u);
+}  // the server closes: no operation is left open
+
 TEST(ServerSession, EndsACallWhoseFirstMessageIsOverdue) {
   EchoServer server;
   EchoClient silent(server.connectOptions(kViewerToken));
@@ -308,6 +329,9 @@ TEST(UnarySession, AnswersOrRefusesLikeAStream) {
   EXPECT_EQ(call(kViewerToken, 0, reply).error_message(), "0 steps");
   EXPECT_EQ(call("", 4, reply).error_code(), grpc::StatusCode::UNAUTHENTICATED);
   EXPECT_EQ(occurrencesOf("unary client: disconnected: ", server.log()), 2u) << server.log();
+  EXPECT_EQ(call(kViewerToken, kFaultyProtocol, reply).error_code(), grpc::StatusCode::INTERNAL);
+  EXPECT_EQ(occurrencesOf("unary client: internal error: ", server.log()), 1u) << server.log();
+  EXPECT_TRUE(call(kViewerToken, 4, reply).ok());
 }
 
 }  // namespace

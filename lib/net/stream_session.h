@@ -58,7 +58,7 @@ class StreamSession : public ServerSession {
   using ServerSession::ServerSession;
 
   /// Handles a message; the first one calls establish() to accept the client.
-  /// @throws WireError for an invalid message; must not throw anything else.
+  /// @throws WireError for an invalid message
   virtual ReadPolicy received(const In&) = 0;
   /// Called when the peer has sent its last message (half-close).
   virtual void readsDone() { end(grpc::Status::OK); }
@@ -84,7 +84,7 @@ class StreamSession : public ServerSession {
   }
 
  private:
-  using Tag = MemberCompletionTag<StreamSession>;
+  using Tag = OperationTag<StreamSession>;
 
   void begun() final { read(); }
 
@@ -118,7 +118,6 @@ class StreamSession : public ServerSession {
     } else {
       readsDone();
     }
-    completeOperation();
   }
 
   void handleMessage() {
@@ -151,7 +150,6 @@ class StreamSession : public ServerSession {
     }
     writeNext();
     if (!writing_ && !ending_) drained();
-    completeOperation();
   }
 
   /// Counts a message, and returns whether the rate limit is reached.
@@ -164,19 +162,14 @@ class StreamSession : public ServerSession {
     return ++messages_in_period_ >= kMaxMessagesPerPeriod;
   }
 
-  void onReadDelayOver(bool /*ok*/) {
-    read();
-    completeOperation();
-  }
+  void onReadDelayOver(bool /*ok*/) { read(); }
 
   void onCancelTimerOver(bool ok) {
     if (ok) context_.TryCancel();
-    completeOperation();
   }
 
   void onFinished(bool /*ok*/) {
     if (std::exchange(has_cancel_timer_, false)) cancel_timer_.Cancel();
-    completeOperation();
   }
 
   static constexpr std::chrono::seconds kStatusTimeout{1};

@@ -30,7 +30,7 @@ class UnarySession : public ServerSession {
   using ServerSession::ServerSession;
 
   /// Handles the request; calls establish() to accept the client.
-  /// @throws WireError for an invalid request; must not throw anything else.
+  /// @throws WireError for an invalid request
   virtual void received(const Request&) = 0;
 
   void end(const grpc::Status& status) final {
@@ -48,9 +48,9 @@ class UnarySession : public ServerSession {
       refuse(error);
     }
   }
-  void onAnswered(bool /*ok*/) { completeOperation(); }
+  void onAnswered(bool /*ok*/) {}
 
-  using Tag = MemberCompletionTag<UnarySession>;
+  using Tag = OperationTag<UnarySession>;
   Request request_;
   Reply reply_;
   grpc::ServerAsyncResponseWriter<Reply> wire_{&context_};
