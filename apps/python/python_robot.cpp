@@ -167,7 +167,7 @@ PythonRobot::PythonRobot(Simulation& simulation, std::size_t index)
 Robot& PythonRobot::toRead() const {
   const auto simulation = simulation_.lock();
   if (!simulation) throw std::invalid_argument("the robot's simulation no longer exists; keep a reference to it");
-  requireUsable(*simulation, Access::read);
+  requireUsable(*simulation, SimulationAccess::read);
   return simulation->robot(index_);  // exists as long as the simulation, which the caller's Python objects keep
 }
 

@@ -224,11 +224,11 @@ void Simulation::close() {
   if (recording_) stopRecording();
 }
 
-void requireUsable(const Simulation& simulation, Access access) {
+void requireUsable(const Simulation& simulation, SimulationAccess access) {
   if (simulation.engine_runs_)
     throw std::runtime_error("another thread is running a step of this simulation; wait until it has ended");
   if (simulation.is_closed_) throw std::invalid_argument("the simulation is closed; make another one");
-  if (access == Access::structural && simulation.is_in_step_) {
+  if (access == SimulationAccess::structural && simulation.is_in_step_) {
     throw std::runtime_error("a controller cannot change the simulation within a step; do it between two steps");
   }
 }

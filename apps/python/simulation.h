@@ -23,7 +23,7 @@ namespace robosim {
 constexpr const char* kNoController = "none";
 
 /// Kind of access to a simulation.
-enum class Access {
+enum class SimulationAccess {
   read,
   command,    ///< also within a step of a controller
   structural  ///< changes more than commands: refused within a step
@@ -84,7 +84,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   bool isClosed() const { return is_closed_; }
 
  private:
-  friend void requireUsable(const Simulation&, Access);
+  friend void requireUsable(const Simulation&, SimulationAccess);
   struct Handle {
     LocalHardware hardware;
     Robot robot;
@@ -121,7 +121,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
 /// Checks, before an access, that no other thread runs the engine.
 /// @throws std::invalid_argument after close(); std::runtime_error while another thread runs a step, and for a
 /// structural access within one
-void requireUsable(const Simulation& simulation, Access access);
+void requireUsable(const Simulation& simulation, SimulationAccess access);
 
 void bindSimulation(pybind11::module_& module);
 

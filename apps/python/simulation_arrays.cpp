@@ -15,7 +15,7 @@ namespace py = pybind11;
 using SimulationHandle = std::shared_ptr<Simulation>;
 
 const State& stateToRead(const Simulation& simulation) {
-  requireUsable(simulation, Access::read);
+  requireUsable(simulation, SimulationAccess::read);
   return simulation.environment().state();
 }
 
@@ -54,7 +54,7 @@ py::array stalledOf(const SimulationHandle& simulation) {
 }
 
 void setCommands(Simulation& simulation, const py::object& argument) {
-  requireUsable(simulation, Access::command);
+  requireUsable(simulation, SimulationAccess::command);
   const py::ssize_t robots = robotsOf(simulation);
   const auto given = numbersOf<double>("commands", argument, {robots, 2});
   const auto command = given.unchecked<2>();
@@ -79,7 +79,7 @@ void setCommands(Simulation& simulation, const py::object& argument) {
 }
 
 py::array readingsOf(Simulation& simulation, const std::string& kind, const py::object& out) {
-  requireUsable(simulation, Access::read);
+  requireUsable(simulation, SimulationAccess::read);
   const auto& layouts = simulation.layoutsOf(kind);
   std::size_t size = 0;
   for (const auto& layout : layouts) size = std::max(size, layout ? layout->size() : 0);

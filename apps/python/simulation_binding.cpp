@@ -18,7 +18,7 @@ namespace py = pybind11;
 using SimulationHandle = std::shared_ptr<Simulation>;
 
 const Simulation& toRead(const Simulation& simulation) {
-  requireUsable(simulation, Access::read);
+  requireUsable(simulation, SimulationAccess::read);
   return simulation;
 }
 
@@ -53,7 +53,7 @@ void bindStepping(SimulationClass& simulation) {
       .def(
           "step",
           [](const SimulationHandle& of, std::int64_t n) {
-            requireUsable(*of, Access::structural);
+            requireUsable(*of, SimulationAccess::structural);
             if (n < 0)
               throw std::invalid_argument("the number of steps is " + std::to_string(n) + "; it must be at least 0");
             of->step(static_cast<std::uint64_t>(n));
@@ -112,7 +112,7 @@ void bindMessages(SimulationClass& simulation) {
       .def(
           "send",
           [](Simulation& of, const py::str& sender, const py::str& receiver, const py::str& text) {
-            requireUsable(of, Access::command);
+            requireUsable(of, SimulationAccess::command);
             of.environment().send(of.indexOf(toBytes(sender)), toBytes(receiver), toBytes(text));
           },
           py::arg("sender"), py::arg("receiver"), py::arg("text"),
@@ -126,7 +126,7 @@ void bindMessages(SimulationClass& simulation) {
       .def(
           "robot",
           [](Simulation& of, const py::str& name) {
-            requireUsable(of, Access::read);
+            requireUsable(of, SimulationAccess::read);
             return PythonRobot(of, of.indexOf(toBytes(name)));
           },
           py::arg("name"), "A robot as its controller sees it: Robot.");
@@ -145,7 +145,7 @@ void bindSaving(SimulationClass& simulation) {
       .def(
           "restore",
           [](Simulation& of, const py::bytes& state) {
-            requireUsable(of, Access::structural);
+            requireUsable(of, SimulationAccess::structural);
             of.restore(std::string_view(state));
           },
           py::arg("state"),
@@ -154,7 +154,7 @@ void bindSaving(SimulationClass& simulation) {
       .def(
           "fork",
           [](const Simulation& of) {
-            requireUsable(of, Access::structural);
+            requireUsable(of, SimulationAccess::structural);
             return of.fork();
           },
           "A simulation that continues independently from the present state.\n\nControllers are copied, those in "
@@ -163,7 +163,7 @@ void bindSaving(SimulationClass& simulation) {
       .def(
           "record",
           [](Simulation& of, const std::filesystem::path& file) {
-            requireUsable(of, Access::structural);
+            requireUsable(of, SimulationAccess::structural);
             of.record(file);
           },
           py::arg("file"),
@@ -171,7 +171,7 @@ void bindSaving(SimulationClass& simulation) {
       .def(
           "stop_recording",
           [](Simulation& of) {
-            requireUsable(of, Access::structural);
+            requireUsable(of, SimulationAccess::structural);
             of.stopRecording();
           },
           "Completes the recording. Raises RecordingError, such as when the disk is full.")
@@ -180,7 +180,7 @@ void bindSaving(SimulationClass& simulation) {
 
 void close(Simulation& simulation) {
   if (simulation.isClosed()) return;
-  requireUsable(simulation, Access::structural);
+  requireUsable(simulation, SimulationAccess::structural);
   simulation.close();
 }
 

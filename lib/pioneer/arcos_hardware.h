@@ -19,9 +19,9 @@ struct ArcosRobotType {
 };
 
 /// A source of laser scans beside the robot's board, such as a scanner at a serial line of this computer.
-class LaserDevice {
+class ScanSource {
  public:
-  virtual ~LaserDevice() = default;
+  virtual ~ScanSource() = default;
   /// Ranges [mm] of the beams from right to left, kNoEcho_mm without an echo: the latest scan; empty while there is
   /// none of the last half second.
   virtual std::vector<std::uint16_t> latestScan() = 0;
@@ -43,8 +43,8 @@ class ArcosHardware final : public Hardware, public BaseLink {
   struct Options {
     /// The type of a subclass: the robot's answer in the handshake, such as "p3dx". @throws ConfigError
     std::function<ArcosRobotType(const std::string& subclass)> type_of;
-    std::string name = "robot";          ///< RobotInfo::name
-    std::unique_ptr<LaserDevice> laser;  ///< null: that of a simulator, if the type has a laser
+    std::string name = "robot";         ///< RobotInfo::name
+    std::unique_ptr<ScanSource> laser;  ///< null: that of a simulator, if the type has a laser
     std::function<void(const std::string&)> log = [](const std::string&) {};  ///< takes one line
     std::function<bool()> interrupted = [] { return false; };                 ///< ends the waits
   };

@@ -55,7 +55,7 @@ struct Scanner {
   }
 };
 
-class SickLaser final : public LaserDevice {
+class SickLaser final : public ScanSource {
  public:
   SickLaser(const std::string& device, std::function<void(const std::string&)> log) {
     scanner_->log = std::move(log);
@@ -86,7 +86,7 @@ class SickLaser final : public LaserDevice {
 
 }  // namespace
 
-std::unique_ptr<LaserDevice> openSickLaser(const std::string& device, std::function<void(const std::string&)> log) {
+std::unique_ptr<ScanSource> openSickLaser(const std::string& device, std::function<void(const std::string&)> log) {
   return std::make_unique<SickLaser>(device, std::move(log));
 }
 

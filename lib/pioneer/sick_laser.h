@@ -11,6 +11,6 @@ namespace robosim {
 /// received by a thread. When the scanner fails, the log states it, and there is no scan any more.
 /// @param device "/dev/ttyUSB1" @param log takes one line; also called by the thread
 /// @throws RobotLinkError when the scanner does not answer
-std::unique_ptr<LaserDevice> openSickLaser(const std::string& device, std::function<void(const std::string&)> log);
+std::unique_ptr<ScanSource> openSickLaser(const std::string& device, std::function<void(const std::string&)> log);
 
 }  // namespace robosim

@@ -83,7 +83,7 @@ void measure(const std::string& rawlog, const std::string& robot_type, std::uint
   const ScanSeries recorded = readScans(rawlog, "");
   const Registration offline = registerScans(recorded);
   const SurfaceGrid surfaces(recorded, offline.start_from_robot);
-  Surroundings around{surfaces.solids(offline.start_from_robot, kClear_m), {}};
+  SimulatedSurroundings around{surfaces.solids(offline.start_from_robot, kClear_m), {}};
   around.reflectivity = reflectivitiesOf(around.solids, recorded, offline.start_from_robot, laserOf(robot_type).errors);
   Rows rows{{"drive", "scans off surfaces", "odometry", "pf-localization", "icp-slam", "of copies, mean", "10 %",
              "50 %", "90 %"}};

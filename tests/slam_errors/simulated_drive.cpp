@@ -108,8 +108,8 @@ LaserOptions laserOf(const std::string& robot_type) {
   return readOf(robot_type, "laser", [](XmlReader& reader) { return LaserOptions::read(reader); });
 }
 
-ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>& path, const Surroundings& around,
-                         const std::string& robot_type, std::uint64_t seed) {
+ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<TPose2D>& path,
+                         const SimulatedSurroundings& around, const std::string& robot_type, std::uint64_t seed) {
   const LaserOptions options = laserOf(robot_type);
   const auto laser = makeLaser(options);
   const auto odometry = readOf(robot_type, "odometry", [](XmlReader& reader) {

@@ -12,7 +12,7 @@
 namespace robosim {
 
 /// What a robot drives among.
-struct Surroundings {
+struct SimulatedSurroundings {
   std::vector<Solid> solids;
   std::vector<float> reflectivity;  ///< of each solid
 };
@@ -26,6 +26,6 @@ LaserOptions laserOf(const std::string& robot_type);
 /// @param robot_type its XML file
 /// @throws ConfigError for an invalid robot type
 ScanSeries simulateDrive(const ScanSeries& recorded, const std::vector<mrpt::math::TPose2D>& path,
-                         const Surroundings& around, const std::string& robot_type, std::uint64_t seed);
+                         const SimulatedSurroundings& around, const std::string& robot_type, std::uint64_t seed);
 
 }  // namespace robosim
