@@ -1,4 +1,6 @@
 // The log of a ByteChannel: logChannel(), and the channel that replays one.
+#include <algorithm>
+#include <array>
 #include <charconv>
 #include <fstream>
 #include <iomanip>
@@ -7,6 +9,8 @@
 #include <utility>
 
 #include "base/error_list.h"
+#include "base/input_file.h"
+#include "base/interrupt.h"
 #include "base/log.h"
 #include "pioneer/open_channel.h"
 #include "pioneer/replayed_channel.h"
@@ -55,21 +59,59 @@ class LoggedChannel final : public ByteChannel {
   Clock::time_point start_;
 };
 
+/// Lines of a file of others, read as needed.
+class BoundedLines {
+ public:
+  /// Maximum length of a line: 100,000 bytes of a robot, three characters each.
+  static constexpr std::size_t kMaxLineBytes = 300'000;
+
+  /// @throws ConfigError as InputFile does
+  explicit BoundedLines(const std::string& file) : in_(file) {}
+
+  /// The next line, without its end; nullopt at the end of the file. A line that is longer than kMaxLineBytes is
+  /// returned in part, and too long. @throws Interrupted
+  std::optional<std::string> next() {
+    std::size_t end = text_.find('\n', begin_);
+    while (end == std::string::npos && text_.size() - begin_ <= kMaxLineBytes) {
+      throwIfInterrupted("the log was not read to its end");
+      text_.erase(0, std::exchange(begin_, 0));
+      const std::size_t searched = text_.size();
+      std::array<char, 65536> block;
+      const std::size_t got = in_.read(block.data(), block.size());
+      if (got == 0) break;
+      text_.append(block.data(), got);
+      end = text_.find('\n', searched);
+    }
+    if (end == std::string::npos) {
+      if (begin_ == text_.size()) return std::nullopt;
+      end = text_.size();
+    }
+    std::string line = text_.substr(begin_, end - begin_);
+    begin_ = std::min(end + 1, text_.size());
+    return line;
+  }
+
+ private:
+  InputFile in_;
+  std::string text_;  ///< read and not returned, from begin_ on
+  std::size_t begin_ = 0;
+};
+
 /// Plays a log: what the robot sent, each part when it is read. Its clock is that of the log.
 class ReplayedChannel final : public ByteChannel {
  public:
-  explicit ReplayedChannel(const std::string& file) : name_("replay:" + file), file_name_(file), file_(file) {
-    std::string first;
-    if (!std::getline(file_, first) || first != kFirstLine) {
+  explicit ReplayedChannel(const std::string& file) : name_("replay:" + file), file_name_(file), lines_(file) {
+    if (lines_.next() != kFirstLine) {
       throw ConfigError(file + ":1: is no log of --arcos-log: its first line is not '" + kFirstLine + "'");
     }
   }
 
   std::string read(Clock::duration) override {
-    std::string line;
-    while (std::getline(file_, line)) {
+    while (const auto line = lines_.next()) {
       ++line_number_;
-      if (auto bytes = receivedIn(line)) return *bytes;
+      if (line->size() > BoundedLines::kMaxLineBytes) fail();
+      throwIfInterrupted("the log was not read to its end");
+      if (auto bytes = receivedIn(*line)) return *bytes;
     }
     throw ChannelEnd(file_name_ + ": the log has ended");
   }
@@ -106,7 +148,7 @@ class ReplayedChannel final : public ByteChannel {
   }
 
   std::string name_, file_name_;
-  std::ifstream file_;
+  BoundedLines lines_;
   int line_number_ = 1;
   double time_s_ = 0;
 };
