@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "base/error_list.h"
+#include "net/error_status.h"
 #include "net/stream_session.h"
 #include "net/unary_session.h"
 #include "net/wire_error.h"
@@ -98,7 +100,7 @@ class ControlPanelSession::LoadCall final : public StreamSession<v1::LoadRequest
   ServerSession& session() override { return *this; }
   std::string details() const override { return " " + world_; }
   void execute(RunOperations& operations) override {
-    operations.replace(owner_.prepared_.get());
+    operations.replace(readyRun(operations));
     v1::RunStatus status;
     operations.describe(status);
     world_ = status.world();
@@ -112,6 +114,25 @@ class ControlPanelSession::LoadCall final : public StreamSession<v1::LoadRequest
   }
 
  private:
+  /// The run that has been built, ready to replace the present one.
+  /// @throws ConfigError for an invalid world; WireError for any other failure, after which the present run continues
+  std::unique_ptr<PreparedRun> readyRun(const RunOperations& operations) const {
+    const auto refused = [](const std::string& why) {
+      return WireError(
+          errorStatus(v1::ERROR_REASON_INTERNAL, "the world cannot be loaded: " + why + "; the present run continues"));
+    };
+    try {
+      auto next = owner_.prepared_.get();
+      operations.make_ready(*next);
+      return next;
+    } catch (const ConfigError&) {
+      throw;
+    } catch (const std::exception& error) {
+      throw refused(error.what());
+    } catch (...) {
+      throw refused("an exception of an unknown type");
+    }
+  }
   static SessionRules rules() {
     SessionRules rules = controlPanelRules(Right::operate);
     rules.may_send_more = true;  // a world is large

@@ -4,6 +4,7 @@
 #include <exception>
 #include <future>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 #include "base/error_list.h"
@@ -138,18 +139,23 @@ void ControlPanelSession::beginPreparing(RunOperations& operations) {
   serving_.log("control panel " + load_->peer() + ": loads a world of " + std::to_string(load_->pieces.bytes()) +
                " bytes; the current run continues until it is built");
   const auto pieces = std::make_shared<WorldPieces>(std::move(load_->pieces));
-  std::promise<std::unique_ptr<PreparedRun>> prepared;
-  prepared_ = prepared.get_future();
-  building_ = std::async(std::launch::async, [pieces, prepare = operations.prepare, prepared = std::move(prepared),
-                                              queue_server = serving_.queue_server]() mutable {
-    try {
-      const WorldSource source = pieces->takeSource();
-      prepared.set_value(prepare(source));
-    } catch (...) {
-      prepared.set_exception(std::current_exception());
-    }
-    queue_server->wake();
-  });
+  const auto prepared = std::make_shared<std::promise<std::unique_ptr<PreparedRun>>>();
+  prepared_ = prepared->get_future();
+  try {
+    building_ = std::async(std::launch::async,
+                           [pieces, prepare = operations.prepare, prepared, queue_server = serving_.queue_server] {
+                             try {
+                               const WorldSource source = pieces->takeSource();
+                               prepared->set_value(prepare(source));
+                             } catch (...) {
+                               prepared->set_exception(std::current_exception());
+                             }
+                             queue_server->wake();
+                           });
+  } catch (const std::system_error&) {  // no further thread
+    prepared->set_exception(std::current_exception());
+    serving_.wake_requested = true;
+  }
 }
 
 bool ControlPanelSession::isPrepared() const {

@@ -31,7 +31,9 @@ struct RunOperations {
   RunControl run_control;
   /// Builds the run of another world; called on another thread. @throws ConfigError when the world is invalid.
   std::function<std::unique_ptr<PreparedRun>(const WorldSource&)> prepare;
-  /// Replaces the run that is served by a prepared one.
+  /// Completes a prepared run, as far as that may fail; after an exception the present run continues.
+  std::function<void(PreparedRun&)> make_ready;
+  /// Replaces the run that is served by one that is ready.
   std::function<void(std::unique_ptr<PreparedRun>)> replace;
   /// Starts or stops the recording. @throws ConfigError when it cannot be started or completed
   std::function<void(bool)> set_recording;

@@ -215,6 +215,7 @@ struct EnvironmentServer::Impl {
 
   Served serve(ServedRun& run, const std::function<bool()>& interrupted) {
     operations.prepare = [&run](const WorldSource& source) { return run.prepare(source); };
+    operations.make_ready = [&run](PreparedRun& next) { run.makeReady(next); };
     operations.replace = [&](std::unique_ptr<PreparedRun> next) { replace(run, std::move(next)); };
     serving.interrupted = interrupted;
     operations.set_recording = [&run](bool on) { run.setRecording(on); };

@@ -54,9 +54,12 @@ class ServedRun {
   virtual void ends(const RunReport& report) = 0;
   /// Builds another run, with the world's seed, or this run's if it has none. Called on another thread while this run
   /// continues; must not modify this run.
-  /// @throws ConfigError when the world is invalid.
+  /// @throws ConfigError when the world is invalid; any other exception refuses the world, too.
   virtual std::unique_ptr<PreparedRun> prepare(const WorldSource& world) const = 0;
-  /// Replaces this run by one that prepare() has built. The previous runInfo() stays valid for its holders.
+  /// Opens what a prepared run needs besides, such as ports. Called on the stepping thread, after prepare(). Everything
+  /// that can fail belongs here or into prepare(): after any exception, this run continues.
+  virtual void makeReady(PreparedRun& /*next*/) const {}
+  /// Replaces this run by one that is ready. The previous runInfo() stays valid for its holders.
   virtual void replace(std::unique_ptr<PreparedRun> next) = 0;
 };
 

@@ -1,12 +1,16 @@
 #include "serving/arcos_server.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
 #include <boost/asio.hpp>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include "arcos/parameters.h"
 #include "base/log_limiter.h"
@@ -120,6 +124,23 @@ tcp::acceptor openAcceptor(asio::io_context& io, const tcp::endpoint& at) {
   return acceptor;
 }
 
+/// The same listening socket again.
+tcp::acceptor sharedAcceptor(asio::io_context& io, tcp::acceptor& other) {
+  const int descriptor = fcntl(other.native_handle(), F_DUPFD_CLOEXEC, 0);
+  if (descriptor < 0) {
+    throw std::runtime_error(std::string("cannot share a port for ARCOS programs: ") + std::strerror(errno) +
+                             "; raise the limit of open files (ulimit -n)");
+  }
+  tcp::acceptor acceptor(io);
+  boost::system::error_code error;
+  acceptor.assign(other.local_endpoint().protocol(), descriptor, error);
+  if (error) {
+    close(descriptor);
+    throw boost::system::system_error(error);
+  }
+  return acceptor;
+}
+
 }  // namespace
 
 struct ArcosServer::Impl {
@@ -131,13 +152,15 @@ struct ArcosServer::Impl {
   std::vector<std::unique_ptr<ServedRobot>> robots;
   std::vector<tcp::acceptor> acceptors;  ///< one per robot, or one for all
   std::vector<std::size_t> paused_acceptors;
+  bool accepts_programs = false;
   Clock::time_point accept_again;
   ArcosLasers lasers;
   std::uint64_t steps_per_cycle;
   std::uint64_t steps = 0;  ///< since the last cycle
   Clock::time_point last_cycle = Clock::now(), last_step = Clock::now();
 
-  Impl(const ArcosOptions& the_options, Environment& the_environment, const std::vector<std::size_t>& indices)
+  Impl(const ArcosOptions& the_options, Environment& the_environment, const std::vector<std::size_t>& indices,
+       Impl* previous)
       : limited_log(the_options.log),
         options(the_options),
         environment(the_environment),
@@ -157,10 +180,10 @@ struct ArcosServer::Impl {
           " robots need as many ports from this one on, and the last port is 65535; choose a lower one");
     }
     for (std::size_t i = 0; i < ports; ++i) {
-      acceptors.push_back(openAcceptor(io, at));
+      const bool is_open = is_fixed && previous && i < previous->acceptors.size();
+      acceptors.push_back(is_open ? sharedAcceptor(io, previous->acceptors[i]) : openAcceptor(io, at));
       if (is_fixed) at.port(static_cast<std::uint16_t>(at.port() + 1));
     }
-    for (std::size_t i = 0; i < ports; ++i) accept(i);
   }
 
   void accept(std::size_t i) {
@@ -216,6 +239,9 @@ struct ArcosServer::Impl {
   }
 
   void poll() {
+    if (!std::exchange(accepts_programs, true)) {
+      for (std::size_t i = 0; i < acceptors.size(); ++i) accept(i);
+    }
     io.poll();
     const auto now = Clock::now();
     if (!paused_acceptors.empty() && now >= accept_again) {
@@ -271,8 +297,9 @@ struct ArcosServer::Impl {
   }
 };
 
-ArcosServer::ArcosServer(const ArcosOptions& options, Environment& environment, const std::vector<std::size_t>& robots)
-    : impl_(std::make_unique<Impl>(options, environment, robots)) {}
+ArcosServer::ArcosServer(const ArcosOptions& options, Environment& environment, const std::vector<std::size_t>& robots,
+                         const ArcosServer* previous)
+    : impl_(std::make_unique<Impl>(options, environment, robots, previous ? previous->impl_.get() : nullptr)) {}
 
 ArcosServer::~ArcosServer() = default;
 

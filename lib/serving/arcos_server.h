@@ -26,9 +26,13 @@ struct ArcosOptions {
 /// All functions are called by the thread that steps the environment; none of them waits.
 class ArcosServer {
  public:
-  /// Opens the ports. @param environment must outlive this @param robots indices; their types have arcos::Parameters
+  /// Opens the ports; accepts programs from the first poll() on.
+  /// @param environment must outlive this @param robots indices; their types have arcos::Parameters
+  /// @param previous server of the run before, with the same options: ports that it has open are shared with it, so
+  /// that this server can be complete before that one ends. Null for none
   /// @throws std::runtime_error when a port is in use, with the address and how to fix it
-  ArcosServer(const ArcosOptions& options, Environment& environment, const std::vector<std::size_t>& robots);
+  ArcosServer(const ArcosOptions& options, Environment& environment, const std::vector<std::size_t>& robots,
+              const ArcosServer* previous = nullptr);
   ~ArcosServer();
   ArcosServer(const ArcosServer&) = delete;
   ArcosServer& operator=(const ArcosServer&) = delete;

@@ -67,18 +67,20 @@ class WorldRun::OneRun {
         run(std::move(world), arguments.run, either(networked, is_arcos)),
         run_info(run.environment(), source, arguments.run.environment.seed, networked),
         outputs(arguments, run.environment(), noteOf(source, run, arguments.run, either(networked, is_arcos))) {
-    if (options.arcos && options.arcos->is_factory) removeArcosRobots();
+    if (options.arcos && options.arcos->is_factory) {
+      run.environment().remove(arcosRobots());  // they enter the world with their programs
+    }
     outputs.observe(run.environment());
     if (options.is_realtime) late = 0;
   }
 
-  /// The robots of a factory enter the world with their programs.
-  void removeArcosRobots() {
+  /// Indices of the robots that ARCOS programs drive.
+  std::vector<std::size_t> arcosRobots() const {
     std::vector<std::size_t> robots;
     for (std::size_t i = 0; i < is_arcos.size(); ++i) {
       if (is_arcos[i]) robots.push_back(i);
     }
-    run.environment().remove(robots);
+    return robots;
   }
 
   void finish(EndedBy ended_by) {
@@ -113,10 +115,12 @@ class WorldRun::Prepared final : public PreparedRun {
  public:
   explicit Prepared(std::shared_ptr<OneRun> r) : run(std::move(r)) {}
   std::shared_ptr<OneRun> run;
+  std::unique_ptr<ArcosServer> arcos;  ///< of makeReady(); null without ARCOS
 };
 
 WorldRun::WorldRun(WorldRunOptions options) : options_(std::move(options)), run_(load(sourceOf(options_.of_run), 1)) {
-  openArcosPorts();
+  arcos_ = arcosServerOf(*run_);
+  logArcosPorts();
 }
 
 WorldRun::~WorldRun() = default;
@@ -125,15 +129,16 @@ Environment& WorldRun::environment() { return run_->run.environment(); }
 
 std::shared_ptr<const RunInfo> WorldRun::runInfo() const { return {run_, &run_->run_info}; }
 
-void WorldRun::openArcosPorts() {
-  arcos_.reset();  // closes the ports of the previous run
-  if (!options_.arcos) return;
-  std::vector<std::size_t> robots;
-  for (std::size_t i = 0; i < run_->is_arcos.size(); ++i) {
-    if (run_->is_arcos[i]) robots.push_back(i);
-  }
-  Environment& environment = run_->run.environment();
-  arcos_ = std::make_unique<ArcosServer>(*options_.arcos, environment, robots);
+/// Opens the ports for a run, and shares those that the present run has open. Null without ARCOS.
+std::unique_ptr<ArcosServer> WorldRun::arcosServerOf(OneRun& run) const {
+  if (!options_.arcos) return nullptr;
+  return std::make_unique<ArcosServer>(*options_.arcos, run.run.environment(), run.arcosRobots(), arcos_.get());
+}
+
+void WorldRun::logArcosPorts() const {
+  if (!arcos_) return;
+  const std::vector<std::size_t> robots = run_->arcosRobots();
+  const Environment& environment = run_->run.environment();
   if (robots.empty()) {
     options_.arcos->log("world " + environment.world().name + " has no robots for ARCOS programs: " +
                         "none of a type with <arcos> is without a controller; --arcos-all serves those with one, too");
@@ -206,13 +211,19 @@ std::unique_ptr<PreparedRun> WorldRun::prepare(const WorldSource& source) const 
   }
 }
 
+void WorldRun::makeReady(PreparedRun& next) const {
+  auto& prepared = static_cast<Prepared&>(next);
+  prepared.arcos = arcosServerOf(*prepared.run);
+}
+
 void WorldRun::replace(std::unique_ptr<PreparedRun> next) {
+  auto& prepared = static_cast<Prepared&>(*next);
   run_->finish(EndedBy::control_panel);
-  arcos_.reset();  // uses the run that is replaced
-  run_ = static_cast<Prepared&>(*next).run;
+  arcos_ = std::move(prepared.arcos);  // the previous one uses the run that is replaced
+  run_ = std::move(prepared.run);
   run_->start = std::chrono::steady_clock::now();
   ++number_;
-  openArcosPorts();
+  logArcosPorts();
 }
 
 EndedBy WorldRun::endedByItself() const { return robosim::endedByItself(run_->run); }

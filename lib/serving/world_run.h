@@ -37,6 +37,7 @@ class WorldRun final : public ServedRun {
   void setRecording(bool on) override;
   void ends(const RunReport& report) override;
   std::unique_ptr<PreparedRun> prepare(const WorldSource& source) const override;
+  void makeReady(PreparedRun& next) const override;
   void replace(std::unique_ptr<PreparedRun> next) override;
 
   /// Why a run ended that neither a person nor a lost robot has ended: all robots halted, or the time limit.
@@ -58,7 +59,8 @@ class WorldRun final : public ServedRun {
   class OneRun;
   class Prepared;
   std::shared_ptr<OneRun> load(WorldSource source, int number) const;
-  void openArcosPorts();
+  std::unique_ptr<ArcosServer> arcosServerOf(OneRun& run) const;
+  void logArcosPorts() const;
 
   WorldRunOptions options_;
   std::shared_ptr<OneRun> run_;         ///< shared with viewers

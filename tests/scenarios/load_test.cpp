@@ -1,5 +1,6 @@
 // Worlds loaded by control panels: built while the run continues, one at a time, with limits of size and time.
 #include <future>
+#include <new>
 
 #include <gtest/gtest.h>
 
@@ -79,6 +80,17 @@ TEST(Load, IsBuiltConcurrentlyAndRefusesASecondLoad) {
   EXPECT_EQ(load.get(), grpc::StatusCode::OK);
   EXPECT_EQ(panel.status().world(), "open_100");
   EXPECT_EQ(panel.status().step(), 0u);
+}
+
+TEST(Load, IsRefusedAfterAnyExceptionAndTheRunContinues) {
+  ServedWorld::Options options = paused();
+  options.before_preparing = [] { throw std::bad_alloc(); };
+  ServedWorld world(options);
+  Panel panel(world);
+  EXPECT_EQ(codeOfLoad(world), grpc::StatusCode::INTERNAL);
+  world.waitForLog("the world cannot be loaded: std::bad_alloc; the present run continues");
+  EXPECT_EQ(panel.step(3).step(), 3u);
+  EXPECT_EQ(panel.status().world(), "small_maze");
 }
 
 TEST(Load, IsCancelledWhenItsPanelDisconnects) {
