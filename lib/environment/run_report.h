@@ -21,6 +21,9 @@ struct LostRobot {
   std::uint64_t times = 0;         ///< number of times its process left
   std::uint64_t steps_missed = 0;  ///< steps taken without it
   bool is_lost = false;            ///< currently without a process
+  /// Number of times that another process, whose controller has no memory of the run, drove the active robot from then
+  /// on. A process that connects again continues its controller.
+  std::uint64_t restarts = 0;
   bool operator==(const LostRobot&) const = default;
 };
 
@@ -46,6 +49,9 @@ struct RunReport {
 
   /// Whether the run took every step with all of its robots, and no message was lost.
   bool hasAllRobots() const;
+  /// Names of the robots whose controller was restarted during the run: repeating it without the restarts gives another
+  /// run.
+  std::vector<std::string> restartedRobots() const;
   /// Whether no worker returned a wrong or impossible result. Otherwise earlier results of that worker, which only a
   /// sample has checked, may be wrong as well.
   bool isTrusted() const { return rejected_workers.empty(); }

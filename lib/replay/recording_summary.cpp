@@ -153,6 +153,13 @@ std::string endIn(const nlohmann::ordered_json& outcome) {
     return clients != outcome.end() && clients->is_object() && clients->value(key, true) == false;
   };
   if (denies("all_robots")) text += ", INCOMPLETE: without some robots";
+  if (clients != outcome.end() && clients->is_object()) {
+    std::vector<std::string> restarted;
+    for (const auto& name : clients->value("restarted_robots", nlohmann::ordered_json::array())) {
+      if (name.is_string()) restarted.push_back(name);
+    }
+    if (!restarted.empty()) text += ", not reproducible: controllers of " + listed(restarted) + " were restarted";
+  }
   if (denies("trusted")) text += ", NOT TRUSTED: a geometry worker returned wrong results";
   return text + ", digest " + of("digest");
 }

@@ -19,13 +19,15 @@ nlohmann::ordered_json clientsJson(const RunReport& report) {
     lost.push_back({{"name", robot.name},
                     {"times", robot.times},
                     {"steps_missed", robot.steps_missed},
-                    {"is_lost", robot.is_lost}});
+                    {"is_lost", robot.is_lost},
+                    {"restarts", robot.restarts}});
   }
   nlohmann::ordered_json rejected = nlohmann::ordered_json::array();
   for (const auto& worker : report.rejected_workers) {
     rejected.push_back({{"peer", worker.peer}, {"step", worker.step}, {"reason", worker.reason}});
   }
   return {{"all_robots", report.hasAllRobots()},
+          {"restarted_robots", report.restartedRobots()},
           {"on_lost_robot", nameOf(report.on_lost_robot)},
           {"lost_robots", lost},
           {"messages_lost", report.messages_lost},

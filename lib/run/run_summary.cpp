@@ -177,6 +177,9 @@ std::string RunSummary::text() const {
   if (report) {
     addClients(*report, rows);
     if (!report->hasAllRobots()) sentence += "; INCOMPLETE: steps were taken without some robots, or messages lost";
+    if (const auto restarted = report->restartedRobots(); !restarted.empty()) {
+      sentence += "; not reproducible: controllers of " + listed(restarted) + " were restarted";
+    }
     if (!report->isTrusted()) sentence += "; NOT TRUSTED: a geometry worker returned wrong results";
   }
   return printableText(world + ": " + sentence) + "\n" + listing(rows);

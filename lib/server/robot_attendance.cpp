@@ -11,8 +11,14 @@ void RobotAttendance::reset(const RunInfo& run_info) {
   left_while_active_.clear();
 }
 
-void RobotAttendance::join(std::size_t robot) {
-  entries_[robot].has_joined = entries_[robot].is_present = true;
+void RobotAttendance::join(std::size_t robot, bool continues, std::uint64_t step, bool is_active) {
+  Entry& entry = entries_[robot];
+  if (!entry.has_joined) {
+    entry.joined_step = step;
+  } else if (!continues && is_active && step > entry.joined_step) {
+    ++entry.restarts;
+  }
+  entry.has_joined = entry.is_present = true;
   std::erase(left_while_active_, robot);
 }
 
@@ -64,8 +70,9 @@ std::vector<LostRobot> RobotAttendance::losses(std::span<const Activity> activit
   std::vector<LostRobot> all;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const Entry& entry = entries_[i];
-    if (entry.times_lost == 0) continue;
-    all.push_back({names_[i], entry.times_lost, entry.steps_missed, std::binary_search(now.begin(), now.end(), i)});
+    if (entry.times_lost == 0 && entry.restarts == 0) continue;
+    all.push_back({names_[i], entry.times_lost, entry.steps_missed, std::binary_search(now.begin(), now.end(), i),
+                   entry.restarts});
   }
   return all;
 }

@@ -18,7 +18,9 @@ class RobotAttendance {
   /// Starts a run in which no robot has joined.
   void reset(const RunInfo& run_info);
 
-  void join(std::size_t robot);
+  /// @param continues whether the process has driven the robot in this run before, and connects again
+  /// @param step of the run @param is_active whether the robot is active
+  void join(std::size_t robot, bool continues, std::uint64_t step, bool is_active);
   /// @param is_active whether the robot was active when its process left
   void leave(std::size_t robot, bool is_active);
   /// Counts a step taken with the robots currently present.
@@ -40,6 +42,8 @@ class RobotAttendance {
     bool is_present = false;
     std::uint64_t times_lost = 0;
     std::uint64_t steps_missed = 0;
+    std::uint64_t restarts = 0;
+    std::uint64_t joined_step = 0;  ///< of the first process
   };
   std::vector<std::string> names_;
   std::vector<Entry> entries_;                  ///< by robot

@@ -14,8 +14,8 @@ class RobotAttendanceTest : public testing::Test {
     attendance_.reset(run_info_);
   }
   void joinBoth() {
-    attendance_.join(0);
-    attendance_.join(1);
+    attendance_.join(0, false, 0, true);
+    attendance_.join(1, false, 0, true);
   }
 
   using Names = std::vector<std::string>;
@@ -29,7 +29,7 @@ class RobotAttendanceTest : public testing::Test {
 };
 
 TEST_F(RobotAttendanceTest, NamesRobotsThatHaveNotJoinedAsAbsentButNotAsLost) {
-  attendance_.join(1);
+  attendance_.join(1, false, 0, true);
   EXPECT_EQ(attendance_.neverJoined(), Names{"Pioneer1"});
   EXPECT_EQ(attendance_.absent(), Names{"Pioneer1"});
   EXPECT_TRUE(attendance_.lost(both_active_).empty());
@@ -44,9 +44,24 @@ TEST_F(RobotAttendanceTest, CountsTheStepsThatALostRobotMisses) {
   attendance_.countStep(both_active_);
   EXPECT_EQ(attendance_.lost(both_active_), std::vector<std::size_t>{0});
   EXPECT_EQ(attendance_.losses(both_active_), (std::vector<LostRobot>{{"Pioneer1", 1, 2, true}}));
-  attendance_.join(0);
+  attendance_.join(0, false, 0, true);
   attendance_.countStep(both_active_);
   EXPECT_EQ(attendance_.losses(both_active_), (std::vector<LostRobot>{{"Pioneer1", 1, 2, false}}));
+}
+
+TEST_F(RobotAttendanceTest, CountsRestartsOfTheControllerOfAnActiveRobot) {
+  const auto rejoin = [&](bool continues, std::uint64_t step, bool is_active) {
+    attendance_.leave(0, is_active);
+    attendance_.join(0, continues, step, is_active);
+    RunReport report;
+    report.lost_robots = attendance_.losses(both_active_);
+    return report.restartedRobots();
+  };
+  joinBoth();
+  EXPECT_EQ(rejoin(false, 0, true), Names{}) << "no step was taken";
+  EXPECT_EQ(rejoin(true, 5, true), Names{}) << "the same process connects again";
+  EXPECT_EQ(rejoin(false, 5, false), Names{}) << "the robot had halted";
+  EXPECT_EQ(rejoin(false, 5, true), Names{"Pioneer1"});
 }
 
 TEST_F(RobotAttendanceTest, DoesNotCountAHaltedRobotAsLost) {

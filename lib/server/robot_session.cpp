@@ -31,6 +31,7 @@ class RobotSession::Stream final : public StreamSession<v1::DriveRequest, v1::Dr
   std::vector<std::string> names;   ///< empty before the hello
   std::vector<std::size_t> robots;  ///< indices in the world
   std::string process;              ///< RobotsHello.process
+  bool continues = false;           ///< the process has been connected in this run before
   bool owes_answer = false;
   std::uint64_t awaited_step = 0;
   ServingState::Clock::time_point since;  ///< the answer is owed
@@ -111,6 +112,7 @@ void RobotSession::hello(Stream& stream, const v1::DriveRequest& message) {
   }
   stream.robots = std::move(robots);
   stream.process = hello.process();
+  stream.continues = !hello.run().empty();
   stream.names = std::move(names);
   stream.establish();
   serving_.wake_requested = true;
@@ -186,7 +188,10 @@ void RobotSession::applyLeftAnswers(Environment& environment) {
 void RobotSession::admit() {
   for (const auto& stream : streams_) {
     if (std::exchange(stream->is_admitted, true)) continue;
-    for (const auto robot : stream->robots) attendance_.join(robot);
+    const State& state = serving_.run_info->environment.state();
+    for (const auto robot : stream->robots) {
+      attendance_.join(robot, stream->continues, state.time.step, state.activity[robot] == Activity::active);
+    }
     serving_.log(stream->logName() + ": connected" + serving_.tokenSuffix(stream->client()));
     sendWelcome(*stream);
     expectAnswer(*stream);

@@ -69,7 +69,8 @@ TEST(LostRobot, IsAwaitedInLockstepAndTheRunIsComplete) {
   EXPECT_EQ(clients["all_robots"], true);
   EXPECT_EQ(clients["on_lost_robot"], "wait");
   EXPECT_EQ(clients["lost_robots"],
-            json::parse(R"([{"name": "Pioneer1", "times": 1, "steps_missed": 0, "is_lost": false}])"));
+            json::parse(R"([{"name": "Pioneer1", "times": 1, "steps_missed": 0, "is_lost": false, "restarts": 1}])"));
+  EXPECT_EQ(clients["restarted_robots"], json::parse(R"(["Pioneer1"])"));
 }
 
 TEST(LostRobot, MakesTheRunIncompleteIfAbsentAtItsEnd) {
@@ -91,7 +92,7 @@ TEST(LostRobot, WithContinueStandsStillAndTheRunIsIncomplete) {
   const json clients = clientsOf(ended);
   EXPECT_EQ(clients["all_robots"], false);
   EXPECT_EQ(clients["lost_robots"],
-            json::parse(R"([{"name": "Pioneer1", "times": 1, "steps_missed": 100, "is_lost": true}])"));
+            json::parse(R"([{"name": "Pioneer1", "times": 1, "steps_missed": 100, "is_lost": true, "restarts": 0}])"));
 }
 
 TEST(LostRobot, IsNamedInTheSummaryAndInTheRecording) {
@@ -107,8 +108,11 @@ TEST(LostRobot, IsNamedInTheSummaryAndInTheRecording) {
   EXPECT_EQ(ended.exit_code, kIncomplete) << ended.err;
   EXPECT_NE(ended.out.find("INCOMPLETE: steps were taken without some robots"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("Pioneer1, once, "), std::string::npos) << ended.out;
+  const std::string restarted = "not reproducible: controllers of Pioneer1 were restarted";
+  EXPECT_NE(ended.out.find(restarted), std::string::npos) << ended.out;
   const Ended replay = runProgram("replay '" + rawlog.string() + "'");
   EXPECT_NE(replay.out.find("INCOMPLETE: without some robots"), std::string::npos) << replay.out;
+  EXPECT_NE(replay.out.find(restarted), std::string::npos) << replay.out;
 }
 
 TEST(LostRobot, WithFailEndsTheRun) {
