@@ -118,10 +118,10 @@ class RunAgain {
     }
     if (reader_.readError()) {
       verdict_ << printableText(*reader_.readError()) << '\n'
-               << "What there is, " << withCommas(steps) << " steps, is the same.\n";
+               << "What there is, " << stepsTaken() << ", is the same.\n";
       return true;
     }
-    return sameDigest(steps);
+    return sameDigest();
   }
 
  private:
@@ -235,19 +235,22 @@ class RunAgain {
     run_.step();
   }
 
-  bool sameDigest(std::uint64_t steps) const {
+  /// Number of steps of the run so far, as its summary states it; the recording also contains the start.
+  std::string stepsTaken() const { return withCommas(run_.environment().time().step) + " steps"; }
+
+  bool sameDigest() const {
     const auto note = RunNote::parse(recorded_.note());
     const std::string recorded = note && note->outcome.is_object() ? note->outcome.value("digest", "") : "";
     const std::string now = run_.environment().digest();
     if (recorded.empty()) {
-      verdict_ << "All " << withCommas(steps) << " steps are the same; the recording has no digest.\n";
+      verdict_ << "All readings of " << stepsTaken() << " are the same; the recording has no digest.\n";
       return true;
     }
     if (recorded != now) {
       verdict_ << "Every reading is the same, but not the digest: recorded " << recorded << ", now " << now << '\n';
       return false;
     }
-    verdict_ << "The same run: " << withCommas(steps) << " steps, digest " << now << '\n';
+    verdict_ << "The same run: " << stepsTaken() << ", digest " << now << '\n';
     return true;
   }
 

@@ -21,7 +21,7 @@ TEST(ReplayCheck, RepeatsTheRunIdentically) {
   const json run = recordRun("worlds/opho2_1.xml --seed 4 --time 60", file);
   const Ended check = runProgram("replay --check worlds/opho2_1.xml " + quoted(file));
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
-  EXPECT_EQ(check.out, "The same run: 601 steps, digest " + run["digest"].get<std::string>() + "\n");
+  EXPECT_EQ(check.out, "The same run: 600 steps, digest " + run["digest"].get<std::string>() + "\n");
 }
 
 TEST(ReplayCheck, RepeatsTheRunOfARobotThatFacesBackwards) {
@@ -147,7 +147,7 @@ TEST(ReplayCheck, ChecksAndReplaysEachFileOfPairsSeparately) {
       runProgram("run worlds/opho2_1.xml --json --rawlog-format sf --record " + quoted(folder / "run.rawlog"));
   ASSERT_EQ(run.exit_code, 0) << run.err;
   const json summary = json::parse(run.out);
-  const std::string same = "The same run: " + std::to_string(summary["steps"].get<int>() + 1) + " steps, digest " +
+  const std::string same = "The same run: " + std::to_string(summary["steps"].get<int>()) + " steps, digest " +
                            summary["digest"].get<std::string>() + "\n";
   for (const std::string robot : {"Finder1", "Finder2"}) {
     const std::string file = quoted(folder / ("run_" + robot + ".rawlog"));
