@@ -160,7 +160,7 @@ std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
 }  // namespace
 
 void serveWorld(const ServeArguments& arguments) {
-  const Interrupt interrupt;
+  Interrupt interrupt;
   RunArguments of_run = arguments.of_run;
   if (!arguments.arcos_factory.empty()) addFactoryRobots(arguments.arcos_factory, of_run.changes);
   checkRunArguments(of_run);
@@ -179,6 +179,7 @@ void serveWorld(const ServeArguments& arguments) {
     throw;
   }
   run.finish(reasonOf(how, run));
+  interrupt.ignoreUntilExit();
   if (!run.isTrusted()) throw Exit{kUntrusted};
   if (!run.hadAllRobots()) throw Exit{kIncomplete};
 }

@@ -3,7 +3,8 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <utility>
+#include <mutex>
+#include <set>
 
 #include <unistd.h>
 
@@ -36,6 +37,15 @@ void onEndingSignal(int signal) {
   raise(signal);  // takes effect when this handler returns
 }
 
+/// The path in memory that is never freed: a signal handler of another thread may be reading it after the end of its
+/// PartialFile. Equal paths share it.
+const char* permanent(const std::string& path) {
+  static std::mutex mutex;
+  static std::set<std::string>& paths = *new std::set<std::string>;
+  const std::lock_guard lock(mutex);
+  return paths.insert(path).first->c_str();
+}
+
 bool isIgnored(int signal) {
   struct sigaction action {};
   return sigaction(signal, nullptr, &action) == 0 && action.sa_handler == SIG_IGN;
@@ -56,10 +66,18 @@ Interrupt::Interrupt() {
 }
 
 Interrupt::~Interrupt() {
+  if (is_ignored_until_exit_) return;
   for (std::size_t i = 0; i < kInterrupts.size(); ++i) sigaction(kInterrupts[i], &former_actions[i], nullptr);
 }
 
 bool Interrupt::isRequested() const { return signal() != 0; }
+
+void Interrupt::ignoreUntilExit() {
+  is_ignored_until_exit_ = true;
+  struct sigaction ignore {};
+  ignore.sa_handler = SIG_IGN;
+  for (const int signal : kInterrupts) sigaction(signal, &ignore, nullptr);
+}
 
 int Interrupt::signal() { return interrupt_signal; }
 
@@ -67,10 +85,11 @@ void throwIfInterrupted(const std::string& what) {
   if (Interrupt::signal() != 0) throw Interrupted("interrupted; " + what);
 }
 
-PartialFile::PartialFile(std::string path) : path_(std::move(path)) {
+PartialFile::PartialFile(const std::string& path) {
+  const char* const permanent_path = permanent(path);
   for (std::size_t i = 0; i < partial_files.size(); ++i) {
     const char* expected = nullptr;
-    if (!partial_files[i].compare_exchange_strong(expected, path_.c_str())) continue;
+    if (!partial_files[i].compare_exchange_strong(expected, permanent_path)) continue;
     slot_ = i;
     break;
   }

@@ -16,8 +16,14 @@ class Interrupt {
   Interrupt& operator=(const Interrupt&) = delete;
 
   bool isRequested() const;
+  /// Ignores all further interrupts until the process ends. For a command whose outputs are complete: its exit code is
+  /// then the same for a signal that arrives while the process ends.
+  void ignoreUntilExit();
   /// Number of the signal that requested the end; 0 for none. Also valid without an instance.
   static int signal();
+
+ private:
+  bool is_ignored_until_exit_ = false;
 };
 
 /// Ends a command because of Interrupt::signal(). The program's exit code is 128 + the signal's number.
@@ -35,13 +41,12 @@ class PartialFile {
  public:
   static constexpr std::size_t kMaxPartialFiles = 64;
 
-  explicit PartialFile(std::string path);
+  explicit PartialFile(const std::string& path);
   ~PartialFile();
   PartialFile(const PartialFile&) = delete;
   PartialFile& operator=(const PartialFile&) = delete;
 
  private:
-  std::string path_;
   std::size_t slot_ = kMaxPartialFiles;
 };
 

@@ -100,7 +100,8 @@ std::string NpzWriter::beginArray(const std::string& name, const std::string& ty
   std::string data("\x93NUMPY\x01\x00", 8);
   data.reserve(kPrefix + header.size() + bytes_per_row * rows);
   append(data, static_cast<std::uint16_t>(header.size()));
-  return data + header;
+  data += header;  // keeps the reserved memory
+  return data;
 }
 
 void NpzWriter::addEntry(const std::string& name, const std::string& data) {
