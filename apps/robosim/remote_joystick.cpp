@@ -32,9 +32,10 @@ struct NearestEcho {
 };
 
 std::string driveState(const RobotNews& news) {
-  if (!news.is_up) return news.problem.empty() ? "connecting" : "down: " + news.problem;
   const RemoteState& state = news.state;
-  if (!state.winner.empty()) return state.winner + " has won";
+  if (!state.winner.empty() && (news.is_up || news.is_over)) return state.winner + " has won";
+  if (news.is_over) return news.problem;
+  if (!news.is_up) return news.problem.empty() ? "connecting" : "down: " + news.problem;
   if (!state.is_yours) return state.driver.empty() ? "no driver" : state.driver + " drives";
   if (state.autonomous) return "autonomous";
   return state.why_stopped.empty() ? "you drive" : "stopped: " + state.why_stopped;
@@ -106,7 +107,7 @@ void driveByJoystick(RemoteControl& control, int number, double top_speed, const
     const auto now = Clock::now();
     control.tick();
     const auto robots = control.robots();
-    for (const auto& event : events.news(robots)) report(event.text);
+    for (const auto& event : events.news(robots)) report(event.line());
     const auto stick = joystick.read();
     if (!has_reported || has_stick != stick.has_value()) {
       has_stick = stick.has_value();

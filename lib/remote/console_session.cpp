@@ -220,9 +220,9 @@ void ConsoleSession::finishSwitch() {
 /// the page's banner.
 void ConsoleSession::reportEvents() {
   using Kind = TeamEvents::Kind;
-  for (const auto& [kind, text] : events_.news(robots_)) {
-    if (kind != Kind::won) noteToAll(noteJson(text, kind != Kind::up));
-    if (kind != Kind::stopped && kind != Kind::too_far) act(WriteLog{{}, text});
+  for (const auto& note : events_.news(robots_)) {
+    if (note.kind != Kind::won) noteToAll(noteJson(note.text, note.kind != Kind::up, note.detail));
+    if (note.kind != Kind::stopped && note.kind != Kind::too_far) act(WriteLog{{}, note.line()});
   }
 }
 
@@ -259,12 +259,16 @@ void ConsoleSession::publishVitals(Time now) {
 
 void ConsoleSession::takeRun(const RunView& run) {
   const RunView former = std::exchange(run_, run);
-  const auto report = [&](const char* what, const std::string& problem, const std::string& former_problem) {
-    if (!problem.empty() && problem != former_problem) noteToAll(noteJson(what + problem, true));
+  const auto report = [&](const std::string& what, const std::string& problem, const std::string& former_problem) {
+    if (problem.empty() || problem == former_problem) return;
+    noteToAll(noteJson(what + ".", true, problem));
+    act(WriteLog{{}, what + ": " + problem});
   };
-  report("The next run could not be started: ", run.restart_problem, former.restart_problem);
-  report("The recording could not be changed: ", run.recording.problem, former.recording.problem);
-  report("The recording has ended: ", run.recording.failure, former.recording.failure);
+  report("The next run could not be started", run.restart_problem, former.restart_problem);
+  report("The recording could not be changed", run.recording.problem, former.recording.problem);
+  report("The recording has ended early", run.recording.failure, former.recording.failure);
+  const bool is_over = run.phase == RunView::Phase::ended || (!robots_.empty() && robots_.front().news.is_over);
+  if (!std::exchange(was_over_, is_over) && is_over) noteToAll(noteJson("The run is over.", false));
   if (!feed_.run.set(runJson(run))) return;
   wakeAdmittedPages();
 }

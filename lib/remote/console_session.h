@@ -155,6 +155,7 @@ class ConsoleSession {
   std::optional<PendingSwitch> pending_switch_;
   bool is_map_watched_ = false;
   RunView run_;
+  bool was_over_ = false;  ///< the run, at the last update()
   ConsoleFeed feed_;
   Time vitals_published_{};
   ConsoleActions actions_;  ///< of the current event

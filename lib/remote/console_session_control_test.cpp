@@ -265,7 +265,7 @@ TEST_F(ConsoleSessionTest, ReportsALostRobotAndItsReturnToAllPages) {
   console.row[1].news.is_up = true;
   console.update();
   for (const PageId page : {ada, bea}) {
-    EXPECT_TRUE(received(page, "Bob is down: no robot answers"));
+    EXPECT_TRUE(received(page, R"("text":"Bob is down.","warning":true,"detail":"no robot answers")"));
     EXPECT_TRUE(received(page, "Bob is up."));
   }
 }
@@ -273,10 +273,11 @@ TEST_F(ConsoleSessionTest, ReportsALostRobotAndItsReturnToAllPages) {
 TEST_F(ConsoleSessionTest, KeepsTheControlLockWhenThePrimaryIsLost) {
   const PageId ada = driver();
   console.row.front().news.is_up = false;
+  console.row.front().news.is_over = true;
   console.row.front().news.problem = "the run is over";
   console.update();
-  EXPECT_TRUE(
-      received(ada, R"("name":"Ann","address":"127.0.0.1:9","model":"fake","up":false,"problem":"the run is over")"));
+  EXPECT_TRUE(received(
+      ada, R"("name":"Ann","address":"127.0.0.1:9","model":"fake","up":false,"over":true,"problem":"the run is over")"));
   EXPECT_EQ(holder(), ada);
   console.send(ada, R"({"type":"switch"})");
   EXPECT_EQ(console.primary(), "Bob");
@@ -318,7 +319,7 @@ TEST_F(ConsoleSessionTest, StartsTheNextRunOnceAfterTheEndOfTheCurrentOne) {
   console.run.restart_problem = "the world is invalid";
   console.update();
   for (const PageId page : {ada, bea}) {
-    EXPECT_TRUE(received(page, "The next run could not be started: the world is invalid"));
+    EXPECT_TRUE(received(page, R"("The next run could not be started.","warning":true,"detail":"the world is invalid")"));
   }
 }
 
@@ -351,6 +352,33 @@ TEST_F(ConsoleSessionTest, OfTeamsThatAreUpReportsTheWinnerOfTheirRunOnly) {
   console.update();
   console.read(ada);
   EXPECT_NE(console.page(ada).texts.back().find(R"("winner":"")"), std::string::npos);
+}
+
+TEST_F(ConsoleSessionTest, ReportsTheEndOfTheRunOnceHoweverItIsObserved) {
+  const PageId ada = driver();
+  const auto reports = [&] {
+    console.read(ada);
+    return console.page(ada).countOf("The run is over.");
+  };
+  console.run.phase = RunView::Phase::ended;
+  console.update();
+  EXPECT_EQ(reports(), 1u);
+  for (auto& robot : console.row) {  // its programs end, too
+    robot.news.is_up = false;
+    robot.news.is_over = true;
+  }
+  console.update();
+  EXPECT_EQ(reports(), 1u);
+  EXPECT_EQ(console.page(ada).countOf("is down"), 0u);
+  for (auto& robot : console.row) {
+    robot.news.is_up = true;
+    robot.news.is_over = false;
+  }
+  console.run.phase = RunView::Phase::running;  // the next run
+  console.update();
+  for (auto& robot : console.row) robot.news.is_over = true;  // seen by the robots first
+  console.update();
+  EXPECT_EQ(reports(), 2u);
 }
 
 TEST_F(ConsoleSessionTest, ShowsAnotherDriverOfTheRobot) {

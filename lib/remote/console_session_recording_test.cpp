@@ -36,11 +36,11 @@ TEST_F(ConsoleSessionTest, StartsAndStopsTheRecordingOnceForEachRequest) {
   recording.problem = "the disk is full";
   console.update();
   for (const PageId page : {ada, bea}) {
-    EXPECT_TRUE(received(page, "The recording could not be changed: the disk is full"));
+    EXPECT_TRUE(received(page, R"("The recording could not be changed.","warning":true,"detail":"the disk is full")"));
   }
   recording = {.state = RecordingView::State::off, .may_change = true, .failure = "the file is too large"};
   console.update();
-  EXPECT_TRUE(received(bea, "The recording has ended: the file is too large"));
+  EXPECT_TRUE(received(bea, R"("The recording has ended early.","warning":true,"detail":"the file is too large")"));
 }
 
 TEST_F(ConsoleSessionTokensTest, StartsTheRecordingOnlyForOperators) {

@@ -208,6 +208,7 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"address", robot.address},
                     {"model", news.info ? news.info->model : ""},
                     {"up", news.is_up},
+                    {"over", news.is_over},
                     {"problem", news.problem},
                     {"fit", robot.isFit()},
                     {"autonomous", news.state.autonomous},
@@ -316,8 +317,8 @@ std::string posesJson(const MapView& map) {
   return textOf({{"type", "poses"}, {"step", map.step}, {"robots", robots}});
 }
 
-std::string noteJson(const std::string& text, bool is_warning) {
-  return textOf({{"type", "note"}, {"text", text}, {"warning", is_warning}});
+std::string noteJson(const std::string& text, bool is_warning, const std::string& detail) {
+  return textOf({{"type", "note"}, {"text", text}, {"warning", is_warning}, {"detail", detail}});
 }
 
 }  // namespace robosim

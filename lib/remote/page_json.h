@@ -49,7 +49,9 @@ std::string pulseJson();
 std::string mapJson(const MapView& map);
 std::string posesJson(const MapView& map);
 
-/// A line of text for the user. @param is_warning whether it is highlighted
-std::string noteJson(const std::string& text, bool is_warning);
+/// A line of text for the user.
+/// @param is_warning whether it is highlighted
+/// @param detail the reason, which pages show to operators on request; empty for none
+std::string noteJson(const std::string& text, bool is_warning, const std::string& detail = {});
 
 }  // namespace robosim

@@ -225,7 +225,13 @@ TEST_F(RemotePortTest, ReportsTheWinnerAndTheEndOfTheRunToAll) {
     waitUntil([&] { return !link->isCalling(); });
     EXPECT_EQ(link->news().state.winner, "Pioneer1");
     EXPECT_EQ(link->news().problem, "the run is over");
+    EXPECT_TRUE(link->news().is_over);
   }
+  robot.close();
+  anna->connect();
+  waitUntil([&] { return !anna->isCalling(); });
+  EXPECT_TRUE(anna->news().is_over) << "that nothing answers any more is no failure";
+  EXPECT_EQ(anna->news().problem, "the run is over");
 }
 
 TEST_F(RemotePortTest, ReportsAWrongOrUnreachableRobot) {
@@ -244,6 +250,7 @@ TEST_F(RemotePortTest, ReportsAWrongOrUnreachableRobot) {
   EXPECT_EQ(anna->news().problem,
             "no robot answers at " + robot.address() + "; is 'robosim robot Pioneer1 --remote-port …' running?");
   EXPECT_FALSE(anna->news().was_refused);
+  EXPECT_FALSE(anna->news().is_over);
 }
 
 /// Sends one message, which RobotLink might never send. @return the status of the call

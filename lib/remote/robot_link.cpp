@@ -15,9 +15,11 @@
 namespace robosim {
 namespace {
 
+constexpr const char* kRunIsOver = "the run is over";
+
 /// Why a call has ended, and how to fix it.
 std::string problemOf(const grpc::Status& status, const ConnectOptions& connect_options, const std::string& robot) {
-  if (status.ok()) return "the run is over";
+  if (status.ok()) return kRunIsOver;
   if (status.error_code() == grpc::StatusCode::UNIMPLEMENTED) {
     return connect_options.address + " is not the remote port of a robot; correct it in the robot list";
   }
@@ -149,7 +151,9 @@ void RobotLink::Impl::makeCalls() {
     if (problem.empty()) problem = problemOf(status, connect_options, robot);
     lock.lock();
     is_calling = news.is_up = false;
-    news.problem = problem;
+    // After the end of its run nothing answers until the next one.
+    news.is_over = status.ok() || (news.is_over && status.error_code() == grpc::StatusCode::UNAVAILABLE);
+    news.problem = news.is_over ? kRunIsOver : problem;
     news.was_refused = status.error_code() == grpc::StatusCode::NOT_FOUND ||
                        status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
                        status.error_code() == grpc::StatusCode::PERMISSION_DENIED ||
@@ -208,6 +212,7 @@ void RobotLink::Impl::processMessage() {
     news.picture.reset();
     news.answers = {};
     news.is_up = true;
+    news.is_over = false;
     news.problem.clear();
     request_all_is_due = is_live;
   }

@@ -33,6 +33,8 @@ struct RobotAnswer {
 /// Newest state of a robot as received by a remote control. The shared values are immutable.
 struct RobotNews {
   bool is_up = false;
+  /// Its program has ended the call because its run is over, and has not returned since: not a failure.
+  bool is_over = false;
   std::string problem{};     ///< why it is disconnected, where, and how to fix it
   bool was_refused = false;  ///< the robot's port refused the connection, so that an early retry is useless
   std::shared_ptr<const RobotInfo> info{};  ///< null as long as it has never been up

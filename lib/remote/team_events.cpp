@@ -7,9 +7,11 @@ std::vector<TeamEvents::Note> TeamEvents::news(const std::vector<TeamRobot>& rob
   for (const auto& robot : robots) {
     RobotNews& before = previous_[robot.name];
     const RobotNews& now = robot.news;
-    const bool was_reported = before.is_up || !before.problem.empty();
-    if (now.is_up && !before.is_up && was_reported) notes.push_back({Kind::up, robot.name + " is up."});
-    if (!now.is_up && before.is_up) notes.push_back({Kind::down, robot.name + " is down: " + now.problem});
+    const bool was_reported_down = !before.is_up && !before.is_over && !before.problem.empty();
+    if (now.is_up && was_reported_down) notes.push_back({Kind::up, robot.name + " is up."});
+    if (!now.is_up && before.is_up && !now.is_over) {
+      notes.push_back({Kind::down, robot.name + " is down.", now.problem});
+    }
     if (now.state.why_stopped != before.state.why_stopped && !now.state.why_stopped.empty()) {
       notes.push_back({Kind::stopped, robot.name + " stopped: " + now.state.why_stopped + "."});
     }

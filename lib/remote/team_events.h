@@ -13,10 +13,14 @@ class TeamEvents {
   enum class Kind { up, down, stopped, too_far, won };
   struct Note {
     Kind kind;
-    std::string text;
+    std::string text;         ///< a sentence, for the driver
+    std::string detail = {};  ///< the reason, for the operator; empty for none
+
+    /// Both in one line.
+    std::string line() const { return detail.empty() ? text : text.substr(0, text.size() - 1) + ": " + detail; }
   };
 
-  /// Messages since the last call.
+  /// Messages since the last call. Robots that leave because their run is over, and return for the next, are no events.
   /// @param robots the primary first
   std::vector<Note> news(const std::vector<TeamRobot>& robots);
 

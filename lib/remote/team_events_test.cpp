@@ -37,9 +37,29 @@ TEST_F(TeamEventsTest, ReportsEachEventOnce) {
 TEST_F(TeamEventsTest, ReportsLostRobotsAndTheirReturn) {
   robots[1].news.is_up = false;
   robots[1].news.problem = "no robot answers";
-  EXPECT_EQ(eventOf(Kind::down), "Bob is down: no robot answers");
+  const auto down = events.news(robots);
+  ASSERT_EQ(down.size(), 1u);
+  EXPECT_EQ(down[0].kind, Kind::down);
+  EXPECT_EQ(down[0].text, "Bob is down.");
+  EXPECT_EQ(down[0].detail, "no robot answers");
+  EXPECT_EQ(down[0].line(), "Bob is down: no robot answers");
   robots[1].news.is_up = true;
   EXPECT_EQ(eventOf(Kind::up), "Bob is up.");
+}
+
+TEST_F(TeamEventsTest, OmitsRobotsThatLeaveAtTheEndOfTheRunAndJoinTheNext) {
+  for (auto& robot : robots) {
+    robot.news.is_up = false;
+    robot.news.is_over = true;
+    robot.news.problem = "the run is over";
+  }
+  EXPECT_TRUE(events.news(robots).empty());
+  for (auto& robot : robots) {
+    robot.news.is_up = true;
+    robot.news.is_over = false;
+    robot.news.problem.clear();
+  }
+  EXPECT_TRUE(events.news(robots).empty());
 }
 
 TEST_F(TeamEventsTest, ReportsTheResultOfCheckWin) {

@@ -5,16 +5,16 @@ import { test } from 'node:test';
 
 import { pageModule } from './page_module.mjs';
 
-const { bannerOf, CAUSES, standsStill, statusOf } = await pageModule('banner.js');
+const { bannerOf, CAUSES, mayMove, standsStill, statusOf } = await pageModule('banner.js');
 const { Freshness, LOST_MS } = await pageModule('freshness.js');
 const BOOLEANS = [false, true];
 const PHASES = ['unknown', 'gone', 'waiting', 'paused', 'running', 'ended'];
 
 function* states() {
   for (const isOpen of BOOLEANS) for (const isSilent of BOOLEANS) for (const winner of ['', 'Bob']) for (const up of BOOLEANS)
-  for (const problem of ['', 'no robot answers', 'the run is over']) for (const phase of PHASES) for (const isFresh of BOOLEANS)
+  for (const over of up ? [false] : BOOLEANS) for (const phase of PHASES) for (const isFresh of BOOLEANS)
   for (const absent of [[], ['Ann'], ['Bob']]) {
-    yield { link: { isOpen, isSilent, why: '' }, team: { winner, robots: [{ name: 'Ann', up, problem }] }, run: { phase, problem: '', absent }, isFresh };
+    yield { link: { isOpen, isSilent, why: '' }, team: { winner, robots: [{ name: 'Ann', up, over, problem: up ? '' : 'no robot answers' }] }, run: { phase, problem: '', absent }, isFresh };
   }
 }
 
@@ -22,7 +22,7 @@ function* states() {
 const HOLDS = {
   console_gone: ({ link }) => !link.isOpen || link.isSilent,
   won: ({ team }) => team.winner !== '',
-  run_over: ({ team, run }) => run.phase === 'ended' || team.robots[0].problem === 'the run is over',
+  run_over: ({ team, run }) => run.phase === 'ended' || team.robots[0].over,
   environment_gone: ({ team, run, isFresh }) => run.phase === 'gone' && !(team.robots[0].up && isFresh),
   robot_down: ({ team }) => !team.robots[0].up,
   waiting: ({ run, isFresh }) => run.phase === 'waiting' && run.absent.includes('Bob') && !isFresh,
@@ -41,10 +41,27 @@ test('of the causes that are true, the banner states the first, and none if none
   assert.deepEqual([...seen].sort(), [...CAUSES, null].sort());
 });
 
-test('a reason that is a sentence is followed by one period', () => {
-  const link = { isOpen: false, isSilent: false, why: 'The token is unknown or has expired.' };
-  const { text } = bannerOf({ link, team: null, run: { phase: 'unknown', problem: '', absent: [] }, isFresh: false });
-  assert.equal(text, 'No connection to the console: The token is unknown or has expired. The robot stops. Reconnecting…');
+// Of an error of gRPC as the console receives it.
+const INTERNALS = "the environment at 127.0.0.1:3000 does not answer: failed to connect to all addresses; last error: UNKNOWN: ipv4:127.0.0.1:3000: Failed to connect; is 'robosim serve' running there?";
+
+test('a banner is short whatever the reason and the names, and has the reason as its detail', () => {
+  const long = 'The_robot_with_the_longest_name_of_the_team_'.padEnd(120, 'abcdefghij_');
+  for (const state of states()) {
+    state.link.why = state.run.problem = INTERNALS;
+    state.run.absent = [long, `${long}2`, `${long}3`, `${long}4`];
+    state.team.robots[0] = { ...state.team.robots[0], name: long.slice(1), problem: INTERNALS };
+    if (state.team.winner) state.team.winner = long;
+    const banner = bannerOf(state);
+    if (!banner) continue;
+    assert.ok(banner.text.length <= 110, `${banner.text.length}: ${banner.text}`);
+    assert.ok(!/UNKNOWN|ipv4|robosim/.test(banner.text), banner.text);
+    if (['environment_gone', 'robot_down'].includes(banner.cause) || !state.link.isOpen) assert.equal(banner.detail, INTERNALS, banner.cause);
+  }
+});
+
+test('while no input can have an effect, the driving controls are disabled', () => {
+  assert.deepEqual(CAUSES.filter(mayMove), ['paused'], 'held inputs apply when the run continues');
+  assert.ok(mayMove(null));
 });
 
 test('"You drive" is shown only while commands are sent and arrive at an active robot of this page', () => {
@@ -52,20 +69,15 @@ test('"You drive" is shown only while commands are sent and arrive at an active 
   for (const autonomous of BOOLEANS) for (const activity of ['active', 'halted']) for (const isFresh of BOOLEANS)
   for (const holdsLock of BOOLEANS) for (const isSending of BOOLEANS) {
     const robot = { up, is_yours: isYours, driver: '', autonomous, activity };
-    const { text } = statusOf({ link: { isOpen, isSilent }, team: { robots: [robot] }, isFresh, holdsLock, isSending });
+    const { text } = statusOf({ link: { isOpen, isSilent }, team: { robots: [robot] }, run: { phase: 'running' }, isFresh, holdsLock, isSending });
     const drives = isOpen && !isSilent && up && isYours && !autonomous && activity === 'active' && isFresh && holdsLock && isSending;
     assert.equal(text === 'You drive', drives);
     if (!isOpen || isSilent) assert.equal(text, 'No connection');
   }
 });
 
-test('a run stands still for a reason that is not the primary\'s if it is paused, over, or waits for others', () => {
-  for (const phase of PHASES) {
-    for (const absent of [[], ['Ann'], ['Ann', 'Bob']]) {
-      const expected = ['paused', 'ended'].includes(phase) || (phase === 'waiting' && absent.includes('Bob'));
-      assert.equal(standsStill({ phase, absent }, 'Ann'), expected, `${phase}, absent: ${absent}`);
-    }
-  }
+test('inputs may stay held while no robot reports only if the run is paused or over', () => {
+  assert.deepEqual(PHASES.filter((phase) => standsStill({ phase })), ['paused', 'ended']);
 });
 
 test('a robot is lost 2 s after its last update, or after updates were expected first', () => {

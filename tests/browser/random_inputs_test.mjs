@@ -304,6 +304,30 @@ for (const [what, lose, why] of [
   });
 }
 
+test('a key pressed while the help is open is not neutral until it is released', async () => {
+  const page = await visitScripted(browser, 'driving');
+  const sent = [];
+  page.script.onMessage = (message) => sent.push(message);
+  const until = async (holds) => { while (!sent.some(holds)) await page.evaluate(() => new Promise((done) => { setTimeout(done, 20); })); };
+  const isDrive = ({ type }) => type === 'drive';
+  await page.keyboard.press('Space');  // latches
+  await page.click('#help-open');
+  await page.keyboard.down('ArrowUp');
+  await page.evaluate(() => document.querySelector('#help').close());
+  sent.length = 0;
+  await page.keyboard.down('ArrowLeft');
+  await until(({ type }) => type === 'alive');
+  await page.waitForFunction(() => document.querySelector('#hint').textContent.startsWith('Stopped. Release all keys'));
+  assert.deepEqual(sent.filter(isDrive), []);
+  await page.keyboard.up('ArrowLeft');
+  await page.keyboard.up('ArrowUp');
+  await page.waitForFunction(() => document.querySelector('#hint').hidden);
+  await page.keyboard.down('ArrowLeft');
+  await until(isDrive);
+  await page.keyboard.up('ArrowLeft');
+  await page.context().close();
+});
+
 test('a paused run does not stop a robot, however long it reports nothing', async () => {
   const page = await visitScripted(browser, 'driving', { hasClock: true });
   await page.clock.pauseAt(Date.now() + 60_000);

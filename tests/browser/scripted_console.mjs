@@ -40,6 +40,8 @@ export const STATES = {
   won: { winner: 'Pioneer1', run: { phase: 'ended', may_restart: true } },
   'won by another': { winner: 'Scout1', run: { phase: 'ended', may_restart: true } },
   over: { run: { phase: 'ended' } },
+  'won, programs ended': { winner: 'Pioneer1', is_over: true, is_silent: true, run: { phase: 'ended' } },
+  'down, long names': { is_down: true, has_long_names: true },
   gone: { is_silent: true, run: { phase: 'gone', problem: 'no answer for 1 s from environment.example:10000; is \'robosim serve\' running there?' } },
   frozen: { is_silent: true },
   waiting: { is_silent: true, run: { phase: 'waiting', absent: ['Scout1', 'Pioneer2', 'Scout2', 'Pioneer3'] } },
@@ -59,9 +61,9 @@ export const STATES = {
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_over = false, is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
     const isSilent = is_silent;
-    Object.assign(this, { socket, refuses, holder, is_down, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
+    Object.assign(this, { socket, refuses, holder, is_down, is_over, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
   }
@@ -121,8 +123,8 @@ class Script {
       type: 'team', world: 'open_house', pages: 2, winner: this.winner, winner_driven_m: this.winner ? this.driven_m : null,
       control_lock: { holder: this.holder, name: this.holder === 1 ? 'Ada' : 'Bea Sommerfeld' },
       robots: this.names.map((name, i) => ({
-        name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !(this.is_down && i === 0) && i % 7 !== 5,
-        problem: (this.is_down && i === 0) || i % 7 === 5 ? `no robot answers at 127.0.0.1:${9001 + i}; is 'robosim robot ${name} --remote-port …' running?` : '',
+        name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !this.is_over && !(this.is_down && i === 0) && i % 7 !== 5, over: this.is_over,
+        problem: this.is_over ? 'the run is over' : (this.is_down && i === 0) || i % 7 === 5 ? `no robot answers at 127.0.0.1:${9001 + i}; is 'robosim robot ${name} --remote-port …' running?` : '',
         fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (i ? 'halted' : 'found') : 'active', why_stopped: '',
       })),
     });

@@ -18,11 +18,13 @@ const bannerOf = (page) => page.evaluate(() => {
 const shows = (page, cause) => page.waitForSelector(`#banner[data-cause="${cause}"]`, { state: 'visible' });
 
 for (const [state, cause, text] of [
-  ['down', 'robot_down', /^Pioneer1 is down: no robot answers at 127\.0\.0\.1:9001/],
+  ['down', 'robot_down', /^Pioneer1 is down\. Reconnecting…$/],
   ['won', 'won', /^Pioneer1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
   ['won by another', 'won', /^Scout1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
+  ['won, programs ended', 'won', /^Pioneer1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
+  ['down, long names', 'robot_down', /^0_The_robot_with_the_lon… is down\. Reconnecting…$/],
   ['over', 'run_over', /^The run is over\.$/],
-  ['gone', 'environment_gone', /^The environment does not answer: no answer for 1 s/],
+  ['gone', 'environment_gone', /^The environment does not answer\. Reconnecting…$/],
   ['frozen', 'robot_frozen', /^Pioneer1 does not answer\. Its readings are outdated\.$/],
   ['waiting', 'waiting', /^The run waits for Scout1, Pioneer2, Scout2 and 1 more\.$/],
   ['paused', 'paused', /^The run is paused\.$/],
@@ -47,8 +49,56 @@ test('a lost console is stated in place of every other cause, and no longer once
   page.script.isMute = false;
   await shows(page, 'robot_down');
   await page.script.socket.close({ code: 1001, reason: 'the console ends' });
-  await page.waitForFunction(() => document.querySelector('#banner-text').textContent.includes('the console ends'));
+  await page.waitForFunction(() => document.querySelector('#banner-detail').textContent === 'the console ends');
   await shows(page, 'robot_down');  // it has connected again
+  await page.context().close();
+});
+
+// One state in all parts of the page, whatever the programs do afterwards.
+for (const [state, pill, winner] of [['won', 'has won', 'Pioneer1'], ['won, programs ended', 'has won', 'Pioneer1'], ['won by another', 'run over', 'Scout1'], ['over', 'run over', '']]) {
+  test(`${state}: picture, pills, team and messages show the result`, async () => {
+    const page = await visitScripted(browser, state, { hasClock: true });
+    page.script.isSilent = true;
+    await page.clock.runFor(1500);  // without an update
+    await page.waitForFunction((pill) => document.querySelector('#mode').textContent === pill, pill);
+    await page.waitForFunction(() => document.querySelector('#status').textContent === 'Run over');
+    assert.equal(await page.evaluate(() => document.body.classList.contains('stale')), false, 'the last picture keeps its colours');
+    assert.equal(await page.locator('#team .lamp.down').count(), 0);
+    if (winner) assert.match(await page.textContent('#team li[data-robot="Pioneer1"] small'), winner === 'Pioneer1' ? /^has found the gold/ : /^(has halted|run over)$/);
+    assert.doesNotMatch(await page.textContent('#notes'), /down|no robot answers/);
+    assert.equal(await page.getAttribute('#pad', 'aria-disabled'), 'true');
+    assert.deepEqual(page.problems, []);
+    await page.context().close();
+  });
+}
+
+test('a pad that can have no effect is disabled, and Stop is not', async () => {
+  for (const state of ['waiting', 'frozen', 'gone']) {
+    const page = await visitScripted(browser, state);
+    await page.waitForSelector('#pad[aria-disabled="true"]');
+    for (const id of ['accelerate', 'turn-left', 'check-win']) assert.ok(await page.isDisabled(`#${id}`), `${state}: ${id}`);
+    assert.ok(await page.isEnabled('#stop'), state);
+    page.script.isSilent = false;
+    page.script.sendRun({ phase: 'running' });
+    page.script.sendUpdate();
+    await page.waitForSelector('#pad[aria-disabled="false"]');
+    await page.context().close();
+  }
+});
+
+test('an operator can read why a robot is down; a driver is not shown it', async () => {
+  const page = await visitScripted(browser, 'down');
+  await shows(page, 'robot_down');
+  await page.click('#banner-details');
+  assert.match(await page.textContent('#banner-detail:visible'), /^no robot answers at 127\.0\.0\.1:9001; is 'robosim robot/);
+  assert.equal(await page.getAttribute('#banner-details', 'aria-expanded'), 'true');
+  assert.match(await page.getAttribute('#team li[data-robot="Pioneer1"] small', 'title'), /^no robot answers/);
+  await page.click('#banner-details');
+  await page.waitForSelector('#banner-detail', { state: 'hidden' });
+  page.script.may_operate = false;
+  page.script.welcome();
+  await page.waitForSelector('#banner-details', { state: 'hidden' });
+  assert.equal(await page.getAttribute('#team li[data-robot="Pioneer1"] small', 'title'), 'down');
   await page.context().close();
 });
 

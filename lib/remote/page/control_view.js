@@ -1,11 +1,14 @@
 // Displays who drives, and enables what this page may do: the lock's button, the driving controls, the robot's mode.
 
+import { isRunOver, mayMove } from './banner.js';
 import { setPill } from './state_view.js';
 
 const $ = (id) => document.getElementById(id);
 
 export class ControlView {
-  // `state`: of the page, {team, update}; `hasControl()`: whether this page has the control lock
+  #cause = null;  // of the banner
+
+  // `state`: of the page, {team, run, update}; `hasControl()`: whether this page has the control lock
   constructor(state, link, drive, pad, hasControl) {
     Object.assign(this, { state, link, drive, pad, hasControl });
   }
@@ -31,6 +34,7 @@ export class ControlView {
     if (!primary) return;
     const now = this.state.update?.state;
     if (!this.link.isOpen) setPill($('mode'), 'no connection', 'bad');
+    else if (isRunOver(this.state)) setPill($('mode'), primary.activity === 'found' ? 'has won' : 'run over', primary.activity === 'found' ? 'good' : 'info');
     else if (!primary.up) setPill($('mode'), 'down', 'bad');
     else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
     else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
@@ -46,16 +50,24 @@ export class ControlView {
     else setPill($('mode'), driver ? `driven by ${driver}` : 'no driver', driver ? 'good' : 'info');
   }
 
+  // `cause`: of the banner; null for none
+  setCause(cause) {
+    if (cause === this.#cause) return;
+    this.#cause = cause;
+    this.showControls();
+  }
+
   showControls() {
     const primary = this.state.team?.robots[0];
     const may = this.hasControl() && Boolean(primary?.up && primary.is_yours);
-    const steers = may && !primary.autonomous && primary.activity === 'active';
-    for (const id of ['accelerate', 'decelerate', 'turn-left', 'turn-right', 'check-win']) $(id).disabled = !steers;
+    const steers = may && !primary.autonomous && primary.activity === 'active' && !isRunOver(this.state);
+    const moves = steers && mayMove(this.#cause);
+    for (const id of ['accelerate', 'decelerate', 'turn-left', 'turn-right', 'check-win']) $(id).disabled = !moves;
     for (const id of ['stop', 'help-stop', 'autonomous']) $(id).disabled = !may;
     $('next').disabled = !this.hasControl() || !this.state.team.robots.slice(1).some((robot) => robot.fit);
     $('autonomous').setAttribute('aria-pressed', String(Boolean(primary?.autonomous)));
-    this.drive.enable(steers);
-    this.pad.enable(steers);
+    this.drive.enable(steers);  // a robot that does not report is stopped by another gate (Drive)
+    this.pad.enable(moves);
     this.showMode();
   }
 }

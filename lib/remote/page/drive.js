@@ -1,18 +1,20 @@
 // Passes the page's inputs (keyboard, drive pad, buttons, gamepad) and the state of window and connection to Motion, and
 // sends the messages that it returns.
 
-import { heldKey, Motion } from './motion.js';
+import { heldKey, Motion, MOTION_ORDERS } from './motion.js';
 
 const TICK_MS = 50;
 const STOP_KEYS = new Set(['Space', 'Escape']);
 const ORDER_KEYS = { '+': 'accelerate', '=': 'accelerate', '-': 'decelerate', c: 'check_win' };
 
 const takesText = (element) => Boolean(element.matches?.('input:not([type="range"], [type="checkbox"]), textarea'));
+const orderOf = ({ key }) => ORDER_KEYS[key.toLowerCase()];
 const now = () => performance.now();
 
 export class Drive extends EventTarget {
   #motion = new Motion();
   #sent = -Infinity;
+  #ordering = new Set();  // held keys whose press has been an order: their repetition repeats it
   #suppressed = new Set();  // stop keys that are down: their release must not click a button
 
   // `mayDrive` returns whether this page holds the control lock, and so may at least stop the robot; `isLost` whether
@@ -112,10 +114,14 @@ export class Drive extends EventTarget {
       this.#stopKeyDown(event);
       return;
     }
-    if (event.ctrlKey || event.altKey || event.metaKey || document.querySelector('dialog[open]')) return;
-    if (takesText(event.target)) return;
+    if (event.ctrlKey || event.altKey || event.metaKey) return;
     const id = `key:${event.code}`;
     const command = heldKey(event.code);
+    if (document.querySelector('dialog[open]') || takesText(event.target)) {
+      // Commands nothing, and is not neutral: the dialog may close before the key is released.
+      if (!event.repeat && (command || MOTION_ORDERS.has(orderOf(event)))) this.hold(id, {});
+      return;
+    }
     const usesArrows = event.code.startsWith('Arrow') && event.target.matches?.('input[type="range"], [role="tab"]');
     if (command && !usesArrows) {
       event.preventDefault();
@@ -131,15 +137,18 @@ export class Drive extends EventTarget {
   }
 
   #orderKeyDown(event, id) {
-    const order = ORDER_KEYS[event.key.toLowerCase()];
+    const order = orderOf(event);
     if (!order && !event.repeat) this.dispatchEvent(new CustomEvent('key', { detail: event.key.toLowerCase() }));
     if (!order || (order === 'check_win' && event.repeat)) return;
-    if (event.repeat && !this.#motion.isHeld(id)) {
+    if (event.repeat && !(this.#ordering.has(id) && this.#motion.isHeld(id))) {
+      this.#ordering.delete(id);
       this.#send(this.#motion.find(id, now()));
       return;
     }
     this.order(order);
-    if (!event.repeat && order !== 'check_win') this.hold(id, {});
+    if (event.repeat || order === 'check_win') return;
+    this.#ordering.add(id);
+    this.hold(id, {});
   }
 
   #stopKeyDown(event) {
@@ -152,6 +161,7 @@ export class Drive extends EventTarget {
 
   #keyUp(event) {
     if (this.#suppressed.delete(event.code)) event.preventDefault();
+    this.#ordering.delete(`key:${event.code}`);
     this.release(`key:${event.code}`);
   }
 

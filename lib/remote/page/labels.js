@@ -15,9 +15,10 @@ const FAR = Array.from({ length: 16 }, (_, i) => {
   return [right, down, (1 - right) / 2, (1 - down) / 2];
 });
 
-const shortened = (name) => {
+// The name with at most `max` letters.
+export const shortened = (name, max = MAX_LETTERS) => {
   const letters = [...name];
-  return letters.length > MAX_LETTERS ? `${letters.slice(0, MAX_LETTERS - 1).join('')}…` : name;
+  return letters.length > max ? `${letters.slice(0, max - 1).join('')}…` : name;
 };
 
 const overlaps = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;

@@ -1,6 +1,6 @@
 // The console's page: connects the console's messages, the user's inputs and the parts of the page.
 
-import { standsStill } from './banner.js';
+import { bannerOf, standsStill } from './banner.js';
 import { Camera } from './camera.js';
 import { redrawOnResize } from './canvas.js';
 import { Collision } from './collision.js';
@@ -39,7 +39,7 @@ const state = { you: 0, mayOperate: false, team: null, run: UNKNOWN_RUN, robot: 
 const link = new Link(identity);
 const hasControl = () => link.isOpen && state.team?.control_lock.holder === state.you;
 const drive = new Drive(link, hasControl, () => link.isLost, () => {
-  if (standsStill(state.run, state.robot?.name)) link.freshness.expectNoUpdates(performance.now());
+  if (standsStill(state.run)) link.freshness.expectNoUpdates(performance.now());
   return link.freshness.isRobotLost(performance.now());
 });
 const view = new StateView(drive, link);
@@ -94,7 +94,10 @@ link.addEventListener('team', ({ detail: team }) => {
 });
 let lastWinner = '';
 
-link.addEventListener('run', ({ detail }) => { state.run = detail; });
+link.addEventListener('run', ({ detail }) => {
+  state.run = detail;
+  control.showControls();
+});
 
 link.addEventListener('robot', ({ detail: robot }) => {
   Object.assign(state, { robot, update: null });
@@ -120,14 +123,17 @@ link.addEventListener('robot', ({ detail: robot }) => {
 drive.addEventListener('tick', () => {
   const now = performance.now();
   const isFresh = link.freshness.isFresh(now);
-  view.show({
+  const seen = {
     ...state,
     link: { isOpen: link.isOpen, isSilent: link.freshness.isSilent(now), why: state.whyLost },
     isFresh,
     holdsLock: hasControl(),
     isSending: drive.isSending,
     mayRestart: state.mayOperate && hasControl() && state.run.may_restart,
-  });
+  };
+  const banner = bannerOf(seen);
+  view.show(seen, banner);
+  control.setCause(banner?.cause ?? null);
   recording.show(state.run.recording, link.isOpen && state.mayOperate && hasControl() && state.run.recording.may_change);
   if (wasFresh !== isFresh) control.showMode();
   wasFresh = isFresh;
@@ -156,7 +162,7 @@ link.addEventListener('answer', ({ detail: answer }) => {
   if (!drawing) drawing = requestAnimationFrame(draw);
 });
 
-link.addEventListener('note', ({ detail }) => note(detail.text, detail.warning));
+link.addEventListener('note', ({ detail }) => note(detail.text, detail.warning, state.mayOperate ? detail.detail : ''));
 link.addEventListener('vitals', ({ detail }) => members.setVitals(detail.robots));
 link.addEventListener('map', ({ detail }) => map.set(detail));
 link.addEventListener('poses', ({ detail }) => {
@@ -206,7 +212,7 @@ function draw() {
 // ---- The team, and answers ----
 
 function showMembers() {
-  members.show(state.team.robots, hasControl());
+  members.show(state.team.robots, { mayDrive: hasControl(), mayOperate: state.mayOperate });
   showColor();
 }
 
@@ -218,8 +224,8 @@ function showColor() {
   radar.color = shown.color;
 }
 
-function note(text, isWarning) {
-  notes.add(state.update ? clock(state.update.time_s) : '', text, isWarning);
+function note(text, isWarning, detail) {
+  notes.add(state.update ? clock(state.update.time_s) : '', text, isWarning, detail);
 }
 
 let answerTimer = 0;

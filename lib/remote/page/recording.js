@@ -9,15 +9,15 @@ export function textsOf({ state, file }) {
   return null;
 }
 
-// What is wrong with the recording, as a sentence; empty if nothing is.
+// What is wrong with the recording, as a sentence; empty if nothing is. The reason is in the console's message.
 export function problemOf({ problem, failure }) {
-  if (problem) return `The recording could not be changed: ${problem}`;
-  return failure ? `The recording has ended: ${failure}` : '';
+  if (problem) return 'The recording could not be changed.';
+  return failure ? 'The recording has ended early.' : '';
 }
 
 export class Recording {
   #on = false;
-  #problem = '';
+  #reason = '';
   #timer = 0;
 
   // `parts`: place, button, its label, status (announced by screen readers), problem
@@ -45,16 +45,16 @@ export class Recording {
     }
     this.button.hidden = !mayChange;
     this.button.setAttribute('aria-disabled', String(recording.is_changing));
-    this.#showProblem(problemOf(recording));
+    this.#showProblem(problemOf(recording), recording.problem || recording.failure);
   }
 
   // Each failure once, as the console sends the last one with every state of the run.
-  #showProblem(problem) {
-    if (problem === this.#problem) return;
-    this.#problem = problem;
+  #showProblem(text, reason) {
+    if (reason === this.#reason) return;
+    this.#reason = reason;
     clearTimeout(this.#timer);
-    this.problem.textContent = problem;
-    this.problem.hidden = !problem;
-    if (problem) this.#timer = setTimeout(() => { this.problem.hidden = true; }, SHOWN_MS);
+    this.problem.textContent = text;
+    this.problem.hidden = !text;
+    if (text) this.#timer = setTimeout(() => { this.problem.hidden = true; }, SHOWN_MS);
   }
 }

@@ -1,7 +1,7 @@
 // Displays the state of connection, robot and run: the banner, the head's status, outdated values, and the hint over the
 // picture. What is displayed follows from banner.js.
 
-import { bannerOf, statusOf } from './banner.js';
+import { isRunOver, statusOf } from './banner.js';
 import { PROMPT_MS } from './motion.js';
 import { clock } from './readings.js';
 
@@ -29,6 +29,7 @@ export function hintOf({ isLatched, inputs, cruiseEnds_ms }) {
 
 export class StateView {
   #dismissed = '';  // winner whose banner was closed
+  #detailed = '';  // cause of the banner whose details are shown
 
   constructor(drive, link) {
     this.drive = drive;
@@ -36,21 +37,23 @@ export class StateView {
       this.#dismissed = $('banner').dataset.winner;
     });
     $('play-again').addEventListener('click', () => link.send('play_again'));
+    $('banner-details').addEventListener('click', () => {
+      this.#detailed = this.#detailed ? '' : $('banner').dataset.cause;
+    });
   }
 
-  // `state`: see bannerOf() and statusOf(); besides {update, mayRestart}
-  show(state) {
+  // `state`: see bannerOf() and statusOf(); besides {update, mayOperate, mayRestart}; `banner`: of bannerOf()
+  show(state, banner) {
     const { text, kind } = statusOf(state);
     setPill($('status'), text, kind);
-    document.body.classList.toggle('stale', !state.isFresh || !state.link.isOpen);
-    this.#showBanner(state);
+    document.body.classList.toggle('stale', !state.link.isOpen || (!state.isFresh && !isRunOver(state)));
+    this.#showBanner(state, banner);
     const hint = state.holdsLock && state.link.isOpen ? hintOf(this.drive) : '';
     if ($('hint').textContent !== hint) $('hint').textContent = hint;
     $('hint').hidden = !hint;
   }
 
-  #showBanner(state) {
-    const banner = bannerOf(state);
+  #showBanner(state, banner) {
     const winner = banner?.cause === 'won' ? state.team.winner : '';
     if (!winner) this.#dismissed = '';
     const isShown = Boolean(banner) && !(winner && winner === this.#dismissed);
@@ -68,5 +71,16 @@ export class StateView {
     const isOver = banner.cause === 'won' || banner.cause === 'run_over';
     $('play-again').hidden = !(isOver && state.mayRestart);
     $('play-again').disabled = state.run.is_restarting;
+    this.#showDetail(banner, state.mayOperate);
+  }
+
+  // The details are for the operator: a driver can do nothing about them.
+  #showDetail({ cause, detail }, mayOperate) {
+    const mayShow = mayOperate && Boolean(detail);
+    if (this.#detailed !== cause || !mayShow) this.#detailed = '';
+    $('banner-details').hidden = !mayShow;
+    $('banner-details').setAttribute('aria-expanded', String(Boolean(this.#detailed)));
+    $('banner-detail').hidden = !this.#detailed;
+    if ($('banner-detail').textContent !== detail) $('banner-detail').textContent = detail;
   }
 }

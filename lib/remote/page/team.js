@@ -2,8 +2,9 @@
 // neither the focus nor the scroll position changes with the team.
 
 function description(robot) {
-  if (!robot.up) return robot.problem || 'not connected';
+  if (!robot.up && !robot.over) return 'down';
   if (robot.activity === 'found') return 'has found the gold, and halted';
+  if (robot.over) return 'run over';
   if (robot.activity === 'halted') return 'has halted';
   if (robot.driver && !robot.is_yours) return `driven by ${robot.driver}`;
   if (robot.autonomous) return 'autonomous';
@@ -11,6 +12,7 @@ function description(robot) {
 }
 
 function lampOf(robot) {
+  if (robot.over) return 'halted';
   if (!robot.up) return 'down';
   return robot.activity === 'active' ? 'up' : 'halted';
 }
@@ -53,16 +55,16 @@ class Row {
     this.item.append(this.swatch, text, this.button, this.mark);
   }
 
-  show(robot, isPrimary, mayDrive) {
+  show(robot, { isPrimary, mayDrive, mayOperate }) {
     set(this.item, 'className', isPrimary ? 'primary' : '');
     set(this.swatch, 'className', `swatch lamp ${lampOf(robot)}`);
     if (robot.color) this.swatch.style.background = robot.color;
     set(this.state, 'textContent', description(robot));
-    set(this.state, 'title', this.state.textContent);
+    set(this.state, 'title', (mayOperate && !robot.over && robot.problem) || this.state.textContent);
     set(this.button, 'hidden', isPrimary);
     set(this.button, 'disabled', !mayDrive || !robot.fit);
     set(this.mark, 'hidden', !isPrimary);
-    if (!robot.up) this.setVitals({});
+    if (!robot.up && !robot.over) this.setVitals({});
   }
 
   // `heat`: null for a robot without a heat sensor, and as long as nothing was received
@@ -91,8 +93,8 @@ export class Team {
     filter.addEventListener('input', () => this.#filter());
   }
 
-  // `mayDrive`: whether the buttons are enabled
-  show(robots, mayDrive) {
+  // `mayDrive`: whether the buttons are enabled; `mayOperate`: whether titles contain why a robot is not connected
+  show(robots, { mayDrive, mayOperate }) {
     const rows = robots.map((robot, i) => {
       let row = this.#rows.get(robot.name);
       if (!row) {
@@ -100,7 +102,7 @@ export class Team {
         row.setVitals({});
         this.#rows.set(robot.name, row);
       }
-      row.show(robot, i === 0, mayDrive);
+      row.show(robot, { isPrimary: i === 0, mayDrive, mayOperate });
       return row;
     });
     const names = new Set(robots.map(({ name }) => name));

@@ -1,5 +1,7 @@
 // The referee's answer to CheckWin, on the picture. A win has a banner of its own.
 
+import { shortened } from './labels.js';
+
 const SHOWN_MS = 5000;
 const MAX_LETTERS = 40;
 
@@ -21,8 +23,7 @@ export class Verdict {
     const isNew = this.#refusals !== null && refusals > this.#refusals;
     this.#refusals = refusals;
     if (!isNew) return;
-    const short = name.length > MAX_LETTERS ? `${name.slice(0, MAX_LETTERS)}…` : name;
-    this.text.textContent = `Not yet: ${short} is too far from the gold.`;
+    this.text.textContent = `Not yet: ${shortened(name, MAX_LETTERS)} is too far from the gold.`;
     this.text.hidden = false;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#hide(), SHOWN_MS);
