@@ -22,7 +22,7 @@ for (const [state, cause, text] of [
   ['won', 'won', /^Pioneer1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
   ['won by another', 'won', /^Scout1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
   ['won, programs ended', 'won', /^Pioneer1 has won after 2:00\.\d and 48\.2 m\. All robots have halted\.$/],
-  ['down, long names', 'robot_down', /^0_The_robot_with_the_lon… is down\. Reconnecting…$/],
+  ['down, long names', 'robot_down', /^0_The_robot_with_the_lo… is down\. Reconnecting…$/],
   ['over', 'run_over', /^The run is over\.$/],
   ['gone', 'environment_gone', /^The environment does not answer\. Reconnecting…$/],
   ['frozen', 'robot_frozen', /^Pioneer1 does not answer\. Its readings are outdated\.$/],
