@@ -125,7 +125,7 @@ class Script {
       robots: this.names.map((name, i) => ({
         name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !this.is_over && !(this.is_down && i === 0) && i % 7 !== 5, over: this.is_over,
         problem: this.is_over ? 'the run is over' : (this.is_down && i === 0) || i % 7 === 5 ? `no robot answers at 127.0.0.1:${9001 + i}; is 'robosim robot ${name} --remote-port …' running?` : '',
-        fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (i ? 'halted' : 'found') : 'active', why_stopped: '',
+        fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (name === this.winner ? 'found' : 'halted') : 'active', why_stopped: '',
       })),
     });
     const isUp = (_, i) => i % 7 !== 5;
