@@ -277,7 +277,8 @@ TEST_F(ConsoleSessionTest, KeepsTheControlLockWhenThePrimaryIsLost) {
   console.row.front().news.problem = "the run is over";
   console.update();
   EXPECT_TRUE(received(
-      ada, R"("name":"Ann","address":"127.0.0.1:9","model":"fake","up":false,"over":true,"problem":"the run is over")"));
+      ada,
+      R"("name":"Ann","address":"127.0.0.1:9","model":"fake","up":false,"over":true,"problem":"the run is over")"));
   EXPECT_EQ(holder(), ada);
   console.send(ada, R"({"type":"switch"})");
   EXPECT_EQ(console.primary(), "Bob");
@@ -319,7 +320,8 @@ TEST_F(ConsoleSessionTest, StartsTheNextRunOnceAfterTheEndOfTheCurrentOne) {
   console.run.restart_problem = "the world is invalid";
   console.update();
   for (const PageId page : {ada, bea}) {
-    EXPECT_TRUE(received(page, R"("The next run could not be started.","warning":true,"detail":"the world is invalid")"));
+    EXPECT_TRUE(
+        received(page, R"("The next run could not be started.","warning":true,"detail":"the world is invalid")"));
   }
 }
 
