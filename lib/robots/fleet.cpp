@@ -7,10 +7,12 @@
 
 #include <mrpt/math/wrap2pi.h>
 
+#include "base/log.h"
 #include "robots/robot_colors.h"
 #include "robots/robot_model_cache.h"
 #include "robots/scatter.h"
 #include "robots/start_check.h"
+#include "robots/start_places.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -159,13 +161,30 @@ bool hasCamera(const Fleet& fleet) {
   });
 }
 
+LoadedWorld placedWorld(World world, const std::string& world_file, const RobotTypes& types,
+                        const ControllerCheck& check_controller, std::uint64_t seed, ErrorList& errors,
+                        std::vector<std::string>* warnings) {
+  LoadedWorld placed{std::move(world), {}};
+  placeScattered(placed.world, world_file, types, seed, errors);
+  const ErrorList before = errors;
+  placed.fleet = buildFleet(placed.world, world_file, types, check_controller, errors);
+  const bool has_models = placed.fleet.robots.size() == placed.world.robots.size();
+  if (errors.empty() || !before.empty() || !has_models || !hasRobotsAtMapStarts(placed.world)) return placed;
+  errors = before;
+  const auto moved = moveFromBlockedStarts(placed.world, world_file, types, errors);
+  if (warnings) *warnings = moved;
+  for (const auto& warning : moved) {
+    if (!warnings) logWarning("", warning);
+  }
+  placed.fleet = buildFleet(placed.world, world_file, types, check_controller, errors);
+  return placed;
+}
+
 LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller, std::uint64_t seed) {
   ErrorList errors;
-  LoadedWorld loaded;
-  loaded.world = readWorld(file, errors);
+  World world = readWorld(file, errors);
   const RobotTypes types = robotTypesIn(robotTypeFolders(file));
-  placeScattered(loaded.world, file.string(), types, seed, errors);
-  loaded.fleet = buildFleet(loaded.world, file.string(), types, check_controller, errors);
+  LoadedWorld loaded = placedWorld(std::move(world), file.string(), types, check_controller, seed, errors);
   errors.throwIfAny();
   return loaded;
 }

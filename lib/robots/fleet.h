@@ -61,7 +61,14 @@ struct LoadedWorld {
   Fleet fleet;
 };
 
-/// Reads a world file, places what it scatters, and builds its fleet.
+/// Completes a world that was read: places what it scatters, builds its fleet, and moves robots from blocked start
+/// poses of maps (robots/start_places.h).
+/// @param world_file names the file in errors @param warnings receives what was moved; null: it is logged
+LoadedWorld placedWorld(World world, const std::string& world_file, const RobotTypes& types,
+                        const ControllerCheck& check_controller, std::uint64_t seed, ErrorList& errors,
+                        std::vector<std::string>* warnings = nullptr);
+
+/// Reads a world file and completes it by placedWorld().
 /// @param seed of the run
 /// @throws ConfigError with every fault found.
 LoadedWorld loadWorld(const std::filesystem::path& file, const ControllerCheck& check_controller,

@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "base/nearest_name.h"
 #include "base/printable_text.h"
 #include "robots/robot_type_folders_text.h"
 #include "robots/robot_type_includes.h"
@@ -63,10 +64,14 @@ std::shared_ptr<const RobotModel> RobotModelCache::modelFor(const RobotPlacement
 const RobotModelCache::Type* RobotModelCache::typeOf(const RobotPlacement& robot) {
   const auto found = types_.find(robot.model);
   if (found == types_.end()) {
+    // The types of a world that was read completely are those that it uses; others lie in the same folders.
+    RobotTypes all = robotTypesIn(robotTypeFolders(world_file_));
     std::vector<std::string> known;
-    for (const auto& [name, type] : types_) known.push_back(name);
+    for (const auto& [name, type] : types_) all.try_emplace(name);
+    for (const auto& [name, type] : all) known.push_back(name);
     errors_.add(world_.fileOf(robot.line, world_file_), robot.line.number,
-                "robot '" + quotable(robot.name) + "': there is no robot type '" + quotable(robot.model) + "'; " +
+                "robot '" + quotable(robot.name) + "': there is no robot type '" + quotable(robot.model) + "'" +
+                    didYouMean(robot.model, known) + "; " +
                     (known.empty() ? "none is known" : "known are: " + listed(known)) + "; " + robotTypeFoldersText());
     return nullptr;
   }

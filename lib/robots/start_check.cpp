@@ -10,6 +10,7 @@
 
 #include "base/xml_element.h"
 #include "geometry/scene.h"
+#include "world/map_reader.h"
 
 namespace robosim {
 namespace {
@@ -120,7 +121,8 @@ void checkStarts(const World& world, const std::vector<RobotStart>& robots, cons
     };
     const auto line_text = [&](const SourceLine& line) { return lineText(world, line, robot.line, world_file); };
     if (!world.bounds.covers(boundsOf(robot.disc))) {
-      report("stands outside the surface, or reaches over its edge; move it inside, or widen the surface's <size>");
+      report(std::string("stands outside the surface, or reaches over its edge; move it inside") +
+             (isMapFile(world_file) ? "" : ", or widen the surface's <size>"));
       continue;
     }
     const WorldMap* reported = nullptr;

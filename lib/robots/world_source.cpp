@@ -2,7 +2,6 @@
 
 #include "base/digest.h"
 #include "robots/robot_type_includes.h"
-#include "robots/scatter.h"
 #include "world/caching_file_provider.h"
 #include "world/world_file.h"
 
@@ -58,10 +57,9 @@ WorldSource worldSourceOf(std::string text, const std::filesystem::path& file) {
 
 LoadedWorld loadWorld(const WorldSource& source, const ControllerCheck& check_controller) {
   ErrorList errors;
-  LoadedWorld loaded;
-  loaded.world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
-  placeScattered(loaded.world, source.file, source.robot_types, source.seed.value_or(kDefaultSeed), errors);
-  loaded.fleet = buildFleet(loaded.world, source.file, source.robot_types, check_controller, errors);
+  World world = parseWorld(source.text, source.file, providerOf(source.file, source.files), errors);
+  LoadedWorld loaded = placedWorld(std::move(world), source.file, source.robot_types, check_controller,
+                                   source.seed.value_or(kDefaultSeed), errors);
   errors.throwIfAny();
   return loaded;
 }

@@ -1,0 +1,61 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <mrpt/math/TPose2D.h>
+
+#include "base/random.h"
+#include "robots/fleet.h"
+#include "robots/free_space.h"
+
+namespace robosim {
+
+/// The positions in the largest region that is known to be free at which a robot of a kind is clear of all others.
+class FreePlaces {
+ public:
+  /// @param others robots that are in the world already
+  FreePlaces(const World& world, const Fleet& others, FleetRobot kind);
+
+  /// Takes a random place. @return nullopt when there is none
+  std::optional<mrpt::math::TPoint2D> takeRandom(Rng& rng);
+  /// Takes the place nearest to a position. @return nullopt when there is none
+  std::optional<mrpt::math::TPoint2D> takeNearest(const mrpt::math::TPoint2D& to);
+
+ private:
+  bool take(const mrpt::math::TPoint2D& place);
+
+  FleetRobot kind_;
+  FreeSpace free_;
+  std::vector<std::size_t> cells_;
+  std::vector<Circle> taken_;
+};
+
+/// A start that findStart() has found.
+struct FoundStart {
+  mrpt::math::TPose2D world_from_robot;
+  std::string warning = {};  ///< why the robot does not stand at the first start; empty if it does
+};
+
+/// The rule by which each command places a robot without a place of its own: at the first of some starts, such as the
+/// homes of a map, where it is clear of walls and robots; else at the free place nearest to the first start, with its
+/// heading.
+/// @param world with the robots placed so far; unchanged afterwards @param starts at least one
+/// @return nullopt when there is no room
+/// @throws ConfigError for faulty robots in the world, an unknown type, and a world too large for FreeSpace
+std::optional<FoundStart> findStart(World& world, const std::string& world_file, const RobotTypes& types,
+                                    const RobotPlacement& robot, const std::vector<mrpt::math::TPose2D>& starts);
+
+/// The starts that the maps of a world give, in the world frame, in their order.
+std::vector<mrpt::math::TPose2D> startsOfMaps(const World& world);
+
+/// Whether a robot stands at a start that a map gives.
+bool hasRobotsAtMapStarts(const World& world);
+
+/// Moves the robots that stand at the starts of maps and overlap something, by findStart(). Where there is no room, the
+/// robot of a bare map is left out; another one is an error.
+/// @return "file:line: what was moved"
+std::vector<std::string> moveFromBlockedStarts(World& world, const std::string& world_file, const RobotTypes& types,
+                                               ErrorList& errors);
+
+}  // namespace robosim
