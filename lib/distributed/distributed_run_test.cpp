@@ -147,7 +147,6 @@ class FailingSensor : public Sensor {
     info_.quantities = {{"current", "A"}};
   }
   const SensorInfo& info() const override { return info_; }
-  bool sensesInHostProcess() const override { return true; }
   bool usesNeighbours() const override { return false; }
   double robotReach(double) const override { return 0; }
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t,

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -219,5 +220,11 @@ using Measurement = std::variant<Echoes, Scalar, Contacts, Odometry, Image, Blob
 
 /// Initial measurement of a sensor, of its kind and size.
 Measurement blankMeasurement(const SensorInfo& sensor);
+
+/// Whether a sensor's kind of measurement is Echoes.
+inline bool measuresEchoes(const SensorInfo& sensor) {
+  const auto& kinds = Description<Echoes>::kinds;
+  return std::find(kinds.begin(), kinds.end(), sensor.kind) != kinds.end();
+}
 
 }  // namespace robosim

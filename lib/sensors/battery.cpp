@@ -16,7 +16,6 @@ class Battery : public Sensor {
   const SensorInfo& info() const override { return info_; }
   Measurement blank() const override { return Scalar{options_.full_v}; }
   bool isNoisy() const override { return options_.load.noise_std_v > 0; }
-  bool sensesInHostProcess() const override { return true; }
   double robotReach(double) const override { return 0; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,

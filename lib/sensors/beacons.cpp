@@ -22,8 +22,7 @@ class Beacons : public Sensor {
   explicit Beacons(const BeaconsOptions& options) : options_(options) {}
   const SensorInfo& info() const override { return options_.info; }
   bool isNoisy() const override { return options_.noise.on; }
-  bool sensesInHostProcess() const override { return true; }  // its measurement is not Echoes
-  bool usesNeighbours() const override { return false; }      // its rays end at the beacons, up to 1 km away
+  bool usesNeighbours() const override { return false; }  // its rays end at the beacons, up to 1 km away
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {
     for (const auto robot : robots) {

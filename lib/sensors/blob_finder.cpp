@@ -21,7 +21,6 @@ class BlobFinder : public Sensor {
   }
 
   const SensorInfo& info() const override { return info_; }
-  bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

@@ -31,7 +31,6 @@ class Bumper : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return options_.chatter > 0; }
-  bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
   double robotReach(double) const override { return options_.robot_radius_m + options_.travel_m; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,

@@ -19,7 +19,6 @@ class Camera : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return view_.errors.isRandom(); }
-  bool sensesInHostProcess() const override { return true; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

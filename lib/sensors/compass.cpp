@@ -16,7 +16,6 @@ class Compass : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return options_.noise_std_rad > 0; }
-  bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
   double robotReach(double) const override { return 0; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,

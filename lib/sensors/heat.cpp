@@ -18,8 +18,7 @@ class Heat : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return options_.noise_std > 0; }
-  bool sensesInHostProcess() const override { return true; }  // cheaper to compute than to transmit
-  double robotReach(double) const override { return 0; }      // but that of hot robots is unlimited
+  double robotReach(double) const override { return 0; }  // but that of hot robots is unlimited
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<Readings> readings) const override {

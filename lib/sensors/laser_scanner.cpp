@@ -29,7 +29,7 @@ class LaserScanner : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return errors_.isRandom() || timing_.latency_std_s > 0; }
-  bool sensesInHostProcess() const override { return timing_.times.rate_hz > 0; }
+  bool needsHostProcess() const override { return timing_.times.rate_hz > 0; }
   double robotReach(double speed_max_mps) const override {
     // A scan's age that is distributed normally has no limit.
     if (timing_.latency_std_s > 0) return Sensor::robotReach(speed_max_mps);

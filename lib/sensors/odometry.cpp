@@ -27,7 +27,6 @@ class WheelOdometry : public Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return options_.noise.on; }
-  bool sensesInHostProcess() const override { return true; }
   double robotReach(double) const override { return 0; }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,

@@ -38,8 +38,7 @@ class RangeAndBearing : public Sensor {
   const SensorInfo& info() const override { return options_.info; }
   bool isNoisy() const override { return options_.noise.on; }
   std::size_t rayCount() const override { return options_.count; }
-  bool sensesInHostProcess() const override { return true; }  // its measurement is not Echoes
-  bool usesNeighbours() const override { return false; }      // those are stationary solids
+  bool usesNeighbours() const override { return false; }  // those are stationary solids
   double robotReach(double) const override { return options_.info.range_max_m; }
 
   Measurement blank() const override {

@@ -84,11 +84,13 @@ class Sensor {
   virtual std::size_t rayCount() const { return info().beams.size(); }
   /// Whether its measurements depend on the run's seed.
   virtual bool isNoisy() const { return false; }
-  /// Whether sense() must run in the process that hosts the run, after all other sensors, because its
-  /// measurement depends on the last step's (odometry, battery), on another sensor's (blob finder) or on an ImageSource
-  /// (camera), or is cheaper to compute than to transmit (compass, heat, bumper). Any other sensor measures Echoes,
-  /// which a replica may compute.
-  virtual bool sensesInHostProcess() const { return false; }
+  /// Whether sense() runs in the process that hosts the run, after all sensors of which replicas may compute the
+  /// measurements: those of Echoes without needsHostProcess(). All other kinds are cheaper to compute than to transmit,
+  /// or depend on the step before, on other sensors or on an ImageSource.
+  bool sensesInHostProcess() const { return !measuresEchoes(info()) || needsHostProcess(); }
+  /// Of a sensor of Echoes: whether its measurement depends on more than the present state of the world, such as its
+  /// measurement in the step before. Without effect for other kinds.
+  virtual bool needsHostProcess() const { return false; }
   /// Whether sense() casts its beams with the robot as owner, whose neighbours then cover the beams.
   virtual bool usesNeighbours() const { return true; }
   /// Distance from its robot's centre beyond which no part of another robot affects its measurement [m]; infinite if

@@ -88,7 +88,7 @@ class Sonar : public Sensor {
   bool isNoisy() const override { return options_.noise.range.on; }
   std::size_t rayCount() const override { return options_.rayCount(); }
   // The readings of sonars that do not fire are those of the last step, which replicas do not have.
-  bool sensesInHostProcess() const override { return !options_.firing.isSimultaneous(); }
+  bool needsHostProcess() const override { return !options_.firing.isSimultaneous(); }
   double robotReach(double) const override { return beamReach(info_); }
 
   void sense(const Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,

@@ -21,7 +21,6 @@ struct FailingSensor : robosim::Sensor {
     info_.quantities = {{"current", "A"}};
   }
   const robosim::SensorInfo& info() const override { return info_; }
-  bool sensesInHostProcess() const override { return true; }
   double robotReach(double) const override { return 0; }
   void sense(const robosim::Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<robosim::Readings> readings) const override {

@@ -39,8 +39,7 @@ class Anemometer : public robosim::Sensor {
 
   const SensorInfo& info() const override { return info_; }
   bool isNoisy() const override { return options_.noise_std_mps > 0; }
-  bool sensesInHostProcess() const override { return true; }  // it needs the last step's motion
-  double robotReach(double) const override { return 0; }      // other robots do not affect it
+  double robotReach(double) const override { return 0; }  // other robots do not affect it
 
   void sense(const robosim::Snapshot& now, std::span<const std::uint32_t> robots, std::size_t slot,
              std::span<robosim::Readings> readings) const override {
