@@ -40,21 +40,23 @@ bool isUtf16(std::string_view text) {
 }
 
 /// Limits the number of elements, each of which needs a few hundred bytes in memory, and of attributes of an element,
-/// which the parser compares in pairs. Both are counted before parsing: '<', and the quotation marks between two of
-/// them.
+/// which the parser compares in pairs. Both are counted before parsing: each '<' that does not begin an end tag, a
+/// declaration, a comment or an instruction, and the quotation marks between two '<'.
 void refuseBloated(const std::string& text, const std::string& file) {
-  constexpr std::size_t max_tags = 8'000'000;
+  constexpr std::size_t max_elements = 4'000'000;
   constexpr std::size_t max_quotes = 2'000;
-  std::size_t tags = 0, quotes = 0;
+  std::size_t elements = 0, quotes = 0;
   int line = 1;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
     if (c == '\n') ++line;
     if (c == '"' || c == '\'') ++quotes;
     if (c == '<') {
-      ++tags;
+      const char next = i + 1 < text.size() ? text[i + 1] : '\0';
+      if (next != '/' && next != '!' && next != '?') ++elements;
       quotes = 0;
     }
-    if (tags > max_tags) throw at(file, line, "more than 4 million elements; split the file");
+    if (elements > max_elements) throw at(file, line, "more than 4 million elements; split the file");
     if (quotes > max_quotes) throw at(file, line, "an element with more than 1000 attributes; is this a world file?");
   }
 }

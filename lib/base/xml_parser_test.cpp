@@ -97,8 +97,10 @@ TEST(XmlParser, RejectsTooDeepOrTooLargeDocuments) {
   const std::string too_deep = "a.xml:1: elements lie more than 98 deep; fix the file here or just before";
   EXPECT_EQ(errorOfXml(repeated("<a>", 99) + repeated("</a>", 99)), too_deep);
   EXPECT_EQ(errorOfXml(repeated("<a>", 1000000)), too_deep);
-  EXPECT_EQ(errorOfXml("<a>\n" + repeated("<b/>", 8000000) + "</a>"),
-            "a.xml:2: more than 4 million elements; split the file");
+  const std::string too_large = "a.xml:2: more than 4 million elements; split the file";
+  EXPECT_EQ(errorOfXml("<a>\n" + repeated("<b/>", 4000000) + "</a>"), too_large);
+  EXPECT_EQ(errorOfXml("<a>\n" + repeated("<b></b>", 4000000) + "</a>"), too_large);
+  EXPECT_EQ(errorOfXml("<a>\n" + repeated("<!-->-->", 4000001) + "</a>"), "none") << "comments are no elements";
   std::string attributes;
   for (int i = 0; i < 1001; ++i) attributes += " x" + std::to_string(i) + "=''";
   EXPECT_EQ(errorOfXml("<a" + attributes + "/>"),

@@ -20,6 +20,8 @@ class Identity {
  public:
   /// Name of the token, for logs; "anyone" when no token is required.
   const std::string& name() const { return name_; }
+  /// Whether two clients have sent the same token, or none is required of either.
+  bool hasTokenOf(const Identity& other) const { return token_hash_ == other.token_hash_; }
 
  private:
   friend class Access;

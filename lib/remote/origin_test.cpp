@@ -26,6 +26,16 @@ TEST(Origin, RejectsPagesOfOtherOrigins) {
   EXPECT_FALSE(isSameOrigin("http://", "", kHere));
 }
 
+TEST(Origin, RejectsAHostThatIsNoHostAndPort) {
+  for (const char* host :
+       {"localhost:8080@evil.com", "localhost@evil.com", "user@localhost:8080", "localhost:8080:8080",
+        "localhost:", "localhost:80a", "localhost:8080/", "localhost:8080?x", "localhost:8080#x", "local host:8080",
+        ":8080", "[::1:8080", "[::1]8080", "[localhost]:8080", "[]:8080", "127.0.0.1\t:8080"}) {
+    EXPECT_FALSE(isSameOrigin("http://" + std::string(host), host, kHere)) << host;
+    EXPECT_FALSE(isSameOrigin("https://" + std::string(host), host, "0.0.0.0:8080")) << host;
+  }
+}
+
 TEST(Origin, RejectsHostNamesThatWereReboundToThisMachine) {
   EXPECT_FALSE(isSameOrigin("http://evil.example:8080", "evil.example:8080", kHere));
   EXPECT_TRUE(isSameOrigin("http://sim.example.org:8080", "sim.example.org:8080", "0.0.0.0:8080"));

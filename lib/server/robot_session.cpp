@@ -80,8 +80,9 @@ void RobotSession::reset() {
   late_ = 0;
 }
 
-bool RobotSession::isSameProcess(const Stream& stream, const v1::RobotsHello& hello) {
-  return hello.process().size() >= kProcessIdBytes && stream.process == hello.process();
+bool RobotSession::isSameProcess(const Stream& before, const Stream& now, const v1::RobotsHello& hello) {
+  return hello.process().size() >= kProcessIdBytes && before.process == hello.process() &&
+         before.client().hasTokenOf(now.client());
 }
 
 void RobotSession::hello(Stream& stream, const v1::DriveRequest& message) {
@@ -95,7 +96,7 @@ void RobotSession::hello(Stream& stream, const v1::DriveRequest& message) {
   std::vector<std::size_t> robots = resolveRobots(hello, *serving_.run_info);
   for (const auto robot : robots) {
     Stream* const other = driver_of_[robot];
-    if (other && isSameProcess(*other, hello)) {
+    if (other && isSameProcess(*other, stream, hello)) {
       other->disconnect(errorStatus(v1::ERROR_REASON_CONNECTION_REPLACED, "its process has connected again"));
     } else if (other) {
       throw WireError("robot " + inQuotes(serving_.run_info->robot_names[robot]) +

@@ -66,7 +66,8 @@ class RobotSession final : public v1::Robots::WithRawMethod_Drive<v1::Robots::Se
     std::uint64_t messages_dropped = 0;  ///< by the whole process, in the answer of its first robot
   };
   static LeftAnswer answerOf(const Stream& stream, std::size_t i);
-  static bool isSameProcess(const Stream& stream, const v1::RobotsHello& hello);
+  /// Whether the process of an earlier call has connected again: same identifier, and same token.
+  static bool isSameProcess(const Stream& before, const Stream& now, const v1::RobotsHello& hello);
   void hello(Stream& stream, const v1::DriveRequest& message);
   void answer(Stream& stream, const v1::DriveRequest& message);
   void leave(Stream& stream);

@@ -149,8 +149,10 @@ struct BareProcess {
               const std::vector<std::string>& robots = {"Scout1"})
       : BareProcess(v1::Robots::NewStub(connect(world.connectOptions())), process, run, robots) {}
   BareProcess(std::shared_ptr<v1::Robots::Stub> over, const std::string& process, const std::string& run,
-              const std::vector<std::string>& robots)
-      : stub(std::move(over)), stream(stub->Drive(&context)) {
+              const std::vector<std::string>& robots, const std::string& token = "")
+      : stub(std::move(over)) {
+    attachToken(context, {.token = token});
+    stream = stub->Drive(&context);
     v1::DriveRequest first;
     first.mutable_hello()->set_protocol(kProtocolVersion);
     for (const auto& name : robots) first.mutable_hello()->add_names(name);
@@ -184,6 +186,25 @@ TEST(Reconnection, ReplacesAnUndetectedLostConnectionOfTheSameProcess) {
     EXPECT_FALSE(foreign.is_welcome);
     EXPECT_EQ(foreign.stream->Finish().error_code(), grpc::StatusCode::ALREADY_EXISTS);
   }
+}
+
+TEST(Reconnection, DoesNotReplaceTheConnectionOfAProcessWithAnotherToken) {
+  const std::string process(kProcessIdBytes, 'p');
+  const std::string token = "robots-0123456789ab", other_token = "master-0123456789ab";
+  ServedWorld::Options options = robotsElsewhere(OnLostRobot::wait);
+  options.server.access = Access::parse(token + " robot Scout1\n" + other_token + " operator\n", "tokens");
+  ServedWorld world(options);
+  const auto connectAs = [&](const std::string& with_token, const std::string& run) {
+    return std::make_unique<BareProcess>(v1::Robots::NewStub(connect(world.connectOptions())), process, run,
+                                         std::vector<std::string>{"Scout1"}, with_token);
+  };
+  const auto first = connectAs(token, "");
+  ASSERT_TRUE(first->is_welcome);
+  const std::string run = first->welcome.welcome().run();
+  const auto foreign = connectAs(other_token, run);
+  EXPECT_FALSE(foreign->is_welcome);
+  EXPECT_EQ(foreign->stream->Finish().error_code(), grpc::StatusCode::ALREADY_EXISTS);
+  EXPECT_TRUE(connectAs(token, run)->is_welcome);
 }
 
 TEST(Reconnection, DoesNotReplaceTheConnectionOfAProcessWithoutAnId) {

@@ -39,7 +39,8 @@ export class Link extends EventTarget {
     this.#socket = socket;
     this.#received = 0;
     socket.onopen = () => socket.send(JSON.stringify({ type: 'hello', protocol: 1, ...this.hello() }));
-    socket.onmessage = (event) => this.#receive(event.data);
+    // Messages of a socket that another has replaced may still be queued.
+    socket.onmessage = (event) => { if (socket === this.#socket) this.#receive(event.data); };
     socket.onclose = (event) => this.#handleClose(socket, event);
   }
 
