@@ -18,7 +18,7 @@ class CMakeBuild(build_ext):
         build = SOURCE / "build" / "wheel"
         target = pathlib.Path(self.build_lib).resolve()
         subprocess.run(["cmake", "-S", SOURCE, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release",
-                        "-DCMAKE_CXX_FLAGS_RELEASE=-O3", "-DCMAKE_UNITY_BUILD=ON", "-DROBOSIM_PYTHON_DIR=.",
+                        "-DCMAKE_CXX_FLAGS_RELEASE=-O3", "-DCMAKE_UNITY_BUILD=ON", "-DROBOSIM_PYTHON_FOLDER=.",
                         f"-DPython_EXECUTABLE={sys.executable}"], check=True)
         subprocess.run(["cmake", "--build", build, "--target", "robosim_python"], check=True)
         subprocess.run(["cmake", "--install", build, "--component", "robosim-wheel", "--prefix", target], check=True)

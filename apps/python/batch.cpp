@@ -14,7 +14,9 @@
 #include "generated_world.h"
 #include "learning/environment_batch.h"
 #include "python_errors.h"
+#include "python_released.h"
 #include "python_world.h"
+#include "whole_number.h"
 
 namespace robosim {
 namespace {
@@ -41,7 +43,7 @@ class PythonBatch {
     }
     const std::unique_ptr<std::atomic<bool>, void (*)(std::atomic<bool>*)> end(&is_used_,
                                                                                [](auto* used) { *used = false; });
-    const py::gil_scoped_release no_python;
+    const PythonReleased no_python;
     use(batch_);
   }
 
@@ -85,6 +87,27 @@ py::array_t<std::uint64_t> worldSeedsOf(const PythonBatch& of) {
     seeds.mutable_at(i) = of.batch().worldSeed(static_cast<std::size_t>(i));
   }
   return seeds;
+}
+
+/// Steps since the beginning of each environment's episode: int64, shape (num_envs,).
+py::array_t<std::int64_t> stepsOf(const PythonBatch& of) {
+  py::array_t<std::int64_t> steps(of.environments());
+  std::int64_t* out = steps.mutable_data();
+  for (py::ssize_t i = 0; i < of.environments(); ++i) {
+    out[i] = static_cast<std::int64_t>(of.batch().environment(static_cast<std::size_t>(i)).state().time.step);
+  }
+  return steps;
+}
+
+/// Name of the winner of each environment: object, shape (num_envs,); None without one.
+py::array winnersOf(const PythonBatch& of) {
+  py::list winners;
+  for (py::ssize_t i = 0; i < of.environments(); ++i) {
+    const Environment& environment = of.batch().environment(static_cast<std::size_t>(i));
+    const auto& winner = environment.state().winner;
+    winners.append(winner ? py::object(toPython(environment.robotNames()[*winner])) : py::none());
+  }
+  return py::module_::import("numpy").attr("array")(winners, py::arg("dtype") = "object");
 }
 
 py::array_t<float> boundsOf(const PythonBatch& of, std::vector<float> ObservationPart::*bound) {
@@ -165,7 +188,7 @@ void bindBatch(py::module_& module) {
                          .has_random_starts = random_starts,
                          .threads = threads,
                          .seed = seed};
-    const py::gil_scoped_release no_python;
+    const PythonReleased no_python;
     if (const auto* given = std::get_if<std::vector<std::shared_ptr<PythonWorld>>>(&worlds)) {
       return makeBatch(*given, std::move(options));
     }
@@ -184,8 +207,10 @@ void bindBatch(py::module_& module) {
       .def_property_readonly("low", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::low); })
       .def_property_readonly("high", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::high); })
       .def_property_readonly("world_seeds", worldSeedsOf)
+      .def_property_readonly("steps", stepsOf)
+      .def_property_readonly("winners", winnersOf)
       .def("set_seed",
-           [](PythonBatch& of, std::size_t environment, std::uint64_t seed) {
+           [](PythonBatch& of, std::size_t environment, Seed seed) {
              of.exclusively([&](EnvironmentBatch& batch) { batch.setSeed(environment, seed); });
            })
       .def("reset", reset, py::arg("observations"), py::arg("mask") = py::none())

@@ -9,6 +9,7 @@
 #include "base/error_list.h"
 #include "generation/generators.h"
 #include "python_errors.h"
+#include "python_released.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -98,8 +99,8 @@ void bindGenerator(py::module_& module) {
       module, "WorldGenerator",
       "Random worlds that differ in their seed only. A VectorEnv or ParallelEnv takes a new one for each episode.\n\n"
       "The arguments are those of World.generate().")
-      .def(py::init([](std::string kind, int robots, std::vector<std::string> types, std::string controller, bool gold,
-                       const py::kwargs& options) {
+      .def(py::init([](std::string kind, WholeNumber<"robots", int> robots, std::vector<std::string> types,
+                       std::string controller, bool gold, const py::kwargs& options) {
              auto made = std::make_shared<PythonGenerator>(
                  std::move(kind), teamOf(robots, std::move(types), std::move(controller), gold), options);
              made->forEpisodes();  // reports faults
@@ -107,17 +108,22 @@ void bindGenerator(py::module_& module) {
            }),
            py::arg("kind"), py::kw_only(), py::arg("robots") = 1, py::arg("types") = kGeneratedTypes,
            py::arg("controller") = "", py::arg("gold") = true)
-      .def("generate", &PythonGenerator::generate, py::arg("seed"), py::call_guard<py::gil_scoped_release>(),
-           "The World of a seed: the same as World.generate(…, seed=seed).")
+      .def(
+          "generate",
+          [](const PythonGenerator& of, Seed seed) {
+            const PythonReleased no_python;
+            return of.generate(seed);
+          },
+          py::arg("seed"), "The World of a seed: the same as World.generate(…, seed=seed).")
       .def_property_readonly("kind", [](const PythonGenerator& of) { return toPython(of.kind()); })
       .def("__repr__", [](const PythonGenerator& of) { return toPython("<WorldGenerator '" + of.kind() + "'>"); });
 }
 
-std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, std::uint64_t seed, int robots,
+std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed, WholeNumber<"robots", int> robots,
                                             std::vector<std::string> types, std::string controller, bool gold,
                                             const py::kwargs& options) {
   const PythonGenerator made(kind, teamOf(robots, std::move(types), std::move(controller), gold), options);
-  const py::gil_scoped_release no_python;
+  const PythonReleased no_python;
   return made.generate(seed);
 }
 

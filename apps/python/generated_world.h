@@ -8,6 +8,7 @@
 
 #include "learning/world_generator.h"
 #include "python_world.h"
+#include "whole_number.h"
 
 namespace robosim {
 
@@ -36,7 +37,7 @@ class PythonGenerator {
 
 /// Python's World.generate().
 /// @throws as PythonGenerator
-std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, std::uint64_t seed, int robots,
+std::shared_ptr<PythonWorld> generatedWorld(const std::string& kind, Seed seed, WholeNumber<"robots", int> robots,
                                             std::vector<std::string> types, std::string controller, bool gold,
                                             const pybind11::kwargs& options);
 

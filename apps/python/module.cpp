@@ -6,6 +6,7 @@
 #include "generated_world.h"
 #include "outputs/standard_parts.h"
 #include "python_errors.h"
+#include "python_released.h"
 #include "python_robot.h"
 #include "python_world.h"
 #include "recording.h"
@@ -26,4 +27,6 @@ PYBIND11_MODULE(_robosim, module) {
   robosim::bindSimulation(module);
   robosim::bindBatch(module);
   robosim::bindRecording(module);
+  robosim::refuseUnconstructed(module);
+  robosim::registerPythonEnd(module);
 }

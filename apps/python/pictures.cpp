@@ -5,6 +5,7 @@
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "python_released.h"
 #include "rendering/plan.h"
 
 namespace robosim {
@@ -32,7 +33,7 @@ cv::Mat decoded(const std::string& file) {
 
 std::string drawn(PictureFormat format, const World& world, const Fleet& fleet,
                   std::span<const mrpt::math::TPose2D> world_from_robot) {
-  const py::gil_scoped_release no_python;
+  const PythonReleased no_python;
   DrawnRun run;
   run.world_from_robot.assign(world_from_robot.begin(), world_from_robot.end());
   return planPicture(format, world, fleet, run);

@@ -44,6 +44,18 @@ std::string toBytes(const py::str& text) {
   return py::reinterpret_steal<py::bytes>(bytes);
 }
 
+void refuseUnconstructed(py::module_& module) {
+  for (const auto& [name, value] : module.attr("__dict__").cast<py::dict>()) {
+    if (!PyType_Check(value.ptr())) continue;
+    auto* const type = py::detail::get_type_info(reinterpret_cast<PyTypeObject*>(value.ptr()));
+    if (!type) continue;
+    // pybind11 calls it for an argument without a value.
+    type->operator_new = [](std::size_t) -> void* {
+      throw py::type_error("the object's constructor has not been called; make it by calling its class");
+    };
+  }
+}
+
 void registerErrors() { py::register_exception_translator(translate); }
 
 }  // namespace robosim

@@ -17,4 +17,8 @@ std::string toBytes(const pybind11::str& text);
 /// Converts RoboSim's exceptions to those of robosim/_errors.py.
 void registerErrors();
 
+/// Makes every use of an object whose constructor has not been called (`Simulation.__new__(Simulation).poses`) raise
+/// TypeError. pybind11 would use memory that is not initialised. To be called when the module has its classes.
+void refuseUnconstructed(pybind11::module_& module);
+
 }  // namespace robosim

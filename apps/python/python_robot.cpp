@@ -6,6 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "array_arguments.h"
+#include "base/error_list.h"
 #include "pictures.h"
 #include "python_errors.h"
 
@@ -14,11 +15,22 @@ namespace {
 
 namespace py = pybind11;
 
-/// @throws std::invalid_argument
-SensorKind kindNamed(const std::string& name) {
-  const auto kind = sensorKindNamed(name);
-  if (kind) return *kind;
-  throw std::invalid_argument("there is no kind of sensor '" + name + "'");
+std::string labelsOf(const Robot& robot) {
+  std::vector<std::string> labels;
+  for (const auto& sensor : *robot.info().sensors) labels.push_back(sensor.label);
+  return listed(labels);
+}
+
+/// Measurement of the first sensor of a kind, otherwise of the sensor with a label; null for a robot without it.
+/// @throws std::invalid_argument for a name that is neither
+const Measurement* measurementNamed(const Robot& robot, const std::string& name) {
+  if (const auto kind = sensorKindNamed(name)) {
+    if (const Measurement* of_kind = robot.measurement(*kind)) return of_kind;
+  }
+  const Measurement* of_label = robot.measurement(name);
+  if (of_label || sensorKindNamed(name)) return of_label;
+  throw std::invalid_argument("robot '" + robot.name() + "' has no sensor with the label '" + name +
+                              "', which is no kind of sensor either; its sensors are " + labelsOf(robot));
 }
 
 /// Ranges of the first sensor of a kind; None for a robot without it.
@@ -37,7 +49,7 @@ py::object rangesOf(const PythonRobot& robot, SensorKind kind) {
 }
 
 py::object pointsOf(const PythonRobot& robot, const std::string& kind) {
-  const Measurement* measurement = robot.toRead().measurement(kindNamed(kind));
+  const Measurement* measurement = measurementNamed(robot.toRead(), kind);
   if (!measurement) return py::none();
   const auto* echoes = std::get_if<Echoes>(measurement);
   if (!echoes) throw std::invalid_argument("a " + kind + " has no echoes");
@@ -47,6 +59,12 @@ py::object pointsOf(const PythonRobot& robot, const std::string& kind) {
     for (const float coordinate : {echo.point_m.x, echo.point_m.y, echo.point_m.z}) *out++ = coordinate;
   }
   return points;
+}
+
+py::object readingsOfSensor(const PythonRobot& robot, const std::string& sensor) {
+  const Robot& of = robot.toRead();
+  if (sensor != "stalled" && sensor != "pose" && !measurementNamed(of, sensor)) return py::none();
+  return robot.readings(sensor);
 }
 
 py::object bumperOf(const PythonRobot& robot) {
@@ -101,7 +119,11 @@ void bindReadings(RobotClass& robot) {
   }
   robot
       .def("points", pointsOf, py::arg("kind"),
-           "Echoes of the first sensor of a kind, robot frame [m]: float32, shape (beams, 3). None without one.")
+           "Echoes of the first sensor of a kind, or of the sensor with this label, robot frame [m]: float32, shape "
+           "(beams, 3). None without one.")
+      .def("readings", readingsOfSensor, py::arg("sensor"),
+           "Values of the first sensor of a kind, or of the sensor with this label, as Simulation.readings(): float32, "
+           "shape (values,). None without one.")
       .def_property_readonly(
           "heat", [](const PythonRobot& of) { return of.toRead().heat(); }, "[°C]; None without a sensor.")
       .def_property_readonly(
@@ -169,6 +191,14 @@ Robot& PythonRobot::toRead() const {
   if (!simulation) throw std::invalid_argument("the robot's simulation no longer exists; keep a reference to it");
   requireUsable(*simulation, SimulationAccess::read);
   return simulation->robot(index_);  // exists as long as the simulation, which the caller's Python objects keep
+}
+
+py::array PythonRobot::readings(const std::string& sensor) const {
+  const auto simulation = simulation_.lock();
+  const ObservationLayout layout(simulation->robot(index_).info(), {sensor});
+  py::array_t<float> values(static_cast<py::ssize_t>(layout.size()));
+  layout.write(simulation->environment().state(), index_, {values.mutable_data(), layout.size()});
+  return values;
 }
 
 Robot& PythonRobot::toCommand() const {

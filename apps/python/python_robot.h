@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include "simulation.h"
@@ -16,6 +17,8 @@ class PythonRobot {
 
   /// @throws std::invalid_argument when the simulation no longer exists, and as requireUsable()
   Robot& toRead() const;
+  /// Values of a sensor, as in an observation (ObservationLayout). @throws ConfigError for a sensor without values
+  pybind11::array readings(const std::string& sensor) const;
   /// @throws std::invalid_argument also when a controller of this program drives the robot
   Robot& toCommand() const;
 

@@ -7,7 +7,9 @@
 #include "generated_world.h"
 #include "pictures.h"
 #include "python_errors.h"
+#include "python_released.h"
 #include "run/local_run.h"
+#include "whole_number.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -65,17 +67,22 @@ std::shared_ptr<PythonWorld> PythonWorld::parse(std::string text, const fs::path
 }
 
 void bindWorld(py::module_& module) {
-  const auto parse = [](const py::str& text, const fs::path& folder, const std::string& name, std::uint64_t seed) {
+  const auto parse = [](const py::str& text, const fs::path& folder, const std::string& name, Seed seed) {
     std::string bytes = toBytes(text);
-    const py::gil_scoped_release no_python;
+    const PythonReleased no_python;
     return PythonWorld::parse(std::move(bytes), folder / (name + ".xml"), seed);
   };
   py::class_<PythonWorld, std::shared_ptr<PythonWorld>>(
       module, "World", "A world with its robots, as read from a file or generated. It does not change.")
-      .def_static("load", &PythonWorld::load, py::arg("file"), py::arg("seed") = kDefaultSeed,
-                  py::call_guard<py::gil_scoped_release>(),
-                  "Reads a world file or a map file.\n\nseed determines the places of scattered robots and objects.\n"
-                  "Raises ConfigError with all faults found, each with file:line.")
+      .def_static(
+          "load",
+          [](const fs::path& file, Seed seed) {
+            const PythonReleased no_python;
+            return PythonWorld::load(file, seed);
+          },
+          py::arg("file"), py::arg("seed") = kDefaultSeed,
+          "Reads a world file or a map file.\n\nseed determines the places of scattered robots and objects.\n"
+          "Raises ConfigError with all faults found, each with file:line.")
       .def_static("parse", parse, py::arg("text"), py::arg("folder") = fs::path("."), py::arg("name") = "world",
                   py::arg("seed") = kDefaultSeed,
                   "Parses the text of a world file, whose maps and included files are relative to folder.")
@@ -104,7 +111,7 @@ void bindWorld(py::module_& module) {
       .def_property_readonly(
           "objects", [](const PythonWorld& world) { return py::tuple(py::cast(world.loaded.world.objects)); },
           "The stationary objects, as WorldObject. Walls of maps are not among them.")
-      .def("write", write, py::arg("file"), py::call_guard<py::gil_scoped_release>(),
+      .def("write", write, py::arg("file"), py::call_guard<PythonReleased>(),
            "Writes a world file, with scattered robots and objects at their places. The file appears complete.")
       .def(
           "to_xml", [](const PythonWorld& world) { return toPython(toXml(world.loaded.world)); },

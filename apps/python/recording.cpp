@@ -7,6 +7,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "python_errors.h"
+#include "python_released.h"
 #include "replay/read_recording.h"
 
 namespace robosim {
@@ -56,12 +57,13 @@ void addSeriesTo(py::dict& arrays, const RecordedSeries& series) {
 
 py::tuple readRawlog(const std::filesystem::path& file) {
   const RecordingContents read = [&] {
-    const py::gil_scoped_release no_python;
+    PythonReleased no_python;
     std::uint64_t calls = 0;
     return readRecording(file.string(), {}, [&](std::uint64_t) {
       if (++calls % 4096 != 0) return;
-      const py::gil_scoped_acquire python;
+      no_python.acquire();
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+      no_python.release();
     });
   }();
   py::dict arrays;

@@ -8,6 +8,7 @@
 #include "base/error_list.h"
 #include "environment/state_bytes.h"
 #include "python_errors.h"
+#include "python_released.h"
 #include "python_robot.h"
 #include "run/output_files.h"
 #include "run/run_summary.h"
@@ -170,14 +171,14 @@ void Simulation::runPythonControllers() {
 std::uint64_t Simulation::advance(std::uint64_t steps_max) {
   using Clock = std::chrono::steady_clock;
   const Raised running(engine_runs_);
-  const py::gil_scoped_release no_python;
+  const PythonReleased no_python;
   const auto end = Clock::now() + std::chrono::milliseconds(20);
   std::uint64_t steps = 0;
   do {
     run_->step();
     ++steps;
     observe();
-  } while (steps < steps_max && Clock::now() < end);
+  } while (steps < steps_max && Clock::now() < end && !PythonReleased::isInterrupted());
   return steps;
 }
 

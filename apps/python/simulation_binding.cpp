@@ -9,6 +9,7 @@
 #include "python_robot.h"
 #include "simulation.h"
 #include "simulation_arrays.h"
+#include "whole_number.h"
 
 namespace robosim {
 namespace {
@@ -25,12 +26,12 @@ const Simulation& toRead(const Simulation& simulation) {
 const State& stateOf(const Simulation& simulation) { return toRead(simulation).environment().state(); }
 
 /// @throws pybind11::type_error
-SimulationHandle make(const std::shared_ptr<PythonWorld>& world, std::uint64_t seed, double period_s, int threads,
-                      const std::string& controller, const py::dict& controllers) {
+SimulationHandle make(const std::shared_ptr<PythonWorld>& world, Seed seed, double period_s,
+                      WholeNumber<"threads", int> threads, const std::string& controller, const py::dict& controllers) {
   if (!(period_s > 0 && period_s <= 1)) throw std::invalid_argument("period_s must lie in (0, 1] seconds");
   if (threads < 1 || threads > 1024) throw std::invalid_argument("threads must be 1 to 1024");
   Simulation::Options options;
-  options.run.environment = {seed, period_s, threads};
+  options.run.environment = {seed.value, period_s, threads.value};
   options.run.controller = controller;
   for (const auto& [robot, of_robot] : controllers) {
     const std::string name = toBytes(py::str(robot));
@@ -52,11 +53,12 @@ void bindStepping(SimulationClass& simulation) {
   simulation
       .def(
           "step",
-          [](const SimulationHandle& of, std::int64_t n) {
+          [](const SimulationHandle& of, WholeNumber<"the number of steps", std::int64_t> n) {
             requireUsable(*of, SimulationAccess::structural);
             if (n < 0)
-              throw std::invalid_argument("the number of steps is " + std::to_string(n) + "; it must be at least 0");
-            of->step(static_cast<std::uint64_t>(n));
+              throw std::invalid_argument("the number of steps is " + std::to_string(n.value) +
+                                          "; it must be at least 0");
+            of->step(static_cast<std::uint64_t>(n.value));
           },
           py::arg("n") = 1,
           "Runs all controllers and takes a time step, n times.\n\nOther threads run meanwhile; Ctrl-C raises "
@@ -98,7 +100,8 @@ void bindArrays(SimulationClass& simulation) {
       .def_property_readonly("stalled", stalledOf,
                              "Whether an obstacle stopped each robot in the last step: bool, shape (robots,); a view.")
       .def("readings", readingsOf, py::arg("kind"), py::arg("out") = py::none(),
-           "Readings of the first sensor of a kind of each robot: float32, shape (robots, values).\n\nkind: 'sonar', "
+           "Readings of the first sensor of a kind, or of the sensor with this label, of each robot: float32, shape "
+           "(robots, values).\n\nkind: 'sonar', "
            "'laser', 'infrared', 'beacons' (ranges [m]), 'heat' [°C], 'compass' [rad], 'battery' [V],\n'bumper' (0 or "
            "1), "
            "'odometry' (x, y [m], heading [rad], speed [m/s], turn rate [rad/s]), 'values',\n'stalled' (0 or 1), "

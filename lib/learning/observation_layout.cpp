@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <variant>
 
 #include "base/error_list.h"
@@ -12,13 +13,30 @@ namespace {
 
 constexpr float kInfinite = std::numeric_limits<float>::infinity();
 
+bool isObservable(const SensorInfo& sensor) {
+  return sensor.kind != SensorKind::camera && sensor.kind != SensorKind::blob_finder &&
+         sensor.kind != SensorKind::unknown;
+}
+
+/// The first sensor of a kind, otherwise the sensor with a label.
+std::optional<std::size_t> slotNamed(const std::string& name, const std::vector<SensorInfo>& sensors) {
+  for (const bool by_kind : {true, false}) {
+    for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
+      if (!isObservable(sensors[slot])) continue;
+      if (name == (by_kind ? nameOf(sensors[slot].kind) : sensors[slot].label)) return slot;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Kinds, and the labels of sensors that are not the first of their kind.
 std::vector<std::string> observableNames(const std::vector<SensorInfo>& sensors) {
   std::vector<std::string> names;
   for (const auto& sensor : sensors) {
-    const bool is_picture = sensor.kind == SensorKind::camera || sensor.kind == SensorKind::blob_finder;
+    if (!isObservable(sensor)) continue;
     const std::string name = nameOf(sensor.kind);
-    if (is_picture || sensor.kind == SensorKind::unknown) continue;
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    const bool is_first = std::find(names.begin(), names.end(), name) == names.end();
+    names.push_back(is_first ? name : sensor.label);
   }
   names.insert(names.end(), {"stalled", "pose"});
   return names;
@@ -84,12 +102,7 @@ struct MeasurementWriter {
 
 ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<std::string>& names) {
   const std::vector<SensorInfo>& sensors = *robot.sensors;
-  const std::vector<std::string> known = observableNames(sensors);
   for (const auto& name : names) {
-    if (std::find(known.begin(), known.end(), name) == known.end()) {
-      throw ConfigError("robot '" + robot.name + "' cannot observe '" + name + "'; observations may be " +
-                        listed(known));
-    }
     ObservationPart part;
     part.name = name;
     if (name == "stalled") {
@@ -100,9 +113,12 @@ ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<s
       bound(part, 3, -kInfinite, kInfinite);
       part.low[2] = -static_cast<float>(M_PI);
       part.high[2] = static_cast<float>(M_PI);
-    } else {
-      while (nameOf(sensors[part.slot].kind) != name) ++part.slot;
+    } else if (const auto slot = slotNamed(name, sensors)) {
+      part.slot = *slot;
       describe(sensors[part.slot], part);
+    } else {
+      throw ConfigError("robot '" + robot.name + "' cannot observe '" + name + "'; observations may be " +
+                        listed(observableNames(sensors)));
     }
     size_ += part.size;
     parts_.push_back(std::move(part));

@@ -13,6 +13,47 @@ def at_the_start(num_envs=2, **options):
 
 
 class VectorEnvTest(unittest.TestCase):
+    def test_infos_have_steps_and_winners(self):
+        env = at_the_start(max_steps=1000)
+        self.assertEqual(env.reset()[1]["step"].tolist(), [0, 0])
+        terminated, count = [False], 0
+        while not terminated[0]:
+            _, _, terminated, _, infos = env.step(np.array([[1, 0], [0, 0]]))
+            count += 1
+            self.assertEqual(infos["step"].tolist(), [count, count])
+            self.assertEqual(infos["_step"].tolist(), [True, True])
+            self.assertEqual("winner" in infos, terminated[0])
+        self.assertEqual((infos["winner"].tolist(), infos["_winner"].tolist()), (["R1", None], [True, False]))
+        self.assertEqual(env.step(np.zeros((2, 2)))[4]["step"].tolist(), [0, count + 1])
+
+    def test_observes_sensors_by_label(self):
+        world = robosim.World.parse(scene.text(1).replace(
+            "</robot>", '<sensors><laser range_max_m="1"/><laser range_max_m="3"/></sensors></robot>', 1))
+        labels = [sensor.label for sensor in world.robots[0].sensors if sensor.kind == "laser"]
+        env = robosim.VectorEnv(world, observations=("laser", labels[1]))
+        first, second = env.observation_parts.values()
+        self.assertEqual(env.single_observation_space.high[first].max(), 1)
+        self.assertEqual(env.single_observation_space.high[second].max(), 3)
+        with robosim.Simulation(world, controller="none") as simulation:
+            simulation.step()
+            robot = simulation.robot("R1")
+            np.testing.assert_array_equal(robot.readings(labels[1]), simulation.readings(labels[1])[0])
+            self.assertEqual(robot.points(labels[1]).shape, (len(robot.readings(labels[1])), 3))
+            self.assertEqual(robot.readings("laser").max(), 1)
+            self.assertIsNone(robot.readings("infrared"))
+            with self.assertRaisesRegex(ValueError, f"has no sensor with the label 'radar'.*{labels[1]}"):
+                robot.readings("radar")
+
+    def test_seeds_are_0_to_the_largest_number_of_64_bits(self):
+        env = at_the_start()
+        env.reset(seed=2**64 - 1)  # the second environment has the seed 0
+        for seed, error, text in ((-1, ValueError, "the seed is -1; it must be 0 to 2\\^64 - 1"),
+                                  (2**64, ValueError, "it must be 0 to"),
+                                  (1.5, TypeError, "the seed must be a whole number, not float"),
+                                  ([1, "a"], TypeError, "the seed must be a whole number, not str")):
+            with self.assertRaisesRegex(error, text):
+                env.reset(seed=seed)
+
     def test_conforms(self):
         mazes = [robosim.World.generate("maze", columns=3, rows=3, robots=2, seed=seed) for seed in range(3)]
         for robots in (1, 2):
@@ -154,13 +195,18 @@ class VectorEnvTest(unittest.TestCase):
             robosim.VectorEnv(world, observations="radar")
         with self.assertRaisesRegex(TypeError, "no reward 'luck'; rewards are win, forward, heat, stall, step"):
             robosim.VectorEnv(world, reward={"luck": 1})
-        with self.assertRaisesRegex(ValueError, "num_envs is 0; it must be at least 1"):
+        with self.assertRaisesRegex(ValueError, "num_envs is 0; it must be 1 to 2147483647"):
             robosim.VectorEnv(world, 0)
         with self.assertRaisesRegex(robosim.ConfigError, "2 agents are required"):
             robosim.VectorEnv(world, robots=2)
 
 
 class ParallelEnvTest(unittest.TestCase):
+    def test_accepts_options_as_pettingzoo_requires_and_reports_steps(self):
+        env = robosim.ParallelEnv(scene.world(2))
+        self.assertEqual(env.reset(seed=0, options={"options": 1})[1], {"R1": {"step": 0}, "R2": {"step": 0}})
+        self.assertEqual(env.step({"R1": [0, 0], "R2": [0, 0]})[4], {"R1": {"step": 1}, "R2": {"step": 1}})
+
     def test_conforms(self):
         world = robosim.World.generate("maze", columns=3, rows=3, robots=3)
         robosim.check_env(robosim.ParallelEnv(world, observations=("sonar", "odometry"), max_steps=30))

@@ -2,6 +2,8 @@
 import gc
 import os
 import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -224,6 +226,56 @@ class MisuseTest(unittest.TestCase):
             driven().step(-1)
         with self.assertRaisesRegex(robosim.ConfigError, "has no robots; add at least one"):
             robosim.Simulation(scene.world(0))
+
+
+class ArgumentTest(unittest.TestCase):
+    def test_errors_of_whole_numbers_name_argument_and_range(self):
+        world = scene.world(1)
+        simulation = robosim.Simulation(world, controller="none")
+        for call, error, text in (
+                (lambda: robosim.World.generate("maze", seed=-1), ValueError,
+                 r"the seed is -1; it must be 0 to 2\^64 - 1"),
+                (lambda: robosim.Simulation(world, seed=2**64), ValueError, r"it must be 0 to 2\^64 - 1"),
+                (lambda: robosim.World.parse("", seed=1.5), TypeError, "the seed must be a whole number, not float"),
+                (lambda: simulation.step(1.0), TypeError, "the number of steps must be a whole number, not float")):
+            with self.assertRaisesRegex(error, text):
+                call()
+
+    def test_objects_without_constructor_raise(self):
+        for of in (robosim.Simulation, robosim.World, robosim.Robot, robosim.WorldGenerator, robosim.RobotInfo,
+                   robosim.SensorInfo, robosim.WorldObject):
+            empty = of.__new__(of)
+            for name in (name for name, value in vars(of).items() if isinstance(value, property)):
+                with self.subTest(of.__name__ + "." + name), self.assertRaises((TypeError, RuntimeError)):
+                    getattr(empty, name)
+
+
+class ExitTest(unittest.TestCase):
+    def test_a_daemon_thread_in_a_step_does_not_abort_the_interpreter(self):
+        program = """
+import threading
+import robosim
+world = robosim.World.generate("maze", robots=4)
+simulation = robosim.Simulation(world, controller="wander")
+env = robosim.VectorEnv(world)
+env.reset()
+begun = threading.Semaphore(0)
+def drive():
+    for _ in range(10):
+        env.step(env.action_space.sample())
+    begun.release()
+    while True:
+        env.step(env.action_space.sample())
+def simulate():
+    begun.release()
+    simulation.step(10**9)
+for target in (drive, simulate):
+    threading.Thread(target=target, daemon=True).start()
+    begun.acquire()
+"""
+        for _ in range(3):
+            ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+            self.assertEqual((ended.returncode, ended.stderr), (0, ""))
 
 
 if __name__ == "__main__":

@@ -1,13 +1,16 @@
 """A team of agents in one world, with the interface of PettingZoo's ParallelEnv."""
-from ._learning import Results, make_batch, spaces_of
+from ._farama import ParallelEnvBase
+from ._learning import SEED_MAX, Results, make_batch, require_whole, spaces_of
 
 
-class ParallelEnv:
-    """The robots of a world as agents that act at the same time, with the interface of pettingzoo.ParallelEnv.
+class ParallelEnv(ParallelEnvBase):
+    """The robots of a world as agents that act at the same time, with the interface of pettingzoo.ParallelEnv. It is
+    one, with Gymnasium's spaces, when these packages are installed.
 
     world: World or file, or a WorldGenerator, which makes a new world for each episode.
     robots: the first robots of the world, which are the agents; 0: all.
     Other arguments, observations (float32, shape (size,)), actions (shape (2,)) and rewards are those of VectorEnv.
+    infos has "step", the number of steps since the episode's beginning, and "winner" in the step in which the world is won.
     All agents' episodes end together. Observations are copies.
     """
 
@@ -46,16 +49,18 @@ class ParallelEnv:
         return self.action_spaces[agent]
 
     def reset(self, seed=None, options=None):
-        """Begins a new episode; returns observations and infos by agent. Without a seed, the next episode follows."""
+        """Begins a new episode; returns observations and infos by agent. Without a seed, the next episode follows.
+
+        options: any are accepted and none has an effect, as PettingZoo's tests require.
+        """
         self._require_open()
-        if options:
-            raise ValueError(f"unknown options {sorted(options)}; there are none")
         if seed is not None:
+            require_whole("the seed", seed, 0, SEED_MAX)
             self._batch.set_seed(0, seed)
         self._batch.reset(self._results.observations)
         self.agents = list(self.possible_agents)
         self._has_episode = True
-        return self._observed(), {agent: {} for agent in self.agents}
+        return self._observed(), self._infos(self.agents)
 
     def step(self, actions):
         """Takes a step; actions: by agent. Returns observations, rewards, terminations, truncations, infos by agent."""
@@ -73,10 +78,13 @@ class ParallelEnv:
         rewards = dict(zip(agents, results.rewards[0].tolist()))
         terminated, truncated = bool(results.terminated[0]), bool(results.truncated[0])
         observed = self._observed()
+        infos = self._infos(agents)
+        if terminated:
+            for info in infos.values():
+                info["winner"] = self._batch.winners[0]
         if terminated or truncated:
             self.agents = []
-        return (observed, rewards, dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated),
-                {agent: {} for agent in agents})
+        return (observed, rewards, dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated), infos)
 
     def render(self):
         """Returns None: there is no render mode."""
@@ -92,6 +100,10 @@ class ParallelEnv:
     def _require_open(self):
         if self._batch is None:
             raise ValueError("the environment is closed; make another one")
+
+    def _infos(self, agents):
+        step = int(self._batch.steps[0])
+        return {agent: {"step": step} for agent in agents}
 
     def _observed(self):
         return {agent: self._results.observations[0, i].copy() for i, agent in enumerate(self.agents)}

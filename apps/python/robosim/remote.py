@@ -109,13 +109,13 @@ class RemoteRobots:
         self._answer.commands[...] = value
 
     def readings(self, kind):
-        """Readings of the first sensor of a kind of each robot, of shape (robots, values): of range sensors the ranges [m],
+        """Readings of the first sensor of a kind, or of the sensor with this label, of each robot, of shape (robots, values): of range sensors the ranges [m],
         float32; of bumpers and pictures uint8; of others float64. Robots without such a sensor have NaN."""
         return self._assembled(kind, lambda numbers, fields: numbers[..., 0] if fields[:1] == ["range"]
                                else numbers.reshape(len(numbers), -1))
 
     def points(self, kind):
-        """Points [m] of the first range sensor of a kind of each robot in the robot's frame: float32, shape
+        """Points [m] of the first range sensor of a kind, or of the one with this label, of each robot in the robot's frame: float32, shape
         (robots, beams, 3). Raises ValueError for a sensor that measures no points."""
         def points(numbers, fields):
             if fields != ["range", "x", "y", "z"]:
@@ -235,14 +235,16 @@ class RemoteRobots:
         return of_all
 
     def _find_sensors(self, kind):
-        """The first sensor of a kind in each set that has one: index of the set, index of the sensor, names of the numbers
+        """The first sensor of a kind, or that with a label, in each set that has one: index of the set, index of the sensor, names of the numbers
         of a record."""
         found = []
         for index, sensors in enumerate(self._sets):
             slot = next((slot for slot, sensor in enumerate(sensors) if sensor.kind == kind), None)
+            if slot is None:
+                slot = next((slot for slot, sensor in enumerate(sensors) if sensor.label == kind), None)
             if slot is not None:
                 found.append((index, slot, [field.name for field in sensors[slot].fields]))
         if not found:
-            kinds = sorted({sensor.kind for sensors in self._sets for sensor in sensors})
-            raise ValueError(f"no robot has a sensor '{kind}'; the sensors are {', '.join(kinds)}")
+            names = sorted({name for sensors in self._sets for sensor in sensors for name in (sensor.kind, sensor.label)})
+            raise ValueError(f"no robot has a sensor '{kind}'; the sensors are {', '.join(names)}")
         return found

@@ -78,9 +78,3 @@ class Box:
     def __repr__(self):
         low, high = (self.low.min(), self.high.max()) if self.low.size else (0, 0)
         return f"Box({low}, {high}, {self._shape}, {self.dtype})"
-
-
-def batched(space, count):
-    """The space of `count` elements of a space."""
-    shape = (count, *space.shape)
-    return Box(np.broadcast_to(space.low, shape), np.broadcast_to(space.high, shape), shape, space.dtype)

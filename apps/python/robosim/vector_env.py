@@ -1,28 +1,19 @@
 """Many environments that step together, with the interface of Gymnasium 1.0's VectorEnv."""
-from enum import Enum
-
 import numpy as np
 
-from ._learning import Results, make_batch, spaces_of
-from .spaces import batched
+from ._farama import AutoresetMode, VectorEnvBase
+from ._learning import SEED_MAX, Results, batched, make_batch, require_whole, spaces_of
 
 
-class AutoresetMode(Enum):
-    """When environments whose episode has ended are reset, as in Gymnasium."""
-
-    NEXT_STEP = "NextStep"
-    SAME_STEP = "SameStep"
-    DISABLED = "Disabled"
-
-
-class VectorEnv:
-    """Many environments that step together in this process, with the semantics of gymnasium.vector.VectorEnv 1.0.
+class VectorEnv(VectorEnvBase):
+    """Many environments that step together in this process, with the semantics of gymnasium.vector.VectorEnv 1.0. It is
+    one, with Gymnasium's spaces and AutoresetMode, when Gymnasium is installed.
 
     worlds: World or file, or a list of them; environment i is of world i modulo their number. Or a WorldGenerator: each
         episode has a new world, which depends on the environment's seed and the number of the episode.
     num_envs: number of environments.
     robots: the first robots of each world, which are the agents; others stand still. 0: all robots.
-    observations: parts of an observation: kinds of sensors, "stalled", "pose" (Simulation.readings() lists them).
+    observations: parts of an observation: kinds of sensors, labels of sensors, "stalled", "pose" (Simulation.readings() lists them).
     reward: weights by name: "win" (1 when the world is won), "forward" (distance driven [m]), "heat" (increase of the
         reading [°C]), "stall" (1 when an obstacle stopped the robot), "step" (1). Default {"win": 1}.
     max_steps: an episode of so many steps is truncated.
@@ -36,6 +27,9 @@ class VectorEnv:
 
     The step in which an episode ends returns its final observation. The next step ignores the action of that
     environment, begins its next episode, and returns its first observation with reward 0 (AutoresetMode.NEXT_STEP).
+
+    infos has, by environment, "step": number of steps since the episode's beginning, int64; and in a step in which a world
+    is won "winner": name of the robot, None elsewhere; with Gymnasium's masks "_step" and "_winner".
 
     The engine writes into the returned arrays without a copy, alternating between two sets: they keep their values
     until the next but one call of step() or reset(). Copy what is to be kept for longer.
@@ -60,6 +54,7 @@ class VectorEnv:
         self._sets = [Results(self._batch, self.num_envs) for _ in range(2)]
         self._action_shape = (self.num_envs, self._batch.agents, 2)
         self._has_episode = np.zeros(self.num_envs, bool)
+        self._all = np.ones(self.num_envs, bool)
         self._is_ready = False
         self._np_random = None
         self._np_random_seed = None
@@ -79,7 +74,7 @@ class VectorEnv:
     def reset(self, *, seed=None, options=None):
         """Begins a new episode in every environment; returns observations and infos.
 
-        seed: environment i gets seed + i; or a list of a seed or None for each. Without one, the next episodes follow.
+        seed: environment i gets seed + i (modulo 2^64); or a list of a seed or None for each. Without one, the next episodes follow.
         options: {"reset_mask": bool array of shape (num_envs,)} resets the selected environments only.
         """
         self._require_open()
@@ -101,7 +96,7 @@ class VectorEnv:
         self._has_episode |= selected
         self._is_ready = bool(self._has_episode.all())
         self._sets.reverse()
-        return self._shaped(results.observations), {}
+        return self._shaped(results.observations), self._infos(selected)
 
     def step(self, actions):
         """Takes a step in every environment; returns observations, rewards, terminations, truncations and infos."""
@@ -117,7 +112,11 @@ class VectorEnv:
         self._batch.step(actions, results.observations, results.rewards, results.terminated, results.truncated)
         self._sets.reverse()
         rewards = results.rewards if len(self.action_space.shape) == 3 else results.rewards[:, 0]
-        return self._shaped(results.observations), rewards, results.terminated, results.truncated, {}
+        infos = self._infos(self._all)
+        if results.terminated.any():
+            infos["winner"] = self._batch.winners
+            infos["_winner"] = results.terminated.copy()
+        return self._shaped(results.observations), rewards, results.terminated, results.truncated, infos
 
     def render(self):
         """Returns None: there is no render mode."""
@@ -175,15 +174,21 @@ class VectorEnv:
     def _seeds_of(self, seed):
         if seed is None:
             return [None] * self.num_envs
-        if isinstance(seed, (int, np.integer)):
-            if seed < 0:
-                raise ValueError(f"the seed is {seed}; it must be at least 0")
+        if isinstance(seed, (int, np.integer)) or not np.iterable(seed):
+            require_whole("the seed", seed, 0, SEED_MAX)
             self._seed_generator(int(seed))
-            return [int(seed) + i for i in range(self.num_envs)]
+            return [(int(seed) + i) % (SEED_MAX + 1) for i in range(self.num_envs)]
         seeds = list(seed)
+        for of_one in seeds:
+            if of_one is not None:
+                require_whole("the seed", of_one, 0, SEED_MAX)
         if len(seeds) != self.num_envs:
             raise ValueError(f"there are {len(seeds)} seeds; {self.num_envs} are required")
         return seeds
+
+    def _infos(self, which):
+        """In Gymnasium's form: an array for each name, and whether it is given for each environment."""
+        return {"step": self._batch.steps, "_step": which}
 
     def _shaped(self, observations):
         return observations if len(self.action_space.shape) == 3 else observations[:, 0]
