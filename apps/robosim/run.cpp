@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -152,7 +153,12 @@ void runWorld(const LocalRunArguments& arguments, const RunWindow& window, doubl
   std::optional<Interrupt> interrupt(std::in_place);
   checkArguments(arguments);
   std::optional<WorldSource> source;
-  LocalRun run(loadedWorld(arguments, source), arguments.run);
+  LoadedWorld world = loadedWorld(arguments, source);
+  RunOptions options = arguments.run;
+  // Rendering takes most of the time of a run with cameras. Observers are not asked whether they read pictures.
+  options.takes_pictures =
+      arguments.isRecorded() || window || !options.observers.empty() || needPictures(world.fleet, options.controller);
+  LocalRun run(std::move(world), options);
   RunFiles files(arguments, run, source);
   const ObserveStep observe = [&] { files.observe(); };
   const auto start = Clock::now();
