@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "base/atomic_file.h"
+#include "base/error_list.h"
 #include "base/printable_text.h"
 #include "calibration/scanner_fit.h"
 #include "robosim/arguments.h"
@@ -19,6 +20,7 @@ struct FitArguments {
   std::string output;
   std::string report;
   RestCriterion rest = RestCriterion::scans;
+  bool is_forced = false;
 };
 
 void writeWhole(const std::string& file, const std::string& text) {
@@ -33,9 +35,15 @@ void fit(const FitArguments& a) {
     if (!file.empty()) checkWritable(file);
   }
   const ScannerFit fitted = fitScanner(a.rawlog, a.sensor, a.rest);
-  if (!a.output.empty()) writeWhole(a.output, modelXml(fitted, a.rawlog));
   if (!a.report.empty()) writeWhole(a.report, reportHtml(fitted, a.rawlog));
   std::cout << printableLines(summaryOf(fitted));
+  if (!fitted.isAccepted() && !a.is_forced) {
+    throw ConfigError(
+        a.rawlog + ": differs from the fitted model, so " +
+        (a.output.empty() ? std::string("no <laser> is printed") : a.output + " is not written") +
+        "; the figures marked with ! show where. Use a longer recording of a scanner at rest, or --force");
+  }
+  if (!a.output.empty()) writeWhole(a.output, modelXml(fitted, a.rawlog));
   if (a.output.empty()) std::cout << '\n' << printableLines(modelXml(fitted, a.rawlog));
 }
 
@@ -59,6 +67,7 @@ void addFit(CLI::App& program) {
   command->add_option("--report", a->report, "write the results with histograms as an HTML page")
       ->type_name("FILE")
       ->check(fileName());
+  command->add_flag("--force", a->is_forced, "write the <laser> also if the recording differs from the fitted model");
   command
       ->add_option_function<std::string>(
           "--rest",

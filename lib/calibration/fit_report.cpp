@@ -10,9 +10,11 @@ namespace {
 
 constexpr int kWidth_px = 560, kHeight_px = 200, kMargin_px = 30;
 
-/// Shares of the differences in bins of equal width within ±kJump_m.
+constexpr double kWidest_m = 0.15;  // of the plots
+
+/// Shares of the differences in bins of equal width within ±kWidest_m.
 std::vector<double> sharesOf(const std::vector<double>& differences_m, double bin_m) {
-  const auto half = static_cast<long>(std::ceil(kJump_m / bin_m));
+  const auto half = static_cast<long>(std::ceil(kWidest_m / bin_m));
   std::vector<double> shares(static_cast<std::size_t>(2 * half + 1));
   for (const double difference_m : differences_m) {
     const long bin = std::clamp(std::lround(difference_m / bin_m), -half, half);
@@ -49,11 +51,11 @@ std::string histogramOf(const ScannerFit& fit, std::size_t band) {
   std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height + "\" width=\"" +
                     width + "\" height=\"" + height + "\" role=\"img\" aria-label=\"Differences of ranges, " +
                     bandName(band) + "\">\n";
-  svg += "<path d=\"" + pathOf(real, largest) + "\" fill=\"#9ecae1\" stroke=\"none\"/>\n";
-  svg += "<path d=\"" + pathOf(simulated, largest) + "\" fill=\"none\" stroke=\"#c0392b\" stroke-width=\"1.5\"/>\n";
+  svg += "<path d=\"" + pathOf(real, largest) + "\" class=\"real\"/>\n";
+  svg += "<path d=\"" + pathOf(simulated, largest) + "\" class=\"model\"/>\n";
   const int floor_px = kHeight_px - kMargin_px;
   svg += "<path d=\"M" + std::to_string(kMargin_px) + " " + std::to_string(floor_px) + " H" +
-         std::to_string(kWidth_px - kMargin_px) + "\" stroke=\"#333\"/>\n";
+         std::to_string(kWidth_px - kMargin_px) + "\" class=\"axis\"/>\n";
   for (const int cm : {-15, -10, -5, 0, 5, 10, 15}) {
     const double x_px = kWidth_px / 2.0 + cm / 15.0 * (kWidth_px / 2.0 - kMargin_px);
     svg += "<text x=\"" + fixed(x_px, 0) + "\" y=\"" + std::to_string(floor_px + 16) +
@@ -80,7 +82,8 @@ std::string excludedOf(const ScannerFit& fit) {
                        " standard errors) at unchanged odometry"});
   }
   if (rows.empty()) return "<p>No pair at unchanged odometry was excluded.</p>\n";
-  return "<table>\n" + rowOf({"scans", "time", "reason"}, "th") + rows + "</table>\n";
+  return "<div class=\"wide\" tabindex=\"0\"><table>\n" + rowOf({"scans", "time", "reason"}, "th") + rows +
+         "</table></div>\n";
 }
 
 std::string bandsOf(const ScannerFit& fit) {
@@ -116,10 +119,18 @@ std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Laser errors of " +
       escapedHtml(rawlog) +
-      "</title>\n<style>body{font:15px/1.5 sans-serif;max-width:62em;margin:2em auto;padding:0 1em;color:#222}"
-      "table{border-collapse:collapse}th,td{border:1px solid #bbb;padding:.2em .6em;text-align:left}"
-      "pre{background:#f5f5f5;padding:.8em;overflow-x:auto}svg{max-width:100%}</style>\n</head>\n<body>\n";
-  html += "<h1>Laser errors of " + escapedHtml(rawlog) + "</h1>\n<pre>" + escapedHtml(summaryOf(fit)) + "</pre>\n";
+      "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<style>:root{color-scheme:light dark;--text:#222;--line:#bbb;--back:#fff;--box:#f5f7f9;--real:#9ecae1;"
+      "--model:#c0392b}@media(prefers-color-scheme:dark){:root{--text:#dfe3e8;--line:#3b4148;--back:#15181c;"
+      "--box:#1d2126;--real:#2f6f96;--model:#ff8a75}}*{box-sizing:border-box}"
+      "body{font:15px/1.5 sans-serif;max-width:62em;margin:0 auto;padding:1em;color:var(--text);"
+      "background:var(--back);overflow-wrap:anywhere}"
+      "table{border-collapse:collapse}th,td{border:1px solid var(--line);padding:.2em .6em;text-align:left}"
+      "pre,.wide{background:var(--box);padding:.8em;overflow-x:auto}svg{max-width:100%;height:auto}"
+      ".real{fill:var(--real)}.model{fill:none;stroke:var(--model);stroke-width:1.5}.axis{stroke:var(--text)}"
+      "text{fill:var(--text)}</style>\n</head>\n<body>\n<main>\n";
+  html += "<h1>Laser errors of " + escapedHtml(rawlog) + "</h1>\n<pre tabindex=\"0\">" + escapedHtml(summaryOf(fit)) +
+          "</pre>\n";
   if (fit.basis == FitBasis::scans_at_rest) {
     html +=
         "<h2>Differences of scans at rest</h2>\n<p>Second minus first range of two successive scans. Filled: held-out "
@@ -133,7 +144,8 @@ std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
   }
   html += bandsOf(fit);
   html += "<h2>Excluded pairs</h2>\n" + excludedOf(fit);
-  html += "<h2>Model</h2>\n<pre>" + escapedHtml(modelXml(fit, rawlog)) + "</pre>\n</body>\n</html>\n";
+  html += "<h2>Model</h2>\n<pre tabindex=\"0\">" + escapedHtml(modelXml(fit, rawlog)) +
+          "</pre>\n</main>\n</body>\n</html>\n";
   return html;
 }
 

@@ -7,6 +7,7 @@
 #include "base/error_list.h"
 #include "base/random.h"
 #include "calibration/beam_model.h"
+#include "calibration/scanner_fit.h"
 #include "calibration/simulated_pairs.h"
 
 namespace robosim {
@@ -63,19 +64,66 @@ TEST(Dropout, IsTheShareOfLostEchoesOfSteadyBeams) {
   errors.std_m = 0.005;
   ScanSeries series = standingSeries(200, errors);
   const auto pairs = standingPairs(series);
-  EXPECT_EQ(dropoutOf(series, pairs), 0);
+  EXPECT_EQ(lostEchoesOf(series, pairs).dropout, 0);
   loseEchoes(series, 0.01);
   loseEchoes(series, 0.5, 0, 9);  // surfaces at the limit of detection
   // 171 steady beams: standard error √(0.01 / 34,200) = 0.00054.
-  const double dropout = dropoutOf(series, pairs);
-  EXPECT_NEAR(dropout, 0.01, 4 * 0.00054);
-  errors.dropout = dropout;
+  const LostEchoes echoes = lostEchoesOf(series, pairs);
+  EXPECT_NEAR(echoes.dropout, 0.01, 4 * 0.00054);
+  EXPECT_TRUE(echoes.interval.contains(0.01));
+  EXPECT_NEAR(echoes.flickering, 10.0 / 181, 0.01);
+  errors.dropout = echoes.dropout;
   errors.reach_m = 100;
   errors.fading = 0.1;
   const double real = statisticsOf(series, pairs).flipRate();
   // (171 · 2 · 0.01 · 0.99 + 10 · 2 · 0.5 · 0.5) / 181; the losses of all scans are known, those of a pair vary.
   EXPECT_NEAR(real, 0.0463, 0.004);
-  EXPECT_NEAR(simulatePairs(series, pairs, errors, 2, 1).flipRate(), real, 0.003);
+  EXPECT_NEAR(simulatePairs(series, pairs, errors, echoes, kJump_m, 2, 1).flipRate(), real, 0.003);
+}
+
+TEST(Dropout, IsTheSameForALongRecording) {
+  LaserErrors errors;
+  errors.std_m = 0.01;
+  errors.dropout = 0.01;
+  // Of 1,810 to 181,000 readings; four standard errors.
+  for (const std::size_t scans : {10u, 100u, 1000u}) {
+    const ScanSeries series = standingSeries(scans, errors);
+    const LostEchoes echoes = lostEchoesOf(series, standingPairs(series));
+    EXPECT_NEAR(echoes.dropout, 0.01, 4 * std::sqrt(0.01 * 0.99 / (181 * static_cast<double>(scans)))) << scans;
+    EXPECT_EQ(echoes.reach_m, 0) << "no beam flickers";
+  }
+}
+
+/// A wide standard deviation is not cut off at a fixed limit, with outliers and without.
+TEST(LaserFit, RecoversWideNoiseBesideOutliers) {
+  for (const double std_m : {0.05, 0.1, 0.3}) {
+    LaserErrors errors;
+    errors.std_m = std_m;
+    errors.outlier = 0.02;
+    Progress progress;
+    const ScannerFit fit = fitScans(standingSeries(100, errors), RestCriterion::scans, "simulated", progress);
+    for (std::size_t band = 0; band < kBands; ++band) {
+      // 20 to 60 beams, 100 scans: relative standard error 1/√4000 = 1.6 % of independent readings.
+      EXPECT_NEAR(fit.model.std_m[band], std_m, 0.08 * std_m) << bandName(band);
+      EXPECT_LE(fit.model.std_interval_m[band].low, std_m * 1.02) << bandName(band);
+      EXPECT_GE(fit.model.std_interval_m[band].high, std_m * 0.98) << bandName(band);
+    }
+    EXPECT_EQ(fit.model.errors.tail, 0);
+    // Of 18,100 readings: standard error 0.001.
+    EXPECT_NEAR(fit.model.errors.outlier, 0.02, 4 * 0.001) << std_m;
+    EXPECT_TRUE(fit.isAccepted()) << summaryOf(fit);
+  }
+}
+
+TEST(ConfidenceInterval, OfAProbabilityIsThatOfClopperAndPearson) {
+  // Without a hit in n trials: 1 − 0.025^(1/n).
+  const ConfidenceInterval none = binomialInterval(0, 10);
+  EXPECT_EQ(none.low, 0);
+  EXPECT_NEAR(none.high, 1 - std::pow(0.025, 0.1), 1e-9);
+  const ConfidenceInterval all = binomialInterval(10, 10);
+  EXPECT_NEAR(all.low, std::pow(0.025, 0.1), 1e-9);
+  EXPECT_EQ(all.high, 1);
+  EXPECT_NEAR(normalBound(0.05), 1.959964, 1e-6);
 }
 
 TEST(StandingPairs, ExcludeAPairThatTheRobotTurnedInBetween) {

@@ -18,25 +18,25 @@ std::vector<ExpectedReading> readingsOfScans(const MatchedReadings& matched, std
   return readings;
 }
 
-PairStatistics residualsOf(const std::vector<ExpectedReading>& readings) {
+PairStatistics residualsOf(const std::vector<ExpectedReading>& readings, double jump_m, double range_max_m) {
   std::vector<double> expected_m, read_m;
   for (const auto& reading : readings) {
     expected_m.push_back(reading.expected_m);
     read_m.push_back(reading.read_m);
   }
-  PairStatistics residuals;
-  residuals.add(expected_m, read_m);
+  PairStatistics residuals{.jump_m = jump_m, .range_max_m = range_max_m};
+  residuals.add(expected_m, read_m, expected_m);
   return residuals;
 }
 
-PairStatistics simulateResiduals(const std::vector<ExpectedReading>& readings, const LaserErrors& errors,
+PairStatistics simulateResiduals(const std::vector<ExpectedReading>& readings, const LaserErrors& errors, double jump_m,
                                  double range_max_m, std::size_t count, std::uint64_t seed) {
   SensorInfo info{.kind = SensorKind::laser, .label = "", .beams = {}};
   info.range_max_m = range_max_m;
   const ErrorProcess process(errors, info);
   constexpr double kPower = std::numeric_limits<double>::infinity();
   Rng rng(seed);
-  PairStatistics all;
+  PairStatistics all{.jump_m = jump_m, .range_max_m = range_max_m};
   std::vector<ExpectedReading> simulated = readings;
   for (std::size_t repetition = 0; repetition < count; ++repetition) {
     throwIfInterrupted("nothing was written");
@@ -45,7 +45,7 @@ PairStatistics simulateResiduals(const std::vector<ExpectedReading>& readings, c
       const double read_m = process.readingOf(reading.expected_m, kPower, 0, draw);
       reading.read_m = read_m < range_max_m ? read_m : std::numeric_limits<double>::quiet_NaN();
     }
-    all.add(residualsOf(simulated));
+    all.add(residualsOf(simulated, jump_m, range_max_m));
   }
   return all;
 }

@@ -13,8 +13,8 @@
 namespace robosim {
 namespace {
 
-/// Simulated pairs for each held-out one.
-constexpr std::size_t kSimulatedPerPair = 40;
+/// Simulated pairs for each held-out one: as many as give about this number of differences.
+constexpr std::size_t kSimulatedDifferences = 200'000, kSimulatedPerPairMin = 4, kSimulatedPerPairMax = 40;
 /// Simulated readings for each held-out one of a drive.
 constexpr std::size_t kSimulatedPerReading = 4;
 constexpr std::uint64_t kSeed = 1;
@@ -34,10 +34,11 @@ double reachFor(const std::vector<SeenSurface>& seen, double fading) {
   return std::ceil(farthest_m * std::exp(kSteadyScales * fading / 2));
 }
 
-std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
+std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const std::vector<ScanPair>& pairs,
+                                              const LostEchoes& echoes, double jump_m) {
   std::vector<ExpectedReading> readings;
   for (const auto& group : standingGroups(series, pairs)) {
-    const auto seen = seenSurfaces(series, group);
+    const auto seen = seenSurfaces(series, group, echoes, jump_m);
     std::size_t next = 0;
     for (const auto& pair : group) {
       for (std::size_t scan = std::max(pair.first, next); scan <= pair.first + 1; ++scan) {
@@ -51,31 +52,64 @@ std::vector<ExpectedReading> expectedReadings(const ScanSeries& series, const st
   return readings;
 }
 
-LaserFit modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m) {
-  LaserFit model = fitLaser(statisticsOf(series, pairs), quantum_m);
-  model.errors.fading = 0.1;
-  model.errors.dropout = dropoutOf(series, pairs);
+/// A model of the scans at rest of pairs, with the errors of the equivalent scene.
+struct StandingModel {
+  LaserFit fit;
+  LostEchoes echoes;
+  LaserErrors scene;  ///< the same errors, with a reach at which the flickering of all beams can be modelled
+};
+
+StandingModel modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m, double jump_m) {
+  StandingModel model{.fit = fitLaser(statisticsOf(series, pairs, jump_m), quantum_m),
+                      .echoes = lostEchoesOf(series, pairs),
+                      .scene = {}};
+  LaserFit& fit = model.fit;
+  fit.errors.dropout = model.echoes.dropout;
+  fit.dropout = model.echoes.interval;
+  // A lost echo is no outlier.
+  const double kept = 1 - fit.errors.dropout;
+  fit.errors.outlier *= kept;
+  fit.outlier = {fit.outlier.low * kept, fit.outlier.high * kept};
+  fit.errors.fading = 0.1;
+  fit.errors.reach_m = model.echoes.reach_m;
+  fit.reach_m = model.echoes.reach;
+  model.scene = fit.errors;
+  model.scene.reach_m = 0;
+  bool flickers = false;
   for (const auto& group : standingGroups(series, pairs)) {
-    model.errors.reach_m = std::max(model.errors.reach_m, reachFor(seenSurfaces(series, group), model.errors.fading));
+    const auto seen = seenSurfaces(series, group, model.echoes, jump_m);
+    for (const auto& surface : seen) flickers = flickers || (surface.valid > 0 && surface.valid < 1);
+    model.scene.reach_m = std::max(model.scene.reach_m, reachFor(seen, fit.errors.fading));
   }
+  if (!flickers) model.scene.reach_m = 0;
   return model;
 }
 
 /// Fits the errors to the pairs of scans at rest.
 void fitPairs(ScannerFit& fit, Progress& progress) {
   progress.show("fitting …");
-  const double quantum_m = quantumOf(fit.series);
-  fit.model = modelOf(fit.series, fit.used, quantum_m);
+  const double quantum_m = quantumOf(fit.series), jump_m = jumpLimitOf(fit.series, fit.used, quantum_m);
+  const StandingModel model = modelOf(fit.series, fit.used, quantum_m, jump_m);
+  fit.model = model.fit;
+  fit.echoes = model.echoes;
   for (std::size_t i = 0; i < fit.folds.size(); ++i) {
     progress.show("comparing with held-out pairs …");
     HeldOutFit& fold = fit.folds[i];
     fold.fitted = everySecond(fit.used, i);
     fold.held_out = everySecond(fit.used, 1 - i);
-    fold.model = modelOf(fit.series, fold.fitted, quantum_m);
-    fold.real = statisticsOf(fit.series, fold.held_out);
-    fold.simulated = simulatePairs(fit.series, fold.fitted, fold.model.errors, kSimulatedPerPair, kSeed + i);
+    const StandingModel half = modelOf(fit.series, fold.fitted, quantum_m, jump_m);
+    fold.model = half.fit;
+    fold.real = statisticsOf(fit.series, fold.held_out, jump_m);
+    const std::size_t count = std::clamp(kSimulatedDifferences / std::max<std::size_t>(1, fold.real.beams),
+                                         kSimulatedPerPairMin, kSimulatedPerPairMax);
+    fold.simulated = simulatePairs(fit.series, fold.fitted, half.scene, half.echoes, jump_m, count, kSeed + i);
   }
-  fit.beam_model = fitBeamModel(expectedReadings(fit.series, fit.used), fit.series.range_max_m);
+}
+
+/// Beam models of the scans at rest, and of all scans about the local map, which are reported only.
+void fitBeamModels(ScannerFit& fit, Progress& progress) {
+  fit.beam_model =
+      fitBeamModel(expectedReadings(fit.series, fit.used, fit.echoes, fit.real.jump_m), fit.series.range_max_m);
   progress.show("matching scans …");
   fit.map_readings = matchScans(fit.series);
   if (!fit.map_readings.readings.empty()) {
@@ -97,15 +131,21 @@ void fitDrive(ScannerFit& fit, const std::string& rawlog, Progress& progress) {
   }
   progress.show("fitting …");
   const double quantum_m = quantumOf(fit.series), range_max_m = fit.series.range_max_m;
-  fit.model = fitResiduals(residualsOf(fit.map_readings.readings), quantum_m);
+  std::vector<double> residuals_m;
+  for (const auto& reading : fit.map_readings.readings) {
+    if (!std::isnan(reading.read_m)) residuals_m.push_back(reading.read_m - reading.expected_m);
+  }
+  const double jump_m = jumpLimitOf(std::move(residuals_m), quantum_m);
+  fit.model = fitResiduals(residualsOf(fit.map_readings.readings, jump_m, range_max_m), quantum_m);
   fit.map_model = fitBeamModel(fit.map_readings.readings, range_max_m);
   for (std::size_t i = 0; i < fit.folds.size(); ++i) {
     progress.show("comparing with held-out scans …");
     HeldOutFit& fold = fit.folds[i];
     const auto held_out = readingsOfScans(fit.map_readings, 1 - i, 2);
-    fold.model = fitResiduals(residualsOf(readingsOfScans(fit.map_readings, i, 2)), quantum_m);
-    fold.real = residualsOf(held_out);
-    fold.simulated = simulateResiduals(held_out, fold.model.errors, range_max_m, kSimulatedPerReading, kSeed + i);
+    fold.model = fitResiduals(residualsOf(readingsOfScans(fit.map_readings, i, 2), jump_m, range_max_m), quantum_m);
+    fold.real = residualsOf(held_out, jump_m, range_max_m);
+    fold.simulated =
+        simulateResiduals(held_out, fold.model.errors, jump_m, range_max_m, kSimulatedPerReading, kSeed + i);
   }
 }
 
@@ -126,11 +166,67 @@ std::string textOf(const BeamModel& b) {
 
 std::string percent(double share) { return fixed(100 * share, 2) + " %"; }
 
+/// Bound of the difference of a rate of the held-out half and that of a model, which is fitted to a half of equal size.
+double rateBound(std::size_t hits, std::size_t trials, std::size_t simulated_hits, std::size_t simulated_trials,
+                 double level) {
+  if (trials == 0 || simulated_trials == 0) return 1;
+  const auto n = static_cast<double>(trials), m = static_cast<double>(simulated_trials);
+  const double rate = (static_cast<double>(hits) / n + static_cast<double>(simulated_hits) / m) / 2;
+  return std::max(kRateTolerance, normalBound(level) * std::sqrt(rate * (1 - rate) * (2 / n + 1 / m)));
+}
+
+bool isJumpRateBeyond(const HeldOutFit& fold, double level) {
+  return std::abs(fold.real.jumpRate() - fold.simulated.jumpRate()) > fold.jumpBound(level);
+}
+
+bool isFlipRateBeyond(const HeldOutFit& fold, double level) {
+  return std::abs(fold.real.flipRate() - fold.simulated.flipRate()) > fold.flipBound(level);
+}
+
+std::string rangeOf(const ConfidenceInterval& interval, double scale, int digits) {
+  return " (" + fixed(scale * interval.low, digits) + " … " + fixed(scale * interval.high, digits) + ")";
+}
+
+std::string reachText(const ScannerFit& fit) {
+  if (fit.basis == FitBasis::local_map) return "unknown from a drive; none is written";
+  if (fit.model.errors.reach_m == 0) {
+    return "not bounded by the recording, because no beam flickers; none is written. Farthest echo " +
+           fixed(fit.echoes.farthest_m, 1) + " m";
+  }
+  return fixed(fit.model.errors.reach_m, 1) + " m" + rangeOf(fit.model.reach_m, 1, 1) +
+         " for a reflectivity × cos(incidence) of 0.5 (1 … 0.1) of the farthest flickering surface";
+}
+
+/// The parameters with intervals of 95 %, one a line.
+std::string parametersOf(const ScannerFit& fit, const std::string& indent) {
+  const LaserFit& m = fit.model;
+  std::string text;
+  for (std::size_t band = 0; band < kBands; ++band) {
+    if (m.std_m[band] == 0) continue;
+    text += indent + "std " + bandName(band) + ": " + fixed(1000 * m.std_m[band], 2) +
+            rangeOf(m.std_interval_m[band], 1000, 2) + " mm\n";
+  }
+  text += indent + "tail: " + fixed(m.errors.tail, 3) + rangeOf(m.tail, 1, 3);
+  if (m.errors.tail > 0) text += " × " + fixed(m.errors.tail_factor, 0) + rangeOf(m.tail_factor, 1, 0);
+  text += "\n" + indent + "dropout: " + fixed(100 * m.errors.dropout, 3) + rangeOf(m.dropout, 100, 3) + " %\n";
+  text += indent + "outlier: " + fixed(100 * m.errors.outlier, 3) + rangeOf(m.outlier, 100, 3) + " %\n";
+  return text + indent + "reach: " + reachText(fit) + "\n";
+}
+
 }  // namespace
 
-bool HeldOutFit::ratesAgree() const {
-  return std::abs(real.jumpRate() - simulated.jumpRate()) <= kRateTolerance &&
-         std::abs(real.flipRate() - simulated.flipRate()) <= kRateTolerance;
+double HeldOutFit::jumpBound(double level) const {
+  return rateBound(real.jumps, real.compared, simulated.jumps, simulated.compared, level);
+}
+
+double HeldOutFit::flipBound(double level) const {
+  return rateBound(real.flips, real.beams, simulated.flips, simulated.beams, level);
+}
+
+double ScannerFit::comparisonLevel() const {
+  std::size_t comparisons = 4;  // rates
+  for (const auto& differences_m : real.differences_m) comparisons += !differences_m.empty();
+  return kVerdictLevel / static_cast<double>(comparisons);
 }
 
 double ScannerFit::ksOf(const PairStatistics& held_out, const PairStatistics& of_model, std::size_t band) const {
@@ -140,7 +236,7 @@ double ScannerFit::ksOf(const PairStatistics& held_out, const PairStatistics& of
 }
 
 double ScannerFit::ksBoundOf(std::size_t band) const {
-  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size());
+  return ksBound(real.differences_m[band].size(), simulated.differences_m[band].size(), comparisonLevel());
 }
 
 double HeldOutFit::ksBoundOf(std::size_t band) const {
@@ -155,32 +251,46 @@ bool ScannerFit::isAccepted() const {
   for (std::size_t band = 0; band < kBands; ++band) {
     if (!real.differences_m[band].empty() && ksOf(band) > ksBoundOf(band)) return false;
   }
-  return folds[0].ratesAgree() && folds[1].ratesAgree();
+  for (const auto& fold : folds) {
+    if (isJumpRateBeyond(fold, comparisonLevel()) || isFlipRateBeyond(fold, comparisonLevel())) return false;
+  }
+  return true;
 }
 
-ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion) {
+ScannerFit fitScans(ScanSeries series, RestCriterion criterion, const std::string& name, Progress& progress) {
   ScannerFit fit;
-  Progress progress;
-  const Interrupt interrupt;
   fit.criterion = criterion;
-  fit.series = readScans(rawlog, sensor, [&](std::uint64_t entries) {
-    throwIfInterrupted("nothing was written");
-    if (progress.due()) progress.show("reading: " + withCommas(entries) + " entries …");
-  });
+  fit.series = std::move(series);
   fit.candidates = standingPairs(fit.series);
   for (const auto& pair : fit.candidates) {
     if (criterion == RestCriterion::odometry || pair.is_at_rest) fit.used.push_back(pair);
   }
   if (fit.used.size() < kFewestPairs) {
     fit.basis = FitBasis::local_map;
-    fitDrive(fit, rawlog, progress);
+    fitDrive(fit, name, progress);
   } else {
     fitPairs(fit, progress);
   }
+  fit.real.jump_m = fit.simulated.jump_m = fit.folds[0].real.jump_m;
   for (const auto& fold : fit.folds) {
     fit.real.add(fold.real);
     fit.simulated.add(fold.simulated);
   }
+  return fit;
+}
+
+ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion) {
+  Progress progress;
+  const Interrupt interrupt;
+  ScannerFit fit = fitScans(readScans(rawlog, sensor,
+                                      [&](std::uint64_t entries) {
+                                        throwIfInterrupted("nothing was written");
+                                        if (progress.due()) {
+                                          progress.show("reading: " + withCommas(entries) + " entries …");
+                                        }
+                                      }),
+                            criterion, rawlog, progress);
+  if (fit.basis == FitBasis::scans_at_rest) fitBeamModels(fit, progress);
   return fit;
 }
 
@@ -203,7 +313,7 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   set("quantum_m", e.quantum_m, 4);
   set("dropout", e.dropout, 6);
   set("outlier", e.outlier, 6);
-  if (e.reach_m > 0) {  // unknown from a drive
+  if (e.reach_m > 0) {  // otherwise the recording does not bound it
     set("reach_m", e.reach_m, 1);
     set("fading", e.fading, 3);
   }
@@ -215,7 +325,8 @@ std::string modelXml(const ScannerFit& fit, const std::string& rawlog) {
   for (std::size_t at = name.find("--"); at != std::string::npos; at = name.find("--")) name.erase(at, 1);
   std::string text = toXml(laser);
   const std::string comment = "<!-- Fitted to " + basisOf(fit) + " of " + name + boundsOf(fit) +
-                              ". In the <sensors> of a robot type: <include file=\"laser.xml\" z_m=\"0.3\"/> -->\n";
+                              ". In the <sensors> of a robot type: <include file=\"laser.xml\" z_m=\"0.3\"/>\n" +
+                              "     Estimates with intervals of 95 %:\n" + parametersOf(fit, "     ") + "-->\n";
   return text.insert(text.find('\n') + 1, comment);  // after the declaration
 }
 
@@ -227,10 +338,8 @@ std::string summaryOf(const ScannerFit& fit) {
                      std::to_string(fit.candidates.size() - fit.used.size()) +
                      " excluded, because the scans contradict the odometry\n";
   if (!is_at_rest) text += "fitted    to " + basisOf(fit) + boundsOf(fit) + "\n";
-  const LaserErrors& e = fit.model.errors;
-  text += "errors    quantum " + fixed(e.quantum_m, 3) + " m, tail " + fixed(e.tail, 3) + " × " +
-          fixed(e.tail_factor, 0) + ", lost " + percent(e.dropout) + ", outliers " + percent(e.outlier) +
-          (e.reach_m > 0 ? ", reach " + fixed(e.reach_m, 0) + " m" : "") + "\n";
+  text += "errors    quantum " + fixed(fit.model.errors.quantum_m, 3) + " m; with intervals of 95 %:\n" +
+          parametersOf(fit, "          ");
   if (is_at_rest) text += "beams     " + textOf(fit.beam_model) + ", about their mean ranges at rest\n";
   text += "map       " + textOf(fit.map_model) + ", of " + withCommas(fit.map_readings.matched) +
           " scans against the aligned scans before them; " + withCommas(fit.map_readings.failed) + " not aligned\n\n";
@@ -241,7 +350,8 @@ std::string summaryOf(const ScannerFit& fit) {
     const std::size_t n = fit.real.differences_m[band].size();
     if (n == 0) continue;
     rows.push_back({bandName(band), fit.model.std_m[band] > 0 ? fixed(1000 * fit.model.std_m[band], 1) + " mm" : "–",
-                    withCommas(n), withCommas(fit.simulated.differences_m[band].size()), fixed(fit.ksOf(band), 3),
+                    withCommas(n), withCommas(fit.simulated.differences_m[band].size()),
+                    fixed(fit.ksOf(band), 3) + (fit.ksOf(band) > fit.ksBoundOf(band) ? " !" : ""),
                     fixed(fit.ksBoundOf(band), 3)});
     for (std::size_t half = 0; half < fit.folds.size(); ++half) {
       const HeldOutFit& fold = fit.folds[half];
@@ -254,19 +364,27 @@ std::string summaryOf(const ScannerFit& fit) {
     }
   }
   text += table(rows);
-  rows = {{"share of the beams", "odd, real", "simulated", "even, real", "simulated"}};
-  const auto add = [&](const char* name, double (PairStatistics::*rate)() const) {
+  const std::string jump = fixed(100 * fit.real.jump_m, 0) + " cm";
+  rows = {{"share of the beams", "odd, real", "simulated", "bound", "even, real", "simulated", "bound"}};
+  using BeyondBound = bool (*)(const HeldOutFit&, double);
+  const double level = fit.comparisonLevel();
+  const auto add = [&](const std::string& name, double (PairStatistics::*rate)() const,
+                       double (HeldOutFit::*bound)(double) const, BeyondBound is_beyond) {
     rows.push_back({name});
     for (const auto& fold : fit.folds) {
-      rows.back().push_back(percent((fold.real.*rate)()));
+      rows.back().push_back(percent((fold.real.*rate)()) + (is_beyond && is_beyond(fold, level) ? " !" : ""));
       rows.back().push_back(percent((fold.simulated.*rate)()));
+      rows.back().push_back(bound ? "±" + percent((fold.*bound)(level)) : "–");
     }
   };
-  add(is_at_rest ? "jumps above 15 cm" : "residuals above 15 cm", &PairStatistics::jumpRate);
-  add(is_at_rest ? "changes of validity" : "lost echoes", &PairStatistics::flipRate);
-  if (is_at_rest) add("invalid in both", &PairStatistics::invalidRate);
+  add((is_at_rest ? "jumps above " : "residuals above ") + jump, &PairStatistics::jumpRate, &HeldOutFit::jumpBound,
+      isJumpRateBeyond);
+  add(is_at_rest ? "changes of validity" : "lost echoes", &PairStatistics::flipRate, &HeldOutFit::flipBound,
+      isFlipRateBeyond);
+  if (is_at_rest) add("invalid in both", &PairStatistics::invalidRate, nullptr, nullptr);
   text += "\n" + table(rows) + "\nThe held-out " + parts +
-          (fit.isAccepted() ? " agree with the model.\n" : " differ from the model by more than the bounds.\n");
+          (fit.isAccepted() ? " agree with the model.\n"
+                            : " differ from the model: the figures marked with ! exceed their bounds.\n");
   if (!beyond.empty()) text += "! One half alone exceeds its bound: " + beyond + ".\n";
   return text;
 }

@@ -3,8 +3,10 @@
 #include <string>
 
 #include "base/interrupt.h"
+#include "base/progress.h"
 #include "calibration/beam_model.h"
 #include "calibration/laser_fit.h"
+#include "calibration/lost_echoes.h"
 #include "calibration/matched_scans.h"
 #include "calibration/pair_statistics.h"
 #include "calibration/standing_scans.h"
@@ -32,10 +34,12 @@ struct HeldOutFit {
   LaserFit model;
   PairStatistics real, simulated;  ///< of the held-out pairs or scans, and of the model
 
-  /// Bound of the Kolmogorov–Smirnov distance of a band.
+  /// Bound of the Kolmogorov–Smirnov distance of a band, at a level of 1 % for this band alone.
   double ksBoundOf(std::size_t band) const;
-  /// Whether the rates of jumps and of changes of validity agree within kRateTolerance.
-  bool ratesAgree() const;
+  /// Bounds of the difference of the rates of jumps and of changes of validity: those that equal rates exceed with
+  /// probability `level`, at least kRateTolerance. The pairs of one half share no scan and are independent.
+  double jumpBound(double level) const;
+  double flipBound(double level) const;
 };
 
 /// A model of a scanner, estimated from all pairs of scans at rest, or from all scans of a drive. Two-fold
@@ -47,6 +51,7 @@ struct ScannerFit {
   std::vector<ScanPair> candidates;  ///< all pairs at unchanged odometry
   std::vector<ScanPair> used;        ///< of these, by the criterion
   LaserFit model;                    ///< of all of them, or of all scans
+  LostEchoes echoes;                 ///< of all of them; unless local_map
   std::array<HeldOutFit, 2> folds;   ///< fitted to the pairs (scans) of even and of odd number
   PairStatistics real, simulated;    ///< of both folds
   BeamModel beam_model;              ///< of all readings at rest, about the mean range of each beam; unless local_map
@@ -59,12 +64,16 @@ struct ScannerFit {
   double ksBoundOf(std::size_t band) const;
   /// Whether the distance of one half of the pairs exceeds the bound of its own numbers of differences.
   bool isBeyondBound(const HeldOutFit& half, std::size_t band) const;
-  /// Whether all bands of both folds together are within their bounds, and the rates of each fold agree.
+  /// Level of each comparison of the verdict: kVerdictLevel divided by their number (Bonferroni, 1936).
+  double comparisonLevel() const;
+  /// Whether all bands of both folds together are within their bounds, and the rates of each fold agree. A recording of
+  /// the fitted model itself is rejected with a probability of at most kVerdictLevel.
   bool isAccepted() const;
 };
 
-/// Largest accepted difference of a rate.
+/// Differences of a rate up to this are accepted, however many data there are.
 constexpr double kRateTolerance = 0.003;
+constexpr double kVerdictLevel = 0.01;
 /// Fewest pairs of scans at rest from which errors are estimated.
 constexpr std::size_t kFewestPairs = 2;
 /// Fewest aligned scans from which errors are estimated otherwise.
@@ -75,9 +84,13 @@ constexpr std::size_t kFewestMatchedScans = 10;
 /// @throws Interrupted when a signal requests the end
 ScannerFit fitScanner(const std::string& rawlog, const std::string& sensor, RestCriterion criterion);
 
+/// The same for scans that are read already. @param name of the recording, for messages
+ScannerFit fitScans(ScanSeries series, RestCriterion criterion, const std::string& name, Progress& progress);
+
 /// The fitted errors as a <laser> element's <noise>, with a comment on its origin: an XML document.
 std::string modelXml(const ScannerFit& fit, const std::string& rawlog);
-/// The results as a text table. "!" marks a half that is beyond its bound, which isAccepted() does not regard.
+/// The results as a text table. "!" marks each figure that is beyond its bound; isAccepted() does not regard the KS
+/// distances of one half.
 std::string summaryOf(const ScannerFit& fit);
 /// The results with histograms, as one HTML page without external references.
 std::string reportHtml(const ScannerFit& fit, const std::string& rawlog);

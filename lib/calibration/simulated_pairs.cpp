@@ -24,23 +24,6 @@ double shareOf(const SeenSurface& seen, double dropout) {
   return std::min(1.0, valid / (1 - dropout));
 }
 
-/// The scans of pairs, in order.
-std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs) {
-  std::vector<std::size_t> scans;
-  for (const auto& pair : pairs) {
-    for (const std::size_t scan : {pair.first, pair.first + 1}) {
-      if (scans.empty() || scan > scans.back()) scans.push_back(scan);
-    }
-  }
-  return scans;
-}
-
-/// Whether a rate of lost echoes explains a beam's losses in a number of scans.
-bool isSteady(std::size_t lost, std::size_t scans, double dropout) {
-  const double expected = dropout * static_cast<double>(scans);
-  return dropout > 0 && static_cast<double>(lost) <= 1 + expected + 3 * std::sqrt(expected);
-}
-
 /// Reflectivity at which a share of the echoes from a range is detected; the inverse of the model of LaserErrors.
 double reflectivityOf(const LaserErrors& errors, double range_m, double share) {
   constexpr double kSteady = 1e-9;  // lost echoes of a beam that lost none
@@ -124,7 +107,8 @@ class StandingScanner {
 
 }  // namespace
 
-std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs, double dropout) {
+std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vector<ScanPair>& pairs,
+                                      const LostEchoes& echoes, double jump_m) {
   const std::vector<std::size_t> scans = scansOf(pairs);
   std::vector<SeenSurface> seen(series.scans.empty() ? 0 : series.scans.front().ranges_m.size());
   for (std::size_t i = 0; i < seen.size(); ++i) {
@@ -145,13 +129,13 @@ std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vecto
     double sum_m = 0;
     int near = 0;
     for (const double range_m : valid_m) {
-      if (std::abs(range_m - median_m) > kJump_m) continue;
+      if (std::abs(range_m - median_m) > jump_m) continue;
       sum_m += range_m;
       ++near;
     }
     seen[i].range_m = sum_m / near;
     const std::size_t lost = scans.size() - valid_m.size();
-    if (lost > 0 && isSteady(lost, scans.size(), dropout)) {
+    if (lost > 0 && echoes.isSteady(lost, scans.size())) {
       seen[i].valid = 1;
       seen[i].flips = 0;
     }
@@ -159,42 +143,18 @@ std::vector<SeenSurface> seenSurfaces(const ScanSeries& series, const std::vecto
   return seen;
 }
 
-double dropoutOf(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
-  constexpr std::size_t kFewestScans = 5;  // with fewer, a steady beam with a lost echo is not known from others
-  std::vector<std::pair<std::size_t, std::size_t>> beams;  // lost echoes, scans
-  for (const auto& group : standingGroups(series, pairs)) {
-    const std::vector<std::size_t> scans = scansOf(group);
-    if (scans.size() < kFewestScans) continue;
-    for (std::size_t i = 0; i < series.scans.front().ranges_m.size(); ++i) {
-      std::size_t lost = 0;
-      for (const std::size_t scan : scans) lost += std::isnan(series.scans[scan].ranges_m[i]) ? 1 : 0;
-      if (lost < scans.size()) beams.emplace_back(lost, scans.size());
-    }
-  }
-  constexpr int kIterations = 20;
-  double dropout = std::numeric_limits<double>::min();
-  for (int iteration = 0; iteration < kIterations; ++iteration) {
-    std::size_t lost = 0, all = 0;
-    for (const auto& [beam_lost, scans] : beams) {
-      if (!isSteady(beam_lost, scans, dropout)) continue;
-      lost += beam_lost;
-      all += scans;
-    }
-    if (lost == 0) return 0;
-    dropout = static_cast<double>(lost) / static_cast<double>(all);
-  }
-  return dropout;
-}
-
 PairStatistics simulatePairs(const ScanSeries& series, const std::vector<ScanPair>& pairs, const LaserErrors& errors,
-                             std::size_t count, std::uint64_t seed) {
-  PairStatistics statistics;
+                             const LostEchoes& echoes, double jump_m, std::size_t count, std::uint64_t seed) {
+  PairStatistics statistics{.jump_m = jump_m};
   for (const auto& group : standingGroups(series, pairs)) {
-    StandingScanner scanner(series, seenSurfaces(series, group, errors.dropout), errors, seed++);
+    const auto seen = seenSurfaces(series, group, echoes, jump_m);
+    std::vector<double> range_m;
+    for (const auto& surface : seen) range_m.push_back(surface.range_m);
+    StandingScanner scanner(series, seen, errors, seed++);
     for (std::size_t i = 0; i < count * group.size(); ++i) {
       throwIfInterrupted("nothing was written");
       const auto first = scanner.scan();
-      statistics.add(first, scanner.scan());
+      statistics.add(first, scanner.scan(), range_m);
     }
   }
   return statistics;

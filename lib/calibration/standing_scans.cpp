@@ -232,4 +232,32 @@ std::vector<std::vector<ScanPair>> standingGroups(const ScanSeries& series, cons
   return groups;
 }
 
+std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs) {
+  std::vector<std::size_t> scans;
+  for (const auto& pair : pairs) {
+    for (const std::size_t scan : {pair.first, pair.first + 1}) {
+      if (scans.empty() || scan > scans.back()) scans.push_back(scan);
+    }
+  }
+  return scans;
+}
+
+std::vector<double> medianRanges(const ScanSeries& series, const std::vector<ScanPair>& pairs) {
+  const std::vector<std::size_t> scans = scansOf(pairs);
+  std::vector<double> median_m(series.scans.empty() ? 0 : series.scans.front().ranges_m.size(), kInvalid);
+  std::vector<double> valid_m;
+  for (std::size_t i = 0; i < median_m.size(); ++i) {
+    valid_m.clear();
+    for (const std::size_t scan : scans) {
+      const double range_m = series.scans[scan].ranges_m[i];
+      if (!std::isnan(range_m)) valid_m.push_back(range_m);
+    }
+    if (valid_m.empty()) continue;
+    const auto middle = valid_m.begin() + static_cast<std::ptrdiff_t>(valid_m.size() / 2);
+    std::nth_element(valid_m.begin(), middle, valid_m.end());
+    median_m[i] = *middle;
+  }
+  return median_m;
+}
+
 }  // namespace robosim

@@ -52,4 +52,10 @@ std::vector<ScanPair> standingPairs(const ScanSeries& series);
 /// successive ones.
 std::vector<std::vector<ScanPair>> standingGroups(const ScanSeries& series, const std::vector<ScanPair>& pairs);
 
+/// The scans of pairs, in order.
+std::vector<std::size_t> scansOf(const std::vector<ScanPair>& pairs);
+
+/// Median of the valid readings of each beam in the scans of pairs of one place; NaN without any.
+std::vector<double> medianRanges(const ScanSeries& series, const std::vector<ScanPair>& pairs);
+
 }  // namespace robosim

@@ -165,8 +165,20 @@ TEST_F(Fit, BoundsTheErrorsOfARecordingOfRoboSimThatIsNeverAtRest) {
   EXPECT_TRUE(fit.isAccepted()) << summaryOf(fit);
 }
 
+TEST_F(Fit, DoesNotWriteAModelThatDiffersFromTheRecordingUnlessForced) {
+  const std::string fit = "fit " + quoted(kMoving) + " -o " + quoted(in("laser.xml"));
+  const Ended refused = runProgram(fit);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("laser.xml is not written; the figures marked with ! show where"), std::string::npos)
+      << refused.err;
+  EXPECT_FALSE(std::filesystem::exists(in("laser.xml")));
+  EXPECT_NE(refused.out.find(" !"), std::string::npos) << refused.out;
+  EXPECT_EQ(runProgram(fit + " --force").exit_code, 0);
+  EXPECT_TRUE(std::filesystem::exists(in("laser.xml")));
+}
+
 TEST_F(Fit, StatesThatTheErrorsOfARecordingThatIsNeverAtRestAreUpperBounds) {
-  const Ended fit = runProgram("fit " + quoted(kMoving) + " -o " + quoted(in("laser.xml")) + " --report " +
+  const Ended fit = runProgram("fit " + quoted(kMoving) + " --force -o " + quoted(in("laser.xml")) + " --report " +
                                quoted(in("report.html")));
   ASSERT_EQ(fit.exit_code, 0) << fit.err;
   const std::string bounds = "errors of the motion and of the map: upper bounds of the scanner's own errors";
@@ -176,7 +188,7 @@ TEST_F(Fit, StatesThatTheErrorsOfARecordingThatIsNeverAtRestAreUpperBounds) {
   EXPECT_NE(fit.out.find(bounds), std::string::npos) << fit.out;
   const std::string xml = textOf(in("laser.xml")), report = textOf(in("report.html"));
   EXPECT_NE(xml.find(bounds), std::string::npos) << xml;
-  EXPECT_EQ(xml.find("reach_m"), std::string::npos) << xml;
+  EXPECT_EQ(xml.find("reach_m="), std::string::npos) << xml;
   EXPECT_NE(report.find("Residuals of the scans of a drive"), std::string::npos);
   EXPECT_NE(report.find("upper bounds of the scanner's own.</strong>"), std::string::npos);
   const auto laser = sensorFrom(xml);
