@@ -29,6 +29,7 @@ double surfaceAt(int beam) { return 1.013 + 0.2477 * beam; }
 /// Scans at 10 Hz of surfaces at 1 m … 8.4 m that return half of the light.
 ScanSeries scansOfScanner(const Scanner& scanner, std::uint64_t seed) {
   LaserErrors errors{.std_m = scanner.std_m,
+                     .std_at = {},
                      .quantum_m = scanner.quantum_m,
                      .dropout = scanner.dropout,
                      .outlier = kScannerOutlier,

@@ -148,7 +148,9 @@ class SampleFit {
     measureEffects();
     best_ = *std::max_element(fits_.begin(), fits_.end(),
                               [](const TailFit& a, const TailFit& b) { return a.likelihood < b.likelihood; });
-    if (2 * (best_.likelihood - fits_.front().likelihood) / tail_effect_ > kChiSquare99OfTwo) {
+    // Errors that a pair of scans has in common widen the intervals; they are no reason against a tail.
+    const double overlap = kind_ == Sample::differences ? overlapOf(statistics_) : 0;
+    if (2 * (best_.likelihood - fits_.front().likelihood) / (1 + overlap) > kChiSquare99OfTwo) {
       chosen_ = best_;
       measureEffects();
     }

@@ -68,7 +68,7 @@ TEST(MapResiduals, AreSimulatedWithTheErrorsOfTheScanner) {
   errors.std_m = 0.02;
   errors.dropout = 0.1;
   errors.outlier = 0.05;
-  const PairStatistics simulated = simulateResiduals(readings, errors, 20, 10, 1);
+  const PairStatistics simulated = simulateResiduals(readings, errors, kJump_m, 20, 10, 1);
   EXPECT_EQ(simulated.beams, 10'000u);
   EXPECT_NEAR(simulated.flipRate(), 0.1, 0.012) << "four standard errors";
   // 5 % of all are 5.56 % of those with an echo, and 1.5 % of the outliers are within 15 cm.
@@ -98,7 +98,7 @@ TEST(MatchedScans, EndWhenASignalRequestsIt) {
     std::raise(SIGINT);
     EXPECT_THROW(matchScans(series), Interrupted);
     EXPECT_THROW(fitLaser(statisticsOf(series, {{.first = 0}}), 0), Interrupted);
-    EXPECT_THROW(simulatePairs(series, {{.first = 0}}, {}, 1, 1), Interrupted);
+    EXPECT_THROW(simulatePairs(series, {{.first = 0}}, {}, {}, kJump_m, 1, 1), Interrupted);
     EXPECT_THROW(fitBeamModel({{1, 1}}, 20), Interrupted);
   }
   const Interrupt withdrawn;

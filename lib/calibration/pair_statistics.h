@@ -26,9 +26,9 @@ struct PairStatistics {
   double jump_m = kJump_m;  ///< larger differences are jumps
   std::size_t pairs = 0;
   /// Second minus first range, without jumps, by the range of the beam.
-  std::array<std::vector<double>, kBands> differences_m;
-  std::array<std::vector<DifferenceOrigin>, kBands> origins;  ///< of these, in their order
-  std::vector<DifferenceOrigin> jump_origins;
+  std::array<std::vector<double>, kBands> differences_m{};
+  std::array<std::vector<DifferenceOrigin>, kBands> origins{};  ///< of these, in their order
+  std::vector<DifferenceOrigin> jump_origins{};
   std::size_t compared = 0;   ///< beams that are valid in both scans of a pair
   std::size_t jumps = 0;      ///< of these, differences above jump_m
   std::size_t beams = 0;      ///< all beams of all pairs
