@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "base/portable_math.h"
 #include "base/random.h"
+#include "geometry/shapes/ray.h"
 
 namespace robosim {
 namespace {
 
 constexpr double kStepTolerance = 1e-6;  // of a step; absorbs the rounding error of the time
+/// Length of a gap that is none [m]: absorbs the rounding errors of solids that touch.
+constexpr double kGapTolerance_m = 1e-6;
 
 }  // namespace
 
@@ -18,7 +22,7 @@ MessageFate RadioChannel::fateOf(std::uint64_t seed, const SimTime& now, const S
   const Communication& c = communication_;
   const auto& a = way.from_antenna;
   const auto& b = way.to_antenna;
-  const double distance_m = portable::hypot(a.x - b.x, a.y - b.y);
+  const double distance_m = c.range_m ? portable::hypot(a.x - b.x, a.y - b.y) : 0;
   if (c.range_m && distance_m > *c.range_m) return MessageFate::out_of_range;
   const int walls = c.hasWalls() ? wallsBetween(scene, a, b) : 0;
   if (c.range_m && distance_m + walls * c.wall_range_m > *c.range_m) return MessageFate::stopped_by_walls;
@@ -57,10 +61,19 @@ int RadioChannel::wallsBetween(const Scene& scene, const mrpt::math::TPoint3D& a
   static thread_local std::vector<BodyId> near;
   near.clear();
   scene.findBodies({std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y)}, near);
-  int walls = 0;
+  static thread_local std::vector<RaySpan> occupied;
+  occupied.clear();
   for (const BodyId body : near) {
     if (static_cast<std::size_t>(body) >= scene.stationaryCount()) break;  // they are in ascending order
-    walls += intersect(ray, scene.solid(body)).value_or(std::numeric_limits<double>::infinity()) < length_m ? 1 : 0;
+    const auto span = spanInside(ray, scene.solid(body));
+    if (span && span->to_m >= 0 && span->from_m < length_m) occupied.push_back(*span);
+  }
+  std::sort(occupied.begin(), occupied.end(), [](const RaySpan& x, const RaySpan& y) { return x.from_m < y.from_m; });
+  int walls = 0;
+  double end_m = -std::numeric_limits<double>::infinity();
+  for (const RaySpan& span : occupied) {
+    walls += span.from_m > end_m + kGapTolerance_m ? 1 : 0;
+    end_m = std::max(end_m, span.to_m);
   }
   return walls;
 }

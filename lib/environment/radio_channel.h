@@ -37,7 +37,8 @@ class RadioChannel {
   MessageFate fateOf(std::uint64_t seed, const SimTime& now, const Scene& scene, const Way& way) const;
   /// Whether the channel of two robots is in the bad state.
   bool isBad(std::uint64_t seed, const SimTime& now, std::uint32_t a, std::uint32_t b) const;
-  /// Number of stationary solids on the line between two points.
+  /// Number of walls between two points: connected parts of the line between them that stationary solids occupy. Solids
+  /// that touch, such as the rectangles of a map's wall, are one wall.
   static int wallsBetween(const Scene&, const mrpt::math::TPoint3D& a, const mrpt::math::TPoint3D& b);
 
  private:

@@ -46,6 +46,26 @@ TEST(Radio, CountsWallsOnTheLineBetweenTheAntennas) {
   EXPECT_EQ(RadioChannel::wallsBetween(scene, {0, 0, 0.3}, {0, 8, 0.3}), 0);
 }
 
+TEST(Radio, CountsSolidsThatTouchOnTheLineAsOneWall) {
+  // A diagonal wall of a map: squares of 0.25 m along the line from (0, 0) to (4, 4), each of which touches the next at
+  // a corner, then a gap of 0.1 m and another square.
+  std::vector<Solid> squares;
+  for (int i = 4; i < 8; ++i) squares.push_back({OrientedBox::from({0.25 * i, 0.25 * i, 0}, 0.25, 0.25), {0, 1}});
+  const auto walls = [&] {
+    return RadioChannel::wallsBetween(Scene(squares, 0, {-20, 20, -20, 20}), {0, 0, 0.3}, {4, 4, 0.3});
+  };
+  EXPECT_EQ(walls(), 1);
+  squares.push_back({OrientedBox::from({2.1, 2.1, 0}, 0.25, 0.25), {0, 1}});
+  EXPECT_EQ(walls(), 2);
+  squares.push_back({OrientedBox::from({1.9, 1.9, 0}, 0.3, 0.3), {0, 1}});
+  EXPECT_EQ(walls(), 1) << "the gap is filled";
+}
+
+TEST(Radio, CountsAWallInWhichAnAntennaIs) {
+  const Scene scene({wallAt(0), wallAt(10)}, 0, {-20, 20, -20, 20});
+  EXPECT_EQ(RadioChannel::wallsBetween(scene, {0, 0, 0.3}, {10, 0, 0.3}), 2);
+}
+
 TEST(Radio, WallsTakeRange) {
   // 10 m and two walls of 2.4 m each: 14.8 m.
   for (const auto& [range_m, arrives] : {std::pair{14.9, true}, {14.7, false}}) {

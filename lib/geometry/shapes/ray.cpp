@@ -103,4 +103,12 @@ std::optional<double> intersect(const Ray& ray, const Solid& solid) {
   return interval.from;
 }
 
+std::optional<RaySpan> spanInside(const Ray& ray, const Solid& solid) {
+  Interval interval;
+  interval.clipSlab(ray.origin.z, ray.direction.z, solid.heights.z_min_m, solid.heights.z_max_m);
+  std::visit([&](const auto& outline) { clipToOutline(interval, ray, outline); }, solid.outline);
+  if (interval.from > interval.to) return std::nullopt;
+  return RaySpan{interval.from, interval.to};
+}
+
 }  // namespace robosim

@@ -21,4 +21,12 @@ struct Ray {
 /// (tangent, corner, along a face) hits.
 std::optional<double> intersect(const Ray&, const Solid&);
 
+/// Part of a ray: distances [m] along it, from_m <= to_m. A part that begins behind the ray's origin has from_m < 0.
+struct RaySpan {
+  double from_m = 0, to_m = 0;
+};
+/// The part of the line of a ray that lies inside the solid, also behind the origin; nullopt for a miss. A point of
+/// contact is a part of length 0. A vertical line inside the solid has the part between its underside and top.
+std::optional<RaySpan> spanInside(const Ray&, const Solid&);
+
 }  // namespace robosim

@@ -127,6 +127,25 @@ TEST(Intersect, HitsTopAndUndersideVertically) {
   EXPECT_EQ(cast({5, 1, 10}, {0, 0, 1}, kBox), std::nullopt) << "away";
 }
 
+TEST(SpanInside, IsThePartOfTheLineBetweenTwoFaces) {
+  const auto span = [](const TPoint3D& origin, const TPoint3D& direction, const Solid& solid) {
+    const auto found = spanInside({origin, direction}, solid);
+    return found ? std::pair(found->from_m, found->to_m) : std::pair(0.0, 0.0);
+  };
+  EXPECT_EQ(span({0, 0, 1}, {1, 0, 0}, kBox), std::pair(4.0, 6.0));
+  EXPECT_EQ(span({0, 0, 1}, {1, 0, 0}, kPillar), std::pair(3.0, 7.0));
+  EXPECT_EQ(span({10, 0, 1}, {1, 0, 0}, kBox), std::pair(-6.0, -4.0)) << "behind the origin";
+  EXPECT_EQ(span({5, 0, 5}, {0, 0, -1}, kBox), std::pair(3.0, 5.0)) << "down";
+  EXPECT_EQ(span({0, 2, 1}, {1, 0, 0}, kBox), std::pair(4.0, 6.0)) << "along a face";
+  EXPECT_EQ(span({0, 2, 1}, {1, 0, 0}, kPillar), std::pair(5.0, 5.0)) << "a tangent";
+  // Down by 3 in 4 from z = 4: below the top, z = 2, from 10/3 on, inside x = 4 … 6 from 5 to 7.5, above z = 0 to 20/3.
+  const auto [from_m, to_m] = span({0, 0, 4}, {0.8, 0, -0.6}, kBox);
+  EXPECT_NEAR(from_m, 5, 1e-14);
+  EXPECT_NEAR(to_m, 20.0 / 3, 1e-14);
+  EXPECT_FALSE(spanInside({{0, 2.001, 1}, {1, 0, 0}}, kBox));
+  EXPECT_FALSE(spanInside({{0, 0, 2.001}, {1, 0, 0}}, kPillar));
+}
+
 TEST(Intersect, AgreesWithBisectionOverRandomSolids) {
   Rng rng(1);
   const SolidSpread families[] = {
