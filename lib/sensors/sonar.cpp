@@ -1,7 +1,10 @@
 #include "sensors/sonar.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <numeric>
 #include <optional>
 #include <utility>
 
@@ -46,6 +49,33 @@ struct Detection {
   BodyId body = kNoBody;
 };
 
+/// Sonars next to each other by mounting angle, whose pings a sonar may receive: index of the next one clockwise and
+/// counter-clockwise; nullopt if none faces the same side.
+using AdjacentSonars = std::array<std::optional<std::size_t>, 2>;
+
+/// By sonar. Adjacent are those between whose axes no other axis lies, and which are at most 90° apart.
+std::vector<AdjacentSonars> adjacentSonars(const std::vector<Beam>& beams) {
+  constexpr double kApartMax_rad = M_PI_2 + 1e-9;
+  const std::size_t n = beams.size();
+  std::vector<double> angle_rad;
+  for (const Beam& beam : beams) {
+    const double turns = beam.robot_from_beam.yaw / (2 * M_PI);
+    angle_rad.push_back((turns - std::floor(turns)) * 2 * M_PI);
+  }
+  std::vector<std::size_t> order(n);
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return angle_rad[a] < angle_rad[b]; });
+  std::vector<AdjacentSonars> adjacent(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const std::size_t here = order[k], next = order[(k + 1) % n];
+    const double apart_rad = angle_rad[next] - angle_rad[here] + (k + 1 == n ? 2 * M_PI : 0);
+    if (apart_rad > kApartMax_rad) continue;
+    adjacent[here][1] = next;
+    adjacent[next][0] = here;
+  }
+  return adjacent;
+}
+
 SensorInfo infoOf(const SonarOptions& options) {
   return {.kind = SensorKind::sonar,
           .label = options.label,
@@ -64,6 +94,7 @@ class Sonar : public Sensor {
   explicit Sonar(const SonarOptions& options)
       : options_(options),
         info_(infoOf(options)),
+        adjacent_(adjacentSonars(options.beams)),
         axes_(options.beams),
         reflector_(options_.noise, options.range_max_m) {
     const double half_rad = options.beam_width_rad / 2;
@@ -178,7 +209,7 @@ class Sonar : public Sensor {
       // Drawn without an echo too, so that a sonar's noise does not depend on the echoes of the others.
       detections[i].range_m = noise.range.apply(detections[i].range_m, rng);
     }
-    if (noise.crosstalk > 0) addCrosstalk(rng, detections);
+    if (noise.crosstalk > 0) addCrosstalk(now, rng, detections);
     if (noise.ringing > 0 || noise.robot_crosstalk > 0) addFalseEchoes(now, robot, slot, frame, detections);
   }
 
@@ -244,15 +275,16 @@ class Sonar : public Sensor {
     }
   }
 
-  void addCrosstalk(Rng& rng, std::vector<Detection>& detections) const {
+  /// A sonar receives the ping of an adjacent one only in a step in which that fires.
+  void addCrosstalk(const Snapshot& now, Rng& rng, std::vector<Detection>& detections) const {
     // The neighbours' own echoes, so that an echo does not propagate around the ring.
     static thread_local std::vector<Detection> own;
     own = detections;
-    const std::size_t n = own.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < own.size(); ++i) {
       const bool mixed = rng.uniform() < options_.noise.crosstalk;
-      const std::size_t other = (i + (rng.below(2) ? 1 : n - 1)) % n;
-      if (mixed && own[other].range_m < own[i].range_m) detections[i] = {own[other].range_m, sonars_[i].axis, kNoBody};
+      const auto other = adjacent_[i][rng.below(2)];
+      if (!mixed || !other || !options_.firing.fires(*other, now.time)) continue;
+      if (own[*other].range_m < own[i].range_m) detections[i] = {own[*other].range_m, sonars_[i].axis, kNoBody};
     }
   }
 
@@ -266,7 +298,8 @@ class Sonar : public Sensor {
   SensorInfo info_;
   std::vector<MountedSonar> sonars_;
   std::vector<HeightGroup> groups_;  ///< for the model `sector`
-  PlanarBeams axes_;                 ///< for the model `rays` with one ray per sonar
+  std::vector<AdjacentSonars> adjacent_;
+  PlanarBeams axes_;  ///< for the model `rays` with one ray per sonar
   SonarReflector reflector_;
 };
 

@@ -17,7 +17,7 @@ struct SonarNoise {
   bool has_second_echoes = false;  ///< a specular surface may return an echo by way of another surface
   double blanking_m = 0;           ///< [0, range_max_m]: echoes from nearer are lost, but for their repetitions
   double ringing = 0;              ///< probability of a false echo at the end of the blanking, [0, 1]
-  double crosstalk = 0;            ///< probability of reading a neighbour's nearer echo, [0, 1]
+  double crosstalk = 0;            ///< probability of reading the nearer echo of an adjacent sonar that fires, [0, 1]
   double robot_crosstalk = 0;      ///< probability of receiving another robot's ping, if one is in view, [0, 1]
 
   /// Reads the attribute `noise` of <sonar> and its child <noise>.

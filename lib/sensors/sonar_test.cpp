@@ -186,6 +186,37 @@ TEST(Sonar, CrosstalkTakesANeighboursNearerEcho) {
   EXPECT_NEAR(mixed, 500, 4 * std::sqrt(2000 * 0.25 * 0.75));
 }
 
+TEST(Sonar, CrosstalkComesFromSonarsThatAreAdjacentByMountingAngle) {
+  // An arc of three sonars, listed as 90°, 0°, -90°, and a wall on the left. The one on the right is next to the first
+  // of the list only by its place there.
+  SingleRobotScene robot({block(0, 1.5, 0.2, 1)});
+  const auto sonar = sensorFrom(
+      "<sonar><at z_m='0.1' angle_deg='90'/><at z_m='0.1'/><at z_m='0.1' angle_deg='-90'/>"
+      "<noise std_per_m='0' crosstalk='1'/></sonar>");
+  int mixed = 0;
+  for (int i = 0; i < 200; ++i) {
+    const auto ranges = robot.ranges(*sonar);
+    EXPECT_NEAR(ranges[0], 1, kFloat);
+    EXPECT_NEAR(ranges[2], 5, kFloat) << "faces away from the sonar with an echo";
+    mixed += ranges[1] < 4 ? 1 : 0;
+  }
+  EXPECT_NEAR(mixed, 100, 4 * std::sqrt(200 * 0.25)) << "one of its two neighbours has an echo";
+}
+
+TEST(Sonar, CrosstalkComesFromSonarsThatFireInTheSameStep) {
+  // 25 ms in steps of 0.1 s: in an array of 16, four sonars fire per step, so 0 to 3 in step 1. Sonar 4, 22.5° from
+  // sonar 3, has an echo but does not fire.
+  SingleRobotScene robot({block(0, 1.5, 0.2, 0.1)});
+  const auto sonar = sensorFrom(
+      "<sonar model='rays' rays='1' firing_interval_s='0.025' array='16'><ring count='16' radius_m='0.2' z_m='0.1'/>"
+      "<noise std_per_m='0' crosstalk='1'/></sonar>");
+  for (int turn = 0; turn < 30; ++turn) {
+    const auto ranges = robot.ranges(*sonar);
+    EXPECT_NEAR(ranges[3], 5, kFloat) << "turn " << turn;
+    for (int step = 1; step < 4; ++step) robot.ranges(*sonar);
+  }
+}
+
 TEST(Sonar, ReportsFaultsOfItsElement) {
   const auto complaint = [](const std::string& xml) -> std::string {
     try {
