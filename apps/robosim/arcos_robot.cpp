@@ -69,12 +69,12 @@ class ArcosProcess {
   void drive() {
     try {
       do {
-        if (recording_) recording_->write(std::span(&hardware_.readings(), 1), {});
+        record();
         guarded(controller_name_, hardware_.info().name,
                 [this] { remote_ ? remote_->step() : controller_->step(*robot_); });
         if (port_) port_->publish();
       } while (!isHalted() && hardware_.nextStep());
-      hardware_.close();
+      hardware_.close([this] { record(); });
     } catch (...) {
       if (recording_) recording_->close();
       throw;
@@ -106,6 +106,10 @@ class ArcosProcess {
     port_ = std::make_unique<RemotePort>(
         options, RemotePort::Run{arguments.arcos, 0, hardware_.readings().time.period_s}, std::vector{remote_.get()});
     logRobot("remote control on " + withPort(options.listen, port_->port()));
+  }
+
+  void record() {
+    if (recording_) recording_->write(std::span(&hardware_.readings(), 1), {});
   }
 
   bool isHalted() const { return robot_ && robot_->activity() != Activity::active; }

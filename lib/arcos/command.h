@@ -51,6 +51,7 @@ constexpr std::uint8_t sip_standing = 0x32, sip_moving = 0x33;  ///< sip.h
 constexpr std::uint8_t config = 0x20;                           ///< config_packet.h
 constexpr std::uint8_t laser = 0x60, laser_extended = 0x61;     ///< laser_packets.h
 constexpr std::uint8_t sim_stat = 0x62, sim_info = 0x63;        ///< simulator_packets.h
+constexpr std::uint8_t sim_map = 0x66;                          ///< simulator_packets.h
 constexpr std::uint8_t encoder = 0x90, io = 0xF0;               ///< io_packets.h
 }  // namespace packet_type
 

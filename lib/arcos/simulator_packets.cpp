@@ -40,6 +40,13 @@ std::string encode(const SimInfo& info) {
   return encode(packet_type::sim_info, bytes.bytes());
 }
 
+std::string encode(const SimMap& map) {
+  constexpr std::size_t kFileMax = 128;
+  ByteWriter bytes;
+  bytes.add(std::uint8_t{map.is_by_user}).add(std::uint8_t{map.is_loaded}).addText(map.file.substr(0, kFileMax));
+  return encode(packet_type::sim_map, bytes.bytes());
+}
+
 std::string encodeSetPose(const SimPose& pose) {
   ByteWriter bytes;
   bytes.add(std::uint8_t{0}).add(pose.x_mm).add(pose.y_mm).add(pose.heading_deg);

@@ -27,6 +27,19 @@ struct SimInfo {
 };
 std::string encode(const SimInfo& info);
 
+/// Answer to a request to load a map (SIM_MAP_CHANGED).
+struct SimMap {
+  bool is_by_user = false;  ///< an operator has loaded it
+  bool is_loaded = false;   ///< false: the map that was in use before
+  std::string file;         ///< of the map in use; at most 128 bytes are sent
+};
+std::string encode(const SimMap& map);
+
+/// The operations of command::sim_control that RoboSim knows.
+namespace sim_operation {
+constexpr std::uint16_t load_map = 1, load_master_map = 2, request_info = 6;
+}
+
 /// A pose in the units of SIM_SET_POSE.
 struct SimPose {
   std::int32_t x_mm = 0, y_mm = 0, heading_deg = 0;

@@ -116,7 +116,6 @@ void ArcosSession::execute(const Packet& packet, std::string& answer) {
 }
 
 void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
-  constexpr std::uint16_t kRequestInfo = 6;
   switch (packet.id) {
     case command::sim_set_pose:
       if (const auto pose = arcos::decodeSetPose(packet)) simulator_.setTruePose(*pose);
@@ -134,10 +133,16 @@ void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
     case command::sim_control: {
       arcos::ByteReader bytes(packet.payload);
       bytes.take<std::uint8_t>();  // type of the argument
-      if (bytes.take<std::uint16_t>() == kRequestInfo) {
+      const auto operation = bytes.take<std::uint16_t>();
+      if (operation == arcos::sim_operation::request_info) {
         answer += encode(arcos::SimInfo{"RoboSim", "1"});
+      } else if (operation == arcos::sim_operation::load_map || operation == arcos::sim_operation::load_master_map) {
+        // The program may wait for an answer.
+        answer += encode(arcos::SimMap{.file = simulator_.mapFile()});
+        simulator_.log("a map is not loaded for a program: give it to robosim arcos, or load it by robosim control");
       } else {
-        simulator_.log("a SIM_CTRL operation without effect: only the information request is supported");
+        simulator_.log(
+            "a SIM_CTRL operation without effect: only loading a map and the information request are answered");
       }
       return;
     }
@@ -194,11 +199,11 @@ bool ArcosSession::takes(Stream& stream) {
 }
 
 void ArcosSession::beforeStep(Clock::time_point now) {
-  commands_ = 0;
   board_.update(isOpen() && now - last_packet_ < std::chrono::milliseconds(arcos::kWatchdog_ms));
 }
 
 std::string ArcosSession::cycle() {
+  commands_ = 0;
   if (!isOpen()) return {};
   std::string packets;
   if (takes(sim_stat_)) packets += encode(simulator_.stat());

@@ -31,7 +31,8 @@ class ArcosSession {
   std::string receive(std::string_view bytes, Clock::time_point now);
   /// Continues the robot's motion, before a time step.
   void beforeStep(Clock::time_point now);
-  /// The packets after a time step: SIP, and what the program has requested with it.
+  /// Begins the next cycle of kCommandsPerCycleMax. To be called in each cycle, also while the run is paused.
+  /// @return the packets after a time step: SIP, and what the program has requested with it
   std::string cycle();
 
   /// Whether SIPs are requested.

@@ -12,6 +12,7 @@ class Simulator {
  public:
   virtual ~Simulator() = default;
   virtual arcos::SimStat stat() const = 0;
+  virtual std::string mapFile() const = 0;  ///< in use
   virtual void setTruePose(const arcos::SimPose& pose) = 0;
   virtual void resetTruePose() = 0;  ///< to the start
   /// The scan that the session's LaserRequest describes, measured in this step [mm].

@@ -81,16 +81,17 @@ ArcosHardware::~ArcosHardware() {
   }
 }
 
-void ArcosHardware::close() {
+void ArcosHardware::close(const std::function<void()>& each_step) {
   is_closed_ = true;
-  channel_->write(encodeCommand(command::stop));
+  if (command_.activity == Activity::active) command_ = {.activity = Activity::halted};
   const auto start = channel_->now();
-  const std::uint64_t sips = client_.sips();
-  const auto is_standing = [&] {
-    return client_.sips() > sips && client_.sip().speed_left == 0 && client_.sip().speed_right == 0;
-  };
+  const auto is_over = [&] { return channel_->now() - start >= kStopMax; };
+  const auto is_standing = [&] { return client_.sip().speed_left == 0 && client_.sip().speed_right == 0; };
   try {
-    while (!is_standing() && channel_->now() - start < kStopMax) processArrived(channel_->read(kPoll));
+    while (awaitStep(is_over)) {
+      each_step();
+      if (is_standing()) break;
+    }
   } catch (const ChannelEnd&) {  // of a log
     return;
   }
@@ -136,7 +137,7 @@ void ArcosHardware::describe(ArcosRobotType type) {
     const bool is_laser = sensor.kind == SensorKind::laser;
     // A board without a compass sends 0.
     const bool has_compass = client_.isSimulated() || client_.sip().compass != 0;
-    const bool has_source = is_laser                             ? options_.laser || client_.isSimulated()
+    const bool has_source = is_laser ? options_.laser || (client_.isSimulated() && canCarryScans(sensor))
                             : sensor.kind == SensorKind::compass ? has_compass
                                                                  : true;
     if (canReport(sensor.kind) && has_source) {
@@ -144,7 +145,7 @@ void ArcosHardware::describe(ArcosRobotType type) {
     } else {
       missing.push_back(sensor.label);
     }
-    has_simulated_laser_ |= is_laser && !options_.laser && client_.isSimulated();
+    has_simulated_laser_ |= is_laser && has_source && !options_.laser;
   }
   const auto is_battery = [](const SensorInfo& sensor) { return sensor.kind == SensorKind::battery; };
   if (std::none_of(sensors.begin(), sensors.end(), is_battery)) sensors.push_back(batteryInfo());
@@ -156,6 +157,21 @@ void ArcosHardware::describe(ArcosRobotType type) {
   }
   options_.log("connected to " + client_.robotName() + " (" + client_.subclass() + ") at " + channel_->name() +
                "; not available: " + listed(missing));
+}
+
+/// Whether the line carries the simulated scans of a laser beside the SIPs, which would be late otherwise.
+bool ArcosHardware::canCarryScans(const SensorInfo& laser) const {
+  const auto capacity = channel_->capacity();
+  if (!capacity) return true;
+  constexpr double kSipBytes = 100;  // of one with 16 sonars, and some reserve
+  const std::vector<std::uint16_t> ranges(laser.beams.size());
+  const auto scan_bytes =
+      static_cast<double>(arcos::encodeScan(arcos::LaserRequest::Form::extended, ranges, false).size());
+  const double needed = (scan_bytes + kSipBytes) / arcos::kCycle_s;
+  if (needed <= *capacity) return true;
+  options_.log("the scans of '" + laser.label + "' need a line of " + std::to_string(std::lround(needed * 10)) +
+               " baud; open " + channel_->name() + " with a higher rate, as in serial:DEVICE:115200");
+  return false;
 }
 
 void ArcosHardware::configure() {
@@ -218,21 +234,21 @@ bool ArcosHardware::isStepComplete() const {
 
 bool ArcosHardware::nextStep() {
   try {
-    return awaitStep();
+    return awaitStep(options_.interrupted);
   } catch (const ChannelEnd& end) {
     options_.log(end.what());
     return false;
   }
 }
 
-bool ArcosHardware::awaitStep() {
+bool ArcosHardware::awaitStep(const std::function<bool()>& is_over) {
   sendCommand();
   sips_taken_ = client_.sips();
   scans_taken_ = client_.scans();
   const auto start = channel_->now();
   bool has_warned = false;
   while (!isStepComplete()) {
-    if (options_.interrupted()) return false;
+    if (is_over()) return false;
     const auto silent = channel_->now() - start;
     if (silent > kSilenceMax) {
       throw RobotLinkError("the robot at " + channel_->name() + " has sent nothing for " +

@@ -71,9 +71,10 @@ class ArcosHardware final : public Hardware, public BaseLink {
   /// Sends the command, and waits for the next readings. @return false when `interrupted`, and at the end of a log
   /// @throws RobotLinkError when the connection is lost, or the robot is silent for kSilenceMax
   bool nextStep();
-  /// Stops the robot, waits until it stands, and closes the session. The destructor does not wait.
+  /// Stops the robot, takes steps until it stands, also when `interrupted`, and closes the session. The destructor does
+  /// not wait. @param each_step called after each of these steps
   /// @throws RobotLinkError when the connection is lost
-  void close();
+  void close(const std::function<void()>& each_step = [] {});
   /// Number of SIPs received. Several that arrive together are one step.
   std::uint64_t sips() const { return client_.sips(); }
 
@@ -81,8 +82,10 @@ class ArcosHardware final : public Hardware, public BaseLink {
   void connect();
   void describe(ArcosRobotType type);
   void configure();
-  bool awaitStep();
+  /// Sends the command, and waits for a step. @return false when `is_over` does
+  bool awaitStep(const std::function<bool()>& is_over);
   void sendCommand();
+  bool canCarryScans(const SensorInfo& laser) const;
   void processArrived(const std::string& bytes);
   bool isStepComplete() const;
   void takeReadings();

@@ -1,5 +1,6 @@
 #pragma once
 #include <chrono>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -30,6 +31,8 @@ class ByteChannel {
   /// @throws RobotLinkError when the connection has ended
   virtual void write(std::string_view bytes) = 0;
   virtual Clock::time_point now() const { return Clock::now(); }
+  /// Bytes per second that it carries in each direction; nullopt: more than a robot sends.
+  virtual std::optional<double> capacity() const { return std::nullopt; }
   /// "tcp:127.0.0.1:8101", for messages.
   virtual const std::string& name() const = 0;
 };

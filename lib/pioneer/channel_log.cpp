@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "base/error_list.h"
@@ -18,13 +19,17 @@
 namespace robosim {
 namespace {
 
-constexpr const char* kFirstLine = "RoboSim ARCOS log 1";
+constexpr std::string_view kFirstLine = "RoboSim ARCOS log 1";
+constexpr std::string_view kCapacity =
+    ", bytes per second: ";  ///< continues the first line, for a line of limited speed
 
 class LoggedChannel final : public ByteChannel {
  public:
   LoggedChannel(std::unique_ptr<ByteChannel> channel, const std::string& file)
       : channel_(std::move(channel)), file_name_(file), file_(file), start_(channel_->now()) {
-    file_ << kFirstLine << '\n';
+    file_ << kFirstLine;
+    if (const auto capacity = channel_->capacity()) file_ << kCapacity << *capacity;
+    file_ << '\n';
     if (!file_.flush()) throw ConfigError(file + ": cannot be written; choose another file for --arcos-log");
   }
 
@@ -38,6 +43,7 @@ class LoggedChannel final : public ByteChannel {
     log('>', bytes);
   }
   Clock::time_point now() const override { return channel_->now(); }
+  std::optional<double> capacity() const override { return channel_->capacity(); }
   const std::string& name() const override { return channel_->name(); }
 
  private:
@@ -101,8 +107,9 @@ class BoundedLines {
 class ReplayedChannel final : public ByteChannel {
  public:
   explicit ReplayedChannel(const std::string& file) : name_("replay:" + file), file_name_(file), lines_(file) {
-    if (lines_.next() != kFirstLine) {
-      throw ConfigError(file + ":1: is no log of --arcos-log: its first line is not '" + kFirstLine + "'");
+    const auto first = lines_.next();
+    if (!first || !isFirstLine(*first)) {
+      throw ConfigError(file + ":1: is no log of --arcos-log: its first line is not '" + std::string(kFirstLine) + "'");
     }
   }
 
@@ -119,9 +126,21 @@ class ReplayedChannel final : public ByteChannel {
   Clock::time_point now() const override {
     return Clock::time_point{} + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time_s_));
   }
+  std::optional<double> capacity() const override { return capacity_; }
   const std::string& name() const override { return name_; }
 
  private:
+  bool isFirstLine(std::string_view line) {
+    if (!line.starts_with(kFirstLine)) return false;
+    line.remove_prefix(kFirstLine.size());
+    if (line.empty()) return true;
+    if (!line.starts_with(kCapacity)) return false;
+    line.remove_prefix(kCapacity.size());
+    double capacity = 0;
+    const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), capacity);
+    capacity_ = capacity;
+    return error == std::errc{} && end == line.data() + line.size() && capacity > 0;
+  }
   /// The bytes of a line; nullopt for those that were sent. @throws ConfigError
   std::optional<std::string> receivedIn(const std::string& line) {
     std::istringstream words(line);
@@ -149,6 +168,7 @@ class ReplayedChannel final : public ByteChannel {
 
   std::string name_, file_name_;
   BoundedLines lines_;
+  std::optional<double> capacity_;  ///< of the line that was logged
   int line_number_ = 1;
   double time_s_ = 0;
 };

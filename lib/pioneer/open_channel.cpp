@@ -26,7 +26,8 @@ class AsioChannel final : public ByteChannel {
  public:
   /// @param open opens the stream, and may throw boost::system::system_error
   template <typename Open>
-  AsioChannel(std::string name, const Open& open) : name_(std::move(name)), stream_(io_) {
+  AsioChannel(std::string name, const Open& open, std::optional<double> capacity = {})
+      : name_(std::move(name)), capacity_(capacity), stream_(io_) {
     try {
       open(io_, stream_);
     } catch (const boost::system::system_error& error) {
@@ -50,6 +51,7 @@ class AsioChannel final : public ByteChannel {
     if (error) fail(error, "is lost");
   }
 
+  std::optional<double> capacity() const override { return capacity_; }
   const std::string& name() const override { return name_; }
 
  private:
@@ -71,6 +73,7 @@ class AsioChannel final : public ByteChannel {
   }
 
   std::string name_;
+  std::optional<double> capacity_;
   asio::io_context io_;
   Stream stream_;
   std::array<char, 4096> buffer_;
@@ -113,15 +116,17 @@ std::unique_ptr<ByteChannel> openTcp(const std::string& at, const std::string& a
 
 std::unique_ptr<ByteChannel> openSerial(const std::string& at, const std::string& address) {
   const auto line = withNumber(at, kDefaultBaud, address);
+  constexpr double kBitsPerByte = 10;  // with a start and a stop bit
   using Port = asio::serial_port;
-  return std::make_unique<AsioChannel<Port>>(address, [&](asio::io_context&, Port& port) {
+  const auto open = [&](asio::io_context&, Port& port) {
     port.open(line.first);
     port.set_option(Port::baud_rate(static_cast<unsigned>(line.second)));
     port.set_option(Port::character_size(8));
     port.set_option(Port::parity(Port::parity::none));
     port.set_option(Port::stop_bits(Port::stop_bits::one));
     port.set_option(Port::flow_control(Port::flow_control::none));
-  });
+  };
+  return std::make_unique<AsioChannel<Port>>(address, open, line.second / kBitsPerByte);
 }
 
 }  // namespace

@@ -40,9 +40,10 @@ void ArcosConnection::poll(ArcosSession::Clock::time_point now) {
 }
 
 void ArcosConnection::sendCycle() {
+  const std::string packets = session_.cycle();
   // A program that falls behind gets newer packets once it has received the older ones.
   if (!endReason().empty() || unsent_.size() > kUnsentMax / 2) return flush();
-  send(session_.cycle());
+  send(packets);
 }
 
 void ArcosConnection::send(const std::string& bytes) {

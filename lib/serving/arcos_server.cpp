@@ -37,11 +37,12 @@ constexpr std::chrono::milliseconds kAcceptPause{100};
 
 /// A robot of the run, its board, and the program that drives it.
 struct ServedRobot final : Simulator {
-  ServedRobot(Environment& the_environment, std::size_t robot_index, const ArcosOptions& options)
+  ServedRobot(Environment& the_environment, std::size_t robot_index, const ArcosOptions& options,
+              std::function<void(const std::string&)> log)
       : environment(the_environment),
         index(robot_index),
         speed(options.speed),
-        write_log(options.log),
+        write_log(std::move(log)),
         hardware(the_environment, robot_index),
         robot(hardware),
         board(robot, *the_environment.fleet().robots[robot_index].model->arcos) {}
@@ -65,6 +66,7 @@ struct ServedRobot final : Simulator {
   }
   void resetTruePose() override { placeAt(environment.fleet().robots[index].world_from_start); }
   std::span<const std::uint16_t> scan() const override { return scan_mm; }
+  std::string mapFile() const override { return environment.world().name; }
   void log(const std::string& text) override { write_log("robot " + name() + ": " + text); }
   bool isAbsent() const { return environment.state().activity[index] == Activity::absent; }
   /// Places an absent robot at its start. @return false if that is not free. A robot that has left in this step stays
@@ -167,9 +169,11 @@ struct ArcosServer::Impl {
         lasers(the_environment),
         steps_per_cycle(
             static_cast<std::uint64_t>(std::max(1.0, std::round(arcos::kCycle_s / the_environment.time().period_s)))) {
+    // A kind for each source, so that a flood of one does not hide the others.
     options.log = [this](const std::string& line) { limited_log.write("ARCOS programs", line); };
+    const auto log_request = [this](const std::string& line) { limited_log.write("requests of ARCOS programs", line); };
     for (const auto index : indices) {
-      robots.push_back(std::make_unique<ServedRobot>(environment, index, options));
+      robots.push_back(std::make_unique<ServedRobot>(environment, index, options, log_request));
     }
     tcp::endpoint at = endpointOf(options.listen);
     const bool is_fixed = at.port() != 0;
@@ -214,11 +218,12 @@ struct ArcosServer::Impl {
     const std::string peer = withPort(peer_endpoint.address().to_string(ignored) + ":0", peer_endpoint.port());
     ServedRobot* robot = robotFor(port);
     if (!robot) {
-      options.log("refused " + peer + ": " +
-                  (options.is_factory ? "all " + std::to_string(robots.size()) +
-                                            " robots have a program, or their starts are not free; give "
-                                            "--arcos-factory a greater number"
-                                      : "robot " + robots[port]->name() + " has a program already"));
+      limited_log.write("refused ARCOS programs",
+                        "refused " + peer + ": " +
+                            (options.is_factory ? "all " + std::to_string(robots.size()) +
+                                                      " robots have a program, or their starts are not free; give "
+                                                      "--arcos-factory a greater number"
+                                                : "robot " + robots[port]->name() + " has a program already"));
       return;  // closes the socket
     }
     robot->connection = std::make_shared<ArcosConnection>(std::move(socket), peer, robot->board, *robot);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "arcos/bytes.h"
 #include "arcos/command.h"
 #include "arcos/config_packet.h"
 #include "arcos/laser_packets.h"
@@ -354,6 +355,33 @@ TEST(ArcosBoard, AnswersRequestsOnceOrInEachCycle) {
     program.send(encodeCommand(id, 0));
     EXPECT_EQ(count(3), 0) << int{id};
   }
+}
+
+TEST(ArcosBoard, CountsCommandsPerCycleAlsoWhileTheRunIsPaused) {
+  BoardProgram program;
+  std::string commands;
+  for (std::size_t i = 0; i < ArcosSession::kCommandsPerCycleMax; ++i) commands += encodeCommand(command::pulse);
+  for (int cycle = 0; cycle < 20; ++cycle) {  // no steps are taken
+    program.robot.session().cycle();
+    program.send(commands);
+    ASSERT_EQ(program.robot.session().endReason(), "") << "cycle " << cycle;
+  }
+  program.send(encodeCommand(command::pulse));
+  EXPECT_EQ(program.robot.session().endReason(), "it sends more than 2000 commands in a cycle");
+}
+
+TEST(ArcosBoard, AnswersARequestToLoadAMapByTheMapInUse) {
+  BoardProgram program;
+  arcos::ByteWriter request;
+  request.add(std::uint8_t{0x2B}).add(arcos::sim_operation::load_map).add(std::uint16_t{9}).addText("other.map");
+  program.send(arcos::encode(command::sim_control, request.bytes()));
+  const auto* answer = program.packet(arcos::packet_type::sim_map);
+  ASSERT_TRUE(answer);
+  arcos::ByteReader map(answer->payload);
+  EXPECT_EQ(map.take<std::uint8_t>(), 0) << "not by an operator";
+  EXPECT_EQ(map.take<std::uint8_t>(), 0) << "no other map is loaded";
+  EXPECT_EQ(map.takeText(), "here.map");
+  EXPECT_NE(program.robot.log_text.find("a map is not loaded for a program"), std::string::npos);
 }
 
 TEST(ArcosBoard, IgnoresUnknownCommandsAndWrongArguments) {

@@ -168,6 +168,64 @@ TEST(ArcosHardware, StandsBeforeItClosesTheSession) {
   EXPECT_EQ(robot.session().endReason(), "it has closed the session");
 }
 
+TEST(ArcosHardware, TakesStepsUntilItStandsWhenItIsInterrupted) {
+  SimulatedArcosRobot robot("pioneer3dx");
+  auto options = robot.options();
+  bool is_interrupted = false;
+  options.interrupted = [&] { return is_interrupted; };
+  ArcosHardware hardware(robot.channel(), std::move(options));
+  for (int i = 0; i < 15; ++i) {
+    hardware.command({.speed_mps = 0.3});
+    ASSERT_TRUE(hardware.nextStep());
+  }
+  is_interrupted = true;
+  EXPECT_FALSE(hardware.nextStep());
+  std::vector<std::uint64_t> steps;
+  const std::uint64_t before = hardware.readings().time.step;
+  hardware.close([&] { steps.push_back(hardware.readings().time.step); });
+  // From 0.3 m/s at 0.3 m/s²: ten cycles of 0.1 s, and those of the packets on their way.
+  EXPECT_GE(steps.size(), 10u);
+  EXPECT_LE(steps.size(), 13u);
+  EXPECT_EQ(steps.back(), before + steps.size());
+  const auto& sensors = *hardware.info().sensors;
+  for (std::size_t i = 0; i < sensors.size(); ++i) {
+    if (sensors[i].kind != SensorKind::odometry) continue;
+    const auto& odometry = std::get<Odometry>(hardware.readings().measurements[i]);
+    EXPECT_EQ(odometry.speed_mps, 0) << "the last readings are those of the standing robot";
+    EXPECT_NEAR(odometry.odom_from_robot.x, robot.truePose().x, 0.001);
+  }
+}
+
+TEST(ArcosHardware, RequestsNoSimulatedScansOverALineThatDoesNotCarryThem) {
+  /// A channel over a slow line.
+  class SlowChannel : public ByteChannel {
+   public:
+    SlowChannel(std::unique_ptr<ByteChannel> channel, double capacity)
+        : channel_(std::move(channel)), capacity_(capacity) {}
+    std::string read(Clock::duration timeout) override { return channel_->read(timeout); }
+    void write(std::string_view bytes) override { channel_->write(bytes); }
+    Clock::time_point now() const override { return channel_->now(); }
+    std::optional<double> capacity() const override { return capacity_; }
+    const std::string& name() const override { return channel_->name(); }
+
+   private:
+    std::unique_ptr<ByteChannel> channel_;
+    double capacity_;
+  };
+  const auto has_laser = [](const ArcosHardware& hardware) {
+    const auto& sensors = *hardware.info().sensors;
+    return std::any_of(sensors.begin(), sensors.end(),
+                       [](const SensorInfo& sensor) { return sensor.kind == SensorKind::laser; });
+  };
+  // 181 beams: five packets of 173 bytes and one of 118 in each cycle of 0.1 s, 9,830 bytes/s.
+  SimulatedArcosRobot slow("p3dx"), fast("p3dx");
+  const ArcosHardware at_9600(std::make_unique<SlowChannel>(slow.channel(), 960), slow.options());
+  EXPECT_FALSE(has_laser(at_9600));
+  EXPECT_NE(slow.log_text.find("need a line of 108300 baud"), std::string::npos) << slow.log_text;
+  const ArcosHardware at_115200(std::make_unique<SlowChannel>(fast.channel(), 11520), fast.options());
+  EXPECT_TRUE(has_laser(at_115200));
+}
+
 TEST(ArcosHardware, StopsWhenItsMotorsAreDisabledAndStatesIt) {
   SimulatedArcosRobot robot("pioneer3dx");
   ArcosHardware hardware(robot.channel(), robot.options());

@@ -281,6 +281,35 @@ TEST(ArcosServer, NamesAPortThatIsInUse) {
 }
 
 // The programs: a served map, a robot driven over its port and recorded, and errors of arguments.
+TEST(ArcosServer, LogsARefusalDuringAFloodOfRequests) {
+  ServedRobots served(1);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  std::string messages;
+  for (int k = 0; k < 1000; ++k) messages += encodeCommand(command::sim_message, "hello");
+  program.send(messages);
+  program.step();
+  TcpProgram second(served, served.server->ports()[0]);
+  EXPECT_TRUE(second.isClosed());
+  EXPECT_EQ(countOf("robot P1 has a program already", served.log), 1u) << served.log;
+}
+
+TEST(ArcosPrograms, OnAMapAreRepeatedFromTheRecordingAndTheMap) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx", "-r", "p3at:Tom", "--port", "18421", "--listen",
+                         "127.0.0.1:0", "--speed", "20", "--record", rawlog.string()});
+  server.waitForError("robot Tom (p3at) for ARCOS programs on 127.0.0.1:18422");
+  StartedProgram robot({"robot", "--arcos", "tcp:127.0.0.1:18422", "--controller", "wander"});
+  robot.waitForError("connected to MobileSim (p3at)");
+  robot.interrupt();
+  EXPECT_EQ(robot.wait().exit_code, 0);
+  server.interrupt();
+  EXPECT_EQ(server.wait().exit_code, 0);
+  const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;
+}
+
 TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
   const auto folder = emptyFolder();
   StartedProgram server({"arcos", "maps/office.map", "--port", "18411", "--listen", "127.0.0.1:0"});

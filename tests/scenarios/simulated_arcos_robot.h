@@ -43,6 +43,7 @@ class SimulatedArcosRobot final : private Simulator {
  private:
   class Channel;
   arcos::SimStat stat() const override { return {.interval_ms = 100}; }
+  std::string mapFile() const override { return "here.map"; }
   void setTruePose(const arcos::SimPose& pose) override;
   void resetTruePose() override { environment_->place(0, {}); }
   std::span<const std::uint16_t> scan() const override { return scan_mm_; }
