@@ -121,6 +121,15 @@ void bindMessages(SimulationClass& simulation) {
           py::arg("sender"), py::arg("receiver"), py::arg("text"),
           "Sends a message from a robot to another one, delivered in the next step; at most 4096 bytes.")
       .def(
+          "broadcast",
+          [](Simulation& of, const py::str& sender, const py::str& text) {
+            requireUsable(of, Access::command);
+            of.environment().broadcast(of.indexOf(toBytes(sender)), toBytes(text));
+          },
+          py::arg("sender"), py::arg("text"),
+          "Sends a message from a robot to every other one, delivered in the next step to those that the radio\n"
+          "reaches; at most 4096 bytes. It counts as one message.")
+      .def(
           "inbox",
           [](const Simulation& of, const py::str& robot) {
             return inboxOf(stateOf(of).readings[of.indexOf(toBytes(robot))]);

@@ -19,12 +19,12 @@ namespace {
 /// One robot of the process. Buffers its command and messages until the next answer.
 class ProcessRobot final : public Hardware, public RefereeLink {
  public:
-  /// @param names of all robots in the world's order @param all_robots the same for lookup; both must outlive this
-  ProcessRobot(RobotInfo info, const std::vector<std::string>& names, const std::unordered_set<std::string>& all_robots)
-      : info_(std::move(info)), names_(names), all_robots_(all_robots), readings_(blankReadings(*info_.sensors)) {}
+  /// @param welcome of the environment @param all_robots its robots' names, for lookup; both must outlive this
+  ProcessRobot(RobotInfo info, const RobotsWelcome& welcome, const std::unordered_set<std::string>& all_robots)
+      : info_(std::move(info)), welcome_(welcome), all_robots_(all_robots), readings_(blankReadings(*info_.sensors)) {}
 
   const RobotInfo& info() const override { return info_; }
-  const std::vector<std::string>& robots() const override { return names_; }
+  const std::vector<std::string>& robots() const override { return welcome_.all_robots; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override {
     command_ = command;
@@ -35,12 +35,13 @@ class ProcessRobot final : public Hardware, public RefereeLink {
       throw std::invalid_argument("a message from '" + info_.name + "' to '" + to +
                                   "': there is no robot of that name");
     }
-    if (text.size() > kMaxMessageBytes) {
-      throw std::invalid_argument("a message from '" + info_.name + "' to '" + to + "' has " +
-                                  std::to_string(text.size()) + " bytes; the most is " +
-                                  std::to_string(kMaxMessageBytes));
-    }
+    requireShort(to, text);
     outbox_.push_back({info_.name, to, text});
+  }
+  void broadcast(const std::string& text) override {
+    if (!welcome_.takes_broadcasts) return Hardware::broadcast(text);
+    requireShort("all", text);
+    outbox_.push_back({info_.name, kToAll, text});
   }
 
   RefereeLink* referee() override { return this; }
@@ -69,7 +70,11 @@ class ProcessRobot final : public Hardware, public RefereeLink {
     for (auto& message : outbox_) {
       auto& sent = *out.add_messages();
       sent.set_process_robot(index);
-      sent.set_to(message.to);
+      if (message.to == kToAll) {
+        sent.set_to_all(true);
+      } else {
+        sent.set_to(message.to);
+      }
       sent.set_text(std::move(message.text));
     }
     outbox_.clear();
@@ -77,6 +82,15 @@ class ProcessRobot final : public Hardware, public RefereeLink {
   }
 
  private:
+  static constexpr const char* kToAll = "";  ///< RobotMessage::to of a broadcast
+
+  void requireShort(const std::string& to, const std::string& text) const {
+    if (text.size() <= kMaxMessageBytes) return;
+    throw std::invalid_argument("a message from '" + info_.name + "' to '" + to + "' has " +
+                                std::to_string(text.size()) + " bytes; the most is " +
+                                std::to_string(kMaxMessageBytes));
+  }
+
   /// Removes the last messages beyond the limit of a step. @return their number
   std::size_t limitOutbox() {
     const std::size_t surplus = outbox_.size() - std::min(outbox_.size(), kMaxMessagesSent);
@@ -85,7 +99,7 @@ class ProcessRobot final : public Hardware, public RefereeLink {
   }
 
   RobotInfo info_;
-  const std::vector<std::string>& names_;
+  const RobotsWelcome& welcome_;
   const std::unordered_set<std::string>& all_robots_;
   Readings readings_;
   Command command_;
@@ -131,7 +145,7 @@ struct NetworkHardware::Impl {
     welcome = join();
     all_robots.insert(welcome.all_robots.begin(), welcome.all_robots.end());
     for (const auto& robot : welcome.robots) {
-      robots.push_back(std::make_unique<ProcessRobot>(robot.info, welcome.all_robots, all_robots));
+      robots.push_back(std::make_unique<ProcessRobot>(robot.info, welcome, all_robots));
     }
     readFirstStep();
   }

@@ -92,10 +92,4 @@ void Robot::halt(Activity why) {
   hardware_.command(command_);
 }
 
-void Robot::broadcast(const std::string& text) {
-  for (const std::string& other : robots()) {
-    if (other != name()) send(other, text);
-  }
-}
-
 }  // namespace robosim

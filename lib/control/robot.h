@@ -75,10 +75,10 @@ class Robot {
   void send(const std::string& to, const std::string& text) { hardware_.send(to, text); }
   /// Names of all robots of the run in the world's order, including this one.
   const std::vector<std::string>& robots() const { return hardware_.robots(); }
-  /// Sends a message to every other robot, in the world's order. Each counts as one of the kMaxMessagesSent messages of
-  /// a step; those beyond are dropped and counted.
+  /// Sends a message to every other robot. It counts as one of the kMaxMessagesSent messages of a step, however many
+  /// robots receive it; those beyond are dropped and counted.
   /// @throws std::invalid_argument for too long a text.
-  void broadcast(const std::string& text);
+  void broadcast(const std::string& text) { hardware_.broadcast(text); }
   /// Requests CheckWin, whether this robot is near enough to the gold; the next step's readings contain the result.
   /// Without effect for hardware without a referee.
   void checkWin() {

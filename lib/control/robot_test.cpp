@@ -94,7 +94,7 @@ TEST(Robot, SendsAndReceivesMessages) {
   EXPECT_EQ(robot.inbox()[0].text, "hi");
 }
 
-TEST(Robot, BroadcastsToEveryOtherRobotInTheWorldsOrder) {
+TEST(Robot, SendsABroadcastToEachOtherRobotOverHardwareWithoutBroadcasts) {
   FakeHardware hardware;
   hardware.robot_names = {"b", "fake", "a"};
   Robot robot(hardware);

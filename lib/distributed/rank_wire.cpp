@@ -170,7 +170,8 @@ void readOrders(std::string_view bytes, RobotRange from, const StepOrders& order
       for (auto left = in.takeNumber<std::uint32_t>(); left > 0; --left) {
         PendingMessage& message = outbox.messages.emplace_back();
         message.to = in.takeNumber<std::uint32_t>();
-        requireContents(message.to < orders.outboxes.size(), "a message has an unknown receiver");
+        requireContents(message.to < orders.outboxes.size() || message.isBroadcast(),
+                        "a message has an unknown receiver");
         message.text = in.takeText(kMaxMessageBytes);
       }
     });

@@ -75,6 +75,7 @@ TEST(OrdersWriter, WritesMessagesRequestsAndActivityOfAllRobots) {
   to.activity[3] = Activity::found;
   const std::string bytes = bytesAfter(from, [&] {
     from.outboxes[2].messages.push_back({4, "hello"});
+    from.outboxes[2].messages.push_back({kEveryOtherRobot, "all"});
     from.outboxes[2].surplus = 7;
     from.win_requests[1] = 1;
     from.commands[2].activity = from.commands[3].activity = Activity::halted;

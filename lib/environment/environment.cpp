@@ -337,6 +337,16 @@ void Environment::send(std::size_t from, const std::string& to, const std::strin
   impl_->may_send[from] = 1;
 }
 
+void Environment::broadcast(std::size_t from, const std::string& text) {
+  impl_->message_router.broadcast(from, text, impl_->state.outboxes[from]);
+  impl_->may_send[from] = 1;
+}
+
+void Environment::receive(std::size_t to, std::size_t from, const std::string& text) {
+  impl_->message_router.receiveNext(impl_->state.time, static_cast<std::uint32_t>(to), static_cast<std::uint32_t>(from),
+                                    text, impl_->state.messages_in_flight);
+}
+
 void Environment::checkWin(std::size_t robot) { impl_->state.win_requests[robot] = 1; }
 
 void Environment::countDroppedMessages(std::uint64_t messages) { impl_->state.messages_dropped += messages; }

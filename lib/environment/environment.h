@@ -109,6 +109,12 @@ class Environment {
   /// Queues a message for the next step. Thread-safe like setCommand().
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
   void send(std::size_t from, const std::string& to, const std::string& text);
+  /// The same for one message to every other robot.
+  void broadcast(std::size_t from, const std::string& text);
+  /// Makes a robot receive a message in the next step, in its place among those of other senders, whatever the radio
+  /// and the sender's limits: a message whose delivery another run has decided, such as a recorded one. Not
+  /// thread-safe. @throws std::invalid_argument for a text that is too long
+  void receive(std::size_t to, std::size_t from, const std::string& text);
   /// Names of all robots in the world's order.
   const std::vector<std::string>& robotNames() const;
   /// Makes the next step decide whether a robot has won. Thread-safe like setCommand().

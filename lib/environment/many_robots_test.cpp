@@ -1,4 +1,6 @@
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -113,6 +115,42 @@ TEST(ManyRobots, IsIndependentOfTheNumberOfThreads) {
   const std::string alone = digest(1);
   EXPECT_EQ(digest(2), alone);
   EXPECT_EQ(digest(4), alone);
+}
+
+TEST(ManyRobots, EveryRobotOfALargeSwarmHearsTheBroadcastsOfItsNeighbours) {
+  // A lattice of 40 × 50 robots, 1 m apart, with a range of 1 m: each hears its two to four neighbours.
+  constexpr int kColumns = 40, kRows = 50;
+  World world = emptyWorld(30);
+  world.communication.range_m = 1.0;
+  Fleet fleet;
+  for (int i = 0; i < kColumns * kRows; ++i) {
+    addDisc(world, fleet, "r" + std::to_string(i), {i % kColumns - 20.0, i / kColumns - 25.0, 0});
+  }
+  std::string digest;
+  for (const int threads : {1, 3}) {
+    Environment environment(world, fleet, {.threads = threads});
+    for (int step = 0; step < 3; ++step) {
+      for (std::size_t i = 0; i < environment.robotCount(); ++i) environment.broadcast(i, "from " + std::to_string(i));
+      environment.step();
+    }
+    for (int i = 0; i < kColumns * kRows; ++i) {
+      std::vector<std::string> expected;
+      if (i >= kColumns) expected.push_back("from " + std::to_string(i - kColumns));
+      if (i % kColumns > 0) expected.push_back("from " + std::to_string(i - 1));
+      if (i % kColumns + 1 < kColumns) expected.push_back("from " + std::to_string(i + 1));
+      if (i + kColumns < kColumns * kRows) expected.push_back("from " + std::to_string(i + kColumns));
+      std::vector<std::string> received;
+      for (const auto& message : environment.state().readings[static_cast<std::size_t>(i)].inbox)
+        received.push_back(message.text);
+      ASSERT_EQ(received, expected) << "robot " << i;
+    }
+    // 39 · 50 horizontal and 40 · 49 vertical pairs, both ways.
+    EXPECT_EQ(environment.state().messages_delivered, 3u * 2 * (39 * 50 + 40 * 49));
+    EXPECT_EQ(environment.state().messages_dropped, 0u);
+    EXPECT_EQ(messagesSent(environment.state()), 3u * 2000 * 1999);
+    if (digest.empty()) digest = environment.digest();
+    EXPECT_EQ(environment.digest(), digest) << "on " << threads << " threads";
+  }
 }
 
 }  // namespace

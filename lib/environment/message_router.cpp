@@ -2,12 +2,40 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "environment/known_robots.h"
 
 namespace robosim {
+namespace {
+
+/// Exceeds the rounding errors of a distance [m]: a search with it finds all robots that RadioChannel may reach.
+constexpr double kSearchSlack_m = 1e-6;
+
+}  // namespace
+
+/// One call of deliver().
+struct MessageRouter::Delivery {
+  std::uint64_t seed;
+  SimTime now;
+  const Robots& robots;
+  std::vector<MessageInFlight>& in_flight;
+  std::span<Readings> readings;
+  MessageCounts counts = {};
+  std::optional<std::size_t> present = std::nullopt;  ///< number of robots; known if it was needed
+
+  std::size_t presentRobots() {
+    const auto is_present = [](Activity activity) { return activity != Activity::absent; };
+    if (!present) {
+      const auto& activity = robots.activity;
+      present = static_cast<std::size_t>(std::count_if(activity.begin(), activity.end(), is_present));
+    }
+    return *present;
+  }
+};
 
 MessageRouter::MessageRouter(std::vector<std::string> names, const Communication& communication)
     : names_(std::move(names)), communication_(communication), limits_(names_.size()) {
@@ -24,67 +52,116 @@ void MessageRouter::send(std::size_t from, const std::string& to, const std::str
     throw std::invalid_argument("a message from '" + names_[from] + "' to '" + to +
                                 "': there is no robot of that name");
   }
-  if (text.size() > kMaxMessageBytes) {
-    throw std::invalid_argument("a message from '" + names_[from] + "' to '" + to + "' has " +
-                                std::to_string(text.size()) + " bytes; the most is " +
-                                std::to_string(kMaxMessageBytes));
-  }
+  requireShort(from, to, text);
+  queue({*found, text}, outbox);
+}
+
+void MessageRouter::broadcast(std::size_t from, const std::string& text, Outbox& outbox) const {
+  requireShort(from, "all", text);
+  queue({kEveryOtherRobot, text}, outbox);
+}
+
+void MessageRouter::receiveNext(const SimTime& now, std::uint32_t to, std::uint32_t from, const std::string& text,
+                                std::vector<MessageInFlight>& in_flight) const {
+  requireShort(from, names_[to], text);
+  const MessageInFlight arriving{from, to, now.step + 1, text};
+  const auto is_before = [](const MessageInFlight& a, const MessageInFlight& b) {
+    return std::tie(a.due_step, a.from) < std::tie(b.due_step, b.from);
+  };
+  in_flight.insert(std::upper_bound(in_flight.begin(), in_flight.end(), arriving, is_before), arriving);
+}
+
+void MessageRouter::requireShort(std::size_t from, const std::string& to, const std::string& text) const {
+  if (text.size() <= kMaxMessageBytes) return;
+  throw std::invalid_argument("a message from '" + names_[from] + "' to '" + to + "' has " +
+                              std::to_string(text.size()) + " bytes; the most is " + std::to_string(kMaxMessageBytes));
+}
+
+void MessageRouter::queue(PendingMessage message, Outbox& outbox) {
   if (outbox.messages.size() == kMaxMessagesSent) {
     ++outbox.surplus;
     return;
   }
-  outbox.messages.push_back({*found, text});
+  outbox.messages.push_back(std::move(message));
 }
 
-void MessageRouter::receive(std::uint32_t from, std::uint32_t to, std::string&& text, std::span<Readings> readings,
-                            MessageCounts& counts) {
+template <typename Text>
+void MessageRouter::receive(std::uint32_t from, std::uint32_t to, Text&& text, Delivery& delivery) {
   if (!limits_[to].admit(names_[from], names_[to], text)) {
-    ++counts.dropped;
+    ++delivery.counts.dropped;
     return;
   }
-  auto& inbox = readings[to].inbox;
+  auto& inbox = delivery.readings[to].inbox;
   if (inbox.empty()) receivers_.push_back(to);
-  inbox.push_back({names_[from], names_[to], std::move(text)});
-  ++counts.delivered;
+  inbox.push_back({names_[from], names_[to], std::forward<Text>(text)});
+  ++delivery.counts.delivered;
 }
 
-void MessageRouter::deliverFrom(std::uint32_t from, std::uint64_t seed, SimTime now, const Robots& robots,
-                                std::span<Outbox> outboxes, std::vector<MessageInFlight>& in_flight,
-                                std::span<Readings> readings, MessageCounts& counts) {
-  Outbox& outbox = outboxes[from];
-  if (robots.activity[from] == Activity::absent) outbox = {};
-  counts.dropped += std::exchange(outbox.surplus, 0);
+template <typename Text>
+void MessageRouter::transmit(std::uint32_t from, std::uint32_t to, std::size_t index, Text&& text, Delivery& delivery) {
+  const Robots& robots = delivery.robots;
+  MessageLosses& lost = delivery.counts.lost;
+  if (robots.activity[to] == Activity::absent) {
+    ++lost.absent;
+    return;
+  }
+  switch (channel_.fateOf(delivery.seed, delivery.now, robots.scene,
+                          {from, to, index, robots.antenna(from), robots.antenna(to)})) {
+    case MessageFate::out_of_range:
+      ++lost.out_of_range;
+      break;
+    case MessageFate::stopped_by_walls:
+      ++lost.stopped_by_walls;
+      break;
+    case MessageFate::lost_by_chance:
+      ++lost.by_chance;
+      break;
+    case MessageFate::lost_in_burst:
+      ++lost.in_bursts;
+      break;
+    case MessageFate::arrives:
+      if (const std::uint64_t delay = delaySteps(communication_, delivery.now.period_s); delay > 0) {
+        delivery.in_flight.push_back({from, to, delivery.now.step + delay, std::forward<Text>(text)});
+      } else {
+        receive(from, to, std::forward<Text>(text), delivery);
+      }
+  }
+}
+
+void MessageRouter::transmitToAll(std::uint32_t from, std::size_t index, const std::string& text, Delivery& delivery) {
+  // The index of a receiver counts the others in the world's order, so that the losses do not depend on the search.
+  const auto transmit_to = [&](std::uint32_t to) {
+    if (to != from) transmit(from, to, index + to - (to > from ? 1 : 0), text, delivery);
+  };
+  const auto robots = static_cast<std::uint32_t>(names_.size());
+  if (!communication_.range_m) {
+    for (std::uint32_t to = 0; to < robots; ++to) transmit_to(to);
+    return;
+  }
+  const auto& pose = delivery.robots.world_from_robot[from];
+  delivery.robots.scene.findMoving({pose.x, pose.y}, *communication_.range_m + kSearchSlack_m, near_);
+  std::sort(near_.begin(), near_.end());
+  const std::size_t present = delivery.presentRobots();
+  delivery.counts.lost.absent += robots - present;
+  delivery.counts.lost.out_of_range += present - near_.size();
+  for (const std::uint32_t to : near_) transmit_to(to);
+}
+
+void MessageRouter::deliverFrom(std::uint32_t from, Outbox& outbox, Delivery& delivery) {
+  if (delivery.robots.activity[from] == Activity::absent) outbox = {};
+  delivery.counts.dropped += std::exchange(outbox.surplus, 0);
   if (outbox.messages.empty()) return;
-  const std::uint64_t delay_steps = delaySteps(communication_, now.period_s);
-  const auto sent =
-      static_cast<std::size_t>(std::min<std::uint64_t>(outbox.messages.size(), messagesAllowed(communication_, now)));
+  const auto sent = static_cast<std::size_t>(
+      std::min<std::uint64_t>(outbox.messages.size(), messagesAllowed(communication_, delivery.now)));
+  std::size_t index = 0;
   for (std::size_t i = 0; i < sent; ++i) {
-    auto& message = outbox.messages[i];
-    if (robots.activity[message.to] == Activity::absent) {
-      ++counts.lost.absent;
-      continue;
+    PendingMessage& message = outbox.messages[i];
+    if (message.isBroadcast()) {
+      transmitToAll(from, index, message.text, delivery);
+    } else {
+      transmit(from, message.to, index, std::move(message.text), delivery);
     }
-    switch (channel_.fateOf(seed, now, robots.scene,
-                            {from, message.to, i, robots.antenna(from), robots.antenna(message.to)})) {
-      case MessageFate::out_of_range:
-        ++counts.lost.out_of_range;
-        break;
-      case MessageFate::stopped_by_walls:
-        ++counts.lost.stopped_by_walls;
-        break;
-      case MessageFate::lost_by_chance:
-        ++counts.lost.by_chance;
-        break;
-      case MessageFate::lost_in_burst:
-        ++counts.lost.in_bursts;
-        break;
-      case MessageFate::arrives:
-        if (delay_steps > 0) {
-          in_flight.push_back({from, message.to, now.step + delay_steps, std::move(message.text)});
-        } else {
-          receive(from, message.to, std::move(message.text), readings, counts);
-        }
-    }
+    index += message.receiversOf(names_.size());
   }
   outbox.messages.erase(outbox.messages.begin(), outbox.messages.begin() + static_cast<std::ptrdiff_t>(sent));
 }
@@ -92,25 +169,32 @@ void MessageRouter::deliverFrom(std::uint32_t from, std::uint64_t seed, SimTime 
 MessageCounts MessageRouter::deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
                                      std::vector<MessageInFlight>& in_flight, std::span<Readings> readings) {
   receivers_.clear();
-  MessageCounts counts;
+  Delivery delivery{seed, now, robots, in_flight, readings};
+  std::vector<MessageInFlight> due;
   if (!in_flight.empty()) {
     const auto is_due = [&](const MessageInFlight& message) { return message.due_step <= now.step; };
     const auto due_end = std::find_if_not(in_flight.begin(), in_flight.end(), is_due);
-    for (auto message = in_flight.begin(); message != due_end; ++message) {
-      if (robots.activity[message->to] == Activity::absent) {
-        ++counts.lost.absent;
-      } else {
-        receive(message->from, message->to, std::move(message->text), readings, counts);
-      }
-    }
+    due.assign(std::move_iterator(in_flight.begin()), std::move_iterator(due_end));
     in_flight.erase(in_flight.begin(), due_end);
   }
+  auto next = due.begin();
+  const auto receive_due_from_up_to = [&](std::size_t sender) {
+    for (; next != due.end() && next->from <= sender; ++next) {
+      if (robots.activity[next->to] == Activity::absent) {
+        ++delivery.counts.lost.absent;
+      } else {
+        receive(next->from, next->to, std::move(next->text), delivery);
+      }
+    }
+  };
   forFlags(robots.may_send, [&](std::size_t from) {
-    deliverFrom(static_cast<std::uint32_t>(from), seed, now, robots, outboxes, in_flight, readings, counts);
+    receive_due_from_up_to(from);
+    deliverFrom(static_cast<std::uint32_t>(from), outboxes[from], delivery);
     robots.may_send[from] = outboxes[from].messages.empty() ? 0 : 1;
   });
+  receive_due_from_up_to(names_.size());
   for (const auto robot : receivers_) limits_[robot] = {};
-  return counts;
+  return delivery.counts;
 }
 
 }  // namespace robosim

@@ -15,14 +15,21 @@
 
 namespace robosim {
 
+/// PendingMessage::to of a broadcast: every robot of the world but the sender.
+constexpr std::uint32_t kEveryOtherRobot = 0xffffffff;
+
 /// A message that awaits its delivery.
 struct PendingMessage {
-  std::uint32_t to = 0;  ///< index of the receiver
+  std::uint32_t to = 0;  ///< index of the receiver, or kEveryOtherRobot
   std::string text;
   bool operator==(const PendingMessage&) const = default;
+
+  bool isBroadcast() const { return to == kEveryOtherRobot; }
+  /// Number of robots that it is sent to, in a world of `robots`.
+  std::uint64_t receiversOf(std::size_t robots) const { return isBroadcast() ? robots - 1 : 1; }
 };
 
-/// Messages that a robot has sent since the last step, in the order of sending.
+/// Messages that a robot has sent since the last step, in the order of sending. A broadcast is one of them.
 struct Outbox {
   std::vector<PendingMessage> messages;  ///< at most kMaxMessagesSent
   std::uint64_t surplus = 0;             ///< number of messages beyond kMaxMessagesSent
@@ -38,7 +45,7 @@ struct MessageInFlight {
   bool operator==(const MessageInFlight&) const = default;
 };
 
-/// Numbers of messages that did not arrive, by cause.
+/// Numbers of messages that did not arrive, by cause. A broadcast counts once for each receiver.
 struct MessageLosses {
   std::uint64_t out_of_range = 0;
   std::uint64_t stopped_by_walls = 0;
@@ -57,7 +64,8 @@ struct MessageLosses {
   }
 };
 
-/// Numbers of messages of a run so far, by their fate.
+/// Numbers of messages of a run so far, by their fate. A broadcast counts once for each receiver, unless its sender's
+/// limit drops it.
 struct MessageCounts {
   std::uint64_t delivered = 0;
   std::uint64_t dropped = 0;  ///< beyond the limits of their sender or receiver in one step
@@ -78,10 +86,17 @@ class MessageRouter {
   /// Queues a message in the outbox of its sender `from`. May be called for different senders from different threads.
   /// @throws std::invalid_argument for an unknown receiver or a text that is too long
   void send(std::size_t from, const std::string& to, const std::string& text, Outbox& outbox) const;
+  /// The same for one message to every other robot.
+  void broadcast(std::size_t from, const std::string& text, Outbox& outbox) const;
+
+  /// Inserts a message into those in flight that arrives with the next delivery.
+  /// @throws std::invalid_argument for a text that is too long
+  void receiveNext(const SimTime& now, std::uint32_t to, std::uint32_t from, const std::string& text,
+                   std::vector<MessageInFlight>& in_flight) const;
 
   /// The robots in a step.
   struct Robots {
-    const Scene& scene;
+    const Scene& scene;  ///< whose moving solids are the robots; a broadcast of limited range finds its receivers in it
     std::span<const mrpt::math::TPose2D> world_from_robot;
     std::span<const double> antenna_z_m;  ///< heights of the antennas
     std::span<const Activity> activity;
@@ -96,21 +111,30 @@ class MessageRouter {
   /// inboxes when they are due, ordered by sender and then by time of sending. Messages of and to absent robots, and
   /// those that the RadioChannel loses, are lost; its errors are those of the step in which a message is sent. Messages
   /// beyond Communication::rate_hz wait in their outbox. Messages beyond the sender's kMaxMessagesSent or the
-  /// receiver's InboxLimit are dropped.
-  /// @param seed of the loss of messages @param in_flight ordered by due_step @pre the inboxes are empty
+  /// receiver's InboxLimit are dropped. A broadcast counts once for the limits of its sender, and is received like as
+  /// many messages, in the world's order of their receivers.
+  /// @param seed of the loss of messages @param in_flight ordered by due_step, then by sender
+  /// @pre the inboxes are empty
   MessageCounts deliver(std::uint64_t seed, SimTime now, const Robots& robots, std::span<Outbox> outboxes,
                         std::vector<MessageInFlight>& in_flight, std::span<Readings> readings);
   /// The robots into whose inboxes the last call of deliver() has put messages, each once.
   const std::vector<std::uint32_t>& receivers() const { return receivers_; }
 
  private:
+  struct Delivery;
+  /// @throws std::invalid_argument for a text that is too long
+  void requireShort(std::size_t from, const std::string& to, const std::string& text) const;
+  static void queue(PendingMessage message, Outbox& outbox);
   /// Moves the messages of one outbox.
-  void deliverFrom(std::uint32_t from, std::uint64_t seed, SimTime now, const Robots& robots,
-                   std::span<Outbox> outboxes, std::vector<MessageInFlight>& in_flight, std::span<Readings> readings,
-                   MessageCounts& counts);
+  void deliverFrom(std::uint32_t from, Outbox& outbox, Delivery& delivery);
+  /// Sends a broadcast on its way to each receiver. @param index as of transmit(), of the first receiver
+  void transmitToAll(std::uint32_t from, std::size_t index, const std::string& text, Delivery& delivery);
+  /// Sends a message on its way to one receiver. @param index of the message among those of its sender in this step
+  template <typename Text>
+  void transmit(std::uint32_t from, std::uint32_t to, std::size_t index, Text&& text, Delivery& delivery);
   /// Puts a message into the inbox of its receiver.
-  void receive(std::uint32_t from, std::uint32_t to, std::string&& text, std::span<Readings> readings,
-               MessageCounts& counts);
+  template <typename Text>
+  void receive(std::uint32_t from, std::uint32_t to, Text&& text, Delivery& delivery);
 
   std::vector<std::string> names_;
   std::vector<std::uint32_t> by_name_;  ///< indices of robots, sorted by name
@@ -118,6 +142,7 @@ class MessageRouter {
   RadioChannel channel_{communication_};
   std::vector<InboxLimit> limits_;  ///< by receiver; unused ones between two calls of deliver()
   std::vector<std::uint32_t> receivers_;
+  std::vector<std::uint32_t> near_;  ///< memory of transmitToAll()
 };
 
 }  // namespace robosim

@@ -109,7 +109,10 @@ void requireSameShape(const State& saved, const State& own) {
 std::uint64_t messagesSent(const State& state) {
   std::uint64_t sent =
       state.messages_delivered + state.messages_dropped + state.messages_lost.total() + state.messages_in_flight.size();
-  for (const Outbox& outbox : state.outboxes) sent += outbox.messages.size() + outbox.surplus;
+  for (const Outbox& outbox : state.outboxes) {
+    sent += outbox.surplus;
+    for (const PendingMessage& message : outbox.messages) sent += message.receiversOf(state.outboxes.size());
+  }
   return sent;
 }
 

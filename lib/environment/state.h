@@ -35,12 +35,12 @@ struct State {
   std::vector<Outbox> outboxes;            ///< messages for the next step
   std::vector<std::uint8_t> win_requests;  ///< 1 for a robot that requests CheckWin with the next step
   std::vector<Readings> readings;
-  std::optional<std::size_t> winner;  ///< the robot that has won
-  std::uint64_t stalls = 0;           ///< number of robot-steps so far that were clipped or refused
-  std::uint64_t messages_delivered = 0;
+  std::optional<std::size_t> winner;                ///< the robot that has won
+  std::uint64_t stalls = 0;                         ///< number of robot-steps so far that were clipped or refused
+  std::uint64_t messages_delivered = 0;             ///< a broadcast counts for each receiver
   std::uint64_t messages_dropped = 0;               ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far
   MessageLosses messages_lost;                      ///< so far
-  std::vector<MessageInFlight> messages_in_flight;  ///< delayed ones, ordered by due_step
+  std::vector<MessageInFlight> messages_in_flight;  ///< delayed ones, ordered by due_step, then by sender
   /// Of all steps so far; nullopt: none is computed, which saves its cost in each step. restore() keeps that choice.
   std::optional<RunDigest> digest;
 
@@ -48,7 +48,8 @@ struct State {
   bool operator==(const State&) const = default;
 };
 
-/// Number of messages that robots have sent so far, including those that wait in an outbox or are in flight.
+/// Number of messages that robots have sent so far, including those that wait in an outbox or are in flight. A
+/// broadcast counts once for each receiver, unless its sender's limit has dropped it.
 std::uint64_t messagesSent(const State&);
 
 /// State before the first measurement: robots at rest at their starts, blank readings, a digest of no steps.

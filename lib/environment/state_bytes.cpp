@@ -1,5 +1,6 @@
 #include "environment/state_bytes.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -19,8 +20,8 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 3;
-constexpr std::size_t kSizeAt = 20;  ///< after magic and version
+constexpr std::uint32_t kVersion = 4;  ///< since 4, an outbox may contain broadcasts
+constexpr std::size_t kSizeAt = 20;    ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
 constexpr double kFarthestPose_m = 1e7;
@@ -173,7 +174,8 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
   for (std::uint32_t k = 0; k < sent; ++k) {
     PendingMessage& message = state.outboxes[i].messages.emplace_back();
     message.to = in.takeNumber<std::uint32_t>();
-    requireContents(message.to < model.fleet.robots.size(), "a message has an unknown receiver");
+    requireContents(message.to < model.fleet.robots.size() || message.isBroadcast(),
+                    "a message has an unknown receiver");
     message.text = in.takeText(kMaxMessageBytes);
   }
 
@@ -214,7 +216,8 @@ void readMessages(const Model& model, StateReader& in, State& state) {
        {&lost.out_of_range, &lost.stopped_by_walls, &lost.by_chance, &lost.in_bursts, &lost.absent}) {
     *number = in.takeNumber<std::uint64_t>();
   }
-  const std::uint64_t last_step = state.time.step + delaySteps(model.world.communication, model.period_s);
+  const std::uint64_t last_step =
+      state.time.step + std::max<std::uint64_t>(1, delaySteps(model.world.communication, model.period_s));
   std::uint64_t earliest = state.time.step + 1;
   for (auto left = in.takeNumber<std::uint64_t>(); left > 0; --left) {
     MessageInFlight& message = state.messages_in_flight.emplace_back();

@@ -27,6 +27,7 @@ struct Saved {
     environment.send(0, "b", "delivered");
     environment.step();
     environment.send(0, "b", "pending");
+    environment.broadcast(1, "to all");
     model = environment.model();
     bytes = toBytes(*model, environment.state());
   }
@@ -110,15 +111,23 @@ TEST(StateBytes, ErrorsStateTheFaultAndHowToFixIt) {
   EXPECT_EQ(errorOf(model, damaged),
             "the saved state is damaged: its checksum differs; copy it again, or save the state again");
   std::string newer = saved.bytes;
-  newer[16] = 4;
+  newer[16] = 5;
   EXPECT_EQ(errorOf(model, sealed(newer)),
-            "the saved state has version 4 of the format, and this program reads version 3; use the version of RoboSim "
+            "the saved state has version 5 of the format, and this program reads version 4; use the version of RoboSim "
             "that saved it");
   Model other = model;
   other.seed = 2;
   EXPECT_EQ(errorOf(other, saved.bytes),
             "the saved state belongs to another world, other robots or sensors, or another seed or time step; load it "
             "with those of the run that saved it");
+}
+
+TEST(StateBytes, KeepABroadcastUntilItIsDelivered) {
+  const Saved saved;
+  Environment environment(saved.model, stateFromBytes(*saved.model, saved.bytes));
+  environment.step();
+  ASSERT_EQ(environment.state().readings[0].inbox.size(), 1u);
+  EXPECT_EQ(environment.state().readings[0].inbox[0], (RobotMessage{"b", "a", "to all"}));
 }
 
 TEST(StateBytes, RefuseAPictureThatIsNoJpegFile) {

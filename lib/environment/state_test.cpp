@@ -169,6 +169,9 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) {
         s.outboxes[1].messages.push_back({0, "x"});
       },
+      [](State& s) {
+        s.outboxes[1].messages.push_back({kEveryOtherRobot, "x"});
+      },
       [](State& s) { ++s.outboxes[1].surplus; },
       [](State& s) { s.win_requests[1] ^= 1; },
       [](State& s) {

@@ -29,6 +29,14 @@ class Hardware {
   /// @throws std::invalid_argument when there is no robot named `to`, or the text is longer than
   /// kMaxMessageBytes.
   virtual void send(const std::string& to, const std::string& text) = 0;
+  /// Sends a message to every other robot. The default sends one to each, in the world's order; hardware that takes it
+  /// as one message overrides this.
+  /// @throws std::invalid_argument when the text is longer than kMaxMessageBytes.
+  virtual void broadcast(const std::string& text) {
+    for (const std::string& other : robots()) {
+      if (other != info().name) send(other, text);
+    }
+  }
   /// The referee of this robot's contest; null, the default, for hardware without one, whose readings then name no
   /// winner. Robot::checkWin() has no effect without a referee, so that a controller's source does not depend on it.
   virtual RefereeLink* referee() { return nullptr; }

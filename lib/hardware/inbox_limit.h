@@ -27,7 +27,7 @@ class InboxLimit {
   std::size_t bytes_ = 0;
 };
 
-/// Maximum number of messages that a robot sends in one step: enough to send to every robot of a large world.
+/// Maximum number of messages that a robot sends in one step. A broadcast is one message.
 constexpr std::size_t kMaxMessagesSent = 1024;
 
 }  // namespace robosim

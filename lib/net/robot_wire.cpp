@@ -99,11 +99,13 @@ void decodeMessages(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& 
       throw WireError("a message of " + std::to_string(message.text().size()) + " bytes; the most is " +
                       std::to_string(kMaxMessageBytes));
     }
+    if (message.to_all() && !message.to().empty())
+      throw WireError("a message to all robots that also names a receiver; leave `to` empty");
     if (++sent[indexOf(robot)] > kMaxMessagesSent) {
       throw WireError("more than " + std::to_string(kMaxMessagesSent) + " messages of a robot in one step",
                       v1::ERROR_REASON_TOO_MANY_MESSAGES);
     }
-    out.messages.push_back({robot, message.to(), message.text()});
+    out.messages.push_back({robot, message.to(), message.text(), message.to_all()});
   }
   if (in.messages_dropped() > kMaxMessagesDropped) {
     throw WireError("messages_dropped is " + std::to_string(in.messages_dropped()) + "; the most is " +

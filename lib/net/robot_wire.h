@@ -33,6 +33,7 @@ struct RobotsAnswer {
   struct Message {
     ProcessRobotIndex robot;  ///< the sender
     std::string to, text;
+    bool to_all = false;  ///< to every other robot; `to` is empty
   };
   std::uint64_t step = 0;
   std::vector<Order> orders;
@@ -52,7 +53,8 @@ Command decode(const v1::Command& in, std::uint32_t robot);
 
 /// @param robots number of robots of the process
 /// @throws WireError as decode() of a command; for a robot index out of range; for a message longer than
-/// kMaxMessageBytes; for more messages of a robot than kMaxMessagesSent; for more than 2^32 dropped messages.
+/// kMaxMessageBytes, or to all robots that also names one; for more messages of a robot than kMaxMessagesSent; for more
+/// than 2^32 dropped messages.
 void decode(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out);
 
 /// Encodes a measurement without its step.
@@ -91,6 +93,7 @@ struct RobotsWelcome {
   double period_s = 0;
   std::vector<Robot> robots;
   std::vector<std::string> all_robots;  ///< all robots of the world
+  bool takes_broadcasts = false;        ///< the environment takes v1::RobotMessage::to_all
 };
 
 void encode(const RobotsWelcome& welcome, v1::RobotsWelcome& out);

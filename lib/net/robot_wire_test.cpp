@@ -136,6 +136,20 @@ TEST(RobotWire, DecodesCommandsMessagesAndWinChecks) {
   EXPECT_EQ(answer.messages[0].text.size(), kMaxMessageBytes);
 }
 
+TEST(RobotWire, DecodesABroadcastAndRejectsOneThatNamesAReceiver) {
+  v1::StepAnswer message;
+  auto& sent = *message.add_messages();
+  sent.set_to_all(true);
+  sent.set_text("all");
+  RobotsAnswer answer;
+  decode(message, 1, answer);
+  ASSERT_EQ(answer.messages.size(), 1u);
+  EXPECT_TRUE(answer.messages[0].to_all);
+  EXPECT_EQ(answer.messages[0].text, "all");
+  sent.set_to("Scout1");
+  EXPECT_EQ(errorFor(message), "a message to all robots that also names a receiver; leave `to` empty");
+}
+
 TEST(RobotWire, RejectsAnImplausibleNumberOfDroppedMessages) {
   v1::StepAnswer message;
   message.set_messages_dropped(std::uint64_t{1} << 32);

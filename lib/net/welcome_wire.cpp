@@ -180,6 +180,7 @@ void encode(const RobotsWelcome& welcome, v1::RobotsWelcome& out) {
     encode(robot, found->second, *out.add_robots());
   }
   for (const auto& name : welcome.all_robots) out.add_all_robots(name);
+  out.set_takes_broadcasts(welcome.takes_broadcasts);
 }
 
 RobotsWelcome decode(const v1::RobotsWelcome& in) {
@@ -198,6 +199,7 @@ RobotsWelcome decode(const v1::RobotsWelcome& in) {
   }
   for (const auto& robot : in.robots()) welcome.robots.push_back(decode(robot, sets));
   welcome.all_robots.assign(in.all_robots().begin(), in.all_robots().end());
+  welcome.takes_broadcasts = in.takes_broadcasts();
   return welcome;
 }
 

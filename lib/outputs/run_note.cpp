@@ -12,7 +12,8 @@
 namespace robosim {
 namespace {
 
-/// Maximum size of a world that is copied into its recordings; larger worlds are read from their file when replayed.
+/// Maximum size of a world that is copied into its recordings; larger worlds are read from their file when replayed. Of
+/// those with large files, the rest is copied.
 constexpr std::size_t kMaxWorldBytes = 1 << 20;
 
 /// A map may contain bytes that JSON text cannot.
@@ -38,21 +39,31 @@ std::string fromBase64(const std::string& text) {
   return bytes;
 }
 
+/// @throws nlohmann::json::exception
+void readText(const nlohmann::ordered_json& json, WorldSource& world) {
+  world.text = json.at("world_text");
+  for (const auto& [name, type] : json.at("robot_types").items()) {
+    world.robot_types[name] = {type.at("file").get<std::string>(), type.at("text").get<std::string>()};
+  }
+}
+
 }  // namespace
 
 std::string RunNote::text() const {
   nlohmann::ordered_json types = nlohmann::ordered_json::object();
-  std::size_t bytes = world.text.size();
+  std::size_t bytes = world.text.size(), bytes_of_files = 0;
   for (const auto& [name, type] : world.robot_types) {
     types[name] = {{"file", type.file.filename().string()}, {"text", type.text.value_or("")}};
     bytes += type.text.value_or("").size();
   }
   nlohmann::ordered_json files = nlohmann::ordered_json::object();
   for (const auto& [name, file] : world.files) {
-    files[name] = toBase64(file);
     bytes += file.size();
+    bytes_of_files += file.size();
+    if (bytes <= kMaxWorldBytes) files[name] = toBase64(file);
   }
   const bool is_small = bytes <= kMaxWorldBytes;
+  const bool has_small_text = bytes - bytes_of_files <= kMaxWorldBytes;
   nlohmann::ordered_json json{{"robosim", 1},
                               {"world", std::filesystem::path(world.file).filename().string()},
                               {"world_version", world_version},
@@ -63,6 +74,7 @@ std::string RunNote::text() const {
                               {"world_text", is_small ? world.text : ""},
                               {"robot_types", is_small ? types : nlohmann::ordered_json::object()},
                               {"files", is_small ? files : nlohmann::ordered_json::object()}};
+  if (!is_small && has_small_text) json["without_files"] = {{"world_text", world.text}, {"robot_types", types}};
   if (first_step > 0) json["first_step"] = first_step;
   return json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -73,14 +85,13 @@ std::optional<RunNote> RunNote::parse(const std::string& text) {
     if (json.at("robosim") != 1) return std::nullopt;
     RunNote note;
     note.world.file = json.at("world");
-    note.world.text = json.at("world_text");
-    for (const auto& [name, type] : json.at("robot_types").items()) {
-      note.world.robot_types[name] = {type.at("file").get<std::string>(), type.at("text").get<std::string>()};
-    }
+    readText(json, note.world);
+    note.without_files = note.world;
+    if (json.contains("without_files")) readText(json.at("without_files"), note.without_files);
     for (const auto& [name, file] : json.at("files").items()) note.world.files[name] = fromBase64(file);
     note.world_version = json.at("world_version");
     note.seed = json.at("seed");
-    note.world.seed = note.seed;
+    note.world.seed = note.without_files.seed = note.seed;
     note.period_s = json.at("period_s");
     note.first_step = json.value("first_step", std::uint64_t{0});
     note.controllers = json.at("controllers").get<std::vector<std::string>>();

@@ -20,7 +20,9 @@ class NotOfRoboSim : public ConfigError {
 /// Metadata of a recording: everything needed to repeat the run. Stored as JSON in a CObservationComment at the start
 /// of the recording and, with the outcome, at its end (doc/rawlog.md).
 struct RunNote {
-  WorldSource world;
+  WorldSource world;  ///< without text if it is too large to be stored
+  /// The same without its files, such as maps, and also stored where these are too large.
+  WorldSource without_files;
   std::string world_version;  ///< versionOf(world)
   std::uint64_t seed = 1;
   double period_s = 0.1;

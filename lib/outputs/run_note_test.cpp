@@ -41,5 +41,19 @@ TEST(RunNote, IsRejectedWithATimeStepThatNoRunHas) {
   EXPECT_FALSE(is_accepted(-0.1));
 }
 
+TEST(RunNote, KeepsTheRobotsOfAWorldWhoseMapIsTooLarge) {
+  RunNote note;
+  note.world = {
+      "w.xml", "<world/>", {{"probe", {"probe.xml", "<robot/>"}}}, {{"large.pgm", std::string(2 << 20, 'x')}}};
+  const auto read = RunNote::parse(note.text());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(read->world.text, "");
+  EXPECT_TRUE(read->world.files.empty());
+  EXPECT_EQ(read->without_files.text, "<world/>");
+  EXPECT_EQ(read->without_files.robot_types.at("probe").text, "<robot/>");
+  note.world.files["large.pgm"] = "small";
+  EXPECT_EQ(RunNote::parse(note.text())->without_files.text, "<world/>");
+}
+
 }  // namespace
 }  // namespace robosim

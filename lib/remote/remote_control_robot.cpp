@@ -30,6 +30,7 @@ class RemoteControlRobot::ControllersView final : public Hardware {
     hardware_.command(command);
   }
   void send(const std::string& to, const std::string& text) override { hardware_.send(to, text); }
+  void broadcast(const std::string& text) override { hardware_.broadcast(text); }
   RefereeLink* referee() override { return hardware_.referee(); }
   BaseLink* base() override { return hardware_.base(); }
 

@@ -14,6 +14,7 @@
 #include "run/json_text.h"
 #include "run/local_run.h"
 #include "run/run_summary.h"
+#include "world/map_reader.h"
 
 namespace robosim {
 namespace {
@@ -132,11 +133,20 @@ class RunAgain {
     options.environment.period_s = note.period_s;
     return options;
   }
+  /// A bare map has one robot at its home. The recording contains which ones the run has placed on it, and with which
+  /// changes, so that only the map's own files are taken from where they are now.
+  static WorldSource withRobotsOf(const RunNote& note, const WorldSource& checked) {
+    if (!isMapFile(checked.file) || note.without_files.text.empty()) return checked;
+    WorldSource source = note.without_files;
+    source.file = checked.file;
+    source.files = checked.files;
+    return source;
+  }
   static WorldSource sourceFrom(const ReplayArguments& arguments, const RunNote& note) {
     if (arguments.check.empty() && note.world.text.empty()) {
       throw ConfigError(arguments.rawlog + ": its world is too large to be stored in it; add --check WORLD");
     }
-    WorldSource source = arguments.check.empty() ? note.world : readWorldSource(arguments.check);
+    WorldSource source = arguments.check.empty() ? note.world : withRobotsOf(note, readWorldSource(arguments.check));
     source.seed = note.seed;
     return source;
   }
@@ -228,7 +238,7 @@ class RunAgain {
             std::find_if(robots.begin(), robots.end(), [&](const auto& r) { return r.info.name == message.from; }) -
             robots.begin());
         if (sender < robots.size() && note_.controllers[sender].empty()) {
-          environment.send(sender, message.to, message.text);
+          environment.receive(i, sender, message.text);  // the recording contains what the radio has delivered
         }
       }
     }

@@ -129,7 +129,7 @@ void RobotSession::answer(Stream& stream, const v1::DriveRequest& message) {
                     awaited + "; answer each step once, after receiving its readings");
   }
   for (const auto& sent : stream.decoded.messages) {
-    if (serving_.run_info->robot_named.contains(sent.to)) continue;
+    if (sent.to_all || serving_.run_info->robot_named.contains(sent.to)) continue;
     throw WireError("a message to " + inQuotes(sent.to) + ", and there is no robot of that name");
   }
   std::swap(stream.answer, stream.decoded);
@@ -175,10 +175,18 @@ RobotSession::LeftAnswer RobotSession::answerOf(const Stream& stream, std::size_
   return kept;
 }
 
+void RobotSession::send(Environment& environment, std::size_t robot, const RobotsAnswer::Message& message) {
+  if (message.to_all) {
+    environment.broadcast(robot, message.text);
+  } else {
+    environment.send(robot, message.to, message.text);
+  }
+}
+
 void RobotSession::applyLeftAnswers(Environment& environment) {
   for (const auto& answer : left_answers_) {
     if (!driver_of_[answer.robot]) environment.setCommand(answer.robot, {.activity = answer.activity});
-    for (const auto& message : answer.messages) environment.send(answer.robot, message.to, message.text);
+    for (const auto& message : answer.messages) send(environment, answer.robot, message);
     if (answer.checks_win) environment.checkWin(answer.robot);
     environment.countDroppedMessages(answer.messages_dropped);
     next_answer_[answer.robot] = answer.step + 1;
@@ -222,6 +230,7 @@ void RobotSession::sendWelcome(Stream& stream) {
                               next_answer_[robot], of_fleet.world_from_start});
   }
   welcome.all_robots = run_info.robot_names;
+  welcome.takes_broadcasts = true;
   encode(welcome, *stream.draft().mutable_welcome());
   stream.post();
 }
@@ -315,7 +324,7 @@ std::size_t RobotSession::applyAnswers(Environment& environment) {
       environment.setCommand(stream->robots[indexOf(order.robot)], order.command);
     }
     for (const auto& message : stream->answer.messages) {
-      environment.send(stream->robots[indexOf(message.robot)], message.to, message.text);
+      send(environment, stream->robots[indexOf(message.robot)], message);
     }
     for (const auto robot : stream->answer.win_checks) environment.checkWin(stream->robots[indexOf(robot)]);
     environment.countDroppedMessages(stream->answer.messages_dropped);

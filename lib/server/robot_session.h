@@ -76,6 +76,7 @@ class RobotSession final : public v1::Robots::WithRawMethod_Drive<v1::Robots::Se
   void sendReadings(Stream& stream);
   void keepInboxes();
   void applyLeftAnswers(Environment& environment);
+  static void send(Environment& environment, std::size_t robot, const RobotsAnswer::Message& message);
 
   ServingState& serving_;
   std::vector<std::shared_ptr<Stream>> streams_;  ///< established

@@ -73,8 +73,9 @@ class RemoteRobotsTest(unittest.TestCase):
             self.assertEqual((robots.inbox("R1"), robots.inbox("R2")), ([], [("R1", "grün")]))
             self.assertEqual(robots.is_too_far.tolist(), [True, False])
             self.assertIsNone(robots.winner)
+            robots.broadcast("R2", "all")
             robots.step()
-            self.assertEqual(robots.inbox("R2"), [])
+            self.assertEqual((robots.inbox("R1"), robots.inbox("R2")), ([("R2", "all")], []))
             robots.halt("R1")
             robots.halt("R2")
             while robots.step():

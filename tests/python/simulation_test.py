@@ -143,6 +143,10 @@ class CommandsTest(unittest.TestCase):
         self.assertEqual(simulation.inbox("R1"), [])
         simulation.step()
         self.assertEqual(simulation.inbox("R2"), [])
+        simulation.broadcast("R2", "all")
+        simulation.step()
+        self.assertEqual(simulation.inbox("R1"), [robosim.Message("R2", "all")])
+        self.assertEqual(simulation.inbox("R2"), [])
         with self.assertRaisesRegex(ValueError, "R9"):
             simulation.send("R1", "R9", "")
         with self.assertRaisesRegex(ValueError, "there is no robot 'R8'; the world has R1, R2"):

@@ -146,6 +146,17 @@ class RemoteRobots:
         self._others.messages.add(process_robot=self._index_of(sender), to=receiver,
                                   text=text.encode("utf-8", "surrogateescape"))
 
+    def broadcast(self, sender, text):
+        """Sends a message from a robot to every other robot of the world, which is delivered in the next step to those that
+        the radio reaches. It counts as one message."""
+        if not self.welcome.takes_broadcasts:  # an environment of an earlier version
+            for receiver in self.welcome.all_robots:
+                if receiver != sender:
+                    self.send(sender, receiver, text)
+            return
+        self._others.messages.add(process_robot=self._index_of(sender), to_all=True,
+                                  text=text.encode("utf-8", "surrogateescape"))
+
     def check_win(self, name):
         """Requests, with the next step, whether a robot is near enough to the gold to have won."""
         self._others.win_checks.append(self._index_of(name))

@@ -26,6 +26,7 @@ class Dasher : public Controller {
     const std::uint32_t chance = rng_.below(1000);
     const auto other = rng_.below(static_cast<std::uint32_t>(robot.robots().size()));
     if (chance < 5) robot.send(robot.robots()[other], "turn in step " + std::to_string(step));
+    if (chance == 7) robot.broadcast("turn in step " + std::to_string(step));
     if (chance == 5) robot.checkWin();
     if (chance == 6) robot.halt();
   }

@@ -8,7 +8,8 @@
 namespace robosim {
 
 /// Registers the controller "dasher" in this process. It drives fast, turns at random and away from what its laser
-/// sees. Some robots send messages, upon which the receiver turns, ask whether they have won, or halt.
+/// sees. Some robots send messages to one robot or to all, upon which the receivers turn, ask whether they have won, or
+/// halt.
 void addDasher();
 
 /// What a run has in common with one in one process.

@@ -114,6 +114,7 @@ void ProbeRun::prepare(Environment& environment) const {
     for (std::uint32_t k = rng.below(3); k > 0; --k) {
       environment.send(i, nameOf(rng.below(kRobots)), "step " + std::to_string(step));
     }
+    if (rng.below(5) == 0) environment.broadcast(i, "to all in step " + std::to_string(step));
     if (rng.below(30) == 0) environment.checkWin(i);
     const bool is_absent = environment.state().activity[i] == Activity::absent;
     if (!is_absent && rng.below(150) == 0) environment.remove(i);
