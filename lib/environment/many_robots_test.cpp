@@ -117,8 +117,8 @@ TEST(ManyRobots, IsIndependentOfTheNumberOfThreads) {
   EXPECT_EQ(digest(4), alone);
 }
 
-TEST(ManyRobots, EveryRobotOfALargeSwarmHearsTheBroadcastsOfItsNeighbours) {
-  // A lattice of 40 × 50 robots, 1 m apart, with a range of 1 m: each hears its two to four neighbours.
+TEST(ManyRobots, EveryRobotOfALargeSwarmReceivesTheBroadcastsOfItsNeighbours) {
+  // A lattice of 40 × 50 robots, 1 m apart, with a range of 1 m: each receives those of its two to four neighbours.
   constexpr int kColumns = 40, kRows = 50;
   World world = emptyWorld(30);
   world.communication.range_m = 1.0;
