@@ -41,10 +41,12 @@ function(robosim_module name)
     target_link_libraries(${target}_testing PUBLIC ${target})
   endif()
 
-  add_test(NAME includes.${name}
-    COMMAND ${CMAKE_COMMAND} -DMODULE=${name} "-DUSES=${MODULE_USES}" -DLIB=${PROJECT_SOURCE_DIR}/lib
-            -P ${PROJECT_SOURCE_DIR}/lib/check_includes.cmake)
-  if(MODULE_PORTABLE)
+  if(ROBOSIM_TESTS STREQUAL ALL)
+    add_test(NAME includes.${name}
+      COMMAND ${CMAKE_COMMAND} -DMODULE=${name} "-DUSES=${MODULE_USES}" -DLIB=${PROJECT_SOURCE_DIR}/lib
+              -P ${PROJECT_SOURCE_DIR}/lib/check_includes.cmake)
+  endif()
+  if(MODULE_PORTABLE AND ROBOSIM_TESTS STREQUAL ALL)
     add_test(NAME portable.${name}
       COMMAND ${CMAKE_COMMAND} -DLIBRARY=$<TARGET_FILE:${target}> -DNM=${CMAKE_NM}
               -P ${PROJECT_SOURCE_DIR}/lib/check_portable.cmake)
