@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs every test under the address and undefined-behaviour sanitizers, including those with browsers and stock programs
+# Runs every test under the address and undefined-behaviour sanitizers, including those with browsers and programs of others
 # that ./dev sanitize omits.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
-exec ./dev sanitize --no-tests=error "$@"
+exec ./dev sanitize --all --no-tests=error "$@"

@@ -12,4 +12,4 @@ root=$project/build/verify/trixie
 copy=$root/srv/robosim
 cp -a --no-target-directory "$project/tests/browser/node_modules" "$copy/tests/browser/node_modules"
 touch "$copy/tests/browser/node_modules/.package-lock.json"
-exec "$project/tests/chroot.sh" "$root" bash -c 'cd /srv/robosim && ROBOSIM_UNITY=ON exec ./dev test "$@"' dev "$@"
+exec "$project/tests/chroot.sh" "$root" bash -c 'cd /srv/robosim && exec ./dev test "$@"' dev "$@"
