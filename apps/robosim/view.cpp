@@ -174,7 +174,8 @@ void addView(CLI::App& program) {
   command
       ->add_option("--offscreen", a->offscreen,
                    "no window: write a picture (.png), or a figure for print (.svg, .pdf), of the start of a world, "
-                   "the end of a recording, or the newest step of a run; or a video (.mp4: H.264, .webm: VP9)")
+                   "the end of a recording, or the newest step of a run; or a video (.mp4: H.264, .webm: VP9, .webp: "
+                   "animated picture)")
       ->type_name("FILE")
       ->check(fileName());
   command->add_option("--size", a->size, "size of the window or the picture, pixels")

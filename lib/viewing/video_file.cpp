@@ -31,7 +31,23 @@ std::string videoEndingOf(const fs::path& file) {
   return ending;
 }
 
-bool isWebm(const fs::path& file) { return videoEndingOf(file) == ".webm"; }
+/// A kind of video: FFmpeg's names of its format and encoder.
+struct VideoKind {
+  const char* ending;
+  const char* format;
+  const char* encoder;
+};
+
+constexpr VideoKind kVideoKinds[] = {
+    {".mp4", "mp4", "libx264"}, {".webm", "webm", "libvpx-vp9"}, {".webp", "webp", "libwebp_anim"}};
+
+/// nullptr for a file that is no video
+const VideoKind* videoKindOf(const fs::path& file) {
+  const std::string ending = videoEndingOf(file);
+  const auto* const found = std::find_if(std::begin(kVideoKinds), std::end(kVideoKinds),
+                                         [&](const auto& kind) { return ending == kind.ending; });
+  return found == std::end(kVideoKinds) ? nullptr : found;
+}
 
 std::string avErrorText(int error) {
   char text[AV_ERROR_MAX_STRING_SIZE] = {};
@@ -61,29 +77,28 @@ AvPtr<T> owned(T* object) {
 
 }  // namespace
 
-bool isVideo(const fs::path& file) { return videoEndingOf(file) == ".mp4" || isWebm(file); }
+bool isVideo(const fs::path& file) { return videoKindOf(file) != nullptr; }
 
 /// FFmpeg's objects for one video.
 struct VideoFile::Encoder {
   Encoder(const fs::path& named, const fs::path& part, int width_px, int height_px, double fps) : named_file(named) {
     av_log_set_level(AV_LOG_QUIET);  // errors are reported here
-    const bool is_webm = isWebm(named);
-    const char* const name = is_webm ? "libvpx-vp9" : "libx264";
-    const AVCodec* const codec = avcodec_find_encoder_by_name(name);
+    const VideoKind& kind = *videoKindOf(named);
+    const AVCodec* const codec = avcodec_find_encoder_by_name(kind.encoder);
     if (!codec) {
-      throw ConfigError(named.string() + ": FFmpeg's library libavcodec has no encoder " + name +
-                        "; install Debian's full build of FFmpeg (apt-get install ffmpeg), or write " +
-                        (is_webm ? ".mp4" : ".webm"));
+      throw ConfigError(named.string() + ": FFmpeg's library libavcodec has no encoder " + kind.encoder +
+                        "; install Debian's full build of FFmpeg (apt-get install ffmpeg), or write another of .mp4, "
+                        ".webm and .webp");
     }
     AVFormatContext* opened = nullptr;
     // "file:", so that a colon in the name does not start a protocol.
-    avformat_alloc_output_context2(&opened, nullptr, is_webm ? "webm" : "mp4", ("file:" + part.string()).c_str());
+    avformat_alloc_output_context2(&opened, nullptr, kind.format, ("file:" + part.string()).c_str());
     format = owned(opened);
     stream = avformat_new_stream(format.get(), nullptr);
     if (!stream) throw std::bad_alloc();
     context = owned(avcodec_alloc_context3(codec));
     packet = owned(av_packet_alloc());
-    setOptions(is_webm, width_px, height_px, fps);
+    setOptions(codec->id, width_px, height_px, fps);
     checkEncoding(avcodec_open2(context.get(), codec, nullptr));
     checkEncoding(avcodec_parameters_from_context(stream->codecpar, context.get()));
     stream->time_base = context->time_base;
@@ -91,14 +106,15 @@ struct VideoFile::Encoder {
     makeFrame();
     checkWriting(avio_open(&format->pb, format->url, AVIO_FLAG_WRITE));
     AVDictionary* options = nullptr;
-    if (!is_webm) av_dict_set(&options, "movflags", "+faststart", 0);
+    if (codec->id == AV_CODEC_ID_H264) av_dict_set(&options, "movflags", "+faststart", 0);
+    if (codec->id == AV_CODEC_ID_WEBP) av_dict_set(&options, "loop", "0", 0);  // repeats for ever
     const int begun = avformat_write_header(format.get(), &options);
     av_dict_free(&options);
     checkEncoding(begun);
     checkWriting(format->pb->error);
   }
 
-  void setOptions(bool is_webm, int width_px, int height_px, double fps) {
+  void setOptions(AVCodecID codec, int width_px, int height_px, double fps) {
     context->width = width_px & ~1;
     context->height = height_px & ~1;
     context->pix_fmt = AV_PIX_FMT_YUV420P;
@@ -118,8 +134,13 @@ struct VideoFile::Encoder {
       checkEncoding(av_opt_set(context->priv_data, option, value, 0));
     };
     // Constant quality, at which thin lines and small text stay sharp.
-    set("crf", is_webm ? "24" : "18");
-    if (is_webm) {
+    if (codec == AV_CODEC_ID_WEBP) {
+      context->pix_fmt = AV_PIX_FMT_RGB32;  // the library converts to its own colour space
+      set("quality", "80");
+      return;
+    }
+    set("crf", codec == AV_CODEC_ID_VP9 ? "24" : "18");
+    if (codec == AV_CODEC_ID_VP9) {
       context->bit_rate = 0;
       set("deadline", "good");
       set("cpu-used", "5");
@@ -136,7 +157,7 @@ struct VideoFile::Encoder {
     frame->pts = 0;
     checkEncoding(av_frame_get_buffer(frame.get(), 0));
     scaler = owned(sws_getContext(frame->width, frame->height, AV_PIX_FMT_BGR24, frame->width, frame->height,
-                                  AV_PIX_FMT_YUV420P, SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
+                                  context->pix_fmt, SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INP, nullptr,
                                   nullptr, nullptr));
     const int* const matrix = sws_getCoefficients(SWS_CS_ITU709);
     sws_setColorspaceDetails(scaler.get(), matrix, 1, matrix, 0, 0, 1 << 16, 1 << 16);

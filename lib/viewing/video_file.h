@@ -9,16 +9,16 @@
 
 namespace robosim {
 
-/// Whether the name of a file ends in .mp4 or .webm, in upper or lower case.
+/// Whether the name of a file ends in .mp4, .webm or .webp, in upper or lower case.
 bool isVideo(const std::filesystem::path& file);
 
 /// Writer of a video by FFmpeg's libraries: MP4 with H.264 (avc1) and its index in front of the pictures, so that
-/// players start before the file is complete; or WebM with VP9. Pixels are yuv420p in BT.709, with a key frame at least
-/// every two seconds for seeking. Equal pictures give equal bytes with the same version of the libraries. The file
-/// appears under its name only on commit() (AtomicFile).
+/// players start before the file is complete; WebM with VP9; or an animated WebP picture, which repeats. Pixels of MP4
+/// and WebM are yuv420p in BT.709, with a key frame at least every two seconds for seeking. Equal pictures give equal
+/// bytes with the same version of the libraries. The file appears under its name only on commit() (AtomicFile).
 class VideoFile {
  public:
-  /// @param file .mp4 or .webm
+  /// @param file .mp4, .webm or .webp
   /// @param fps frames per second
   /// @throws ConfigError when the file cannot be created, or its encoder is not installed.
   /// @throws std::runtime_error when the encoder refuses the size or the frame rate.

@@ -112,9 +112,10 @@ bool isFigure(const std::string& file) {
 
 void checkOffscreenFile(const std::string& file) {
   if (!isVideo(file) && !pictureFormatOf(file)) {
-    throw ConfigError("--offscreen " + file +
-                      ": must end in .png, for a picture, in .svg or .pdf, for a figure, or in .mp4 or .webm, for a "
-                      "video");
+    throw ConfigError(
+        "--offscreen " + file +
+        ": must end in .png, for a picture, in .svg or .pdf, for a figure, or in .mp4, .webm or .webp, for a "
+        "video");
   }
   checkWritable(file);
 }

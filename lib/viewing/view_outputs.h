@@ -37,8 +37,8 @@ void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, cons
 
 /// Whether a file name is that of a figure: .svg or .pdf.
 bool isFigure(const std::string& file);
-/// @throws ConfigError for a name that ends in none of .png, .svg, .pdf, .mp4 and .webm, or a file that cannot be
-/// written
+/// @throws ConfigError for a name that ends in none of .png, .svg, .pdf, .mp4, .webm and .webp, or a file that cannot
+/// be written
 void checkOffscreenFile(const std::string& file);
 /// Writes a picture or a video.
 /// @throws Interrupted, and std::runtime_error when the disk is full; no file is written then. Exception: an

@@ -1,5 +1,5 @@
-// `robosim view --offscreen` with .mp4 and .webm: format, frames, and the end of a video. tests/browser/video_test.mjs
-// plays them.
+// `robosim view --offscreen` with .mp4, .webm and .webp: format, frames, and the end of a video.
+// tests/browser/video_test.mjs plays them.
 
 #include <chrono>
 #include <cstdint>
@@ -126,10 +126,33 @@ TEST(Video, HasItsCodecPixelsOf420AndEvenSides) {
   }
 }
 
+TEST(Video, OfWebpIsAnAnimationThatRepeats) {
+  const auto folder = emptyFolder();
+  view(recordWandering(folder, "3"), "--size 320x240 --fps 10", folder / "run.webp");
+  const std::string file = bytesOf(folder / "run.webp");
+  const auto number = [&](std::size_t at, int bytes) {
+    unsigned value = 0;
+    for (int i = 0; i < bytes; ++i) value |= static_cast<unsigned>(static_cast<std::uint8_t>(file.at(at + i))) << 8 * i;
+    return value;
+  };
+  // Chunks of the WebP container: name, size, content of even size; those of frames begin with x, y, width, height and
+  // duration of 3 bytes each.
+  EXPECT_EQ(file.substr(0, 4) + file.substr(8, 4), "RIFFWEBP");
+  unsigned loops = 1, frames = 0, duration_ms = 0;
+  for (std::size_t at = 12; at + 8 <= file.size(); at += 8 + (number(at + 4, 4) + 1) / 2 * 2) {
+    const std::string name = file.substr(at, 4);
+    if (name == "ANIM") loops = number(at + 12, 2);
+    if (name == "ANMF") ++frames, duration_ms += number(at + 20, 3);
+  }
+  EXPECT_EQ(loops, 0u) << "for ever";
+  EXPECT_GT(frames, 10u);
+  EXPECT_EQ(duration_ms, 3100u) << "31 pictures, 10 per second";
+}
+
 TEST(Video, IsEqualForEqualRecordings) {
   const auto folder = emptyFolder();
   const auto recording = recordWandering(folder, "1");
-  for (const std::string ending : {".mp4", ".webm"}) {
+  for (const std::string ending : {".mp4", ".webm", ".webp"}) {
     for (const std::string name : {"a", "b"}) view(recording, "--size 320x240", folder / (name + ending));
     EXPECT_EQ(bytesOf(folder / ("a" + ending)), bytesOf(folder / ("b" + ending))) << ending;
   }
