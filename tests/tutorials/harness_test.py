@@ -5,7 +5,7 @@ from pathlib import Path
 from unittest import mock
 
 from page import PageError, missing_line
-from run_tutorial import run_page
+from run_tutorial import EverythingTutorial, run_page
 
 
 def run(text):
@@ -48,6 +48,15 @@ class RunTutorialTest(unittest.TestCase):
         with (mock.patch("run_tutorial.ENDING_S", 0),
               self.assertRaisesRegex(PageError, "page.md:2: a process that this block started runs")):
             run("```sh\nsleep 1000 &\n```\n")
+
+
+    def test_everything_executes_also_blocks_with_a_reason_and_keeps_exported_variables(self):
+        with tempfile.TemporaryDirectory() as folder, mock.patch("builtins.print"):
+            page = Path(folder) / "page.md"
+            page.write_text("<!-- not executed: installs packages -->\n```sh\nexport A=7\n```\n```sh\necho $A >a\n```\n"
+                            "<!-- not executed: needs a robot -->\n```sh\nfalse\n```\n", encoding="utf-8")
+            EverythingTutorial(page, folder).run()
+            self.assertEqual((Path(folder) / "a").read_text(encoding="utf-8"), "7\n")
 
 
 class ExpectedOutputTest(unittest.TestCase):

@@ -3,7 +3,7 @@ import re
 from dataclasses import dataclass
 
 _FENCE = re.compile(r"```(\w*)\s*$")
-_NOT_EXECUTED = re.compile(r"<!-- not executed: \S.* -->\s*$")
+_NOT_EXECUTED = re.compile(r"<!-- not executed: (\S.*) -->\s*$")
 _FILE = re.compile(r"File `([^`]+)`:\s*$")
 
 EXECUTED = ("sh", "python")
@@ -20,10 +20,11 @@ class Block:
     text: str
     line: int  # of the first line of code in the page, from 1
     file: str = ""  # name of the file that the block is the content of; empty for others
+    reason: str = ""  # why the tests do not execute it; empty for others
 
 
 def blocks_of(page):
-    """The blocks of a page (a Path), in order, except those after a comment '<!-- not executed: REASON -->'.
+    """The blocks of a page (a Path), in order; those after a comment '<!-- not executed: REASON -->' have a reason.
 
     Raises PageError for a block that no test would cover.
     """
@@ -41,13 +42,11 @@ def blocks_of(page):
         end = next((i for i in range(begin, len(lines)) if lines[i].rstrip() == "```"), None)
         if end is None:
             raise PageError(f"{page}:{index + 1}: the block does not end; add ``` after it")
-        if _NOT_EXECUTED.match(last_text):
-            last_text = ""
-            index = end + 1
-            continue
         file = _FILE.search(last_text)
-        block = Block(fence[1], "".join(line + "\n" for line in lines[begin:end]), begin + 1, file[1] if file else "")
-        if not block.file and block.language not in EXECUTED + EXPECTED:
+        not_executed = _NOT_EXECUTED.match(last_text)
+        block = Block(fence[1], "".join(line + "\n" for line in lines[begin:end]), begin + 1, file[1] if file else "",
+                      not_executed[1] if not_executed else "")
+        if not block.file and not block.reason and block.language not in EXECUTED + EXPECTED:
             raise PageError(f"{page}:{index + 1}: a block of '{block.language}' is not executed; put a line 'File `NAME`:' "
                             f"before it, or '<!-- not executed: REASON -->', or make it one of "
                             f"{', '.join(EXECUTED + EXPECTED)}")

@@ -1,5 +1,7 @@
 #!/usr/bin/env python3
 """Executes a tutorial or another page: run_tutorial.py PAGE PREFIX [PYTHON_FOLDER], with RoboSim installed in PREFIX.
+run_tutorial.py --everything PAGE FOLDER: as a user does from the first line on, with nothing installed, in FOLDER; also the blocks that
+are not executed otherwise, as far as a machine can (tests/verify/readme.sh).
 
 The blocks of the page are processed in order, in an empty temporary folder:
   a block after a line 'File `NAME`:'   is written to the file NAME
@@ -20,7 +22,7 @@ import time
 import uuid
 from pathlib import Path
 
-from page import PageError, blocks_of, missing_line
+from page import EXECUTED, Block, PageError, blocks_of, missing_line
 
 
 PR_SET_CHILD_SUBREAPER = 36  # <sys/prctl.h>
@@ -46,7 +48,8 @@ class Tutorial:
     def run(self):
         try:
             for block in blocks_of(self._page):
-                self._process(block)
+                if not block.reason:
+                    self._process(block)
         finally:
             self._end_python()
             still_running = self._end_groups()
@@ -118,6 +121,40 @@ class Tutorial:
         return lines
 
 
+class EverythingTutorial(Tutorial):
+    """One execution of a page by a user who has nothing but a clone: variables that a block exports hold for later blocks."""
+
+    def __init__(self, page, folder):
+        super().__init__(page, Path("/usr"), "lib/python3/dist-packages", folder)
+        self._environment = dict(os.environ)
+        self._exports = tempfile.NamedTemporaryFile(prefix="exports-")
+
+    def run(self):
+        try:
+            for block in blocks_of(self._page):
+                self._run_or_skip(block)
+        finally:
+            self._end_python()
+            self._end_groups()
+
+    def _run_or_skip(self, block):
+        title = f"{self._page.name}:{block.line}"
+        if block.reason and (block.reason.startswith(("needs", "opens windows")) or
+                             not (block.file or block.language in EXECUTED)):
+            print(f"{title}: skipped: {block.reason}", flush=True)
+            return
+        begin = time.monotonic()
+        if block.language == "sh" and not block.file:
+            text = f"source {self._exports.name}\n{block.text}\nexport -p >{self._exports.name}\n"
+            if "until" in block.reason or "waits" in block.reason:
+                text = f"source {self._exports.name}\n" + "".join(
+                    f"timeout --signal INT --kill-after 30 30 {line} || [[ $? == @(0|124|130) ]]\n"
+                    for line in block.text.splitlines() if line and not line.startswith("#"))
+            block = Block(block.language, text, block.line)
+        self._process(block)
+        print(f"{title}: {time.monotonic() - begin:.0f} s", flush=True)
+
+
 def is_running(group):
     """Whether a process group has a process, after those that have ended are reaped."""
     try:
@@ -139,6 +176,13 @@ def run_page(page, prefix, python_folder="lib/python3/dist-packages"):
 
 
 def main(arguments):
+    if len(arguments) == 3 and arguments[0] == "--everything":
+        try:
+            EverythingTutorial(Path(arguments[1]).resolve(), arguments[2]).run()
+        except PageError as error:
+            print(error, file=sys.stderr)
+            return 1
+        return 0
     if len(arguments) not in (2, 3):
         print(__doc__, file=sys.stderr)
         return 2
