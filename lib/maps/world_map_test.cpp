@@ -147,7 +147,7 @@ TEST(WorldMap, ReportsFaultsOfBinaryFilesAtTheWorldsLine) {
     parseWorld("<world><surface>\n" + map + "</surface></world>", "a.xml", providerOf("a.xml", files), errors);
     return errors.errors();
   };
-  const std::string no_picture = "a.png: is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these";
+  const std::string no_picture = "a.png: is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these";
   EXPECT_EQ(fault("<map file='a.png' resolution='1'/>"), Lines{"a.xml:2: <map file=\"a.png\">: " + no_picture});
   EXPECT_EQ(fault("<map file='a.gridmap'/>"),
             Lines{"a.xml:2: <map file=\"a.gridmap\">: a.gridmap: is not an MRPT grid map: it does not begin with a "
