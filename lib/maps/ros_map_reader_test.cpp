@@ -36,6 +36,12 @@ TEST(RosMap, SupportsRotationNegationScaleAndRawModes) {
   EXPECT_EQ(drawn(read("negate: 0\ncost: [unknown to us]")), "###.\n");
 }
 
+MapReading ofRos1() {
+  MapReading reading;
+  reading.is_of_ros1 = true;
+  return reading;
+}
+
 /// Thresholds as in nav2's speed masks: only black is occupied, only white is free.
 std::string maskYaml(const std::string& image) {
   return "image: " + image + "\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 1.0\nfree_thresh: 0.0\n";
@@ -45,7 +51,7 @@ TEST(RosMap, IncludesItsThresholdsAsNav2OrNotAsRos1) {
   const FileProvider files =
       providerOf("world.xml", {{"a.yaml", maskYaml("a.pgm")}, {"a.pgm", "P2 3 1 255  0 128 255"}});
   EXPECT_EQ(drawn(readRosMap("a.yaml", files)), "#?.\n");
-  EXPECT_EQ(drawn(readRosMap("a.yaml", files, {.is_of_ros1 = true})), "???\n");
+  EXPECT_EQ(drawn(readRosMap("a.yaml", files, ofRos1())), "???\n");
 }
 
 TEST(RosMap, TakesTransparentPixelsForUnknownAsNav2OrAveragesAlphaAsRos1) {
@@ -59,7 +65,7 @@ TEST(RosMap, TakesTransparentPixelsForUnknownAsNav2OrAveragesAlphaAsRos1) {
     const OccupancyGrid grid = readRosMap("a.yaml", files);
     EXPECT_EQ(drawn(grid), "#?.\n");
     EXPECT_EQ(grid.transparent, 1u);
-    EXPECT_EQ(drawn(readRosMap("a.yaml", files, {.is_of_ros1 = true})), "##.\n");
+    EXPECT_EQ(drawn(readRosMap("a.yaml", files, ofRos1())), "##.\n");
   }
 }
 
