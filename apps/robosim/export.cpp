@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"

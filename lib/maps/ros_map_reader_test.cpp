@@ -48,8 +48,8 @@ std::string maskYaml(const std::string& image) {
 }
 
 TEST(RosMap, IncludesItsThresholdsAsNav2OrNotAsRos1) {
-  const FileProvider files =
-      providerOf("world.xml", {{"a.yaml", maskYaml("a.pgm")}, {"a.pgm", "P2 3 1 255  0 128 255"}});
+  const FileTexts texts{{"a.yaml", maskYaml("a.pgm")}, {"a.pgm", "P2 3 1 255  0 128 255"}};
+  const FileProvider files = providerOf("world.xml", texts);
   EXPECT_EQ(drawn(readRosMap("a.yaml", files)), "#?.\n");
   EXPECT_EQ(drawn(readRosMap("a.yaml", files, ofRos1())), "???\n");
 }
@@ -60,8 +60,8 @@ TEST(RosMap, TakesTransparentPixelsForUnknownAsNav2OrAveragesAlphaAsRos1) {
   picture.at<cv::Vec4b>(0, 1) = {0, 0, 0, 0};
   picture.at<cv::Vec4b>(0, 2) = {255, 255, 255, 255};
   for (const std::string mode : {"trinary", "scale"}) {
-    const FileProvider files =
-        providerOf("world.xml", {{"a.yaml", rosYaml("a.png") + "mode: " + mode + "\n"}, {"a.png", pngBytes(picture)}});
+    const FileTexts texts{{"a.yaml", rosYaml("a.png") + "mode: " + mode + "\n"}, {"a.png", pngBytes(picture)}};
+    const FileProvider files = providerOf("world.xml", texts);
     const OccupancyGrid grid = readRosMap("a.yaml", files);
     EXPECT_EQ(drawn(grid), "#?.\n");
     EXPECT_EQ(grid.transparent, 1u);
