@@ -122,7 +122,7 @@ TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
             Lines{at + "<map resolution=\"1000\">: must lie in (0, 100]; write a number there"});
   EXPECT_EQ(fault("<map file='maps/lab.yaml' resolution='1'/>"),
             Lines{at + "<map>: unknown attribute resolution=\"1\"; accepted here are: color, direction, file, height, "
-                       "unknown, x, y"});
+                       "map_server, unknown, x, y"});
   EXPECT_EQ(fault("<map file='home.map' height='0'/>"),
             Lines{at + "<map height=\"0\">: must be above 0; drop it for the default, 1"});
   EXPECT_EQ(fault("<map file='lab.gridmap' unknown='perhaps'/>"),
