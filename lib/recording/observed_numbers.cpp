@@ -10,9 +10,9 @@ namespace {
 /// @returns whether there are any
 bool appendPosition(const mrpt::obs::CObservationGPS& gps, ObservedNumbers& all) {
   const std::size_t before = all.size();
-  const auto* fix = gps.getMsgByClassPtr<mrpt::obs::gnss::Message_NMEA_GGA>();
-  if (fix) {
-    const auto& at = fix->fields;
+  const bool has_fix = gps.hasMsgClass<mrpt::obs::gnss::Message_NMEA_GGA>();
+  if (has_fix) {
+    const auto& at = gps.getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields;
     all.push_back({"latitude", {}, kDegree, at.latitude_degrees});
     all.push_back({"longitude", {}, kDegree, at.longitude_degrees});
     all.push_back({"altitude", {}, kMetre, at.altitude_meters});
@@ -20,10 +20,10 @@ bool appendPosition(const mrpt::obs::CObservationGPS& gps, ObservedNumbers& all)
     all.push_back({"satellites", {}, kNoUnit, static_cast<double>(at.satellitesUsed)});
     if (at.thereis_HDOP) all.push_back({"hdop", {}, kNoUnit, at.HDOP});
   }
-  if (const auto* motion = gps.getMsgByClassPtr<mrpt::obs::gnss::Message_NMEA_RMC>()) {
+  if (gps.hasMsgClass<mrpt::obs::gnss::Message_NMEA_RMC>()) {
     constexpr double kMetresPerSecondOfKnot = 1852.0 / 3600;
-    const auto& moves = motion->fields;
-    if (!fix) {
+    const auto& moves = gps.getMsgByClass<mrpt::obs::gnss::Message_NMEA_RMC>().fields;
+    if (!has_fix) {
       all.push_back({"latitude", {}, kDegree, moves.latitude_degrees});
       all.push_back({"longitude", {}, kDegree, moves.longitude_degrees});
     }
