@@ -1,10 +1,12 @@
 #include "pictures.h"
 
+#include <algorithm>
 #include <stdexcept>
 
 #include <opencv2/core/mat.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "base/jpeg_file.h"
 #include "python_released.h"
 #include "rendering/plan.h"
 
@@ -50,9 +52,14 @@ std::string svgOf(const World& world, const Fleet& fleet, std::span<const mrpt::
 }
 
 py::array pictureOf(const std::string& jpeg) {
-  const cv::Mat picture = decoded(jpeg);
-  if (picture.empty()) throw std::invalid_argument("the camera picture is no JPEG file that can be decoded");
-  return rgbOf(picture);
+  std::string fault;
+  const JpegPicture picture = decodeJpeg(jpeg, fault);
+  if (!fault.empty()) throw std::invalid_argument("the camera picture cannot be decoded: " + fault);
+  py::array_t<std::uint8_t> rgb({py::ssize_t{picture.rows}, py::ssize_t{picture.columns}, py::ssize_t{3}});
+  std::uint8_t* out = rgb.mutable_data();
+  const std::size_t repeats = 3 / picture.channels;  // a gray value stands for all three
+  for (const std::uint8_t value : picture.values) out = std::fill_n(out, repeats, value);
+  return rgb;
 }
 
 }  // namespace robosim

@@ -75,8 +75,8 @@ py::tuple readRawlog(const std::filesystem::path& file) {
     sensors[robot].cast<py::list>().append(toPython(series.sensor));
   }
   py::object damage = py::none();
-  if (read.damage) damage = toPython(*read.damage);
-  return py::make_tuple(arrays, sensors, damage);
+  if (read.read_error) damage = toPython(*read.read_error);
+  return py::make_tuple(arrays, sensors, damage, read.is_damaged);
 }
 
 }  // namespace

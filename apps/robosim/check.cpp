@@ -140,8 +140,10 @@ void checkWorld(const std::string& file, World world_in_file, const Additions& a
                       {"objects", std::to_string(world.objects.size()) + ", " + std::to_string(hot) + " of them hot"},
                       {"walls", fixed(wallLength(world), 1) + " m in total, along their longer sides"},
                       {"robots", std::to_string(world.robots.size())}};
-  for (const auto& map : world.maps)
+  for (const auto& map : world.maps) {
     checked.contents.insert(checked.contents.end() - 1, {"map " + map.file, describe(map.plan)});
+    for (const auto& warning : map.plan.warnings) checked.warnings.push_back("map " + map.file + ": " + warning);
+  }
   constexpr std::size_t kMaxListed = 20;
   for (std::size_t i = 0; i < std::min(kMaxListed, fleet.robots.size()); ++i) {
     const auto& robot = fleet.robots[i];

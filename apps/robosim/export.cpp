@@ -9,6 +9,7 @@
 
 #include "base/atomic_file.h"
 #include "base/interrupt.h"
+#include "base/log.h"
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
@@ -57,6 +58,25 @@ class Source {
     return *grid_;
   }
 
+  /// The grid for a file of MRPT, whose cells lie at multiples of their side. The cells of a map that lie elsewhere are
+  /// resampled: a cell is occupied if a solid overlaps it, however little.
+  const OccupancyGrid& gridOfMrpt(const fs::path& out) {
+    MapExtent extent = this->extent(heightsOfRobots());
+    const auto is_multiple = [&](double origin_m) {
+      return std::abs(std::remainder(origin_m, extent.cell_m)) <= extent.cell_m / 100;
+    };
+    if (is_multiple(extent.origin.x) && is_multiple(extent.origin.y)) return grid();
+    if (!grid_of_mrpt_) {
+      extent.origin = {0, 0};
+      grid_of_mrpt_ = rasterOf(loaded_.world, extent);
+      logWarning("export", out.string() + ": the corner of the map is no multiple of its cell of " +
+                               toText(extent.cell_m) +
+                               " m, as in all grid maps of MRPT; its cells are resampled, and walls are up to one cell "
+                               "thicker");
+    }
+    return *grid_of_mrpt_;
+  }
+
   std::string octomap(OctomapForm form) {
     return toOctomap(loaded_.world, extent(heightsOfAll(loaded_.world)), form, [&](double share) {
       if (progress_.due()) progress_.show("OctoMap: " + fixed(100 * share, 0) + " %");
@@ -82,6 +102,7 @@ class Source {
   Progress& progress_;
   LoadedWorld loaded_;
   std::optional<OccupancyGrid> grid_;
+  std::optional<OccupancyGrid> grid_of_mrpt_;
 };
 
 fs::path withEnding(fs::path file, const char* ending) { return file.replace_extension(ending); }
@@ -125,9 +146,11 @@ struct Format {
 const std::vector<Format>& formats() {
   static const std::vector<Format> all{
       {".gridmap", "MRPT's occupancy grid",
-       [](Source& source, const fs::path& out, Files& files) { files[out] = toGridmap(source.grid()); }},
+       [](Source& source, const fs::path& out, Files& files) { files[out] = toGridmap(source.gridOfMrpt(out)); }},
       {".gridmap.gz", "the same, compressed",
-       [](Source& source, const fs::path& out, Files& files) { files[out] = gzipped(toGridmap(source.grid())); }},
+       [](Source& source, const fs::path& out, Files& files) {
+         files[out] = gzipped(toGridmap(source.gridOfMrpt(out)));
+       }},
       {".yaml", "ROS's map_server, with its image in a .png next to it", makeRosMap},
       {".png", "the same, by the name of the image; of a rawlog: a figure", makeRosMap, RecordingFormat::picture},
       {".bt", "OctoMap, free or occupied",
@@ -232,8 +255,9 @@ void exportOfRecording(const ExportArguments& arguments, const std::vector<Recor
     arguments.figure.check(is_document, output.file.string());
   }
   const Interrupt interrupt;
-  exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page());
+  const bool is_undamaged = exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page());
   for (const auto& output : outputs) printSize(output.file, fs::file_size(output.file));
+  if (!is_undamaged) throw Exit{kBadInput};
 }
 
 void exportFiles(const ExportArguments& arguments) {

@@ -13,7 +13,7 @@
 namespace robosim {
 namespace {
 
-void replay(ReplayArguments arguments) {
+ReplayResult replay(ReplayArguments arguments) {
   if (arguments.from_s && arguments.to_s && *arguments.from_s > *arguments.to_s) {
     throw ConfigError("--from is later than --to");
   }
@@ -32,10 +32,9 @@ void replay(ReplayArguments arguments) {
   const RereadableFile rawlog(arguments.rawlog);  // required by both branches, which read it more than once
   arguments.rawlog = rawlog.path().string();
   if (is_repeated) {
-    if (!checkRun(arguments)) throw Exit{kRunFailed};
-    return;
+    return checkRun(arguments);
   }
-  replayToController(arguments);
+  return replayToController(arguments);
 }
 
 }  // namespace
@@ -120,9 +119,14 @@ void addReplay(CLI::App& program) {
       "      robosim replay run.rawlog --robot Pioneer1 --sensor laser --sensor odometry --output slam.rawlog\n"
       "      robosim replay run.rawlog --observer \"coverage cell_m=0.25\"\n"
       "To view a recording: robosim view RAWLOG.\n"
-      "Exit codes: 0 success, 1 bad input, 2 --check or --observer found a difference.\n\n";
+      "Exit codes: 0 success, 1 bad input or a damaged recording, whose readable entries are used, 2 --check or\n"
+      "--observer found a difference.\n\n";
   command->footer([examples] { return examples + controllersHelp(); });
-  command->callback([a] { replay(*a); });
+  command->callback([a] {
+    const ReplayResult result = replay(*a);
+    if (result == ReplayResult::different) throw Exit{kRunFailed};
+    if (result == ReplayResult::damaged) throw Exit{kBadInput};
+  });
 }
 
 }  // namespace robosim

@@ -141,13 +141,14 @@ void view(ViewArguments a) {
   const auto source = openView(a.source, connect_options, a.changes, a.seed);
   refuseOverwriting(source->inputs(), {a.offscreen});
   checkTimes(a, *source);
-  if (isFigure(a.offscreen)) return writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage));
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
-  if (a.offscreen.empty()) {
-    showWindow(*source, make_panes, size, a.times, a.look);
+  if (a.offscreen.empty()) return showWindow(*source, make_panes, size, a.times, a.look);
+  if (isFigure(a.offscreen)) {
+    writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage));
   } else {
     writeOffscreen(*source, make_panes, size, a.times, a.offscreen, a.look);
   }
+  if (source->isDamaged()) throw Exit{kBadInput};
 }
 
 }  // namespace

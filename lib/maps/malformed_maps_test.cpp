@@ -205,9 +205,9 @@ TEST(MalformedMaps, ReportsFaultsOfPictures) {
       {pngBytes(chequered),
        ": its occupied cells are so scattered that they make 4500000 boxes; a map may have 4000000 at most, so make it "
        "smaller, or its cells larger"},
-      {"", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
-      {"P7\nWIDTH 1", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
-      {"\xff\xd8\xff\xe0 a JPEG", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
+      {"", ": is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these"},
+      {"P7\nWIDTH 1", ": is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these"},
+      {"GIF89a", ": is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these"},
       {signature, ": is cut off: the part at byte 8 is missing"},
       {good.substr(0, 20), ": is cut off within the part at byte 8"},
       {good.substr(0, 50), ": is cut off within the part at byte 33"},
@@ -219,7 +219,7 @@ TEST(MalformedMaps, ReportsFaultsOfPictures) {
       {signature + header(0x7fffffff, 0x7fffffff) + chunk("IEND", ""),
        ": its header declares 2147483647 × 2147483647 pixels; a map may have 67108864 cells at most, so make it "
        "smaller"},
-      {"P5", ": is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these"},
+      {"P5", ": is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these"},
       {"P5\n", ":2: the width is missing"},
       {"P5\n# only a comment", ":2: the width is missing"},
       {"P5\nwide", ":2: the width is missing"},

@@ -3,16 +3,39 @@
 #include <algorithm>
 
 #include "base/error_list.h"
+#include "base/text_table.h"
 #include "maps/picture.h"
 
 namespace robosim {
 namespace {
 
 OccupancyGrid readPictureMap(const std::string& bytes, const std::string& path, const MapReading& reading) {
-  OccupancyGrid grid = gridOf(readPicture(bytes, path, Picture::Alpha::counts),
-                              {.thresholds = reading.thresholds, .negate = reading.negate});
+  PixelInterpretation pixels{.thresholds = reading.thresholds, .negate = reading.negate};
+  pixels.thresholds.are_inclusive = !reading.is_of_ros1;
+  const auto alpha = reading.is_of_ros1 ? Picture::Alpha::counts : Picture::Alpha::marks_unknown;
+  OccupancyGrid grid = gridOf(readPicture(bytes, path, alpha), pixels);
   grid.cell_m = reading.pixel_m;
   return grid;
+}
+
+std::vector<std::string> warningsOf(const OccupancyGrid& grid, MapFormat format) {
+  const auto lacks = [&](Occupancy state) {
+    return std::find(grid.cells.begin(), grid.cells.end(), state) == grid.cells.end();
+  };
+  const std::string check = format == MapFormat::ros_yaml  ? "; check its occupied_thresh, free_thresh and negate"
+                            : format == MapFormat::picture ? "; check the threshold and negate of its <map>"
+                                                           : "; check the threshold of its <map>";
+  std::vector<std::string> warnings;
+  if (lacks(Occupancy::occupied)) warnings.push_back("has no occupied cell, and so no walls" + check);
+  if (lacks(Occupancy::free)) {
+    warnings.push_back("has no free cell, and so no known place for a robot" + check);
+  }
+  if (grid.transparent > 0) {
+    warnings.push_back("has " + withCommas(grid.transparent) +
+                       " transparent pixels, which are unknown cells, as in nav2; remove the picture's alpha channel, "
+                       "or set map_server=\"ros1\" in its <map>");
+  }
+  return warnings;
 }
 
 FloorPlan readMapFile(const std::string& name, const FileProvider& files, const MapReading& reading) {
@@ -33,7 +56,7 @@ FloorPlan readMapFile(const std::string& name, const FileProvider& files, const 
       grid = readGridmap(files.read(name), path, reading.thresholds);
       break;
     case MapFormat::ros_yaml:
-      grid = readRosMap(name, files);
+      grid = readRosMap(name, files, reading);
       break;
     case MapFormat::picture:
       grid = readPictureMap(files.read(name), path, reading);
@@ -42,7 +65,9 @@ FloorPlan readMapFile(const std::string& name, const FileProvider& files, const 
   const double far_m = std::max(grid.columns, grid.rows) * grid.cell_m;
   if (far_m > kMapReach_m)
     throw ConfigError(path + ": reaches over more than 10,000 km; its resolution cannot be right");
-  return checked(floorPlanOf(grid, reading.unknown_is_occupied));
+  FloorPlan plan = floorPlanOf(grid, reading.unknown_is_occupied);
+  plan.warnings = warningsOf(grid, mapFormatOf(name));
+  return checked(std::move(plan));
 }
 
 std::vector<std::filesystem::path> filesOf(const std::filesystem::path& map) {

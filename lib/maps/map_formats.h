@@ -14,7 +14,8 @@ void useMapFormats();
 /// `path` names the file in errors.
 ///@{
 OccupancyGrid readGridmap(const std::string& bytes, const std::string& path, const OccupancyThresholds& thresholds);
-OccupancyGrid readRosMap(const std::string& name, const FileProvider& files);
+/// @param reading only is_of_ros1 is used
+OccupancyGrid readRosMap(const std::string& name, const FileProvider& files, const MapReading& reading = {});
 FloorPlan readActivmediaMap(const std::string& text, const std::string& path);
 ///@}
 

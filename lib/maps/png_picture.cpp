@@ -42,15 +42,17 @@ void check(const std::string& bytes, const std::string& name) {
 }
 
 template <typename Value>
-void addUp(const cv::Mat& image, std::uint32_t channels, std::vector<std::uint32_t>& sums) {
+void addUp(const cv::Mat& image, Picture& picture, bool has_alpha) {
   const int stored = image.channels();
-  sums.reserve(image.total());
+  picture.sums.reserve(image.total());
+  if (has_alpha) picture.is_transparent.reserve(image.total());
   for (int row = 0; row < image.rows; ++row) {
     const auto* value = image.ptr<Value>(row);
     for (int column = 0; column < image.cols; ++column, value += stored) {
       std::uint32_t sum = 0;
-      for (std::uint32_t i = 0; i < channels; ++i) sum += value[i];
-      sums.push_back(sum);
+      for (std::uint32_t i = 0; i < picture.channels; ++i) sum += value[i];
+      picture.sums.push_back(sum);
+      if (has_alpha) picture.is_transparent.push_back(value[stored - 1] < picture.white);
     }
   }
 }
@@ -73,12 +75,13 @@ Picture readPng(const std::string& bytes, const std::string& name, Picture::Alph
   picture.columns = static_cast<std::uint32_t>(image.cols);
   picture.rows = static_cast<std::uint32_t>(image.rows);
   const auto stored = static_cast<std::uint32_t>(image.channels());
-  picture.channels = stored == 4 && alpha == Picture::Alpha::is_left_out ? 3 : stored;
+  picture.channels = stored == 4 && alpha != Picture::Alpha::counts ? 3 : stored;
+  const bool marks_unknown = stored == 4 && alpha == Picture::Alpha::marks_unknown;
   if (image.depth() == CV_16U) {
     picture.white = 65535;
-    addUp<std::uint16_t>(image, picture.channels, picture.sums);
+    addUp<std::uint16_t>(image, picture, marks_unknown);
   } else {
-    addUp<std::uint8_t>(image, picture.channels, picture.sums);
+    addUp<std::uint8_t>(image, picture, marks_unknown);
   }
   return picture;
 }

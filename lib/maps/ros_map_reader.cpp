@@ -33,11 +33,12 @@ class RosMapReader {
     if (!root_.IsMap()) throw ConfigError(path_ + ":1: is not a map_server map; expected image: and other keys");
   }
 
-  OccupancyGrid read(const FileProvider& files) {
+  OccupancyGrid read(const FileProvider& files, bool is_of_ros1) {
     const std::string image = word("image");
     const double cell_m = number("resolution", {0, kCellMax_m, true}, " metres per pixel");
     const mrpt::math::TPose2D map_from_grid = origin();
     PixelInterpretation pixels;
+    pixels.thresholds.are_inclusive = !is_of_ros1;
     pixels.negate = negate();
     pixels.thresholds.occupied = number("occupied_thresh", {0, 1}, "");
     pixels.thresholds.free = number("free_thresh", {0, 1}, "");
@@ -52,8 +53,9 @@ class RosMapReader {
     errors_.throwIfAny();
 
     const std::string picture = (std::filesystem::path(name_).parent_path() / image).string();
-    // In the mode `scale`, alpha marks unknown pixels, which the values between the thresholds do anyway.
-    const auto alpha = mode == "trinary" ? Picture::Alpha::counts : Picture::Alpha::is_left_out;
+    // ROS 1: in the mode `scale`, alpha marks unknown pixels, which the values between the thresholds do anyway.
+    const auto alpha_of_ros1 = mode == "trinary" ? Picture::Alpha::counts : Picture::Alpha::is_left_out;
+    const auto alpha = is_of_ros1 ? alpha_of_ros1 : Picture::Alpha::marks_unknown;
     OccupancyGrid grid = gridOf(pictureOf(picture, alpha, files), pixels);
     grid.cell_m = cell_m;
     grid.map_from_grid = map_from_grid;
@@ -154,8 +156,8 @@ std::filesystem::path pictureOfRosMap(const std::filesystem::path& yaml) {
   return {};
 }
 
-OccupancyGrid readRosMap(const std::string& name, const FileProvider& files) {
-  return RosMapReader(name, files).read(files);
+OccupancyGrid readRosMap(const std::string& name, const FileProvider& files, const MapReading& reading) {
+  return RosMapReader(name, files).read(files, reading.is_of_ros1);
 }
 
 }  // namespace robosim

@@ -36,6 +36,61 @@ TEST(RosMap, SupportsRotationNegationScaleAndRawModes) {
   EXPECT_EQ(drawn(read("negate: 0\ncost: [unknown to us]")), "###.\n");
 }
 
+MapReading ofRos1() {
+  MapReading reading;
+  reading.is_of_ros1 = true;
+  return reading;
+}
+
+/// Thresholds as in nav2's speed masks: only black is occupied, only white is free.
+std::string maskYaml(const std::string& image) {
+  return "image: " + image + "\nresolution: 1\norigin: [0, 0, 0]\nnegate: 0\noccupied_thresh: 1.0\nfree_thresh: 0.0\n";
+}
+
+TEST(RosMap, IncludesItsThresholdsAsNav2OrNotAsRos1) {
+  const FileTexts texts{{"a.yaml", maskYaml("a.pgm")}, {"a.pgm", "P2 3 1 255  0 128 255"}};
+  const FileProvider files = providerOf("world.xml", texts);
+  EXPECT_EQ(drawn(readRosMap("a.yaml", files)), "#?.\n");
+  EXPECT_EQ(drawn(readRosMap("a.yaml", files, ofRos1())), "???\n");
+}
+
+TEST(RosMap, TakesTransparentPixelsForUnknownAsNav2OrAveragesAlphaAsRos1) {
+  cv::Mat picture(1, 3, CV_8UC4);
+  picture.at<cv::Vec4b>(0, 0) = {0, 0, 0, 255};  // ROS 1: an average of 64, p = 0.75
+  picture.at<cv::Vec4b>(0, 1) = {0, 0, 0, 0};
+  picture.at<cv::Vec4b>(0, 2) = {255, 255, 255, 255};
+  for (const std::string mode : {"trinary", "scale"}) {
+    const FileTexts texts{{"a.yaml", rosYaml("a.png") + "mode: " + mode + "\n"}, {"a.png", pngBytes(picture)}};
+    const FileProvider files = providerOf("world.xml", texts);
+    const OccupancyGrid grid = readRosMap("a.yaml", files);
+    EXPECT_EQ(drawn(grid), "#?.\n");
+    EXPECT_EQ(grid.transparent, 1u);
+    EXPECT_EQ(drawn(readRosMap("a.yaml", files, ofRos1())), "##.\n");
+  }
+}
+
+std::vector<std::string> warningsOf(const FileTexts& files) {
+  useMapFormats();
+  return readMap("a.yaml", providerOf("world.xml", files), {}).warnings;
+}
+
+TEST(RosMap, WarnsOfMapsWithoutWallsOrFreeCellsAndOfTransparentPixels) {
+  const auto of_grays = [](const std::string& grays) {
+    return warningsOf({{"a.yaml", rosYaml("a.pgm")}, {"a.pgm", "P2 2 1 255 " + grays}});
+  };
+  EXPECT_EQ(of_grays("0 255"), std::vector<std::string>());
+  const std::string check = "; check its occupied_thresh, free_thresh and negate";
+  EXPECT_EQ(of_grays("128 255"), std::vector<std::string>{"has no occupied cell, and so no walls" + check});
+  EXPECT_EQ(of_grays("0 128"), std::vector<std::string>{"has no free cell, and so no known place for a robot" + check});
+  cv::Mat picture(1, 3, CV_8UC4, cv::Scalar(0, 0, 0, 255));
+  picture.at<cv::Vec4b>(0, 1) = {255, 255, 255, 255};
+  picture.at<cv::Vec4b>(0, 2) = {0, 0, 0, 7};
+  EXPECT_EQ(warningsOf({{"a.yaml", rosYaml("a.png")}, {"a.png", pngBytes(picture)}}),
+            std::vector<std::string>{
+                "has 1 transparent pixels, which are unknown cells, as in nav2; remove the picture's alpha channel, or "
+                "set map_server=\"ros1\" in its <map>"});
+}
+
 TEST(RosMap, EqualsMrptsMapForBlackAndWhitePixels) {
   // MRPT stores a pixel's darkness without thresholds; for black and white pixels both must agree.
   const TemporaryDirectory folder;

@@ -122,7 +122,7 @@ TEST(WorldMap, ReportsFaultsOfItsElementAtTheWorldsLine) {
             Lines{at + "<map resolution=\"1000\">: must lie in (0, 100]; write a number there"});
   EXPECT_EQ(fault("<map file='maps/lab.yaml' resolution='1'/>"),
             Lines{at + "<map>: unknown attribute resolution=\"1\"; accepted here are: color, direction, file, height, "
-                       "unknown, x, y"});
+                       "map_server, unknown, x, y"});
   EXPECT_EQ(fault("<map file='home.map' height='0'/>"),
             Lines{at + "<map height=\"0\">: must be above 0; drop it for the default, 1"});
   EXPECT_EQ(fault("<map file='lab.gridmap' unknown='perhaps'/>"),
@@ -147,7 +147,7 @@ TEST(WorldMap, ReportsFaultsOfBinaryFilesAtTheWorldsLine) {
     parseWorld("<world><surface>\n" + map + "</surface></world>", "a.xml", providerOf("a.xml", files), errors);
     return errors.errors();
   };
-  const std::string no_picture = "a.png: is neither a PNG nor a PGM, PPM or PBM picture; save it as one of these";
+  const std::string no_picture = "a.png: is no PNG, PGM, PPM, PBM, BMP or JPEG picture; save it as one of these";
   EXPECT_EQ(fault("<map file='a.png' resolution='1'/>"), Lines{"a.xml:2: <map file=\"a.png\">: " + no_picture});
   EXPECT_EQ(fault("<map file='a.gridmap'/>"),
             Lines{"a.xml:2: <map file=\"a.gridmap\">: a.gridmap: is not an MRPT grid map: it does not begin with a "

@@ -59,6 +59,10 @@ class BearingRangeCodec : public CodecOf<mrpt::obs::CObservationBearingRange, Va
       const auto robot = static_cast<std::size_t>(sensed.landmarkID);
       all.push_back({"range", robot, kMetre, sensed.range, true});
       all.push_back({"bearing", robot, kRadian, sensed.yaw, true});
+      // A sensor of the plane has none.
+      if (observation.fieldOfView_pitch != 0 || sensed.pitch != 0) {
+        all.push_back({"pitch", robot, kRadian, sensed.pitch, true});
+      }
     }
     return true;
   }

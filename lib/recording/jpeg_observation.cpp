@@ -8,6 +8,7 @@
 
 #include <mrpt/io/CMemoryStream.h>
 
+#include "base/jpeg_file.h"
 #include "recording/byte_archive.h"
 #include "recording/recording_error.h"
 
@@ -105,6 +106,16 @@ std::string jpegOf(const mrpt::obs::CObservationImage& observation, const fs::pa
   mrpt::io::CMemoryStream stream;
   observation.image.saveToStreamAsJPEG(stream);
   return {static_cast<const char*>(stream.getRawBufferData()), stream.getTotalBytesCount()};
+}
+
+std::string checkedJpegOf(const mrpt::obs::CObservationImage& observation, const fs::path& pictures) {
+  std::string jpeg = jpegOf(observation, pictures);
+  if (!observation.image.isExternallyStored()) return jpeg;  // decoded before
+  if (const std::string fault = jpegFault(jpeg); !fault.empty()) {
+    throw RecordingError((pictures / observation.image.getExternalStorageFile()).string() +
+                         ": is a damaged JPEG file, or none: " + fault);
+  }
+  return jpeg;
 }
 
 }  // namespace robosim

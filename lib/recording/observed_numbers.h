@@ -22,9 +22,13 @@ struct ObservedNumber {
   std::string fullName() const;
 };
 
+/// Degrees of latitude and longitude.
+inline constexpr Unit kDegree{"deg", "°"};
+
 using ObservedNumbers = std::vector<ObservedNumber>;
 
-/// The numbers of an observation of a class that a Codec records, of RoboSim or another program; nullopt for others.
+/// The numbers of an observation of a class that a Codec records, of RoboSim or another program, and of GPS receivers'
+/// NMEA messages GGA and RMC; nullopt for others.
 std::optional<ObservedNumbers> numbersIn(const mrpt::obs::CObservation& observation);
 
 }  // namespace robosim

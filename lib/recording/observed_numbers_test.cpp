@@ -1,7 +1,9 @@
 #include "recording/observed_numbers.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -50,6 +52,50 @@ TEST(ObservedNumbers, OfGasSensorsAreTemperaturesAndVoltagesOfEachNose) {
   heat.m_readings[0].temperature = 21.5f;
   heat.m_readings[1].readingsVoltage = {0.5f, 0.25f};
   EXPECT_EQ(textOf(heat), "temperature_0_celsius=21.5 nose_1_0_volt=0.5 nose_1_1_volt=0.25");
+}
+
+TEST(ObservedNumbers, OfAnImuAreAllItsValues) {
+  mrpt::obs::CObservationIMU imu;
+  imu.dataIsPresent.fill(false);
+  imu.set(mrpt::obs::IMU_X_ACC, 0.5);
+  imu.set(mrpt::obs::IMU_YAW, 1.25);
+  imu.set(mrpt::obs::IMU_MAG_Z, -0.5);
+  imu.set(mrpt::obs::IMU_Z_ACC_GLOBAL, 9.75);
+  EXPECT_EQ(textOf(imu), "acceleration_x_mps2=0.5 yaw_rad=1.25 magnetic_z_gauss=-0.5 global_acceleration_z_mps2=9.75");
+}
+
+TEST(ObservedNumbers, OfGpsArePositionAndMotion) {
+  mrpt::obs::CObservationGPS gps;
+  EXPECT_EQ(textOf(gps), "none");
+  mrpt::obs::gnss::Message_NMEA_RMC motion;
+  motion.fields.latitude_degrees = 36.5;
+  motion.fields.longitude_degrees = -4.25;
+  motion.fields.speed_knots = 3600;  // 1,852 m/s
+  motion.fields.direction_degrees = 90;
+  gps.setMsg(motion);
+  EXPECT_EQ(textOf(gps), "latitude_deg=36.5 longitude_deg=-4.25 speed_mps=1852 course_deg=90");
+  mrpt::obs::gnss::Message_NMEA_GGA fix;
+  fix.fields.latitude_degrees = 36.75;
+  fix.fields.altitude_meters = 12.5;
+  fix.fields.fix_quality = 4;
+  fix.fields.satellitesUsed = 9;
+  gps.setMsg(fix);
+  EXPECT_EQ(textOf(gps),
+            "latitude_deg=36.75 longitude_deg=0 altitude_m=12.5 fix_quality=4 satellites=9 speed_mps=1852 "
+            "course_deg=90");
+}
+
+TEST(ObservedNumbers, OfBearingsHaveAPitchIfTheSensorSeesOutOfThePlane) {
+  mrpt::obs::CObservationBearingRange bearings;
+  bearings.fieldOfView_pitch = 0;
+  auto& sensed = bearings.sensedData.emplace_back();
+  sensed.landmarkID = 3;
+  sensed.range = 2;
+  sensed.yaw = 0.5;
+  sensed.pitch = 0;
+  EXPECT_EQ(textOf(bearings), "range_3_m=2 bearing_3_rad=0.5");
+  sensed.pitch = 0.25;
+  EXPECT_EQ(textOf(bearings), "range_3_m=2 bearing_3_rad=0.5 pitch_3_rad=0.25");
 }
 
 TEST(ObservedNumbers, AreUnknownForOtherObservations) {

@@ -1,4 +1,5 @@
 // Camera pictures in recordings: embedded, or in files.
+#include <algorithm>
 #include <fstream>
 #include <set>
 #include <vector>
@@ -9,10 +10,15 @@
 
 #include "base/testing/file_size_limit.h"
 #include "base/testing/test_folder.h"
+#include "recording/byte_archive.h"
 #include "recording/measurements.h"
+#include "recording/observation_writer.h"
+#include "recording/rawlog_reader.h"
 #include "recording/rawlog_writer.h"
+#include "recording/recorded_step.h"
 #include "recording/recording_error.h"
 #include "recording/testing/sample_robot.h"
+#include "recording/unpacked_file.h"
 
 namespace robosim {
 namespace {
@@ -177,6 +183,132 @@ TEST_F(RawlogImagesTest, ReportsImagesThatCannotBeWritten) {
                                 ": the recording's pictures could not be written: File too large; free disk space, "
                                 "or record elsewhere");
   }
+}
+
+/// Fixture with an uncompressed recording of a SeeingRun in which bytes can be damaged.
+class DamagedPictureTest : public TestFolder {
+ protected:
+  DamagedPictureTest() {
+    RawlogWriter writer(in("run.rawlog"), run_.robots);
+    run_.record(writer);
+    UnpackedFile unpacked(in("run.rawlog"));
+    bytes_.resize(1 << 20);
+    bytes_.resize(unpacked.read(bytes_.data(), bytes_.size()));
+  }
+
+  /// Position of a picture of the first robot.
+  std::size_t pictureAt(std::uint64_t step) const {
+    const std::size_t at = bytes_.find(run_.jpeg(0, step));
+    EXPECT_NE(at, std::string::npos);
+    return at;
+  }
+  fs::path write() const {
+    std::ofstream(in("damaged.rawlog"), std::ios::binary) << bytes_;
+    return in("damaged.rawlog");
+  }
+
+  SeeingRun run_;
+  std::string bytes_;
+};
+
+/// Labels of all observations that can be read.
+std::multiset<std::string> labelsIn(RawlogReader& reader) {
+  std::multiset<std::string> labels;
+  while (const auto observation = reader.next()) labels.insert(observation->sensorLabel);
+  return labels;
+}
+
+TEST_F(DamagedPictureTest, IsLeftOutAndAllOtherEntriesAreRead) {
+  RawlogReader whole(in("run.rawlog"));
+  auto expected = labelsIn(whole);
+  EXPECT_FALSE(whole.isDamaged());
+  ASSERT_EQ(expected.count("robot 1/camera"), 5u);
+  expected.erase(expected.find("robot 1/camera"));
+  bytes_[pictureAt(4)] = 'G';
+  RawlogReader reader(write());
+  EXPECT_EQ(labelsIn(reader), expected);
+  EXPECT_TRUE(reader.isDamaged());
+  EXPECT_FALSE(reader.endsEarly());
+  const std::string error = reader.readError().value_or("none");
+  EXPECT_EQ(error.rfind(in("damaged.rawlog").string() + ": a picture is damaged and left out, in entry ", 0), 0u)
+      << error;
+  EXPECT_NE(error.find("Not a JPEG file: starts with 0x47 0xd8"), std::string::npos) << error;
+}
+
+TEST_F(DamagedPictureTest, IsCounted) {
+  for (const std::uint64_t step : {2, 4, 8}) bytes_[pictureAt(step)] = 'G';
+  RawlogReader reader(write());
+  EXPECT_EQ(labelsIn(reader).count("robot 1/camera"), 2u);
+  const std::string error = reader.readError().value_or("none");
+  EXPECT_NE(error.find(": 3 pictures are damaged and left out, the first in entry "), std::string::npos) << error;
+}
+
+TEST_F(DamagedPictureTest, IsBlankInRecordedSteps) {
+  bytes_[pictureAt(4)] = 'G';
+  RawlogReader reader(write());
+  RecordedSteps steps(reader, run_.robots, 0.1);
+  std::vector<bool> has_picture;
+  while (const auto step = steps.next()) {
+    has_picture.push_back(!std::get<Image>((*step)[0].readings.measurements[1]).jpeg.empty());
+  }
+  EXPECT_EQ(has_picture, (std::vector<bool>{true, false, true, false, false, false, true, false, true, false}));
+}
+
+TEST_F(DamagedPictureTest, NeverEndsTheProcess) {
+  // Every byte of a picture and of the fields before it, among them its size and those of the class CImage.
+  const std::size_t begin = pictureAt(4) - 60, end = pictureAt(4) + run_.jpeg(0, 4).size();
+  for (std::size_t at = begin; at < end; ++at) {
+    const char before = bytes_[at];
+    for (const char flip : {'\x01', '\xff'}) {
+      bytes_[at] = static_cast<char>(before ^ flip);
+      RawlogReader reader(write());
+      EXPECT_GE(labelsIn(reader).count("robot 1/camera"), 2u) << at - begin;
+    }
+    bytes_[at] = before;
+  }
+}
+
+TEST_F(DamagedPictureTest, InAFileOfItsOwnIsReportedWithItsName) {
+  fs::create_directories(in("run_Images"));
+  std::ofstream(in("run_Images/a.jpg")) << "GIF89a";
+  mrpt::obs::CObservationImage observation;
+  observation.image.setExternalStorage("a.jpg");
+  const std::string expected =
+      in("run_Images/a.jpg").string() + ": is a damaged JPEG file, or none: Not a JPEG file: starts with 0x47 0x49";
+  const auto error_of = [](const auto& function) -> std::string {
+    try {
+      function();
+    } catch (const RecordingError& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(error_of([&] { measurementFrom(observation, sampleCamera(), 0, in("run_Images")); }), expected);
+  ObservationWriter writer(in("part.rawlog"), in("run_Images"));
+  EXPECT_EQ(error_of([&] { writer.write(observation); }), expected);
+}
+
+/// A rawlog of one gray picture, whose size is stated wrongly.
+TEST_F(RawlogImagesTest, RejectsMorePixelsThanThePictureHas) {
+  mrpt::obs::CObservationImage observation;
+  observation.image.resize(40, 30, mrpt::img::CH_GRAY);
+  ByteArchive archive;
+  archive << observation;
+  const std::uint8_t sizes[] = {40, 0, 0, 0, 30, 0, 0, 0};
+  const auto at = std::search(archive.bytes.begin(), archive.bytes.end(), std::begin(sizes), std::end(sizes));
+  ASSERT_NE(at, archive.bytes.end());
+  const auto write = [&] {
+    std::ofstream(in("gray.rawlog"), std::ios::binary)
+        .write(reinterpret_cast<const char*>(archive.bytes.data()), static_cast<std::streamsize>(archive.bytes.size()));
+  };
+  write();
+  RawlogReader whole(in("gray.rawlog"));
+  EXPECT_TRUE(whole.next());
+  *(at + 4) = 1;  // rows
+  write();
+  RawlogReader reader(in("gray.rawlog"));
+  EXPECT_FALSE(reader.next());
+  EXPECT_NE(reader.readError().value_or("").find("a picture has more bytes than pixels"), std::string::npos);
 }
 
 }  // namespace

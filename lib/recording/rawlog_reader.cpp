@@ -13,6 +13,7 @@
 #include "base/interrupt.h"
 #include "recording/memory_bound.h"
 #include "recording/picture_folder.h"
+#include "recording/picture_guard.h"
 
 namespace robosim {
 namespace {
@@ -41,20 +42,36 @@ class UnpackedArchive : public mrpt::serialization::CArchive {
   std::string getArchiveDescription() const override { return "rawlog"; }
   /// Whether a read of more than kMaxPieceBytes was requested.
   bool hasExceededLimit() const { return has_exceeded_limit_; }
-  /// Resets hasExceededLimit(), to read another entry.
-  void resetLimit() { has_exceeded_limit_ = false; }
+  /// Cause for which a picture ended the reading of an entry; empty for none.
+  const std::string& refusal() const { return refusal_; }
+  const PictureGuard& pictures() const { return pictures_; }
+  /// Prepares for another entry.
+  void beginEntry() {
+    has_exceeded_limit_ = false;
+    refusal_.clear();
+    pictures_.beginEntry();
+  }
 
  protected:
   std::size_t write(const void*, std::size_t) override { throw std::logic_error("UnpackedArchive only reads"); }
   std::size_t read(void* to, std::size_t size) override {
     has_exceeded_limit_ = has_exceeded_limit_ || size > kMaxPieceBytes;
     if (has_exceeded_limit_) throw EntryTooLarge();
-    return file_.read(to, size);
+    const std::size_t got = file_.read(to, size);
+    try {
+      if (got == size && size > 0) pictures_.inspect(static_cast<std::uint8_t*>(to), size);
+    } catch (const std::runtime_error& error) {
+      refusal_ = error.what();  // MRPT replaces the exception by one of its own
+      throw;
+    }
+    return got;
   }
 
  private:
   UnpackedFile& file_;
+  PictureGuard pictures_;
   bool has_exceeded_limit_ = false;
+  std::string refusal_;
 };
 
 /// Every object begins with the length of its class name, with the highest bit set, and the name: C…, with or without a
@@ -75,7 +92,9 @@ struct RawlogReader::Impl {
   void readEntry();
   void add(const mrpt::serialization::CSerializable::Ptr& object);
   void add(const mrpt::obs::CActionCollection& actions);
-  void stop(const std::string& why);
+  void addObservation(const CObservation::Ptr& observation);
+  void stop(const std::string& why, bool is_damage = true);
+  void describeDamage();
 
   UnpackedFile file;
   UnpackedArchive archive{file};
@@ -87,13 +106,29 @@ struct RawlogReader::Impl {
   mrpt::poses::CPose2D odom_from_robot;  ///< accumulated from actions
   std::uint64_t entries = 0, skipped_entries = 0, measured_entries = 0;
   bool at_end = false;
+  std::string early_end;  ///< reason for which reading ended early; empty for none
+  bool has_damage = false;
+  std::uint64_t damaged_pictures = 0;
+  std::string first_damage;  ///< of a picture
   std::optional<std::string> read_error;
 };
 
-void RawlogReader::Impl::stop(const std::string& why) {
+void RawlogReader::Impl::stop(const std::string& why, bool is_damage) {
   at_end = true;
-  read_error = name + ": ends early, after " + std::to_string(entries) + (entries == 1 ? " entry" : " entries") +
-               " (byte " + std::to_string(file.position()) + " when unpacked): " + why;
+  has_damage = has_damage || is_damage;
+  early_end = "ends early, after " + std::to_string(entries) + (entries == 1 ? " entry" : " entries") + " (byte " +
+              std::to_string(file.position()) + " when unpacked): " + why;
+  describeDamage();
+}
+
+void RawlogReader::Impl::describeDamage() {
+  std::string text = early_end;
+  if (damaged_pictures > 0) {
+    const std::string count = std::to_string(damaged_pictures) + " pictures are damaged and left out, the first in ";
+    text += (text.empty() ? "" : "; ") + (damaged_pictures == 1 ? "a picture is damaged and left out, in " : count) +
+            first_damage;
+  }
+  read_error = name + ": " + text;
 }
 
 void RawlogReader::Impl::readEntry() {
@@ -103,6 +138,7 @@ void RawlogReader::Impl::readEntry() {
   }
   if (measured_entries++ % kEntriesPerMeasurement == 0) bound.measure();
   entry_position = file.position();
+  archive.beginEntry();
   try {
     // MRPT allocates as much memory as a number in the file specifies before it reads the data.
     mrpt::serialization::CSerializable::Ptr object;
@@ -111,14 +147,23 @@ void RawlogReader::Impl::readEntry() {
       object = archive.ReadObject<mrpt::serialization::CSerializable>();
     }
     ++entries;
+    if (const auto& fault = archive.pictures().fault(); !fault.empty()) {
+      has_damage = true;
+      if (damaged_pictures++ == 0) {
+        first_damage = "entry " + std::to_string(entries) + " (byte " + std::to_string(entry_position) +
+                       " when unpacked): " + fault;
+      }
+      describeDamage();
+    }
     add(object);
   } catch (const std::bad_alloc&) {
     stop(EntryTooLarge().what());
   } catch (const std::exception& error) {
     throwIfInterrupted(name + " was not read to its end");  // MRPT replaces the exception by one of its own
     if (archive.hasExceededLimit()) return stop(EntryTooLarge().what());
-    if (const std::string& fault = file.fault(); !fault.empty()) return stop(fault);
-    if (file.atEnd()) return stop("it is cut off");
+    if (!archive.refusal().empty()) return stop(archive.refusal());
+    if (const std::string& fault = file.fault(); !fault.empty()) return stop(fault, !file.isCutOff());
+    if (file.atEnd()) return stop("it is cut off", false);
     // MRPT's text has the position in its source code before the message, and a call stack after it.
     std::string what = error.what();
     if (const auto at = what.find("Message:"); at != std::string::npos) what.erase(0, at + 8);
@@ -129,14 +174,18 @@ void RawlogReader::Impl::readEntry() {
 
 void RawlogReader::Impl::add(const mrpt::serialization::CSerializable::Ptr& object) {
   if (auto single = std::dynamic_pointer_cast<CObservation>(object)) {
-    ready.push_back(single);
+    addObservation(single);
   } else if (const auto frame = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(object)) {
-    for (const auto& observation : *frame) ready.push_back(observation);
+    for (const auto& observation : *frame) addObservation(observation);
   } else if (const auto actions = std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(object)) {
     add(*actions);
   } else {
     ++skipped_entries;
   }
+}
+
+void RawlogReader::Impl::addObservation(const CObservation::Ptr& observation) {
+  if (!archive.pictures().isDamaged(*observation)) ready.push_back(observation);
 }
 
 void RawlogReader::Impl::add(const mrpt::obs::CActionCollection& actions) {
@@ -176,12 +225,16 @@ void RawlogReader::seek(std::uint64_t position) {
   impl_->ready.clear();
   impl_->at_end = false;
   impl_->read_error.reset();
-  impl_->archive.resetLimit();
+  impl_->early_end.clear();
+  impl_->has_damage = false;
+  impl_->damaged_pictures = 0;
   impl_->file.seek(position);
 }
 
 const fs::path& RawlogReader::pictureFolder() const { return impl_->pictures; }
 const std::optional<std::string>& RawlogReader::readError() const { return impl_->read_error; }
+bool RawlogReader::endsEarly() const { return !impl_->early_end.empty(); }
+bool RawlogReader::isDamaged() const { return impl_->has_damage; }
 std::uint64_t RawlogReader::entries() const { return impl_->entries; }
 std::uint64_t RawlogReader::skippedEntries() const { return impl_->skipped_entries; }
 

@@ -17,7 +17,8 @@ namespace robosim {
 /// into observations; odometry increments of actions are accumulated and returned as CObservationOdometry with the
 /// label kFromActions. Other objects are skipped and counted.
 ///
-/// A truncated or damaged file is read up to the damage, which readError() describes.
+/// A truncated or damaged file is read up to the damage, which readError() describes. A damaged picture alone is left
+/// out, and the entries after it are read.
 class RawlogReader {
  public:
   using Access = UnpackedFile::Access;
@@ -41,8 +42,13 @@ class RawlogReader {
   /// invalid afterwards, because its accumulation is not reset; entries() and skippedEntries() keep counting.
   void seek(std::uint64_t position);
 
-  /// Description of the damage at which reading ended; nullopt for an undamaged file. seek() resets it.
+  /// Description of what was not read so far: where and why the file ends early, and damaged pictures; nullopt for a
+  /// complete file. seek() resets it.
   const std::optional<std::string>& readError() const;
+  /// Whether reading ended before the end of the file's contents.
+  bool endsEarly() const;
+  /// Whether bytes read so far are wrong. A file that is only cut off, as by a killed program, is not damaged.
+  bool isDamaged() const;
   /// Number of objects read so far.
   std::uint64_t entries() const;
   /// Number of objects that are neither observation nor action nor frame.

@@ -106,7 +106,7 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
     by_robot[robot].emplace_back(label.withinRobot(), lookahead_);
   }
   // The last step of a truncated file may be incomplete.
-  if (!lookahead_ && reader_.readError()) return std::nullopt;
+  if (!lookahead_ && reader_.endsEarly()) return std::nullopt;
   if (is_missing_.empty()) {
     for (const auto& observations : by_robot) is_missing_.push_back(observations.empty() ? 1 : 0);
     if (std::find(is_missing_.begin(), is_missing_.end(), 0) == is_missing_.end()) {

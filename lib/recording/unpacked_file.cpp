@@ -19,6 +19,7 @@ constexpr std::size_t kInputBytes = 128 * 1024, kOutputBytes = 256 * 1024;
 constexpr std::uint64_t kBytesPerCheckpoint = 4 << 20;
 /// For inflateInit2(): with a gzip header and trailer, or with neither.
 constexpr int kGzip = 15 + 16, kRaw = -15;
+constexpr const char* kCutOff = "it is cut off";
 
 /// State from which decompression can continue.
 struct Checkpoint {
@@ -122,7 +123,7 @@ void UnpackedFile::Impl::copyMore() {
 void UnpackedFile::Impl::unpackMore() {
   if (is_between_members) return beginMember();
   if (stream.avail_in == 0 && !fillInput()) {
-    if (fault.empty()) stop("it is cut off");
+    if (fault.empty()) stop(kCutOff);
     return;
   }
   stream.next_out = &output[end];
@@ -145,7 +146,7 @@ void UnpackedFile::Impl::unpackMore() {
 /// A raw stream does not consume the trailer of 8 bytes.
 void UnpackedFile::Impl::endMember() {
   for (std::size_t left = is_raw ? 8 : 0; left > 0;) {
-    if (stream.avail_in == 0 && !fillInput()) return stop("it is cut off");
+    if (stream.avail_in == 0 && !fillInput()) return stop(kCutOff);
     const auto taken = std::min<std::size_t>(left, stream.avail_in);
     stream.next_in += taken;
     stream.avail_in -= static_cast<unsigned>(taken);
@@ -199,7 +200,7 @@ void UnpackedFile::Impl::restore(const Checkpoint& checkpoint) {
   is_raw = !checkpoint.is_beginning;
   inflateReset2(&stream, is_raw ? kRaw : kGzip);
   if (checkpoint.bits > 0) {
-    if (!fillInput()) return stop("it is cut off");
+    if (!fillInput()) return stop(kCutOff);
     const int byte = *stream.next_in++;
     --stream.avail_in;
     inflatePrime(&stream, checkpoint.bits, byte >> (8 - checkpoint.bits));
@@ -266,5 +267,7 @@ bool UnpackedFile::atEnd() {
 }
 
 const std::string& UnpackedFile::fault() const { return impl_->fault; }
+
+bool UnpackedFile::isCutOff() const { return impl_->fault == kCutOff; }
 
 }  // namespace robosim

@@ -34,6 +34,8 @@ class UnpackedFile {
   bool atEnd();
   /// Description of the error at which reading ended; empty for none so far.
   const std::string& fault() const;
+  /// Whether the error is that a compressed file ends too early.
+  bool isCutOff() const;
 
  private:
   struct Impl;

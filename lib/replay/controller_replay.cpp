@@ -55,7 +55,7 @@ struct Replayed {
 
 }  // namespace
 
-void replayToController(const ReplayArguments& arguments) {
+ReplayResult replayToController(const ReplayArguments& arguments) {
   const RunNote note = RunNote::of(arguments.rawlog);
   if (note.world.text.empty()) {
     throw ConfigError(arguments.rawlog + ": its world is too large to be stored in it; --check WORLD repeats the run");
@@ -121,6 +121,7 @@ void replayToController(const ReplayArguments& arguments) {
     if (robot->different > 0) rows.push_back({"", "first in " + robot->first});
   }
   std::cout << listing(rows);
+  return resultOf(reader);
 }
 
 }  // namespace robosim

@@ -41,7 +41,7 @@ RecordingContents contentsOf(const std::string& rawlog, const std::vector<Record
   RecordingContents read = readRecording(rawlog, parts, [&](std::uint64_t entries) {
     progress.at([&] { return "reading: " + withCommas(entries) + " entries …"; });
   });
-  if (read.damage) logWarning("export", *read.damage);
+  if (read.read_error) logWarning("export", *read.read_error);
   return read;
 }
 
@@ -138,7 +138,7 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 
 }  // namespace
 
-void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
+bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
                      const FigurePage& page) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   files.reserve(outs.size());
@@ -161,6 +161,7 @@ void exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
     files[i]->finish();
   }
   for (auto& file : files) file->commit();
+  return !contents.is_damaged;
 }
 
 }  // namespace robosim

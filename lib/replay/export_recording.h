@@ -25,8 +25,9 @@ struct RecordingOutput {
 /// @param rawlog made by RoboSim or another program; may be a pipe
 /// @param page size of figures
 /// @param interrupt a request ends the export; null: it cannot be interrupted
+/// @returns false for the readable part of a damaged recording
 /// @throws ConfigError, Interrupted, std::runtime_error (such as on a full disk); nothing is written then
-void exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
+bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
                      const FigurePage& page = {});
 
 }  // namespace robosim

@@ -12,7 +12,7 @@
 
 namespace robosim {
 
-void writeSelection(const ReplayArguments& arguments) {
+ReplayResult writeSelection(const ReplayArguments& arguments) {
   const Interrupt interrupt;
   RawlogReader reader(arguments.rawlog);
   ObservationWriter writer(arguments.output, reader.pictureFolder());
@@ -30,6 +30,7 @@ void writeSelection(const ReplayArguments& arguments) {
   writer.commit();
   std::cout << arguments.output << ": " << withCommas(observations) << " observations\n";
   if (reader.readError()) logWarning("replay", *reader.readError());
+  return resultOf(reader);
 }
 
 }  // namespace robosim

@@ -27,7 +27,7 @@ std::string poseLine(double time_s, const mrpt::poses::CPose3D& pose) {
 
 }  // namespace
 
-void writeGroundTruth(const ReplayArguments& arguments) {
+ReplayResult writeGroundTruth(const ReplayArguments& arguments) {
   const Interrupt interrupt;
   RawlogReader reader(arguments.rawlog);
   AtomicFile file(arguments.ground_truth);
@@ -63,6 +63,7 @@ void writeGroundTruth(const ReplayArguments& arguments) {
   std::cout << arguments.ground_truth << ": " << withCommas(poses) << " poses of " << printableText(*robots.begin())
             << '\n';
   if (reader.readError()) logWarning("replay", *reader.readError());
+  return resultOf(reader);
 }
 
 }  // namespace robosim

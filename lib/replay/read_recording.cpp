@@ -15,7 +15,7 @@ RecordingContents readRecording(const std::string& rawlog, const RecordingParts&
   RecordingContents read;
   if (parts.table) read.table.emplace();
   if (parts.figure) read.figure.emplace(rawlog);
-  ObservationTimes times;
+  ObservationTimes times(rawlog);
   std::optional<RecordedSensors> sensors;
   while (const auto observation = reader.next()) {
     if (progress) progress(reader.entries());
@@ -31,7 +31,8 @@ RecordingContents readRecording(const std::string& rawlog, const RecordingParts&
     if (read.figure) read.figure->add(*observation, time_s);
     if (read.table) read.table->add(*observation, time_s, sensors ? sensors->find(observation->sensorLabel) : nullptr);
   }
-  read.damage = reader.readError();
+  read.read_error = reader.readError();
+  read.is_damaged = reader.isDamaged();
   return read;
 }
 

@@ -19,7 +19,8 @@ struct RecordingParts {
 struct RecordingContents {
   std::optional<RecordingTable> table;    ///< as RecordingParts::table
   std::optional<RecordingFigure> figure;  ///< as RecordingParts::figure
-  std::optional<std::string> damage;      ///< at which reading ended; nullopt for an undamaged file
+  std::optional<std::string> read_error;  ///< RawlogReader::readError()
+  bool is_damaged = false;                ///< RawlogReader::isDamaged()
 };
 
 /// Reads a recording made by RoboSim or another program.

@@ -194,7 +194,7 @@ void print(const Contents& contents, const ReplayArguments& arguments, const Raw
 
 }  // namespace
 
-void summarise(const ReplayArguments& arguments) {
+ReplayResult summarise(const ReplayArguments& arguments) {
   const Interrupt interrupt;
   RawlogReader reader(arguments.rawlog);
   Counting counting(arguments);
@@ -210,9 +210,10 @@ void summarise(const ReplayArguments& arguments) {
   } else {
     print(counting.contents(), arguments, reader);
   }
+  return resultOf(reader);
 }
 
-void printObservations(const ReplayArguments& arguments) {
+ReplayResult printObservations(const ReplayArguments& arguments) {
   using Clock = std::chrono::steady_clock;
   const double speed = arguments.speed;
   const Interrupt interrupt;
@@ -250,6 +251,7 @@ void printObservations(const ReplayArguments& arguments) {
   }
   if (reader.readError()) logWarning("replay", *reader.readError());
   if (!interrupt.isRequested()) selection.checkFound();
+  return resultOf(reader);
 }
 
 }  // namespace robosim

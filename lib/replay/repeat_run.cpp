@@ -89,6 +89,7 @@ class RunAgain {
         reader_(arguments.rawlog),
         recorded_(reader_, robots(), note.period_s, Pictures::leave_out) {}
 
+  bool isDamaged() const { return reader_.isDamaged(); }
   std::vector<Metric> metrics() const { return run_.observers().metrics(); }
   /// @return whether the run is identical
   bool check() {
@@ -274,7 +275,7 @@ class RunAgain {
 
 }  // namespace
 
-bool checkRun(const ReplayArguments& arguments) {
+ReplayResult checkRun(const ReplayArguments& arguments) {
   const RunNote note = RunNote::of(arguments.rawlog);
   if (note.first_step > 0) {
     throw ConfigError(arguments.rawlog + ": begins at step " + std::to_string(note.first_step) +
@@ -286,7 +287,8 @@ bool checkRun(const ReplayArguments& arguments) {
   const std::vector<Metric> metrics = run.metrics();
   if (is_same && arguments.json) std::cout << jsonText({{"metrics", metricsJson(metrics)}}) << std::endl;
   if (is_same && !arguments.json) std::cout << listing(metricRows(metrics));
-  return is_same;
+  if (!is_same) return ReplayResult::different;
+  return run.isDamaged() ? ReplayResult::damaged : ReplayResult::complete;
 }
 
 }  // namespace robosim

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "recording/rawlog_reader.h"
+
 namespace robosim {
 
 /// What to read of a recording, and what to do with it.
@@ -25,26 +27,35 @@ struct ReplayArguments {
   bool selects(const std::string& robot, const std::string& sensor) const;
 };
 
+enum class ReplayResult {
+  complete,   ///< of a complete recording, or of one that is only cut off
+  damaged,    ///< of the readable part of a damaged recording
+  different,  ///< of checkRun(): the run is another one
+};
+
+inline ReplayResult resultOf(const RawlogReader& reader) {
+  return reader.isDamaged() ? ReplayResult::damaged : ReplayResult::complete;
+}
+
 /// Thrown when a replay is interrupted.
 [[noreturn]] void failInterrupted(double read_s);
 
 /// Summarises a recording made by RoboSim or another program.
-void summarise(const ReplayArguments&);
+ReplayResult summarise(const ReplayArguments&);
 /// Prints the observations, one line each, at the requested speed.
-void printObservations(const ReplayArguments&);
+ReplayResult printObservations(const ReplayArguments&);
 /// Writes a robot's true path as a text file that MRPT's pf-localization and CPose3DInterpolator read: one line "time x
 /// y z yaw pitch roll" per pose, in seconds since 1970, metres and radians.
 /// @throws ConfigError when several robots are selected, or the recording has no ground truth.
-void writeGroundTruth(const ReplayArguments&);
+ReplayResult writeGroundTruth(const ReplayArguments&);
 /// Writes the selected observations to a rawlog.
 /// @throws ConfigError when the selection matches nothing.
-void writeSelection(const ReplayArguments&);
+ReplayResult writeSelection(const ReplayArguments&);
 /// Repeats the run, in the world `check` or else the recorded one, and reports whether it is identical and the metrics
 /// of the observers. They see what they would have seen in the recorded run.
-/// @return whether it is
 /// @throws ConfigError when the recording contains no world, and none is given
-bool checkRun(const ReplayArguments&);
+ReplayResult checkRun(const ReplayArguments&);
 /// Feeds the recorded readings to a controller, and reports where its commands differ from the recorded ones.
-void replayToController(const ReplayArguments&);
+ReplayResult replayToController(const ReplayArguments&);
 
 }  // namespace robosim

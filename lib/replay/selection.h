@@ -13,7 +13,7 @@ namespace robosim {
 /// Filter of a recording's observations by robot, sensor and time.
 class Selection {
  public:
-  explicit Selection(const ReplayArguments& arguments) : arguments_(arguments) {}
+  explicit Selection(const ReplayArguments& arguments) : arguments_(arguments), times_(arguments.rawlog) {}
 
   /// Whether the next observation is selected.
   bool takes(const mrpt::obs::CObservation& observation, const RawlogReader& reader);

@@ -51,7 +51,7 @@ std::string inWords(const ObservedNumbers& numbers) {
       text +=
           (text.empty() ? "" : ", ") + number.name + " " + fixed(std::get<double>(number.value) * 180 / M_PI, 1) + "°";
     } else {
-      text += (text.empty() ? "" : ", ") + number.name + " " + inWords(number, 3) + unit;
+      text += (text.empty() ? "" : ", ") + number.name + " " + inWords(number, symbol == kDegree.symbol ? 7 : 3) + unit;
     }
   }
   return text;

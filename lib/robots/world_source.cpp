@@ -1,6 +1,7 @@
 #include "robots/world_source.h"
 
 #include "base/digest.h"
+#include "base/log.h"
 #include "robots/robot_type_includes.h"
 #include "world/caching_file_provider.h"
 #include "world/world_file.h"
@@ -31,6 +32,9 @@ WorldSource completed(std::string world_text, const std::filesystem::path& file,
   ErrorList errors;  // reported by loadWorld(), unless a file is missing
   const World world = parseWorld(source.text, source.file, kept, errors);
   if (unread > 0) errors.throwIfAny();
+  for (const auto& map : world.maps) {
+    for (const auto& warning : map.plan.warnings) logWarning("", map.file + ": " + warning);
+  }
   const RobotTypes known = robotTypesIn(robotTypeFolders(file));
   const auto keep_type_of = [&](const RobotPlacement& robot) {
     const auto type = known.find(robot.model);

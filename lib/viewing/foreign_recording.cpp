@@ -102,6 +102,7 @@ class ForeignRecording final : public RecordedMoments {
   const std::vector<double>& times() const override { return times_; }
   const RunPaths& paths() const override { return paths_; }
   const std::string& readError() const override { return read_error_; }
+  bool isDamaged() const override { return is_damaged_; }
 
   RunSnapshot at(std::size_t moment) override {
     goTo(ends_[moment]);
@@ -125,7 +126,7 @@ class ForeignRecording final : public RecordedMoments {
 
   /// Records in the order of the file.
   void readAll() {
-    ObservationTimes times;
+    ObservationTimes times(file_);
     std::size_t out_of_range = 0;
     std::uint64_t last_entry = 0;
     std::uint32_t within = 0;
@@ -142,6 +143,7 @@ class ForeignRecording final : public RecordedMoments {
       if (progress.due()) progress.show("reading, " + withCommas(reader_.entries()) + " entries …");
     }
     read_error_ = reader_.readError().value_or("");
+    is_damaged_ = reader_.isDamaged();
     if (out_of_range > 0) {
       read_error_ += (read_error_.empty() ? "" : "; ") + withCommas(out_of_range) +
                      " observations have positions beyond 10,000 km or not finite; omitted";
@@ -310,6 +312,7 @@ class ForeignRecording final : public RecordedMoments {
   LoadedWorld world_;
   RunPaths paths_;
   std::string read_error_;
+  bool is_damaged_ = false;
 };
 
 }  // namespace

@@ -45,6 +45,7 @@ class RobosimRecording final : public RecordedMoments {
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
     read_error_ = reader_.readError().value_or("");
+    is_damaged_ = reader_.isDamaged();
     if (moments_.empty())
       throw ConfigError(file + ": contains no complete step" + (read_error_.empty() ? "" : "; " + read_error_));
     // A damaged recording may go back in time.
@@ -57,6 +58,7 @@ class RobosimRecording final : public RecordedMoments {
   const std::vector<double>& times() const override { return times_; }
   const RunPaths& paths() const override { return paths_; }
   const std::string& readError() const override { return read_error_; }
+  bool isDamaged() const override { return is_damaged_; }
 
   RunSnapshot at(std::size_t moment) override {
     const Moment& requested = moments_[moment];
@@ -95,6 +97,7 @@ class RobosimRecording final : public RecordedMoments {
   std::vector<double> times_;
   RunPaths paths_;
   std::string read_error_;
+  bool is_damaged_ = false;
 };
 
 /// nullopt for a recording made by another program, or of a world too large to be stored in it.

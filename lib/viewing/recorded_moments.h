@@ -25,6 +25,8 @@ class RecordedMoments {
   virtual const RunPaths& paths() const = 0;
   /// Reason for an early end, and what was left out; empty for a complete file.
   virtual const std::string& readError() const = 0;
+  /// RawlogReader::isDamaged(), of the whole file.
+  virtual bool isDamaged() const = 0;
 };
 
 /// Opens a recording made by RoboSim or by another program.

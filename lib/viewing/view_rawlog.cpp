@@ -37,6 +37,7 @@ class RawlogView final : public ViewSource {
   }
   bool isOver() const override { return at_ + 1 == times_.size(); }
   std::string remark() const override { return moments_->readError(); }
+  bool isDamaged() const override { return moments_->isDamaged(); }
 
   bool canPlay() const override { return true; }
   bool isPaused() const override { return is_paused_; }

@@ -40,6 +40,8 @@ class ViewSource {
   virtual bool isOver() const = 0;
   /// Message for the user, or empty: why a recording ends early, that a run is over.
   virtual std::string remark() const { return ""; }
+  /// Whether a recording is damaged, and only its readable entries are shown.
+  virtual bool isDamaged() const { return false; }
 
   /// @name Playback control, if canPlay()
   ///@{

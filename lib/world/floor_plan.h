@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <mrpt/math/TPose2D.h>
@@ -33,6 +34,7 @@ struct FloorPlan {
   std::vector<CellRectangle> unknown;   ///< all unknown cells that are not taken for occupied, each in one rectangle
   std::vector<PlanBox> boxes;           ///< obstacles that are not given as cells
   std::vector<mrpt::math::TPose2D> starts;  ///< start poses given by the map, best first
+  std::vector<std::string> warnings;        ///< contents that are probably not intended, for the author of the map
   bool operator==(const FloorPlan&) const = default;
 
   std::uint64_t occupiedCells() const;

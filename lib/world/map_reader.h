@@ -27,6 +27,7 @@ struct MapReading {
   OccupancyThresholds thresholds;    ///< gridmap, picture
   bool negate = false;               ///< picture: lighter is occupied
   bool unknown_is_occupied = false;  ///< gridmap, ros_yaml, picture
+  bool is_of_ros1 = false;           ///< ros_yaml, picture: thresholds and alpha as in ROS 1; otherwise as in nav2
   bool operator==(const MapReading&) const = default;
 };
 

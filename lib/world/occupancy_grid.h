@@ -15,6 +15,7 @@ struct OccupancyGrid {
   double cell_m = 0;                  ///< side of a cell, (0, kCellMax_m]
   mrpt::math::TPose2D map_from_grid;  ///< of the lower left corner of the first cell; x along the rows
   std::vector<Occupancy> cells;       ///< row by row from the bottom, each from the left
+  std::uint64_t transparent = 0;      ///< number of cells that are unknown because their pixels are transparent
 
   Occupancy at(std::uint32_t column, std::uint32_t row) const { return cells[std::size_t{row} * columns + column]; }
 };
@@ -29,10 +30,13 @@ constexpr double kMapReach_m = 1e7;              ///< of any coordinate: the max
 
 /// Thresholds of the probability of occupancy; the defaults are those of ROS's map_server.
 struct OccupancyThresholds {
-  double occupied = 0.65;  ///< occupied above this
-  double free = 0.196;     ///< free below this; unknown between the two
+  double occupied = 0.65;      ///< occupied above this
+  double free = 0.196;         ///< free below this; unknown between the two
+  bool are_inclusive = false;  ///< whether the thresholds themselves are occupied and free, as in nav2
 
   Occupancy of(double probability) const {
+    if (are_inclusive && probability >= occupied) return Occupancy::occupied;
+    if (are_inclusive && probability <= free) return Occupancy::free;
     if (probability > occupied) return Occupancy::occupied;
     return probability < free ? Occupancy::free : Occupancy::unknown;
   }

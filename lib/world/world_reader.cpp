@@ -148,6 +148,9 @@ class WorldReader {
     if (format == MapFormat::activmedia) return;
     reading.unknown_is_occupied =
         reader.choice<bool>("unknown", {{"free", false}, {"occupied", true}}, reading.unknown_is_occupied);
+    if (format != MapFormat::gridmap) {
+      reading.is_of_ros1 = reader.choice<bool>("map_server", {{"nav2", false}, {"ros1", true}}, reading.is_of_ros1);
+    }
     if (format == MapFormat::ros_yaml) return;
     auto& thresholds = reading.thresholds;
     thresholds.occupied = reader.number("threshold", {0, 1}, thresholds.occupied);

@@ -106,6 +106,7 @@ class WorldWriter {
     const MapFormat format = mapFormatOf(map.file);
     if (format == MapFormat::activmedia) return;
     element.add("unknown", map.reading.unknown_is_occupied ? "occupied" : "free");
+    if (map.reading.is_of_ros1) element.add("map_server", "ros1");
     if (format == MapFormat::ros_yaml) return;
     element.add("threshold", toText(map.reading.thresholds.occupied));
     if (format == MapFormat::gridmap) return;

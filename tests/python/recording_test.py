@@ -1,4 +1,5 @@
 """Recordings and pictures in Python."""
+import gzip
 import os
 import subprocess
 import tempfile
@@ -84,6 +85,19 @@ class RecordingTest(unittest.TestCase):
         with open(damaged, "wb") as file:
             file.write(whole[:len(whole) * 2 // 3])
         self.assertIsNotNone(robosim.read_rawlog(damaged).damage)
+
+    def test_a_damaged_recording_raises_and_is_read_on_request(self):
+        with gzip.open(self.file) as file:
+            whole = bytearray(file.read())
+        whole[len(whole) // 2:len(whole) // 2 + 200] = bytes(200)
+        damaged = os.path.join(self.folder.name, "damaged.rawlog")
+        with open(damaged, "wb") as file:
+            file.write(whole)
+        with self.assertRaisesRegex(robosim.ConfigError, "damaged.rawlog: ends early, .*allow_damage=True"):
+            robosim.read_rawlog(damaged)
+        recording = robosim.read_rawlog(damaged, allow_damage=True)
+        self.assertIn("ends early", recording.damage)
+        self.assertGreater(len(recording.poses("R1")), 0)
 
 
 class PicturesTest(unittest.TestCase):

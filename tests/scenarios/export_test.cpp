@@ -117,6 +117,36 @@ TEST(Export, ConvertsMapsBetweenFormatsWithoutLoss) {
   EXPECT_EQ(cv::countNonZero((again == 0) != (original == 0)), 0) << "what is occupied";
 }
 
+TEST(Export, ResamplesAMapWhoseCornerIsNoMultipleOfItsCellForMrpt) {
+  const auto folder = emptyFolder();
+  // 4 × 3 cells of 0.5 m from (0.2, -0.3); the lower left one is occupied: [0.2, 0.7] × [-0.3, 0.2]
+  std::ofstream(folder / "a.pgm") << "P2 4 3 255  254 254 254 254  254 254 254 254  0 254 254 254\n";
+  std::ofstream(folder / "a.yaml") << "image: a.pgm\nresolution: 0.5\norigin: [0.2, -0.3, 0]\nnegate: 0\n"
+                                      "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
+  const Ended ended = runProgram("export " + quoted(folder / "a.yaml") + " " + quoted(folder / "a.gridmap"));
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_NE(ended.err.find("a.gridmap: the corner of the map is no multiple of its cell of 0.5 m"), std::string::npos)
+      << ended.err;
+  const COccupancyGridMap2D grid = gridmapIn(folder / "a.gridmap");
+  EXPECT_EQ(grid.getXMin(), 0);
+  EXPECT_EQ(grid.getYMin(), -0.5f);
+  ASSERT_EQ(grid.getSizeX(), 5u);  // up to 2.2 m
+  ASSERT_EQ(grid.getSizeY(), 4u);  // up to 1.2 m
+  for (int row = 0; row < 4; ++row) {
+    for (int column = 0; column < 5; ++column) {
+      EXPECT_EQ(grid.getCell(column, row) < 0.25f, column < 2 && row < 2) << column << " " << row;
+    }
+  }
+}
+
+TEST(Export, WritesGridmapsOfAllShippedMaps) {
+  const auto folder = emptyFolder();
+  for (const std::string map : {"office.map", "lab.yaml", "opho2_1.gridmap.gz"}) {
+    exportWorld("maps/" + map + " " + quoted(folder / (map + ".gridmap")));
+    EXPECT_GT(gridmapIn(folder / (map + ".gridmap")).getSizeX(), 10u) << map;
+  }
+}
+
 TEST(Export, WritesAnOctoMapForItsTools) {
   const auto folder = emptyFolder();
   exportWorld("worlds/opho2_1.xml --resolution 0.1 '" + (folder / "a.bt").string() + "' '" +

@@ -141,6 +141,43 @@ TEST(ReplayCheck, ChecksTheReadablePartOfATruncatedRecording) {
   EXPECT_NE(summary.out.find("ends early, after "), std::string::npos) << summary.out;
 }
 
+TEST(ReplayCheck, UsesTheReadableEntriesOfARecordingWithADamagedPictureAndFails) {
+  const auto folder = emptyFolder();
+  const auto world = folder / "room.xml";
+  std::ofstream(world) << R"(<world><surface>
+    <size><xmin>0</xmin><xmax>4</xmax><ymin>0</ymin><ymax>4</ymax></size>
+    <object><shape><robot><model>pioneer3dx_camera</model><name>Ann</name><x>2</x><y>2</y>
+      <controller>wander</controller></robot></shape></object>
+  </surface></world>)";
+  recordRun(quoted(world) + " --time 0.5", folder / "run.rawlog");
+  ASSERT_EQ(
+      runCommand("(zcat " + quoted(folder / "run.rawlog") + " > " + quoted(folder / "plain.rawlog") + ")").exit_code,
+      0);
+  std::string bytes = textOf(folder / "plain.rawlog");
+  const auto picture = bytes.find("\xff\xd8\xff");
+  ASSERT_NE(picture, std::string::npos);
+  bytes[picture] = 'G';
+  std::ofstream(folder / "plain.rawlog", std::ios::binary) << bytes;
+  const auto count_of = [&](const std::string& out) { return countOf("\n", out); };
+  const Ended whole = runProgram("replay --print " + quoted(folder / "run.rawlog"));
+  const Ended damaged = runProgram("replay --print " + quoted(folder / "plain.rawlog"));
+  EXPECT_EQ(whole.exit_code, 0) << whole.err;
+  EXPECT_EQ(damaged.exit_code, 1);
+  EXPECT_EQ(count_of(damaged.out) + 1, count_of(whole.out));
+  EXPECT_NE(damaged.err.find("plain.rawlog: a picture is damaged and left out, in entry "), std::string::npos)
+      << damaged.err;
+  for (const std::string command :
+       {"replay FILE", "replay --controller recorded FILE", "export FILE OUT.csv", "view FILE --offscreen OUT.png",
+        "replay --check " + quoted(world) + " FILE", "replay FILE --output OUT.rawlog"}) {
+    std::string line = command;
+    line.replace(line.find("FILE"), 4, quoted(folder / "plain.rawlog"));
+    if (const auto out = line.find("OUT"); out != std::string::npos) line.replace(out, 3, (folder / "out").string());
+    const Ended ended = runProgram(line);
+    EXPECT_EQ(ended.exit_code, 1) << line << '\n' << ended.err;
+    EXPECT_NE((ended.out + ended.err).find("a picture is damaged and left out"), std::string::npos) << line;
+  }
+}
+
 TEST(ReplayCheck, ChecksAndReplaysEachFileOfPairsSeparately) {
   const auto folder = emptyFolder();
   const Ended run =

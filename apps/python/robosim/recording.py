@@ -10,7 +10,7 @@ class Recording(Mapping):
     recording["R1/sonar"] is float64 of shape (rows, columns); "R1/sonar/columns" names the columns with their units,
     "R1/sonar/step" and "R1/sonar/time_s" have a number for each row. Columns of texts are lists of str.
 
-    damage: why reading ended before the end of the file; None for an undamaged file.
+    damage: what was not read, and why: the end of a file that is cut off, or damaged parts; None for a complete file.
     """
 
     def __init__(self, arrays, sensors, damage):
@@ -88,9 +88,13 @@ class Recording(Mapping):
         return values[:, [i for i, name in enumerate(columns) if name.startswith("range_")]]
 
 
-def read_rawlog(file):
+def read_rawlog(file, allow_damage=False):
     """Reads a rawlog recorded by RoboSim or another program, and returns a Recording.
 
-    Raises ConfigError for a file that is no rawlog. A damaged file is read up to the damage (Recording.damage).
+    Raises ConfigError for a file that is no rawlog, and for a damaged one, unless allow_damage is set: then its readable
+    entries are returned. A file that is only cut off, as by a killed program, is read up to its end (Recording.damage).
     """
-    return Recording(*_robosim._read_rawlog(file))
+    arrays, sensors, damage, is_damaged = _robosim._read_rawlog(file)
+    if is_damaged and not allow_damage:
+        raise _robosim.ConfigError(f"{damage}; allow_damage=True returns the readable entries")
+    return Recording(arrays, sensors, damage)
