@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-TITLED = ("Positionals:", "Options:", "Subcommands:")
+TITLED = re.compile(r"(Positionals|Subcommands):\n|[A-Z][^\n]*:\n  -")  # arguments, subcommands, a group of options
 PROSE = ("EXIT STATUS", "ENVIRONMENT")  # filled; the other sections keep their lines
 STARTS = {"Try:": "EXAMPLES", "Example": "EXAMPLES", "Exit codes:": "EXIT STATUS",
           "Log records on standard error:": "ENVIRONMENT"}
@@ -26,14 +26,15 @@ def run(*command):
 def divided(text):
     """The part of a help text that help2man formats, and the rest."""
     blocks = re.split(r"\n{2,}", text.strip("\n"))
-    known = [block for i, block in enumerate(blocks) if i == 0 or block.startswith(TITLED)]
+    known = [block for i, block in enumerate(blocks) if i == 0 or TITLED.match(block)]
     return "\n\n".join(known), "\n\n".join(blocks[len(known):])
 
 
 def subcommands(text):
     """Names and summaries of the subcommands in a help text."""
     listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.M)
-    return dict(line.split(maxsplit=1) for line in listed[1].splitlines()) if listed else {}
+    joined = re.sub(r"\n {20,}", " ", listed[1]) if listed else ""  # help in further lines
+    return dict(line.split(maxsplit=1) for line in joined.splitlines())
 
 
 def escaped(line):

@@ -46,7 +46,7 @@ _robosim() {
   done
   listed=$(sed -n '/^Subcommands:$/,/^$/ s/^  \([a-z]*\) .*/\1/p' <<<"$help")
 
-  # The value of an option: its name in the help, as in "--picture FILE" or "--pace TEXT:{lockstep,realtime}=lockstep".
+  # The value of an option: its name in the help, as in "--picture FILE" or "--pace lockstep|realtime".
   local value=
   [[ $prev == --* ]] && value=$(sed -n "s/^  \(-[a-z0-9],\)\?$prev \([^ ].*\)/\2/p" <<<"$help")
   case $value in
@@ -60,10 +60,9 @@ _robosim() {
     OBSERVER*)
       _robosim_from "$(_robosim_names observers)"
       return ;;
-    *:{*}*)
-      value=${value#*:\{}
-      value=${value%%\}*}
-      _robosim_from "${value//,/ }"
+    [a-z]*\|*)
+      value=${value%% *}
+      _robosim_from "${value//|/ }"
       return ;;
     [A-Z]*) return ;;
   esac

@@ -73,7 +73,11 @@ void addArcos(CLI::App& program) {
   auto a = std::make_shared<MobileSimArguments>();
   a->serve.of_run.time_s = 1e9;
   a->serve.of_run.speed = "1";
-  command->add_option("MAP,-m,--map", a->serve.of_run.world, "map or world file")->type_name("FILE")->required();
+  command
+      ->add_option("MAP,-m,--map", a->serve.of_run.world, "map or world file; a shipped one also by name: office.map")
+      ->type_name("FILE")
+      ->transform(inputFile(kWorldKinds))
+      ->required();
   command
       ->add_option("-r,--robot", a->robots,
                    "a robot of this type at the map's home or next to it, with a port of its own; repeatable. Default: "

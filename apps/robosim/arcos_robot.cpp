@@ -14,6 +14,7 @@
 #include "pioneer/sick_laser.h"
 #include "recording/rawlog_writer.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/robot_arguments.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
@@ -133,6 +134,7 @@ void addArcosRobotOptions(CLI::App& command, RobotArguments& arguments) {
                   "tcp:HOST:PORT, serial:DEVICE, serial:DEVICE:BAUD, or replay:FILE of --arcos-log")
       ->type_name("ADDRESS")
       ->group("A real robot");
+  const CLI::Option* arcos = command.get_option("--arcos");
   command.add_option("--robot-type", arguments.arcos_type, "robot type of --arcos; default: what the robot reports")
       ->type_name("TYPE")
       ->group("A real robot");
@@ -148,6 +150,9 @@ void addArcosRobotOptions(CLI::App& command, RobotArguments& arguments) {
       ->type_name("FILE")
       ->check(fileName())
       ->group("A real robot");
+  for (const char* name : {"--robot-type", "--laser", "--record", "--arcos-log"}) {
+    dependsOn(command.get_option(name), arcos);
+  }
 }
 
 void driveArcosRobot(const RobotArguments& arguments) {

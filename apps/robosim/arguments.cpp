@@ -10,10 +10,27 @@
 #include "base/data_folders.h"
 #include "base/error_list.h"
 #include "base/log.h"
+#include "base/text_table.h"
 #include "base/xml_element.h"
+#include "robosim/command_line.h"
 #include "run/local_run.h"
 
 namespace robosim {
+
+namespace {
+
+std::string boundText(double bound) {
+  const bool is_long = bound >= 10000 && bound == std::floor(bound);
+  return is_long ? withCommas(static_cast<std::uint64_t>(bound)) : toText(bound);
+}
+
+/// "0.001 to 1", for the help.
+std::string rangeText(double low, double high) {
+  constexpr double kUnlimited = 1e12;
+  return kRangeMark + boundText(low) + (high >= kUnlimited ? " or more" : " to " + boundText(high));
+}
+
+}  // namespace
 
 CLI::Validator numberIn(double low, double high) {
   const std::string range = "[" + toText(low) + ", " + toText(high) + "]";
@@ -24,7 +41,7 @@ CLI::Validator numberIn(double low, double high) {
                               number >= low && number <= high;
             return fits ? "" : text + ": must be a number in " + range;
           },
-          ""};
+          rangeText(low, high)};
 }
 
 CLI::Validator wholeNumberIn(int low, int high) {
@@ -36,7 +53,7 @@ CLI::Validator wholeNumberIn(int low, int high) {
             return fits ? ""
                         : text + ": must be a whole number from " + std::to_string(low) + " to " + std::to_string(high);
           },
-          ""};
+          rangeText(low, high)};
 }
 
 CLI::Validator seedNumber() {
@@ -47,11 +64,11 @@ CLI::Validator seedNumber() {
                        ? ""
                        : text + ": must be a whole number from 0 to 18446744073709551615";
           },
-          ""};
+          kRangeMark + std::string("0 to 2^64 - 1")};
 }
 
-CLI::Validator inputFile() {
-  return {[](std::string& text) -> std::string {
+CLI::Validator inputFile(const std::vector<FileKind>& taken) {
+  return {[taken](std::string& text) -> std::string {
             if (text.empty()) return "the file name is empty";
             std::error_code ignored;  // for broken links, whose reading reports a better error
             if (const auto found = findDataFile(text)) {
@@ -59,6 +76,7 @@ CLI::Validator inputFile() {
             } else if (!std::filesystem::exists(std::filesystem::symlink_status(text, ignored))) {
               throw ConfigError(text + ": no such file; check the path" + searchedText(text));
             }
+            requireKind(text, taken);
             return "";
           },
           ""};
@@ -79,24 +97,27 @@ double speedNumber(const std::string& speed) {
 }
 
 void addTime(CLI::App& command, double& time_s, const std::string& help) {
-  command.add_option("--time", time_s, help + "; 0.001 to 1,000,000,000 s")
+  command.add_option("--time", time_s, help)
       ->check(numberIn(1e-3, 1e9))
       ->type_name("SECONDS")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(kRunGroup);
 }
 
 void addStep(CLI::App& command, double& period_s) {
-  command.add_option("--step", period_s, "simulated length of a time step; 0.001 to 1 s")
+  command.add_option("--step", period_s, "simulated length of a time step")
       ->check(numberIn(0.001, 1))
       ->type_name("SECONDS")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(kRunGroup);
 }
 
 void addThreads(CLI::App& command, int& threads, const std::string& help) {
-  command.add_option("--threads", threads, help + "; 1 to 1024")
+  command.add_option("--threads", threads, help)
       ->check(wholeNumberIn(1, 1024))
       ->type_name("NUMBER")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(kRunGroup);
 }
 
 void warnOfPartialStep(double time_s, double period_s) {
@@ -116,7 +137,8 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes) {
           "add a robot: type, position in metres, and heading in degrees from the x axis, as in "
           "pioneer3dx@1,2,90; repeatable")
       ->type_name("TYPE@X,Y,HEADING")
-      ->allow_extra_args(false);
+      ->allow_extra_args(false)
+      ->group(kWorldGroup);
   command
       .add_option_function<std::string>(
           "--random-robots",
@@ -132,7 +154,8 @@ void addRobotOptions(CLI::App& command, WorldChanges& changes) {
             if (comma < text.size()) changes.random_model = text.substr(comma + 1);
           },
           "add robots at random free places, as in 5 or 5,scout; 1 to 100000; the default type is pioneer3dx")
-      ->type_name("NUMBER[,TYPE]");
+      ->type_name("NUMBER[,TYPE]")
+      ->group(kWorldGroup);
 }
 
 void addNoiseOption(CLI::App& command, WorldChanges& changes) {
@@ -146,7 +169,23 @@ void addNoiseOption(CLI::App& command, WorldChanges& changes) {
           "errors of the sensors without <noise>. on: the random errors of their data sheets; all: every error that "
           "the kind of sensor has, and those of the radio unless the world has <communication>; world: none")
       ->check(CLI::IsMember({"all", "on", "world"}))
-      ->default_str("world");
+      ->default_str("world")
+      ->group(kWorldGroup);
+}
+
+void addRandomStartsOption(CLI::App& command, WorldChanges& changes) {
+  command
+      .add_flag("--random-starts", changes.has_random_starts,
+                "move every robot to a random pose that it can reach from its start")
+      ->group(kWorldGroup);
+}
+
+void addSeedOption(CLI::App& command, std::uint64_t& seed, const std::string& help) {
+  command.add_option("--seed", seed, help)
+      ->check(seedNumber())
+      ->type_name("NUMBER")
+      ->capture_default_str()
+      ->group(kWorldGroup);
 }
 
 namespace {

@@ -4,10 +4,24 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_kind.h"
 #include "environment/world_changes.h"
 #include "robosim/cli11_names.h"
 
 namespace robosim {
+
+/// @name Titles of groups of options in the help
+///@{
+constexpr const char* kWorldGroup = "World";
+constexpr const char* kRunGroup = "Run";
+constexpr const char* kRecordingGroup = "Recording and results";
+constexpr const char* kClientsGroup = "Robots and clients in other processes";
+constexpr const char* kArcosGroup = "Programs of ARIA";
+constexpr const char* kSecurityGroup = "Connection and security";
+constexpr const char* kFigureGroup = "Pictures, videos and figures";
+constexpr const char* kGridGroup = "Grids and OctoMaps";
+constexpr const char* kSelectionGroup = "Selection";
+///@}
 
 /// Accepts a finite number in [low, high].
 CLI::Validator numberIn(double low, double high);
@@ -15,9 +29,11 @@ CLI::Validator numberIn(double low, double high);
 CLI::Validator wholeNumberIn(int low, int high);
 /// Accepts a whole number from 0 to 2^64 - 1; CLI11 alone would turn -1 into the largest.
 CLI::Validator seedNumber();
-/// Replaces the name of an input file by findDataFile() (base/data_folders.h).
-/// @throws ConfigError when there is no such file, and nothing with its name
-CLI::Validator inputFile();
+/// The argument type of every world, map, recording and list of robots: replaces the name of the file by findDataFile()
+/// (base/data_folders.h), and recognises its kind by its first bytes.
+/// @param taken kinds that the command takes
+/// @throws ConfigError when there is no such file, and nothing with its name, and by requireKind()
+CLI::Validator inputFile(const std::vector<FileKind>& taken);
 /// Rejects an empty text, as from an unset shell variable.
 CLI::Validator fileName();
 
@@ -34,6 +50,10 @@ void addThreads(CLI::App& command, int& threads, const std::string& help);
 void warnOfPartialStep(double time_s, double period_s);
 /// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
 void addRobotOptions(CLI::App& command, WorldChanges& changes);
+/// Adds `--random-starts`.
+void addRandomStartsOption(CLI::App& command, WorldChanges& changes);
+/// Adds `--seed` of a world or a run.
+void addSeedOption(CLI::App& command, std::uint64_t& seed, const std::string& help);
 /// Adds `--noise`: errors of sensors in addition to those of the world.
 void addNoiseOption(CLI::App& command, WorldChanges& changes);
 

@@ -19,6 +19,7 @@
 #include "replay/csv_field.h"
 #include "robosim/arguments.h"
 #include "robosim/bench_arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/subcommands.h"
 #include "run/output_files.h"
 #include "run/sweep.h"
@@ -183,7 +184,10 @@ void bench(const BenchArguments& arguments) {
 void addBenchMetrics(CLI::App& parent) {
   auto* command = parent.add_subcommand("metrics", "Tabulate the metrics of observers, over many seeded runs");
   auto a = std::make_shared<BenchArguments>();
-  command->add_option("WORLD", a->worlds, "world files")->type_name("FILE")->transform(inputFile())->required();
+  command->add_option("WORLD", a->worlds, "world files")
+      ->type_name("FILE")
+      ->transform(inputFile(kWorldKinds))
+      ->required();
   addRunsAndSeed(*command, a->runs, a->sweep.seed);
   addThreads(*command, a->sweep.threads, "concurrent runs; the table does not depend on it");
   addTime(*command, a->sweep.time_s, "simulated time limit of a run");
@@ -195,6 +199,9 @@ void addBenchMetrics(CLI::App& parent) {
   command->add_option("--csv", a->csv, "also write one line per run to this file")
       ->type_name("FILE")
       ->check(fileName());
+  setGroup(*command, kRunGroup, {"--runs", "--controller", "--observer"});
+  setGroup(*command, kWorldGroup, {"--seed"});
+  setGroup(*command, kRecordingGroup, {"--csv"});
   command->callback([a] {
     a->sweep.controllers = allControllers(a->controllers);
     a->sweep.runs = static_cast<std::size_t>(a->runs);

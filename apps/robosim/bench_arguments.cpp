@@ -9,11 +9,11 @@
 namespace robosim {
 
 void addRunsAndSeed(CLI::App& command, int& runs, std::uint64_t& seed) {
-  command.add_option("--runs", runs, "runs of each controller in each world, with different start poses; 1 to 1000000")
+  command.add_option("--runs", runs, "runs of each controller in each world, with different start poses")
       ->check(wholeNumberIn(1, 1000000))
       ->type_name("NUMBER")
       ->capture_default_str();
-  command.add_option("--seed", seed, "seed of the first run, incremented by 1 for each further run; 0 to 2^64 - 1")
+  command.add_option("--seed", seed, "seed of the first run, incremented by 1 for each further run")
       ->check(seedNumber())
       ->type_name("NUMBER")
       ->capture_default_str();

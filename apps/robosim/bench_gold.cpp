@@ -23,6 +23,7 @@
 #include "ranks/agreement.h"
 #include "robosim/arguments.h"
 #include "robosim/bench_arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/plugin_options.h"
 #include "run/output_files.h"
 #include "run/run_observers.h"
@@ -273,7 +274,6 @@ void completePlan(GoldArguments& arguments) {
       throw ConfigError("--observer effort: bench gold always has it; remove the option");
     }
   }
-  if (arguments.resume && arguments.report.empty()) throw ConfigError("--resume continues a --report; name its folder");
 }
 
 }  // namespace
@@ -282,7 +282,10 @@ void addBenchGold(CLI::App& parent) {
   auto* command = parent.add_subcommand(
       "gold", "Measure success rate and time of finding gold, over many seeded runs, and report them");
   auto a = std::make_shared<GoldArguments>();
-  command->add_option("WORLD", a->files, "world files")->type_name("FILE")->transform(inputFile())->required();
+  command->add_option("WORLD", a->files, "world files")
+      ->type_name("FILE")
+      ->transform(inputFile(kWorldKinds))
+      ->required();
   addRunsAndSeed(*command, a->runs, a->plan.seed);
   addThreads(*command, a->threads, "concurrent runs; the results do not depend on it");
   addTime(*command, a->plan.time_s, "simulated time limit of a run");
@@ -314,7 +317,11 @@ void addBenchGold(CLI::App& parent) {
                    "write a report to this folder: index.html, figures, all runs, and a journal of finished runs")
       ->type_name("FOLDER")
       ->check(fileName());
-  command->add_flag("--resume", a->resume, "continue the interrupted benchmark of the --report folder");
+  dependsOn(command->add_flag("--resume", a->resume, "continue the interrupted benchmark of the --report folder"),
+            command->get_option("--report"));
+  setGroup(*command, kRunGroup, {"--runs", "--controller", "--team", "--condition", "--observer"});
+  setGroup(*command, kWorldGroup, {"--seed"});
+  setGroup(*command, kRecordingGroup, {"--csv", "--report", "--resume"});
   command->callback([a, command] {
     a->robots = command->get_option("--robot")->results();
     completePlan(*a);

@@ -16,7 +16,6 @@
 #include "robots/fleet.h"
 #include "robots/free_space.h"
 #include "robots/robot_type_includes.h"
-#include "robots/scatter.h"
 #include "run/json_text.h"
 #include "run/local_run.h"
 #include "world/raster.h"
@@ -112,22 +111,40 @@ std::string describe(const FloorPlan& plan) {
 /// Changes of a world, and the seed for random places.
 struct Additions {
   WorldChanges changes;
-  std::uint64_t seed = 1;
+  std::uint64_t seed = kDefaultSeed;
+  std::string controller;  ///< of all robots; empty: those of the world
 };
 
+/// Errors of robots whose controller, of the world or of --controller, lacks a sensor; a warning of those that name
+/// none, and lack what the default requires: another process may drive them, or --controller name one.
+void checkControllersOf(const LoadedWorld& loaded, const std::string& file, const std::string& controller,
+                        Checked& checked) {
+  const auto names_none = [](const FleetRobot& robot, std::size_t) { return robot.controller.empty(); };
+  const auto names_one = [](const FleetRobot& robot, std::size_t) { return !robot.controller.empty(); };
+  if (!controller.empty()) return checkControllers(loaded, file, controller, checked.errors);
+  checkControllers(loaded, file, "", checked.errors, names_none);
+  ErrorList of_default;
+  checkControllers(loaded, file, "", of_default, names_one);
+  if (of_default.empty()) return;
+  const std::size_t more = of_default.count() - 1;
+  checked.warnings.push_back("without --controller, " + of_default.errors().front() +
+                             (more == 0 ? "" : "; so do " + withCommas(more) + " further robots"));
+}
+
 void checkWorld(const std::string& file, World world_in_file, const Additions& additions, Checked& checked) {
-  LoadedWorld loaded{std::move(world_in_file), {}};
   RobotTypes types = robotTypesIn(robotTypeFolders(file));
-  placeScattered(loaded.world, file, types, additions.seed, checked.errors);
-  loaded.fleet = buildFleet(loaded.world, file, types, checkController, checked.errors);
+  std::vector<std::string> moved;
+  LoadedWorld loaded =
+      placedWorld(std::move(world_in_file), file, types, checkController, additions.seed, checked.errors, &moved);
   if (!additions.changes.isNone() && checked.errors.empty()) {
     const WorldSource changed = withChanges(readWorldSource(file), additions.changes, additions.seed);
     loaded = loadWorld(changed, checkController);
     for (const auto& [name, type] : changed.robot_types) types.insert_or_assign(name, type);
   }
-  if (checked.errors.empty()) checkControllers(loaded, file, "", checked.errors);
+  if (checked.errors.empty()) checkControllersOf(loaded, file, additions.controller, checked);
   const World& world = loaded.world;
   const Fleet& fleet = loaded.fleet;
+  for (const auto& warning : moved) checked.warnings.push_back(warning.substr(warning.find(": ") + 2));
   for (const auto& robot : world.robots) checked.robots.push_back(robot.name);
   checked.objects = world.objects.size();
   checked.maps = world.maps.size();
@@ -189,8 +206,8 @@ void checkRobotModel(const std::string& file, const XmlElement& element, Checked
 Checked check(const std::string& file, const Additions& additions) {
   Checked checked;
   const auto refuse_additions = [&] {
-    if (additions.changes.isNone()) return;
-    throw ConfigError(file + ": is a " + checked.kind + "; --robot and --random-robots add to a world or a map only");
+    if (additions.changes.isNone() && additions.controller.empty()) return;
+    throw ConfigError(file + ": is a " + checked.kind + "; options of robots apply to a world or a map only");
   };
   try {
     if (isMapFile(file)) {
@@ -257,16 +274,19 @@ void addCheck(CLI::App& program) {
   auto* command = addSubcommand(program, "check");
   auto arguments = std::make_shared<CheckArguments>();
   command->add_option("FILE", arguments->file, "a world, a map, a robot type, or a 2005 robot list")
-      ->transform(inputFile())
+      ->transform(inputFile([] {
+        std::vector<FileKind> kinds = kWorldKinds;
+        kinds.insert(kinds.end(), {FileKind::robot_type, FileKind::robot_list});
+        return kinds;
+      }()))
       ->required();
   addRobotOptions(*command, arguments->additions.changes);
+  addRandomStartsOption(*command, arguments->additions.changes);
   addNoiseOption(*command, arguments->additions.changes);
-  command
-      ->add_option("--seed", arguments->additions.seed,
-                   "seed of the places of --random-robots and <scatter>; 0 to 2^64 - 1")
-      ->check(seedNumber())
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  addSeedOption(*command, arguments->additions.seed, "seed of random places: of robots, starts and <scatter>");
+  addControllerOption(*command, arguments->additions.controller,
+                      "check that all robots have what this controller requires, instead of those in the world")
+      ->group(kWorldGroup);
   command->add_flag("--json", arguments->json,
                     "print one JSON object: ok, errors, warnings, open_edge_m, robots (names), objects and maps "
                     "(counts), error_models (sensors, communication, reflectivity)");

@@ -15,6 +15,7 @@
 #include "net/host_port.h"
 #include "net/private_file.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/reload_signal.h"
 
 namespace robosim {
@@ -80,7 +81,8 @@ ConnectOptions ConnectionArguments::connectOptions() const {
 void addConnectionOptions(CLI::App& command, ConnectionArguments& a) {
   command.add_option("--environment", a.environment, "address of 'robosim serve'")
       ->type_name("HOST:PORT")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(kSecurityGroup);
   addSecurityOptions(command, a);
 }
 
@@ -96,6 +98,7 @@ void addSecurityOptions(CLI::App& command, ConnectionArguments& a) {
       ->check(fileName());
   command.add_flag("--send-token-unencrypted", a.send_token_unencrypted,
                    "send the token to other machines without TLS; it can then be intercepted");
+  setGroup(command, kSecurityGroup, {"--tls-ca", "--tls", "--token-file", "--send-token-unencrypted"});
   refuseInsecure(command);
 }
 
@@ -105,7 +108,8 @@ void addConnectTimeout(CLI::App& command, ConnectionArguments& a) {
                   "how long to wait for an environment that does not listen yet; 0: not at all")
       ->check(numberIn(0, 1e6))
       ->type_name("SECONDS")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->group(kSecurityGroup);
 }
 
 std::optional<TlsIdentity> ListenerArguments::identity() const {
@@ -141,6 +145,7 @@ void addListenerOptions(CLI::App& command, ListenerArguments& a) {
       ->check(fileName());
   command.add_flag("--listen-unprotected", a.unprotected,
                    "listen on other interfaces without TLS and tokens: any client has full access");
+  setGroup(command, kSecurityGroup, {"--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"});
   refuseInsecure(command);
 }
 

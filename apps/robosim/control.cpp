@@ -9,6 +9,7 @@
 #include "base/text_table.h"
 #include "client/control_panel.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/connection.h"
 #include "robosim/subcommands.h"
 
@@ -145,8 +146,8 @@ void addControl(CLI::App& program) {
     ControlPanel panel(a->connectOptions());
     showLine(panel.load(source));
   });
-  load->add_option("FILE", a->world, "world file")->transform(inputFile())->required();
-  load->add_option("--seed", a->seed, "of the new run, 0 to 2^64 - 1; default: that of 'robosim serve'")
+  load->add_option("FILE", a->world, "world file")->transform(inputFile(kWorldKinds))->required();
+  load->add_option("--seed", a->seed, "of the new run; default: that of 'robosim serve'")
       ->check(seedNumber())
       ->type_name("NUMBER");
   add_call("start", "continue the run", [](ControlPanel& panel) { return panel.start(); });
@@ -170,11 +171,12 @@ void addControl(CLI::App& program) {
       ->required();
   add_call("stop", "end the run and the serving program", [](ControlPanel& panel) { return panel.stop(); });
   auto* status = add("status", "show the status of the run", [a] { showStatus(*a); });
-  status->add_flag("--watch", a->watch, "print one line per report until the run is over");
-  auto* interval = status->add_option("--interval", a->period_s, "with --watch: time between two reports")
+  const auto* watch = status->add_flag("--watch", a->watch, "print one line per report until the run is over");
+  auto* interval = status->add_option("--interval", a->period_s, "time between two reports")
                        ->check(numberIn(0.05, 3600))
                        ->type_name("SECONDS")
                        ->capture_default_str();
+  dependsOn(interval, watch);
   acceptFormerName(*status, *interval, "--every");
 }
 

@@ -19,6 +19,7 @@
 #include "rendering/stock_scene.h"
 #include "replay/export_recording.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/figure_arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
@@ -36,7 +37,8 @@ struct ExportArguments {
   std::vector<std::string> outs;
   std::optional<double> resolution_m;  ///< default: that of the map, else of MapExtent
   std::vector<double> heights_m;       ///< empty, or minimum and maximum
-  std::optional<std::uint64_t> seed;   ///< of random places; default: kDefaultSeed
+  WorldChanges changes;
+  std::optional<std::uint64_t> seed;  ///< of random places; default: kDefaultSeed
   FigureArguments figure;
 };
 
@@ -49,7 +51,7 @@ class Source {
   Source(const ExportArguments& arguments, Progress& progress)
       : arguments_(arguments),
         progress_(progress),
-        loaded_(loadWorld(arguments.world, {}, arguments.seed.value_or(kDefaultSeed))) {}
+        loaded_(changedWorld(arguments.world, arguments.changes, {}, arguments.seed.value_or(kDefaultSeed))) {}
 
   const LoadedWorld& loaded() const { return loaded_; }
 
@@ -242,6 +244,7 @@ std::vector<RecordingOutput> recordingOutputs(const ExportArguments& arguments) 
   if (arguments.resolution_m || !arguments.heights_m.empty() || arguments.seed) {
     throw ConfigError(what + "; --resolution, --heights and --seed are for worlds");
   }
+  if (!arguments.changes.isNone()) throw ConfigError(what + "; options of robots apply to a world or a map only");
   return outputs;
 }
 
@@ -309,32 +312,48 @@ void addExport(CLI::App& program) {
       ->add_option("WORLD", arguments->world,
                    "world file or map file; or a rawlog, recorded by RoboSim or another program, for .csv, .npz, .png, "
                    ".svg and .pdf")
-      ->transform(inputFile())
+      ->transform(inputFile([] {
+        std::vector<FileKind> kinds = kWorldKinds;
+        kinds.push_back(FileKind::rawlog);
+        return kinds;
+      }()))
       ->type_name("FILE")
       ->required();
   command->add_option("OUT", arguments->outs, "files to write; the extension selects the format")
       ->type_name("FILE")
       ->required()
       ->check(fileName());
-  command
-      ->add_option("--resolution", arguments->resolution_m,
-                   "side of a cell or voxel, 0.001 to 100 m; default: that of the world's map, whose cells are then "
-                   "kept as they "
-                   "are, and 0.05 m for a world without a map of cells")
-      ->check(numberIn(0.001, kCellMax_m))
-      ->type_name("METRES");
-  command
-      ->add_option(
-          "--heights", arguments->heights_m,
-          "include only objects between these heights above the ground, -1000 to 1000 m; default: for a grid what can "
-          "collide with a robot, for an OctoMap everything")
-      ->check(numberIn(-1000, 1000))
-      ->type_name("LOW HIGH")
-      ->expected(2);
-  command->add_option("--seed", arguments->seed, "seed of the places of <scatter>, as for 'robosim run'; 0 to 2^64 - 1")
+  addRobotOptions(*command, arguments->changes);
+  addRandomStartsOption(*command, arguments->changes);
+  command->add_option("--seed", arguments->seed, "seed of random places: of robots, starts and <scatter>")
       ->check(seedNumber())
       ->type_name("NUMBER")
-      ->default_str(std::to_string(kDefaultSeed));
+      ->default_str(std::to_string(kDefaultSeed))
+      ->group(kWorldGroup);
+  constexpr const char* kGrids = "an OUT in .gridmap, .gridmap.gz, .yaml, .png, .bt or .ot";
+  const auto has_grid = [arguments] {
+    return std::any_of(arguments->outs.begin(), arguments->outs.end(), [](const std::string& out) {
+      const auto is = [&](const char* ending) { return endsWith(out, ending); };
+      return is(".gridmap") || is(".gridmap.gz") || is(".yaml") || is(".png") || is(".bt") || is(".ot");
+    });
+  };
+  dependsOn(command
+                ->add_option("--resolution", arguments->resolution_m,
+                             "side of a cell or voxel; default: that of the world's map, whose cells are then kept as "
+                             "they are, and 0.05 m for a world without a map of cells")
+                ->check(numberIn(0.001, kCellMax_m))
+                ->type_name("METRES")
+                ->group(kGridGroup),
+            kGrids, has_grid);
+  dependsOn(command
+                ->add_option("--heights", arguments->heights_m,
+                             "include only objects between these heights above the ground in metres; default: for a "
+                             "grid what can collide with a robot, for an OctoMap everything")
+                ->check(numberIn(-1000, 1000))
+                ->type_name("LOW HIGH")
+                ->expected(2)
+                ->group(kGridGroup),
+            kGrids, has_grid);
   arguments->figure.addTo(*command, {});
   command->footer(formatsHelp());
   command->callback([arguments] { exportFiles(*arguments); });

@@ -9,15 +9,16 @@ namespace robosim {
 
 void FigureArguments::addTo(CLI::App& command, const FigurePage& defaults) {
   command
-      .add_option("--width-mm", width_mm,
-                  "figures in .svg and .pdf: width; the height follows from the world's shape, 20 to 2000")
+      .add_option("--width-mm", width_mm, "figures in .svg and .pdf: width; the height follows from the world's shape")
       ->type_name("MM")
       ->check(numberIn(20, 2000))
-      ->default_str(mrpt::format("%g", defaults.width_mm));
-  command.add_option("--font-pt", font_pt, "figures in .svg and .pdf: size of the text, 3 to 72")
+      ->default_str(mrpt::format("%g", defaults.width_mm))
+      ->group(kFigureGroup);
+  command.add_option("--font-pt", font_pt, "figures in .svg and .pdf: size of the text")
       ->type_name("POINTS")
       ->check(numberIn(3, 72))
-      ->default_str(mrpt::format("%g", defaults.font_pt));
+      ->default_str(mrpt::format("%g", defaults.font_pt))
+      ->group(kFigureGroup);
 }
 
 FigurePage FigureArguments::page(const FigurePage& defaults) const {

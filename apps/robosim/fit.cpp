@@ -53,7 +53,7 @@ void addFit(CLI::App& program) {
   auto* command = addSubcommand(program, "fit");
   auto a = std::make_shared<FitArguments>();
   command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog of a real robot with a laser scanner, best at rest")
-      ->transform(inputFile())
+      ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();
   command

@@ -7,6 +7,7 @@
 
 #include "base/atomic_file.h"
 #include "base/error_list.h"
+#include "base/nearest_name.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "base/xml_element.h"
@@ -44,7 +45,20 @@ std::string commentOf(const CLI::App& kind) {
   return text + " -->\n";
 }
 
+/// Reports an unknown type once, rather than at each robot.
+void requireTypes(const std::vector<std::string>& models, const std::string& file) {
+  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
+  std::vector<std::string> known;
+  for (const auto& [name, type] : types) known.push_back(name);
+  for (const auto& model : models) {
+    if (types.contains(model)) continue;
+    throw ConfigError("--types " + model + ": there is no robot type '" + quotable(model) + "'" +
+                      didYouMean(model, known) + "; known are: " + listed(known));
+  }
+}
+
 void generate(const GenerateArguments& arguments, const Scenery& scenery, const std::string& comment) {
+  requireTypes(arguments.team.models, arguments.out == "-" ? "world.xml" : arguments.out);
   World world = populated(scenery, arguments.team, arguments.seed);
   const std::string file = arguments.out == "-" ? "world.xml" : arguments.out;
   ErrorList errors;
@@ -78,7 +92,7 @@ CLI::App& addKind(CLI::App& command, const std::shared_ptr<GenerateArguments>& a
       ->check(seedNumber())
       ->type_name("NUMBER")
       ->capture_default_str();
-  kind.add_option("--robots", a->team.robots, "number of robots, far from each other; 0 to 10000")
+  kind.add_option("--robots", a->team.robots, "number of robots, far from each other")
       ->check(wholeNumberIn(0, 10'000))
       ->type_name("NUMBER")
       ->capture_default_str();
@@ -97,10 +111,7 @@ CLI::App& addKind(CLI::App& command, const std::shared_ptr<GenerateArguments>& a
 
 CLI::Option* addNumber(CLI::App& kind, const std::string& name, double& value, const std::string& help, double min,
                        double max, const char* unit) {
-  return kind.add_option(name, value, help + "; " + toText(min) + " to " + toText(max))
-      ->check(numberIn(min, max))
-      ->type_name(unit)
-      ->capture_default_str();
+  return kind.add_option(name, value, help)->check(numberIn(min, max))->type_name(unit)->capture_default_str();
 }
 
 void addSize(CLI::App& kind, double& width_m, double& length_m, double min_m) {
@@ -118,7 +129,7 @@ void addGenerate(CLI::App& program) {
   auto& maze = addKind(*command, a, "maze", "Square cells between thin walls; all are connected",
                        [](const GenerateArguments& it) { return generateMaze(it.maze, it.seed); });
   for (auto [name, count] : {std::pair{"--columns", &a->maze.columns}, std::pair{"--rows", &a->maze.rows}}) {
-    maze.add_option(name, *count, "number of cells; 2 to 1000")
+    maze.add_option(name, *count, "number of cells")
         ->check(wholeNumberIn(2, 1000))
         ->type_name("NUMBER")
         ->capture_default_str();

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <csignal>
 #include <iostream>
-#include <optional>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 
@@ -11,14 +11,15 @@
 #include "base/interrupt.h"
 #include "base/printable_stream.h"
 #include "base/printable_text.h"
+#include "robosim/command_line.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {
 namespace {
 
-int fail(const CLI::App& program, int code, const std::string& what) {
+int fail(const std::string& command, int code, const std::string& what) {
   std::cout.flush();
-  std::cerr << program.get_name() << ": " << what << '\n';
+  std::cerr << command << ": " << what << '\n';
   return code;
 }
 
@@ -29,77 +30,79 @@ std::string indented(const std::string& what) {
   return text;
 }
 
-/// The first word in the position of a subcommand that is no subcommand; CLI11 would report a missing subcommand
-/// instead.
-std::optional<std::string> unknownSubcommand(const CLI::App& program, int argc, char** argv) {
-  const CLI::App* command = &program;
-  std::string path = program.get_name();
-  for (int i = 1; i < argc && argv[i][0] != '-'; ++i) {
-    const auto all = command->get_subcommands([](const CLI::App*) { return true; });
-    const auto options = command->get_options();
-    const bool has_positional =
-        std::any_of(options.begin(), options.end(), [](const CLI::Option* option) { return option->get_positional(); });
-    if (all.empty() || has_positional) return std::nullopt;
-    const auto found =
-        std::find_if(all.begin(), all.end(), [&](const CLI::App* one) { return one->check_name(argv[i]); });
-    if (found == all.end()) {
-      std::string known;
-      for (const CLI::App* one : all) known += (known.empty() ? "" : ", ") + one->get_name();
-      return "there is no subcommand '" + quotable(argv[i]) + "' of " + path + "; known are: " + known + "; see " +
-             path + " --help";
-    }
-    command = *found;
-    path += " " + command->get_name();
-  }
-  return std::nullopt;
+constexpr const char* kFullDisk = "standard output could not be written; check whether the disk is full";
+
+/// What CLI11 rejects, in the words of this program.
+std::string textOf(const CLI::App& program, const CLI::ParseError& error) {
+  const auto extra = program.remaining(true);
+  if (error.get_exit_code() != static_cast<int>(CLI::ExitCodes::ExtrasError) || extra.empty()) return error.what();
+  return "unexpected argument '" + quotable(extra.front()) + "'";
 }
 
 }  // namespace
 
-int execute(CLI::App& program, int argc, char** argv) {
+void replaceHelpSubcommand(int argc, char** argv) {
+  static char help[] = "--help";
+  if (argc < 2 || argv[1] != std::string_view("help")) return;
+  std::rotate(argv + 1, argv + 2, argv + argc);
+  argv[argc - 1] = help;
+}
+
+int execute(CLI::App& program, int argc, char** argv, const std::function<void(CLI::App&)>& add_all) {
   removePartialFilesOnSignals();
   const PrintableStream out(std::cout), err(std::cerr);
-  if (const auto error = unknownSubcommand(program, argc, argv)) return fail(program, kBadInput, *error);
+  replaceHelpSubcommand(argc, argv);
+  const auto [command, unknown] = findArgumentError(program, argc, argv, add_all);
+  if (!unknown.empty()) return fail(command, kBadInput, unknown);
+  const auto end = [&](int code) {
+    std::cout.flush();
+    return std::cout ? code : fail(command, kRunFailed, kFullDisk);
+  };
+  program.parse_complete_callback([&program] { checkPartners(program); });
   try {
     program.parse(argc, argv);
-    std::cout.flush();
-    if (!std::cout)
-      return fail(program, kRunFailed, "standard output could not be written; check whether the disk is full");
-    return kDone;
+    return end(kDone);
   } catch (const CLI::ParseError& error) {
     // Help and version are not errors; everything else that CLI11 rejects is bad input, regardless of its own exit
     // code.
-    return program.exit(error) == 0 ? kDone : kBadInput;
+    if (error.get_exit_code() == 0) {
+      program.exit(error);
+      return end(kDone);
+    }
+    return fail(command, kBadInput, textOf(program, error) + "; see " + command + " --help");
   } catch (const Exit& exit) {
     return exit.code;
   } catch (const Interrupted& error) {
     const int signal = Interrupt::signal();
-    return fail(program, 128 + (signal != 0 ? signal : SIGINT), error.what());
+    return fail(command, 128 + (signal != 0 ? signal : SIGINT), error.what());
   } catch (const ConfigError& error) {
-    return fail(program, kBadInput, error.what());
+    return fail(command, kBadInput, error.what());
   } catch (const std::invalid_argument& error) {
-    return fail(program, kBadInput, indented(error.what()));
+    return fail(command, kBadInput, indented(error.what()));
   } catch (const std::exception& error) {
-    return fail(program, kRunFailed, indented(error.what()));
+    return fail(command, kRunFailed, indented(error.what()));
   }
 }
 
-int executeRobosim(std::initializer_list<void (*)(CLI::App&)> add, int argc, char** argv) {
+int executeRobosim(std::initializer_list<void (*)(CLI::App&)> add, int argc, char** argv,
+                   const std::function<void(CLI::App&)>& add_all) {
   CLI::App program(
       "RoboSim simulates teams of cooperating mobile robots with sensors, and records runs as MRPT rawlogs.");
   program.name("robosim");
+  setHelpFormat(program);
   program.set_version_flag("--version", "robosim " ROBOSIM_VERSION);
   program.require_subcommand(1);
-  program.footer(
-      "Try:  robosim run worlds/opho2_1.xml --picture run.png\n"
-      "Exit codes: 0 success, 1 bad input, 2 run failed, 128 + N ended by signal N (130 Ctrl-C). serve and remote\n"
-      "      run until a signal, which is then their regular end; of serve: 3 run incomplete (without some of its "
-      "robots),\n"
-      "      4 a geometry worker returned wrong results.\n"
-      "Log records on standard error: ROBOSIM_LOG_LEVEL=debug|info|warning|error omits those below a level (default "
-      "info).");
   for (const auto add_subcommand : add) add_subcommand(program);
-  return execute(program, argc, argv);
+  // Set last, because subcommands would inherit it.
+  program.footer(
+      "Try:  robosim run opho2_1 --picture run.png\n"
+      "      robosim help run                    (the same as robosim run --help)\n"
+      "Exit codes: 0 success, 1 bad input, 2 run failed, 128 + N ended by signal N (130 Ctrl-C). serve and\n"
+      "      remote run until a signal, which is then their regular end; of serve: 3 run incomplete\n"
+      "      (without some of its robots), 4 a geometry worker returned wrong results.\n"
+      "Log records on standard error: ROBOSIM_LOG_LEVEL=debug|info|warning|error omits those below a level\n"
+      "      (default info).");
+  return execute(program, argc, argv, add_all);
 }
 
 }  // namespace robosim

@@ -71,8 +71,8 @@ class ProgramRanks::Quiet {
   /// The error that the program has printed, without its name.
   std::string error() const {
     std::string text = kept_.str();
-    const std::string_view name = "robosim: ";
-    if (text.starts_with(name)) text.erase(0, name.size());
+    const std::size_t end = text.find(": ");  // of "robosim run: "
+    if (text.starts_with("robosim") && end != std::string::npos) text.erase(0, end + 2);
     while (text.ends_with('\n')) text.pop_back();
     return text;
   }

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include <CLI/CLI.hpp>
+#include <unistd.h>
 
 #include "base/error_list.h"
 #include "base/interrupt.h"
@@ -14,6 +15,7 @@
 #include "net/listen.h"
 #include "remote/console.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/connection.h"
 #include "robosim/remote_joystick.h"
 #include "robosim/subcommands.h"
@@ -52,6 +54,16 @@ std::vector<RobotAddress> readTeam(const std::string& file) {
   return team;
 }
 
+/// An address that a browser can open: the name of this machine instead of all its addresses.
+std::string reachable(const std::string& listen) {
+  const std::size_t colon = listen.rfind(':');
+  const std::string host = listen.substr(0, colon);
+  if (host != "0.0.0.0" && host != "[::]") return listen;
+  char name[256] = "";
+  if (gethostname(name, sizeof name - 1) != 0 || *name == '\0') return listen;
+  return name + listen.substr(colon);
+}
+
 void openConsole(const RemoteArguments& arguments) {
   const Interrupt interrupt;
   const auto team = readTeam(arguments.robots);
@@ -71,7 +83,7 @@ void openConsole(const RemoteArguments& arguments) {
   options.log = log;
   Console console(options, team);
   log("the console is at " + std::string(options.tls ? "https" : "http") + "://" +
-      withPort(options.listen, console.port()) + "/");
+      withPort(reachable(options.listen), console.port()) + "/");
   console.serve([&] { return interrupt.isRequested(); });
 }
 
@@ -91,7 +103,7 @@ void addRemote(CLI::App& program) {
   auto* command = addSubcommand(program, "remote");
   auto a = std::make_shared<RemoteArguments>();
   command->add_option("ROBOTS", a->robots, "robot list with the address of each robot's program (robot --remote-port)")
-      ->transform(inputFile())
+      ->transform(inputFile({FileKind::robot_list}))
       ->type_name("FILE")
       ->required();
   auto* listen =
@@ -105,15 +117,19 @@ void addRemote(CLI::App& program) {
           ->check(wholeNumberIn(0, 31))
           ->type_name("N")
           ->excludes(listen);
-  command
-      ->add_option("--top-speed", a->top_speed_percent,
-                   "with --joystick, the top speed of stick and buttons in percent of the robot's maximum, 10 to 100; "
-                   "the page has a slider")
-      ->check(wholeNumberIn(10, 100))
-      ->type_name("PERCENT")
-      ->needs(joystick)
-      ->capture_default_str();
+  dependsOn(
+      command
+          ->add_option("--top-speed", a->top_speed_percent,
+                       "the top speed of the joystick's stick and buttons, of the robot's maximum; the page has a "
+                       "slider")
+          ->check(wholeNumberIn(10, 100))
+          ->type_name("PERCENT")
+          ->capture_default_str(),
+      joystick);
   addListenerOptions(*command, a->listener);
+  for (const char* name : {"--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
+    joystick->excludes(command->get_option(name));
+  }
   addConnectionOptions(*command, a->connection);
   command->footer(kRemoteSession);
   command->callback([a] { a->joystick ? openJoystick(*a) : openConsole(*a); });

@@ -6,6 +6,7 @@
 #include "base/interrupt.h"
 #include "base/rereadable_file.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/run_arguments.h"
 #include "robosim/subcommands.h"
 #include "run/run_observers.h"
@@ -43,7 +44,7 @@ void addReplay(CLI::App& program) {
   auto* command = addSubcommand(program, "replay");
   auto a = std::make_shared<ReplayArguments>();
   command->add_option("RAWLOG", a->rawlog, "an MRPT rawlog, recorded by RoboSim or another program")
-      ->transform(inputFile())
+      ->transform(inputFile(kRecordingKinds))
       ->type_name("FILE")
       ->required();
   auto* robot = command->add_option("--robot", a->robots, "select this robot; repeatable");
@@ -59,35 +60,37 @@ void addReplay(CLI::App& program) {
   to->type_name("SECONDS")->check(numberIn(0, 1e18));
 
   auto* print = command->add_flag("--print", a->print, "print one line per observation");
-  command
-      ->add_flag("--csv", a->csv,
-                 "with --print: comma-separated values, with a line of column names before each label's first "
-                 "observation: seconds, label, and all values in full; empty for no echo")
-      ->needs(print);
-  command
-      ->add_option_function<std::string>(
-          "--speed", [a](const std::string& text) { a->speed = speedNumber(text); },
-          "with --print: recorded seconds per second (1 is real time) or max")
-      ->type_name("X|max")
-      ->default_str("max")
-      ->needs(print);
+  dependsOn(command->add_flag("--csv", a->csv,
+                              "comma-separated values, with a line of column names before each label's first "
+                              "observation: seconds, label, and all values in full; empty for no echo"),
+            print);
+  dependsOn(command
+                ->add_option_function<std::string>(
+                    "--speed", [a](const std::string& text) { a->speed = speedNumber(text); },
+                    "recorded seconds per second (1 is real time) or max")
+                ->type_name("X|max")
+                ->default_str("max"),
+            print);
 
   auto* controller = addControllerOption(
       *command, a->controller,
       "feed the recorded readings to this controller, and report where its commands differ from those recorded; "
       "'recorded' selects each robot's recorded controller",
       "recorded");
-  command->add_option("--tolerance", a->tolerance, "commands that differ by at most this are equal [m/s, rad/s, rad]")
-      ->check(numberIn(0, 1e6))
-      ->capture_default_str()
-      ->needs(controller);
+  dependsOn(
+      command
+          ->add_option("--tolerance", a->tolerance, "commands that differ by at most this are equal [m/s, rad/s, rad]")
+          ->check(numberIn(0, 1e6))
+          ->type_name("NUMBER")
+          ->capture_default_str(),
+      controller);
   auto* check =
       command
           ->add_option("--check", a->check,
                        "repeat the run of this world with the recorded seed, and report whether it is identical; if "
                        "not, where it first differs")
           ->type_name("WORLD")
-          ->transform(inputFile());
+          ->transform(inputFile(kWorldKinds));
   auto* truth = command->add_option("--ground-truth", a->ground_truth,
                                     "write the true path of one robot to this text file: lines of time [s since 1970], "
                                     "x, y, z [m], yaw, pitch, roll [rad], as MRPT's pf-localization "
@@ -114,6 +117,9 @@ void addReplay(CLI::App& program) {
       ->excludes(controller)
       ->excludes(truth)
       ->excludes(output);
+  setGroup(*command, kSelectionGroup, {"--robot", "--sensor", "--from", "--to"});
+  setGroup(*command, "Output", {"--print", "--csv", "--speed", "--ground-truth", "--output", "--json"});
+  setGroup(*command, "Repetition", {"--controller", "--tolerance", "--check", "--observer"});
   const std::string examples =
       "Try:  robosim replay run.rawlog --robot Pioneer1 --sensor laser --print --csv > laser.csv\n"
       "      robosim replay run.rawlog --robot Pioneer1 --sensor laser --sensor odometry --output slam.rawlog\n"

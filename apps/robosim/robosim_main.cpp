@@ -36,13 +36,27 @@ void addRunSubcommands(CLI::App& program) {
   }
 }
 
+AddSubcommands netSubcommands() {
+  return functionIn("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
+}
+
+AddSubcommands viewSubcommands() {
+  return functionIn("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
+}
+
+/// For the error that an unknown option is one of another subcommand.
+void addAllSubcommands(CLI::App& program) {
+  addRunSubcommands(program);
+  netSubcommands()(program);
+  viewSubcommands()(program);
+}
+
 AddSubcommands subcommandsFor(int argc, char** argv) {
   const Subcommand* subcommand = argc > 1 ? subcommandNamed(argv[1]) : nullptr;
   if (!subcommand) return addNames;
   const std::string_view part = partFor(*subcommand, argc, argv);
-  if (part == "robosim-net") return functionIn("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
-  if (part == "robosim-view")
-    return functionIn("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
+  if (part == "robosim-net") return netSubcommands();
+  if (part == "robosim-view") return viewSubcommands();
   return addRunSubcommands;
 }
 
@@ -57,8 +71,11 @@ int robosimMain(int argc, char** argv, const Registry& registry) {
     return kBadInput;
   }
   try {
+    replaceHelpSubcommand(argc, argv);
     ProgramRanks ranks(argc, argv);
-    return ranks.execute([&] { return executeRobosim({subcommandsFor(argc, argv), addPluginOptions}, argc, argv); });
+    return ranks.execute([&] {
+      return executeRobosim({subcommandsFor(argc, argv), addPluginOptions}, argc, argv, addAllSubcommands);
+    });
   } catch (const ConfigError& error) {
     // All processes have the same error; mpirun would end rank 0 before its message if another one failed first.
     if (launchedRank().rank > 0) return kDone;

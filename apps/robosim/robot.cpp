@@ -14,6 +14,7 @@
 #include "net/tls.h"
 #include "remote/remote_port.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/connection.h"
 #include "robosim/robot_arguments.h"
 #include "robosim/subcommands.h"
@@ -191,7 +192,7 @@ void addRobot(CLI::App& program) {
       ->add_option("--map", a->map,
                    "world file that controllers which know the world, such as oracle, have as their map")
       ->type_name("FILE")
-      ->transform(inputFile());
+      ->transform(inputFile(kWorldKinds));
   command->add_flag("--join-next-run", a->joins_next_run,
                     "after the end of a run, drive in the next one that the environment serves, with a new controller");
   addConnectTimeout(*command, a->connection);
@@ -210,6 +211,14 @@ void addRobot(CLI::App& program) {
       ->capture_default_str();
   addListenerOptions(*command, a->listener);
   addArcosRobotOptions(*command, *a);
+  const CLI::Option* remote_port = command->get_option("--remote-port");
+  for (const char* name : {"--dead-man", "--tls-cert", "--tls-key", "--tokens", "--listen-unprotected"}) {
+    dependsOn(command->get_option(name), remote_port)->group("Remote control");
+  }
+  command->get_option("--remote-port")->group("Remote control");
+  for (const char* name : {"--separate-processes", "--map", "--join-next-run"}) {
+    command->get_option(name)->excludes("--arcos");
+  }
   command->footer(kRobotExamples);
   command->callback([a] {
     if (!a->arcos.empty()) return driveArcosRobot(*a);

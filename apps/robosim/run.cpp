@@ -23,6 +23,7 @@
 #include "recording/recording_error.h"
 #include "replay/run_tables.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/run_arguments.h"
 #include "robosim/run_command.h"
 #include "robosim/subcommands.h"
@@ -271,27 +272,35 @@ void addRunCommand(CLI::App& program, const RunWindow& window) {
       ->add_option("--csv", arguments->csv,
                    "write all values as comma-separated values, one row per robot and step, as 'robosim export' does")
       ->type_name("FILE")
-      ->check(fileName());
+      ->check(fileName())
+      ->group(kRecordingGroup);
   command->add_option("--npz", arguments->npz, "the same as NumPy's arrays, for each robot and sensor")
       ->type_name("FILE")
-      ->check(fileName());
-  command
-      ->add_option("--balance", arguments->balance_steps,
-                   "with mpirun: divide moves and sensors again by the processes' times after every N steps; 0: never")
-      ->type_name("N")
-      ->capture_default_str();
-  command
-      ->add_option("--exchange", arguments->exchange,
-                   "with mpirun: whether each process knows all robots, or only those near its own; auto: those near "
-                   "its own if that is possible and spares work")
-      ->type_name("auto|near|all")
-      ->check(CLI::IsMember({"auto", "near", "all"}))
-      ->capture_default_str();
+      ->check(fileName())
+      ->group(kRecordingGroup);
+  constexpr const char* kRanks = "mpirun with several processes";
+  const auto has_ranks = [] { return rankGroup().size() > 1; };
+  dependsOn(command
+                ->add_option("--balance", arguments->balance_steps,
+                             "divide moves and sensors again by the processes' times after every N steps; 0: never")
+                ->type_name("N")
+                ->capture_default_str()
+                ->group(kRunGroup),
+            kRanks, has_ranks);
+  dependsOn(command
+                ->add_option("--exchange", arguments->exchange,
+                             "whether each process knows all robots, or only those near its own; auto: those near its "
+                             "own if that is possible and spares work")
+                ->check(CLI::IsMember({"auto", "near", "all"}))
+                ->capture_default_str()
+                ->group(kRunGroup),
+            kRanks, has_ranks);
   auto has_view = std::make_shared<bool>(false);
-  command->add_flag(
-      std::string(kViewOption), *has_view,
-      "show the run in a window, in real time unless --speed is given; closing the window ends the run, and "
-      "the window stays open after the run has ended; keys as for 'robosim view'");
+  command
+      ->add_flag(std::string(kViewOption), *has_view,
+                 "show the run in a window, in real time unless --speed is given; closing the window ends the run, and "
+                 "the window stays open after the run has ended; keys as for 'robosim view'")
+      ->group(kRunGroup);
   command->footer(controllersHelp);
   command->callback([arguments, window, command, has_view] {
     const bool has_speed = command->count("--speed") > 0;

@@ -5,51 +5,56 @@
 #include "base/text_table.h"
 #include "maze/controllers.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 
 namespace robosim {
 
 void addRunArguments(CLI::App& command, RunArguments& a) {
   command.add_option("WORLD", a.world, "world file or map file; a shipped one also by name alone: maze_20x20")
       ->type_name("FILE")
-      ->transform(inputFile())
+      ->transform(inputFile(kWorldKinds))
       ->required();
   addRobotOptions(command, a.changes);
-  command.add_flag("--random-starts", a.changes.has_random_starts,
-                   "move every robot to a random pose that it can reach from its start");
+  addRandomStartsOption(command, a.changes);
   addNoiseOption(command, a.changes);
-  command.add_option("--record", a.record, "record the run as an MRPT rawlog to this file")
-      ->type_name("FILE")
-      ->check(fileName());
-  command
-      .add_option("--rawlog-format", a.rawlog_format,
-                  "obs: observations; sf: pairs of action and sensory frame, one file per robot")
-      ->check(CLI::IsMember({"obs", "sf"}))
-      ->capture_default_str();
-  command
-      .add_option("--record-images", a.record_images,
-                  "camera pictures: embedded in the rawlog, or external, as JPEG files in the folder STEM_Images")
-      ->check(CLI::IsMember({"embedded", "external"}))
-      ->capture_default_str();
-  command
-      .add_option("--seed", a.run.environment.seed,
-                  "seed of all random numbers: noise, random starts, controllers; 0 to 2^64 - 1")
-      ->check(seedNumber())
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  addSeedOption(command, a.run.environment.seed, "seed of all random numbers: noise, random starts, controllers");
+  auto* record = command.add_option("--record", a.record, "record the run as an MRPT rawlog to this file")
+                     ->type_name("FILE")
+                     ->check(fileName())
+                     ->group(kRecordingGroup);
+  auto* format = command
+                     .add_option("--rawlog-format", a.rawlog_format,
+                                 "obs: observations; sf: pairs of action and sensory frame, one file per robot")
+                     ->check(CLI::IsMember({"obs", "sf"}))
+                     ->capture_default_str()
+                     ->group(kRecordingGroup);
+  dependsOn(format, record);
+  auto* images =
+      command
+          .add_option("--record-images", a.record_images,
+                      "camera pictures: embedded in the rawlog, or external, as JPEG files in the folder STEM_Images")
+          ->check(CLI::IsMember({"embedded", "external"}))
+          ->capture_default_str()
+          ->group(kRecordingGroup);
+  dependsOn(images, record);
   addTime(command, a.time_s, "simulated time limit; the run ends earlier if all robots have halted");
   addStep(command, a.run.environment.period_s);
   addThreads(command, a.run.environment.threads, "number of threads; the run does not depend on it");
   command.add_option("--speed", a.speed, "simulated seconds per second: max, or 0.001 to 1000000 (1 is real time)")
       ->type_name("X|max")
-      ->capture_default_str();
-  addControllerOption(command, a.run.controller, "controller of all robots, instead of those in the world");
-  addObserverOption(command, a.run.observers, "watch the run with this observer: metrics, an end of its own, a log");
+      ->capture_default_str()
+      ->group(kRunGroup);
+  addControllerOption(command, a.run.controller, "controller of all robots, instead of those in the world")
+      ->group(kRunGroup);
+  addObserverOption(command, a.run.observers, "watch the run with this observer: metrics, an end of its own, a log")
+      ->group(kRunGroup);
   command
       .add_option("--picture", a.picture,
                   "draw the world from above, with the paths of all robots, to this PNG, SVG or PDF file")
       ->type_name("FILE")
-      ->check(fileName());
-  command.add_flag("--json", a.json, "print the summary as one JSON object");
+      ->check(fileName())
+      ->group(kRecordingGroup);
+  command.add_flag("--json", a.json, "print the summary as one JSON object")->group(kRecordingGroup);
 }
 
 void checkRunArguments(const RunArguments& a) {

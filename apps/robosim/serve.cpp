@@ -13,6 +13,7 @@
 #include "net/host_port.h"
 #include "recording/recording_error.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/connection.h"
 #include "robosim/run_arguments.h"
 #include "robosim/serve_arguments.h"
@@ -132,8 +133,6 @@ void addFactoryRobots(const std::string& factory, WorldChanges& changes) {
 /// @throws ConfigError for options that do not fit
 std::optional<ArcosOptions> arcosOptions(const ServeArguments& arguments) {
   if (arguments.arcos.empty()) {
-    if (!arguments.arcos_factory.empty())
-      throw ConfigError("--arcos-factory needs --arcos with an address, as in 8101");
     return std::nullopt;
   }
   if (paceOf(arguments) != "realtime")
@@ -185,30 +184,38 @@ void serveWorld(const ServeArguments& arguments) {
 }
 
 void addArcosOptions(CLI::App& command, ServeArguments& arguments) {
-  command
-      .add_option("--arcos", arguments.arcos,
-                  "serve robots to programs that speak ARCOS, such as those of ARIA: each robot without a controller "
-                  "whose type has <arcos>, the first on this port, the others on the ports that follow")
-      ->type_name("[HOST:]PORT");
-  command
-      .add_option("--arcos-factory", arguments.arcos_factory,
-                  "serve ARCOS programs on one port: for each, a robot of this type comes to a random free place, and "
-                  "leaves with the program. NUMBER: the most at once; default: 32, or as many as there is room for")
-      ->type_name("TYPE[:NUMBER]");
-  command.add_flag("--arcos-all", arguments.arcos_all,
-                   "serve robots with a controller in the world to ARCOS programs, too");
-  command.add_flag("--arcos-unprotected", arguments.arcos_unprotected,
-                   "allow ARCOS programs from other machines, without passwords or encryption");
+  const CLI::Option* arcos =
+      command
+          .add_option("--arcos", arguments.arcos,
+                      "serve robots to programs that speak ARCOS, such as those of ARIA: each robot without a "
+                      "controller whose type has <arcos>, the first on this port, the others on the ports that follow")
+          ->type_name("[HOST:]PORT");
+  dependsOn(command
+                .add_option("--arcos-factory", arguments.arcos_factory,
+                            "serve ARCOS programs on one port: for each, a robot of this type comes to a random free "
+                            "place, and leaves with the program. NUMBER: the most at once; default: 32, or as many as "
+                            "there is room for")
+                ->type_name("TYPE[:NUMBER]"),
+            arcos);
+  dependsOn(command.add_flag("--arcos-all", arguments.arcos_all,
+                             "serve robots with a controller in the world to ARCOS programs, too"),
+            arcos);
+  dependsOn(command.add_flag("--arcos-unprotected", arguments.arcos_unprotected,
+                             "allow ARCOS programs from other machines, without passwords or encryption"),
+            arcos);
+  setGroup(command, kArcosGroup, {"--arcos", "--arcos-factory", "--arcos-all", "--arcos-unprotected"});
 }
 
 void addServe(CLI::App& program) {
   auto* command = addSubcommand(program, "serve");
   auto a = std::make_shared<ServeArguments>();
   addRunArguments(*command, a->of_run);
-  command->add_flag(
-      "--record-on-request", a->of_run.is_recorded_on_request,
-      "with --record: the recording is off until a control panel starts it (robosim control record on), or an "
-      "operator on the page of robosim remote");
+  dependsOn(command
+                ->add_flag("--record-on-request", a->of_run.is_recorded_on_request,
+                           "the recording is off until a control panel starts it (robosim control record on), or an "
+                           "operator on the page of robosim remote")
+                ->group(kRecordingGroup),
+            command->get_option("--record"));
   command->add_flag("--wait-for-robots", a->wait_for_robots,
                     "wait for a robot process for every robot, including those with a controller in the world");
   command->add_option("--listen", a->listen, "host:port, or viewers=…,robots=…,geometry=…,control=…")
@@ -244,15 +251,15 @@ void addServe(CLI::App& program) {
                     "answer gRPC's health checks on every port, for every client, without a token");
   command->add_flag("--reflection", a->standard_services.reflection,
                     "describe the protocol to gRPC tools on every port, for every client, without a token");
+  setGroup(*command, kClientsGroup,
+           {"--wait-for-robots", "--listen", "--pace", "--step-deadline", "--on-lost-robot", "--check-results",
+            "--paused", "--await-next-run", "--health", "--reflection"});
   addArcosOptions(*command, *a);
   addListenerOptions(*command, a->listener);
   command->footer([] { return std::string(kServeSession) + "\n" + controllersHelp(); });
   command->callback([a, command] {
     // Programs drive for as long as they wish.
     if (!a->arcos.empty() && command->count("--time") == 0) a->of_run.time_s = kUnlimited_s;
-    if (a->of_run.is_recorded_on_request && a->of_run.record.empty()) {
-      throw ConfigError("--record-on-request needs --record with the name of the first file, as in run.rawlog");
-    }
     serveWorld(*a);
   });
 }

@@ -9,6 +9,7 @@
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
 #include "robosim/arguments.h"
+#include "robosim/command_line.h"
 #include "robosim/connection.h"
 #include "robosim/figure_arguments.h"
 #include "robosim/subcommands.h"
@@ -126,7 +127,12 @@ void checkTimes(const ViewArguments& a, const ViewSource& source) {
 }
 
 void view(ViewArguments a) {
-  if (const auto file = findDataFile(a.source)) a.source = file->string();
+  if (const auto file = findDataFile(a.source)) {
+    a.source = file->string();
+    std::vector<FileKind> kinds = kWorldKinds;
+    kinds.push_back(FileKind::rawlog);
+    requireKind(*file, kinds);
+  }
   const Size size = sizeFrom(a.size);
   a.figure.check(isFigure(a.offscreen), a.offscreen);
   if (isFigure(a.offscreen)) checkFigure(a);
@@ -164,10 +170,9 @@ void addView(CLI::App& program) {
       ->type_name("ADDRESS|FILE")
       ->required();
   addRobotOptions(*command, a->changes);
-  command->add_option("--seed", a->seed, "worlds: seed of the places of --random-robots and <scatter>; 0 to 2^64 - 1")
-      ->check(seedNumber())
-      ->type_name("NUMBER")
-      ->capture_default_str();
+  addRandomStartsOption(*command, a->changes);
+  addNoiseOption(*command, a->changes);
+  addSeedOption(*command, a->seed, "worlds: seed of random places, of robots, starts and <scatter>, and of noise");
   command->add_flag("--2d", a->is_2d, "from above, to scale (the default)");
   command->add_flag("--3d", a->is_3d, "in perspective; may be combined with --2d");
   command->add_option("--follow", a->follow, "follow this robot; repeatable, adds a view each")->type_name("ROBOT");
@@ -205,9 +210,13 @@ void addView(CLI::App& program) {
   command->add_option("--speed", a->times.speed, "recordings: recorded seconds per second")
       ->check(numberIn(0.001, 1e6))
       ->default_str("1");
-  command->add_option("--fps", a->times.fps, "frames per second of a video")
-      ->check(numberIn(1, 120))
-      ->capture_default_str();
+  auto* fps = command->add_option("--fps", a->times.fps, "frames per second of a video")
+                  ->check(numberIn(1, 120))
+                  ->type_name("NUMBER")
+                  ->capture_default_str();
+  dependsOn(fps, "--offscreen FILE.mp4 or FILE.webm", [a] { return isVideo(a->offscreen); });
+  setGroup(*command, "Views", {"--2d", "--3d", "--follow", "--view", "--size", "--scale", "--antialias", "--camera"});
+  setGroup(*command, kFigureGroup, {"--offscreen", "--from", "--to", "--for", "--speed", "--fps"});
   addSecurityOptions(*command, a->connection);
   addConnectTimeout(*command, a->connection);
   Rows keys;

@@ -5,14 +5,14 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/log.h"
 #include "base/random.h"
 #include "base/xml_element.h"
 #include "base/xml_parser.h"
 #include "environment/start_poses.h"
-#include "geometry/shapes/path.h"
-#include "robots/free_space.h"
 #include "robots/robot_type_includes.h"
 #include "robots/scatter.h"
+#include "robots/start_places.h"
 #include "world/map_reader.h"
 #include "world/world_file.h"
 
@@ -91,76 +91,24 @@ void addRobots(const WorldSource& source, const RobotTypes& types, const std::ve
   }
 }
 
-/// The positions in the largest region that is known to be free at which a robot of a type is clear of the others.
-class FreePlaces {
- public:
-  FreePlaces(const WorldSource& source, const RobotTypes& types, const std::string& model, const World& world)
-      : FreePlaces(source, types, robotOfType(types, model), world) {}
-  FreePlaces(const WorldSource& source, const RobotTypes& types, FleetRobot type, const World& world)
-      : type_(std::move(type)), free_(world, type_.info.radius_m, type_.body.heights()) {
-    free_.blockUnknown(world);
-    cells_ = free_.largestRegion();
-    for (const auto& robot : fleetOf(world, source.file, types).robots) {
-      taken_.push_back({{robot.world_from_start.x, robot.world_from_start.y}, robot.info.radius_m});
-    }
-  }
-
-  /// Takes a random place. @return nullopt when there is none
-  std::optional<mrpt::math::TPoint2D> takeRandom(Rng& rng) {
-    while (!cells_.empty()) {
-      const std::size_t draw = rng.below(static_cast<std::uint32_t>(cells_.size()));
-      const mrpt::math::TPoint2D place = free_.place(cells_[draw]);
-      cells_[draw] = cells_.back();
-      cells_.pop_back();
-      if (take(place)) return place;
-    }
-    return std::nullopt;
-  }
-
-  /// Takes the place nearest to a position. @return nullopt when there is none
-  std::optional<mrpt::math::TPoint2D> takeNearest(const mrpt::math::TPoint2D& to) {
-    const auto distance = [&](std::size_t cell) { return (free_.place(cell) - to).sqrNorm(); };
-    std::stable_sort(cells_.begin(), cells_.end(),
-                     [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
-    for (const std::size_t cell : cells_) {
-      if (take(free_.place(cell))) return free_.place(cell);
-    }
-    return std::nullopt;
-  }
-
- private:
-  bool take(const mrpt::math::TPoint2D& place) {
-    const bool is_clear = std::none_of(taken_.begin(), taken_.end(), [&](const Circle& other) {
-      return (other.center - place).norm() < other.radius_m + type_.info.radius_m + kContactGap_m;
-    });
-    if (is_clear) taken_.push_back({place, type_.info.radius_m});
-    return is_clear;
-  }
-
-  FleetRobot type_;
-  FreeSpace free_;
-  std::vector<std::size_t> cells_;
-  std::vector<Circle> taken_;
-};
-
-/// Adds the robots without a pose: at `home` if it is free, else as near to it as possible.
-void addRobotsNear(const mrpt::math::TPose2D& home, const WorldSource& source, const RobotTypes& types,
+/// Adds the robots without a pose: the first by findStart() among the homes, the others at free places near it.
+void addRobotsNear(std::vector<mrpt::math::TPose2D> homes, const WorldSource& source, const RobotTypes& types,
                    const std::vector<AddedRobot>& robots, FreeNames& names, World& world) {
   for (const auto& robot : robots) {
     if (robot.world_from_robot) continue;
-    world.robots.push_back(placed(robot.model, home, names.next(robot.name)));
-    ErrorList errors;
-    buildFleet(world, source.file, types, {}, errors);
-    if (errors.empty()) continue;
-    RobotPlacement added = world.robots.back();
-    world.robots.pop_back();
-    const auto place = FreePlaces(source, types, robot.model, world).takeNearest({home.x, home.y});
-    if (!place) {
+    RobotPlacement added = placed(robot.model, homes.front(), names.next(robot.name));
+    const auto found = findStart(world, source.file, types, added, homes);
+    if (!found) {
       throw ConfigError("there is no room for robot '" + added.name + "' in " + source.file +
                         "; use fewer robots, or a larger world");
     }
-    added.world_from_robot = {place->x, place->y, home.phi};
+    added.world_from_robot = found->world_from_robot;
     world.robots.push_back(added);
+    const bool is_first_on_map = isMapFile(source.file) && world.robots.size() == 1;
+    if (is_first_on_map && !found->warning.empty()) {
+      logWarning("", source.file + ": robot '" + added.name + "' " + found->warning);
+    }
+    homes = {added.world_from_robot};
   }
 }
 
@@ -181,7 +129,7 @@ void linkNeighbours(std::vector<RobotPlacement>& robots, std::size_t first) {
 void addRandomRobots(const WorldSource& source, const RobotTypes& types, const WorldChanges& changes,
                      std::uint64_t seed, FreeNames& names, World& world) {
   if (changes.random_robots == 0) return;
-  FreePlaces places(source, types, changes.random_model, world);
+  FreePlaces places(world, fleetOf(world, source.file, types), robotOfType(types, changes.random_model));
   Rng rng(seed, RandomPurpose::start_pose, 1);
   for (int added = 0; added < changes.random_robots; ++added) {
     const auto place = places.takeRandom(rng);
@@ -203,7 +151,7 @@ void makeTeam(const WorldSource& source, const RobotTypes& types, int size, std:
   const FleetRobot type = fleetOf(world, source.file, types).robots.front();
   world.robots.clear();
   FreeNames names(world);
-  FreePlaces places(source, types, type, world);
+  FreePlaces places(world, fleetOf(world, source.file, types), type);
   Rng rng(seed, RandomPurpose::start_pose, 2);
   for (int i = 0; i < size; ++i) {
     const auto place = places.takeRandom(rng);
@@ -270,14 +218,21 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   const RobotTypes types = typesFor(source);
   placeScattered(world, source.file, types, source.seed.value_or(seed), errors);
   errors.throwIfAny();
-  const mrpt::math::TPose2D home = world.robots.empty() ? mrpt::math::TPose2D() : world.robots.front().world_from_robot;
-  if (changes.addsRobots() && isMapFile(source.file)) world.robots.clear();
+  std::vector<mrpt::math::TPose2D> homes{{}};
+  if (changes.addsRobots() && isMapFile(source.file)) {
+    world.robots.clear();
+    if (auto starts = startsOfMaps(world); !starts.empty()) homes = std::move(starts);
+  } else if (hasRobotsAtMapStarts(world)) {
+    world = placedWorld(std::move(world), source.file, types, {}, seed, errors).world;
+    errors.throwIfAny();
+  }
+  if (!world.robots.empty()) homes = {world.robots.front().world_from_robot};
   if (changes.team) makeTeam(source, types, *changes.team, seed, world);
   if (changes.adds_radio_errors && !specifiesCommunication(source)) world.communication = kAddedRadio;
   if (changes.message_loss) world.communication.loss_probability = *changes.message_loss;
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);
-  addRobotsNear(home, source, types, changes.robots, names, world);
+  addRobotsNear(homes, source, types, changes.robots, names, world);
   const std::size_t named = world.robots.size();
   addRandomRobots(source, types, changes, seed, names, world);
   linkNeighbours(world.robots, named);
@@ -299,6 +254,14 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
   }
   changed.text = toXml(world);
   return changed;
+}
+
+LoadedWorld changedWorld(const std::string& file, const WorldChanges& changes, const ControllerCheck& check_controller,
+                         std::uint64_t seed) {
+  if (changes.isNone()) return loadWorld(file, check_controller, seed);
+  WorldSource source = readWorldSource(file);
+  source.seed = seed;
+  return loadWorld(withChanges(source, changes, seed), check_controller);
 }
 
 }  // namespace robosim

@@ -54,4 +54,9 @@ struct WorldChanges {
 /// @throws ConfigError for a faulty world, an unknown type, and a robot that overlaps something
 WorldSource withChanges(const WorldSource&, const WorldChanges&, std::uint64_t seed);
 
+/// A world file or a map with these changes: what each command and the Python package build from their arguments.
+/// @param seed of random places @throws ConfigError as withChanges() and loadWorld()
+LoadedWorld changedWorld(const std::string& file, const WorldChanges& changes, const ControllerCheck& check_controller,
+                         std::uint64_t seed);
+
 }  // namespace robosim

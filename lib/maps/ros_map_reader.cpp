@@ -68,10 +68,25 @@ class RosMapReader {
     try {
       return readPicture(files.read(name), files.pathOf(name), alpha);
     } catch (const ConfigError& error) {
-      report(root_["image"], "image", error.what());
+      report(root_["image"], "image", withoutImage(error.what(), files.pathOf(name)) + besideText(name, files));
       errors_.throwIfAny();
       throw;
     }
+  }
+
+  /// An absolute path is that of the error already.
+  std::string withoutImage(const std::string& error, const std::string& path) {
+    const bool is_same = path == root_["image"].Scalar() && error.starts_with(path + ": ");
+    return is_same ? error.substr(path.size() + 2) : error;
+  }
+
+  /// For a picture whose path is that of another computer, and that lies beside the file.
+  std::string besideText(const std::string& name, const FileProvider& files) {
+    const std::filesystem::path picture = std::filesystem::path(name).filename();
+    const std::filesystem::path beside = std::filesystem::path(path_).parent_path() / picture;
+    std::error_code none;
+    if (std::filesystem::exists(files.pathOf(name), none) || !std::filesystem::exists(beside, none)) return "";
+    return "; " + picture.string() + " lies beside this file: write image: " + picture.string();
   }
 
   void report(const YAML::Node& node, const std::string& key, const std::string& what) {

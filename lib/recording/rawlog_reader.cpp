@@ -204,8 +204,7 @@ void RawlogReader::Impl::add(const mrpt::obs::CActionCollection& actions) {
 RawlogReader::RawlogReader(const fs::path& file, Access access) {
   impl_ = std::make_unique<Impl>(file, access);
   if (!hasRawlogHeader(impl_->file)) {
-    throw ConfigError(file.string() +
-                      ": is no MRPT rawlog, which begins with the name of a class; make one with robosim run --record");
+    throw ConfigError(file.string() + ": is no MRPT rawlog, which begins with the name of a class");
   }
 }
 

@@ -29,14 +29,19 @@ std::vector<std::uint8_t> arcosFlags(const Fleet& fleet, const WorldRunOptions& 
   return flags;
 }
 
-/// Robots driven by processes that use the protocol of RoboSim: all, if the environment waits for them; otherwise those
-/// without a controller. Not those of ARCOS programs.
+/// Whether a process that uses the protocol of RoboSim drives a robot, unless ARCOS programs do: every one, if the
+/// environment waits for them; otherwise one without a controller.
+bool isNetworked(const FleetRobot& robot, const WorldRunOptions& options) {
+  const bool has_controller = !options.of_run.run.controller.empty() || !robot.controller.empty();
+  return options.wait_for_robots || !has_controller;
+}
+
+/// Robots of isNetworked() that ARCOS programs do not drive.
 std::vector<std::uint8_t> networkedRobots(const Fleet& fleet, const WorldRunOptions& options,
                                           const std::vector<std::uint8_t>& is_arcos) {
   std::vector<std::uint8_t> networked;
   for (std::size_t i = 0; i < fleet.robots.size(); ++i) {
-    const bool has_controller = !options.of_run.run.controller.empty() || !fleet.robots[i].controller.empty();
-    networked.push_back(!is_arcos[i] && (options.wait_for_robots || !has_controller));
+    networked.push_back(!is_arcos[i] && isNetworked(fleet.robots[i], options));
   }
   return networked;
 }
@@ -239,9 +244,11 @@ std::shared_ptr<WorldRun::OneRun> WorldRun::load(WorldSource source, int number)
   source.seed = seed = source.seed.value_or(seed);
   of_this_run.record = numbered(of_this_run.record, number);
   of_this_run.picture = numbered(of_this_run.picture, number);
-  LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller, [this](const FleetRobot& robot, std::size_t) {
-    return isDrivenByArcos(robot, options_);
-  });
+  // A robot that another process drives needs no sensors for a controller of this one.
+  const auto is_elsewhere = [this](const FleetRobot& robot, std::size_t) {
+    return isDrivenByArcos(robot, options_) || isNetworked(robot, options_);
+  };
+  LoadedWorld world = loadWorldToRun(source, of_this_run.run.controller, is_elsewhere);
   return std::make_shared<OneRun>(std::move(world), source, options_, std::move(of_this_run));
 }
 

@@ -1,5 +1,4 @@
 #include "robots/fleet.h"
-#include "robots/scatter.h"
 #include "run/local_run.h"
 #include "run/output_files.h"
 #include "viewing/view_source.h"
@@ -44,19 +43,14 @@ RunSnapshot snapshotOf(const Environment& environment) {
 }
 
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, const WorldChanges& changes, std::uint64_t seed) {
-  return std::make_unique<WorldView>(
-      file,
-      changes.isNone() ? loadWorld(file, checkController, seed)
-                       : loadWorld(withChanges(readWorldSource(file), changes, seed), checkController),
-      seed);
+  return std::make_unique<WorldView>(file, changedWorld(file, changes, checkController, seed), seed);
 }
 
 std::unique_ptr<ViewSource> viewWorld(const std::string& file, std::string text, std::uint64_t seed) {
   ErrorList errors;
-  LoadedWorld loaded{parseWorld(std::move(text), file, filesOnDisk(file), errors), {}};
-  const RobotTypes types = robotTypesIn(robotTypeFolders(file));
-  placeScattered(loaded.world, file, types, seed, errors);
-  loaded.fleet = buildFleet(loaded.world, file, types, checkController, errors);
+  World world = parseWorld(std::move(text), file, filesOnDisk(file), errors);
+  LoadedWorld loaded =
+      placedWorld(std::move(world), file, robotTypesIn(robotTypeFolders(file)), checkController, seed, errors);
   errors.throwIfAny();
   return std::make_unique<WorldView>(file, std::move(loaded), seed);
 }

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/file_kind.h"
 #include "base/portable_pose.h"
 #include "base/xml_parser.h"
 #include "base/xml_reader.h"
@@ -210,6 +211,19 @@ void clearLines(XmlElement& element) {
   for (auto& child : element.children) clearLines(child);
 }
 
+/// A map is read by the ending of its name.
+void requireNameOfKind(const std::filesystem::path& file) {
+  if (isMapFile(file)) return;
+  const std::pair<FileKind, const char*> endings[] = {{FileKind::gridmap, ".gridmap"},
+                                                      {FileKind::ros_yaml, ".yaml"},
+                                                      {FileKind::picture, ".png, .pgm, .ppm or .pbm"},
+                                                      {FileKind::activmedia, ".map"}};
+  const FileKind kind = kindOfFile(file);
+  for (const auto& [map, ending] : endings) {
+    if (kind == map) throw ConfigError(file.string() + ": is a map whose name must end in " + ending + "; rename it");
+  }
+}
+
 /// A generated world that consists of one map.
 XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider& files) {
   const std::string name = map_file.filename().string();
@@ -239,6 +253,8 @@ XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider
 }  // namespace
 
 std::string readWorldText(const std::filesystem::path& file, const FileProvider& files) {
+  requireKind(file, kWorldKinds);
+  requireNameOfKind(file);
   return isMapFile(file) ? toXml(worldAround(file, files)) : readXmlText(file);
 }
 

@@ -111,7 +111,7 @@ TEST(MpiBenchGold, ReportsAFullDiskOnceAndContinues) {
   const Ended full = onFullDisk(2, bench + quoted(folder / "full"), 4);
   EXPECT_EQ(full.exit_code, 2) << full.err;
   EXPECT_EQ(countOf("journal.jsonl: cannot be written", full.err), 1u) << full.err;
-  EXPECT_EQ(countOf("robosim: ", full.err), 1u) << full.err;
+  EXPECT_EQ(countOf("robosim bench gold: ", full.err), 1u) << full.err;
   const Ended resumed = benchOnRanks(2, bench + quoted(folder / "full") + " --resume");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(reportOf(folder / "full"), reportOf(folder / "alone"));

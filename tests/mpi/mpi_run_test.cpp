@@ -119,7 +119,7 @@ TEST(MpiRun, EndsOnAllRanksWithTheErrorOfAController) {
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(countOf("its controller failing_at_the_end threw an exception: lost the flock (on rank 1)", ended.err), 1u)
       << ended.err;
-  EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+  EXPECT_EQ(countOf("robosim run: ", ended.err), 1u) << ended.err;
 }
 
 /// Until it fails, the sensor measures NaN, which the ranks exchange.
@@ -137,9 +137,9 @@ TEST(MpiRun, EndsOnAllRanksWithTheErrorOfASensorAndACompleteRecording) {
   const Ended ended = runOnRanks(2, run + quoted(folder / "ranks.rawlog"));
   EXPECT_EQ(alone.exit_code, 2) << alone.err;
   EXPECT_EQ(ended.exit_code, 2) << ended.err;
-  EXPECT_EQ(countOf("robosim: lost the current", alone.err), 1u) << alone.err;
-  EXPECT_EQ(countOf("robosim: lost the current (on rank 1)", ended.err), 1u) << ended.err;
-  EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+  EXPECT_EQ(countOf("robosim run: lost the current", alone.err), 1u) << alone.err;
+  EXPECT_EQ(countOf("robosim run: lost the current (on rank 1)", ended.err), 1u) << ended.err;
+  EXPECT_EQ(countOf("robosim run: ", ended.err), 1u) << ended.err;
   EXPECT_GT(textOf(folder / "ranks.rawlog").size(), 100u);
   EXPECT_EQ(textOf(folder / "ranks.rawlog"), textOf(folder / "alone.rawlog"));
 }
@@ -222,7 +222,7 @@ TEST(MpiRun, ReportsAFullDiskOnce) {
   const std::string run = "run worlds/open_100.xml --time 30 --record " + quoted(folder / "r.rawlog");
   const Ended ended = onFullDisk(2, run, 200);
   EXPECT_EQ(ended.exit_code, 2) << ended.err;
-  EXPECT_EQ(countOf("robosim: ", ended.err), 1u) << ended.err;
+  EXPECT_EQ(countOf("robosim run: ", ended.err), 1u) << ended.err;
   EXPECT_EQ(countOf("File too large", ended.err), 1u) << ended.err;
   EXPECT_FALSE(std::filesystem::exists(folder / "r.rawlog")) << "it is not complete";
 }

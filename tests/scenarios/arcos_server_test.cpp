@@ -369,7 +369,8 @@ TEST(ArcosPrograms, ExplainWrongArguments) {
   };
   contains(error_of("serve worlds/open_house.xml --arcos 0.0.0.0:18412"), "ARCOS has neither passwords nor encryption");
   contains(error_of("serve worlds/open_house.xml --arcos 18412 --pace lockstep"), "--arcos needs --pace realtime");
-  contains(error_of("serve worlds/open_house.xml --arcos-factory p3dx"), "--arcos-factory needs --arcos");
+  contains(error_of("serve worlds/open_house.xml --arcos-factory p3dx"),
+           "--arcos-factory: has no effect without --arcos");
   contains(error_of("serve worlds/open_house.xml --arcos 18412 --arcos-factory p3dx:x"), "optionally with a number");
   contains(error_of("arcos maps/office.map -r nothing"), "there is no robot type 'nothing'");
   contains(error_of("arcos maps/office.map -r p3dx:"), "must be a robot type, optionally with a name");

@@ -159,7 +159,7 @@ TEST(BenchSpeed, RejectsInvalidArguments) {
       {"--min-time 0", "--min-time: 0: must be a number in [1e-06, 3600]"},
       {"--min-time nan", "--min-time: nan: must be a number"},
       {"--seed -1", "--seed: -1: must be a whole number"},
-      {"sonar", "The following argument was not expected: sonar"},
+      {"sonar", "unexpected argument 'sonar'"},
   };
   for (const auto& [arguments, message] : wrong) {
     const Ended bench = runBenchmark(std::string("speed ") + arguments);

@@ -108,6 +108,24 @@ TEST(Check, PrintsTheErrorsOfSensorsAndRadioWithAllSettings) {
   EXPECT_EQ(models["sensors"][3]["settings"]["at"].size(), 2u);
 }
 
+TEST(Check, WarnsOfADefaultControllerThatLacksASensor) {
+  const auto folder = emptyFolder();
+  std::filesystem::create_directory(folder / "robots");
+  std::ofstream(folder / "robots" / "scanner.xml") << R"(<robot name="scanner"><body radius_m="0.2" height_m="0.5"/>
+<limits speed_max_mps="1" accel_mps2="1" decel_mps2="1" turn_max_degps="90" turn_accel_degps2="180"/>
+<sensors><laser z_m="0.3" beams="360" field_of_view_deg="360" range_max_m="20"/><odometry/></sensors></robot>)";
+  const auto world = folder / "world.xml";
+  std::ofstream(world) << R"(<world><surface><size><xmin>-5</xmin><xmax>5</xmax><ymin>-5</ymin><ymax>5</ymax></size>
+<object><shape><robot><model>scanner</model><name>R</name><x>0</x><y>0</y></robot></shape></object></surface></world>)";
+  const Ended valid = runProgram("check " + quoted(world));
+  EXPECT_EQ(valid.exit_code, 0) << valid.out;
+  EXPECT_NE(valid.out.find("its controller gold_finder requires a sensor of kind heat"), std::string::npos)
+      << valid.out;
+  EXPECT_EQ(json::parse(runProgram("check --json " + quoted(world)).out)["warnings"].size(), 2u) << "and the open edge";
+  EXPECT_EQ(runProgram("check --controller still " + quoted(world)).out.find("gold_finder"), std::string::npos);
+  EXPECT_EQ(runProgram("check --controller gold_finder " + quoted(world)).exit_code, 1);
+}
+
 TEST(Check, ReadsARobotListOf2005) {
   const Ended check = runProgram("check tests/data/legacy_robots.xml");
   EXPECT_EQ(check.exit_code, 0) << check.out;

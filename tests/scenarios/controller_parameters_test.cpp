@@ -100,7 +100,8 @@ TEST_F(ChosenControllers, AreListedWithDefaultBoundsUnitAndHelp) {
   const Ended unknown = runProgram("controllers wall_folower");
   EXPECT_EQ(unknown.exit_code, 1);
   EXPECT_EQ(unknown.err,
-            "robosim: there is no controller 'wall_folower'; known are: gold_finder, wander, wall_follower, still, "
+            "robosim controllers: there is no controller 'wall_folower'; known are: gold_finder, wander, "
+            "wall_follower, still, "
             "random_walk, levy_walk, wall_search, heat_gradient, stigmergy, oracle, coordinated_frontiers, market\n");
 }
 

@@ -1,9 +1,13 @@
 // Error texts as printed by the program: each states the problem and its location.
+#include <algorithm>
+#include <cctype>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "base/data_folders.h"
+#include "base/text_table.h"
 #include "tests/scenarios/benchmark.h"
 
 namespace robosim {
@@ -99,14 +103,200 @@ TEST_F(ErrorTexts, AcceptTheFormerNameOfAFlag) {
 TEST_F(ErrorTexts, ListTheKnownSubcommands) {
   const Ended bench = runProgram("bench foo");
   EXPECT_EQ(bench.exit_code, 1);
-  EXPECT_EQ(bench.err.substr(0, 82),
-            "robosim: there is no subcommand 'foo' of robosim bench; known are: gold, metrics; ");
+  EXPECT_EQ(bench.err,
+            "robosim bench: there is no subcommand 'foo'; known are: gold, metrics; see robosim bench --help\n");
   const Ended benchmark = runBenchmark("foo");
   EXPECT_EQ(benchmark.exit_code, 1);
-  EXPECT_EQ(benchmark.err.substr(0, 75), "robosim_bench: there is no subcommand 'foo' of robosim_bench; known are: sp");
+  EXPECT_EQ(benchmark.err.substr(0, 58), "robosim_bench: there is no subcommand 'foo'; known are: sp");
   const Ended robosim = runProgram("foo");
   EXPECT_EQ(robosim.exit_code, 1);
-  EXPECT_EQ(robosim.err.substr(0, 63), "robosim: there is no subcommand 'foo' of robosim; known are: ru");
+  EXPECT_EQ(robosim.err.substr(0, 52), "robosim: there is no subcommand 'foo'; known are: ru");
+}
+
+TEST_F(ErrorTexts, NameTheNearestOptionOrSubcommand) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"run m --tiem 5", "robosim run: --tiem: unknown option; did you mean --time?\n"},
+      {"run -x", "robosim run: -x: unknown option; see robosim run --help\n"},
+      {"control stutus", "robosim control: there is no subcommand 'stutus'; did you mean status?; known are: "},
+      {"control localhost:3000 status --wach", "robosim control status: --wach: unknown option; did you mean --watch?"},
+      {"--verison", "robosim: --verison: unknown option; did you mean --version?\n"},
+      {"--verbose", "robosim: --verbose: unknown option; "},
+      {"--time 5 run small_maze",
+       "robosim: --time: unknown option; options of a subcommand follow its name, as in "
+       "robosim run --time\n"},
+      {"check small_maze --resolution 1", "robosim check: --resolution: unknown option; it is one of robosim export; "},
+      {"run small_maze --offscreen a.png", "robosim run: --offscreen: unknown option; it is one of robosim view; "},
+      {"run small_maze extra", "robosim run: unexpected argument 'extra'; see robosim run --help\n"},
+      {"run", "robosim run: WORLD is required; see robosim run --help\n"},
+      {"bench", "robosim bench: a subcommand is required; known are: gold, metrics; "}};
+  for (const auto& [arguments, text] : cases) {
+    const Ended ended = runProgram(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    EXPECT_EQ(ended.err.substr(0, text.size()), text) << arguments;
+    EXPECT_EQ(ended.out, "") << arguments;
+  }
+}
+
+TEST_F(ErrorTexts, NameTheKindOfAFileOfAnotherProgram) {
+  const auto refusal = [&](const std::string& arguments) {
+    const Ended ended = runProgram(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    return ended.err + ended.out;
+  };
+  expectLine(refusal("check " + quoted(written("plan.bmp", std::string("BM:\0\0", 5)))),
+             "plan.bmp: is a picture in the format BMP: ");
+  expectLine(refusal("run " + quoted(written("stage.world", "define wall model ( size [1 1 1] )\n"))),
+             "stage.world: is a world of Stage: ");
+  expectLine(refusal("replay " + quoted(written("log.clf", "# CARMEN log\nFLASER 1 1.0\n"))),
+             "log.clf: is a CARMEN log: convert it by MRPT's carmen2rawlog; robosim replay takes the result");
+  expectLine(refusal("replay " + quoted(written("a.bt", "# Octomap OcTree binary file\n"))), "a.bt: is an OctoMap: ");
+  for (const std::string command : {"run ", "check ", "serve ", "arcos ", "bench gold ", "robot R --map "}) {
+    const std::string text = refusal(command + quoted(written("b.rawlog",
+                                                              "\x8d"
+                                                              "CSensoryFrame\x02")));
+    if (command != "fit ")
+      expectLine(text, "b.rawlog: is a rawlog, a recording: robosim replay, view, export and fit take it");
+  }
+  expectLine(refusal("check " + quoted(written("renamed.xml", "2D-Map\n"))),
+             "renamed.xml: is a map whose name must end in .map; rename it");
+}
+
+TEST_F(ErrorTexts, PointOutThatThePictureOfAMapLiesBesideIt) {
+  written("map.pgm", "P2 1 1 255 0 ");
+  const std::string text = check("map.yaml", std::string("image: /home/jane/maps/map.pgm") + kYaml);
+  expectLine(text,
+             "map.yaml:1: image: /home/jane/maps/map.pgm: no such file; check the path; map.pgm lies beside this "
+             "file: write image: map.pgm\n");
+}
+
+TEST_F(ErrorTexts, ReportAnUnknownTypeOfAGeneratedWorldOnce) {
+  const Ended ended = runProgram("generate maze --types scuot --robots 10000");
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_EQ(countOf("scuot", ended.err), 2u) << ended.err;
+  EXPECT_NE(ended.err.find("did you mean scout?"), std::string::npos) << ended.err;
+}
+
+TEST_F(ErrorTexts, ReportAFullDiskAlsoForHelp) {
+  EXPECT_EQ(runCommand("'" ROBOSIM_PROGRAM "' --help >/dev/full").exit_code, 2);
+  EXPECT_EQ(runCommand("'" ROBOSIM_PROGRAM "' run --help >/dev/full").exit_code, 2);
+}
+
+/// An option as the help of its subcommand prints it.
+struct ListedOption {
+  std::string name;
+  std::string value;  ///< "SECONDS", "auto|near|all"; empty: a flag
+  std::string help;   ///< with its notes, on one line
+};
+
+const std::vector<std::string> kCommands{"run",        "serve",          "arcos",
+                                         "robot",      "remote",         "geometry",
+                                         "control",    "control status", "view",
+                                         "replay",     "check",          "export",
+                                         "fit",        "generate maze",  "generate office",
+                                         "bench",      "bench gold",     "bench metrics",
+                                         "",           "observers",      "sensors",
+                                         "controllers"};
+
+std::vector<ListedOption> optionsOf(const std::string& command, std::size_t* groups = nullptr) {
+  std::vector<ListedOption> options;
+  std::istringstream lines(runProgram(command + " --help").out);
+  std::string before;
+  for (std::string line; std::getline(lines, line); before = line) {
+    if (groups && line.starts_with("  -") && before.ends_with(":")) ++*groups;
+    if (line.starts_with("  -")) {
+      const std::size_t end = std::min(line.find("  ", 2), line.size());
+      const std::string left = line.substr(2, end - 2);
+      const std::size_t space = std::min(left.find(' '), left.size());
+      const std::string names = left.substr(0, space);
+      options.push_back({names.substr(names.rfind(',') == std::string::npos ? 0 : names.rfind(',') + 1),
+                         left.substr(std::min(space + 1, left.size())), line.substr(end)});
+    } else if (!options.empty() && line.starts_with("          ")) {
+      options.back().help += " " + line.substr(line.find_first_not_of(' '));
+    }
+  }
+  return options;
+}
+
+TEST(Help, FitsInto100ColumnsAndGroupsManyOptions) {
+  for (const auto& command : kCommands) {
+    std::istringstream lines(runProgram(command + " --help").out);
+    for (std::string line; std::getline(lines, line);) EXPECT_LE(displayWidth(line), 100u) << command << ": " << line;
+    std::size_t groups = 0;
+    const auto options = optionsOf(command, &groups);
+    EXPECT_FALSE(options.empty()) << command;
+    if (options.size() > 12) EXPECT_GE(groups, 2u) << command;
+  }
+}
+
+TEST(Help, IsThatOfTheSubcommandOnly) {
+  for (const auto& command : kCommands) {
+    const bool has_codes =
+        runProgram(command + " --help").out.find("serve and\n      remote run until") != std::string::npos;
+    EXPECT_EQ(has_codes, command.empty()) << command;
+  }
+  EXPECT_EQ(runProgram("help run").out, runProgram("run --help").out);
+  EXPECT_EQ(runProgram("help bench gold").out, runProgram("bench gold --help").out);
+  EXPECT_EQ(runProgram("help").out, runProgram("--help").out);
+}
+
+TEST(Options, ThatNameAnotherOneInTheirHelpDeclareItAsTheirPartner) {
+  for (const auto& command : kCommands) {
+    for (const auto& option : optionsOf(command)) {
+      const std::size_t begin = std::min(option.help.find_first_not_of(' '), option.help.size());
+      EXPECT_FALSE(option.help.substr(begin).starts_with("with --")) << command << " " << option.name;
+    }
+  }
+}
+
+/// A valid value of an option.
+std::string valueOf(const ListedOption& option) {
+  if (option.value.empty()) return "";
+  if (option.value == "LOW HIGH") return " 0 1";
+  if (option.value.find('|') != std::string::npos && std::islower(static_cast<unsigned char>(option.value[0])) != 0) {
+    return " " + option.value.substr(0, option.value.find('|'));
+  }
+  const std::size_t fallback = option.help.find("default ");
+  const std::size_t note = option.help.rfind(" (");
+  if (fallback != std::string::npos && fallback > note) {
+    const std::size_t begin = fallback + 8;
+    return " " + option.help.substr(begin, option.help.find_first_of(";)", begin) - begin);
+  }
+  const bool has_range =
+      note != std::string::npos && std::isdigit(static_cast<unsigned char>(option.help[note + 2])) != 0;
+  return has_range ? " " + option.help.substr(note + 2, option.help.find(' ', note + 2) - note - 2) : " p3dx";
+}
+
+TEST(Options, AreRefusedWithoutTheirPartners) {
+  const auto folder = emptyFolder();
+  const std::string rawlog = quoted(folder / "a.rawlog");
+  ASSERT_EQ(runProgram("run worlds/small_maze.xml --time 0.2 --record " + rawlog).exit_code, 0);
+  const std::vector<std::pair<std::string, std::string>> commands{
+      {"run", "worlds/small_maze.xml --time 0.1"},
+      {"serve", "worlds/small_maze.xml --listen 127.0.0.1:0 --time 0.1"},
+      {"robot", "Pioneer1 --connect-timeout 0"},
+      {"remote", "worlds/teams/small_maze.xml --listen 127.0.0.1:0"},
+      {"control status", "--connect-timeout 0"},
+      {"view", "worlds/small_maze.xml --offscreen " + quoted(folder / "a.png")},
+      {"replay", rawlog},
+      {"export", "worlds/small_maze.xml " + quoted(folder / "a.svg")},
+      {"bench gold", "worlds/small_maze.xml --runs 1 --time 0.1"}};
+  std::size_t refused = 0;
+  for (const auto& [command, arguments] : commands) {
+    for (const auto& option : optionsOf(command)) {
+      if (option.help.find("requires ", option.help.rfind('(')) == std::string::npos) continue;
+      const std::string given = command + " " + arguments + " " + option.name + valueOf(option);
+      const Ended ended = runProgram(given);
+      EXPECT_EQ(ended.exit_code, 1) << given << ended.out;
+      EXPECT_NE(ended.err.find(option.name + ": has no effect without "), std::string::npos) << given << ended.err;
+      ++refused;
+    }
+  }
+  EXPECT_GE(refused, 25u) << "the options that were accepted in silence are among them";
+  EXPECT_EQ(runProgram("run worlds/small_maze.xml --time 0.1 --rawlog-format sf --record-images external --record " +
+                       quoted(folder / "b.rawlog"))
+                .exit_code,
+            0);
+  EXPECT_EQ(runProgram("replay " + rawlog + " --print --csv --speed max").exit_code, 0);
 }
 
 }  // namespace

@@ -372,7 +372,8 @@ TEST(Faults, KilledEnvironmentEndsItsRobotsAfterTheirReconnectTimeout) {
   serving.program().signal(SIGKILL);
   const Ended ended = robots.wait();
   EXPECT_EQ(ended.exit_code, 2);
-  EXPECT_NE(ended.err.find("robosim: no environment answers at " + serving.address()), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("robosim robot: no environment answers at " + serving.address()), std::string::npos)
+      << ended.err;
 }
 
 TEST(Faults, NamesWithInvalidUtf8AreReportedBeforeServing) {

@@ -77,7 +77,7 @@ TEST(FirstConnection, CtrlCEndsTheWait) {
   robot.interrupt();
   const Ended ended = robot.wait();
   EXPECT_EQ(ended.exit_code, 130);
-  EXPECT_NE(ended.err.find("robosim: interrupted; no environment listens at "), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("robosim robot: interrupted; no environment listens at "), std::string::npos) << ended.err;
 }
 
 TEST(FirstConnection, FailsAfterItsTimeout) {
@@ -85,7 +85,7 @@ TEST(FirstConnection, FailsAfterItsTimeout) {
   const Ended ended = runProgram("control " + address + " status --connect-timeout 0.2");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(countOf(kLine, ended.err), 1u) << ended.err;
-  EXPECT_NE(ended.err.find("robosim: no environment answers at " + address), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("robosim control: no environment answers at " + address), std::string::npos) << ended.err;
 }
 
 TEST(FirstConnection, DoesNotWaitForAnEnvironmentThatRefuses) {

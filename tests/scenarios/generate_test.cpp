@@ -54,7 +54,8 @@ TEST_F(Generate, RejectsUnknownTypesFullWorldsAndOptionsOutOfBounds) {
   const Ended full = runProgram("generate maze --columns 3 --rows 3 --robots 10" + out);
   EXPECT_EQ(full.exit_code, 1);
   EXPECT_EQ(full.err,
-            "robosim: the generated world has places for 9 robots, not for 10; make it larger, or take fewer\n");
+            "robosim generate maze: the generated world has places for 9 robots, not for 10; make it larger, or take "
+            "fewer\n");
   EXPECT_EQ(runProgram("generate maze --braid 2" + out).exit_code, 1);
   EXPECT_EQ(runProgram("generate" + out).exit_code, 1);
   EXPECT_TRUE(filesInFolder().empty());

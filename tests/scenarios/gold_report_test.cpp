@@ -103,7 +103,7 @@ TEST(GoldReport, IsTheSameAfterAFullDisk) {
   // The disk is full after some runs, and then when the report is written.
   const Ended journal = files_of("4");
   EXPECT_EQ(journal.exit_code, 2);
-  EXPECT_EQ(countOf("robosim: ", journal.err), 1u) << journal.err;
+  EXPECT_EQ(countOf("robosim bench gold: ", journal.err), 1u) << journal.err;
   EXPECT_NE(journal.err.find("journal.jsonl: cannot be written"), std::string::npos) << journal.err;
   EXPECT_NE(journal.err.find("free disk space, and add --resume"), std::string::npos) << journal.err;
   const std::string runs = textOf(folder / "full" / "journal.jsonl");
@@ -111,7 +111,7 @@ TEST(GoldReport, IsTheSameAfterAFullDisk) {
   EXPECT_TRUE(runs.ends_with("}\n")) << "complete lines only";
   const Ended report = files_of("12");
   EXPECT_EQ(report.exit_code, 2);
-  EXPECT_EQ(countOf("robosim: ", report.err), 1u) << report.err;
+  EXPECT_EQ(countOf("robosim bench gold: ", report.err), 1u) << report.err;
   EXPECT_NE(report.err.find("cannot be written (File too large)"), std::string::npos) << report.err;
   EXPECT_FALSE(fs::exists(folder / "full" / "index.html"));
   const Ended resumed = runProgram(bench + quoted(folder / "full") + " --resume");
@@ -195,7 +195,7 @@ TEST(GoldReport, RefusesWhatMakesNoSense) {
       {"worlds/small_maze.xml --condition ideal --condition ideal" + report, "a --condition is given twice"},
       {"worlds/small_maze.xml --controller wander --controller wander" + report, "a controller is given twice"},
       {"worlds/small_maze.xml worlds/small_maze.xml" + report, "two worlds named 'small_maze'"},
-      {"worlds/small_maze.xml --resume", "--resume continues a --report"},
+      {"worlds/small_maze.xml --resume", "--resume: has no effect without --report"},
       {"worlds/small_maze.xml --observer effort", "bench gold always has it"},
       {"worlds/small_maze.xml --team 10000" + report, "use a smaller team"}};
   for (const auto& [arguments, text] : wrong) {

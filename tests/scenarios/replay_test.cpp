@@ -154,9 +154,9 @@ TEST(Replay, ListsAvailableNamesWhenTheSelectionIsEmpty) {
   recordRun("worlds/small_maze.xml --time 1", file);
   for (const std::string form : {"replay ", "replay --json ", "replay --print "}) {
     EXPECT_EQ(refusalOf(form + "--robot Unknown " + quoted(file)),
-              "robosim: no observation is of robot Unknown; there are Pioneer1, Scout1\n");
+              "robosim replay: no observation is of robot Unknown; there are Pioneer1, Scout1\n");
     EXPECT_EQ(refusalOf(form + "--from 10 " + quoted(file)),
-              "robosim: no observation matches --robot, --sensor, --from and --to; the recording spans "
+              "robosim replay: no observation matches --robot, --sensor, --from and --to; the recording spans "
               "0.0 s to 1.0 s\n");
   }
   EXPECT_NE(refusalOf("replay --print --sensor nosuch " + quoted(file))
@@ -308,7 +308,7 @@ TEST(Replay, PrintsNoSummaryWhenInterrupted) {
   const Ended ended = replay.wait();
   EXPECT_EQ(ended.exit_code, 130);
   EXPECT_EQ(ended.out, "");
-  EXPECT_TRUE(ended.err.starts_with("robosim: interrupted; ")) << '"' << ended.err << '"';
+  EXPECT_TRUE(ended.err.starts_with("robosim replay: interrupted; ")) << '"' << ended.err << '"';
 }
 
 }  // namespace

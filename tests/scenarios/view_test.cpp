@@ -153,7 +153,7 @@ TEST(View, ChecksTheVideoFileBeforeReading) {
   fs::create_directory(folder / "folder.mp4");
   const Ended is_folder = runProgram("view none.rawlog --offscreen " + quoted(folder / "folder.mp4"));
   EXPECT_EQ(is_folder.exit_code, 1);
-  EXPECT_EQ(is_folder.err, "robosim: " + (folder / "folder.mp4").string() + ": is a folder; name a file in it\n");
+  EXPECT_EQ(is_folder.err, "robosim view: " + (folder / "folder.mp4").string() + ": is a folder; name a file in it\n");
   const Ended no_folder = runProgram("view none.rawlog --offscreen " + quoted(folder / "none/x.mp4"));
   EXPECT_EQ(no_folder.exit_code, 1);
   EXPECT_EQ(countOf("\n", no_folder.err), 1u) << no_folder.err;

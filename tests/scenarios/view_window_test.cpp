@@ -176,7 +176,7 @@ TEST(ViewWindow, ClosesWithAnErrorWhenReadingFails) {
   const Ended ended = window.endAfter("windowfocus mousemove --window %1 450 686 mousedown 1 mouseup 1");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(withoutDesktopMessages(ended.err),
-            "robosim: " + rawlog.string() + ": has changed since it was opened; open it again\n");
+            "robosim view: " + rawlog.string() + ": has changed since it was opened; open it again\n");
 }
 
 TEST(ViewWindow, ClosesOnCtrlCWithoutOtherEvents) {

@@ -135,6 +135,42 @@ TEST(Check, DoesNotWarnOfEdgesInShippedWorlds) {
   }
 }
 
+/// A room of 4 m × 3 m as ActivMedia's map, with these homes: "X Y HEADING" in millimetres and degrees.
+fs::path roomWithHomes(const std::string& name, const std::vector<std::string>& homes) {
+  std::string text = "2D-Map\n";
+  for (const auto& home : homes) text += "Cairn: RobotHome " + home + " \"\" ICON \"h\"\n";
+  return write(name, text + "LINES\n0 0 4000 0\n4000 0 4000 3000\n4000 3000 0 3000\n0 3000 0 0\nDATA\n");
+}
+
+TEST(Placement, MovesTheRobotOfAMapFromABlockedHomeInAllCommands) {
+  // 0.1 m from the walls, nearer than the Pioneer's radius of 0.267 m: places lie in the
+  // middle of cells of half of it, of which the third, at 2.5 × 0.133 m, is the first that the disc fits at.
+  const fs::path map = roomWithHomes("one.map", {"100 100 90"});
+  const std::string warning = map.string() + ": robot 'Robot1' stands at (0.333, 0.333) m, the nearest free place: ";
+  const fs::path out = map.parent_path() / "out.svg";
+  for (const std::string& command : {"run --time 1 --controller wander" + quotedBetweenSpaces(map),
+                                     "view --offscreen" + quotedBetweenSpaces(out) + quotedBetweenSpaces(map),
+                                     "export" + quotedBetweenSpaces(map) + quotedBetweenSpaces(out)}) {
+    const Ended ended = runProgram(command);
+    EXPECT_EQ(ended.exit_code, 0) << command << '\n' << ended.err;
+    EXPECT_NE(ended.err.find(warning), std::string::npos) << command << '\n' << ended.err;
+  }
+  const Ended check = runProgram("check" + quotedBetweenSpaces(map));
+  EXPECT_EQ(check.exit_code, 0) << check.out;
+  EXPECT_NE(check.out.find("warning: " + warning), std::string::npos) << check.out;
+}
+
+TEST(Placement, PrefersTheNextFreeHomeOfAMap) {
+  const fs::path map = roomWithHomes("two.map", {"100 100 90", "2000 1500 0"});
+  const Ended check = runProgram("check" + quotedBetweenSpaces(map));
+  EXPECT_EQ(check.exit_code, 0) << check.out;
+  EXPECT_NE(check.out.find("at (2.000, 1.500) m, heading 0.0°, start 2 of 2 of the map two.map"), std::string::npos)
+      << check.out;
+  const Ended noisy = runProgram("run --noise on --time 1 --controller wander" + quotedBetweenSpaces(map));
+  EXPECT_EQ(noisy.exit_code, 0) << noisy.err;
+  EXPECT_EQ(countOf("stands at (2, 1.5) m, the next free start: ", noisy.err), 1u) << noisy.err;
+}
+
 TEST(BenchGold, RefusesAWorldWithoutGold) {
   EXPECT_NE(refusalOf("bench gold maps/office.map --runs 1").find("maps/office.map: has no gold"), std::string::npos);
 }
