@@ -152,7 +152,8 @@ TEST(WorldMap, ReportsFaultsOfBinaryFilesAtTheWorldsLine) {
   EXPECT_EQ(fault("<map file='a.gridmap'/>"),
             Lines{"a.xml:2: <map file=\"a.gridmap\">: a.gridmap: is not an MRPT grid map: it does not begin with a "
                   "COccupancyGridMap2D"});
-  EXPECT_EQ(fault("<map file='a.yaml'/>"), Lines{"a.yaml:1: image: " + no_picture}) << "which has lines, and the path once";
+  EXPECT_EQ(fault("<map file='a.yaml'/>"), Lines{"a.yaml:1: image: " + no_picture})
+      << "which has lines, and the path once";
 }
 
 TEST(WorldMap, MayBeEmptyOnlyIfTheWorldHasASize) {
