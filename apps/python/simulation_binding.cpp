@@ -123,7 +123,7 @@ void bindMessages(SimulationClass& simulation) {
       .def(
           "broadcast",
           [](Simulation& of, const py::str& sender, const py::str& text) {
-            requireUsable(of, Access::command);
+            requireUsable(of, SimulationAccess::command);
             of.environment().broadcast(of.indexOf(toBytes(sender)), toBytes(text));
           },
           py::arg("sender"), py::arg("text"),

@@ -142,7 +142,7 @@ TEST(NearExchange, GivesItWithRobotsThatDriveThroughTheOtherRanksShare) {
 
 TEST(NearExchange, DecidesTheWinnerFromPosesThatOtherRanksDoNotKnow) {
   constexpr int kSteps = 400;
-  const LoadedWorld world = crowdedWorld({.has_gold = true}, 3);
+  const LoadedWorld world = crowdedWorld({.has_gold = true}, 1);
   const std::string alone = resultAlone(world, kSteps);
   ASSERT_NE(alone.substr(0, alone.find('\n')).find(" r"), std::string::npos) << "no robot has won";
   EXPECT_EQ(runOf(world, kSteps, 5, {.balance_steps = 9, .exchange = kNear}).result, alone);

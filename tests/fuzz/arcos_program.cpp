@@ -13,6 +13,7 @@ struct NoSimulator final : Simulator {
   arcos::SimStat stat() const override { return {}; }
   void setTruePose(const arcos::SimPose&) override {}
   void resetTruePose() override {}
+  std::string mapFile() const override { return "map"; }
   std::span<const std::uint16_t> scan() const override { return ranges; }
   void log(const std::string&) override {}
   std::vector<std::uint16_t> ranges = std::vector<std::uint16_t>(181, 1000);

@@ -166,9 +166,9 @@ TEST(ReplayCheck, UsesTheReadableEntriesOfARecordingWithADamagedPictureAndFails)
   EXPECT_EQ(count_of(damaged.out) + 1, count_of(whole.out));
   EXPECT_NE(damaged.err.find("plain.rawlog: a picture is damaged and left out, in entry "), std::string::npos)
       << damaged.err;
-  for (const std::string command :
-       {"replay FILE", "replay --controller recorded FILE", "export FILE OUT.csv", "view FILE --offscreen OUT.png",
-        "replay --check " + quoted(world) + " FILE", "replay FILE --output OUT.rawlog"}) {
+  for (const std::string& command : std::vector<std::string>{
+           "replay FILE", "replay --controller recorded FILE", "export FILE OUT.csv", "view FILE --offscreen OUT.png",
+           "replay --check " + quoted(world) + " FILE", "replay FILE --output OUT.rawlog"}) {
     std::string line = command;
     line.replace(line.find("FILE"), 4, quoted(folder / "plain.rawlog"));
     if (const auto out = line.find("OUT"); out != std::string::npos) line.replace(out, 3, (folder / "out").string());

@@ -124,7 +124,7 @@ std::vector<std::vector<std::uint8_t>> observationsOf(const std::filesystem::pat
   return all;
 }
 
-std::string digestAlone() {
+std::string digestWithoutWorkers() {
   return json::parse(runProgram("run worlds/small_maze.xml --controller wander --json --time 6").out)["digest"];
 }
 
@@ -139,7 +139,7 @@ ServedWorld::Options mazeFor60Steps(double check_results) {
 /// A run in which a worker returns wrong results from step 20 on; its part is one robot.
 void expectRunUnchangedBy(const std::string& name, const Corruption& corruption, const std::string& reason) {
   SCOPED_TRACE(name);
-  static const std::string alone = digestAlone();
+  static const std::string alone = digestWithoutWorkers();
   ServedWorld world(mazeFor60Steps(0));
   WrongResultWorker worker(world.connectOptions(), corruption, 20);
   world.waitForLog(": ready");
@@ -188,7 +188,7 @@ TEST(WrongWorker, IsDisconnectedForUnsolicitedResults) {
       {"end", [](auto& result) { result.set_end(1000); }},
       {"empty", [](auto& result) { result.set_end(result.begin()); }},
   };
-  const std::string alone = digestAlone();
+  const std::string alone = digestWithoutWorkers();
   for (const auto& [name, corruption] : corruptions) {
     SCOPED_TRACE(name);
     ServedWorld world(mazeFor60Steps(0));
