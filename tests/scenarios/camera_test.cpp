@@ -175,8 +175,9 @@ Ended withoutDriver(const std::string& arguments) {
 }
 
 TEST(Camera, WithoutADriverNamesThePackagesToInstall) {
-  const auto world_file = writeTestWorld(emptyFolder());
-  const Ended run = withoutDriver("run " + quoted(world_file) + " --time 1");
+  const auto folder = emptyFolder();
+  const auto world_file = writeTestWorld(folder);
+  const Ended run = withoutDriver("run " + quoted(world_file) + " --time 1 --record " + quoted(folder / "r.rawlog"));
   EXPECT_NE(run.exit_code, 0);
   EXPECT_EQ(run.out, "");
   EXPECT_NE(run.err.find("cameras need OpenGL, and this machine has none ("), std::string::npos) << run.err;
