@@ -91,6 +91,7 @@ void addArcos(CLI::App& program) {
       ->type_name("TYPE[:NUMBER]");
   command->add_option("--start", a->start, "start pose of the first robot, in millimetres and degrees")
       ->type_name("X,Y,HEADING");
+  for (const char* name : {"-r", "-R", "--start"}) command->get_option(name)->group("Robots");
   command->add_option("-p,--port", a->port, "port of the first robot")
       ->check(wholeNumberIn(1, 65535))
       ->capture_default_str();
@@ -98,6 +99,8 @@ void addArcos(CLI::App& program) {
       ->type_name("ADDRESS");
   command->add_flag("--arcos-unprotected", a->serve.arcos_unprotected,
                     "allow programs from other machines, without passwords or encryption");
+  for (const char* name : {"-p", "--listen-address", "--arcos-unprotected"})
+    command->get_option(name)->group("Programs of ARIA");
   command->add_option("--speed", a->serve.of_run.speed, "simulated seconds per second")
       ->type_name("X")
       ->capture_default_str();

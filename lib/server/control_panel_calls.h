@@ -127,6 +127,8 @@ class ControlPanelSession::LoadCall final : public StreamSession<v1::LoadRequest
       return next;
     } catch (const ConfigError&) {
       throw;
+    } catch (const WireError&) {  // an invalid message
+      throw;
     } catch (const std::exception& error) {
       throw refused(error.what());
     } catch (...) {

@@ -359,7 +359,9 @@ TEST(ArcosHardware, ExplainsWrongAddressesAndLogs) {
     EXPECT_NE(error_of(wrong).find("must be tcp:HOST:PORT, serial:DEVICE or replay:FILE"), std::string::npos) << wrong;
   }
   EXPECT_NE(error_of("serial:/dev/no_such_line").find("No such file or directory"), std::string::npos);
-  EXPECT_NE(error_of("replay:README.md").find(":1: is no log of --arcos-log"), std::string::npos);
+  EXPECT_NE(error_of("replay:" ROBOSIM_SOURCE_DIR "/README.md").find("README.md:1: is no log of --arcos-log"),
+            std::string::npos)
+      << error_of("replay:" ROBOSIM_SOURCE_DIR "/README.md");
 }
 
 }  // namespace

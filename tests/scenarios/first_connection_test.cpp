@@ -85,7 +85,8 @@ TEST(FirstConnection, FailsAfterItsTimeout) {
   const Ended ended = runProgram("control " + address + " status --connect-timeout 0.2");
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_EQ(countOf(kLine, ended.err), 1u) << ended.err;
-  EXPECT_NE(ended.err.find("robosim control: no environment answers at " + address), std::string::npos) << ended.err;
+  EXPECT_NE(ended.err.find("robosim control status: no environment answers at " + address), std::string::npos)
+      << ended.err;
 }
 
 TEST(FirstConnection, DoesNotWaitForAnEnvironmentThatRefuses) {

@@ -34,8 +34,8 @@ void expectAgreement(RestCriterion criterion) {
     EXPECT_LE(fit.ksOf(band), fit.ksBoundOf(band)) << bandName(band);
   }
   for (const auto& fold : fit.folds) {
-    EXPECT_NEAR(fold.simulated.jumpRate(), fold.real.jumpRate(), kRateTolerance);
-    EXPECT_NEAR(fold.simulated.flipRate(), fold.real.flipRate(), kRateTolerance);
+    EXPECT_NEAR(fold.simulated.jumpRate(), fold.real.jumpRate(), fold.jumpBound(0.01));
+    EXPECT_NEAR(fold.simulated.flipRate(), fold.real.flipRate(), fold.flipBound(0.01));
   }
   EXPECT_TRUE(fit.isAccepted());
 }

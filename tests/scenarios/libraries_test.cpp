@@ -28,7 +28,8 @@ std::string librariesOf(const std::string& executable) {
 constexpr std::array kLibraries{"robosim",         "robosim-maps",    "robosim-recording", "robosim-rendering",
                                 "robosim-program", "robosim-serving", "robosim-viewing"};
 /// The libraries of others that the engine needs, besides those of the language and of sanitizers.
-const std::set<std::string> kNeededByEngine{"expat", "fmt", "jpeg", "mrpt-core", "spdlog", "tbb", "tinyxml2", "xxhash"};
+const std::set<std::string> kNeededByEngine{"expat", "fmt",      "jpeg",   "mrpt-core", "spdlog",
+                                            "tbb",   "tinyxml2", "xxhash", "z"};
 
 std::filesystem::path fileOf(const std::string& library) {
   return ROBOSIM_BUILD_DIR "/apps/robosim/lib" + library + ".so";

@@ -24,7 +24,7 @@ TEST(ReplayObserver, ReportsTheMetricsOfTheRecordedRun) {
   const Ended replay = runProgram("replay " + rawlog + " --json --observer 'coverage cell_m=0.25'");
   ASSERT_EQ(replay.exit_code, 0) << replay.err;
   EXPECT_EQ(json::parse(replay.out)["metrics"], metrics);
-  EXPECT_TRUE(replay.err.starts_with("The same run: 301 steps")) << replay.err;
+  EXPECT_TRUE(replay.err.starts_with("The same run: 300 steps")) << replay.err;
 }
 
 TEST(ReplayObserver, PrintsMetricsBelowTheVerdict) {
@@ -32,7 +32,7 @@ TEST(ReplayObserver, PrintsMetricsBelowTheVerdict) {
   ASSERT_EQ(runProgram("run worlds/small_maze.xml --time 5 --record " + rawlog).exit_code, 0);
   const Ended replay = runProgram("replay " + rawlog + " --observer 'coverage end_percent=0.1'");
   ASSERT_EQ(replay.exit_code, 0) << replay.err;
-  EXPECT_TRUE(replay.out.starts_with("The same run: 51 steps")) << "the observer does not end it: " << replay.out;
+  EXPECT_TRUE(replay.out.starts_with("The same run: 50 steps")) << "the observer does not end it: " << replay.out;
   EXPECT_NE(replay.out.find("\ncoverage.covered_percent "), std::string::npos) << replay.out;
 }
 

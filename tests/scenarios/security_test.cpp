@@ -192,7 +192,7 @@ TEST(Security, SendsNoTokenUnencryptedToAnotherMachine) {
 
 TEST(Security, SeparatesTheFlagsForTheClientsTokenAndForTheListeningPort) {
   setenv("ROBOSIM_TOKEN", kOperator, 1);
-  expectErrorText("robot Pioneer1 --environment 192.0.2.1:3000 --listen-unprotected", kBad,
+  expectErrorText("robot Pioneer1 --environment 192.0.2.1:3000 --remote-port 0 --listen-unprotected", kBad,
                   {"unencrypted; add", "--send-token-unencrypted"});
   expectErrorText(
       "remote worlds/teams/small_maze.xml --listen 127.0.0.1:0 --environment 192.0.2.1:3000 "

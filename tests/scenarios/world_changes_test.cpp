@@ -207,8 +207,10 @@ TEST(Help, NamesRangesAndUnitsInWords) {
     EXPECT_EQ(help.find("INT:INT"), std::string::npos) << command;
   }
   const std::string help = runProgram("run --help").out;
-  EXPECT_NE(help.find("0.001 to 1,000,000,000 s"), std::string::npos) << help;
-  EXPECT_NE(help.find("0.001 to 1 s"), std::string::npos) << help;
+  EXPECT_NE(help.find("--time SECONDS"), std::string::npos) << help;
+  EXPECT_NE(help.find("(0.001 to 1,000,000,000; default 1800)"), std::string::npos) << help;
+  EXPECT_NE(help.find("--step SECONDS"), std::string::npos) << help;
+  EXPECT_NE(help.find("(0.001 to 1; default 0.1)"), std::string::npos) << help;
 }
 
 }  // namespace
