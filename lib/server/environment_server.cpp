@@ -68,8 +68,7 @@ struct EnvironmentServer::Impl {
                      {.tls = options.tls,
                       .option = "--listen",
                       .keepalive = options.keepalive,
-                      .standard_services = options.standard_services,
-                      .access = options.access}) {
+                      .standard_services = options.standard_services}) {
     serving.log = options.log;
     serving.step_deadline = options.step_deadline;
     serving.hello_deadline = options.hello_deadline;
