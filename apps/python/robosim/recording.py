@@ -2,6 +2,7 @@
 from collections.abc import Mapping
 
 from . import _robosim
+from ._errors import ConfigError
 
 
 class Recording(Mapping):
@@ -96,5 +97,5 @@ def read_rawlog(file, allow_damage=False):
     """
     arrays, sensors, damage, is_damaged = _robosim._read_rawlog(file)
     if is_damaged and not allow_damage:
-        raise _robosim.ConfigError(f"{damage}; allow_damage=True returns the readable entries")
+        raise ConfigError(f"{damage}; allow_damage=True returns the readable entries")
     return Recording(arrays, sensors, damage)
