@@ -145,7 +145,7 @@ TEST(BenchSpeed, EndsOnInterrupt) {
   bench.interrupt();
   const Ended ended = bench.wait();
   EXPECT_EQ(ended.exit_code, 130);
-  EXPECT_EQ(ended.err, "robosim_bench: interrupted before all was measured\n");
+  EXPECT_EQ(ended.err, "robosim_bench speed: interrupted before all was measured\n");
   for (const auto& line : jsonLines(ended)) EXPECT_EQ(line["robots"], 10) << "no half line";
 }
 

@@ -72,7 +72,7 @@ TEST(BenchMaps, EndsOnInterruptWithoutLeavingFiles) {
   bench.interrupt();
   const Ended ended = bench.wait();
   EXPECT_EQ(ended.exit_code, 130);
-  EXPECT_EQ(ended.err, "robosim_bench: interrupted before all was measured\n");
+  EXPECT_EQ(ended.err, "robosim_bench maps: interrupted before all was measured\n");
   EXPECT_TRUE(std::filesystem::is_empty(folder));
 }
 

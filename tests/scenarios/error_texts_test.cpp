@@ -157,7 +157,7 @@ TEST_F(ErrorTexts, NameTheKindOfAFileOfAnotherProgram) {
     if (command != "fit ")
       expectLine(text, "b.rawlog: is a rawlog, a recording: robosim replay, view, export and fit take it");
   }
-  expectLine(refusal("check " + quoted(written("renamed.xml", "2D-Map\n"))),
+  expectLine(refusal("run " + quoted(written("renamed.xml", "2D-Map\n"))),
              "renamed.xml: is a map whose name must end in .map; rename it");
 }
 
@@ -177,8 +177,8 @@ TEST_F(ErrorTexts, ReportAnUnknownTypeOfAGeneratedWorldOnce) {
 }
 
 TEST_F(ErrorTexts, ReportAFullDiskAlsoForHelp) {
-  EXPECT_EQ(runCommand("'" ROBOSIM_PROGRAM "' --help >/dev/full").exit_code, 2);
-  EXPECT_EQ(runCommand("'" ROBOSIM_PROGRAM "' run --help >/dev/full").exit_code, 2);
+  EXPECT_EQ(runCommand("('" ROBOSIM_PROGRAM "' --help >/dev/full)").exit_code, 2);
+  EXPECT_EQ(runCommand("('" ROBOSIM_PROGRAM "' run --help >/dev/full)").exit_code, 2);
 }
 
 /// An option as the help of its subcommand prints it.
