@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include <boost/math/policies/policy.hpp>
 #include <boost/math/special_functions/beta.hpp>
 #include <boost/math/special_functions/erf.hpp>
 
@@ -11,6 +12,10 @@ namespace robosim {
 namespace {
 
 constexpr std::size_t kFewestClusters = 5;
+
+// In double: Boost computes in long double otherwise, also tables at the start of a program, which end it under
+// valgrind, whose long double has 64 bits.
+using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 }  // namespace
 
@@ -20,12 +25,12 @@ ConfidenceInterval binomialInterval(double hits, double trials) {
   hits = std::clamp(hits, 0.0, trials);
   ConfidenceInterval interval{0, 1};
   constexpr double kNone = 1e-9;
-  if (hits > kNone) interval.low = boost::math::ibeta_inv(hits, trials - hits + 1, kTail);
-  if (hits < trials - kNone) interval.high = boost::math::ibeta_inv(hits + 1, trials - hits, 1 - kTail);
+  if (hits > kNone) interval.low = boost::math::ibeta_inv(hits, trials - hits + 1, kTail, InDouble{});
+  if (hits < trials - kNone) interval.high = boost::math::ibeta_inv(hits + 1, trials - hits, 1 - kTail, InDouble{});
   return interval;
 }
 
-double normalBound(double level) { return M_SQRT2 * boost::math::erfc_inv(level); }
+double normalBound(double level) { return M_SQRT2 * boost::math::erfc_inv(level, InDouble{}); }
 
 double designEffect(const std::vector<DependentTerm>& terms, double independent) {
   if (!(independent > 0)) return 0;
