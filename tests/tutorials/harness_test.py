@@ -1,11 +1,12 @@
 """Tests of run_tutorial.py on small pages."""
+import os
 import tempfile
 import unittest
 from pathlib import Path
 from unittest import mock
 
 from page import PageError, missing_line
-from run_tutorial import EverythingTutorial, run_page
+from run_tutorial import EverythingTutorial, commands_of, first_section, run_page
 
 
 def run(text):
@@ -13,6 +14,25 @@ def run(text):
         page = Path(folder) / "page.md"
         page.write_text(text, encoding="utf-8")
         run_page(page, Path("/usr"))
+
+
+def temporary_folder(test):
+    folder = tempfile.TemporaryDirectory()
+    test.addCleanup(folder.cleanup)
+    return Path(folder.name).resolve()
+
+
+def run_everything(text, test, prepare=lambda folder: None):
+    """Executes a page as tests/verify/readme.sh does; returns a folder with clone/ and folder/."""
+    root = temporary_folder(test)
+    for name in ("clone", "folder"):
+        (root / name).mkdir()
+    prepare(root / "folder")
+    (root / "page.md").write_text(text, encoding="utf-8")
+    with (mock.patch("builtins.print"), mock.patch.object(EverythingTutorial, "BOUND_S", 0.2),
+          mock.patch.object(EverythingTutorial, "DELAY_S", 0)):
+        EverythingTutorial(root / "page.md", root / "clone", root / "folder").run()
+    return root
 
 
 class RunTutorialTest(unittest.TestCase):
@@ -49,14 +69,39 @@ class RunTutorialTest(unittest.TestCase):
               self.assertRaisesRegex(PageError, "page.md:2: a process that this block started runs")):
             run("```sh\nsleep 1000 &\n```\n")
 
-
     def test_everything_executes_also_blocks_with_a_reason_and_keeps_exported_variables(self):
-        with tempfile.TemporaryDirectory() as folder, mock.patch("builtins.print"):
-            page = Path(folder) / "page.md"
-            page.write_text("<!-- not executed: installs packages -->\n```sh\nexport A=7\n```\n```sh\necho $A >a\n```\n"
-                            "<!-- not executed: needs a robot -->\n```sh\nfalse\n```\n", encoding="utf-8")
-            EverythingTutorial(page, folder).run()
-            self.assertEqual((Path(folder) / "a").read_text(encoding="utf-8"), "7\n")
+        folder = run_everything("<!-- not executed: installs packages -->\n```sh\nexport A=7\n```\n```sh\necho $A >a\n```\n"
+                                "<!-- not executed: needs a robot -->\n```sh\nfalse\n```\n", self)
+        self.assertEqual((folder / "folder/a").read_text(encoding="utf-8"), "7\n")
+
+    def test_everything_executes_commands_of_dev_in_the_clone_and_others_in_a_folder_of_their_own(self):
+        folder = run_everything("```sh\n: ./dev; pwd >a\n```\n```sh\npwd >a\n```\n", self)
+        self.assertEqual((folder / "clone/a").read_text(encoding="utf-8"), f"{folder}/clone\n")
+        self.assertEqual((folder / "folder/a").read_text(encoding="utf-8"), f"{folder}/folder\n")
+
+    def test_everything_interrupts_commands_that_run_until_ctrl_c(self):
+        folder = run_everything("```sh\necho 1 >a\ntail -f a   # until Ctrl-C\necho 2 >>a\n```\n", self)
+        self.assertEqual((folder / "folder/a").read_text(encoding="utf-8"), "1\n2\n")
+
+    def test_everything_runs_commands_of_several_terminals_at_the_same_time(self):
+        run_everything("<!-- not executed: in two terminals, until Ctrl-C -->\n```sh\necho x >pipe\ncat pipe\n```\n", self,
+                       prepare=lambda folder: os.mkfifo(folder / "pipe"))
+
+    def test_everything_reports_every_failure(self):
+        with self.assertRaisesRegex(PageError, "(?s)page.md:2: the block ended with exit code 1.*"
+                                               "page.md:6: 'false  # until Ctrl-C' ended with 1"):
+            run_everything("```sh\nfalse\n```\n\n```sh\nfalse  # until Ctrl-C\n```\n", self)
+
+    def test_the_first_section_ends_at_the_heading_after_its_code(self):
+        page = temporary_folder(self) / "page.md"
+        page.write_text("# T\n## A\n```xml\n<a/>\n```\n## B\n```sh\n1\n```\n```python\n2\n```\n## C\n```sh\n3\n```\n", encoding="utf-8")
+        self.assertEqual([block.text for block in first_section(page)], ["1\n", "2\n"])
+        page.write_text("# T\n```cpp\n1\n```\n", encoding="utf-8")
+        self.assertEqual(first_section(page), [])
+
+    def test_a_command_may_have_several_lines(self):
+        self.assertEqual(commands_of("a \\\n  b\n# c\nd '1\n2'\n"), ["a \\\n  b", "d '1\n2'"])
+
 
 
 class ExpectedOutputTest(unittest.TestCase):

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Executes a tutorial or another page: run_tutorial.py PAGE PREFIX [PYTHON_FOLDER], with RoboSim installed in PREFIX.
-run_tutorial.py --everything PAGE FOLDER: as a user does from the first line on, with nothing installed, in FOLDER; also the blocks that
-are not executed otherwise, as far as a machine can (tests/verify/readme.sh).
+run_tutorial.py --everything PAGE CLONE [FIRST]: as a user does from the first line on, who has nothing but a clone; also the blocks that
+are not executed otherwise, as far as a machine can (tests/verify/readme.sh). Blocks with ./dev are executed in the clone. FIRST, a
+word: only the first section that has code, all of it in the clone.
 
 The blocks of the page are processed in order, in an empty temporary folder:
   a block after a line 'File `NAME`:'   is written to the file NAME
@@ -124,35 +125,122 @@ class Tutorial:
 class EverythingTutorial(Tutorial):
     """One execution of a page by a user who has nothing but a clone: variables that a block exports hold for later blocks."""
 
-    def __init__(self, page, folder):
+    BOUND_S = 20  # of a command that runs until Ctrl-C
+    DELAY_S = 3  # between commands in terminals of their own
+
+    def __init__(self, page, clone, folder):
         super().__init__(page, Path("/usr"), "lib/python3/dist-packages", folder)
+        self._clone = Path(clone)
         self._environment = dict(os.environ)
         self._exports = tempfile.NamedTemporaryFile(prefix="exports-")
 
-    def run(self):
+    def run(self, blocks=None):
+        failures = []
         try:
-            for block in blocks_of(self._page):
-                self._run_or_skip(block)
+            for block in blocks_of(self._page) if blocks is None else blocks:
+                title = f"{self._page.name}:{block.line}"
+                reason = self._reason_to_skip(block)
+                if reason is not None:
+                    if reason:
+                        print(f"{title}: skipped: {reason}", flush=True)
+                    continue
+                begin = time.monotonic()
+                try:
+                    self._process_everything(block)
+                    print(f"{title}: done in {time.monotonic() - begin:.0f} s", flush=True)
+                except PageError as error:  # later blocks are executed, so that one call finds all failures
+                    print(f"{title}: FAILED after {time.monotonic() - begin:.0f} s", flush=True)
+                    failures.append(str(error))
         finally:
             self._end_python()
             self._end_groups()
+        if failures:
+            raise PageError("\n".join(failures))
 
-    def _run_or_skip(self, block):
-        title = f"{self._page.name}:{block.line}"
-        if block.reason and (block.reason.startswith(("needs", "opens windows")) or
-                             not (block.file or block.language in EXECUTED)):
-            print(f"{title}: skipped: {block.reason}", flush=True)
+    def _reason_to_skip(self, block):
+        """None for a block that is executed; empty for what is not code."""
+        if block.file or block.language not in EXECUTED:
+            return None if block.file or not block.reason else ""
+        return block.reason if block.reason.startswith("needs") else None
+
+    def _process_everything(self, block):
+        if block.language != "sh" or block.file:
+            self._process(block)
             return
-        begin = time.monotonic()
-        if block.language == "sh" and not block.file:
-            text = f"source {self._exports.name}\n{block.text}\nexport -p >{self._exports.name}\n"
-            if "until" in block.reason or "waits" in block.reason:
-                text = f"source {self._exports.name}\n" + "".join(
-                    f"timeout --signal INT --kill-after 30 30 {line} || [[ $? == @(0|124|130) ]]\n"
-                    for line in block.text.splitlines() if line and not line.startswith("#"))
-            block = Block(block.language, text, block.line)
-        self._process(block)
-        print(f"{title}: {time.monotonic() - begin:.0f} s", flush=True)
+        normal = self._folder
+        if "./dev" in block.text or "build/packages" in block.text:
+            self._folder = self._clone
+        try:
+            if "terminals" in block.reason:
+                self._run_in_terminals(commands_of(block.text), block.line)
+                return
+            pending = ""
+            for command in commands_of(block.text):
+                if "Ctrl-C" not in block.reason + command and not block.reason.startswith(("opens windows", "waits")):
+                    pending += command + "\n"
+                    continue
+                self._run_pending(pending, block.line)
+                pending = ""
+                self._run_in_terminals([command], block.line)
+            self._run_pending(pending, block.line)
+        finally:
+            self._folder = normal
+
+    def _run_pending(self, text, line):
+        if text:
+            self._run_sh(Block("sh", f"source {self._exports.name}\n{text}export -p >{self._exports.name}\n", line))
+
+    def _run_in_terminals(self, commands, line):
+        """Runs commands at the same time, each for BOUND_S unless it ends, and then sends what Ctrl-C does."""
+        started = []
+        for command in commands:
+            output = tempfile.TemporaryFile()
+            started.append((command, output, subprocess.Popen(
+                ["bash", "-euo", "pipefail", "-c", f"source {self._exports.name}\n{command}"], cwd=self._folder, env=self._environment,
+                stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT, start_new_session=True)))
+            time.sleep(self.DELAY_S)
+        deadline = time.monotonic() + self.BOUND_S
+        problems = []
+        for command, output, bash in reversed(started):  # the clients before the environment
+            is_interrupted = False
+            try:
+                bash.wait(max(0, deadline - time.monotonic()))
+            except subprocess.TimeoutExpired:
+                is_interrupted = True
+                os.killpg(bash.pid, signal.SIGINT)
+                try:
+                    bash.wait(ENDING_S)
+                except subprocess.TimeoutExpired:
+                    os.killpg(bash.pid, signal.SIGKILL)
+                    bash.wait()
+            if bash.returncode and not (is_interrupted and bash.returncode in (-signal.SIGINT, 128 + signal.SIGINT)):
+                output.seek(0)
+                problems.append(f"'{command}' ended with {bash.returncode}{' after Ctrl-C' if is_interrupted else ''}. Output:\n"
+                                + output.read().decode("utf-8", "replace"))
+            output.close()
+        if problems:
+            raise PageError(f"{self._page}:{line}: " + "\n".join(problems))
+
+
+def commands_of(text):
+    """The lines of a block, those that a backslash or a quote continues joined."""
+    commands = []
+    pending = ""
+    for line in text.splitlines():
+        pending += line + "\n"
+        if not line.endswith("\\") and subprocess.run(["bash", "-n", "-c", pending], capture_output=True).returncode == 0:
+            commands.append(pending.rstrip("\n"))
+            pending = ""
+    return [command for command in commands + [pending] if command and not command.startswith("#")]
+
+
+def first_section(page):
+    """The blocks of sh and python of the first section of a page, a Path, that has any."""
+    lines = page.read_text(encoding="utf-8").split("\n")
+    headings = [number for number, line in enumerate(lines, 1) if line.startswith("## ")] + [len(lines) + 1]
+    blocks = [block for block in blocks_of(page, is_strict=False) if block.language in EXECUTED]
+    end = next((heading for heading in headings if blocks and heading > blocks[0].line), 0)
+    return [block for block in blocks if block.line < end]
 
 
 def is_running(group):
@@ -176,12 +264,17 @@ def run_page(page, prefix, python_folder="lib/python3/dist-packages"):
 
 
 def main(arguments):
-    if len(arguments) == 3 and arguments[0] == "--everything":
-        try:
-            EverythingTutorial(Path(arguments[1]).resolve(), arguments[2]).run()
-        except PageError as error:
-            print(error, file=sys.stderr)
-            return 1
+    if len(arguments) in (3, 4) and arguments[0] == "--everything":
+        page = Path(arguments[1]).resolve()
+        with tempfile.TemporaryDirectory(prefix="tutorial-") as folder:
+            try:
+                if len(arguments) == 4:
+                    EverythingTutorial(page, arguments[2], arguments[2]).run(first_section(page))
+                else:
+                    EverythingTutorial(page, arguments[2], folder).run()
+            except PageError as error:
+                print(error, file=sys.stderr)
+                return 1
         return 0
     if len(arguments) not in (2, 3):
         print(__doc__, file=sys.stderr)
