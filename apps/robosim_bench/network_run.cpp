@@ -17,7 +17,7 @@ namespace robosim {
 namespace {
 
 /// Size of the readings used when the maximum throughput of gRPC was measured: 790 bytes.
-constexpr Workload kLoad{
+const Workload kLoad{
     "network", "16 sonars of one ray, and 30 infrared rays of 10 cm",
     "<sonar model='rays' rays='1' range_max_m='5'><ring count='16' radius_m='0.2' z_m='0.2'/></sonar>"
     "<infrared range_min_m='0' range_max_m='0.1'><ring count='30' radius_m='0.25' z_m='0.2'/></infrared>",

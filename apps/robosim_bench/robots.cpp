@@ -14,8 +14,10 @@ class WarmRun {
   template <typename Make>
   WarmRun(const Make& make, int threads, std::uint64_t seed) {
     const Clocks start = Clocks::now();
-    const RunOptions options{.environment = {.seed = seed, .period_s = 0.1, .threads = threads}, .controller = ""};
-    run_ = std::make_unique<LocalRun>(make(), options);
+    RunOptions options{.environment = {.seed = seed, .period_s = 0.1, .threads = threads}, .controller = ""};
+    LoadedWorld world = make();
+    options.takes_pictures = needPictures(world.fleet, options.controller);  // as `robosim run` without a recording
+    run_ = std::make_unique<LocalRun>(std::move(world), options);
     const Clocks ready = Clocks::now();
     making_ = {ready.wall_s - start.wall_s, ready.cpu_s - start.cpu_s};
     constexpr int kWarmUpSteps = 20;
@@ -51,6 +53,7 @@ RobotFigures benchRobots(const RobotLoad& load, std::uint64_t seed, double min_s
     const Contender steps = run.steps();
     const Cost cost = measureAlternately({&steps, 1}, min_s).front();
     return {.workload = load.workload->name,
+            .rays = load.workload->rays,
             .robots = load.robots,
             .threads = load.threads,
             .robot_step = cost,

@@ -8,7 +8,7 @@
 
 namespace robosim {
 
-/// A standard workload with a number of robots and of threads.
+/// A workload with a number of robots and of threads.
 struct RobotLoad {
   const Workload* workload = nullptr;
   std::size_t robots = 0;
@@ -18,6 +18,7 @@ struct RobotLoad {
 /// Measured cost of a RobotLoad.
 struct RobotFigures {
   std::string workload;
+  std::size_t rays = 0;  ///< Workload::rays
   std::size_t robots = 0;
   int threads = 1;
   Cost robot_step;
@@ -25,7 +26,8 @@ struct RobotFigures {
   double make_s = 0;       ///< time to create the world up to the first step
   std::string digest;      ///< of a fixed number of first steps
 };
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RobotFigures, workload, robots, threads, robot_step, peak_rss_mb, make_s, digest)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RobotFigures, workload, rays, robots, threads, robot_step, peak_rss_mb, make_s,
+                                   digest)
 
 /// Measures one load in a separate process.
 RobotFigures benchRobots(const RobotLoad& load, std::uint64_t seed, double min_s);

@@ -42,6 +42,8 @@ VectorWidth vectorWidthNamed(const std::string& name) {
 struct SpeedArguments {
   std::vector<std::size_t> robots;
   std::vector<std::string> workloads;
+  std::vector<std::string> type_names;
+  std::vector<Workload> types;  ///< of `type_names`
   int threads = 1;
   std::uint64_t seed = 1;
   double min_s = 1;
@@ -51,9 +53,16 @@ struct SpeedArguments {
   bool targets = false;     ///< no selection was given, so everything is measured
 };
 
+std::vector<Workload> workloadsOfTypes(const std::vector<std::string>& names) {
+  std::vector<Workload> types;
+  for (const auto& name : names == std::vector<std::string>{"all"} ? robotTypeNames() : names)
+    types.push_back(workloadOfType(name));
+  return types;
+}
+
 bool isSelected(const SpeedArguments& arguments, const std::string& workload) {
   const auto& names = arguments.workloads;
-  return names.empty() || std::find(names.begin(), names.end(), workload) != names.end();
+  return (names.empty() && arguments.types.empty()) || std::find(names.begin(), names.end(), workload) != names.end();
 }
 
 std::vector<std::size_t> sizes(const SpeedArguments& arguments) {
@@ -63,16 +72,19 @@ std::vector<std::size_t> sizes(const SpeedArguments& arguments) {
 std::vector<RobotLoad> loadsOf(const SpeedArguments& arguments) {
   if (arguments.targets) return standardLoads();
   std::vector<RobotLoad> loads;
-  for (const auto& workload : workloads()) {
-    if (!isSelected(arguments, workload.name)) continue;
+  const auto add = [&](const Workload& workload) {
     for (const auto robots : sizes(arguments)) loads.push_back({&workload, robots, arguments.threads});
+  };
+  for (const auto& workload : workloads()) {
+    if (isSelected(arguments, workload.name)) add(workload);
   }
+  for (const auto& type : arguments.types) add(type);
   return loads;
 }
 
 std::string textOf(const RobotLoad& load) {
-  return std::string(load.workload->name) + ", " + withCommas(load.robots) + " robots, " +
-         std::to_string(load.threads) + (load.threads == 1 ? " thread" : " threads");
+  return load.workload->name + ", " + withCommas(load.robots) + " robots, " + std::to_string(load.threads) +
+         (load.threads == 1 ? " thread" : " threads");
 }
 
 class SpeedBench {
@@ -143,11 +155,10 @@ void print(const SpeedFigures& figures, bool with_targets) {
 
 void benchSpeed(const SpeedArguments& arguments) {
   if (!arguments.write_world.empty()) {
-    if (arguments.workloads.size() != 1 || arguments.robots.size() != 1)
-      throw std::invalid_argument("--write-world: give one --workload and one --robots");
-    std::cout << writeWorld(arguments.write_world, workloadNamed(arguments.workloads[0]), arguments.robots[0],
-                            arguments.seed)
-                     .string()
+    const auto loads = loadsOf(arguments);
+    if (arguments.workloads.size() + arguments.types.size() != 1 || loads.size() != 1)
+      throw std::invalid_argument("--write-world: give one --workload or --robot-type, and one --robots");
+    std::cout << writeWorld(arguments.write_world, *loads[0].workload, loads[0].robots, arguments.seed).string()
               << std::endl;
     return;
   }
@@ -183,6 +194,10 @@ void addSpeedBenchmark(CLI::App& program) {
                         ->type_name("NUMBER"));
   choices.push_back(command->add_option("--workload", a->workloads, "name of a workload; repeatable; default: all")
                         ->check(CLI::IsMember(names)));
+  choices.push_back(command
+                        ->add_option("--robot-type", a->type_names,
+                                     "name of a robot type in place of a workload, or all; repeatable; default: none")
+                        ->type_name("TYPE"));
   choices.push_back(command->add_option("--threads", a->threads, "threads to step with, 1 to 1024")
                         ->check(wholeNumberIn(1, 1024))
                         ->type_name("NUMBER")
@@ -198,10 +213,12 @@ void addSpeedBenchmark(CLI::App& program) {
                    "and measure nothing")
       ->type_name("FOLDER");
   command->footer("Workloads:\n" + listing(rows) +
-                  "Without --robots, --workload, --threads and --json all figures for the speed targets are measured,\n"
+                  "Without --robots, --workload, --robot-type, --threads and --json all figures for the speed targets "
+                  "are measured,\n"
                   "including 100,000 robots and two threads, and the targets are evaluated (doc/performance.md).");
   command->callback([a, choices] {
     a->targets = std::none_of(choices.begin(), choices.end(), [](const CLI::Option* o) { return o->count() > 0; });
+    a->types = workloadsOfTypes(a->type_names);
     benchSpeed(*a);
   });
 }

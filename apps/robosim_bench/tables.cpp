@@ -6,9 +6,7 @@
 namespace robosim {
 namespace {
 
-double raysPerSecond(const RobotFigures& f) {
-  return static_cast<double>(workloadNamed(f.workload).rays) / f.robot_step.wall_s;
-}
+double raysPerSecond(const RobotFigures& f) { return static_cast<double>(f.rays) / f.robot_step.wall_s; }
 
 /// Fields common to all lines.
 nlohmann::ordered_json line(const std::string& workload, std::size_t robots, int threads, const Cost& robot_step,

@@ -6,6 +6,8 @@
 #include "base/random.h"
 #include "base/xml_element.h"
 #include "geometry/scene.h"
+#include "robots/fleet.h"
+#include "robots/robot_types.h"
 #include "world/world_file.h"
 
 namespace robosim {
@@ -15,7 +17,7 @@ namespace {
 constexpr double kSquarePerRobot_m2 = 16;
 constexpr double kRadius_m = 0.25;
 
-constexpr Workload kWorkloads[] = {
+const Workload kWorkloads[] = {
     {"sonar", "16 sonars of one ray, 5 m",
      "<sonar model='rays' rays='1' range_max_m='5'><ring count='16' radius_m='0.2' z_m='0.2'/></sonar>", 16},
     {"sector", "16 sonars of the exact 20° sector, 5 m",
@@ -42,11 +44,21 @@ void addObject(World& world, Body body) {
 /// "wander".
 std::string robotTypeText(const Workload& workload) {
   const auto scaled = [&](double value) { return toText(value * workload.scale); };
-  return std::string("<?xml version='1.0'?>\n<robot name='") + workload.name + "'>\n<body radius_m='" +
-         scaled(kRadius_m) + "' height_m='" + scaled(0.3) + "'/>\n<limits speed_max_mps='" + scaled(0.7) +
-         "' accel_mps2='" + scaled(1) + "' decel_mps2='" + scaled(2) +
-         "' turn_max_degps='115' turn_accel_degps2='286'/>\n" + "<sensors>" + workload.sensors +
-         "<odometry/></sensors>\n</robot>\n";
+  return "<?xml version='1.0'?>\n<robot name='" + workload.name + "'>\n<body radius_m='" + scaled(kRadius_m) +
+         "' height_m='" + scaled(0.3) + "'/>\n<limits speed_max_mps='" + scaled(0.7) + "' accel_mps2='" + scaled(1) +
+         "' decel_mps2='" + scaled(2) + "' turn_max_degps='115' turn_accel_degps2='286'/>\n" + "<sensors>" +
+         workload.sensors + "<odometry/></sensors>\n</robot>\n";
+}
+
+RobotTypes knownTypes() { return robotTypesIn(robotTypeFolders({})); }
+
+RobotTypes typesOf(const Workload& workload) {
+  if (workload.has_type) return knownTypes();
+  return {{workload.name, {workload.name + ".xml", robotTypeText(workload)}}};
+}
+
+double radiusOf(const Workload& workload) {
+  return workload.has_type ? robotOfType(knownTypes(), workload.name).model->radius_m : workload.scale * kRadius_m;
 }
 
 void write(const std::filesystem::path& file, const std::string& text) {
@@ -109,11 +121,12 @@ World makeWorld(const Workload& workload, std::size_t robots, std::uint64_t seed
     if (i % 4 == 0) addObject(world, {.shape = Cube{4 * scale, 0.1 * scale}, .world_from_body = somewhere()});
   }
 
-  const Places places(world, scale * kRadius_m);
+  const double radius_m = radiusOf(workload);
+  const Places places(world, radius_m);
   // One robot starts in each square of a grid (4 m at scale 1), so that no two robots touch.
   const auto columns = static_cast<std::size_t>(std::ceil(2 * half_m / (4 * scale)));
   const double pitch_m = 2 * half_m / static_cast<double>(columns);
-  const double margin_m = 0.3 * scale;
+  const double margin_m = 1.2 * radius_m;
   for (std::size_t i = 0; i < robots; ++i) {
     RobotPlacement robot;
     robot.name = "r" + std::to_string(i);
@@ -141,8 +154,19 @@ const Workload& workloadNamed(std::string_view name) {
   throw std::invalid_argument("there is no workload '" + std::string(name) + "'");
 }
 
+Workload workloadOfType(const std::string& robot_type) {
+  const FleetRobot robot = robotOfType(knownTypes(), robot_type);
+  return {.name = robot_type, .help = robot.model->help, .sensors = "", .has_type = true};
+}
+
+std::vector<std::string> robotTypeNames() {
+  std::vector<std::string> names;
+  for (const auto& [name, file] : knownTypes()) names.push_back(name);
+  return names;
+}
+
 LoadedWorld makeWorldToRun(const Workload& workload, std::size_t robots, std::uint64_t seed) {
-  const RobotTypes types{{workload.name, {std::string(workload.name) + ".xml", robotTypeText(workload)}}};
+  const RobotTypes types = typesOf(workload);
   LoadedWorld made{makeWorld(workload, robots, seed), {}};
   ErrorList errors;
   made.fleet = buildFleet(made.world, workload.name, types, {}, errors);
@@ -153,8 +177,8 @@ LoadedWorld makeWorldToRun(const Workload& workload, std::size_t robots, std::ui
 std::filesystem::path writeWorld(const std::filesystem::path& folder, const Workload& workload, std::size_t robots,
                                  std::uint64_t seed) {
   std::filesystem::create_directories(folder / "robots");
-  write(folder / "robots" / (std::string(workload.name) + ".xml"), robotTypeText(workload));
-  auto file = folder / (std::string(workload.name) + ".xml");
+  if (!workload.has_type) write(folder / "robots" / (workload.name + ".xml"), robotTypeText(workload));
+  auto file = folder / (workload.name + ".xml");
   write(file, toXml(makeWorld(workload, robots, seed)));
   return file;
 }

@@ -54,8 +54,11 @@ TEST_F(Worlds, World2005LoadsUnchanged) {
 }
 
 TEST_F(Worlds, ExamplesInTheirDocumentationLoad) {
-  std::ifstream in(ROBOSIM_SOURCE_DIR "/doc/world_file.md");
-  const std::string doc{std::istreambuf_iterator<char>(in), {}};
+  std::string doc;
+  for (const char* page : {"world_file", "robot_type", "sensors"}) {
+    std::ifstream in(std::string(ROBOSIM_SOURCE_DIR "/doc/") + page + ".md");
+    doc.append(std::istreambuf_iterator<char>(in), {});
+  }
   const std::string fence = "```xml\n";
   ErrorList errors;
   int examples = 0;

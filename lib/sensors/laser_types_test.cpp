@@ -28,7 +28,7 @@ std::map<std::string, std::string> lasersOf(const std::string& page) {
 }
 
 TEST(LaserTypes, DocumentedScannersHaveTheGeometryOfTheirDataSheets) {
-  auto documented = lasersOf(ROBOSIM_SOURCE_DIR "/doc/world_file.md");
+  auto documented = lasersOf(ROBOSIM_SOURCE_DIR "/doc/sensors.md");
   ASSERT_EQ(documented.size(), 3u);
   struct DataSheet {
     std::size_t beams;

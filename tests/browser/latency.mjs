@@ -2,7 +2,7 @@
 // remote
 //
 // worlds/open_house.xml in real time, steps of 20 ms, three robots with cameras of 25 pictures per second, everything
-// on this machine, headless Chromium. doc/performance.md describes the measurements and has figures.
+// on this machine, headless Chromium. doc/experiments/network.md describes the measurements and has figures.
 
 import { readFileSync } from 'node:fs';
 

@@ -81,6 +81,24 @@ TEST(BenchSpeed, CreatesDifferentWorldsForDifferentSeeds) {
   EXPECT_NE(digest("1"), digest("2"));
 }
 
+TEST(BenchSpeed, MeasuresRobotTypesInPlaceOfWorkloads) {
+  const std::string arguments = "speed --robots 4 --min-time 1e-6 --json --robot-type ";
+  const auto lines = jsonLines(runBenchmark(arguments + "scout --robot-type p3at"));
+  ASSERT_EQ(lines.size(), 2u);
+  EXPECT_EQ(lines[0]["workload"], "scout");
+  EXPECT_EQ(lines[1]["workload"], "p3at") << "robots of 0.4 m radius start without touching";
+  EXPECT_EQ(lines[0]["rays_per_s"], 0) << "beams of several sensors are not counted";
+  EXPECT_NE(lines[0]["digest"], lines[1]["digest"]);
+
+  const auto all = jsonLines(runBenchmark(arguments + "all"));
+  const auto files = fs::directory_iterator(ROBOSIM_SOURCE_DIR "/worlds/robots");
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(all.size()), std::distance(begin(files), end(files)));
+
+  const Ended unknown = runBenchmark(arguments + "scuot");
+  EXPECT_EQ(unknown.exit_code, 1);
+  EXPECT_NE(unknown.err.find("scuot"), std::string::npos) << unknown.err;
+}
+
 TEST(BenchSpeed, PrintsATextTable) {
   const Ended bench = runBenchmark("speed --workload laser --robots 20 --min-time 1e-6");
   EXPECT_EQ(bench.exit_code, 0) << bench.err;

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures the errors of icp-slam and pf-localization on a real recording (SENA, of the package mrpt-common) and on simulated
-# drives along the same path among the same surfaces, and prints the figures in doc/fidelity.md. An argument sets the number
+# drives along the same path among the same surfaces, and prints the figures in doc/experiments/slam_on_sena.md. An argument sets the number
 # of seeds. A quarter of an hour.
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
