@@ -97,7 +97,7 @@ class Pages:
                         continue
                     file, _, anchor = link.partition("#")
                     target = (path.parent / file).resolve() if file else path
-                    linked.add(target)
+                    linked |= {target, target / "README.md"}
                     self._check_target(path, number, link, target, anchor)
         for path in self._prose:
             if path.relative_to(self._root).parts[0] == "doc" and path not in linked:
