@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 """Measures the speed of each robot type in C++ and in Python, and prints the table of doc/performance.md.
 
-robot_types.py ROBOSIM_BENCH [SECONDS] [ROUNDS]; the package robosim must be on Python's path. Columns, as steps of a robot per second of
+robot_types.py ROBOSIM_BENCH [SECONDS] [ROUNDS]; the package robosim must be on Python's path. Also replaces the rows of README.md and
+doc/performance.md, whose date is then to be changed. Columns, as steps of a robot per second of
 processor time, one thread, the best of the rounds, in which all alternate: other programs only slow it down.
   C++         robosim_bench speed --robot-type TYPE --robots 100: controller wander, with the digest
   Simulation  the same world in robosim.Simulation: each step assigns the commands of all robots and reads their ranges
@@ -10,11 +11,13 @@ Cameras take no pictures in C++, and their types are left out in Python. Each fi
 """
 import json
 import os
+import re
 import statistics
 import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 
 import numpy as np
 
@@ -62,6 +65,14 @@ def world_of(folder, robot_type, robots, seed):
     return os.path.join(folder, robot_type, str(robots), str(seed), robot_type + ".xml")
 
 
+def replace_rows(page, rows):
+    """Replaces the rows of a page's table that has this script's name in a comment before it."""
+    before, comment, after = page.read_text(encoding="utf-8").partition("<!-- Rows by apps/robosim_bench/robot_types.py -->")
+    table, blank, rest = after.partition("\n\n")
+    lines = [rows.get((re.match(r"\| `([^`]+)` \|", line) or [None, None])[1], line) for line in table.split("\n")]
+    page.write_text(before + comment + "\n".join(lines) + blank + rest, encoding="utf-8")
+
+
 def in_process(what, *arguments):
     """A figure, measured in a process of its own."""
     output = subprocess.check_output([sys.executable, "-B", __file__, "--measure", what, *arguments], text=True)
@@ -97,11 +108,13 @@ def main():
                 if of in without_camera:
                     figures[of, 1].append(in_process("simulation", folder, of, min_s))
                     figures[of, 2].append(in_process("vector_env", folder, of, min_s))
-    print("| robot type | C++ | Python, `Simulation` | Python, `VectorEnv` |\n|---|---|---|---|")
+    rows = {}
     for of in types:
-        cells = [f"{float(f'{max(of_column):.3g}'):,.0f}" if (of_column := figures[of, column]) else "–"
-                 for column in range(3)]
-        print(f"| `{of}` | {' | '.join(cells)} |")
+        cells = [f"{float(f'{max(of_column):.3g}'):,.0f}" if (of_column := figures[of, column]) else "–" for column in range(3)]
+        rows[of] = f"| `{of}` | {' | '.join(cells)} |"
+    print("| robot type | C++ | Python, `Simulation` | Python, `VectorEnv` |\n|---|---|---|---|", *rows.values(), sep="\n")
+    for page in ("README.md", "doc/performance.md"):
+        replace_rows(Path(__file__).parents[2] / page, rows)
 
 
 if __name__ == "__main__":
