@@ -11,10 +11,10 @@
 #include "net/host_port.h"
 #include "pioneer/arcos_hardware.h"
 #include "pioneer/open_channel.h"
-#include "pioneer/sick_laser.h"
 #include "recording/rawlog_writer.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
+#include "robosim/device_library.h"
 #include "robosim/robot_arguments.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
@@ -96,7 +96,7 @@ class ArcosProcess {
       return typeOf(type.empty() ? subclass : type);
     };
     if (!arguments.names.empty()) options.name = arguments.names.front();
-    if (!arguments.laser.empty()) options.laser = openSickLaser(arguments.laser, logRobot);
+    if (!arguments.laser.empty()) options.laser = loadSickLaser(arguments.laser, logRobot);
     options.log = logRobot;
     options.interrupted = [this] { return interrupt_.isRequested(); };
     return options;

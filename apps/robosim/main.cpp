@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iostream>
+#include <string_view>
 
 #include <CLI/CLI.hpp>
 #include <unistd.h>
@@ -27,6 +28,7 @@ int start(const char* part, char** argv) {
     const int error = errno;
     std::cerr << "robosim: cannot start " << file.string() << ": " << std::strerror(error);
     if (error == ENOENT) std::cerr << "; there is no " << beside.string() << " either";
+    if (part == std::string_view("robosim-view")) std::cerr << "; the portable archive has no windows";
     std::cerr << "; install RoboSim again\n";
   } catch (const std::exception& error) {
     std::cerr << "robosim: " << error.what() << '\n';

@@ -8,12 +8,11 @@
 #include <streambuf>
 #include <string_view>
 
-#include <dlfcn.h>
-
 #include "base/error_list.h"
 #include "base/log.h"
 #include "ranks/agreement.h"
 #include "ranks/launcher.h"
+#include "robosim/loaded_function.h"
 #include "robosim/subcommands.h"
 
 namespace robosim {
@@ -23,18 +22,17 @@ namespace {
 constexpr std::array<std::string_view, 2> kSubcommandsOnRanks{"run", "bench"};
 
 std::unique_ptr<RankGroup> connectRanks(const LaunchedRank& launched) {
-  constexpr const char* kLibrary = "librobosim-mpi.so." ROBOSIM_SOVERSION;
-  // Global: the components that Open MPI loads use its functions.
-  void* const handle = dlopen(kLibrary, RTLD_NOW | RTLD_GLOBAL);
-  if (!handle) {
+  using Connect = RankGroup* (*)();
+  Connect connect = nullptr;
+  try {
+    // Global: the components that Open MPI loads use its functions.
+    connect = loadedFunction<Connect>("librobosim-mpi.so." ROBOSIM_SOVERSION, "robosimConnectMpiRanks", RTLD_GLOBAL);
+  } catch (const std::exception& error) {
     throw ConfigError("was started in " + std::to_string(launched.size) +
-                      " processes, but this installation has no MPI (" + dlerror() +
+                      " processes, but this installation has no MPI (" + error.what() +
                       "); install the package robosim-mpi, or build RoboSim with libopenmpi-dev; or start one process, "
                       "without mpirun, with --threads");
   }
-  using Connect = RankGroup* (*)();
-  const auto connect = reinterpret_cast<Connect>(dlsym(handle, "robosimConnectMpiRanks"));
-  if (!connect) throw std::runtime_error(std::string(kLibrary) + ": has no function robosimConnectMpiRanks");
   std::unique_ptr<RankGroup> group(connect());
   if (group->size() != launched.size) {
     throw ConfigError("was started in " + std::to_string(launched.size) + " processes, of which its MPI sees " +

@@ -10,9 +10,9 @@
 
 #include "base/printable_text.h"
 #include "base/text_table.h"
-#include "remote/joystick.h"
 #include "remote/joystick_control.h"
 #include "remote/team_events.h"
+#include "robosim/device_library.h"
 
 namespace robosim {
 namespace {
@@ -92,7 +92,7 @@ class StatusLine {
 
 void driveByJoystick(RemoteControl& control, int number, double top_speed, const std::function<bool()>& interrupted,
                      const std::function<void(const std::string&)>& log) {
-  Joystick joystick(number);
+  const auto joystick = loadJoystick(number);
   JoystickControl driver(top_speed);
   TeamEvents events;
   StatusLine line;
@@ -108,7 +108,7 @@ void driveByJoystick(RemoteControl& control, int number, double top_speed, const
     control.tick();
     const auto robots = control.robots();
     for (const auto& event : events.news(robots)) report(event.line());
-    const auto stick = joystick.read();
+    const auto stick = joystick->read();
     if (!has_reported || has_stick != stick.has_value()) {
       has_stick = stick.has_value();
       // Afterwards nothing is sent, so that the robot's dead man's switch also stops it.

@@ -1,14 +1,12 @@
 #include "robosim/robosim_main.h"
 
 #include <iostream>
-#include <stdexcept>
 #include <string>
-
-#include <dlfcn.h>
 
 #include "base/error_list.h"
 #include "outputs/standard_parts.h"
 #include "ranks/launcher.h"
+#include "robosim/loaded_function.h"
 #include "robosim/plugin_options.h"
 #include "robosim/program.h"
 #include "robosim/program_ranks.h"
@@ -19,16 +17,6 @@ namespace {
 
 using AddSubcommands = void (*)(CLI::App& program);
 
-/// A function of a library that this program does not link, because loading it takes longer than most runs need to
-/// start.
-AddSubcommands functionIn(const std::string& library, const char* name) {
-  void* const handle = dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) throw std::runtime_error(std::string(dlerror()) + "; install all of RoboSim");
-  const auto function = reinterpret_cast<AddSubcommands>(dlsym(handle, name));
-  if (!function) throw std::runtime_error(library + ": has no function " + name + "; install RoboSim again");
-  return function;
-}
-
 void addRunSubcommands(CLI::App& program) {
   for (const auto add : {addRun, addReplay, addCheck, addExport, addFit, addGenerate, addControllers, addSensors,
                          addObservers, addBench}) {
@@ -37,11 +25,11 @@ void addRunSubcommands(CLI::App& program) {
 }
 
 AddSubcommands netSubcommands() {
-  return functionIn("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
+  return loadedFunction<AddSubcommands>("librobosim-serving.so." ROBOSIM_SOVERSION, "robosimAddNetSubcommands");
 }
 
 AddSubcommands viewSubcommands() {
-  return functionIn("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
+  return loadedFunction<AddSubcommands>("librobosim-viewing.so." ROBOSIM_SOVERSION, "robosimAddViewSubcommands");
 }
 
 /// For the error that an unknown option is one of another subcommand.

@@ -1,5 +1,4 @@
 #pragma once
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -12,19 +11,12 @@ struct StickState {
   std::vector<bool> buttons;  ///< pressed; index 0 is button 1
 };
 
-/// A joystick of this machine (Linux: /dev/input/jsN), by mrpt::hwdrivers::CJoystick. Supports hot-plugging.
+/// A joystick or gamepad; openJoystick() (devices/devices.h) opens one of this computer.
 class Joystick {
  public:
-  /// @param number of the joystick, 0 for the first
-  explicit Joystick(int number);
-  ~Joystick();
-
+  virtual ~Joystick() = default;
   /// nullopt while there is no readable joystick.
-  std::optional<StickState> read();
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  virtual std::optional<StickState> read() = 0;
 };
 
 }  // namespace robosim

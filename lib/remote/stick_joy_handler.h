@@ -1,5 +1,7 @@
 #pragma once
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "control/actions/joy_handler.h"
 #include "remote/joystick.h"
@@ -9,18 +11,18 @@ namespace robosim {
 /// Converts the state of a joystick, whose y points towards the person, to that for actions.
 inline JoyState joyStateOf(const StickState& stick) { return {.x = stick.x, .y = -stick.y, .buttons = stick.buttons}; }
 
-/// A joystick of this machine for ActionJoydrive and RatioInputJoydrive.
+/// A joystick for ActionJoydrive and RatioInputJoydrive.
 class StickJoyHandler : public JoyHandler {
  public:
-  /// @param number of the joystick, 0 for the first
-  explicit StickJoyHandler(int number = 0) : stick_(number) {}
+  /// @param stick not null; openJoystick() (devices/devices.h) opens one of this computer
+  explicit StickJoyHandler(std::unique_ptr<Joystick> stick) : stick_(std::move(stick)) {}
   std::optional<JoyState> read() override {
-    const auto state = stick_.read();
+    const auto state = stick_->read();
     return state ? std::optional(joyStateOf(*state)) : std::nullopt;
   }
 
  private:
-  Joystick stick_;
+  std::unique_ptr<Joystick> stick_;
 };
 
 }  // namespace robosim

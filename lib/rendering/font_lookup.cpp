@@ -1,10 +1,13 @@
 #include "rendering/font_lookup.h"
 
+#include <filesystem>
 #include <map>
 #include <mutex>
+#include <system_error>
 
 #include <fontconfig/fontconfig.h>
 
+#include "base/data_folders.h"
 #include "base/utf8.h"
 
 namespace robosim {
@@ -12,9 +15,25 @@ namespace {
 
 constexpr char32_t kReplacement = 0xFFFD;
 
+/// The portable archive has a font of its own, for systems without fonts, and a configuration that adds those of the
+/// system (apps/packaging/portable.py).
+bool loadFonts() {
+  const auto own = shareFolder() / "fonts" / "fonts.conf";
+  std::error_code none;
+  if (std::filesystem::exists(own, none)) {
+    FcConfig* const config = FcConfigCreate();
+    if (FcConfigParseAndLoad(config, reinterpret_cast<const FcChar8*>(own.c_str()), FcTrue) &&
+        FcConfigBuildFonts(config) && FcConfigSetCurrent(config)) {
+      return true;
+    }
+    FcConfigDestroy(config);
+  }
+  return FcInit() == FcTrue;
+}
+
 std::optional<FontFile> findFont(char32_t character) {
-  static const bool has_config = FcInit() == FcTrue;
-  if (!has_config) return std::nullopt;
+  static const bool has_fonts = loadFonts();
+  if (!has_fonts) return std::nullopt;
   FcPattern* const wanted = FcPatternCreate();
   FcCharSet* const characters = FcCharSetCreate();
   FcCharSetAddChar(characters, character);

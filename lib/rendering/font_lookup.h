@@ -12,8 +12,9 @@ struct FontFile {
   bool operator<(const FontFile& other) const { return std::tie(file, index) < std::tie(other.file, other.index); }
 };
 
-/// The font for a character, found by fontconfig: DejaVu Sans, or another font if DejaVu Sans lacks the character.
-/// Results are cached. Can be called by several threads.
+/// The font for a character, found by fontconfig: DejaVu Sans, or another font if DejaVu Sans lacks the character. With
+/// a file fonts/fonts.conf in shareFolder() that is fontconfig's configuration, otherwise the system's. Results are
+/// cached. Can be called by several threads.
 /// @return nullopt when no font is installed
 std::optional<FontFile> fontFor(char32_t character);
 

@@ -18,7 +18,7 @@ mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root
 "$project/tests/chroot.sh" "$root" bash -euc '
   export DEBIAN_FRONTEND=noninteractive
   apt-get -qq update
-  apt-get -qq -y install --no-install-recommends git sudo python3-minimal >/dev/null
+  apt-get -qq -y install --no-install-recommends git sudo python3 >/dev/null
   echo "APT::Get::Assume-Yes \"true\";" >/etc/apt/apt.conf.d/90yes
   useradd --create-home --shell /bin/bash student
   echo "student ALL=(ALL) NOPASSWD: ALL" >/etc/sudoers.d/student'

@@ -1,5 +1,3 @@
-#include "pioneer/sick_laser.h"
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -9,6 +7,8 @@
 #include <utility>
 
 #include <mrpt/hwdrivers/CSickLaserSerial.h>
+
+#include "devices/devices.h"
 
 namespace robosim {
 namespace {
@@ -91,3 +91,7 @@ std::unique_ptr<ScanSource> openSickLaser(const std::string& device, std::functi
 }
 
 }  // namespace robosim
+
+robosim::ScanSource* robosimOpenSickLaser(const std::string& device, std::function<void(const std::string&)> log) {
+  return robosim::openSickLaser(device, std::move(log)).release();
+}

@@ -1,4 +1,4 @@
-#include "remote/joystick.h"
+#include "devices/devices.h"
 
 // Included first: without it the class of the next header has another size.
 #include <mrpt/config.h>
@@ -28,16 +28,20 @@ std::optional<StickState> readStick(Driver& driver, int number) {
   return stick;
 }
 
-}  // namespace
+class MrptJoystick final : public Joystick {
+ public:
+  explicit MrptJoystick(int number) : number_(number) {}
+  std::optional<StickState> read() override { return readStick(driver_, number_); }
 
-struct Joystick::Impl {
-  int number;
-  mrpt::hwdrivers::CJoystick driver{};
+ private:
+  int number_;
+  mrpt::hwdrivers::CJoystick driver_{};
 };
 
-Joystick::Joystick(int number) : impl_(std::make_unique<Impl>(Impl{number})) {}
-Joystick::~Joystick() = default;
+}  // namespace
 
-std::optional<StickState> Joystick::read() { return readStick(impl_->driver, impl_->number); }
+std::unique_ptr<Joystick> openJoystick(int number) { return std::make_unique<MrptJoystick>(number); }
 
 }  // namespace robosim
+
+robosim::Joystick* robosimOpenJoystick(int number) { return robosim::openJoystick(number).release(); }
