@@ -32,7 +32,7 @@ function(robosim_shared_library name)
     target_sources(${target} PRIVATE $<TARGET_OBJECTS:${module}>)
   endforeach()
   set_target_properties(${target} PROPERTIES OUTPUT_NAME ${name} VERSION ${PROJECT_VERSION} SOVERSION ${ROBOSIM_SOVERSION}
-                        EXPORT_NAME ${export} LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN")
+                        EXPORT_NAME ${export} LINKER_LANGUAGE CXX INSTALL_RPATH "$ORIGIN;$ORIGIN/robosim")
   # A wheel copies the libraries from the build tree, where they lie together, too. Those of packages have no path.
   if(NOT CMAKE_SKIP_INSTALL_RPATH)
     set_target_properties(${target} PROPERTIES BUILD_WITH_INSTALL_RPATH ON)

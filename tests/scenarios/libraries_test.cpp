@@ -80,6 +80,22 @@ TEST(Libraries, OfSubcommandsWithANetworkIncludeNeitherWindowsNorDrivers) {
   EXPECT_FALSE(loads(librariesOf("robosim-net"), "glfw|nanogui|mrpt-gui|mrpt-hwdrivers|wx"));
 }
 
+TEST(Libraries, ThatForwardsToOpenCvsPictureCodecsHasAllTheirFunctions) {
+  std::smatch found;
+  const std::string libraries = librariesOf("robosim-run");
+  ASSERT_TRUE(std::regex_search(libraries, found, std::regex(R"(=> (\S*)/libopencv_core(\S*))"))) << libraries;
+  const std::string opencv = found[1].str() + "/libopencv_imgcodecs" + found[2].str();
+  ASSERT_TRUE(std::regex_search(libraries, found, std::regex(R"(=> (\S*libopencv_imgcodecs\S*))"))) << libraries;
+  const std::string used = found[1].str();
+
+  const auto functions = definitionsIn(opencv, "--dynamic");
+  const auto forwarded = definitionsIn(used, "--dynamic");
+  EXPECT_GE(functions.size(), 10u) << opencv;
+  for (const auto& name : functions) EXPECT_EQ(forwarded.count(name), 1u) << used << " lacks " << name;
+  // Where OpenCV has other functions than RoboSim forwards, programs load its library itself.
+  EXPECT_TRUE(used == opencv || !loads(libraries, "gdal")) << libraries;
+}
+
 TEST(Libraries, DependOnlyOnLibrariesBelowThem) {
   std::set<std::string> below;
   for (const std::string library : kLibraries) {

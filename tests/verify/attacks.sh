@@ -4,5 +4,5 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 cmake --preset release >/dev/null
-cmake --build --preset release --target robosim robosim_scenarios_test
+cmake --build --preset release --target robosim_program robosim_scenarios_test
 ROBOSIM_VERIFY=1 build/release/bin/robosim_scenarios_test --gtest_filter='Attack.*:ReverseProxy.*:Flood.*'

@@ -4,7 +4,7 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 cmake --preset release >/dev/null
-cmake --build --preset release --target robosim
+cmake --build --preset release --target robosim_program
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -r worlds/robots maps "$folder"

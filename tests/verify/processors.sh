@@ -5,7 +5,7 @@ set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 [[ $(uname -m) == x86_64 ]] || { echo "processors.sh: needs an x86-64 machine, this is $(uname -m)" >&2; exit 1; }
 cmake --preset release >/dev/null
-cmake --build --preset release --target robosim
+cmake --build --preset release --target robosim_program
 
 worlds='import json
 for world, entry in json.load(open("tests/data/golden_digests.json")).items():

@@ -3,5 +3,5 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 cmake --preset release >/dev/null
-cmake --build --preset release --target robosim
+cmake --build --preset release --target robosim_program
 exec tests/verify/tls_handshakes.py build/release/bin/robosim --count 100000
