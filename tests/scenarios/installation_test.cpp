@@ -121,9 +121,10 @@ TEST_F(Installation, AWheelHasItsLibrariesBesideTheExtensionAndFindsThemThere) {
   ASSERT_EQ(installed.exit_code, 0) << installed.err;
   const Ended paths = runCommand("find " + quoted(wheel) + " -name '*.so*' -exec readelf --dynamic {} +");
   EXPECT_EQ(countOf("Library runpath: [", paths.out), 6u) << "the extension and five libraries\n" << paths.out;
-  EXPECT_EQ(countOf("$ORIGIN", paths.out), countOf("Library runpath: [", paths.out) + 1)
-      << "the extension also names the folder of an installation\n"
-      << paths.out;
+  EXPECT_EQ(countOf("Library runpath: [$ORIGIN:$ORIGIN/robosim]", paths.out), 5u) << "beside, and its codecs\n"
+                                                                                  << paths.out;
+  EXPECT_EQ(countOf(":$ORIGIN]", paths.out), 1u) << "the extension also names the folder of an installation\n"
+                                                 << paths.out;
   EXPECT_EQ(paths.out.find(ROBOSIM_BUILD_DIR), std::string::npos) << paths.out;
 }
 
