@@ -3,7 +3,7 @@
 
     portable.py BUILD FOLDER
 
-BUILD is a build tree with the targets robosim and robosim_python. FOLDER gets robosim-VERSION-linux-x86_64.tar.xz and the wheel.
+BUILD is a build tree with the targets robosim_program and robosim_python. FOLDER gets robosim-VERSION-linux-x86_64.tar.xz and the wheel.
 SOURCE_DATE_EPOCH is the date of all files. doc/release.md describes the content."""
 import base64
 import hashlib
@@ -29,7 +29,7 @@ OF_THE_SYSTEM = re.compile(r"(ld-linux-x86-64|lib(c|m|dl|pthread|rt|resolv|util|
 REPLACED = re.compile(r"libgdal\.so\.")
 # Windows, and devices and MPI, which are loaded on demand; RoboSim reports what is missing. The codecs in lib/robosim forward to a
 # library of the system's name.
-LEFT_OUT = ("libexec/robosim/robosim-view", "lib/robosim", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*")
+LEFT_OUT = ("libexec/robosim/robosim-view", "lib/robosim/*", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*")
 FONTS_CONF = """<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "urn:fontconfig:fonts.dtd">
 <fontconfig>
