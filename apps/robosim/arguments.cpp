@@ -166,7 +166,7 @@ void addNoiseOption(CLI::App& command, WorldChanges& changes) {
             changes.noise = text == "all" ? AddedNoise::all : text == "on" ? AddedNoise::typical : AddedNoise::none;
             changes.adds_radio_errors = text == "all";
           },
-          "errors of the sensors without <noise>. on: the random errors of their data sheets; all: every error that "
+          "errors of the sensors without <noise>. on: the default random errors of each kind; all: every error that "
           "the kind of sensor has, and those of the radio unless the world has <communication>; world: none")
       ->check(CLI::IsMember({"all", "on", "world"}))
       ->default_str("world")

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <initializer_list>
 #include <utility>
 
@@ -10,18 +11,20 @@ namespace robosim {
 /// overrides values of the set. @return `none` without the attribute, and after a report of an unknown name
 template <typename Set>
 Set readNoiseSet(XmlReader& sensor, std::initializer_list<std::pair<const char*, Set>> sets, Set none) {
-  const XmlElement& element = sensor.element();
-  bool has_child = false;
-  for (const auto& child : element.children) has_child |= child.name == "noise";
-  if (!has_child) return sensor.choice<Set>("noise", sets, none);
-  for (const auto& [name, value] : element.attributes) {
-    if (name != "noise") continue;
-    std::string accepted;
-    for (const auto& [text, set] : sets) {
-      if (value == text) return set;
-      accepted += (accepted.empty() ? "" : ", ") + std::string(text);
-    }
-    sensor.error("noise=\"" + value + "\" is unknown; accepted are: " + accepted);
+  std::string accepted;
+  for (const auto& [text, set] : sets) accepted += (accepted.empty() ? "" : ", ") + std::string(text);
+  const std::string name = sensor.attribute("noise", accepted);
+  const auto& attributes = sensor.element().attributes;
+  if (std::none_of(attributes.begin(), attributes.end(), [](const auto& a) { return a.first == "noise"; })) return none;
+  for (const auto& [text, set] : sets) {
+    if (name == text) return set;
+  }
+  const auto& children = sensor.element().children;
+  const bool has_child = std::any_of(children.begin(), children.end(), [](const auto& c) { return c.name == "noise"; });
+  if (has_child) {
+    sensor.error("noise=\"" + name + "\" is unknown; accepted are: " + accepted);
+  } else {
+    sensor.errorAt("noise", "is unknown; accepted are: " + accepted);
   }
   return none;
 }

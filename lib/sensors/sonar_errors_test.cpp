@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "sensors/registry.h"
 #include "sensors/sonar.h"
 #include "sensors/testing/single_robot_scene.h"
 
@@ -141,6 +142,16 @@ TEST(SonarFiring, UpdatesEachOfEightSonarsEvery320Milliseconds) {
     EXPECT_EQ(fired, 100) << "in 32 s";
   }
   EXPECT_TRUE(pioneer.fires(7, {0, 0.1})) << "at the start";
+}
+
+TEST(SonarNoise, SetIsListedAsASettingThatMayBeAbsent) {
+  for (const char* kind : {"sonar", "infrared", "laser"}) {
+    for (const XmlSetting& setting : settingsOf(*sensorType(kind))) {
+      if (setting.name == "noise") {
+        EXPECT_EQ(setting.default_text, "none") << kind;
+      }
+    }
+  }
 }
 
 TEST(SonarNoise, SetPolaroidIsOverriddenByAttributesOfNoise) {
