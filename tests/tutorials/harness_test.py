@@ -87,6 +87,10 @@ class RunTutorialTest(unittest.TestCase):
         run_everything("<!-- not executed: in two terminals, until Ctrl-C -->\n```sh\necho x >pipe\ncat pipe\n```\n", self,
                        prepare=lambda folder: os.mkfifo(folder / "pipe"))
 
+    def test_everything_reports_a_failure_before_a_conjunction(self):
+        with self.assertRaisesRegex(PageError, "page.md:2: the block ended with exit code 1"):
+            run_everything("```sh\nfalse && true\ntrue\n```\n", self)
+
     def test_everything_reports_every_failure(self):
         with self.assertRaisesRegex(PageError, "(?s)page.md:2: the block ended with exit code 1.*"
                                                "page.md:6: 'false  # until Ctrl-C' ended with 1"):

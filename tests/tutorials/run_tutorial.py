@@ -177,7 +177,7 @@ class EverythingTutorial(Tutorial):
             pending = ""
             for command in commands_of(block.text):
                 if "Ctrl-C" not in block.reason + command and not block.reason.startswith(("opens windows", "waits")):
-                    pending += command + "\n"
+                    pending += f"{command}\n[[ $? == 0 ]] || exit 1\n"  # set -e does not end a block at 'false && true'
                     continue
                 self._run_pending(pending, block.line)
                 pending = ""
