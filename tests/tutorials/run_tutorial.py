@@ -201,7 +201,7 @@ class EverythingTutorial(Tutorial):
             time.sleep(self.DELAY_S)
         deadline = time.monotonic() + self.BOUND_S
         problems = []
-        for command, output, bash in reversed(started):  # the clients before the environment
+        for command, output, bash in started:  # the environment, then its clients
             is_interrupted = False
             try:
                 bash.wait(max(0, deadline - time.monotonic()))
@@ -213,7 +213,8 @@ class EverythingTutorial(Tutorial):
                 except subprocess.TimeoutExpired:
                     os.killpg(bash.pid, signal.SIGKILL)
                     bash.wait()
-            if bash.returncode and not (is_interrupted and bash.returncode in (-signal.SIGINT, 128 + signal.SIGINT)):
+            is_expected = not bash.returncode or is_interrupted and bash.returncode in (-signal.SIGINT, 128 + signal.SIGINT)
+            if not is_expected:
                 output.seek(0)
                 problems.append(f"'{command}' ended with {bash.returncode}{' after Ctrl-C' if is_interrupted else ''}. Output:\n"
                                 + output.read().decode("utf-8", "replace"))

@@ -20,6 +20,7 @@ mmdebstrap --quiet --variant=minbase --include=ca-certificates "$release" "$root
   apt-get -qq update
   apt-get -qq -y install --no-install-recommends git sudo python3 >/dev/null
   echo "APT::Get::Assume-Yes \"true\";" >/etc/apt/apt.conf.d/90yes
+  echo "127.0.0.1 $(hostname)" >>/etc/hosts
   useradd --create-home --shell /bin/bash student
   echo "student ALL=(ALL) NOPASSWD: ALL" >/etc/sudoers.d/student'
 git -c safe.directory='*' clone --quiet --no-hardlinks "$project" "$root/home/student/robosim"
@@ -30,6 +31,8 @@ if command -v Xvfb >/dev/null; then
   xvfb=$!
   trap 'kill $xvfb' EXIT
   until [[ -s $root/srv/display ]]; do sleep 0.1; done
+  mkdir -p "$root/tmp/.X11-unix"
+  ln "/tmp/.X11-unix/X$(<"$root/srv/display")" "$root/tmp/.X11-unix"
 fi
 
 # page NAME [first]: a login shell, whose path has ~/.local/bin once that folder exists
