@@ -27,9 +27,8 @@ OF_THE_SYSTEM = re.compile(r"(ld-linux-x86-64|lib(c|m|dl|pthread|rt|resolv|util|
 # OpenCV's reader of two formats of satellite pictures, which RoboSim never reads, needs GDAL and with it 80 libraries of 96 MB. In
 # the archive it finds functions that return 0, as those of GDAL do for a file that they cannot read.
 REPLACED = re.compile(r"libgdal\.so\.")
-# Windows, and devices and MPI, which are loaded on demand; RoboSim reports what is missing. The codecs in lib/robosim forward to a
-# library of the system's name.
-LEFT_OUT = ("libexec/robosim/robosim-view", "lib/robosim/*", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*")
+# Windows, and devices and MPI, which are loaded on demand; RoboSim reports what is missing.
+LEFT_OUT = ("libexec/robosim/robosim-view", "lib/librobosim-viewing.so*", "lib/librobosim-devices.so*", "lib/librobosim-mpi.so*")
 FONTS_CONF = """<?xml version="1.0"?>
 <!DOCTYPE fontconfig SYSTEM "urn:fontconfig:fonts.dtd">
 <fontconfig>
@@ -291,6 +290,7 @@ def main(build, output):
     root = output / name
     install(build, "robosim", root)
     remove(root, LEFT_OUT)
+    shutil.rmtree(root / "lib/robosim", ignore_errors=True)  # codecs that forward to a library of the system's name
     flatten_links(root / "lib")
     staged = output / "python"
     install(build, "python3-robosim", staged)
