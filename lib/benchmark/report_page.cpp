@@ -1,7 +1,8 @@
 // The HTML page of a report.
+#include "base/report_page.h"
+
 #include "base/html_text.h"
 #include "base/text_table.h"
-#include "benchmark/report_style.h"
 #include "benchmark/report_tables.h"
 #include "benchmark/search_figures.h"
 #include "benchmark/search_report.h"
@@ -103,15 +104,12 @@ constexpr const char* kMethods =
 }  // namespace
 
 std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std::string& command) {
-  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
-         "content=\"width=device-width\">\n<title>Gold benchmark</title>\n<style>" +
-         reportStyle() + chartStyle() +
-         "</style>\n</head>\n<body>\n<main>\n<h1>Gold benchmark</h1>\n<p class=\"quiet\">RoboSim " ROBOSIM_VERSION
-         ". " +
-         escapedHtml(summaryLine(plan, runs)) + "</p>\n<pre>" + escapedHtml(command) + "</pre>\n" +
-         overviewOf(plan, runs) + worldsOf(plan, summarise(plan, runs)) + comparisonsOf(plan, runs) +
-         robustnessSection(plan, runs) + kMethods + "</main>\n<script>" + reportScript() +
-         "</script>\n</body>\n</html>\n";
+  return reportPage("Gold benchmark",
+                    "<p class=\"quiet\">RoboSim " ROBOSIM_VERSION ". " + escapedHtml(summaryLine(plan, runs)) +
+                        "</p>\n<pre>" + escapedHtml(command) + "</pre>\n" + overviewOf(plan, runs) +
+                        worldsOf(plan, summarise(plan, runs)) + comparisonsOf(plan, runs) +
+                        robustnessSection(plan, runs) + kMethods,
+                    chartStyle());
 }
 
 }  // namespace robosim

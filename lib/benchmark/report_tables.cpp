@@ -6,9 +6,9 @@
 #include <limits>
 #include <map>
 
+#include "base/html_table.h"
 #include "base/html_text.h"
 #include "base/text_table.h"
-#include "benchmark/html_table.h"
 #include "benchmark/search_pairs.h"
 #include "benchmark/strategy_summary.h"
 

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/html_table.h"
 #include "base/html_text.h"
+#include "base/report_page.h"
 #include "base/text_table.h"
 #include "calibration/scanner_fit.h"
 
@@ -11,6 +13,11 @@ namespace {
 constexpr int kWidth_px = 560, kHeight_px = 200, kMargin_px = 30;
 
 constexpr double kWidest_m = 0.15;  // of the plots
+
+constexpr const char* kHistogramStyle =
+    ":root{--real:#9ecae1;--model:#c0392b}@media(prefers-color-scheme:dark){:root{--real:#2f6f96;--model:#ff8a75}}"
+    ".real{fill:var(--real)}.model{fill:none;stroke:var(--model);stroke-width:1.5}.axis{stroke:var(--text)}"
+    ".chart{max-width:45rem}.chart text{fill:var(--text)}";
 
 /// Shares of the differences in bins of equal width within ±kWidest_m.
 std::vector<double> sharesOf(const std::vector<double>& differences_m, double bin_m) {
@@ -48,9 +55,8 @@ std::string histogramOf(const ScannerFit& fit, std::size_t band) {
   const double largest =
       std::max(*std::max_element(real.begin(), real.end()), *std::max_element(simulated.begin(), simulated.end()));
   const std::string width = std::to_string(kWidth_px), height = std::to_string(kHeight_px);
-  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height + "\" width=\"" +
-                    width + "\" height=\"" + height + "\" role=\"img\" aria-label=\"Differences of ranges, " +
-                    bandName(band) + "\">\n";
+  std::string svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height +
+                    "\" class=\"chart\" role=\"img\" aria-label=\"Differences of ranges, " + bandName(band) + "\">\n";
   svg += "<path d=\"" + pathOf(real, largest) + "\" class=\"real\"/>\n";
   svg += "<path d=\"" + pathOf(simulated, largest) + "\" class=\"model\"/>\n";
   const int floor_px = kHeight_px - kMargin_px;
@@ -66,24 +72,17 @@ std::string histogramOf(const ScannerFit& fit, std::size_t band) {
   return svg + "</svg>\n";
 }
 
-std::string rowOf(const std::vector<std::string>& cells, const char* tag = "td") {
-  std::string row = "<tr>";
-  for (const auto& cell : cells) row += "<" + std::string(tag) + ">" + escapedHtml(cell) + "</" + tag + ">";
-  return row + "</tr>\n";
-}
-
 std::string excludedOf(const ScannerFit& fit) {
-  std::string rows;
+  HtmlTable table({"scans", "time [s]", "turned at unchanged odometry [°]", "standard errors"}, false);
+  bool has_any = false;
   for (const auto& pair : fit.candidates) {
     if (pair.is_at_rest || fit.criterion == RestCriterion::odometry) continue;
-    rows += rowOf({std::to_string(pair.first) + " and " + std::to_string(pair.first + 1),
-                   fixed(fit.series.scans[pair.first].time_s, 2) + " s",
-                   "turned by " + fixed(pair.turned_rad * 180 / M_PI, 3) + "° (" + fixed(std::abs(pair.turned_t), 1) +
-                       " standard errors) at unchanged odometry"});
+    has_any = true;
+    table.add({std::to_string(pair.first) + " and " + std::to_string(pair.first + 1),
+               fixed(fit.series.scans[pair.first].time_s, 2), fixed(pair.turned_rad * 180 / M_PI, 3),
+               fixed(std::abs(pair.turned_t), 1)});
   }
-  if (rows.empty()) return "<p>No pair at unchanged odometry was excluded.</p>\n";
-  return "<div class=\"wide\" tabindex=\"0\"><table>\n" + rowOf({"scans", "time", "reason"}, "th") + rows +
-         "</table></div>\n";
+  return has_any ? table.html() : "<p>No pair at unchanged odometry was excluded.</p>\n";
 }
 
 std::string bandsOf(const ScannerFit& fit) {
@@ -108,7 +107,7 @@ std::string bandsOf(const ScannerFit& fit) {
               (fit.isBeyondBound(fold, band) ? " (<strong>differs</strong>)" : " (agrees)");
     }
     html += ".</p>\n";
-    html += histogramOf(fit, band);
+    html += "<div class=charts tabindex=0>\n" + histogramOf(fit, band) + "</div>\n";
   }
   return html;
 }
@@ -116,21 +115,7 @@ std::string bandsOf(const ScannerFit& fit) {
 }  // namespace
 
 std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
-  std::string html =
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>Laser errors of " +
-      escapedHtml(rawlog) +
-      "</title>\n<meta name=\"viewport\" content=\"width=device-width\">\n"
-      "<style>:root{color-scheme:light dark;--text:#222;--line:#bbb;--back:#fff;--box:#f5f7f9;--real:#9ecae1;"
-      "--model:#c0392b}@media(prefers-color-scheme:dark){:root{--text:#dfe3e8;--line:#3b4148;--back:#15181c;"
-      "--box:#1d2126;--real:#2f6f96;--model:#ff8a75}}*{box-sizing:border-box}"
-      "body{font:15px/1.5 sans-serif;max-width:62em;margin:0 auto;padding:1em;color:var(--text);"
-      "background:var(--back);overflow-wrap:anywhere}"
-      "table{border-collapse:collapse}th,td{border:1px solid var(--line);padding:.2em .6em;text-align:left}"
-      "pre,.wide{background:var(--box);padding:.8em;overflow-x:auto}svg{max-width:100%;height:auto}"
-      ".real{fill:var(--real)}.model{fill:none;stroke:var(--model);stroke-width:1.5}.axis{stroke:var(--text)}"
-      "text{fill:var(--text)}</style>\n</head>\n<body>\n<main>\n";
-  html += "<h1>Laser errors of " + escapedHtml(rawlog) + "</h1>\n<pre tabindex=\"0\">" + escapedHtml(summaryOf(fit)) +
-          "</pre>\n";
+  std::string html = "<pre class=\"columns\" tabindex=\"0\">" + escapedHtml(summaryOf(fit)) + "</pre>\n";
   if (fit.basis == FitBasis::scans_at_rest) {
     html +=
         "<h2>Differences of scans at rest</h2>\n<p>Second minus first range of two successive scans. Filled: held-out "
@@ -144,9 +129,8 @@ std::string reportHtml(const ScannerFit& fit, const std::string& rawlog) {
   }
   html += bandsOf(fit);
   html += "<h2>Excluded pairs</h2>\n" + excludedOf(fit);
-  html += "<h2>Model</h2>\n<pre tabindex=\"0\">" + escapedHtml(modelXml(fit, rawlog)) +
-          "</pre>\n</main>\n</body>\n</html>\n";
-  return html;
+  html += "<h2>Model</h2>\n<pre class=\"columns\" tabindex=\"0\">" + escapedHtml(modelXml(fit, rawlog)) + "</pre>\n";
+  return reportPage("Laser errors of " + rawlog, html, kHistogramStyle);
 }
 
 }  // namespace robosim

@@ -1,7 +1,10 @@
 // The style and the script of a report's page.
-#include "benchmark/report_style.h"
+#include "base/report_page.h"
+
+#include "base/html_text.h"
 
 namespace robosim {
+namespace {
 
 std::string reportStyle() {
   return "*{box-sizing:border-box}"
@@ -33,7 +36,8 @@ std::string reportStyle() {
          "th[aria-sort=ascending] button::after{content:' \\2191'}"
          "th[aria-sort=descending] button::after{content:' \\2193'}"
          "pre{background:var(--stripe);border:1px solid var(--line);border-radius:6px;padding:.8rem;overflow-x:auto;"
-         "white-space:pre-wrap;overflow-wrap:anywhere}"
+         "white-space:pre-wrap;overflow-wrap:anywhere}pre.columns{white-space:pre}"
+         "h1,p{overflow-wrap:anywhere}"
          // Charts keep a size at which their texts can be read, and scroll on narrow pages.
          ".charts{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,36rem),1fr));gap:.5rem 1.5rem;"
          "overflow-x:auto}"
@@ -59,6 +63,16 @@ std::string reportScript() {
          "const rows=[...table.tBodies[0].rows].map(row=>[value(row.cells[column],column),row]);"
          "rows.sort(([a],[b])=>{const d=a<b?-1:a>b?1:0;return falling?-d:d});"
          "table.tBodies[0].append(...rows.map(([,row])=>row))})})}";
+}
+
+}  // namespace
+
+std::string reportPage(const std::string& title, const std::string& content, const std::string& style) {
+  const std::string heading = escapedHtml(title);
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
+         "content=\"width=device-width\">\n<title>" +
+         heading + "</title>\n<style>" + reportStyle() + style + "</style>\n</head>\n<body>\n<main>\n<h1>" + heading +
+         "</h1>\n" + content + "</main>\n<script>" + reportScript() + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace robosim

@@ -1,4 +1,4 @@
-#include "benchmark/html_table.h"
+#include "base/html_table.h"
 
 #include <limits>
 
