@@ -40,6 +40,7 @@ struct ExportArguments {
   WorldChanges changes;
   std::optional<std::uint64_t> seed;  ///< of random places; default: kDefaultSeed
   FigureArguments figure;
+  LayerArguments layers;
 };
 
 /// Files to be written, by path: some formats consist of two files.
@@ -53,6 +54,7 @@ class Source {
         progress_(progress),
         loaded_(changedWorld(arguments.world, arguments.changes, {}, arguments.seed.value_or(kDefaultSeed))) {}
 
+  const ExportArguments& arguments() const { return arguments_; }
   const LoadedWorld& loaded() const { return loaded_; }
 
   const OccupancyGrid& grid() {
@@ -134,7 +136,9 @@ void makeRosMap(Source& source, const fs::path& out, Files& files) {
 /// A plan, with the robots at their starts.
 void makePlan(Source& source, const fs::path& out, Files& files) {
   const LoadedWorld& loaded = source.loaded();
-  files[out] = planPicture(requirePictureFormat(out), loaded.world, loaded.fleet, startOf(loaded.fleet));
+  DrawnRun start = startOf(loaded.fleet);
+  start.has_names = !source.arguments().layers.hides("names");
+  files[out] = planPicture(requirePictureFormat(out), loaded.world, loaded.fleet, start);
 }
 
 /// Formats by file name extension, case-insensitive. To add a format, add a line here.
@@ -248,7 +252,20 @@ std::vector<RecordingOutput> recordingOutputs(const ExportArguments& arguments) 
   return outputs;
 }
 
+const std::vector<std::string> kFigureLayers{"paths", "events", "names"}, kPlanLayers{"names"}, kMapLayers{};
+
+/// @param drawn layers that the figures have
+/// @throws ConfigError for layers that they do not have
+void checkLayers(const ExportArguments& arguments, const std::string& figures, const std::vector<std::string>& drawn) {
+  for (const auto& layer : arguments.layers.hidden) {
+    if (std::find(drawn.begin(), drawn.end(), layer) != drawn.end()) continue;
+    throw ConfigError("--hide " + layer + ": " + figures + " has no " + layer +
+                      " anyway; omit it, or use robosim view" + " --offscreen");
+  }
+}
+
 void exportOfRecording(const ExportArguments& arguments, const std::vector<RecordingOutput>& outputs) {
+  checkLayers(arguments, "a figure of a rawlog by robosim export", kFigureLayers);
   FilesByOutput files;
   for (const auto& output : outputs) files[output.file.string()] = {output.file};
   check(arguments, files);
@@ -258,7 +275,8 @@ void exportOfRecording(const ExportArguments& arguments, const std::vector<Recor
     arguments.figure.check(is_document, output.file.string());
   }
   const Interrupt interrupt;
-  const bool is_undamaged = exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page());
+  const bool is_undamaged =
+      exportRecording(arguments.world, outputs, &interrupt, arguments.figure.page(), arguments.layers.layers());
   for (const auto& output : outputs) printSize(output.file, fs::file_size(output.file));
   if (!is_undamaged) throw Exit{kBadInput};
 }
@@ -266,6 +284,9 @@ void exportOfRecording(const ExportArguments& arguments, const std::vector<Recor
 void exportFiles(const ExportArguments& arguments) {
   const auto of_recording = recordingOutputs(arguments);
   if (!of_recording.empty()) return exportOfRecording(arguments, of_recording);
+  const auto is_plan = [](const std::string& out) { return endsWith(out, ".svg") || endsWith(out, ".pdf"); };
+  const bool has_plan = std::any_of(arguments.outs.begin(), arguments.outs.end(), is_plan);
+  checkLayers(arguments, has_plan ? "a plan of a world" : "a map", has_plan ? kPlanLayers : kMapLayers);
   FilesByOutput outs;
   for (const auto& out : arguments.outs) {
     arguments.figure.check(false, out);
@@ -355,6 +376,12 @@ void addExport(CLI::App& program) {
                 ->group(kGridGroup),
             kGrids, has_grid);
   arguments->figure.addTo(*command, {});
+  dependsOn(arguments->layers.addTo(*command, "layers that a figure or a plan is drawn without")->group(kFigureGroup),
+            "an OUT in .png, .svg or .pdf", [arguments] {
+              return std::any_of(arguments->outs.begin(), arguments->outs.end(), [](const std::string& out) {
+                return endsWith(out, ".png") || endsWith(out, ".svg") || endsWith(out, ".pdf");
+              });
+            });
   command->footer(formatsHelp());
   command->callback([arguments] { exportFiles(*arguments); });
 }

@@ -1,8 +1,11 @@
 #include "robosim/figure_arguments.h"
 
+#include <algorithm>
+
 #include <mrpt/core/format.h>
 
 #include "base/error_list.h"
+#include "base/nearest_name.h"
 #include "robosim/arguments.h"
 
 namespace robosim {
@@ -30,6 +33,53 @@ void FigureArguments::check(bool is_figure, const std::string& file) const {
   const std::string option = width_mm ? "--width-mm" : "--font-pt";
   throw ConfigError(option + ": applies to figures of runs in .svg or .pdf" +
                     (file.empty() ? ", written by --offscreen" : ", and " + file + " is not one") + "; omit it");
+}
+
+namespace {
+
+struct NamedLayer {
+  const char* name;
+  bool TopViewLayers::*is_shown;
+};
+
+/// To add a layer, add a line here.
+constexpr NamedLayer kLayers[] = {
+    {"paths", &TopViewLayers::paths},
+    {"sensors", &TopViewLayers::sensors},
+    {"events", &TopViewLayers::events},
+    {"names", &TopViewLayers::names},
+};
+
+std::vector<std::string> layerNames() {
+  std::vector<std::string> names;
+  for (const auto& layer : kLayers) names.emplace_back(layer.name);
+  return names;
+}
+
+std::string checkLayer(const std::string& name) {
+  const auto names = layerNames();
+  if (std::find(names.begin(), names.end(), name) != names.end()) return "";
+  const std::string nearest = didYouMean(name, names);
+  return "there is no layer '" + name + "'" + (nearest.empty() ? "; the layers are " + listed(names) : nearest);
+}
+
+}  // namespace
+
+CLI::Option* LayerArguments::addTo(CLI::App& command, const std::string& help) {
+  return command.add_option("--hide", hidden, help + ": " + listed(layerNames()))
+      ->delimiter(',')
+      ->type_name("LAYER,…")
+      ->check(CLI::Validator(checkLayer, ""));
+}
+
+bool LayerArguments::hides(const std::string& layer) const {
+  return std::find(hidden.begin(), hidden.end(), layer) != hidden.end();
+}
+
+TopViewLayers LayerArguments::layers() const {
+  TopViewLayers layers;
+  for (const auto& layer : kLayers) layers.*layer.is_shown = !hides(layer.name);
+  return layers;
 }
 
 }  // namespace robosim

@@ -1,10 +1,12 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include "rendering/figure_page.h"
+#include "rendering/top_view.h"
 
 namespace robosim {
 
@@ -17,6 +19,16 @@ struct FigureArguments {
   /// @param is_figure whether `file` is a figure of a run in SVG or PDF
   /// @throws ConfigError when sizes are given for another file
   void check(bool is_figure, const std::string& file) const;
+};
+
+/// --hide: layers that a picture is drawn without.
+struct LayerArguments {
+  std::vector<std::string> hidden;
+
+  /// Adds the option. @param help before the names of the layers
+  CLI::Option* addTo(CLI::App& command, const std::string& help);
+  bool hides(const std::string& layer) const;
+  TopViewLayers layers() const;
 };
 
 }  // namespace robosim

@@ -36,6 +36,7 @@ struct ViewArguments {
   bool has_size = false, has_scale = false;
   Panes::Look look;
   FigureArguments figure;
+  LayerArguments layers;
 };
 
 std::optional<std::size_t> robotNamed(const std::string& name, const Fleet& fleet, AbsentRobots absent) {
@@ -148,11 +149,11 @@ void view(ViewArguments a) {
   refuseOverwriting(source->inputs(), {a.offscreen});
   checkTimes(a, *source);
   const auto make_panes = [&a](const LoadedWorld& world, AbsentRobots absent) { return panesFor(a, world, absent); };
-  if (a.offscreen.empty()) return showWindow(*source, make_panes, size, a.times, a.look);
+  if (a.offscreen.empty()) return showWindow(*source, make_panes, size, a.times, a.look, a.layers.layers());
   if (isFigure(a.offscreen)) {
-    writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage));
+    writeViewFigure(*source, a.times, a.offscreen, a.figure.page(kColumnPage), a.layers.layers());
   } else {
-    writeOffscreen(*source, make_panes, size, a.times, a.offscreen, a.look);
+    writeOffscreen(*source, make_panes, size, a.times, a.offscreen, a.look, a.layers.layers());
   }
   if (source->isDamaged()) throw Exit{kBadInput};
 }
@@ -194,6 +195,7 @@ void addView(CLI::App& program) {
       ->capture_default_str()
       ->each([a](const std::string&) { a->has_scale = true; });
   a->figure.addTo(*command, kColumnPage);
+  a->layers.addTo(*command, "layers to leave out; in a window, until they are switched on");
   command->add_flag("--antialias", a->look.antialias,
                     "smooth edges in 3D and in the camera picture; rendering takes about 2.5 times as long");
   command->add_flag("--camera", a->look.camera_inset,
@@ -215,7 +217,8 @@ void addView(CLI::App& program) {
                   ->type_name("NUMBER")
                   ->capture_default_str();
   dependsOn(fps, "--offscreen FILE.mp4 or FILE.webm", [a] { return isVideo(a->offscreen); });
-  setGroup(*command, "Views", {"--2d", "--3d", "--follow", "--view", "--size", "--scale", "--antialias", "--camera"});
+  setGroup(*command, "Views",
+           {"--2d", "--3d", "--follow", "--view", "--hide", "--size", "--scale", "--antialias", "--camera"});
   setGroup(*command, kFigureGroup, {"--offscreen", "--from", "--to", "--for", "--speed", "--fps"});
   addSecurityOptions(*command, a->connection);
   addConnectTimeout(*command, a->connection);

@@ -33,7 +33,7 @@ MemoryBound::~MemoryBound() {
 
 void MemoryBound::measure() {
   max_bytes_ = 0;
-  if (statm_ < 0) return;
+  if (statm_ < 0 || getrlimit(RLIMIT_DATA, &outside_) != 0) return;
   char text[256] = {};
   // Pages: all, resident, shared, code, 0, data with the stacks, 0.
   unsigned long long data_pages = 0;
@@ -42,15 +42,15 @@ void MemoryBound::measure() {
   max_bytes_ = static_cast<rlim_t>(data_pages) * static_cast<rlim_t>(sysconf(_SC_PAGESIZE)) + headroom_bytes_;
 }
 
-MemoryBound::Hold::Hold(const MemoryBound& bound) {
-  if (bound.max_bytes_ == 0 || getrlimit(RLIMIT_DATA, &before_) != 0) return;
+MemoryBound::Hold::Hold(const MemoryBound& bound) : bound_(bound) {
+  if (bound.max_bytes_ == 0) return;
   // RLIM_INFINITY is the largest number.
-  const rlimit bounded{std::min(before_.rlim_cur, bound.max_bytes_), before_.rlim_max};
+  const rlimit bounded{std::min(bound.outside_.rlim_cur, bound.max_bytes_), bound.outside_.rlim_max};
   is_set_ = setrlimit(RLIMIT_DATA, &bounded) == 0;
 }
 
 MemoryBound::Hold::~Hold() {
-  if (is_set_) setrlimit(RLIMIT_DATA, &before_);
+  if (is_set_) setrlimit(RLIMIT_DATA, &bound_.outside_);
 }
 
 }  // namespace robosim

@@ -33,7 +33,7 @@ class MemoryBound {
   MemoryBound(const MemoryBound&) = delete;
   MemoryBound& operator=(const MemoryBound&) = delete;
 
-  /// Updates the process's current memory. Takes 1–2 µs.
+  /// Updates the process's current memory and its limit. Takes 1–2 µs.
   void measure();
 
   class Hold {
@@ -44,7 +44,7 @@ class MemoryBound {
     Hold& operator=(const Hold&) = delete;
 
    private:
-    rlimit before_{};
+    const MemoryBound& bound_;
     bool is_set_ = false;
   };
 
@@ -52,6 +52,7 @@ class MemoryBound {
   std::size_t headroom_bytes_;
   int statm_ = -1;        ///< /proc/self/statm; below 0 where there is none, and then there is no limit
   rlim_t max_bytes_ = 0;  ///< 0 for unknown
+  rlimit outside_{};      ///< the limit without a Hold
 };
 
 }  // namespace robosim

@@ -5,6 +5,7 @@
 
 #include <mrpt/obs/CActionCollection.h>
 #include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CActionRobotMovement3D.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
@@ -93,6 +94,7 @@ struct RawlogReader::Impl {
   void add(const mrpt::serialization::CSerializable::Ptr& object);
   void add(const mrpt::obs::CActionCollection& actions);
   void addObservation(const CObservation::Ptr& observation);
+  void addOdometry(const mrpt::Clock::time_point& time);
   void stop(const std::string& why, bool is_damage = true);
   void describeDamage();
 
@@ -104,6 +106,7 @@ struct RawlogReader::Impl {
   std::deque<CObservation::Ptr> ready;
   std::uint64_t entry_position = 0;      ///< of the entry that contained them
   mrpt::poses::CPose2D odom_from_robot;  ///< accumulated from actions
+  mrpt::poses::CPose3D odom_in_space;    ///< the same of movements in space, of which it is the projection
   std::uint64_t entries = 0, skipped_entries = 0, measured_entries = 0;
   bool at_end = false;
   std::string early_end;  ///< reason for which reading ended early; empty for none
@@ -189,13 +192,22 @@ void RawlogReader::Impl::addObservation(const CObservation::Ptr& observation) {
 }
 
 void RawlogReader::Impl::add(const mrpt::obs::CActionCollection& actions) {
+  if (const auto in_space = actions.getActionByClass<mrpt::obs::CActionRobotMovement3D>()) {
+    odom_in_space += in_space->poseChange.getMeanVal();
+    odom_from_robot = mrpt::poses::CPose2D(odom_in_space);
+    return addOdometry(in_space->timestamp);
+  }
   const auto movement = actions.getActionByClass<mrpt::obs::CActionRobotMovement2D>();
   if (!movement) return;
   odom_from_robot += movement->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry
                          ? movement->rawOdometryIncrementReading
                          : movement->poseChange->getMeanVal();
+  addOdometry(movement->timestamp);
+}
+
+void RawlogReader::Impl::addOdometry(const mrpt::Clock::time_point& time) {
   auto odometry = mrpt::obs::CObservationOdometry::Create();
-  odometry->timestamp = movement->timestamp;
+  odometry->timestamp = time;
   odometry->sensorLabel = kFromActions;
   odometry->odometry = odom_from_robot;
   ready.push_back(odometry);

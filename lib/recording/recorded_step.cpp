@@ -83,7 +83,11 @@ void RecordedSteps::seek(std::uint64_t position) {
   }
 }
 
-std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
+std::optional<std::vector<RecordedRobot>> RecordedSteps::next() { return next(true); }
+
+std::optional<std::vector<RecordedRobot>> RecordedSteps::nextWithoutMeasurements() { return next(false); }
+
+std::optional<std::vector<RecordedRobot>> RecordedSteps::next(bool has_measurements) {
   if (!lookahead_) return std::nullopt;
   const auto time = lookahead_->timestamp;
   const double steps = secondsSinceStart(time) / period_s_;
@@ -120,7 +124,7 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
       robots.back().is_missing = true;
       continue;
     }
-    auto complete = assemble(i, by_robot[i], step, position);
+    auto complete = assemble(i, by_robot[i], step, position, has_measurements);
     if (!complete) {
       throw RecordingError("robot \"" + robots_[i].name + "\" is incomplete in step " + std::to_string(step) +
                            " of the recording; give the world that it was made with");
@@ -138,7 +142,8 @@ std::optional<std::vector<RecordedRobot>> RecordedSteps::next() {
 }
 
 std::optional<RecordedRobot> RecordedSteps::assemble(std::size_t index, const Observations& observations,
-                                                     std::uint64_t step, std::uint64_t position) {
+                                                     std::uint64_t step, std::uint64_t position,
+                                                     bool has_measurements) {
   const RobotInfo& robot = robots_[index];
   RecordedRobot recorded;
   Readings& readings = recorded.readings;
@@ -164,6 +169,11 @@ std::optional<RecordedRobot> RecordedSteps::assemble(std::size_t index, const Ob
     if (!observation) {
       if (!isIntermittent(sensor) && sensor.times.isDue(readings.time)) return std::nullopt;
       readings.measurements.push_back(kept.measurement);
+      continue;
+    }
+    if (!has_measurements) {
+      readings.measurements.push_back(kept.measurement);
+      if (sensor.times.rate_hz > 0) kept.position = position;
       continue;
     }
     if (sensor.kind == SensorKind::camera && pictures_ == Pictures::leave_out) {

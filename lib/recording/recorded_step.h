@@ -44,6 +44,9 @@ class RecordedSteps {
   /// truncated file is skipped. A robot without observations in the first step is missing in all steps.
   /// @throws RecordingError for an observation that does not match these robots, or when all robots are missing.
   std::optional<std::vector<RecordedRobot>> next();
+  /// The same without measurements, which are blank: what takes most of the time is left out. Continue with seek()
+  /// before next().
+  std::optional<std::vector<RecordedRobot>> nextWithoutMeasurements();
 
   static constexpr std::uint64_t kEnd = ~std::uint64_t{0};
   /// Position of the next step, for seek(); kEnd at the end.
@@ -70,8 +73,9 @@ class RecordedSteps {
     std::uint64_t first = 0;  ///< position of the first step that contains a reading kept in this one
   };
 
+  std::optional<std::vector<RecordedRobot>> next(bool has_measurements);
   std::optional<RecordedRobot> assemble(std::size_t robot, const Observations& observations, std::uint64_t step,
-                                        std::uint64_t position);
+                                        std::uint64_t position, bool has_measurements);
   void forget(std::size_t robot);
   void addPlace(std::uint64_t position);
   mrpt::obs::CObservation::Ptr nextRobotObservation();

@@ -133,6 +133,31 @@ TEST_F(RecordedStepsTest, SeekToAnyStepReadBefore) {
   }
 }
 
+TEST_F(RecordedStepsTest, IndexStepsWithoutMeasurementsAndReadThemAfterwards) {
+  record(20);
+  RawlogReader reader(file_, RawlogReader::Access::random);
+  RecordedSteps steps(reader, robots_, 0.1);
+  std::vector<std::uint64_t> places;
+  for (std::size_t k = 0; k < 20; ++k) {
+    places.push_back(steps.position());
+    const auto step = steps.nextWithoutMeasurements();
+    ASSERT_TRUE(step) << k;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ((*step)[i].world_from_robot->y, truth_[k][i].y);
+      EXPECT_EQ((*step)[i].command, commands_[k][i]);
+      EXPECT_EQ((*step)[i].readings.inbox, written_[k][i].inbox);
+      EXPECT_EQ((*step)[i].readings.measurements.size(), written_[k][i].measurements.size());
+    }
+  }
+  EXPECT_FALSE(steps.nextWithoutMeasurements());
+  for (const std::size_t k : {std::size_t{7}, std::size_t{0}, std::size_t{19}}) {
+    steps.seek(places[k]);
+    const auto step = steps.next();
+    ASSERT_TRUE(step) << k;
+    EXPECT_EQ((*step)[1].readings.measurements, written_[k][1].measurements) << k;
+  }
+}
+
 TEST_F(RecordedStepsTest, MarkRobotsWithoutObservationsAsAbsent) {
   record(2);
   RawlogReader reader(file_);

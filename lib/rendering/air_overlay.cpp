@@ -10,6 +10,7 @@
 #include "rendering/air_view.h"
 #include "rendering/bgr.h"
 #include "rendering/canvas.h"
+#include "rendering/detail_level.h"
 #include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
 #include "rendering/sensor_colors.h"
@@ -88,6 +89,29 @@ class AirTint {
   std::vector<std::vector<cv::Point>> polygons_;
 };
 
+/// Draws lines of sightLines() at the height of their sensor, where nothing nearer covers them.
+void drawSightLines(const AirPicture& air, const AirView& view, const std::vector<std::vector<TPoint2D>>& lines,
+                    const SensorInfo& sensor) {
+  const double z_m = sensor.beams.empty() ? 0 : sensor.beams.front().robot_from_beam.z;
+  const int width_px = std::max(1, static_cast<int>(std::lround(air.scale)));
+  const cv::Scalar color = bgr(sensorColor(sensor.kind));
+  for (const auto& line : lines) {
+    for (std::size_t i = 1; i < line.size(); ++i) {
+      constexpr double kPiece_m = 0.25;
+      const TPoint2D way = line[i] - line[i - 1];
+      const int pieces = std::clamp(static_cast<int>(std::ceil(way.norm() / kPiece_m)), 1, 400);
+      for (int k = 0; k < pieces; ++k) {
+        const TPoint2D from = line[i - 1] + way * (1.0 * k / pieces), to = line[i - 1] + way * ((k + 1.0) / pieces);
+        const TPoint3D a = view.seen({from.x, from.y, z_m}), b = view.seen({to.x, to.y, z_m});
+        if (a.x < AirView::kNearest_m || b.x < AirView::kNearest_m) continue;
+        const TPoint2D middle = view.pixel((a + b) * 0.5);
+        if (!view.isOnPicture(middle) || !view.isVisible(middle, (a.x + b.x) / 2, 0.05)) continue;
+        cv::line(air.picture, rounded(view.pixel(a)), rounded(view.pixel(b)), color, width_px, cv::LINE_AA);
+      }
+    }
+  }
+}
+
 constexpr double kBeforeEcho_m = 0.05;  ///< towards the robot, where an echo is tested for visibility
 
 void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
@@ -105,10 +129,13 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
     const auto& sensors = *fleet.robots[i].info.sensors;
     for (std::size_t k = 0; k < sensors.size(); ++k) {
       const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
-      if (!echoes || echoes->empty() || sensors[k].beams.empty()) continue;
-      const double z_m = sensors[k].beams.front().robot_from_beam.z;
-      auto& tint = tints.try_emplace({sensors[k].kind, z_m}, air, view, z_m).first->second;
-      for (const auto& area : freeAreas(robot, sensors[k], *echoes, kArcPiece_m)) tint.add(area);
+      drawSightLines(air, view, sightLines(robot, sensors[k], robot.readings->measurements[k]), sensors[k]);
+      if (!echoes || echoes->empty()) continue;
+      if (!sensors[k].beams.empty()) {  // else a cloud of points
+        const double z_m = sensors[k].beams.front().robot_from_beam.z;
+        auto& tint = tints.try_emplace({sensors[k].kind, z_m}, air, view, z_m).first->second;
+        for (const auto& area : freeAreas(robot, sensors[k], *echoes, kArcPiece_m)) tint.add(area);
+      }
       for (const auto& echo : *echoes) {
         if (echo.range_m >= sensors[k].range_max_m) continue;
         const TPoint2D in_robot(echo.point_m.x, echo.point_m.y);
@@ -134,12 +161,13 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
   }
 }
 
-/// Writes the robots' names above them, those of near robots first, without overlaps.
+/// Writes the robots' names, those of near robots first, without overlaps: above a robot, or else beside or below it.
 void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
                 const std::vector<Color>& colors) {
   struct Label {
     double ahead_m;
-    TPoint2D foot;
+    TPoint2D foot;              ///< above the robot
+    double half_px, height_px;  ///< of the robot on the picture
     std::size_t robot;
   };
   std::vector<Label> labels;
@@ -149,7 +177,10 @@ void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& s
     const TPoint3D seen = view.seen({pose.x, pose.y, fleet.robots[i].body.heights().z_max_m + 0.12});
     if (seen.x < 4 * AirView::kNearest_m) continue;
     const TPoint2D pixel = view.pixel(seen);
-    if (view.isOnPicture(pixel)) labels.push_back({seen.x, pixel, i});
+    const TPoint3D ground = view.seen({pose.x, pose.y, fleet.robots[i].body.heights().z_min_m});
+    const double height_px = ground.x < AirView::kNearest_m ? 0 : view.pixel(ground).y - pixel.y;
+    const double half_px = fleet.robots[i].info.radius_m * view.focalLength() / seen.x;
+    if (view.isOnPicture(pixel)) labels.push_back({seen.x, pixel, half_px, height_px, i});
   }
   if (labels.size() > kMaxAirNames) return;
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.ahead_m < b.ahead_m; });
@@ -160,17 +191,72 @@ void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& s
     const std::string& name = fleet.robots[label.robot].info.name;
     const int width = static_cast<int>(std::ceil(measuring.textWidth(name, text_px) + 8 * air.scale));
     const int height = static_cast<int>(std::ceil(text_px * 1.9));
-    const cv::Rect place(static_cast<int>(label.foot.x) - width / 2, static_cast<int>(label.foot.y) - height, width,
-                         height);
-    if ((place & cv::Rect({}, air.picture.size())) != place ||
-        std::any_of(taken.begin(), taken.end(), [&](const cv::Rect& other) { return !(other & place).empty(); })) {
-      continue;
-    }
+    const auto is_free = [&](const cv::Rect& place) {
+      return (place & cv::Rect({}, air.picture.size())) == place &&
+             std::none_of(taken.begin(), taken.end(), [&](const cv::Rect& other) { return !(other & place).empty(); });
+    };
+    const int x = static_cast<int>(label.foot.x), y = static_cast<int>(label.foot.y);
+    const int beside = static_cast<int>(std::ceil(label.half_px + 4 * air.scale));
+    const int below = static_cast<int>(std::ceil(label.height_px + 4 * air.scale));
+    const cv::Point places[] = {{x - width / 2, y - height},      // above
+                                {x - width / 4, y - height},      // above, to the right
+                                {x - 3 * width / 4, y - height},  // above, to the left
+                                {x + beside, y},                  // right
+                                {x - beside - width, y},          // left
+                                {x - width / 2, y + below}};      // below
+    const auto* const found = std::find_if(std::begin(places), std::end(places), [&](const cv::Point& at) {
+      return is_free(cv::Rect(at, cv::Size(width, height)));
+    });
+    if (found == std::end(places)) continue;
+    const cv::Rect place(*found, cv::Size(width, height));
     taken.push_back(place);
     Canvas canvas(air.picture(place));
     canvas.text({4 * air.scale, height / 2.0}, name, text_px, mix(colors[label.robot], {0, 0, 0}, 0.35f));
     canvas.picture().copyTo(air.picture(place));
   }
+}
+
+/// The level of detail by the rectangle that contains the robots on the picture.
+DetailLevel levelOf(const AirView& view, const RunSnapshot& snapshot) {
+  std::size_t count = 0;
+  TPoint2D low, high;
+  for (const auto& robot : snapshot.robots) {
+    if (!robot.isPresent()) continue;
+    const TPoint3D seen = view.seen({robot.world_from_robot.x, robot.world_from_robot.y, 0});
+    if (seen.x < AirView::kNearest_m) continue;
+    const TPoint2D pixel = view.pixel(seen);
+    if (!view.isOnPicture(pixel)) continue;
+    low = count == 0 ? pixel : TPoint2D(std::min(low.x, pixel.x), std::min(low.y, pixel.y));
+    high = count == 0 ? pixel : TPoint2D(std::max(high.x, pixel.x), std::max(high.y, pixel.y));
+    ++count;
+  }
+  return DetailLevel::of(count, (high.x - low.x) * (high.y - low.y));
+}
+
+/// Marks those of many robots that are too small on the picture to be seen with a dot in their colour.
+void drawDots(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
+              const std::vector<Color>& colors, const DetailLevel& level) {
+  constexpr int kSubpixelBits = 4;
+  const double radius_px = level.radius_min_px * air.scale;
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    if (!snapshot.robots[i].isPresent()) continue;
+    const auto& pose = snapshot.robots[i].world_from_robot;
+    const double top_m = fleet.robots[i].body.heights().z_max_m;
+    const TPoint3D seen = view.seen({pose.x, pose.y, top_m});
+    if (seen.x < AirView::kNearest_m) continue;
+    const TPoint2D pixel = view.pixel(seen);
+    if (fleet.robots[i].info.radius_m * view.focalLength() / seen.x >= radius_px) continue;
+    if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen.x, 2 * fleet.robots[i].info.radius_m)) continue;
+    const double one = 1 << kSubpixelBits;
+    cv::circle(air.picture, rounded(pixel * one), static_cast<int>(std::lround(radius_px * one)), bgr(colors[i]),
+               cv::FILLED, cv::LINE_AA, kSubpixelBits);
+  }
+}
+
+/// Flags of the robots whose readings are drawn: with many robots only of those in `shown`.
+std::vector<std::uint8_t> shownOf(const std::vector<std::uint8_t>& shown, std::size_t robots,
+                                  const DetailLevel& level) {
+  return shown.empty() && level.is_crowded ? std::vector<std::uint8_t>(robots, 0) : shown;
 }
 
 }  // namespace
@@ -179,8 +265,10 @@ void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fl
                     const TopViewLayers& layers, const std::vector<std::uint8_t>& shown) {
   const AirView view(air);
   const auto colors = robotColors(fleet);
-  if (layers.paths) drawAirPaths(air, view, snapshot, colors, paths, layers.paths_from_s);
-  if (layers.sensors) drawRanges(air, view, snapshot, fleet, shown);
+  const DetailLevel level = levelOf(view, snapshot);
+  if (layers.paths && level.has_paths) drawAirPaths(air, view, snapshot, colors, paths, layers.paths_from_s, level);
+  if (layers.sensors) drawRanges(air, view, snapshot, fleet, shownOf(shown, snapshot.robots.size(), level));
+  if (level.is_crowded) return drawDots(air, view, snapshot, fleet, colors, level);
   if (layers.names) writeNames(air, view, snapshot, fleet, colors);
 }
 

@@ -99,6 +99,25 @@ TEST_F(AirOverlay, WritesNamesAboveRobotsAlsoBehindThings) {
   EXPECT_EQ(changed(names, 2), changed(names, 20));
 }
 
+TEST_F(AirOverlay, WritesANameBelowOrBesideARobotWithoutRoomAbove) {
+  // The camera looks ahead at the top of a robot whose name above it would leave the picture.
+  const auto writes_name = [&](double pitch_rad) {
+    cv::Mat picture(300, 400, CV_8UC3, cv::Scalar(200, 200, 200));
+    const cv::Mat before = picture.clone();
+    const DepthBuffer sky{400, 300, std::vector<float>(400UL * 300, 1)};
+    drawAirOverlay({picture, sky, camera, {-5, 0, 2, 0, pitch_rad, 0}}, snapshot, fleet, paths,
+                   {.paths = false, .sensors = false, .names = true}, {});
+    return cv::norm(picture, before, cv::NORM_INF) > 50;
+  };
+  const double level_rad = std::atan2(2.0, 5.0);
+  EXPECT_TRUE(writes_name(level_rad));
+  // Half of the picture's height is 300 px of a focal length of f px: the robot is 6 px below the upper edge.
+  const double upper_rad = std::atan2(150.0 - 6, camera.focalLength());
+  const auto& body = fleet.robots[0].body.heights();
+  const double top_rad = std::atan2(2 - body.z_max_m - 0.12, 5.0);
+  EXPECT_TRUE(writes_name(top_rad + upper_rad));
+}
+
 TEST_F(AirOverlay, DrawsNothingWithoutLayers) { EXPECT_EQ(changed({false, false, false}, 20), 0); }
 
 }  // namespace

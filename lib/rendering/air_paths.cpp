@@ -88,8 +88,8 @@ class VisiblePath {
 }  // namespace
 
 void drawAirPaths(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
-                  const std::vector<Color>& colors, const RunPaths& paths, double from_s) {
-  const int width_px = std::max(1, static_cast<int>(std::lround(2 * air.scale)));
+                  const std::vector<Color>& colors, const RunPaths& paths, double from_s, const DetailLevel& level) {
+  const int width_px = std::max(1, static_cast<int>(std::lround(2 * air.scale * level.path_share)));
   const double recent_from_s = std::max(from_s, snapshot.time_s - kRecentPath_s);
   const std::vector<VisiblePath> none(snapshot.robots.size(), {air, view});
   auto old = none, recent = none;
@@ -111,8 +111,10 @@ void drawAirPaths(const AirPicture& air, const AirView& view, const RunSnapshot&
         cv::line(air.picture, rounded(line.from), rounded(line.to), color, width_px, cv::LINE_AA);
     }
   };
-  draw(old, pathFading(length_px * width_px / (1.0 * air.picture.cols * air.picture.rows)));
-  draw(recent, 0);
+  constexpr float kManyPaleness = 0.6f;
+  const float recent_paleness = level.is_crowded ? kManyPaleness : 0;
+  draw(old, std::max(recent_paleness, pathFading(length_px * width_px / (1.0 * air.picture.cols * air.picture.rows))));
+  draw(recent, recent_paleness);
 }
 
 }  // namespace robosim

@@ -1,8 +1,48 @@
 #include "rendering/drawn_run.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace robosim {
+
+RunEvents::Last& RunEvents::lastOf(std::size_t robot) {
+  if (robot >= last_.size()) last_.resize(robot + 1);
+  return last_[robot];
+}
+
+void RunEvents::addState(std::size_t robot, bool is_stalled, bool has_found,
+                         const std::optional<mrpt::math::TPoint2D>& at, double time_s) {
+  Last& last = lastOf(robot);
+  const bool begins_to_stall = is_stalled && !std::exchange(last.is_stalled, is_stalled);
+  last.is_stalled = is_stalled;
+  const bool finds = has_found && !std::exchange(last.has_found, true);
+  if (!at) return;
+  if (finds) all_.push_back({time_s, {RunEvent::Kind::gold, robot, *at}});
+  if (begins_to_stall) all_.push_back({time_s, {RunEvent::Kind::stall, robot, *at}});
+}
+
+void RunEvents::addMessage(std::size_t sender, const std::optional<mrpt::math::TPoint2D>& at, double time_s) {
+  Last& last = lastOf(sender);
+  if (std::exchange(last.message_s, time_s) == time_s || !at) return;
+  all_.push_back({time_s, {RunEvent::Kind::message, sender, *at}});
+}
+
+DetailLevel detailOf(const World& world, const DrawnRun& run, double px_per_m) {
+  const Bounds2D area = areaOf(world, run);
+  const auto robots = static_cast<std::size_t>(std::count_if(run.world_from_robot.begin(), run.world_from_robot.end(),
+                                                             [](const auto& pose) { return pose.has_value(); }));
+  return DetailLevel::of(std::max(robots, run.paths.size()),
+                         (area.x_max - area.x_min) * (area.y_max - area.y_min) * px_per_m * px_per_m);
+}
+
+DrawnRun reduced(const World& world, DrawnRun run, double px_per_m) {
+  const DetailLevel level = detailOf(world, run, px_per_m);
+  if (!level.is_crowded) return run;
+  run.has_starts = false;
+  run.sensed.clear();
+  if (!level.has_paths) run.paths.clear();
+  return run;
+}
 
 Bounds2D areaOf(const World& world, const DrawnRun& run) {
   Bounds2D area = world.bounds;

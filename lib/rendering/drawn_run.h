@@ -11,6 +11,7 @@
 
 #include "geometry/shapes/solid.h"
 #include "hardware/sensor_info.h"
+#include "rendering/detail_level.h"
 #include "world/world.h"
 
 namespace robosim {
@@ -23,11 +24,41 @@ struct RunEvent {
   mrpt::math::TPoint2D at;  ///< of the robot, world frame
 };
 
+/// Collects the events of a run from the states of its robots, in the order of time.
+class RunEvents {
+ public:
+  struct Timed {
+    double time_s = 0;
+    RunEvent event;
+  };
+
+  /// Adds a robot's state after a step: a stall is an event when it begins, gold when it is found for the first time.
+  /// @param at nullopt for a robot whose position is unknown; its events are left out
+  void addState(std::size_t robot, bool is_stalled, bool has_found, const std::optional<mrpt::math::TPoint2D>& at,
+                double time_s);
+  /// Adds a message when it has been received; several of one robot and time are one event.
+  void addMessage(std::size_t sender, const std::optional<mrpt::math::TPoint2D>& at, double time_s);
+  /// In the order in which they were added.
+  const std::vector<Timed>& all() const { return all_; }
+  void clear() { *this = RunEvents(); }
+
+ private:
+  struct Last {
+    bool is_stalled = false, has_found = false;
+    std::optional<double> message_s;
+  };
+  Last& lastOf(std::size_t robot);
+
+  std::vector<Timed> all_;
+  std::vector<Last> last_;  ///< by robot
+};
+
 /// What a range sensor measured, in the world frame [m].
 struct SensedArea {
   SensorKind kind;
-  std::vector<std::vector<mrpt::math::TPoint2D>> free{};  ///< freeAreas()
-  std::vector<mrpt::math::TPoint2D> echoes{};             ///< within the sensor's range
+  std::vector<std::vector<mrpt::math::TPoint2D>> free{};   ///< freeAreas()
+  std::vector<mrpt::math::TPoint2D> echoes{};              ///< within the sensor's range
+  std::vector<std::vector<mrpt::math::TPoint2D>> lines{};  ///< sightLines()
 };
 
 /// Separates two pieces of a path, between which the way is unknown: the robot was absent, or moved to another place.
@@ -44,10 +75,15 @@ struct DrawnRun {
   std::vector<std::optional<mrpt::math::TPose2D>> world_from_robot{};
   std::vector<RunEvent> events{};
   std::vector<SensedArea> sensed{};
-  bool has_names = true;  ///< whether the names of robots and hot objects are written
+  bool has_names = true;   ///< whether the names of robots and hot objects are written
+  bool has_starts = true;  ///< whether the beginning of each path has a ring
 };
 
 /// The area that a picture of a run covers: the world's bounds, every object, map and path.
 Bounds2D areaOf(const World&, const DrawnRun&);
+/// The run as far as it can be drawn without covering the plane, in a picture of a scale (DetailLevel).
+DrawnRun reduced(const World&, DrawnRun, double px_per_m);
+/// The level of detail of that picture.
+DetailLevel detailOf(const World&, const DrawnRun&, double px_per_m);
 
 }  // namespace robosim

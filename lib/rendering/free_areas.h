@@ -12,10 +12,32 @@
 namespace robosim {
 
 /// Areas that one range sensor has measured as free, as polygons [m, world frame]: of a laser with more than two beams
-/// the area of the scan, otherwise a sector for each beam, as far as its echo.
+/// the area of the scan, otherwise a sector for each beam, as far as its echo. None for a sensor without beams, whose
+/// echoes are a cloud of points.
 /// @param arc_piece_m length of the straight pieces of a sector's arc; at most 12 pieces
 std::vector<std::vector<mrpt::math::TPoint2D>> freeAreas(const RobotSnapshot& robot, const SensorInfo& sensor,
                                                          const Echoes& echoes, double arc_piece_m);
+
+/// What a robot has measured by range and bearing or by range alone, as polylines [m, world frame]: from the sensor to
+/// each neighbour or landmark (Values of neighbourQuantities()); a circle about the sensor through each beacon
+/// (BeaconRanges), whose direction it does not measure. Empty for other kinds of sensor.
+std::vector<std::vector<mrpt::math::TPoint2D>> sightLines(const RobotSnapshot& robot, const SensorInfo& sensor,
+                                                          const Measurement& measurement);
+
+/// Calls visit(const RobotSnapshot&, const SensorInfo&, lines) for each sensor of the present robots that has
+/// sightLines().
+template <typename Visit>
+void forEachSightLines(const Fleet& fleet, const RunSnapshot& snapshot, const Visit& visit) {
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    const RobotSnapshot& robot = snapshot.robots[i];
+    if (!robot.readings || !robot.isPresent()) continue;
+    const auto& sensors = *fleet.robots[i].info.sensors;
+    for (std::size_t k = 0; k < sensors.size(); ++k) {
+      const auto lines = sightLines(robot, sensors[k], robot.readings->measurements[k]);
+      if (!lines.empty()) visit(robot, sensors[k], lines);
+    }
+  }
+}
 
 /// Calls visit(const RobotSnapshot&, const SensorInfo&, const Echoes&) for each range sensor of the present robots that
 /// have readings.

@@ -106,6 +106,14 @@ void drawRobot(DrawingSurface& surface, const TPoint2D& center, double radius_px
   surface.line(center, center + ahead * (radius_px + (small ? 4 : -1.5)), 2, small ? color : kWhite);
 }
 
+void drawRobotOfMany(DrawingSurface& surface, const TPoint2D& center, double radius_px, const TPoint2D& ahead,
+                     const Color& color) {
+  if (radius_px >= 6) return drawRobot(surface, center, radius_px, ahead, color);
+  const Color dark = mix(color, {0, 0, 0}, 0.2f);  // stands out of the paths
+  surface.dot(center, radius_px, dark);
+  if (radius_px >= 2.5) surface.line(center, center + ahead * (radius_px + 1.5), 1.2, dark);
+}
+
 double drawScale(DrawingSurface& surface, const TPoint2D& from, double text_px) {
   const double length_m = scaleLength(surface.view(), text_px);
   const double length_px = length_m * surface.view().pixelsPerMetre();

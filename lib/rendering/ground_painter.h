@@ -35,6 +35,10 @@ void drawObjects(DrawingSurface&, const World&);
 /// A disc with a mark in the direction of its heading; all in pixels.
 void drawRobot(DrawingSurface&, const mrpt::math::TPoint2D& center, double radius_px, const mrpt::math::TPoint2D& ahead,
                const Color&);
+/// A disc that is small, as for one of many robots, with a short line in the direction of its heading if it is not
+/// tiny; a robot that is large enough is drawn as by drawRobot().
+void drawRobotOfMany(DrawingSurface&, const mrpt::math::TPoint2D& center, double radius_px,
+                     const mrpt::math::TPoint2D& ahead, const Color&);
 /// A scale bar of a round length, starting at `from` [px], with its number of metres. @return its length [px]
 double drawScale(DrawingSurface&, const mrpt::math::TPoint2D& from, double text_px = kTextSize_px);
 /// Width of that bar with its number [px].

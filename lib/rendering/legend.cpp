@@ -22,8 +22,11 @@ LegendEntry LegendEntry::ofEnd() {
 
 std::vector<LegendEntry> legendOf(const DrawnRun& run) {
   std::vector<LegendEntry> entries;
-  const std::pair<SensorKind, const char*> sensors[] = {
-      {SensorKind::sonar, "sonar"}, {SensorKind::laser, "laser"}, {SensorKind::infrared, "infrared"}};
+  const std::pair<SensorKind, const char*> sensors[] = {{SensorKind::sonar, "sonar"},
+                                                        {SensorKind::laser, "laser"},
+                                                        {SensorKind::infrared, "infrared"},
+                                                        {SensorKind::beacons, "beacon"},
+                                                        {SensorKind::values, "bearing"}};
   for (const auto& [kind, word] : sensors) {
     const auto is_of_kind = [kind = kind](const SensedArea& sensed) { return sensed.kind == kind; };
     if (std::none_of(run.sensed.begin(), run.sensed.end(), is_of_kind)) continue;
@@ -32,7 +35,7 @@ std::vector<LegendEntry> legendOf(const DrawnRun& run) {
   }
   const auto has_points = [](const auto& path) { return !path.empty(); };
   if (std::any_of(run.paths.begin(), run.paths.end(), has_points)) {
-    entries.push_back(LegendEntry::ofStart());
+    if (run.has_starts) entries.push_back(LegendEntry::ofStart());
     entries.push_back(LegendEntry::ofEnd());
   }
   const std::pair<RunEvent::Kind, const char*> events[] = {{RunEvent::Kind::gold, "gold found"},

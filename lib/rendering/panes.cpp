@@ -8,6 +8,7 @@
 #include "rendering/air_overlay.h"
 #include "rendering/bgr.h"
 #include "rendering/canvas.h"
+#include "rendering/detail_level.h"
 #include "rendering/ground_painter.h"
 
 namespace robosim {
@@ -158,7 +159,8 @@ cv::Mat Panes::drawPane(std::size_t index, const RunSnapshot& snapshot, const Ru
   camera.field_of_view_rad = pane.air.field_of_view_rad;
   const TPose2D* ridden = pane.follow ? &snapshot.robots[*pane.follow].world_from_robot : nullptr;
   const TPose3D world_from_camera = pane.air.worldFromCamera(ridden);
-  const bool has_overlay = !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names);
+  const bool has_overlay = !snapshot.robots.empty() && (layers_.paths || layers_.sensors || layers_.names ||
+                                                        snapshot.robots.size() > DetailLevel::kManyRobots);
   DepthBuffer depth;
   cv::Mat picture = render(camera, world_from_camera, snapshot, has_overlay ? &depth : nullptr);
   if (has_overlay && !depth.empty()) {

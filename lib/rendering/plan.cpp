@@ -10,8 +10,9 @@ namespace robosim {
 
 PlanView planView(const World& world, const DrawnRun& run) { return PlanView(areaOf(world, run)); }
 
-std::string planPicture(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& run) {
-  const PlanView view = planView(world, run);
+std::string planPicture(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& whole) {
+  const PlanView view = planView(world, whole);
+  const DrawnRun run = reduced(world, whole, view.pixelsPerMetre());
   const std::string& title = run.title.empty() ? world.name : run.title;
   Figure figure(view, kPageColor, {.format = format, .title = title});
   RunPainter painter(figure, world, fleet, run, {});
@@ -25,7 +26,9 @@ std::string planPicture(PictureFormat format, const World& world, const Fleet& f
   drawScale(figure, {kPlanLayout.left_px, y});
   if (!run.paths.empty()) {
     const auto width_of = [&](const std::string& text) { return figure.textWidth(text, kTextSize_px); };
-    const Legend legend({LegendEntry::ofStart(), LegendEntry::ofEnd()}, kTextSize_px, view.width(), width_of);
+    std::vector<LegendEntry> entries{LegendEntry::ofStart(), LegendEntry::ofEnd()};
+    if (!run.has_starts) entries.erase(entries.begin());
+    const Legend legend(std::move(entries), kTextSize_px, view.width(), width_of);
     legend.paint(figure, painter, view.width() - kPlanLayout.right_px, y);
   }
   return figure.finish();

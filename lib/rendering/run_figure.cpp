@@ -38,8 +38,9 @@ GroundView figureView(const World& world, const DrawnRun& run, const FigurePage&
   return layoutOf(world, run, page).view;
 }
 
-std::string runFigure(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& run,
+std::string runFigure(PictureFormat format, const World& world, const Fleet& fleet, const DrawnRun& whole,
                       const FigurePage& page) {
+  const DrawnRun run = reduced(world, whole, figureView(world, whole, page).pixelsPerMetre());
   const FigureLayout layout = layoutOf(world, run, page);
   const std::string& title = run.title.empty() ? world.name : run.title;
   Figure figure(layout.view, kWhite, {.format = format, .title = title, .png_scale = 2, .width_mm = page.width_mm});

@@ -16,7 +16,8 @@ constexpr double kPathsBright = 0.07;  // share of the picture that paths may co
 constexpr double kStartRadius_px = kStartMark_px / 2;
 constexpr double kTint = 0.17, kTintMin = 0.03;  ///< opacity of areas measured as free
 constexpr double kEchoRadius_px = 1.1;
-constexpr double kDrawnRadiusMin_px = 3;  // minimum for large worlds
+constexpr double kSight_px = 0.8;  ///< width of lines to landmarks, and of circles through beacons
+constexpr float kSightPaleness = 0.35f;
 constexpr double kMarkSpacing_px = 14;
 constexpr double kMarkRadius_px = 7;
 constexpr Color kGoldColor{1.0f, 0.80f, 0.10f};
@@ -52,17 +53,21 @@ RunPainter::RunPainter(Figure& figure, const World& world, const Fleet& fleet, c
       fleet_(fleet),
       run_(run),
       style_(style),
-      colors_(robotColors(fleet)) {}
+      level_(detailOf(world, run, view_.pixelsPerMetre())),
+      colors_(robotColors(fleet)) {
+  style_.path_px *= level_.path_share;
+}
 
 void RunPainter::paintGround() {
   drawFloor(figure_, world_.bounds);
   paintFreeAreas();
   const float paleness = pathPaleness();
   for (std::size_t i = 0; i < run_.paths.size(); ++i) paintPath(i, paleness);
-  for (std::size_t i = 0; i < run_.paths.size(); ++i) {
+  for (std::size_t i = 0; i < run_.paths.size() && run_.has_starts; ++i) {
     if (!run_.paths[i].empty()) paintStart(view_.toPixel(run_.paths[i].front()), colors_[i]);
   }
   paintEchoes();
+  paintSightLines();
   drawMaps(figure_, world_);
   drawObjects(figure_, world_);
 }
@@ -86,6 +91,16 @@ void RunPainter::paintEchoes() {
   }
 }
 
+void RunPainter::paintSightLines() {
+  for (const auto& sensed : run_.sensed) {
+    const Color color = mix(sensorColor(sensed.kind), kFloorColor, kSightPaleness);
+    for (const auto& line : sensed.lines) {
+      figure_.polyline(pixelsOf(line), kSight_px, color);
+      if (line.size() == 2) figure_.disc(view_.toPixel(line.back()), 2 * kEchoRadius_px, sensorColor(sensed.kind));
+    }
+  }
+}
+
 std::vector<TPoint2D> RunPainter::pixelsOf(std::span<const TPoint2D> places) const {
   std::vector<TPoint2D> pixels;
   pixels.reserve(places.size());
@@ -98,7 +113,8 @@ void RunPainter::paintRobots() {
     const auto at = robotPixel(i);
     if (!at) continue;
     const double heading_rad = run_.world_from_robot[i]->phi;
-    drawRobot(figure_, *at, robotRadius(i), {std::cos(heading_rad), -std::sin(heading_rad)}, colors_[i]);
+    const auto draw = level_.is_crowded ? drawRobotOfMany : drawRobot;
+    draw(figure_, *at, robotRadius(i), {std::cos(heading_rad), -std::sin(heading_rad)}, colors_[i]);
   }
 }
 
@@ -109,6 +125,10 @@ void RunPainter::paintEvents() {
     const auto [before, is_first] = last.try_emplace({event.kind, event.robot}, at);
     if (!is_first && (at - before->second).norm() < kMarkSpacing_px) continue;
     before->second = at;
+    if (level_.is_crowded && event.kind != RunEvent::Kind::gold) {
+      paintSmallEvent(event.kind, at, colors_[event.robot]);
+      continue;
+    }
     marks_.push_back(besideRobots(at));
     paintEvent(event.kind, marks_.back(), colors_[event.robot]);
   }
@@ -145,6 +165,7 @@ void RunPainter::paintNames() {
     if (const auto at = robotPixel(i)) names.keepClear(*at, robotRadius(i), robotRadius(i));
   }
   names.writeHotObjects(world_);
+  if (level_.is_crowded) return;
   for (const std::size_t i : fromOutside()) {
     names.write(fleet_.robots[i].info.name, *robotPixel(i), robotRadius(i), robotRadius(i),
                 mix(colors_[i], {0, 0, 0}, 0.35f));
@@ -178,6 +199,19 @@ void RunPainter::paintEnd(const TPoint2D& at, const Color& color) {
 
 void RunPainter::paintSensor(SensorKind kind, const TPoint2D& at) {
   const double half = kSensorMark_px / 2;
+  if (kind == SensorKind::beacons || kind == SensorKind::values) {
+    const Color color = mix(sensorColor(kind), kFloorColor, kSightPaleness);
+    std::vector<TPoint2D> line{{at.x - half, at.y}, {at.x + half, at.y}};
+    if (kind == SensorKind::beacons) {
+      line.clear();
+      for (int k = 0; k <= 36; ++k) {
+        line.push_back(at + TPoint2D(std::cos(k * M_PI / 18), std::sin(k * M_PI / 18)) * (half * 0.7));
+      }
+    }
+    figure_.polyline(line, kSight_px, color);
+    if (kind == SensorKind::values) figure_.disc(line.back(), 2 * kEchoRadius_px, sensorColor(kind));
+    return;
+  }
   const TPoint2D sector[] = {{at.x - half, at.y}, {at.x + half, at.y - half / 2}, {at.x + half, at.y + half / 2}};
   figure_.polygon(sector, sensorColor(kind), 2 * kTint);
 }
@@ -202,11 +236,23 @@ void RunPainter::paintEvent(RunEvent::Kind kind, const TPoint2D& at, const Color
     }
     case RunEvent::Kind::stall:
       for (const auto& [width_px, paint] : {std::pair{4.0, kWhite}, std::pair{1.8, kStopColor}}) {
-        figure_.line({at.x - 3.5, at.y - 3.5}, {at.x + 3.5, at.y + 3.5}, width_px, paint);
-        figure_.line({at.x - 3.5, at.y + 3.5}, {at.x + 3.5, at.y - 3.5}, width_px, paint);
+        paintCross(at, 3.5, width_px, paint);
       }
       break;
   }
+}
+
+void RunPainter::paintSmallEvent(RunEvent::Kind kind, const TPoint2D& at, const Color& color) {
+  const double half_px = std::max(1.5, level_.radius_min_px - 1);
+  if (kind == RunEvent::Kind::stall) return paintCross(at, half_px, 1, kStopColor);
+  const TPoint2D corners[] = {
+      {at.x, at.y - half_px}, {at.x + half_px, at.y}, {at.x, at.y + half_px}, {at.x - half_px, at.y}};
+  figure_.polygon(corners, mix(color, {0, 0, 0}, 0.25f));
+}
+
+void RunPainter::paintCross(const TPoint2D& at, double half_px, double width_px, const Color& color) {
+  figure_.line({at.x - half_px, at.y - half_px}, {at.x + half_px, at.y + half_px}, width_px, color);
+  figure_.line({at.x - half_px, at.y + half_px}, {at.x + half_px, at.y - half_px}, width_px, color);
 }
 
 std::optional<TPoint2D> RunPainter::robotPixel(std::size_t robot) const {
@@ -216,7 +262,7 @@ std::optional<TPoint2D> RunPainter::robotPixel(std::size_t robot) const {
 }
 
 double RunPainter::robotRadius(std::size_t robot) const {
-  return std::max(kDrawnRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
+  return std::max(level_.radius_min_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
 }
 
 /// Blend factor of paths towards the floor colour: grows with the share of the picture that they cover, so that
@@ -230,7 +276,8 @@ float RunPainter::pathPaleness() const {
   }
   const double covered_px = length_m * view_.pixelsPerMetre() * style_.path_px;
   const double covered = covered_px / (view_.width() * view_.height());
-  return static_cast<float>(std::clamp(1 - kPathsBright / covered, 0.0, 0.75));
+  const double bright = std::min(kPathsBright, level_.path_coverage);
+  return static_cast<float>(std::clamp(1 - bright / covered, 0.0, level_.is_crowded ? 0.85 : 0.75));
 }
 
 void RunPainter::paintPath(std::size_t robot, float paleness) {
@@ -241,6 +288,7 @@ void RunPainter::paintPath(std::size_t robot, float paleness) {
   }
   const Color color = mix(colors_[robot], kFloorColor, paleness);
   for (const auto& [width_px, paint] : {std::pair{style_.path_px + 1.6, kWhite}, std::pair{style_.path_px, color}}) {
+    if (level_.is_crowded && width_px > style_.path_px) continue;  // a rim would cut the other paths into pieces
     for (auto begin = path.begin(); begin != path.end();) {
       const auto end = std::find_if(begin, path.end(), isGap);
       figure_.polyline({begin, end}, width_px, paint);

@@ -16,7 +16,8 @@ namespace robosim {
 inline constexpr double kStartMark_px = 9, kEndMark_px = 16, kEventMark_px = 14, kSensorMark_px = 20;
 ///@}
 
-/// Paints the world and the robots of a run on a figure, in the layers of the functions, from back to front.
+/// Paints the world and the robots of a run on a figure, in the layers of the functions, from back to front. Many
+/// robots are painted in less detail (DetailLevel); the run then is a reduced() one.
 class RunPainter {
  public:
   struct Style {
@@ -49,10 +50,13 @@ class RunPainter {
   mrpt::math::TPoint2D besideRobots(const mrpt::math::TPoint2D& at) const;
   std::optional<mrpt::math::TPoint2D> robotPixel(std::size_t robot) const;
   double robotRadius(std::size_t robot) const;  ///< [px]
+  void paintSmallEvent(RunEvent::Kind, const mrpt::math::TPoint2D& at, const Color&);
+  void paintCross(const mrpt::math::TPoint2D& at, double half_px, double width_px, const Color&);
   std::vector<std::size_t> fromOutside() const;
   float pathPaleness() const;
   void paintFreeAreas();
   void paintEchoes();
+  void paintSightLines();
   void paintPath(std::size_t robot, float paleness);
   std::vector<mrpt::math::TPoint2D> pixelsOf(std::span<const mrpt::math::TPoint2D> places) const;
 
@@ -62,6 +66,7 @@ class RunPainter {
   const Fleet& fleet_;
   const DrawnRun& run_;
   Style style_;
+  DetailLevel level_;
   std::vector<Color> colors_;                ///< by robot
   std::vector<mrpt::math::TPoint2D> marks_;  ///< of the painted events [px]
 };

@@ -1,5 +1,8 @@
 #include "rendering/snapshot_run.h"
 
+#include <string_view>
+#include <unordered_map>
+
 #include "rendering/free_areas.h"
 
 namespace robosim {
@@ -25,7 +28,31 @@ std::vector<TPoint2D> pathOf(std::size_t robot, const RunPaths& paths, double fr
 
 }  // namespace
 
-DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPaths& paths, const TopViewLayers& layers) {
+void addEvents(RunEvents& events, const Fleet& fleet, const RunSnapshot& snapshot) {
+  const auto place_of = [&](std::size_t i) -> std::optional<TPoint2D> {
+    const RobotSnapshot& robot = snapshot.robots[i];
+    if (!robot.isPresent()) return std::nullopt;
+    return TPoint2D(robot.world_from_robot.x, robot.world_from_robot.y);
+  };
+  std::unordered_map<std::string_view, std::size_t> index_of;  // of the names, if there is a message
+  for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+    const RobotSnapshot& robot = snapshot.robots[i];
+    const std::string& name = fleet.robots[i].info.name;
+    const bool has_found = robot.activity == Activity::found || (robot.readings && robot.readings->winner == name);
+    events.addState(i, robot.stalled, has_found, place_of(i), snapshot.time_s);
+    if (!robot.readings || robot.readings->inbox.empty()) continue;
+    if (index_of.empty()) {
+      for (std::size_t k = 0; k < snapshot.robots.size(); ++k) index_of.emplace(fleet.robots[k].info.name, k);
+    }
+    for (const auto& message : robot.readings->inbox) {
+      const auto sender = index_of.find(message.from);
+      if (sender != index_of.end()) events.addMessage(sender->second, place_of(sender->second), snapshot.time_s);
+    }
+  }
+}
+
+DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPaths& paths, const TopViewLayers& layers,
+                  const RunEvents* events) {
   DrawnRun run;
   run.has_names = layers.names;
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
@@ -36,8 +63,11 @@ DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPath
     auto& pose = run.world_from_robot.emplace_back();
     if (!robot.isPresent()) continue;
     pose = robot.world_from_robot;
-    if (robot.activity == Activity::found) run.events.push_back({RunEvent::Kind::gold, i, {pose->x, pose->y}});
-    if (robot.stalled) run.events.push_back({RunEvent::Kind::stall, i, {pose->x, pose->y}});
+  }
+  RunEvents of_snapshot;
+  if (!events) addEvents(of_snapshot, fleet, snapshot);
+  for (const auto& [time_s, event] : (events ? *events : of_snapshot).all()) {
+    if (layers.events && time_s >= layers.paths_from_s && time_s <= snapshot.time_s) run.events.push_back(event);
   }
   if (!layers.sensors) return run;
   forEachEchoes(fleet, snapshot, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
@@ -47,6 +77,9 @@ DrawnRun drawnRun(const Fleet& fleet, const RunSnapshot& snapshot, const RunPath
       if (echo.range_m >= sensor.range_max_m) continue;
       sensed.echoes.push_back(robot.world_from_robot.composePoint(TPoint2D(echo.point_m.x, echo.point_m.y)));
     }
+  });
+  forEachSightLines(fleet, snapshot, [&](const RobotSnapshot&, const SensorInfo& sensor, const auto& lines) {
+    run.sensed.push_back({.kind = sensor.kind, .lines = lines});
   });
   return run;
 }

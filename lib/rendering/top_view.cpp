@@ -7,6 +7,7 @@
 #include <mrpt/core/format.h>
 
 #include "rendering/canvas.h"
+#include "rendering/detail_level.h"
 #include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
 #include "rendering/path_fading.h"
@@ -19,7 +20,6 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
-constexpr double kRobotRadiusMin_px = 3;
 constexpr double kPath_px = 1.6;  ///< width
 /// Maximum number of visible robots whose names are drawn.
 constexpr std::size_t kMaxNames = 60;
@@ -41,24 +41,27 @@ void drawObjectsAndMaps(Canvas& canvas, const World& world) {
 class Drawing {
  public:
   /// @param objects layer with the objects on the floor; null to draw them
+  /// @param followed robot that the view follows, whose readings are drawn also among many robots
   Drawing(const World& world, const Fleet& fleet, const RunSnapshot& snapshot, Canvas floor,
-          const Canvas::Layer* objects)
+          const Canvas::Layer* objects, std::optional<std::size_t> followed)
       : world_(world),
         fleet_(fleet),
         snapshot_(snapshot),
         view_(floor.view()),
         canvas_(std::move(floor)),
-        objects_(objects) {}
+        objects_(objects),
+        followed_(followed),
+        level_(levelOf()) {}
 
   cv::Mat draw(const RunPaths& paths, const TopViewLayers& layers) {
-    if (layers.paths) drawPaths(paths, layers.paths_from_s);
+    if (layers.paths && level_.has_paths) drawPaths(paths, layers.paths_from_s);
     if (layers.sensors) drawRanges();
     if (objects_) {
       canvas_.lay(*objects_);
     } else {
       drawObjectsAndMaps(canvas_, world_);
     }
-    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) drawRobot(i);
+    for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) drawRobot(i, layers.events);
     if (layers.sensors) drawTouch();
     if (layers.names) writeNames();
     writeLegend();
@@ -66,9 +69,25 @@ class Drawing {
   }
 
  private:
+  DetailLevel levelOf() const {
+    std::size_t seen = 0;
+    for (const auto& robot : snapshot_.robots) {
+      if (robot.isPresent() && isOnPicture(pixelOf(robot.world_from_robot), 0)) ++seen;
+    }
+    const Bounds2D& bounds = world_.bounds;
+    const TPoint2D low = view_.toPixel({bounds.x_min, bounds.y_max}),
+                   high = view_.toPixel({bounds.x_max, bounds.y_min});
+    const double width_px = std::min<double>(high.x, view_.width()) - std::max(low.x, 0.0);
+    const double height_px = std::min<double>(high.y, view_.height()) - std::max(low.y, 0.0);
+    return DetailLevel::of(seen, std::max(0.0, width_px) * std::max(0.0, height_px));
+  }
+
+  /// Whether the readings of a robot are drawn.
+  bool showsReadings(std::size_t robot) const { return !level_.is_crowded || followed_ == robot; }
+
   TPoint2D pixelOf(const TPose2D& pose) const { return view_.toPixel({pose.x, pose.y}); }
   double radiusPx(std::size_t robot) const {
-    return std::max(kRobotRadiusMin_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
+    return std::max(level_.radius_min_px, fleet_.robots[robot].info.radius_m * view_.pixelsPerMetre());
   }
   bool isOnPicture(const TPoint2D& pixel, double margin_px) const {
     return pixel.x > -margin_px && pixel.y > -margin_px && pixel.x < view_.width() + margin_px &&
@@ -84,7 +103,7 @@ class Drawing {
   /// Draws the paths. Where old ones would cover much of the picture (many robots, long runs), they fade towards the
   /// floor, and only the last seconds keep their full colour.
   void drawPaths(const RunPaths& paths, double from_s) {
-    constexpr float kPaleness = 0.35f;
+    constexpr float kPaleness = 0.35f, kManyPaleness = 0.6f;
     const double recent_from_s = std::max(from_s, snapshot_.time_s - kRecentPath_s);
     std::vector<Stroke> old, recent;
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
@@ -98,12 +117,14 @@ class Drawing {
       for (std::size_t k = 1; k < stroke.points.size(); ++k)
         length_px += (stroke.points[k] - stroke.points[k - 1]).norm();
     }
-    const double covered = length_px * kPath_px / (1.0 * view_.width() * view_.height());
-    const float paleness = std::max(kPaleness, pathFading(covered));
+    const double width_px = kPath_px * level_.path_share;
+    const double covered = length_px * width_px / (1.0 * view_.width() * view_.height());
+    const float paleness = std::max(level_.is_crowded ? kManyPaleness : kPaleness, pathFading(covered));
     for (const auto& stroke : old)
-      canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, paleness));
+      canvas_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, paleness));
+    const float recent_paleness = level_.is_crowded ? kManyPaleness : kPaleness;
     for (const auto& stroke : recent)
-      canvas_.polyline(stroke.points, kPath_px, mix(colors_[stroke.robot], kFloorColor, kPaleness));
+      canvas_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, recent_paleness));
   }
 
   /// Adds the visible pieces of a part of a path, which ends at `end` if that is known.
@@ -135,6 +156,7 @@ class Drawing {
     std::vector<std::vector<TPoint2D>> free[3];
     const SensorKind kinds[] = {SensorKind::sonar, SensorKind::laser, SensorKind::infrared};
     forEachEchoes(fleet_, snapshot_, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const Echoes& echoes) {
+      if (!showsReadings(static_cast<std::size_t>(&robot - snapshot_.robots.data()))) return;
       auto& areas = free[std::find(std::begin(kinds), std::end(kinds), sensor.kind) - std::begin(kinds)];
       for (auto& area : freeAreas(robot, sensor, echoes, kArcPiece_px / view_.pixelsPerMetre())) {
         for (auto& corner : area) corner = view_.toPixel(corner);
@@ -147,6 +169,16 @@ class Drawing {
       }
     });
     for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], sensorColor(kinds[i]), 0.17f);
+    forEachSightLines(fleet_, snapshot_, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const auto& lines) {
+      if (!showsReadings(static_cast<std::size_t>(&robot - snapshot_.robots.data()))) return;
+      const Color color = sensorColor(sensor.kind);
+      for (const auto& line : lines) {
+        std::vector<TPoint2D> pixels;
+        for (const auto& point : line) pixels.push_back(view_.toPixel(point));
+        canvas_.polyline(pixels, 1, mix(color, kFloorColor, 0.35f));
+        if (line.size() == 2) dots.push_back({pixels.back(), color});
+      }
+    });
     for (const auto& dot : dots) {
       if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, dot.color);
     }
@@ -156,23 +188,27 @@ class Drawing {
     return view_.toPixel(robot.world_from_robot.composePoint(in_robot));
   }
 
-  void drawRobot(std::size_t i) {
+  void drawRobot(std::size_t i, bool with_events) {
     const RobotSnapshot& robot = snapshot_.robots[i];
     const TPoint2D center = pixelOf(robot.world_from_robot);
     const double radius = radiusPx(i);
     if (!robot.isPresent() || !isOnPicture(center, radius + 8)) return;
-    if (robot.stalled) canvas_.disc(center, radius + 3, kStallColor);
-    if (robot.activity == Activity::found) canvas_.disc(center, radius + 3.5, kGlowColor);
+    // Among many robots a rim no wider than the robot; gold is rare.
+    const double rim_px = level_.is_crowded ? std::min(3.0, radius / 2) : 3;
+    if (robot.stalled && with_events) canvas_.disc(center, radius + rim_px, kStallColor);
+    if (robot.activity == Activity::found && with_events) canvas_.disc(center, radius + 3.5, kGlowColor);
     const Color color = robot.activity == Activity::active ? colors_[i] : mix(colors_[i], {0.5f, 0.5f, 0.5f}, 0.6f);
     const double heading = robot.world_from_robot.phi;
-    robosim::drawRobot(canvas_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
+    const auto draw = level_.is_crowded ? drawRobotOfMany : robosim::drawRobot;
+    draw(canvas_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
   }
 
   /// Draws bumper contacts as arcs on the rim, and heat as a number with a bar.
   void drawTouch() {
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
       const RobotSnapshot& robot = snapshot_.robots[i];
-      if (!robot.readings || !robot.isPresent() || !isOnPicture(pixelOf(robot.world_from_robot), 100)) continue;
+      if (!robot.readings || !robot.isPresent() || !showsReadings(i)) continue;
+      if (!isOnPicture(pixelOf(robot.world_from_robot), 100)) continue;
       const auto& info = fleet_.robots[i].info;
       for (std::size_t k = 0; k < info.sensors->size(); ++k) {
         const SensorInfo& sensor = (*info.sensors)[k];
@@ -215,7 +251,7 @@ class Drawing {
       seen.push_back(i);
     }
     names.writeHotObjects(world_);
-    if (seen.size() > kMaxNames) return;
+    if (seen.size() > kMaxNames || level_.is_crowded) return;
     for (const std::size_t i : seen) {
       names.write(fleet_.robots[i].info.name, pixelOf(snapshot_.robots[i].world_from_robot), radiusPx(i), radiusPx(i),
                   mix(colors_[i], {0, 0, 0}, 0.35f));
@@ -237,6 +273,8 @@ class Drawing {
   std::vector<Color> colors_ = robotColors(fleet_);  ///< by robot
   Canvas canvas_;
   const Canvas::Layer* objects_;
+  std::optional<std::size_t> followed_;
+  DetailLevel level_;
 };
 
 }  // namespace
@@ -285,7 +323,8 @@ cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const 
   const GroundView view = groundView(snapshot, camera);
   if (std::exchange(last_view_, view) != view || std::exchange(last_scale_, camera.scale) != camera.scale) {
     static_layers_.reset();
-    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view, camera.scale), nullptr).draw(paths, layers);
+    return Drawing(world_, fleet_, snapshot, emptyFloor(world_, view, camera.scale), nullptr, camera.follow)
+        .draw(paths, layers);
   }
   if (!static_layers_) {
     Canvas floor = emptyFloor(world_, view, camera.scale);
@@ -294,7 +333,8 @@ cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const 
     Canvas::Layer objects = with_things.differenceFrom(floor);
     static_layers_ = std::make_unique<StaticLayers>(StaticLayers{std::move(floor), std::move(objects)});
   }
-  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects).draw(paths, layers);
+  return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects, camera.follow)
+      .draw(paths, layers);
 }
 
 std::optional<std::size_t> TopView::robotAt(const TPoint2D& pixel, const RunSnapshot& snapshot, const Fleet& fleet,

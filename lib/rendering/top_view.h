@@ -25,12 +25,14 @@ struct TopViewCamera {
   void zoom(double factor, const mrpt::math::TPoint2D& pixel);
 };
 
-/// Layers of a view from above.
+/// Layers of a view. With many robots in the picture, some are omitted (DetailLevel): sensors except those of the robot
+/// that the view follows, names, and of the densest pictures the paths.
 struct TopViewLayers {
   bool paths = true;
   bool sensors = true;  ///< of robots that have readings: sonar fans, laser scans, infrared, heat, bumper
   bool names = true;
-  double paths_from_s = 0;  ///< earlier parts of the paths are not drawn
+  bool events = true;       ///< stalls and found gold; in figures also messages
+  double paths_from_s = 0;  ///< earlier parts of the paths are not drawn, nor are earlier events
 };
 
 /// Renders a run from straight above, to scale.

@@ -139,7 +139,7 @@ void writeNpz(const RecordingTable& table, AtomicFile& file, ExportProgress& pro
 }  // namespace
 
 bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
-                     const FigurePage& page) {
+                     const FigurePage& page, const TopViewLayers& layers) {
   std::vector<std::unique_ptr<AtomicFile>> files;
   files.reserve(outs.size());
   for (const auto& out : outs) files.push_back(std::make_unique<AtomicFile>(out.file));
@@ -155,7 +155,7 @@ bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutpu
         break;
       case RecordingFormat::picture:
         progress.at([] { return "drawing …"; });
-        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file), page));
+        files[i]->write(contents.figure->draw(requirePictureFormat(outs[i].file), page, layers));
         break;
     }
     files[i]->finish();

@@ -5,6 +5,7 @@
 
 #include "base/interrupt.h"
 #include "rendering/figure_page.h"
+#include "rendering/top_view.h"
 
 namespace robosim {
 
@@ -23,11 +24,11 @@ struct RecordingOutput {
 
 /// Writes a recording as tables and figures. All files are renamed to their names after all have been written.
 /// @param rawlog made by RoboSim or another program; may be a pipe
-/// @param page size of figures
+/// @param page size of figures @param layers of figures, which have no sensors
 /// @param interrupt a request ends the export; null: it cannot be interrupted
 /// @returns false for the readable part of a damaged recording
 /// @throws ConfigError, Interrupted, std::runtime_error (such as on a full disk); nothing is written then
 bool exportRecording(const std::string& rawlog, const std::vector<RecordingOutput>& outs, const Interrupt* interrupt,
-                     const FigurePage& page = {});
+                     const FigurePage& page = {}, const TopViewLayers& layers = {});
 
 }  // namespace robosim

@@ -56,9 +56,9 @@ void RecordingFigure::add(const CObservation& observation, double time_s) {
     const bool is_truth = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation) != nullptr;
     addPose(robotNamed(label.robot), *pose, is_truth, time_s);
   } else if (is_of_robosim_ && label.sensor == kStatus) {
-    addStatus(robotNamed(label.robot), observation);
+    addStatus(robotNamed(label.robot), observation, time_s);
   } else if (is_of_robosim_ && label.sensor == kInbox) {
-    addMessages(label.robot, observation);
+    addMessages(label.robot, observation, time_s);
   }
 }
 
@@ -80,15 +80,11 @@ void RecordingFigure::addPose(std::size_t index, const TPose2D& pose, bool is_tr
   if (begins || (at - robot.path.back()).norm() >= kPathSpacing_m) robot.path.push_back(at);
 }
 
-void RecordingFigure::addStatus(std::size_t index, const CObservation& observation) {
+void RecordingFigure::addStatus(std::size_t index, const CObservation& observation, double time_s) {
   const RobotStatus status = statusFrom(observation);
-  Robot& robot = robots_[index];
-  if (status.command.activity == Activity::absent) leave(robot);
+  if (status.command.activity == Activity::absent) leave(robots_[index]);
   const bool has_found = status.has_won || status.command.activity == Activity::found;
-  if (has_found && !robot.has_found) addEvent(RunEvent::Kind::gold, index);
-  if (status.stalled && !robot.is_stalled) addEvent(RunEvent::Kind::stall, index);
-  robot.has_found = robot.has_found || has_found;
-  robot.is_stalled = status.stalled;
+  events_.addState(index, status.stalled, has_found, placeOf(index), time_s);
 }
 
 /// The path of a robot that leaves the world continues where it comes back.
@@ -99,16 +95,16 @@ void RecordingFigure::leave(Robot& robot) {
   robot.pose.reset();
 }
 
-void RecordingFigure::addMessages(const std::string& receiver, const CObservation& observation) {
+void RecordingFigure::addMessages(const std::string& receiver, const CObservation& observation, double time_s) {
   for (const auto& message : inboxFrom(observation, receiver)) {
     const auto sender = index_of_.find(message.from);
-    if (sender != index_of_.end()) addEvent(RunEvent::Kind::message, sender->second);
+    if (sender != index_of_.end()) events_.addMessage(sender->second, placeOf(sender->second), time_s);
   }
 }
 
-void RecordingFigure::addEvent(RunEvent::Kind kind, std::size_t robot) {
+std::optional<TPoint2D> RecordingFigure::placeOf(std::size_t robot) const {
   const auto& pose = robots_[robot].pose;
-  if (pose) robots_[robot].events.push_back({kind, robot, {pose->x, pose->y}});
+  return pose ? std::make_optional<TPoint2D>(pose->x, pose->y) : std::nullopt;
 }
 
 /// In a run of RoboSim, odometry counts from the start.
@@ -145,21 +141,26 @@ LoadedWorld RecordingFigure::withoutWorld() const {
   return loaded;
 }
 
-std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page) const {
+std::string RecordingFigure::draw(PictureFormat format, const FigurePage& page, const TopViewLayers& layers) const {
   const LoadedWorld loaded = world_ ? *world_ : withoutWorld();
   DrawnRun run;
   run.title = loaded.world.name + ", " + fixed(duration_s_, 1) + " s";
+  run.has_names = layers.names;
   bool has_poses = false;
+  std::map<std::size_t, std::size_t> drawn_index;  // by index in robots_
   for (const auto& of_world : loaded.fleet.robots) {
     const auto found = index_of_.find(of_world.info.name);
     const Robot robot = found == index_of_.end() ? Robot() : robots_[found->second];
     has_poses |= !robot.path.empty();
-    for (RunEvent event : robot.events) {
-      event.robot = run.paths.size();
-      run.events.push_back(event);
-    }
-    run.paths.push_back(robot.path);
+    if (found != index_of_.end()) drawn_index.emplace(found->second, run.world_from_robot.size());
+    if (layers.paths) run.paths.push_back(robot.path);
     run.world_from_robot.push_back(robot.pose);
+  }
+  for (auto [time_s, event] : events_.all()) {
+    const auto drawn = drawn_index.find(event.robot);
+    if (!layers.events || drawn == drawn_index.end()) continue;
+    event.robot = drawn->second;
+    run.events.push_back(event);
   }
   if (!has_poses) {
     throw ConfigError(rawlog_ +

@@ -12,6 +12,7 @@
 #include "rendering/drawn_run.h"
 #include "rendering/figure_page.h"
 #include "rendering/picture_format.h"
+#include "rendering/top_view.h"
 #include "robots/fleet.h"
 
 namespace robosim {
@@ -32,7 +33,8 @@ class RecordingFigure {
   void add(const mrpt::obs::CObservation& observation, double time_s);
 
   /// @return the file @throws ConfigError for a recording without poses
-  std::string draw(PictureFormat format, const FigurePage& page = {}) const;
+  /// @param layers of which the sensors have no effect
+  std::string draw(PictureFormat format, const FigurePage& page = {}, const TopViewLayers& layers = {}) const;
 
  private:
   /// Poses and events of a robot.
@@ -42,16 +44,14 @@ class RecordingFigure {
     std::vector<mrpt::math::TPoint2D> path;
     std::optional<mrpt::math::TPose2D> pose;  ///< the last one; nullopt while the robot is absent
     double time_s = 0;                        ///< of that pose
-    std::vector<RunEvent> events;
-    bool is_stalled = false, has_found = false;  ///< in the last status
   };
 
   std::size_t robotNamed(const std::string& name);
   void addPose(std::size_t robot, const mrpt::math::TPose2D& pose, bool is_truth, double time_s);
   static void leave(Robot& robot);
-  void addStatus(std::size_t robot, const mrpt::obs::CObservation& observation);
-  void addMessages(const std::string& receiver, const mrpt::obs::CObservation& observation);
-  void addEvent(RunEvent::Kind kind, std::size_t robot);
+  void addStatus(std::size_t robot, const mrpt::obs::CObservation& observation, double time_s);
+  void addMessages(const std::string& receiver, const mrpt::obs::CObservation& observation, double time_s);
+  std::optional<mrpt::math::TPoint2D> placeOf(std::size_t robot) const;
   mrpt::math::TPose2D startOfOdometry(const std::string& robot) const;
   LoadedWorld withoutWorld() const;
 
@@ -60,6 +60,7 @@ class RecordingFigure {
   bool is_of_robosim_ = false;
   std::vector<Robot> robots_;  ///< in the order of their first appearance
   std::map<std::string, std::size_t> index_of_;
+  RunEvents events_;
   double duration_s_ = 0;
 };
 

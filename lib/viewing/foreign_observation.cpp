@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationBeaconRanges.h>
+#include <mrpt/obs/CObservationBearingRange.h>
+#include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationGasSensors.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <mrpt/obs/CObservationRotatingScan.h>
+#include <mrpt/obs/CObservationVelodyneScan.h>
 
+#include "hardware/neighbour_quantities.h"
 #include "recording/cone_aperture.h"
 #include "world/occupancy_grid.h"
 
@@ -19,13 +29,21 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
+using mrpt::obs::CObservation3DRangeScan;
+using mrpt::obs::CObservationBeaconRanges;
+using mrpt::obs::CObservationBearingRange;
 using mrpt::obs::CObservationGasSensors;
+using mrpt::obs::CObservationGPS;
 using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CObservationRange;
 using mrpt::obs::CObservationRobotPose;
+using mrpt::obs::CObservationRotatingScan;
+using mrpt::obs::CObservationVelodyneScan;
 
 /// Maximum number of points per scan; more would only slow down drawing.
 constexpr std::size_t kMaxBeams = 2000;
+/// The same for a cloud of points, and for landmarks and beacons.
+constexpr std::size_t kMaxPoints = 6000, kMaxLandmarks = 200;
 
 Echo echoOf(const TPose3D& robot_from_beam, float range_m) {
   const auto end = robot_from_beam.composePoint({range_m, 0, 0});
@@ -79,6 +97,126 @@ Ranges rangesOf(const CObservationRange& range) {
   return ranges;
 }
 
+/// The middle row of a scanner that rotates: the elevations of its rows are not recorded, and the middle one looks
+/// nearly level.
+Ranges rangesOf(const CObservationRotatingScan& scan) {
+  Ranges ranges;
+  const auto row = scan.rangeImage.rows() / 2;
+  const auto columns = scan.rangeImage.cols();
+  const auto stride = 1 + columns / static_cast<long>(kMaxBeams);
+  const TPose3D mount = scan.sensorPose.asTPose();
+  for (long i = 0; i < columns; i += stride) {
+    TPose3D beam = mount;
+    beam.yaw += scan.startAzimuth + scan.azimuthSpan * static_cast<double>(i) / static_cast<double>(columns);
+    const double range_m = scan.rangeImage(row, i) * scan.rangeResolution;
+    const bool observed = range_m > 0 && range_m < scan.maxRange;
+    ranges.beams.push_back({beam});
+    ranges.echoes.push_back(echoOf(beam, static_cast<float>(observed ? range_m : scan.maxRange)));
+  }
+  return ranges;
+}
+std::size_t beamsIn(const CObservationRotatingScan& scan) {
+  const auto columns = static_cast<std::size_t>(scan.rangeImage.cols());
+  const std::size_t stride = 1 + columns / kMaxBeams;
+  return (columns + stride - 1) / stride;
+}
+
+/// Collects the points of a cloud that are finite and within reach, in the robot's frame.
+class Cloud {
+ public:
+  explicit Cloud(const mrpt::poses::CPose3D& robot_from_sensor) : robot_from_sensor_(robot_from_sensor) {}
+  void add(double x_m, double y_m, double z_m) {
+    const auto at = robot_from_sensor_.composePoint({x_m, y_m, z_m});
+    const double range_m = std::hypot(x_m, y_m, z_m);
+    if (!(range_m > 0 && range_m <= kMapReach_m) || !isWithinReach(at.x, at.y, at.z)) return;
+    echoes_.push_back(
+        {static_cast<float>(range_m), {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}});
+  }
+  Echoes take() { return std::move(echoes_); }
+
+ private:
+  mrpt::poses::CPose3D robot_from_sensor_;
+  Echoes echoes_;
+};
+
+/// Of the depth image, by the pinhole model of its camera; else the points that the observation contains.
+Echoes pointsOf(const CObservation3DRangeScan& scan) {
+  Cloud cloud(scan.sensorPose);
+  if (scan.hasRangeImage && scan.rangeImage.size() > 0) {
+    const double focal_x = scan.cameraParams.fx(), focal_y = scan.cameraParams.fy();
+    const auto pixels = static_cast<double>(scan.rangeImage.size());
+    const auto stride = static_cast<long>(std::ceil(std::sqrt(std::max(1.0, pixels / kMaxPoints))));
+    for (long row = 0; row < scan.rangeImage.rows(); row += stride) {
+      for (long column = 0; column < scan.rangeImage.cols(); column += stride) {
+        const double left = (scan.cameraParams.cx() - static_cast<double>(column)) / focal_x;
+        const double up = (scan.cameraParams.cy() - static_cast<double>(row)) / focal_y;
+        const double measured_m = scan.rangeImage(row, column) * static_cast<double>(scan.rangeUnits);
+        const double ahead_m = scan.range_is_depth ? measured_m : measured_m / std::hypot(1, left, up);
+        cloud.add(ahead_m, left * ahead_m, up * ahead_m);
+      }
+    }
+  } else if (scan.hasPoints3D) {
+    const std::size_t count = std::min({scan.points3D_x.size(), scan.points3D_y.size(), scan.points3D_z.size()});
+    for (std::size_t i = 0; i < count; i += 1 + count / kMaxPoints) {
+      cloud.add(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);
+    }
+  }
+  return cloud.take();
+}
+
+Echoes pointsOf(const CObservationVelodyneScan& scan) {
+  Cloud cloud(scan.sensorPose);
+  CObservationVelodyneScan copy(scan);
+  try {
+    if (copy.point_cloud.x.empty()) copy.generatePointCloud();
+  } catch (const std::exception&) {
+    return {};  // without its calibration, or of an unknown model
+  }
+  const auto& points = copy.point_cloud;
+  const std::size_t count = std::min({points.x.size(), points.y.size(), points.z.size()});
+  for (std::size_t i = 0; i < count; i += 1 + count / kMaxPoints) cloud.add(points.x[i], points.y[i], points.z[i]);
+  return cloud.take();
+}
+
+Echoes pointsOf(const CObservation& observation) {
+  if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) return pointsOf(*scan);
+  return pointsOf(dynamic_cast<const CObservationVelodyneScan&>(observation));
+}
+
+/// Horizontal ranges and bearings to landmarks, as of a sensor with neighbourQuantities().
+Values bearingsOf(const CObservationBearingRange& bearings) {
+  Values values;
+  for (std::size_t i = 0; i < std::min(bearings.sensedData.size(), kMaxLandmarks); ++i) {
+    const auto& sensed = bearings.sensedData[i];
+    const double range_m = sensed.range * std::cos(sensed.pitch), bearing_rad = sensed.yaw;
+    if (!isWithinReach(range_m, 0, bearing_rad)) continue;
+    values.values.insert(values.values.end(),
+                         {static_cast<double>(std::max(0, sensed.landmarkID)), range_m, bearing_rad});
+  }
+  return values;
+}
+
+BeaconRanges beaconsOf(const CObservationBeaconRanges& beacons) {
+  BeaconRanges ranges;
+  for (std::size_t i = 0; i < std::min(beacons.sensedData.size(), kMaxLandmarks); ++i) {
+    const float range_m = beacons.sensedData[i].sensedDistance;
+    ranges.range_m.push_back(range_m >= 0 && range_m <= kMapReach_m ? range_m : std::numeric_limits<float>::max());
+  }
+  return ranges;
+}
+
+std::optional<Geodetic> positionIn(const CObservationGPS& gps) {
+  if (gps.hasMsgClass<mrpt::obs::gnss::Message_NMEA_GGA>()) {
+    const auto& fix = gps.getMsgByClass<mrpt::obs::gnss::Message_NMEA_GGA>().fields;
+    if (fix.fix_quality != 0) return Geodetic{fix.latitude_degrees, fix.longitude_degrees};
+  }
+  if (gps.hasMsgClass<mrpt::obs::gnss::Message_NMEA_RMC>()) {
+    const auto& fix = gps.getMsgByClass<mrpt::obs::gnss::Message_NMEA_RMC>().fields;
+    if (fix.validity_char == 'A') return Geodetic{fix.latitude_degrees, fix.longitude_degrees};
+  }
+  return std::nullopt;
+}
+
 Surroundings boxAround(Ranges ranges, double range_max_m) {
   constexpr double kQuantile = 0.9;
   auto& echoes = ranges.echoes;
@@ -112,6 +250,37 @@ ObservationKind observationKind(const CObservation& observation) {
     return within(isWithinReach(scan->sensorPose.asTPose(), scan->maxRange) && std::isfinite(scan->aperture),
                   ObservationKind::scan);
   }
+  if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation)) {
+    if (scan->rangeImage.size() == 0) return ObservationKind::ignored;
+    return within(isWithinReach(scan->sensorPose.asTPose(), static_cast<float>(scan->maxRange)) &&
+                      std::isfinite(scan->startAzimuth) && std::isfinite(scan->azimuthSpan) &&
+                      std::isfinite(scan->rangeResolution),
+                  ObservationKind::scan);
+  }
+  if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+      dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+    mrpt::poses::CPose3D mount;
+    observation.getSensorPose(mount);
+    if (!isWithinReach(mount.asTPose(), 0)) return ObservationKind::out_of_range;
+    return pointsOf(observation).empty() ? ObservationKind::ignored : ObservationKind::points;
+  }
+  if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) {
+    return within(isWithinReach(bearings->sensorLocationOnRobot.asTPose(), 0), ObservationKind::bearings);
+  }
+  if (const auto* beacons = dynamic_cast<const CObservationBeaconRanges*>(&observation)) {
+    const auto& all = beacons->sensedData;
+    return within(std::all_of(all.begin(), all.end(),
+                              [](const auto& sensed) {
+                                const auto& at = sensed.sensorLocationOnRobot;
+                                return isWithinReach(at.x(), at.y(), at.z());
+                              }),
+                  ObservationKind::beacons);
+  }
+  if (const auto* gps = dynamic_cast<const CObservationGPS*>(&observation)) {
+    const auto at = positionIn(*gps);
+    if (!at) return ObservationKind::ignored;
+    return within(std::abs(at->latitude_deg) <= 90 && std::abs(at->longitude_deg) <= 360, ObservationKind::satellites);
+  }
   if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
     return within(
         std::all_of(range->begin(), range->end(),
@@ -133,14 +302,53 @@ TPose2D observedPose(const CObservation& observation) {
   return {pose.x(), pose.y(), pose.yaw()};
 }
 
+Geodetic observedPosition(const CObservation& observation) {
+  return positionIn(dynamic_cast<const CObservationGPS&>(observation)).value();
+}
+
+mrpt::math::TPoint2D localMetres(const Geodetic& origin, const Geodetic& position) {
+  constexpr double kEquator_m = 6378137, kFlattening = 1 / 298.257223563;  // WGS 84
+  constexpr double kEccentricity2 = kFlattening * (2 - kFlattening), kRadian_deg = M_PI / 180;
+  struct Axes {
+    double x, y, z;
+  };
+  const auto fixed_to_earth = [&](const Geodetic& at) -> Axes {
+    const double latitude = at.latitude_deg * kRadian_deg, longitude = at.longitude_deg * kRadian_deg;
+    const double normal_m = kEquator_m / std::sqrt(1 - kEccentricity2 * std::sin(latitude) * std::sin(latitude));
+    return {normal_m * std::cos(latitude) * std::cos(longitude), normal_m * std::cos(latitude) * std::sin(longitude),
+            normal_m * (1 - kEccentricity2) * std::sin(latitude)};
+  };
+  const Axes from = fixed_to_earth(origin), to = fixed_to_earth(position);
+  const double x = to.x - from.x, y = to.y - from.y, z = to.z - from.z;
+  const double latitude = origin.latitude_deg * kRadian_deg, longitude = origin.longitude_deg * kRadian_deg;
+  return {-std::sin(longitude) * x + std::cos(longitude) * y,
+          -std::sin(latitude) * (std::cos(longitude) * x + std::sin(longitude) * y) + std::cos(latitude) * z};
+}
+
 Measurement observedMeasurement(const CObservation& observation) {
+  if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation)) return rangesOf(*scan).echoes;
+  if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) return bearingsOf(*bearings);
+  if (const auto* beacons = dynamic_cast<const CObservationBeaconRanges*>(&observation)) return beaconsOf(*beacons);
+  if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+      dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+    return pointsOf(observation);
+  }
   if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) return rangesOf(*scan).echoes;
   if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) return rangesOf(*range).echoes;
   return Scalar{dynamic_cast<const CObservationGasSensors&>(observation).m_readings.at(0).temperature};
 }
 
 Measurement emptyMeasurement(const SensorInfo& sensor) {
-  return sensor.kind == SensorKind::heat ? Measurement(Scalar{}) : Measurement(Echoes{});
+  switch (sensor.kind) {
+    case SensorKind::heat:
+      return Scalar{};
+    case SensorKind::beacons:
+      return BeaconRanges{};
+    case SensorKind::values:
+      return Values{};
+    default:
+      return Echoes{};
+  }
 }
 
 void updateDescription(SensorInfo& sensor, const CObservation& observation) {
@@ -152,6 +360,25 @@ void updateDescription(SensorInfo& sensor, const CObservation& observation) {
   if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) {
     sensor.kind = SensorKind::laser;
     update_ranges(*scan, scan->maxRange);
+  } else if (const auto* rotating = dynamic_cast<const CObservationRotatingScan*>(&observation)) {
+    sensor.kind = SensorKind::laser;
+    update_ranges(*rotating, rotating->maxRange);
+  } else if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+             dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+    sensor.kind = SensorKind::laser;  // without beams: a cloud of points
+    sensor.range_max_m = sensor.no_echo_m = 2 * kMapReach_m;
+  } else if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) {
+    sensor.kind = SensorKind::values;
+    const std::size_t count = std::clamp<std::size_t>(bearings->sensedData.size(), 1, kMaxLandmarks);
+    if (3 * count > sensor.quantities.size()) sensor.quantities = neighbourQuantities(count);
+    sensor.beams = {{bearings->sensorLocationOnRobot.asTPose()}};
+  } else if (const auto* beacons = dynamic_cast<const CObservationBeaconRanges*>(&observation)) {
+    sensor.kind = SensorKind::beacons;
+    sensor.no_echo_m = kMapReach_m;
+    for (std::size_t i = sensor.beams.size(); i < std::min(beacons->sensedData.size(), kMaxLandmarks); ++i) {
+      const auto& at = beacons->sensedData[i].sensorLocationOnRobot;
+      sensor.beams.push_back({{at.x(), at.y(), at.z(), 0, 0, 0}});
+    }
   } else if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
     sensor.kind = SensorKind::sonar;
     sensor.beam_width_rad = coneAperture_rad(*range);
@@ -167,6 +394,23 @@ Surroundings observedSurroundings(const CObservation& observation) {
   }
   if (const auto* range = dynamic_cast<const CObservationRange*>(&observation)) {
     return boxAround(rangesOf(*range), range->maxSensorDistance);
+  }
+  if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation)) {
+    return boxAround(rangesOf(*scan), scan->maxRange);
+  }
+  if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+      dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+    return boxAround({{}, pointsOf(observation)}, kMapReach_m);
+  }
+  if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) {
+    const TPose3D mount = bearings->sensorLocationOnRobot.asTPose();
+    const Values values = bearingsOf(*bearings);
+    Ranges ranges;
+    for (std::size_t i = 0; i < values.values.size(); i += 3) {
+      const TPose3D beam(mount.x, mount.y, mount.z, mount.yaw + values.values[i + 2], 0, 0);
+      ranges.echoes.push_back(echoOf(beam, static_cast<float>(values.values[i + 1])));
+    }
+    return boxAround(std::move(ranges), kMapReach_m);
   }
   return {};
 }

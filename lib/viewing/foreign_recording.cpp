@@ -1,8 +1,10 @@
 #include "viewing/foreign_recording.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include <mrpt/obs/CObservationComment.h>
@@ -21,12 +23,32 @@ namespace {
 using mrpt::math::TPose2D;
 using mrpt::obs::CObservation;
 
+/// Heading of a satellite receiver, which it does not measure: the direction in which it moved last.
+class SatelliteTrack {
+ public:
+  TPose2D poseAt(const mrpt::math::TPoint2D& at) {
+    constexpr double kStep_m = 0.3;  // more than the noise of positions that are corrected (RTK)
+    const auto way = at - mrpt::math::TPoint2D(turned_.x, turned_.y);
+    if (!std::exchange(has_begun_, true)) {
+      turned_ = {at.x, at.y, 0};
+    } else if (way.norm() >= kStep_m) {
+      turned_ = {at.x, at.y, std::atan2(way.y, way.x)};
+    }
+    return {at.x, at.y, turned_.phi};
+  }
+
+ private:
+  bool has_begun_ = false;
+  TPose2D turned_;  ///< where the heading was found
+};
+
 /// All observations of one kind and label.
 struct Source {
   std::string robot, label;
   ObservationKind kind = ObservationKind::ignored;
   SensorInfo sensor;  ///< as described by the observations
   std::size_t robot_index = 0, slot = 0;
+  SatelliteTrack satellites = {};
 };
 
 /// Location of an observation in the file.
@@ -87,8 +109,11 @@ class ForeignRecording final : public RecordedMoments {
   explicit ForeignRecording(const std::string& file) : file_(file), reader_(file, RawlogReader::Access::random) {
     readAll();
     if (observed_.empty()) {
-      throw ConfigError(file + ": contains nothing that can be shown: no pose, odometry, scan or range" +
-                        (read_error_.empty() ? "" : "; " + read_error_));
+      throw ConfigError(
+          file +
+          ": contains nothing that can be shown: no pose, odometry, satellite position, scan, range, bearing "
+          "or points" +
+          (read_error_.empty() ? "" : "; " + read_error_));
     }
     assignUnlabelledSources();
     std::stable_sort(observed_.begin(), observed_.end(),
@@ -101,6 +126,7 @@ class ForeignRecording final : public RecordedMoments {
   const LoadedWorld& world() const override { return world_; }
   const std::vector<double>& times() const override { return times_; }
   const RunPaths& paths() const override { return paths_; }
+  const RunEvents& events() const override { return events_; }
   const std::string& readError() const override { return read_error_; }
   bool isDamaged() const override { return is_damaged_; }
 
@@ -159,8 +185,17 @@ class ForeignRecording final : public RecordedMoments {
       source.robot = label.robot;
       source.label = source.sensor.label = label.withinRobot();
       source.kind = kind;
+      // Each receiver has a track of its own: their antennas are at different places of the vehicle.
+      if (kind == ObservationKind::satellites && !observation.sensorLabel.empty()) {
+        source.robot = observation.sensorLabel;
+      }
     }
-    if (isPose(kind)) {
+    if (kind == ObservationKind::satellites) {
+      const Geodetic position = observedPosition(observation);
+      if (!origin_) origin_ = position;
+      observed.place = poses_.size();
+      poses_.push_back(sources_[observed.source].satellites.poseAt(localMetres(*origin_, position)));
+    } else if (isPose(kind)) {
       observed.place = poses_.size();
       poses_.push_back(observedPose(observation));
     } else {
@@ -175,11 +210,13 @@ class ForeignRecording final : public RecordedMoments {
   void assignUnlabelledSources() {
     std::string only;
     for (const auto& source : sources_) {
-      if (source.robot.empty() || source.robot == only) continue;
+      if (source.robot.empty() || source.robot == only || source.kind == ObservationKind::satellites) continue;
       if (!only.empty()) return;
       only = source.robot;
     }
-    for (auto& source : sources_) source.robot = only;
+    for (auto& source : sources_) {
+      if (source.kind != ObservationKind::satellites) source.robot = only;
+    }
   }
 
   /// Records in the order of time. @returns the area of the robots and their echoes
@@ -305,12 +342,14 @@ class ForeignRecording final : public RecordedMoments {
   std::map<std::pair<std::string, ObservationKind>, std::size_t> source_of_label_;
   std::vector<Observed> observed_;  ///< in the order of time
   std::vector<TPose2D> poses_;
+  std::optional<Geodetic> origin_;    ///< of local metres: the first position of a satellite receiver
   std::vector<ForeignRobot> robots_;  ///< in the order in which they appear
   std::vector<double> times_;
   std::vector<std::size_t> ends_;  ///< end index in observed_ of each moment
   std::size_t end_ = 0;            ///< end index in observed_ of the moment applied to robots_
   LoadedWorld world_;
   RunPaths paths_;
+  RunEvents events_;  ///< none
   std::string read_error_;
   bool is_damaged_ = false;
 };

@@ -7,6 +7,7 @@
 #include "outputs/run_note.h"
 #include "recording/recorded_step.h"
 #include "recording/recording_error.h"
+#include "rendering/snapshot_run.h"
 #include "viewing/foreign_recording.h"
 
 namespace robosim {
@@ -36,11 +37,12 @@ class RobosimRecording final : public RecordedMoments {
     Progress progress;
     for (;;) {
       const std::uint64_t place = steps_.position();
-      auto step = steps_.next();
+      auto step = steps_.nextWithoutMeasurements();
       if (!step) break;
       if (moments_.empty()) leaveOutMissing(*step);
       const RunSnapshot snapshot = toSnapshot(std::move(*step));
       paths_.add(snapshot);
+      addEvents(events_, world_.fleet, snapshot);
       moments_.push_back({snapshot.time_s, place});
       if (progress.due()) progress.show("reading, " + fixed(moments_.back().time_s, 0) + " s …");
     }
@@ -57,6 +59,7 @@ class RobosimRecording final : public RecordedMoments {
   const LoadedWorld& world() const override { return world_; }
   const std::vector<double>& times() const override { return times_; }
   const RunPaths& paths() const override { return paths_; }
+  const RunEvents& events() const override { return events_; }
   const std::string& readError() const override { return read_error_; }
   bool isDamaged() const override { return is_damaged_; }
 
@@ -96,6 +99,7 @@ class RobosimRecording final : public RecordedMoments {
   std::vector<Moment> moments_;
   std::vector<double> times_;
   RunPaths paths_;
+  RunEvents events_;
   std::string read_error_;
   bool is_damaged_ = false;
 };

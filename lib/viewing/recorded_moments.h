@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "rendering/drawn_run.h"
 #include "rendering/run_paths.h"
 #include "robots/run_snapshot.h"
 #include "robots/world_source.h"
@@ -23,6 +24,8 @@ class RecordedMoments {
   virtual RunSnapshot at(std::size_t moment) = 0;
   /// Paths of the robots through all moments.
   virtual const RunPaths& paths() const = 0;
+  /// Events of the robots in all moments; empty for recordings of other programs.
+  virtual const RunEvents& events() const = 0;
   /// Reason for an early end, and what was left out; empty for a complete file.
   virtual const std::string& readError() const = 0;
   /// RawlogReader::isDamaged(), of the whole file.

@@ -4,6 +4,7 @@
 #include <thread>
 
 #include "client/viewer.h"
+#include "rendering/snapshot_run.h"
 #include "viewing/run_operator.h"
 #include "viewing/view_source.h"
 
@@ -19,6 +20,7 @@ class EnvironmentView final : public ViewSource {
         world_(viewer_.run().world),
         snapshot_(viewer_.run().snapshot) {
     paths_.add(snapshot_);
+    addEvents(events_, world_.fleet, snapshot_);
     if (viewer_.run().may_operate) operator_ = std::make_unique<RunOperator>(connect_options_);
     waiting_ = std::thread([this] { wait(); });
   }
@@ -31,6 +33,7 @@ class EnvironmentView final : public ViewSource {
   int worldNumber() const override { return world_number_; }
   const RunSnapshot& snapshot() const override { return snapshot_; }
   const RunPaths& paths() const override { return paths_; }
+  const RunEvents& events() const override { return events_; }
   std::string title() const override { return connect_options_.address; }
 
   bool advance(double) override {
@@ -44,9 +47,11 @@ class EnvironmentView final : public ViewSource {
       next_world_.reset();
       ++world_number_;
       paths_.clear();
+      events_.clear();
     }
     for (const auto& step : next_steps_) paths_.add(step.step, step.time_s, step.world_from_robot);
     next_steps_.clear();
+    addEvents(events_, world_.fleet, snapshot_);
     return true;
   }
   bool isOver() const override {
@@ -104,6 +109,7 @@ class EnvironmentView final : public ViewSource {
   int world_number_ = 0;
   RunSnapshot snapshot_;
   RunPaths paths_;
+  RunEvents events_;
   std::unique_ptr<RunOperator> operator_;  ///< null for read-only access
 
   mutable std::mutex mutex_;  ///< guards the members below

@@ -10,11 +10,13 @@
 
 namespace robosim {
 
-void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::string& file, const FigurePage& page) {
+void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::string& file, const FigurePage& page,
+                     TopViewLayers layers) {
   AtomicFile whole(file);
   showPictureTime(source, times);
   const LoadedWorld& loaded = source.world();
-  DrawnRun run = drawnRun(loaded.fleet, source.snapshot(), source.paths(), {.paths_from_s = times.from_s.value_or(0)});
+  layers.paths_from_s = times.from_s.value_or(0);
+  DrawnRun run = drawnRun(loaded.fleet, source.snapshot(), source.paths(), layers, &source.events());
   if (source.snapshot().time_s > 0) run.title = loaded.world.name + ", " + fixed(source.snapshot().time_s, 1) + " s";
   whole.write(runFigure(requirePictureFormat(file), loaded.world, loaded.fleet, run, page));
   whole.commit();

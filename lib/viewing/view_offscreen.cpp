@@ -129,13 +129,14 @@ void showPictureTime(ViewSource& source, const ViewTimes& times) {
 }
 
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                    const std::string& file, const Panes::Look& look) {
+                    const std::string& file, const Panes::Look& look, const TopViewLayers& layers) {
   if (isVideo(file) && source.isOver() && !source.duration()) {
     throw ConfigError("--offscreen " + file +
                       ": nothing moves in a world that does not run; ask for a .png, or record a run");
   }
   ViewDrawing drawing(source, make_panes);
   drawing.panes().look() = look;
+  drawing.panes().layers() = layers;
   drawing.panes().layers().paths_from_s = times.from_s.value_or(0);
   if (isVideo(file)) {
     writeVideo(source, drawing, size, times, file);

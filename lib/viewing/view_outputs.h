@@ -31,9 +31,10 @@ using MakePanes = std::function<std::vector<Pane>(const LoadedWorld&, AbsentRobo
 
 /// Opens a window, and returns when it is closed. When the connection to the environment is lost, the window stays open
 /// and shows the reason.
+/// @param layers that are shown at first
 /// @throws ConfigError when there is no display.
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                const Panes::Look& look = {});
+                const Panes::Look& look = {}, const TopViewLayers& layers = {});
 
 /// Whether a file name is that of a figure: .svg or .pdf.
 bool isFigure(const std::string& file);
@@ -44,11 +45,12 @@ void checkOffscreenFile(const std::string& file);
 /// @throws Interrupted, and std::runtime_error when the disk is full; no file is written then. Exception: an
 /// interrupted video of a live run is kept up to the interruption.
 void writeOffscreen(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                    const std::string& file, const Panes::Look& look = {});
+                    const std::string& file, const Panes::Look& look = {}, const TopViewLayers& layers = {});
 
 /// Writes a figure: the whole world from above, with paths, ranges of sensors, robots and names, as vectors.
 /// @throws ConfigError when the text is too large for the page
-void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::string& file, const FigurePage& page);
+void writeViewFigure(ViewSource& source, const ViewTimes& times, const std::string& file, const FigurePage& page,
+                     TopViewLayers layers = {});
 /// Goes to the moment of a picture: for a recording its end or `times.to_s`, else the newest step.
 void showPictureTime(ViewSource& source, const ViewTimes& times);
 

@@ -19,6 +19,7 @@ class RawlogView final : public ViewSource {
   const LoadedWorld& world() const override { return moments_->world(); }
   const RunSnapshot& snapshot() const override { return snapshot_; }
   const RunPaths& paths() const override { return moments_->paths(); }
+  const RunEvents& events() const override { return moments_->events(); }
   std::vector<std::filesystem::path> inputs() const override {
     std::vector<std::filesystem::path> files{title_};
     std::error_code none;

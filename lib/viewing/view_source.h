@@ -11,6 +11,7 @@
 #include "environment/environment.h"
 #include "environment/world_changes.h"
 #include "net/connect.h"
+#include "rendering/drawn_run.h"
 #include "rendering/run_paths.h"
 #include "robots/run_snapshot.h"
 #include "robots/world_source.h"
@@ -28,6 +29,11 @@ class ViewSource {
   virtual const RunSnapshot& snapshot() const = 0;
   /// Paths of the robots of world(): for a recording, of all of it; else of the steps so far.
   virtual const RunPaths& paths() const = 0;
+  /// Events of the robots so far; for a recording, of all of it. Default: none.
+  virtual const RunEvents& events() const {
+    static const RunEvents none;
+    return none;
+  }
   /// Input files of the source.
   virtual std::vector<std::filesystem::path> inputs() const { return {}; }
   /// Title of the window.

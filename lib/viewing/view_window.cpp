@@ -27,7 +27,7 @@ constexpr int kEscape = 256, kRight = 262, kLeft = 263, kF1 = 290, kF11 = 300;
 class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
  public:
   ViewWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-             const Panes::Look& look)
+             const Panes::Look& look, const TopViewLayers& layers)
       : CDisplayWindowGUI("RoboSim: " + printableText(source.title()), static_cast<unsigned>(size.width_px),
                           static_cast<unsigned>(size.height_px)),
         source_(source),
@@ -35,6 +35,7 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
         scale_(static_cast<float>(look.scale)),
         drawing_(source, make_panes) {
     drawing_.panes().look() = look;
+    drawing_.panes().layers() = layers;
     auto* const theme = new nanogui::Theme(nvgContext());
     theme->mStandardFontSize = static_cast<int>(16 * scale_);
     theme->mButtonFontSize = static_cast<int>(16 * scale_);
@@ -355,11 +356,11 @@ class Nanogui {
 }  // namespace
 
 void showWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
-                const Panes::Look& look) {
+                const Panes::Look& look, const TopViewLayers& layers) {
   std::exception_ptr failure;
   try {
     const Nanogui nanogui;
-    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times, look));
+    nanogui::ref<ViewWindow> window(new ViewWindow(source, make_panes, size, times, look, layers));
     if (const auto remark = source.remark(); !remark.empty()) logWarning("view", remark);
     window->drawAll();
     window->setVisible(true);
