@@ -16,7 +16,7 @@ struct DetailLevel {
   double path_share = 1;       ///< width of a path, relative to the usual one
   double path_coverage = 1.0;  ///< share of the picture that paths may cover at full opacity; beyond, they are paler
 
-  static constexpr std::size_t kManyRobots = 20;
+  static constexpr std::size_t kManyRobots = 60;
   static constexpr double kArea_px2 = 50 * 50, kAreaWithPath_px2 = 12 * 12;
 
   /// @param robots in the picture @param area_px2 of the picture that they are in

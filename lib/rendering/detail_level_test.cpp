@@ -68,7 +68,7 @@ double floorShare(const cv::Mat& picture) {
 }
 
 TEST(DetailLevel, IsFullForFewRobotsAndForRobotsWithRoom) {
-  EXPECT_FALSE(DetailLevel::of(20, 100).is_crowded);
+  EXPECT_FALSE(DetailLevel::of(60, 100).is_crowded);
   EXPECT_FALSE(DetailLevel::of(100, 100 * 2500).is_crowded);
   EXPECT_TRUE(DetailLevel::of(101, 100 * 2500).is_crowded);
 }
@@ -99,8 +99,8 @@ TEST(DetailLevel, DrawsEveryRobotOfATopViewInItsColour) {
     const auto& seen =
         picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
     const Color color = swarm.fleet.robots[i].body.color;
-    EXPECT_NEAR(seen[2], 255 * 0.8 * color.r, 40) << i;
-    EXPECT_NEAR(seen[0], 255 * 0.8 * color.b, 40) << i;
+    EXPECT_NEAR(seen[2], 255 * 0.8 * static_cast<double>(color[0]), 40) << i;
+    EXPECT_NEAR(seen[0], 255 * 0.8 * static_cast<double>(color[2]), 40) << i;
   }
 }
 
@@ -151,12 +151,13 @@ TEST(DetailLevel, DotsOfA3dPictureLieOnThePathsAndLeaveTheFloorVisible) {
   drawAirOverlay(air, swarm.snapshot, swarm.fleet, swarm.paths, {}, {});
   EXPECT_GT(floorShare(picture), 0.75);
   const AirView view(air);
-  const TPoint2D pixel = view.pixel(view.seen({20.9, 12.5, 0}));  // of robot 500
+  const double top_m = swarm.fleet.robots[500].body.heights().z_max_m;
+  const TPoint2D pixel = view.pixel(view.seen({20.9, 12.5, top_m}));
   const Color color = swarm.fleet.robots[500].body.color;
   const auto& seen =
       picture.at<cv::Vec3b>(static_cast<int>(std::lround(pixel.y)), static_cast<int>(std::lround(pixel.x)));
-  EXPECT_NEAR(seen[2], 255 * color.r, 60);
-  EXPECT_NEAR(seen[0], 255 * color.b, 60);
+  EXPECT_NEAR(seen[2], 255 * static_cast<double>(color[0]), 60);
+  EXPECT_NEAR(seen[0], 255 * static_cast<double>(color[2]), 60);
 }
 
 TEST(RunEvents, AreWhereAStallBeginsAndGoldIsFoundFirst) {

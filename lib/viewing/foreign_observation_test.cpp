@@ -1,5 +1,6 @@
 #include "viewing/foreign_observation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -129,11 +130,18 @@ TEST(ForeignRecording, ShowsTheTrackOfEachSatelliteReceiverInLocalMetres) {
   const auto recording = readForeignRecording("/usr/share/mrpt/datasets/test_rtk_path.rawlog");
   ASSERT_EQ(recording->world().fleet.robots.size(), 3u);
   const RunSnapshot last = recording->at(recording->times().size() - 1);
-  // The two front antennas are on one vehicle.
-  const auto& a = last.robots[0].world_from_robot;
-  const auto& b = last.robots[1].world_from_robot;
-  EXPECT_LT(std::hypot(a.x - b.x, a.y - b.y), 3);
-  EXPECT_LT(std::hypot(a.x, a.y), 1000);
+  const auto place_of = [&](const std::string& name) {
+    const auto& robots = recording->world().fleet.robots;
+    const auto found =
+        std::find_if(robots.begin(), robots.end(), [&](const FleetRobot& robot) { return robot.info.name == name; });
+    return last.robots.at(static_cast<std::size_t>(found - robots.begin())).world_from_robot;
+  };
+  // Both at 76.2 s: latitudes 36.7166300° and 36.7166400°, longitudes −4.4707650° and −4.4707673°. A degree of latitude
+  // is 110,966 m there, and one of longitude 89,383 m.
+  const auto right = place_of("GPS_RTK_FRONT_R"), left = place_of("GPS_RTK_FRONT_L");
+  EXPECT_NEAR(left.x - right.x, -0.21, 0.02);
+  EXPECT_NEAR(left.y - right.y, 1.11, 0.02);
+  EXPECT_NEAR(left.phi, 0.16, 0.1) << "a course of 81° is 9° from east to north";
   EXPECT_EQ(recording->paths().robots(), 3u);
 }
 
