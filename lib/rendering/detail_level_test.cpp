@@ -143,7 +143,9 @@ TEST(DetailLevel, LeavesStartRingsSensorsAndRimsOutOfAFigure) {
 }
 
 TEST(DetailLevel, DotsOfA3dPictureLieOnThePathsAndLeaveTheFloorVisible) {
-  const Swarm swarm;
+  Swarm swarm;
+  for (auto& robot : swarm.fleet.robots)
+    robot.info.radius_m = 0.05;  // a pixel; larger robots are visible without a dot
   cv::Mat picture(480, 800, CV_8UC3, cv::Scalar::all(255));
   const DepthBuffer sky{800, 480, std::vector<float>(800UL * 480, 1)};
   const CameraInfo camera{.width_px = 800, .height_px = 480, .field_of_view_rad = 0.9, .rate_hz = 1};
