@@ -141,6 +141,8 @@ TEST(NearExchange, GivesItWithRobotsThatDriveThroughTheOtherRanksShare) {
 }
 
 TEST(NearExchange, DecidesTheWinnerFromPosesThatOtherRanksDoNotKnow) {
+  // Whether a robot comes near the gold depends on the dashers' broadcasts, at which all turn: with them the first seed
+  // has a winner but the third has none; without them the third has one.
   constexpr int kSteps = 400;
   const LoadedWorld world = crowdedWorld({.has_gold = true}, 1);
   const std::string alone = resultAlone(world, kSteps);
