@@ -156,9 +156,9 @@ void runWorld(const LocalRunArguments& arguments, const RunWindow& window, doubl
   std::optional<WorldSource> source;
   LoadedWorld world = loadedWorld(arguments, source);
   RunOptions options = arguments.run;
-  // Rendering takes most of the time of a run with cameras. Observers are not asked whether they read pictures.
+  // Rendering takes most of the time of a run with cameras.
   options.takes_pictures =
-      arguments.isRecorded() || window || !options.observers.empty() || needPictures(world.fleet, options.controller);
+      arguments.isRecorded() || window || needPictures(world.fleet, options.controller, options.observers);
   LocalRun run(std::move(world), options);
   RunFiles files(arguments, run, source);
   const ObserveStep observe = [&] { files.observe(); };

@@ -69,8 +69,6 @@ std::optional<SearchRun> SearchBenchmark::run(std::size_t index, const std::func
                 .time_s = plan_.time_s,
                 .period_s = plan_.period_s,
                 .breakdown_mean_s = plan_.conditions[c.condition].breakdown_mean_s};
-  // Observers are not asked whether they read pictures.
-  how.takes_pictures = !plan_.observers.empty() || needPictures(worldOf(c).world.fleet, how.controller);
   how.observers.insert(how.observers.end(), plan_.observers.begin(), plan_.observers.end());
   const PreparedWorld& prepared = worldOf(c);
   const auto summary = runSeeded(prepared.world, prepared.starts, how, is_interrupted);

@@ -83,7 +83,8 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
   return controller;
 }
 
-bool needPictures(const Fleet& fleet, const std::string& instead) {
+bool needPictures(const Fleet& fleet, const std::string& instead, const std::vector<std::string>& observers) {
+  if (readPictures(observers)) return true;
   return std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const FleetRobot& robot) {
     const auto& needs = controllers().typeOf(controllerOf(robot.controller, instead)).needs;
     return std::any_of(needs.begin(), needs.end(),

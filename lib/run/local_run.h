@@ -53,9 +53,10 @@ std::string controllerOf(const std::string& in_world, const std::string& instead
 /// Whether a robot, of this index in the world's order, needs no controller of RoboSim.
 using DrivenElsewhere = std::function<bool(const FleetRobot&, std::size_t index)>;
 
-/// Whether a controller of a world, or the one `instead` of them, requires a camera or a blob finder.
-/// @throws ConfigError for an unknown controller
-bool needPictures(const Fleet& fleet, const std::string& instead);
+/// Whether something in the run reads pictures: a controller of a world, or the one `instead` of them, that requires a
+/// camera or a blob finder, or an observer that reads them.
+/// @throws ConfigError for an unknown controller or observer
+bool needPictures(const Fleet& fleet, const std::string& instead, const std::vector<std::string>& observers = {});
 
 /// Adds an error for each robot that lacks a sensor required by its controller. `world_file` is the file name in
 /// errors.

@@ -55,6 +55,7 @@ struct ObserverType {
   std::string help;  ///< one sentence
   std::vector<Parameter> parameters;
   std::function<std::unique_ptr<Observer>(const ObserverSetup&, const ParameterValues&)> make;
+  bool reads_pictures = false;  ///< whether it reads the pictures of cameras, which are otherwise not taken for it
 };
 
 using ObserverRegistry = TypeRegistry<ObserverType>;

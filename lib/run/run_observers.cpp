@@ -36,6 +36,11 @@ void checkObservers(const std::vector<std::string>& choices) {
   }
 }
 
+bool readPictures(const std::vector<std::string>& choices) {
+  return std::any_of(choices.begin(), choices.end(),
+                     [](const std::string& choice) { return observers().typeOf(choice).reads_pictures; });
+}
+
 RunObservers::RunObservers(const std::vector<std::string>& choices, std::uint64_t seed, bool is_logging)
     : seed_(seed), is_logging_(is_logging) {
   checkObservers(choices);

@@ -11,6 +11,9 @@ namespace robosim {
 /// Checks names and parameters of observers, given as TypeChoice::text(). @throws ConfigError
 void checkObservers(const std::vector<std::string>& choices);
 
+/// Whether one of the observers reads pictures (ObserverType::reads_pictures). @throws ConfigError for an unknown one
+bool readPictures(const std::vector<std::string>& choices);
+
 /// The observers of one run.
 class RunObservers {
  public:

@@ -15,7 +15,7 @@ std::optional<RunSummary> runSeeded(const LoadedWorld& world, const RandomStarts
   options.observers = how.observers;
   options.observers_log = false;
   options.breakdown_mean_s = how.breakdown_mean_s;
-  options.takes_pictures = how.takes_pictures;
+  options.takes_pictures = needPictures(shuffled.fleet, how.controller, how.observers);
   LocalRun run(std::move(shuffled), options);
   const auto is_time_up = [&] {
     const SimTime now = run.environment().time();

@@ -18,10 +18,10 @@ struct SeededRun {
   double time_s = 1800;         ///< simulated time limit
   double period_s = 0.1;        ///< time step
   double breakdown_mean_s = 0;  ///< RunOptions::breakdown_mean_s
-  bool takes_pictures = true;   ///< RunOptions::takes_pictures
 };
 
-/// Runs a world from random start poses on the calling thread.
+/// Runs a world from random start poses on the calling thread. Cameras take pictures if something reads them
+/// (needPictures()).
 /// @param starts of the same world
 /// @return nullopt when interrupted
 /// @throws ConfigError, ControllerError, ObserverError
