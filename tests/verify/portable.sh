@@ -20,7 +20,7 @@ for release in "${releases[@]}"; do
   mkdir -p "$root"
   mmdebstrap --quiet --variant=minbase --include=ca-certificates,xz-utils "$release" "$root" "$mirror"
   cp "${archive[0]}" "$root/srv/robosim.tar.xz"
-  "$project/tests/chroot.sh" "$root" useradd --create-home student
+  "$project/tests/chroot.sh" "$root" useradd --create-home --shell /bin/bash student
   "$project/tests/chroot.sh" "$root" su - student -c 'set -eux
     tar xf /srv/robosim.tar.xz
     mv robosim-* "a folder with spaces"
