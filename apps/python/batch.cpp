@@ -104,7 +104,7 @@ py::array winnersOf(const PythonBatch& of) {
   py::list winners;
   for (py::ssize_t i = 0; i < of.environments(); ++i) {
     const Environment& environment = of.batch().environment(static_cast<std::size_t>(i));
-    const auto& winner = environment.state().winner;
+    const auto winner = environment.state().winner();
     winners.append(winner ? py::object(toPython(environment.robotNames()[*winner])) : py::none());
   }
   return py::module_::import("numpy").attr("array")(winners, py::arg("dtype") = "object");
@@ -178,7 +178,8 @@ void bindBatch(py::module_& module) {
   using Worlds = std::variant<std::shared_ptr<PythonGenerator>, std::vector<std::shared_ptr<PythonWorld>>>;
   const auto make = [](const Worlds& worlds, std::size_t num_envs, std::size_t agents,
                        std::vector<std::string> observations, const py::dict& reward, double period_s,
-                       std::uint32_t max_steps, bool random_starts, int threads, std::uint64_t seed) {
+                       std::uint32_t max_steps, bool random_starts, std::optional<double> start_distance_m, int threads,
+                       std::uint64_t seed) {
     BatchOptions options{.environments = num_envs,
                          .agents = agents,
                          .observations = std::move(observations),
@@ -186,6 +187,7 @@ void bindBatch(py::module_& module) {
                          .period_s = period_s,
                          .steps_max = max_steps,
                          .has_random_starts = random_starts,
+                         .start_distance_m = start_distance_m,
                          .threads = threads,
                          .seed = seed};
     const PythonReleased no_python;
@@ -198,8 +200,8 @@ void bindBatch(py::module_& module) {
   };
   py::class_<PythonBatch>(module, "_Batch")
       .def(py::init(make), py::arg("worlds"), py::arg("num_envs"), py::arg("agents"), py::arg("observations"),
-           py::arg("reward"), py::arg("period_s"), py::arg("max_steps"), py::arg("random_starts"), py::arg("threads"),
-           py::arg("seed"))
+           py::arg("reward"), py::arg("period_s"), py::arg("max_steps"), py::arg("random_starts"),
+           py::arg("start_distance_m"), py::arg("threads"), py::arg("seed"))
       .def_property_readonly("agents", &PythonBatch::agents)
       .def_property_readonly("size", &PythonBatch::size)
       .def_property_readonly("agent_names", agentNames)

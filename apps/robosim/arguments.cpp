@@ -174,9 +174,20 @@ void addNoiseOption(CLI::App& command, WorldChanges& changes) {
 }
 
 void addRandomStartsOption(CLI::App& command, WorldChanges& changes) {
-  command
-      .add_flag("--random-starts", changes.has_random_starts,
-                "move every robot to a random pose that it can reach from its start")
+  CLI::Option* random_starts = command
+                                   .add_flag("--random-starts", changes.has_random_starts,
+                                             "move every robot to a random pose that it can reach from its start")
+                                   ->group(kWorldGroup);
+  dependsOn(addStartDistanceOption(command, changes), random_starts);
+}
+
+CLI::Option* addStartDistanceOption(CLI::App& command, WorldChanges& changes) {
+  return command
+      .add_option("--start-distance", changes.start_distance_m,
+                  "distance that random starts keep from the gold, in metres; default: that of the world file, or else "
+                  "the range of the heat sensors, or that of the farthest tenth of the free places")
+      ->check(numberIn(0, 1e6))
+      ->type_name("M")
       ->group(kWorldGroup);
 }
 

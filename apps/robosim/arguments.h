@@ -50,8 +50,10 @@ void addThreads(CLI::App& command, int& threads, const std::string& help);
 void warnOfPartialStep(double time_s, double period_s);
 /// Adds `--robot` and `--random-robots`: robots in addition to those of the world.
 void addRobotOptions(CLI::App& command, WorldChanges& changes);
-/// Adds `--random-starts`.
+/// Adds `--random-starts` and, as its partner, `--start-distance`.
 void addRandomStartsOption(CLI::App& command, WorldChanges& changes);
+/// Adds `--start-distance`: that of random starts from the gold.
+CLI::Option* addStartDistanceOption(CLI::App& command, WorldChanges& changes);
 /// Adds `--seed` of a world or a run.
 void addSeedOption(CLI::App& command, std::uint64_t& seed, const std::string& help);
 /// Adds `--noise`: errors of sensors in addition to those of the world.

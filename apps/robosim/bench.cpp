@@ -193,6 +193,7 @@ void addBenchMetrics(CLI::App& parent) {
   addTime(*command, a->sweep.time_s, "simulated time limit of a run");
   addStep(*command, a->sweep.period_s);
   addRobotOptions(*command, a->changes);
+  addStartDistanceOption(*command, a->changes);
   addNoiseOption(*command, a->changes);
   addControllersOption(*command, a->controllers);
   addObserverOption(*command, a->sweep.observers, "add the metrics of this observer")->required();

@@ -79,6 +79,7 @@ std::string commandOf(const GoldArguments& arguments, const SearchPlan& plan) {
   if (arguments.changes.random_robots > 0) {
     add("--random-robots", std::to_string(arguments.changes.random_robots) + "," + arguments.changes.random_model);
   }
+  if (arguments.changes.start_distance_m) add("--start-distance", toText(*arguments.changes.start_distance_m));
   const AddedNoise noise = arguments.changes.noise;
   if (noise != AddedNoise::none) add("--noise", noise == AddedNoise::all ? "all" : "on");
   for (const auto& strategy : plan.strategies) {
@@ -291,6 +292,7 @@ void addBenchGold(CLI::App& parent) {
   addTime(*command, a->plan.time_s, "simulated time limit of a run");
   addStep(*command, a->plan.period_s);
   addRobotOptions(*command, a->changes);
+  addStartDistanceOption(*command, a->changes);
   addNoiseOption(*command, a->changes);
   addControllersOption(*command, a->controllers);
   command

@@ -7,11 +7,15 @@
 
 namespace robosim {
 
-Referee::Referee(const World& world) : win_distance_m_(world.win_distance_m) {
+std::vector<Outline> goldOf(const World& world) {
+  std::vector<Outline> gold;
   for (const auto& object : world.objects) {
-    if (object.body.heat_celsius != 0) gold_.push_back(object.body.solid().outline);
+    if (object.body.heat_celsius != 0) gold.push_back(object.body.solid().outline);
   }
+  return gold;
 }
+
+Referee::Referee(const World& world) : gold_(goldOf(world)), win_distance_m_(world.win_distance_m) {}
 
 double Referee::distanceToGold(const Circle& disc) const {
   double nearest_m = std::numeric_limits<double>::infinity();

@@ -10,7 +10,10 @@
 
 namespace robosim {
 
-/// Decides which robot wins (2005: CheckWin). Every hot object of the world is gold. Candidates are the robots that
+/// Outlines of the gold of a world: of every hot object.
+std::vector<Outline> goldOf(const World& world);
+
+/// Decides which robot wins (2005: CheckWin). Candidates are the robots that
 /// have requested CheckWin since the last decision and whose discs are within the world's win distance of gold, outline
 /// to outline. The nearest candidate wins; of equally near ones, the first in the world's list. Heights are ignored.
 class Referee {

@@ -91,13 +91,19 @@ void addRobots(const WorldSource& source, const RobotTypes& types, const std::ve
   }
 }
 
-/// Adds the robots without a pose: the first by findStart() among the homes, the others at free places near it.
-void addRobotsNear(std::vector<mrpt::math::TPose2D> homes, const WorldSource& source, const RobotTypes& types,
+/// Adds the robots without a pose: in a world without robots the first by findStart() among the homes; the others by
+/// findStartBeside().
+void addRobotsNear(const std::vector<mrpt::math::TPose2D>& homes, const WorldSource& source, const RobotTypes& types,
                    const std::vector<AddedRobot>& robots, FreeNames& names, World& world) {
   for (const auto& robot : robots) {
     if (robot.world_from_robot) continue;
     RobotPlacement added = placed(robot.model, homes.front(), names.next(robot.name));
-    const auto found = findStart(world, source.file, types, added, homes);
+    std::optional<FoundStart> found;
+    if (world.robots.empty()) {
+      found = findStart(world, source.file, types, added, homes);
+    } else if (const auto beside = findStartBeside(world, source.file, types, robot.model)) {
+      found = FoundStart{*beside};
+    }
     if (!found) {
       throw ConfigError("there is no room for robot '" + added.name + "' in " + source.file +
                         "; use fewer robots, or a larger world");
@@ -108,7 +114,6 @@ void addRobotsNear(std::vector<mrpt::math::TPose2D> homes, const WorldSource& so
     if (is_first_on_map && !found->warning.empty()) {
       logWarning("", source.file + ": robot '" + added.name + "' " + found->warning);
     }
-    homes = {added.world_from_robot};
   }
 }
 
@@ -226,9 +231,9 @@ WorldSource withChanges(const WorldSource& source, const WorldChanges& changes, 
     world = placedWorld(std::move(world), source.file, types, {}, seed, errors).world;
     errors.throwIfAny();
   }
-  if (!world.robots.empty()) homes = {world.robots.front().world_from_robot};
   if (changes.team) makeTeam(source, types, *changes.team, seed, world);
   if (changes.adds_radio_errors && !specifiesCommunication(source)) world.communication = kAddedRadio;
+  if (changes.start_distance_m) world.start_distance_m = changes.start_distance_m;
   if (changes.message_loss) world.communication.loss_probability = *changes.message_loss;
   FreeNames names(world);
   addRobots(source, types, changes.robots, names, world);

@@ -13,8 +13,8 @@ namespace robosim {
 /// A robot to add to a world.
 struct AddedRobot {
   std::string model;
-  /// Start [m, rad]; nullopt: where the first robot of the world or map stands (a map's home), or the free place
-  /// nearest to it.
+  /// Start [m, rad]; nullopt: the home of a map, or the free place nearest to it; in a world with robots, also those
+  /// added before, beside or behind one of them (findStartBeside()).
   std::optional<mrpt::math::TPose2D> world_from_robot;
   std::string name = {};  ///< empty: Robot1, Robot2, … as far as these names are free
 
@@ -36,15 +36,16 @@ struct WorldChanges {
   /// Replaces the robots by so many of the first one's kind, at random free places, named Robot1, Robot2, …, each with
   /// the next as its neighbour, the last with the first; at least 1.
   std::optional<int> team;
-  std::optional<double> message_loss;   ///< instead of Communication::loss_probability, [0, 1]
-  bool has_random_starts = false;       ///< shuffleStartPoses()
-  AddedNoise noise = AddedNoise::none;  ///< added to every sensor that supports noise and has none
-  bool adds_radio_errors = false;       ///< kAddedRadio, unless the world specifies its communication
+  std::optional<double> message_loss;      ///< instead of Communication::loss_probability, [0, 1]
+  bool has_random_starts = false;          ///< shuffleStartPoses()
+  std::optional<double> start_distance_m;  ///< instead of World::start_distance_m, at least 0
+  AddedNoise noise = AddedNoise::none;     ///< added to every sensor that supports noise and has none
+  bool adds_radio_errors = false;          ///< kAddedRadio, unless the world specifies its communication
 
   bool addsRobots() const { return !robots.empty() || random_robots > 0; }
   bool isNone() const {
-    return !addsRobots() && !team && !message_loss && !has_random_starts && noise == AddedNoise::none &&
-           !adds_radio_errors;
+    return !addsRobots() && !team && !message_loss && !has_random_starts && !start_distance_m &&
+           noise == AddedNoise::none && !adds_radio_errors;
   }
 };
 

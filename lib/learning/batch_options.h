@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,10 @@ struct BatchOptions {
   double period_s = 0.1;           ///< length of a time step, (0, 1]
   std::uint32_t steps_max = 1000;  ///< an episode of so many steps is truncated; > 0
   bool has_random_starts = true;   ///< each episode starts at random poses (RandomStarts); else at the world's
-  int threads = 1;                 ///< does not affect the results
-  bool has_digests = false;        ///< whether Environment::digest() of the environments is computed in each step
+  /// Minimum distance of random starts from the gold [m], at least 0, instead of World::start_distance_m.
+  std::optional<double> start_distance_m = {};
+  int threads = 1;           ///< does not affect the results
+  bool has_digests = false;  ///< whether Environment::digest() of the environments is computed in each step
   std::uint64_t seed = 1;
 };
 

@@ -51,6 +51,7 @@ std::shared_ptr<const BatchWorld> makeBatchWorld(LoadedWorld loaded, const Batch
         title + ": robot '" + robot.info.name +
         "' observes other numbers than the first agent, or by other sensors; use agents of one robot type");
   }
+  if (options.start_distance_m) loaded.world.start_distance_m = options.start_distance_m;
   if (options.has_random_starts) world->random_starts.emplace(loaded.world, loaded.fleet);
   world->model = std::make_shared<const Model>(
       Model{std::move(loaded.world), std::move(loaded.fleet), options.seed, options.period_s});

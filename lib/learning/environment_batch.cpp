@@ -47,6 +47,13 @@ void checkOptions(const BatchOptions& options) {
   if (options.environments == 0) throw ConfigError("a batch requires at least one environment");
   if (options.steps_max == 0) throw ConfigError("an episode requires at least one step");
   if (options.threads < 1) throw ConfigError("a batch requires at least one thread");
+  if (options.start_distance_m && !options.has_random_starts) {
+    throw ConfigError("a distance of random starts from the gold has no effect without random starts");
+  }
+  if (options.start_distance_m && !(*options.start_distance_m >= 0 && std::isfinite(*options.start_distance_m))) {
+    throw ConfigError("the distance of random starts from the gold is " + std::to_string(*options.start_distance_m) +
+                      " m; it must be at least 0");
+  }
   if (!(options.period_s > 0 && options.period_s <= 1)) {
     throw ConfigError("the time step is " + std::to_string(options.period_s) + " s; it must lie in (0, 1] seconds");
   }
@@ -125,7 +132,7 @@ struct EnvironmentBatch::Impl {
       rewards[agent] = -weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]);
     }
     environment.step();
-    const bool is_won = state.winner.has_value();
+    const bool is_won = state.winner().has_value();
     for (std::size_t agent = 0; agent < agents.count; ++agent) {
       rewards[agent] += weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]) +
                         weights.win * (is_won ? 1 : 0) + weights.forward * state.last_motion[agent].length_m +

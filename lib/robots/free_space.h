@@ -20,6 +20,8 @@ class FreeSpace {
             bounds_.y_min + (static_cast<double>(cell / columns_) + 0.5) * cell_m_};
   }
 
+  double cellSide() const { return cell_m_; }
+
   /// All free cells reachable from free cells near the starts, in ascending order.
   std::vector<std::size_t> reachableFrom(const std::vector<mrpt::math::TPoint2D>& starts) const;
   /// The largest connected set of free cells, in ascending order; of equal ones that with the lowest cell.

@@ -50,7 +50,7 @@ Fleet validFleetOf(const World& world, const std::string& world_file, const Robo
 }  // namespace
 
 FreePlaces::FreePlaces(const World& world, const Fleet& others, FleetRobot kind)
-    : kind_(std::move(kind)), free_(world, kind_.info.radius_m, kind_.body.heights()) {
+    : world_(world), kind_(std::move(kind)), free_(world, kind_.info.radius_m, kind_.body.heights()) {
   free_.blockUnknown(world);
   cells_ = free_.largestRegion();
   for (const auto& robot : others.robots) {
@@ -69,19 +69,37 @@ std::optional<TPoint2D> FreePlaces::takeRandom(Rng& rng) {
   return std::nullopt;
 }
 
-std::optional<TPoint2D> FreePlaces::takeNearest(const TPoint2D& to) {
+std::optional<TPoint2D> FreePlaces::takeNearest(const TPoint2D& to, double clearance_m,
+                                                const std::function<bool(const TPoint2D&)>& is_wanted) {
   const auto distance = [&](std::size_t cell) { return (free_.place(cell) - to).sqrNorm(); };
   std::stable_sort(cells_.begin(), cells_.end(),
                    [&](std::size_t a, std::size_t b) { return distance(a) < distance(b); });
   for (const std::size_t cell : cells_) {
-    if (take(free_.place(cell))) return free_.place(cell);
+    const TPoint2D place = free_.place(cell);
+    if ((!is_wanted || is_wanted(place)) && take(place, clearance_m)) return place;
   }
   return std::nullopt;
 }
 
-bool FreePlaces::take(const TPoint2D& place) {
+bool FreePlaces::takeAt(const TPoint2D& place, double clearance_m) {
+  const double half_cell_m = free_.cellSide() / 2;
+  const bool is_in_region = std::any_of(cells_.begin(), cells_.end(), [&](std::size_t cell) {
+    const TPoint2D center = free_.place(cell);
+    return std::abs(center.x - place.x) <= half_cell_m && std::abs(center.y - place.y) <= half_cell_m;
+  });
+  const Circle disc{place, kind_.info.radius_m + kContactGap_m};
+  if (!is_in_region || !world_.bounds.covers(boundsOf(disc))) return false;
+  const Solid solid{disc, kind_.body.heights()};
+  const auto solids = stationarySolids(world_);
+  return std::none_of(solids.begin(), solids.end(), [&](const Solid& other) { return overlap(solid, other); }) &&
+         take(place, clearance_m);
+}
+
+bool FreePlaces::take(const TPoint2D& place, double clearance_m) {
+  constexpr double kRounding_m = 1e-9;
+  const double gap_m = std::max(clearance_m - kRounding_m, kContactGap_m);
   const bool is_clear = std::none_of(taken_.begin(), taken_.end(), [&](const Circle& other) {
-    return (other.center - place).norm() < other.radius_m + kind_.info.radius_m + kContactGap_m;
+    return (other.center - place).norm() < other.radius_m + kind_.info.radius_m + gap_m;
   });
   if (is_clear) taken_.push_back({place, kind_.info.radius_m});
   return is_clear;
@@ -112,6 +130,29 @@ std::optional<FoundStart> findStart(World& world, const std::string& world_file,
   if (!place) return std::nullopt;
   const TPose2D world_from_robot(place->x, place->y, first.phi);
   return FoundStart{world_from_robot, warningOf(world_from_robot, "nearest free place", first)};
+}
+
+std::optional<TPose2D> findStartBeside(const World& world, const std::string& world_file, const RobotTypes& types,
+                                       const std::string& type) {
+  const Fleet others = validFleetOf(world, world_file, types);
+  const FleetRobot kind = robotOfType(types, type);
+  FreePlaces places(world, others, kind);
+  for (const auto& other : others.robots) {
+    const double apart_m = other.info.radius_m + kind.info.radius_m + kClearanceBeside_m;
+    for (const TPose2D& other_from_robot : {TPose2D(0, apart_m, 0), TPose2D(0, -apart_m, 0), TPose2D(-apart_m, 0, 0)}) {
+      const TPose2D start = portable::compose(other.world_from_start, other_from_robot);
+      if (places.takeAt({start.x, start.y}, kClearanceBeside_m)) return start;
+    }
+  }
+  const TPose2D& first = others.robots.front().world_from_start;
+  const auto is_not_ahead = [&](const TPoint2D& place) {
+    return portable::relative(first, TPose2D(place.x, place.y, 0)).x <= 0;
+  };
+  auto place = places.takeNearest({first.x, first.y}, kClearanceBeside_m, is_not_ahead);
+  if (!place) place = places.takeNearest({first.x, first.y}, kClearanceBeside_m);
+  if (!place) place = places.takeNearest({first.x, first.y});
+  if (!place) return std::nullopt;
+  return TPose2D(place->x, place->y, first.phi);
 }
 
 std::vector<TPose2D> startsOfMaps(const World& world) {

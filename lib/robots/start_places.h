@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,17 +15,23 @@ namespace robosim {
 /// The positions in the largest region that is known to be free at which a robot of a kind is clear of all others.
 class FreePlaces {
  public:
-  /// @param others robots that are in the world already
+  /// @param world must outlive this @param others robots that are in the world already
   FreePlaces(const World& world, const Fleet& others, FleetRobot kind);
 
   /// Takes a random place. @return nullopt when there is none
   std::optional<mrpt::math::TPoint2D> takeRandom(Rng& rng);
-  /// Takes the place nearest to a position. @return nullopt when there is none
-  std::optional<mrpt::math::TPoint2D> takeNearest(const mrpt::math::TPoint2D& to);
+  /// Takes the place nearest to a position. @param clearance_m to other robots
+  /// @param is_wanted further condition on a place; null: none @return nullopt when there is none
+  std::optional<mrpt::math::TPoint2D> takeNearest(
+      const mrpt::math::TPoint2D& to, double clearance_m = 0,
+      const std::function<bool(const mrpt::math::TPoint2D&)>& is_wanted = {});
+  /// Takes this very position. @return whether it is in the region and free
+  bool takeAt(const mrpt::math::TPoint2D& place, double clearance_m);
 
  private:
-  bool take(const mrpt::math::TPoint2D& place);
+  bool take(const mrpt::math::TPoint2D& place, double clearance_m = 0);
 
+  const World& world_;
   FleetRobot kind_;
   FreeSpace free_;
   std::vector<std::size_t> cells_;
@@ -45,6 +52,18 @@ struct FoundStart {
 /// @throws ConfigError for faulty robots in the world, an unknown type, and a world too large for FreeSpace
 std::optional<FoundStart> findStart(World& world, const std::string& world_file, const RobotTypes& types,
                                     const RobotPlacement& robot, const std::vector<mrpt::math::TPose2D>& starts);
+
+/// Clearance that findStartBeside() keeps between robots [m].
+constexpr double kClearanceBeside_m = 1;
+
+/// The rule by which a robot without a place of its own joins the robots of a world: to the left of one of them, to its
+/// right or behind it, at kClearanceBeside_m and with its heading; the robots are tried in their order. Where none of
+/// these places is free: at the place nearest to the first robot with that clearance, rather beside and behind it than
+/// ahead; and where there is none, at the nearest free place.
+/// @param world has at least one robot @return nullopt when there is no room
+/// @throws ConfigError for faulty robots in the world, an unknown type, and a world too large for FreeSpace
+std::optional<mrpt::math::TPose2D> findStartBeside(const World& world, const std::string& world_file,
+                                                   const RobotTypes& types, const std::string& type);
 
 /// The starts that the maps of a world give, in the world frame, in their order.
 std::vector<mrpt::math::TPose2D> startsOfMaps(const World& world);

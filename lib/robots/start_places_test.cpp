@@ -1,5 +1,7 @@
 #include "robots/start_places.h"
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "world/map_reader.h"
@@ -103,6 +105,57 @@ TEST(StartPlaces, DoNotMoveRobotsThatHaveAPlace) {
   World world = worldWith({{0.1, 0.1, 0}});
   world.maps.front().plan.starts = {{2, 1.5, 0}};
   EXPECT_THROW(placedAtStarts(world), ConfigError);
+}
+
+/// The start of the next disc of 0.2 m radius in a world with such discs; 1.4 m between centers leave 1 m between them.
+std::optional<TPose2D> besideIn(const World& world) { return findStartBeside(world, "w.xml", kDiscTypes, "disc"); }
+
+void expectStart(const std::optional<TPose2D>& start, double x, double y, double phi) {
+  ASSERT_TRUE(start);
+  EXPECT_NEAR(start->x, x, 1e-12);
+  EXPECT_NEAR(start->y, y, 1e-12);
+  EXPECT_EQ(start->phi, phi);
+}
+
+World worldWithDiscs(const Bounds2D& bounds, const std::vector<TPose2D>& starts) {
+  World world = worldWith(starts, starts.size());
+  world.maps.clear();
+  world.bounds = bounds;
+  return world;
+}
+
+TEST(StartPlaces, BesideRobotsAreToTheLeftToTheRightAndBehindWithAMetreBetween) {
+  const Bounds2D bounds{-4, 4, -4, 4};
+  std::vector<TPose2D> discs{{0, 0, 0}};
+  expectStart(besideIn(worldWithDiscs(bounds, discs)), 0, 1.4, 0);
+  discs.emplace_back(0, 1.4, 0);
+  expectStart(besideIn(worldWithDiscs(bounds, discs)), 0, -1.4, 0);
+  discs.emplace_back(0, -1.4, 0);
+  expectStart(besideIn(worldWithDiscs(bounds, discs)), -1.4, 0, 0);
+  discs.emplace_back(-1.4, 0, 0);
+  expectStart(besideIn(worldWithDiscs(bounds, discs)), 0, 2.8, 0);  // to the left of the second one
+}
+
+TEST(StartPlaces, BesideRobotsDependOnTheirHeading) {
+  expectStart(besideIn(worldWithDiscs({-4, 4, -4, 4}, {{0, 0, M_PI_2}})), -1.4, 0, M_PI_2);
+}
+
+// In a corridor of 1 m along the x axis, only behind; with a wall behind it, only ahead, with the same clearance.
+TEST(StartPlaces, BesideRobotsAreRatherBehindThanAhead) {
+  expectStart(besideIn(worldWithDiscs({-4, 4, -0.5, 0.5}, {{0, 0, 0}})), -1.4, 0, 0);
+  // At x = -1.4 it would cross the edge at -1.58; at the cell (-1.33, 0.25) it is 1.404 m from the other.
+  expectStart(besideIn(worldWithDiscs({-1.58, 4, -0.5, 0.5}, {{0, -0.2, 0}})), -1.33, 0.25, 0);
+  const auto ahead = besideIn(worldWithDiscs({-1, 4, -0.5, 0.5}, {{0, 0, 0}}));
+  ASSERT_TRUE(ahead);
+  EXPECT_GE(ahead->x, 1.37);
+  EXPECT_LT(ahead->x, 1.7) << "the nearest place";
+}
+
+TEST(StartPlaces, BesideRobotsAreCloserWhereThereIsLessRoom) {
+  const auto start = besideIn(worldWithDiscs({-0.5, 1.2, -0.5, 0.5}, {{-0.2, 0, 0}}));
+  ASSERT_TRUE(start);
+  EXPECT_GT(start->x, 0.1);
+  EXPECT_EQ(besideIn(worldWithDiscs({-0.25, 0.25, -0.25, 0.25}, {{0, 0, 0}})), std::nullopt);
 }
 
 }  // namespace

@@ -45,6 +45,8 @@ class WorldReader {
     }
     world_.unit_m = root_.number("unit_m", Bounds::positive(kUnitMax_m), 1);
     world_.win_distance_m = root_.length("win_distance", Bounds::positive(), world_.unit_m, kWinDistance_m);
+    if (root_.has("start_distance"))
+      world_.start_distance_m = root_.length("start_distance", Bounds::notNegative(), world_.unit_m);
     XmlReader surface = root_.requiredChild("surface");
     readSurface(surface);
     scatters_.checkNames();

@@ -87,7 +87,8 @@ TEST(WorldReader, ReadsThe2005FileUnchanged) {
 TEST(WorldReader, ConvertsLengthsToMetresButNotAnglesOrTemperatures) {
   const World world = parsed(
       "<world "
-      "unit_m='0.1'><win_distance>8</win_distance><surface><size><xmin>-10</xmin><xmax>10</xmax><ymin>-20</"
+      "unit_m='0.1' "
+      "start_distance='12'><win_distance>8</win_distance><surface><size><xmin>-10</xmin><xmax>10</xmax><ymin>-20</"
       "ymin><ymax>20</ymax></size>"
       "<object><shape><primitive><cube><name>w</name><x>1</x><y>2</y><z>5</z><length>30</length><width>1</width>"
       "<height>10</height><direction>0.5</direction><hot>20</hot></cube></primitive></shape></object></surface>"
@@ -100,6 +101,7 @@ TEST(WorldReader, ConvertsLengthsToMetresButNotAnglesOrTemperatures) {
   EXPECT_EQ(body.heat_celsius, 20);
   EXPECT_EQ(world.communication, (Communication{5, 0.25}));
   EXPECT_EQ(world.win_distance_m, 0.8);
+  EXPECT_DOUBLE_EQ(world.start_distance_m.value(), 1.2);
 }
 
 TEST(WorldReader, AppliesDefaults) {

@@ -28,6 +28,9 @@ class WorldWriter {
     if (world_.win_distance_m != kWinDistance_m) {
       root.attributes.emplace_back("win_distance", toText(world_.win_distance_m, world_.unit_m));
     }
+    if (world_.start_distance_m) {
+      root.attributes.emplace_back("start_distance", toText(*world_.start_distance_m, world_.unit_m));
+    }
     XmlElement& surface = root.add("surface");
     surface.add("type", world_.surface_type);
     XmlElement& size = surface.add("size");

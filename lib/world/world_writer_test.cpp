@@ -39,6 +39,7 @@ class WorldMaker {
     if (maybe()) world.communication.delay_s = rng_.uniform();
     if (maybe()) world.communication.rate_hz = size(10);
     if (maybe()) world.win_distance_m = size(5);
+    if (maybe()) world.start_distance_m = size(5);
     for (auto i = rng_.below(6); i > 0; --i) {
       world.objects.push_back({.name = name(), .body = body(), .stationary = maybe(), .line = {}});
     }

@@ -26,6 +26,20 @@ class VectorEnvTest(unittest.TestCase):
         self.assertEqual((infos["winner"].tolist(), infos["_winner"].tolist()), (["R1", None], [True, False]))
         self.assertEqual(env.step(np.zeros((2, 2)))[4]["step"].tolist(), [0, count + 1])
 
+    def test_random_starts_keep_a_distance_from_the_gold(self):
+        def nearest(**options):
+            env = robosim.VectorEnv(scene.world(1), 200, observations=("pose",), **options)
+            poses = env.reset()[0]
+            return np.hypot(poses[:, 0] - 4, poses[:, 1]).min() - 0.2  # to the pillar's outline
+
+        self.assertGreaterEqual(nearest(), 1.5 - 1e-6)  # the range of the heat sensor
+        self.assertGreaterEqual(nearest(start_distance_m=6), 6 - 1e-6)
+        self.assertLess(nearest(start_distance_m=0), 1.5)
+        with self.assertRaisesRegex(robosim.ConfigError, "has no effect without random starts"):
+            nearest(start_distance_m=1, random_starts=False)
+        with self.assertRaisesRegex(robosim.ConfigError, "must be at least 0"):
+            nearest(start_distance_m=-1)
+
     def test_observes_sensors_by_label(self):
         world = robosim.World.parse(scene.text(1).replace(
             "</robot>", '<sensors><laser range_max_m="1"/><laser range_max_m="3"/></sensors></robot>', 1))

@@ -18,7 +18,8 @@ def _worlds_of(worlds):
     return [world if isinstance(world, _robosim.World) else _robosim.World.load(world) for world in worlds]
 
 
-def make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts, threads, seed):
+def make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts, start_distance_m,
+               threads, seed):
     if isinstance(observations, str):
         observations = [observations]
     for name, value, least, most in (("num_envs", num_envs, 1, 2**31 - 1), ("robots", robots, 0, 2**31 - 1),
@@ -26,7 +27,7 @@ def make_batch(worlds, num_envs, robots, observations, reward, period_s, max_ste
                                      ("the seed", seed, 0, SEED_MAX)):
         require_whole(name, value, least, most)
     return _robosim._Batch(_worlds_of(worlds), num_envs, robots, list(observations), dict(reward or {}), period_s,
-                           max_steps, random_starts, threads, seed)
+                           max_steps, random_starts, start_distance_m, threads, seed)
 
 
 def spaces_of(batch, agents):

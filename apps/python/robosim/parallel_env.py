@@ -18,8 +18,9 @@ class ParallelEnv(ParallelEnvBase):
     render_mode = None
 
     def __init__(self, world, robots=0, observations=("sonar", "heat"), reward=None, max_steps=1000, period_s=0.1,
-                 random_starts=True, seed=1):
-        self._batch = make_batch(world, 1, robots, observations, reward, period_s, max_steps, random_starts, 1, seed)
+                 random_starts=True, seed=1, start_distance_m=None):
+        self._batch = make_batch(world, 1, robots, observations, reward, period_s, max_steps, random_starts,
+                                 start_distance_m, 1, seed)
         self.possible_agents = list(self._batch.agent_names)
         self.agents = []
         self.observation_spaces, self.action_spaces = {}, {}

@@ -19,6 +19,8 @@ class VectorEnv(VectorEnvBase):
     max_steps: an episode of so many steps is truncated.
     period_s: length of a step, (0, 1] s.
     random_starts: each episode starts at random poses, which depend on the seed; else at the world's.
+    start_distance_m: distance that random starts keep from the gold. None: that of the world file, or else the range of
+        the heat sensors, or that of the farthest tenth of the free places.
     threads: they do not affect the results.
 
     Observations are float32 of shape (num_envs, size); of several agents (num_envs, agents, size). Actions are of shape
@@ -40,10 +42,10 @@ class VectorEnv(VectorEnvBase):
     render_mode = None
 
     def __init__(self, worlds, num_envs=1, robots=1, observations=("sonar", "heat"), reward=None, max_steps=1000,
-                 period_s=0.1, random_starts=True, threads=1, seed=1):
+                 period_s=0.1, random_starts=True, threads=1, seed=1, start_distance_m=None):
         self.closed = True
         self._batch = make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts,
-                                 threads, seed)
+                                 start_distance_m, threads, seed)
         self.closed = False
         self.num_envs = int(num_envs)
         self.agent_names = tuple(self._batch.agent_names)
