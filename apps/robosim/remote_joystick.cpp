@@ -38,6 +38,7 @@ std::string driveState(const RobotNews& news) {
   if (!news.is_up) return news.problem.empty() ? "connecting" : "down: " + news.problem;
   if (!state.is_yours) return state.driver.empty() ? "no driver" : state.driver + " drives";
   if (state.autonomous) return "autonomous";
+  if (state.is_stopping) return state.why_stopped.empty() ? "stopping" : "stopping: " + state.why_stopped;
   return state.why_stopped.empty() ? "you drive" : "stopped: " + state.why_stopped;
 }
 

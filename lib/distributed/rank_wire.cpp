@@ -73,6 +73,7 @@ void addCommand(StateWriter& writer, const Command& command) {
   writer.addNumber(command.laser_pan_rad);
   writer.addNumber(static_cast<std::uint8_t>(command.activity));
   writer.addNumber(std::uint8_t{command.by_driver});
+  writer.addNumber(std::uint8_t{command.emergency_stop});
 }
 
 void takeCommand(StateReader& in, Command& command) {
@@ -81,6 +82,7 @@ void takeCommand(StateReader& in, Command& command) {
   command.laser_pan_rad = in.takeNumber<float>();
   command.activity = in.takeActivity();
   command.by_driver = in.takeFlag();
+  command.emergency_stop = in.takeFlag();
 }
 
 }  // namespace

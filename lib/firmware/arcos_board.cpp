@@ -174,10 +174,8 @@ void ArcosBoard::update(bool is_link_alive) {
   drive_.enable(are_motors_on_ && is_link_alive);
   const Odometry& motion = robot_.odometry();
   if (is_stopping_ && motion.speed_mps == 0 && motion.turn_radps == 0) is_stopping_ = false;
-  // Limits that are not positive are the hardware's.
-  drive_.limitWay(is_stopping_ ? AxisLimits{} : way_limits_);
-  drive_.limitTurn(is_stopping_ ? AxisLimits{} : turn_limits_);
   drive_.update();
+  if (is_stopping_) robot_.stopInEmergency();
 }
 
 double ArcosBoard::batteryVolts() const {

@@ -55,7 +55,7 @@ class ArcosBoard {
   Robot& robot_;
   const arcos::Parameters& parameters_;
   ProfiledDrive drive_;
-  AxisLimits way_limits_, turn_limits_;  ///< as set by the program; an emergency stop uses the hardware's
+  AxisLimits way_limits_, turn_limits_;  ///< as set by the program; an emergency stop ignores them
   bool are_motors_on_ = true;
   bool is_stopping_ = false;  ///< emergency stop: ignores motion until the robot stands
   bool is_sonar_on_ = true;

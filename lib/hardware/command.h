@@ -19,6 +19,8 @@ struct Command {
   float laser_pan_rad = 0;  ///< of sensors that pan, [-π/2, π/2]
   Activity activity = Activity::active;
   bool by_driver = false;  ///< commanded by a person (doc/remote_control.md), not by the controller
+  /// Brakes at MotionLimits::emergency_decel_mps2, whatever the set points of the speeds.
+  bool emergency_stop = false;
   bool operator==(const Command&) const = default;
 };
 

@@ -16,6 +16,9 @@ struct MotionLimits {
   double accel_mps2 = 0;         ///< speeding up
   double decel_mps2 = 0;         ///< slowing down
   double turn_accel_radps2 = 0;  ///< both
+  /// Slowing down in an emergency stop (Command::emergency_stop), in which the turn brakes harder in the same
+  /// proportion; one below decel_mps2, such as 0, has no effect: the robot then brakes as always.
+  double emergency_decel_mps2 = 0;
   bool operator==(const MotionLimits&) const = default;
 };
 

@@ -192,6 +192,7 @@ void encode(const RemoteState& state, v1::RobotState& out) {
   out.set_stalled(state.stalled);
   out.set_stops(state.stops);
   if (state.driven_m) out.set_driven_m(*state.driven_m);
+  out.set_is_stopping(state.is_stopping);
 }
 
 RemoteState decode(const v1::RobotState& in) {
@@ -214,7 +215,8 @@ RemoteState decode(const v1::RobotState& in) {
           .win_refusals = in.win_refusals(),
           .stalled = in.stalled(),
           .stops = in.stops(),
-          .driven_m = in.has_driven_m() ? std::optional(in.driven_m()) : std::nullopt};
+          .driven_m = in.has_driven_m() ? std::optional(in.driven_m()) : std::nullopt,
+          .is_stopping = in.is_stopping()};
 }
 
 }  // namespace robosim

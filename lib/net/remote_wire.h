@@ -59,6 +59,7 @@ struct RemoteState {
   std::uint32_t stops = 0;
   /// Length of its path in this run, by odometry; nullopt for a robot without odometry.
   std::optional<double> driven_m{};
+  bool is_stopping = false;  ///< its driver or the driver's absence has stopped it, and it still moves
   bool operator==(const RemoteState&) const = default;
 };
 

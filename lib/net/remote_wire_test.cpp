@@ -94,7 +94,8 @@ TEST(RemoteWire, RoundTripsARobotState) {
                           .win_refusals = 3,
                           .stalled = true,
                           .stops = 4,
-                          .driven_m = 12.5};
+                          .driven_m = 12.5,
+                          .is_stopping = true};
   v1::RobotState message;
   encode(state, message);
   EXPECT_EQ(decode(message), state);

@@ -151,6 +151,7 @@ void encode(const Command& command, v1::Command& out) {
   out.set_laser_pan_rad(command.laser_pan_rad);
   out.set_activity(encode(command.activity == Activity::absent ? Activity::active : command.activity));
   out.set_by_driver(command.by_driver);
+  out.set_emergency_stop(command.emergency_stop);
 }
 
 Command decode(const v1::Command& in, std::uint32_t robot) {
@@ -163,7 +164,7 @@ Command decode(const v1::Command& in, std::uint32_t robot) {
     throw WireError("the command for robot " + std::to_string(robot) + " has the activity " +
                     std::to_string(in.activity()) + "; there are 1 (active), 2 (halted) and 3 (found)");
   }
-  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), *activity, in.by_driver()};
+  return {in.speed_mps(), in.turn_radps(), in.laser_pan_rad(), *activity, in.by_driver(), in.emergency_stop()};
 }
 
 void decode(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {

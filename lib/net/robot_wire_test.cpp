@@ -114,7 +114,7 @@ TEST(RobotWire, ReplacesTheInboxByMessagesOfSeveralSteps) {
 }
 
 TEST(RobotWire, DecodesCommandsMessagesAndWinChecks) {
-  const Command command{0.5, -0.25, 0.125f, Activity::found, true};
+  const Command command{0.5, -0.25, 0.125f, Activity::found, true, true};
   v1::StepAnswer message;
   message.set_step(7);
   message.add_commands()->set_process_robot(1);
@@ -302,7 +302,9 @@ RobotsWelcome someWelcome() {
   welcome.seed = 5;
   welcome.period_s = 0.1;
   for (const char* name : {"Pioneer1", "Pioneer2"}) {
-    RobotInfo info{name, "pioneer3dx", "Scout1", 0.25, 0.3, {.speed_max_mps = 1, .turn_max_radps = 2}, sensors};
+    RobotInfo info{name,   "pioneer3dx", "Scout1",
+                   0.25,   0.3,          {.speed_max_mps = 1, .turn_max_radps = 2, .emergency_decel_mps2 = 3},
+                   sensors};
     welcome.robots.push_back({info, 3, "wander", 41, mrpt::math::TPose2D(1, 2, 0.5)});
   }
   welcome.all_robots = {"Pioneer1", "Pioneer2", "Scout1"};
@@ -317,6 +319,7 @@ TEST(RobotWire, RoundTripsAWelcomeWithSharedSensorSets) {
   ASSERT_EQ(decoded.robots.size(), 2u);
   EXPECT_EQ(decoded.robots[1].info.name, "Pioneer2");
   EXPECT_EQ(decoded.robots[1].info.limits.turn_max_radps, 2);
+  EXPECT_EQ(decoded.robots[1].info.limits.emergency_decel_mps2, 3);
   EXPECT_EQ(decoded.robots[1].controller, "wander");
   EXPECT_EQ(decoded.robots[1].next_answer, 41u);
   EXPECT_EQ(decoded.robots[1].world_from_start, mrpt::math::TPose2D(1, 2, 0.5));

@@ -124,6 +124,7 @@ void encode(const RobotsWelcome::Robot& robot, std::uint32_t sensor_set, v1::Rob
   out.set_accel_mps2(info.limits.accel_mps2);
   out.set_decel_mps2(info.limits.decel_mps2);
   out.set_turn_accel_radps2(info.limits.turn_accel_radps2);
+  out.set_emergency_decel_mps2(info.limits.emergency_decel_mps2);
   out.set_sensor_set(sensor_set);
   out.set_world_robot(robot.world_robot);
   out.set_controller(robot.controller);
@@ -144,9 +145,10 @@ RobotsWelcome::Robot decode(const v1::RobotDescription& in, const SensorSets& se
                             .turn_max_radps = in.turn_max_radps(),
                             .accel_mps2 = in.accel_mps2(),
                             .decel_mps2 = in.decel_mps2(),
-                            .turn_accel_radps2 = in.turn_accel_radps2()};
+                            .turn_accel_radps2 = in.turn_accel_radps2(),
+                            .emergency_decel_mps2 = in.emergency_decel_mps2()};
   checkFinite({in.radius_m(), in.height_m(), limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
-               limits.decel_mps2, limits.turn_accel_radps2});
+               limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2});
   std::optional<std::uint32_t> color_rgb;
   if (in.has_color_rgb()) color_rgb = in.color_rgb() & 0xffffff;
   checkFinite({in.start().x_m(), in.start().y_m(), in.start().heading_rad()});

@@ -211,9 +211,9 @@ void ArcosHardware::enableSonar(bool on) { channel_->write(encodeCommand(command
 
 void ArcosHardware::sendCommand() {
   const bool may_move = base_.stop_reason.empty() && command_.activity == Activity::active;
-  if (!may_move) {
+  if (!may_move || command_.emergency_stop) {
     unsent_mmps_ = unsent_degps_ = 0;
-    channel_->write(encodeCommand(command::stop));
+    channel_->write(encodeCommand(command_.emergency_stop ? command::estop : command::stop));
     return;
   }
   const auto limited = [](double value, double limit) {

@@ -62,6 +62,7 @@ class ArcosHardware final : public Hardware, public BaseLink {
   const std::vector<std::string>& robots() const override { return names_; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
+  const Command& lastCommand() const override { return command_; }
   void send(const std::string& to, const std::string& text) override;
   BaseLink* base() override { return this; }
   BaseState baseState() const override { return base_; }

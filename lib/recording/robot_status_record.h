@@ -22,8 +22,8 @@ namespace robosim {
 /// CObservationRawDAQ, which stock tools preserve:
 ///
 ///  * STATUS, in each step: analog outputs (double) are the executed command: speed [m/s], turn [rad/s], pan [rad],
-///    activity, and 1 when a person drives; analog inputs (double) are the pan angle of the panning sensors [rad], then
-///    1 for stalled, for a refused CheckWin, and for having won;
+///    activity, and the sum of 1 when a person drives and 2 for an emergency stop; analog inputs (double) are the pan
+///    angle of the panning sensors [rad], then 1 for stalled, for a refused CheckWin, and for having won;
 ///  * POINTS, for a sensor with echoes off its beams' axes or not at the reported ranges (the nearest point in a wide
 ///    sonar cone, an object nearer than the minimum range), in steps with an observation of it: analog inputs (float),
 ///    x y z [m] of each echo, robot frame;

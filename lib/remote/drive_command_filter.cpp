@@ -19,7 +19,7 @@ std::string secondsText(DriveCommandFilter::Clock::duration time) {
 }  // namespace
 
 void DriveCommandFilter::begin(Clock::time_point now) {
-  stop("");
+  stand("");
   laser_pan_rad_ = 0;
   last_message_ = now;
 }
@@ -70,6 +70,11 @@ void DriveCommandFilter::release(const std::string& why) {
 }
 
 void DriveCommandFilter::stop(const std::string& why) {
+  stand(why);
+  is_stopping_ = true;
+}
+
+void DriveCommandFilter::stand(const std::string& why) {
   speed_mps_ = turn_radps_ = 0;
   turn_is_short_ = false;
   why_stopped_ = why;
@@ -82,7 +87,11 @@ Command DriveCommandFilter::command(Clock::time_point now, const std::string& dr
     turn_is_short_ = false;
   }
   if (now - last_message_ > dead_man_) release("no message from " + driver + " for " + secondsText(dead_man_));
-  return {.speed_mps = speed_mps_, .turn_radps = turn_radps_, .laser_pan_rad = laser_pan_rad_, .by_driver = true};
+  return {.speed_mps = speed_mps_,
+          .turn_radps = turn_radps_,
+          .laser_pan_rad = laser_pan_rad_,
+          .by_driver = true,
+          .emergency_stop = is_stopping_};
 }
 
 }  // namespace robosim

@@ -18,6 +18,9 @@ namespace robosim {
 ///
 /// Dead-man timeout: the robot stops when its driver has sent no message for longer than `dead_man`; whyStopped()
 /// returns the reason. It stands until it is steered again; ALIVE does not restart it.
+///
+/// STOP, the dead-man timeout and release() stop the robot by Command::emergency_stop until endStop(): orders before that
+/// take effect then, as after ESTOP of ARCOS.
 class DriveCommandFilter {
  public:
   using Clock = std::chrono::steady_clock;
@@ -42,12 +45,17 @@ class DriveCommandFilter {
   Command command(Clock::time_point now, const std::string& driver);
   /// Reason why the last order is not executed; empty when it is.
   const std::string& whyStopped() const { return why_stopped_; }
+  /// Whether an emergency stop is being made.
+  bool isStopping() const { return is_stopping_; }
+  /// The robot stands, or no longer executes the driver's orders.
+  void endStop() { is_stopping_ = false; }
   /// Number of stops with a reason. A remote control that sees only the newest state detects a stop by it, although a
   /// later order has already cleared whyStopped().
   std::uint32_t stops() const { return stops_; }
 
  private:
   void stop(const std::string& why);
+  void stand(const std::string& why);
 
   MotionLimits limits_;
   Clock::duration dead_man_;
@@ -55,6 +63,7 @@ class DriveCommandFilter {
   bool turn_is_short_ = false;  ///< the turn ends at turn_ends_
   double speed_mps_ = 0, turn_radps_ = 0;
   float laser_pan_rad_ = 0;
+  bool is_stopping_ = false;
   std::string why_stopped_;
   std::uint32_t stops_ = 0;
 };

@@ -95,8 +95,19 @@ TEST_F(DriveCommandFilterTest, ATurnSetByDriveDoesNotExpire) {
 TEST_F(DriveCommandFilterTest, StopsOnAStopOrder) {
   drive(1, 1);
   order(RemoteType::stop);
-  EXPECT_EQ(command(), (Command{.by_driver = true}));
+  EXPECT_EQ(command(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(filter.whyStopped(), "");
+}
+
+TEST_F(DriveCommandFilterTest, MakesAnEmergencyStopUntilTheRobotStands) {
+  drive(1, 1);
+  order(RemoteType::stop);
+  drive(0.5, 0);
+  EXPECT_TRUE(command().emergency_stop) << "a later order takes effect when the robot stands";
+  filter.endStop();
+  EXPECT_EQ(command(), (Command{.speed_mps = 0.5, .by_driver = true}));
+  drive(0, 0);
+  EXPECT_EQ(command(), (Command{.by_driver = true})) << "no stop";
 }
 
 TEST_F(DriveCommandFilterTest, ReportsTheReasonOfAStopThatTheDriverDidNotRequest) {
@@ -104,7 +115,7 @@ TEST_F(DriveCommandFilterTest, ReportsTheReasonOfAStopThatTheDriverDidNotRequest
   EXPECT_EQ(filter.whyStopped(), "") << "the robot stood";
   drive(1, 1);
   filter.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
-  EXPECT_EQ(command(), (Command{.by_driver = true}));
+  EXPECT_EQ(command(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(filter.whyStopped(), "Anna's page is hidden");
   order(RemoteType::stop);
   EXPECT_EQ(filter.whyStopped(), "");
@@ -115,7 +126,7 @@ TEST_F(DriveCommandFilterTest, StopsAfterTheDeadManTimeoutAndReportsTheReason) {
   now += 500ms;
   EXPECT_EQ(command().speed_mps, 1);
   now += 1ms;
-  EXPECT_EQ(command(), (Command{.by_driver = true}));
+  EXPECT_EQ(command(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(filter.whyStopped(), "no message from Anna for 0.5 s");
 }
 
@@ -174,7 +185,7 @@ TEST_F(DriveCommandFilterTest, AnOrderOlderThanTheTimeoutHasNoEffect) {
 TEST_F(DriveCommandFilterTest, StopsAtOnceWhenTheDriverDisconnects) {
   drive(1, 0);
   filter.release("its remote control has disconnected");
-  EXPECT_EQ(command().speed_mps, 0);
+  EXPECT_EQ(command(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(filter.whyStopped(), "its remote control has disconnected");
 }
 

@@ -146,15 +146,11 @@ Json jsonOf(const SensorInfo& sensor) {
 Json numberOrNull(const std::optional<double>& number) { return number ? Json(fine(*number)) : Json(nullptr); }
 
 Json jsonOf(const RemoteState& state) {
-  return {{"autonomous", state.autonomous},
-          {"driver", state.driver},
-          {"is_yours", state.is_yours},
-          {"speed_mps", fine(state.speed_mps)},
-          {"turn_radps", fine(state.turn_radps)},
-          {"activity", nameOf(state.activity)},
-          {"why_stopped", state.why_stopped},
-          {"win_refusals", state.win_refusals},
-          {"stops", state.stops}};
+  return {{"autonomous", state.autonomous},       {"driver", state.driver},
+          {"is_yours", state.is_yours},           {"speed_mps", fine(state.speed_mps)},
+          {"turn_radps", fine(state.turn_radps)}, {"activity", nameOf(state.activity)},
+          {"why_stopped", state.why_stopped},     {"win_refusals", state.win_refusals},
+          {"is_stopping", state.is_stopping},     {"stops", state.stops}};
 }
 
 /// The newest heat reading: of the primary, in its update; of the others, in the answer to a request.
@@ -215,6 +211,7 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"driver", news.state.driver},
                     {"is_yours", news.state.is_yours},
                     {"activity", nameOf(news.state.activity)},
+                    {"is_stopping", news.state.is_stopping},
                     {"why_stopped", news.state.why_stopped},
                     {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
     // Robots that have left keep the winner of their run, and those of the next run have none.

@@ -20,7 +20,7 @@ const Odometry* odometryOf(const Readings& readings) {
 /// The controller's view of the robot: it is frozen during remote control.
 class RemoteControlRobot::ControllersView final : public Hardware {
  public:
-  explicit ControllersView(Hardware& hardware) : hardware_(hardware) {}
+  explicit ControllersView(Hardware& hardware) : hardware_(hardware), command_(hardware.lastCommand()) {}
 
   const RobotInfo& info() const override { return hardware_.info(); }
   const std::vector<std::string>& robots() const override { return hardware_.robots(); }
@@ -34,7 +34,7 @@ class RemoteControlRobot::ControllersView final : public Hardware {
   RefereeLink* referee() override { return hardware_.referee(); }
   BaseLink* base() override { return hardware_.base(); }
 
-  const Command& lastCommand() const { return command_; }
+  const Command& lastCommand() const override { return command_; }
 
   /// Stores the messages of a step in which the controller is suspended.
   void skipStep() {
@@ -53,7 +53,7 @@ class RemoteControlRobot::ControllersView final : public Hardware {
 
  private:
   Hardware& hardware_;
-  Command command_;
+  Command command_;                 ///< of the controller; that of the robot is the driver's during remote control
   std::vector<RobotMessage> held_;  ///< messages received while the controller was suspended
   Readings readings_;               ///< this step's, with the messages held; unused without such messages
 };
@@ -70,6 +70,8 @@ RemoteControlRobot::RemoteControlRobot(Hardware& hardware, std::unique_ptr<Contr
 RemoteControlRobot::~RemoteControlRobot() = default;
 
 void RemoteControlRobot::step() {
+  const Odometry* const odometry = odometryOf(hardware_.readings());
+  const bool is_moving = odometry && (odometry->speed_mps != 0 || odometry->turn_radps != 0);
   bool autonomous = true;
   bool wants_check_win = false;
   Command driven;
@@ -78,6 +80,9 @@ void RemoteControlRobot::step() {
     autonomous = state_.autonomous;
     wants_check_win = std::exchange(wants_check_win_, false);
     const auto now = options_.now();
+    is_moving_ = is_moving;
+    // Without odometry, the driver judges by eye whether the robot stands, and steers again.
+    if (autonomous || (odometry ? !is_moving : order_.has_value())) filter_.endStop();
     if (!autonomous) {
       const std::string before = filter_.whyStopped();
       if (order_) filter_.obey(*order_, order_received_);
@@ -172,6 +177,7 @@ void RemoteControlRobot::stop(const RemoteOrder& order, Clock::time_point now) {
     if (!order.why.empty()) return;
     state_.autonomous = false;
     filter_.begin(now);
+    filter_.obey(order, now);
     options_.log(name() + " stops, and is no longer autonomous");
     return;
   }
@@ -202,6 +208,7 @@ RemoteState RemoteControlRobot::state() const {
   RemoteState state = state_;
   state.why_stopped = filter_.whyStopped();
   state.stops = filter_.stops();
+  state.is_stopping = !state.autonomous && filter_.isStopping() && is_moving_;
   return state;
 }
 

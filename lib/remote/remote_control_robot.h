@@ -76,6 +76,7 @@ class RemoteControlRobot {
   std::optional<RemoteOrder> order_;  ///< the newest that steers
   Clock::time_point order_received_;
   bool wants_check_win_ = false;
+  bool is_moving_ = false;  ///< by the odometry of the last step
   ///@}
   bool was_autonomous_ = true;                          ///< in the last step
   std::optional<mrpt::math::TPose2D> odom_from_robot_;  ///< in the last step

@@ -173,7 +173,7 @@ TEST_F(RemoteControlRobotTest, StopsAfterTheDeadManTimeoutAndLogsTheReasonOnce) 
   steps(6);
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0.5);
   steps(3);
-  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
+  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(robot.state().why_stopped, "no message from Anna for 0.5 s");
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: no message from Anna for 0.5 s"});
 }
@@ -195,7 +195,7 @@ TEST_F(RemoteControlRobotTest, AStopOfTheDriverEndsTheAutonomousMode) {
   robot.obey(orderOf(RemoteType::stop));
   EXPECT_FALSE(robot.state().autonomous);
   step();
-  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
+  EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(robot.state().why_stopped, "");
   EXPECT_EQ(log, std::vector<std::string>{"fake stops, and is no longer autonomous"});
   steps(10);

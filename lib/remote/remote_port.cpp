@@ -21,7 +21,7 @@ namespace {
 /// The part of a state whose changes are sent at once; the rest is sent on request.
 auto reportedPartOf(const RemoteState& state) {
   return std::tie(state.autonomous, state.driver, state.activity, state.why_stopped, state.winner, state.win_refusals,
-                  state.stalled, state.stops);
+                  state.stalled, state.stops, state.is_stopping);
 }
 
 }  // namespace

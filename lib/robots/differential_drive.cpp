@@ -21,12 +21,13 @@ double clampedOrZero(double target, double limit) {
 
 DriveSpeeds reachableSpeeds(const DriveSpeeds& now, const Command& target, const MotionLimits& limits,
                             double period_s) {
-  const bool active = target.activity == Activity::active;
-  const double speed = active ? clampedOrZero(target.speed_mps, limits.speed_max_mps) : 0;
-  const double turn = active ? clampedOrZero(target.turn_radps, limits.turn_max_radps) : 0;
+  const bool may_drive = target.activity == Activity::active && !target.emergency_stop;
+  const double speed = may_drive ? clampedOrZero(target.speed_mps, limits.speed_max_mps) : 0;
+  const double turn = may_drive ? clampedOrZero(target.turn_radps, limits.turn_max_radps) : 0;
   const double turn_change = limits.turn_accel_radps2 * period_s;
-  return {approached(now.speed_mps, speed, limits.accel_mps2 * period_s, limits.decel_mps2 * period_s),
-          approached(now.turn_radps, turn, turn_change, turn_change)};
+  const double harder = target.emergency_stop ? std::max(1.0, limits.emergency_decel_mps2 / limits.decel_mps2) : 1;
+  return {approached(now.speed_mps, speed, limits.accel_mps2 * period_s, harder * limits.decel_mps2 * period_s),
+          approached(now.turn_radps, turn, turn_change, harder * turn_change)};
 }
 
 Path pathOf(const mrpt::math::TPose2D& world_from_robot, const DriveSpeeds& speeds, double period_s) {

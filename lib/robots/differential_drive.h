@@ -14,8 +14,8 @@ struct DriveSpeeds {
 };
 
 /// Speeds reached within `period_s` towards a command's target speeds: clamped to the speed limits and limited in
-/// acceleration and braking. The robot brakes to a stop before it reverses. The target is 0 if it is not finite or the
-/// robot is no longer active.
+/// acceleration and braking. The robot brakes to a stop before it reverses. The target is 0 if it is not finite, the
+/// robot is no longer active, or it makes an emergency stop.
 DriveSpeeds reachableSpeeds(const DriveSpeeds& now, const Command& target, const MotionLimits& limits, double period_s);
 
 /// Path of one time step at these speeds.

@@ -54,5 +54,18 @@ TEST(DifferentialDrive, BrakesForATargetThatIsNotFiniteAndWhenHalted) {
   EXPECT_NEAR(speeds.turn_radps, 0.5, 1e-12);
 }
 
+TEST(DifferentialDrive, BrakesByTheEmergencyDecelerationInAnEmergencyStop) {
+  MotionLimits limits = kDriveLimits;
+  limits.emergency_decel_mps2 = 6;  // 1.5 times the usual one
+  const Command stop{.speed_mps = 2, .turn_radps = 3, .emergency_stop = true};
+  const DriveSpeeds speeds = reachableSpeeds({1.5, -1}, stop, limits, 0.1);
+  EXPECT_NEAR(speeds.speed_mps, 0.9, 1e-12);
+  EXPECT_NEAR(speeds.turn_radps, -0.25, 1e-12) << "brakes harder in the same proportion";
+  for (const double weaker_mps2 : {0.0, 3.0}) {
+    limits.emergency_decel_mps2 = weaker_mps2;
+    EXPECT_NEAR(reachableSpeeds({1.5, 0}, stop, limits, 0.1).speed_mps, 1.1, 1e-12) << "as always";
+  }
+}
+
 }  // namespace
 }  // namespace robosim

@@ -41,6 +41,7 @@ MotionLimits readLimits(XmlReader& reader) {
   limits.accel_mps2 = reader.number("accel_mps2", Bounds::positive(1000));
   limits.decel_mps2 = reader.number("decel_mps2", Bounds::positive(1000));
   limits.turn_accel_radps2 = kRadPerDeg * reader.number("turn_accel_degps2", Bounds::positive(36000));
+  limits.emergency_decel_mps2 = reader.number("emergency_decel_mps2", {limits.decel_mps2, 1000}, limits.decel_mps2);
   reader.finish();
   return limits;
 }

@@ -59,6 +59,7 @@ TEST(RobotModel, PioneerHasTheRealRobotsSonarsAndLimits) {
   EXPECT_NEAR(model.limits.turn_max_radps, 1.74, 1e-3);
   EXPECT_EQ(model.limits.accel_mps2, 0.3);
   EXPECT_EQ(model.limits.decel_mps2, 0.3);
+  EXPECT_EQ(model.limits.emergency_decel_mps2, 2);
   EXPECT_DOUBLE_EQ(model.limits.turn_accel_radps2, 100 * kRadPerDeg);
   EXPECT_EQ(labelsOf(model), (Lines{"sonar", "laser", "heat", "bumper", "odometry", "compass"}));
 
@@ -241,6 +242,17 @@ TEST(RobotModel, Model2005MovesLikeAPioneerOfItsSize) {
   EXPECT_DOUBLE_EQ(laser.beams[0].robot_from_beam.x, 0.3);
   EXPECT_DOUBLE_EQ(laser.range_max_m, 2);
   EXPECT_DOUBLE_EQ(laser.no_echo_m, 2.1);
+}
+
+TEST(RobotModel, BrakesInAnEmergencyAsAlwaysUnlessItsTypeBrakesHarder) {
+  EXPECT_EQ(parsed(kBody + kLimits).limits.emergency_decel_mps2, 3);
+  const auto limits_with = [](const std::string& emergency) {
+    return kLimits.substr(0, kLimits.size() - 2) + " emergency_decel_mps2='" + emergency + "'/>";
+  };
+  EXPECT_EQ(parsed(kBody + limits_with("4")).limits.emergency_decel_mps2, 4);
+  EXPECT_EQ(faultsOf("<robot name='r'>" + kBody + limits_with("2.5") + "</robot>"),
+            Lines{"r.xml:1: <limits emergency_decel_mps2=\"2.5\">: must lie in [3, 1000] metres per second squared; "
+                  "drop it for the default, 3"});
 }
 
 TEST(RobotModel, ReportsAllFaultsAtOnce) {

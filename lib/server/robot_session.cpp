@@ -185,7 +185,10 @@ void RobotSession::send(Environment& environment, std::size_t robot, const Robot
 
 void RobotSession::applyLeftAnswers(Environment& environment) {
   for (const auto& answer : left_answers_) {
-    if (!driver_of_[answer.robot]) environment.setCommand(answer.robot, {.activity = answer.activity});
+    if (!driver_of_[answer.robot]) {
+      const bool is_emergency = environment.state().commands[answer.robot].emergency_stop;
+      environment.setCommand(answer.robot, {.activity = answer.activity, .emergency_stop = is_emergency});
+    }
     for (const auto& message : answer.messages) send(environment, answer.robot, message);
     if (answer.checks_win) environment.checkWin(answer.robot);
     environment.countDroppedMessages(answer.messages_dropped);
@@ -239,8 +242,8 @@ void RobotSession::sendReadings(Stream& stream) {
   const Environment& environment = serving_.run_info->environment;
   v1::StepReadings& message = *stream.draft().mutable_readings();
   message.set_step(environment.time().step);
-  message.set_winner(environment.state().winner ? environment.fleet().robots[*environment.state().winner].info.name
-                                                : "");
+  message.set_winner(environment.state().winner() ? environment.fleet().robots[*environment.state().winner()].info.name
+                                                  : "");
   // Fields that are overwritten, not cleared, reuse the memory of the previous step.
   while (message.robots_size() < static_cast<int>(stream.robots.size())) message.add_robots();
   for (std::size_t i = 0; i < stream.robots.size(); ++i) {
@@ -312,7 +315,9 @@ std::size_t RobotSession::applyAnswers(Environment& environment) {
   std::size_t late_now = 0;
   attendance_.countStep(environment.state().activity);
   for (const auto robot : left_) {
-    if (!driver_of_[robot]) environment.setCommand(robot, {});
+    // As a driven robot stops when its driver is gone.
+    const bool is_driven = environment.state().commands[robot].by_driver;
+    if (!driver_of_[robot]) environment.setCommand(robot, {.emergency_stop = is_driven});
   }
   left_.clear();
   applyLeftAnswers(environment);

@@ -47,6 +47,7 @@ export const STATES = {
   waiting: { is_silent: true, run: { phase: 'waiting', absent: ['Scout1', 'Pioneer2', 'Scout2', 'Pioneer3'] } },
   paused: { is_silent: true, run: { phase: 'paused' } },
   stalled: { is_stalled: true },
+  stopping: { is_stopping: true },
   'no camera': { has_camera: false },
   'no camera, refused': { has_camera: false, refuses: true },
   recording: { run: { recording: { state: 'on', file: 'run_part2.rawlog' } } },
@@ -61,9 +62,9 @@ export const STATES = {
 };
 
 class Script {
-  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_over = false, is_silent = false, is_stalled = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
+  constructor(socket, { robots = 3, holder = 1, is_down = false, winner = '', is_over = false, is_silent = false, is_stalled = false, is_stopping = false, has_camera = true, has_long_names = false, may_operate = true, refuses = false, run = {} }) {
     const isSilent = is_silent;
-    Object.assign(this, { socket, refuses, holder, is_down, is_over, may_operate, winner, isSilent, is_stalled, has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
+    Object.assign(this, { socket, refuses, holder, is_down, is_over, may_operate, winner, isSilent, is_stalled, is_stopping, why_stopped: '', has_camera, run, step: 6000, updates: 0, stops: 0, refusals: 1, driven_m: 48.2 });
     this.names = Array.from({ length: robots }, (_, i) => (has_long_names && i % 3 === 0 ? `${i}_${LONG_NAME}`.slice(0, 120) : `${i % 2 ? 'Scout' : 'Pioneer'}${(i >> 1) + 1}`));
     socket.onMessage((text) => this.receive(JSON.parse(text)));
   }
@@ -125,7 +126,7 @@ class Script {
       robots: this.names.map((name, i) => ({
         name, color: colorOf(i), address: `127.0.0.1:${9001 + i}`, model: 'pioneer3dx_driven', up: !this.is_over && !(this.is_down && i === 0) && i % 7 !== 5, over: this.is_over,
         problem: this.is_over ? 'the run is over' : (this.is_down && i === 0) || i % 7 === 5 ? `no robot answers at 127.0.0.1:${9001 + i}; is 'robosim robot ${name} --remote-port …' running?` : '',
-        fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (name === this.winner ? 'found' : 'halted') : 'active', why_stopped: '',
+        fit: i % 7 !== 5, autonomous: i > 0, driver: i === 0 ? 'Ada' : '', is_yours: true, activity: this.winner ? (name === this.winner ? 'found' : 'halted') : 'active', is_stopping: this.is_stopping && i === 0, why_stopped: i === 0 ? this.why_stopped : '',
       })),
     });
     const isUp = (_, i) => i % 7 !== 5;
@@ -158,7 +159,7 @@ class Script {
     };
     const json = Buffer.from(JSON.stringify({
       type: 'update', robot: this.names[0], step: this.step, time_s, driven_m: this.driven_m, stalled: this.is_stalled, laser_pan_rad: 0,
-      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', why_stopped: '', win_refusals: this.updates > 1 ? this.refusals : 0, stops: this.stops },
+      state: { autonomous: false, driver: 'Ada', is_yours: true, speed_mps: 0.5, turn_radps: -0.4, activity: 'active', is_stopping: this.is_stopping, why_stopped: this.why_stopped, win_refusals: this.updates > 1 ? this.refusals : 0, stops: this.stops },
       measurements: sensors(this.has_camera).map(({ kind }) => measured[kind]), ...(this.has_camera ? { picture_step: this.step } : {}),
     }));
     const length = Buffer.alloc(4);

@@ -40,6 +40,22 @@ for (const [state, cause, text] of [
   });
 }
 
+test('a robot that makes an emergency stop is stopping until it stands', async () => {
+  const page = await visitScripted(browser, 'stopping');
+  const shows = (pill) => page.waitForFunction((pill) => document.querySelector('#mode').textContent === pill, pill);
+  await shows('stopping');
+  page.script.why_stopped = 'no message from Ada for 0.5 s';
+  await shows('stopping: no message from Ada for 0.5 s');
+  page.script.sendTeam();
+  await page.waitForFunction(() => document.querySelector('#team').textContent.includes('stopping: no message from Ada for 0.5 s'));
+  page.script.is_stopping = false;
+  await shows('stopped: no message from Ada for 0.5 s');
+  page.script.why_stopped = '';
+  await shows('driven by you');
+  assert.deepEqual(page.problems, []);
+  await page.context().close();
+});
+
 test('a lost console is stated in place of every other cause, and no longer once it answers', async () => {
   const page = await visitScripted(browser, 'down');
   await shows(page, 'robot_down');

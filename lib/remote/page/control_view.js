@@ -39,6 +39,7 @@ export class ControlView {
     else if (primary.activity !== 'active') setPill($('mode'), 'halted', 'warn');
     else if (primary.autonomous) setPill($('mode'), 'autonomous', 'info');
     else if (!this.link.freshness.isFresh(performance.now())) setPill($('mode'), 'no update', 'bad');
+    else if (now?.is_stopping) setPill($('mode'), now.why_stopped ? `stopping: ${now.why_stopped}` : 'stopping', 'warn');
     else if (now?.why_stopped) setPill($('mode'), `stopped: ${now.why_stopped}`, 'warn');
     else this.#showDriver(primary);
   }

@@ -8,6 +8,7 @@ function description(robot) {
   if (robot.activity === 'halted') return 'has halted';
   if (robot.driver && !robot.is_yours) return `driven by ${robot.driver}`;
   if (robot.autonomous) return 'autonomous';
+  if (robot.is_stopping) return robot.why_stopped ? `stopping: ${robot.why_stopped}` : 'stopping';
   return robot.why_stopped ? `stopped: ${robot.why_stopped}` : 'driven';
 }
 
