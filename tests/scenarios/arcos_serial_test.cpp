@@ -107,21 +107,16 @@ class SerialRelay {
   std::thread thread_;
 };
 
-/// A p3dx whose laser is not at the board, as on a real one.
-ArcosRobotType withoutLaser() {
-  ArcosRobotType type = arcosTypeOf("p3dx");
-  std::vector<SensorInfo> sensors = *type.info.sensors;
-  std::erase_if(sensors, [](const SensorInfo& sensor) { return sensor.kind == SensorKind::laser; });
-  type.info.sensors = std::make_shared<const std::vector<SensorInfo>>(std::move(sensors));
-  return type;
-}
-
 TEST(ArcosSerialLine, KeepsEveryCycleAt960BytesPerSecond) {
   RealTimeRobot robot;
   SerialRelay relay(robot.port());
   ArcosHardware::Options options;
-  options.type_of = [](const std::string&) { return withoutLaser(); };
-  ArcosHardware hardware(openChannel("serial:" + relay.device()), std::move(options));
+  std::string log;
+  options.type_of = [](const std::string& subclass) { return arcosTypeOf(subclass); };
+  options.log = [&](const std::string& line) { log += line + '\n'; };
+  ArcosHardware hardware(openChannel("serial:" + relay.device() + ":9600"), std::move(options));
+  EXPECT_NE(log.find("the scans of 'laser' need a line of 108300 baud"), std::string::npos) << log;
+  EXPECT_NE(log.find("not available: laser"), std::string::npos) << log;
   const auto x_m = [&] { return std::get<Odometry>(hardware.readings().measurements[2]).odom_from_robot.x; };
   // Until it drives at 0.3 m/s; then each SIP adds 30 mm, of units of 0.485 mm, unless one is lost.
   double before_m = x_m();

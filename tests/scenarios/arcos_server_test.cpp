@@ -1,13 +1,20 @@
 // Programs that speak ARCOS over TCP: their sessions, and what misbehaving ones can do.
 #include "serving/arcos_server.h"
 
+#include <cmath>
+#include <numeric>
+#include <optional>
+
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
 
+#include "arcos/bytes.h"
 #include "arcos/command.h"
 #include "arcos/simulator_packets.h"
 #include "arcos/sip.h"
+#include "base/portable_pose.h"
 #include "environment/testing/small_world.h"
+#include "environment/world_changes.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
 #include "tests/scenarios/program.h"
@@ -20,22 +27,27 @@ namespace command = arcos::command;
 using arcos::encodeCommand;
 using boost::asio::ip::tcp;
 
-/// A world with robots of the type p3dx in a row, served on ports that the system chooses.
+/// A world with robots of the type p3dx in a row.
+LoadedWorld rowOfRobots(int robots) {
+  LoadedWorld made{emptyWorld(20), {}};
+  const FleetRobot type = robotOfType(robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), "p3dx");
+  for (int i = 0; i < robots; ++i) {
+    FleetRobot robot = type;
+    robot.info.name = "P" + std::to_string(i + 1);
+    robot.world_from_start = {-10.0 + 2 * i, 0, 0};
+    robot.body.world_from_body = robot.world_from_start;
+    made.fleet.robots.push_back(robot);
+  }
+  return made;
+}
+
+/// The robots of a world, served on ports that the system chooses.
 struct ServedRobots {
-  explicit ServedRobots(int robots, bool is_factory = false) {
-    World world = emptyWorld(20);
-    Fleet fleet;
-    const FleetRobot type = robotOfType(robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), "p3dx");
-    std::vector<std::size_t> indices;
-    for (int i = 0; i < robots; ++i) {
-      FleetRobot robot = type;
-      robot.info.name = "P" + std::to_string(i + 1);
-      robot.world_from_start = {-10.0 + 2 * i, 0, 0};
-      robot.body.world_from_body = robot.world_from_start;
-      fleet.robots.push_back(robot);
-      indices.push_back(static_cast<std::size_t>(i));
-    }
-    environment = std::make_unique<Environment>(std::move(world), std::move(fleet), EnvironmentOptions{});
+  explicit ServedRobots(int robots, bool is_factory = false) : ServedRobots(rowOfRobots(robots), is_factory) {}
+  explicit ServedRobots(LoadedWorld world, bool is_factory = false) {
+    std::vector<std::size_t> indices(world.fleet.robots.size());
+    std::iota(indices.begin(), indices.end(), std::size_t{0});
+    environment = std::make_unique<Environment>(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
     ArcosOptions options;
     options.listen = "127.0.0.1:0";
     options.is_factory = is_factory;
@@ -142,6 +154,61 @@ TEST(ArcosServer, RefusesASecondProgramAtAnOccupiedRobotAtOnce) {
   EXPECT_EQ(first.step().flags & arcos::Sip::kMotorsOn, 1) << "the first one continues";
 }
 
+/// Pose, relative to its start, at which a robot stands after ARIA's simple motion commands: ahead at 250 mm/s for 5 s,
+/// a turn of 10 °/s for 5 s and of -10 °/s for 10 s, ahead at 150 mm/s for 5 s, with a stop after each drive.
+mrpt::math::TPose2D afterSimpleMotion(ServedRobots& served, std::size_t robot) {
+  TcpProgram program(served, served.server->ports()[robot]);
+  program.open();
+  const auto send_for = [&](int steps, const std::string& commands) {
+    program.send(commands);
+    for (int i = 0; i < steps; ++i) {
+      program.step();
+      program.send(encodeCommand(command::pulse));
+    }
+  };
+  send_for(50, encodeCommand(command::vel, 250));
+  send_for(10, encodeCommand(command::stop));
+  send_for(50, encodeCommand(command::rvel, 10));
+  send_for(100, encodeCommand(command::rvel, -10));
+  send_for(50, encodeCommand(command::rvel, 0) + encodeCommand(command::vel, 150));
+  send_for(10, encodeCommand(command::stop));
+  return portable::relative(served.environment->fleet().robots[robot].world_from_start,
+                            served.environment->state().world_from_robot[robot]);
+}
+
+/// The world of `robosim arcos maps/office.map -r p3dx …`.
+LoadedWorld officeWith(std::size_t robots) {
+  WorldChanges changes;
+  changes.robots.assign(robots, {"p3dx", std::nullopt});
+  return changedWorld(ROBOSIM_SOURCE_DIR "/maps/office.map", changes, {}, 1);
+}
+
+// At 300 mm/s² and 100 °/s², a speed of v for a time t and the way to rest after it are v · t together; the turn comes
+// to rest within a step, before it reverses: 50° - 99° = -49°.
+TEST(ArcosServer, EndsSimpleMotionCommandsAtTheSamePlaceBesideOtherRobots) {
+  const double turned = -49 * M_PI / 180;
+  for (const std::size_t robots : {1, 2, 3}) {
+    for (std::size_t i = 0; i < robots; ++i) {
+      ServedRobots served(officeWith(robots));
+      const auto end = afterSimpleMotion(served, i);
+      EXPECT_NEAR(end.x, 1.25 + 0.75 * std::cos(turned), 1e-6) << "robot " << i << " of " << robots;
+      EXPECT_NEAR(end.y, 0.75 * std::sin(turned), 1e-6) << "robot " << i << " of " << robots;
+      EXPECT_NEAR(end.phi, turned, 1e-6);
+    }
+  }
+}
+
+TEST(ArcosServer, StartsRobotsOfAMapAMetreApart) {
+  const LoadedWorld office = officeWith(4);
+  const auto& robots = office.fleet.robots;
+  for (std::size_t i = 0; i < robots.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      const auto between = portable::relative(robots[i].world_from_start, robots[k].world_from_start);
+      EXPECT_GE(std::hypot(between.x, between.y) - 2 * robots[0].info.radius_m, 1 - 1e-9) << i << ", " << k;
+    }
+  }
+}
+
 TEST(ArcosServer, FreesARobotWhoseProgramHasEndedAndStopsIt) {
   ServedRobots served(1);
   for (int round = 0; round < 3; ++round) {
@@ -227,6 +294,29 @@ TEST(ArcosServer, SendsSipsOfAPausedRunToo) {
   program.open();
   // The run takes no steps; the server sends the state every second.
   EXPECT_TRUE(arcos::decodeSip(program.next()));
+}
+
+TEST(ArcosServer, StartsTheCountOfCommandsInEachCycleOfAPausedRun) {
+  ServedRobots served(1);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  std::string commands;
+  for (int i = 0; i < 1500; ++i) commands += encodeCommand(command::pulse);
+  for (int cycle = 0; cycle < 2; ++cycle) {  // of 1 s; 2,000 commands in one of them would end the session
+    program.send(commands);
+    EXPECT_TRUE(arcos::decodeSip(program.next())) << served.log;
+  }
+  EXPECT_EQ(served.server->clients(), 1u);
+}
+
+TEST(ArcosServer, AnswersARequestToLoadAMap) {
+  ServedRobots served(1);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  arcos::ByteWriter request;
+  request.add(std::uint8_t{0x2B}).add(arcos::sim_operation::load_map).add(std::uint16_t{9}).addText("other.map");
+  program.send(arcos::encode(command::sim_control, request.bytes()));
+  EXPECT_EQ(program.next().id, arcos::packet_type::sim_map);
 }
 
 TEST(ArcosServer, PlacesARobotOnlyWhereItIsFree) {
@@ -324,7 +414,11 @@ TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
   EXPECT_NE(ended.out.find("drove for "), std::string::npos);
   server.interrupt();
   EXPECT_EQ(server.wait().exit_code, 0);
-  EXPECT_EQ(runProgram("replay " + quoted(folder / "run.rawlog")).exit_code, 0);
+  // The recording ends with the standing robot: the last column is the turn rate, the one before the speed.
+  const Ended odometry =
+      runProgram("replay --print --csv --robot robot --sensor odometry " + quoted(folder / "run.rawlog"));
+  EXPECT_EQ(odometry.exit_code, 0) << odometry.err;
+  EXPECT_TRUE(odometry.out.ends_with(",0,0\n")) << odometry.out.substr(odometry.out.size() - 200);
   const Ended replay = runProgram("robot --arcos replay:" + quoted(folder / "arcos.log") + " --controller wander");
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   // The log also has the cycles in which the robot came to rest at the end.
@@ -360,6 +454,48 @@ TEST(ArcosPrograms, GetRobotsOfTheirOwnInARunThatCanBeRepeated) {
   const Ended check = runProgram("replay " + quoted(folder / "run.rawlog") + " --observer coverage");
   EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
   EXPECT_NE(check.out.find("The same run"), std::string::npos) << check.out;
+}
+
+// The program drives 0.2 m and is placed back at its start, which the recording does not contain.
+TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatCannotBeRepeatedAndIsRefused) {
+  const auto rawlog = emptyFolder() / "run.rawlog";
+  StartedProgram server({"arcos", "maps/office.map", "--port", "18431", "--listen", "127.0.0.1:0", "--speed", "5",
+                         "--record", rawlog.string()});
+  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18431");
+  boost::asio::io_context io;
+  tcp::socket socket(io);
+  socket.connect({boost::asio::ip::address_v4::loopback(), 18431});
+  arcos::PacketReader reader;
+  const auto send = [&](const std::string& bytes) { boost::asio::write(socket, boost::asio::buffer(bytes)); };
+  const auto next = [&] {
+    for (;;) {
+      if (auto packet = reader.next()) return *packet;
+      std::array<char, 4096> bytes;
+      reader.add({bytes.data(), socket.read_some(boost::asio::buffer(bytes))});
+    }
+  };
+  for (const auto id : {command::sync0, command::sync1, command::sync2}) {
+    send(encodeCommand(id));
+    next();
+  }
+  send(encodeCommand(command::open, 1) + encodeCommand(command::vel, 200));
+  for (std::optional<arcos::Sip> sip; !sip || sip->x < 400;) sip = arcos::decodeSip(next());  // units of 0.485 mm
+  send(arcos::encode(command::sim_reset) + encodeCommand(command::stop));
+  for (std::optional<arcos::Sip> sip; !sip || sip->is_moving;) sip = arcos::decodeSip(next());
+  socket.close();
+  server.interrupt();
+  const Ended ended = server.wait();
+  EXPECT_NE(ended.out.find("not reproducible: robots were placed elsewhere 1 time"), std::string::npos) << ended.out;
+  const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
+  EXPECT_EQ(check.exit_code, 2) << check.out;
+  EXPECT_NE(
+      check.err.find("during the run, robots were placed elsewhere 1 times, as by SIM_SET_POSE or SIM_RESET of an "
+                     "ARCOS program; the recording does not contain where, so that the run cannot be repeated"),
+      std::string::npos)
+      << check.err;
+  EXPECT_EQ(check.out.find("Not the same run"), std::string::npos) << check.out;
+  const Ended summary = runProgram("replay " + quoted(rawlog));
+  EXPECT_NE(summary.out.find("not reproducible: robots were placed elsewhere"), std::string::npos) << summary.out;
 }
 
 TEST(ArcosPrograms, ExplainWrongArguments) {
