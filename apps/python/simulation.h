@@ -88,8 +88,7 @@ class Simulation : public std::enable_shared_from_this<Simulation> {
   struct Handle {
     LocalHardware hardware;
     Robot robot;
-    Handle(Environment& environment, std::size_t i)
-        : hardware(environment, i), robot(hardware, environment.state().commands[i]) {}
+    Handle(Environment& environment, std::size_t i) : hardware(environment, i), robot(hardware) {}
   };
   struct PythonDriven {
     std::size_t robot;

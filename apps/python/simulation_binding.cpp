@@ -76,7 +76,7 @@ void bindStepping(SimulationClass& simulation) {
       .def_property_readonly(
           "winner",
           [](const Simulation& of) -> py::object {
-            const auto& winner = stateOf(of).winner;
+            const auto winner = stateOf(of).winner();
             if (!winner) return py::none();
             return toPython(of.environment().robotNames()[*winner]);
           },

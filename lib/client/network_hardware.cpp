@@ -30,6 +30,7 @@ class ProcessRobot final : public Hardware, public RefereeLink {
     command_ = command;
     is_command_new_ = was_commanded_ = true;
   }
+  const Command& lastCommand() const override { return command_; }
   void send(const std::string& to, const std::string& text) override {
     if (!all_robots_.contains(to)) {
       throw std::invalid_argument("a message from '" + info_.name + "' to '" + to +

@@ -27,7 +27,8 @@ TEST(Controller, CloneContinuesFromTheSameStateOnAnotherRobot) {
   const auto copy = cloneOf(controller, "accelerator", "fake");
   controller.step(robot);
   controller.step(robot);
-  Robot fork(there, robot.command());
+  there.command(robot.command());
+  Robot fork(there);
   EXPECT_EQ(fork.command(), robot.command());
   copy->step(fork);
   EXPECT_DOUBLE_EQ(here.lastCommand().speed_mps, 0.5);

@@ -17,6 +17,7 @@ class ReplayedHardware : public Hardware, public RefereeLink {
   const std::vector<std::string>& robots() const override { return robots_; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
+  const Command& lastCommand() const override { return command_; }
   void send(const std::string& to, const std::string& text) override { sent_.push_back({info_.name, to, text}); }
   RefereeLink* referee() override { return this; }
   void checkWin() override {}  // the recording contains the result
@@ -26,8 +27,6 @@ class ReplayedHardware : public Hardware, public RefereeLink {
     readings_ = std::move(readings);
     sent_.clear();
   }
-  /// The command for the next step.
-  const Command& lastCommand() const { return command_; }
   /// Messages sent since the last step was replayed.
   const std::vector<RobotMessage>& sent() const { return sent_; }
 

@@ -11,7 +11,7 @@ const Blobs kNoBlobs;
 
 }  // namespace
 
-Robot::Robot(Hardware& hardware, const Command& last_command) : hardware_(hardware), command_(last_command) {
+Robot::Robot(Hardware& hardware) : hardware_(hardware) {
   const auto& sensors = *hardware.info().sensors;
   for (std::size_t i = 0; i < sensors.size(); ++i) {
     const auto kind = static_cast<std::size_t>(sensors[i].kind);
@@ -76,20 +76,22 @@ const Blobs& Robot::blobs() const {
 }
 
 void Robot::drive(double speed_mps, double turn_radps) {
-  if (command_.activity != Activity::active) return;
-  command_.speed_mps = speed_mps;
-  command_.turn_radps = turn_radps;
-  hardware_.command(command_);
+  if (activity() != Activity::active) return;
+  hardware_.command({.speed_mps = speed_mps, .turn_radps = turn_radps, .laser_pan_rad = command().laser_pan_rad});
+}
+
+void Robot::stopInEmergency() {
+  if (activity() != Activity::active) return;
+  hardware_.command({.laser_pan_rad = command().laser_pan_rad, .emergency_stop = true});
 }
 
 void Robot::panLaser(double pan_rad) {
-  command_.laser_pan_rad = static_cast<float>(pan_rad);
-  hardware_.command(command_);
+  Command panned = command();
+  panned.laser_pan_rad = static_cast<float>(pan_rad);
+  panned.by_driver = false;
+  hardware_.command(panned);
 }
 
-void Robot::halt(Activity why) {
-  command_ = {.speed_mps = 0, .turn_radps = 0, .laser_pan_rad = command_.laser_pan_rad, .activity = why};
-  hardware_.command(command_);
-}
+void Robot::halt(Activity why) { hardware_.command({.laser_pan_rad = command().laser_pan_rad, .activity = why}); }
 
 }  // namespace robosim

@@ -13,9 +13,8 @@ namespace robosim {
 /// PioneerRobot and ScoutRobot provide the same with ARIA's and the Nomad's names and units.
 class Robot {
  public:
-  /// @param hardware must outlive this.
-  /// @param last_command of the robot that this continues, in a fork of its run
-  explicit Robot(Hardware& hardware, const Command& last_command = {});
+  /// @param hardware must outlive this
+  explicit Robot(Hardware& hardware);
 
   const RobotInfo& info() const { return hardware_.info(); }
   const std::string& name() const { return info().name; }
@@ -66,10 +65,12 @@ class Robot {
   void drive(double speed_mps, double turn_radps);
   void panLaser(double pan_rad);  ///< [-π/2, π/2]
   void stop() { drive(0, 0); }
+  /// Stops as hard as the robot can (MotionLimits::emergency_decel_mps2), until the next drive().
+  void stopInEmergency();
   /// Stops permanently; `found` reports that the robot has found its goal.
   void halt(Activity why = Activity::halted);
-  Activity activity() const { return command_.activity; }
-  const Command& command() const { return command_; }
+  Activity activity() const { return command().activity; }
+  const Command& command() const { return hardware_.lastCommand(); }
 
   /// @throws std::invalid_argument for an unknown receiver or too long a text.
   void send(const std::string& to, const std::string& text) { hardware_.send(to, text); }
@@ -94,7 +95,6 @@ class Robot {
   std::optional<double> scalar(SensorKind kind) const;
 
   Hardware& hardware_;
-  Command command_;
   std::vector<int> slot_of_kind_;  ///< by kind; -1 for none
 };
 

@@ -118,12 +118,14 @@ class BareHardware : public Hardware {
   const std::vector<std::string>& robots() const override { return robots_; }
   const Readings& readings() const override { return readings_; }
   void command(const Command&) override {}
+  const Command& lastCommand() const override { return command_; }
   void send(const std::string&, const std::string&) override {}
 
  private:
   RobotInfo info_;
   std::vector<std::string> robots_;
   Readings readings_;
+  Command command_;
 };
 
 TEST(Robot, IgnoresCheckWinOnHardwareWithoutAReferee) {

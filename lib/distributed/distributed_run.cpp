@@ -112,7 +112,7 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
   if (sends_readings_) exchangeReadings(shares_.work, needed_);
   exchangeWinCandidates();
   environment.conclude();
-  const std::exception_ptr observer_failure = failureOf([&] { run_->noteOutcome(); });
+  const std::exception_ptr observer_failure = failureOf([&] { run_->observe(); });
   finished(rest);
   if (has_observers_) {
     group_.allGather(errorBytes(observer_failure), all_);

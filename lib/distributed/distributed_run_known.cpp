@@ -115,7 +115,7 @@ void DistributedRun::exchangeMovedShares(const std::vector<RobotRange>& before,
 void DistributedRun::exchangeWinCandidates() {
   Environment& environment = run_->environment();
   // The requests are the same on all ranks.
-  if (!near_ || environment.state().winner || !anyFlag(environment.orders().win_requests)) return;
+  if (!near_ || environment.state().winner() || !anyFlag(environment.orders().win_requests)) return;
   std::vector<std::uint32_t> candidates = listOf(shares_.work[own_]);
   std::erase_if(candidates, [&](std::uint32_t robot) { return !environment.orders().win_requests[robot]; });
   out_.clear();

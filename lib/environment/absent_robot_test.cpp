@@ -59,6 +59,50 @@ struct TwoDiscs {
   std::unique_ptr<Environment> environment;
 };
 
+TEST(AbsentRobot, LeavesNoTraceInTheDigestOfAVisitBetweenTwoSteps) {
+  const auto digest_of = [](bool visits) {
+    const TwoDiscs discs;
+    Environment& environment = *discs.environment;
+    environment.setCommand(1, {.speed_mps = 0.5});
+    environment.step();
+    environment.remove(1);
+    environment.step();
+    if (visits) {  // at its start, where it was before it drove
+      EXPECT_TRUE(environment.place(1, {1, 0, 0}));
+      environment.remove(1);
+    }
+    environment.step();
+    return environment.digest();
+  };
+  EXPECT_EQ(digest_of(true), digest_of(false));
+}
+
+TEST(AbsentRobot, ChangesTheDigestByItsAbsence) {
+  const auto digest_without = [](std::vector<std::size_t> absent) {
+    const TwoDiscs discs;
+    discs.environment->remove(absent);
+    discs.environment->step();
+    return discs.environment->digest();
+  };
+  EXPECT_NE(digest_without({0}), digest_without({1}));
+  EXPECT_NE(digest_without({0}), digest_without({}));
+}
+
+TEST(AbsentRobot, CountsAsPlacedUnlessItEntersAtItsStart) {
+  const TwoDiscs discs;
+  Environment& environment = *discs.environment;
+  environment.remove(1);
+  EXPECT_TRUE(environment.place(1, {1, 0, 0}));
+  EXPECT_EQ(environment.state().placements, 0u);
+  EXPECT_FALSE(environment.place(1, {0, 0, 0})) << "occupied";
+  EXPECT_EQ(environment.state().placements, 0u);
+  EXPECT_TRUE(environment.place(1, {1, 0, 0}));
+  EXPECT_EQ(environment.state().placements, 1u) << "an active robot, whose odometry continues";
+  environment.remove(1);
+  EXPECT_TRUE(environment.place(1, {2, 0, 0}));
+  EXPECT_EQ(environment.state().placements, 2u);
+}
+
 TEST(AbsentRobot, NeitherMovesNorReceivesMessages) {
   TwoDiscs discs;
   Environment& environment = *discs.environment;

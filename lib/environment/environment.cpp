@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
@@ -55,7 +56,7 @@ struct Environment::Impl {
   RobotRange counted;  ///< known robots whose stalls are counted
   std::vector<Path> paths;
   std::vector<double> antenna_z_m;  ///< by robot
-  std::uint64_t placements = 0;
+  std::uint64_t pose_changes = 0;
   bool has_absent_robots = false;
   bool may_have_messages = true;       ///< in any inbox; false: only in those of MessageRouter::receivers()
   std::vector<std::uint8_t> may_send;  ///< MessageRouter::Robots::may_send
@@ -190,23 +191,24 @@ struct Environment::Impl {
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
     if (!bodies.isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m}))
       return false;
+    if (!state.isAbsent(robot) || world_from_robot != fleet.robots[robot].world_from_start) ++state.placements;
     state.world_from_robot[robot] = world_from_robot;
     state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
     if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet.robots[robot].model);
-    ++placements;
+    ++pose_changes;
     noteAbsentRobots();
     placeBodies();
     return true;
   }
 
   void remove(std::span<const std::size_t> robots) {
-    const auto placements_before = placements;
+    const auto changes_before = pose_changes;
     for (const std::size_t robot : robots) {
       if (state.isAbsent(robot)) continue;
       resetRobot(state, robot, Activity::absent, *fleet.robots[robot].model);
-      ++placements;
+      ++pose_changes;
     }
-    if (placements == placements_before) return;
+    if (pose_changes == changes_before) return;
     noteAbsentRobots();
     placeBodies();
   }
@@ -245,10 +247,21 @@ struct Environment::Impl {
       readings.is_too_far = false;
     });
     if (anyFlag(state.win_requests)) {
-      if (!state.winner) decideWinner();
+      if (!state.won) decideWinner();
       std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
     }
+    noteOutcome();
     if (state.digest) state.digest->add(state, workers, share.digested);
+  }
+
+  void noteOutcome() {
+    if (!state.found && !state.activity.empty()) {
+      static_assert(sizeof(Activity) == 1);
+      const Activity* const begin = state.activity.data();
+      const void* const found = std::memchr(begin, static_cast<int>(Activity::found), state.activity.size());
+      if (found) state.found = {static_cast<std::size_t>(static_cast<const Activity*>(found) - begin), state.time.step};
+    }
+    if (!state.all_halted_step && state.haveAllHalted()) state.all_halted_step = state.time.step;
   }
 
   void keepReadings(RobotRange range) {
@@ -262,20 +275,21 @@ struct Environment::Impl {
   }
 
   void decideWinner() {
-    state.winner = referee.decide(state.win_requests, [this](std::size_t robot) {
+    const auto winner = referee.decide(state.win_requests, [this](std::size_t robot) {
       const auto& pose = state.world_from_robot[robot];
       return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};
     });
-    if (!state.winner) {
+    if (!winner) {
       forFlags(state.win_requests, [&](std::size_t i) {
         if (share.kept.contains(i)) state.readings[i].is_too_far = true;
       });
       return;
     }
+    state.won = {*winner, state.time.step};
     for (std::size_t i = 0; i < state.readings.size(); ++i) {
-      state.readings[i].winner = fleet.robots[*state.winner].info.name;
+      state.readings[i].winner = fleet.robots[*winner].info.name;
       if (state.activity[i] == Activity::active) {
-        state.activity[i] = i == *state.winner ? Activity::found : Activity::halted;
+        state.activity[i] = i == *winner ? Activity::found : Activity::halted;
       }
     }
   }
@@ -357,7 +371,7 @@ bool Environment::place(std::size_t robot, const mrpt::math::TPose2D& world_from
 
 void Environment::remove(std::span<const std::size_t> robots) { impl_->remove(robots); }
 
-std::uint64_t Environment::placements() const { return impl_->placements; }
+std::uint64_t Environment::poseChanges() const { return impl_->pose_changes; }
 
 void Environment::measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
   impl_->measure(sensor, robots, readings);
@@ -413,12 +427,6 @@ MotionState Environment::motion() {
   State& state = impl_->state;
   return {state.world_from_robot, state.speed_mps, state.turn_radps,    state.last_motion,
           state.driven_m,         state.stalled,   state.laser_pan_rad, state.stalls};
-}
-
-bool Environment::allHalted() const {
-  const auto& activity = impl_->state.activity;
-  return !activity.empty() && std::all_of(activity.begin(), activity.end(),
-                                          [](Activity a) { return a == Activity::halted || a == Activity::found; });
 }
 
 std::string Environment::digest() const {

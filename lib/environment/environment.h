@@ -124,14 +124,15 @@ class Environment {
 
   /// Places a robot elsewhere between two steps, as a person does who lifts it. Its speed and odometry are unchanged,
   /// and the readings are those of the last step. An absent robot becomes active, at rest and with blank readings.
+  /// Recordings do not contain placements, except that a robot enters at its start; State::placements counts them.
   /// @return false, without a change, if the robot would not be entirely on the surface, or would overlap something
   bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot);
   /// Takes robots out of the world between two steps (Activity::absent): nothing collides with them or senses them,
   /// their commands and messages have no effect, they receive none, and their readings are blank.
   void remove(std::span<const std::size_t> robots);
   void remove(std::size_t robot) { remove({&robot, 1}); }
-  /// Number of robots placed or removed so far.
-  std::uint64_t placements() const;
+  /// Number of robots placed or removed so far, by which a replica detects that its poses are no longer valid.
+  std::uint64_t poseChanges() const;
   /// Measures, in the present state, with a sensor that is not part of the model. It changes no state.
   /// @param robots in ascending order @param readings by robot: replaces measurement 0, which must be a previous one of
   /// this sensor or Sensor::blank()
@@ -181,8 +182,7 @@ class Environment {
   MotionState motion();
   ///@}
 
-  /// Whether every robot has halted or found the gold. An absent robot may still come.
-  bool allHalted() const;
+  bool allHalted() const { return state().haveAllHalted(); }
   /// Hash over all states and readings of all steps so far.
   /// @throws std::invalid_argument when the state has no digest
   std::string digest() const;

@@ -16,6 +16,7 @@ class LocalHardware : public Hardware, public RefereeLink {
   const std::vector<std::string>& robots() const override { return environment_.robotNames(); }
   const Readings& readings() const override { return environment_.state().readings[robot_]; }
   void command(const Command& command) override { environment_.setCommand(robot_, command); }
+  const Command& lastCommand() const override { return environment_.state().commands[robot_]; }
   void send(const std::string& to, const std::string& text) override { environment_.send(robot_, to, text); }
   void broadcast(const std::string& text) override { environment_.broadcast(robot_, text); }
   RefereeLink* referee() override { return this; }

@@ -54,10 +54,10 @@ void add(Digest& digest, const WorldObject& object) {
 }
 
 void add(Digest& digest, const World& world) {
-  // Without effect on a run: names, the type of the surface, and the origin. The robots are in the fleet, which has
-  // those of scatters, too; of maps, the solids have an effect.
-  const auto& [name, surface_type, unit_m, bounds, communication, win_distance_m, objects, maps, robots, scatters,
-               origin] = world;
+  // Without effect on a run: names, the type of the surface, the origin, and the distance of random starts. The robots
+  // are in the fleet, which has those of scatters, too, and the starts; of maps, the solids have an effect.
+  const auto& [name, surface_type, unit_m, bounds, communication, win_distance_m, start_distance_m, objects, maps,
+               robots, scatters, origin] = world;
   const auto& [range_m, loss_probability, wall_range_m, wall_loss, burst_gap_s, burst_s, burst_loss, delay_s, rate_hz] =
       communication;
   for (const double value : {unit_m, bounds.x_min, bounds.x_max, bounds.y_min, bounds.y_max, range_m.value_or(-1),
@@ -78,7 +78,7 @@ void add(Digest& digest, const FleetRobot& robot) {
   add(digest, robot.body);
   const MotionLimits& limits = robot.info.limits;
   for (const double value : {robot.info.radius_m, limits.speed_max_mps, limits.turn_max_radps, limits.accel_mps2,
-                             limits.decel_mps2, limits.turn_accel_radps2}) {
+                             limits.decel_mps2, limits.turn_accel_radps2, limits.emergency_decel_mps2}) {
     digest.add(value);
   }
   digest.add(robot.model->sensors_digest);

@@ -42,6 +42,10 @@ class Bytes {
 };
 
 void addRobot(Bytes& bytes, const State& state, std::size_t i) {
+  if (state.isAbsent(i)) {  // the rest of its state has no effect, and no recording contains it
+    bytes.add(&state.activity[i], sizeof state.activity[i]);
+    return;
+  }
   const auto& pose = state.world_from_robot[i];
   const double numbers[] = {pose.x,
                             pose.y,

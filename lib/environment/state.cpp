@@ -97,6 +97,11 @@ void resetRobot(State& state, std::size_t robot, Activity activity, const RobotM
   readings.measurements = blankMeasurements(model);
 }
 
+bool State::haveAllHalted() const {
+  return !activity.empty() && std::all_of(activity.begin(), activity.end(),
+                                          [](Activity a) { return a == Activity::halted || a == Activity::found; });
+}
+
 void requireSameShape(const State& saved, const State& own) {
   if (haveSameShape(saved, own)) return;
   const auto described = [](const State& state) {

@@ -16,10 +16,19 @@
 
 namespace robosim {
 
+/// A robot, and the step at whose end something became true of it.
+struct RobotAtStep {
+  std::size_t robot = 0;
+  std::uint64_t step = 0;
+  bool operator==(const RobotAtStep&) const = default;
+};
+
 /// All that changes during a run, between two steps. It is complete: a Model and a copy of a State, with the same
-/// commands afterwards, continue the run bit for bit. Random numbers need no state, because they depend on the step
-/// only (base/random.h), and so do the states of radio channels (radio_channel.h); sensors with memory (odometry,
-/// battery) keep it in their readings. Arrays are indexed by robot, in the world's order.
+/// commands afterwards, continue the run bit for bit, with the same outcome. Nothing else remembers what has happened
+/// in a run: handles of robots and summaries read the commands and the outcome from here. Random numbers need no state,
+/// because they depend on the step only (base/random.h), and so do the states of radio channels (radio_channel.h);
+/// sensors with memory (odometry, battery) keep it in their readings. Arrays are indexed by robot, in the world's
+/// order.
 struct State {
   SimTime time;
   std::uint64_t seed = 1;  ///< of noise and lost messages: Model::seed unless Environment::restart() was given another
@@ -35,7 +44,12 @@ struct State {
   std::vector<Outbox> outboxes;            ///< messages for the next step
   std::vector<std::uint8_t> win_requests;  ///< 1 for a robot that requests CheckWin with the next step
   std::vector<Readings> readings;
-  std::optional<std::size_t> winner;                ///< the robot that has won
+  std::optional<RobotAtStep> found;  ///< the first robot of Activity::found; of several, the first in the world's order
+  std::optional<RobotAtStep> won;    ///< the robot that has won
+  std::optional<std::uint64_t> all_halted_step;  ///< the first at whose end haveAllHalted()
+  /// Number of times that a robot was placed elsewhere than its motion led (Environment::place()) so far. The entry of
+  /// an absent robot at its start does not count.
+  std::uint64_t placements = 0;
   std::uint64_t stalls = 0;                         ///< number of robot-steps so far that were clipped or refused
   std::uint64_t messages_delivered = 0;             ///< a broadcast counts for each receiver
   std::uint64_t messages_dropped = 0;               ///< beyond a robot's limits (InboxLimit, kMaxMessagesSent), so far
@@ -45,6 +59,10 @@ struct State {
   std::optional<RunDigest> digest;
 
   bool isAbsent(std::size_t robot) const { return activity[robot] == Activity::absent; }
+  /// Index of the robot that has won.
+  std::optional<std::size_t> winner() const { return won ? std::optional(won->robot) : std::nullopt; }
+  /// Whether every robot has halted or found the gold. An absent robot may still come.
+  bool haveAllHalted() const;
   bool operator==(const State&) const = default;
 };
 

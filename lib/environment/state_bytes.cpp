@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "saved states are litt
 
 /// Line ends and ^Z detect a transfer as text, as in PNG files.
 constexpr std::string_view kMagic = "RoboSim state\r\n\x1a";
-constexpr std::uint32_t kVersion = 4;  ///< since 4, an outbox may contain broadcasts
+constexpr std::uint32_t kVersion = 5;  ///< since 5, with outcome, placements and emergency stops
 constexpr std::size_t kSizeAt = 20;    ///< after magic and version
 constexpr std::size_t kHeaderBytes = 36;
 constexpr std::size_t kChecksumBytes = sizeof(std::uint64_t);
@@ -120,6 +120,7 @@ void writeRobot(const State& state, std::size_t i, StateWriter& out) {
   out.addNumber(command.laser_pan_rad);
   out.addNumber(static_cast<std::uint8_t>(command.activity));
   out.addNumber(std::uint8_t{command.by_driver});
+  out.addNumber(std::uint8_t{command.emergency_stop});
 
   out.addNumber(state.win_requests[i]);
   out.addNumber(state.outboxes[i].surplus);
@@ -166,6 +167,7 @@ void readRobot(const Model& model, std::size_t i, StateReader& in, State& state)
                   "a pan angle is not finite");
   command.activity = in.takeActivity();
   command.by_driver = in.takeFlag();
+  command.emergency_stop = in.takeFlag();
 
   state.win_requests[i] = in.takeFlag() ? 1 : 0;
   state.outboxes[i].surplus = in.takeNumber<std::uint64_t>();
@@ -233,21 +235,46 @@ void readMessages(const Model& model, StateReader& in, State& state) {
   }
 }
 
+/// Stands for a robot or a step that there is not.
+constexpr std::uint64_t kNone = ~std::uint64_t{0};
+
+void writeOutcome(const State& state, StateWriter& out) {
+  for (const auto& event : {state.found, state.won}) {
+    out.addNumber(event ? std::uint64_t{event->robot} : kNone);
+    out.addNumber(event ? event->step : kNone);
+  }
+  out.addNumber(state.all_halted_step.value_or(kNone));
+}
+
+void readOutcome(const Model& model, StateReader& in, State& state) {
+  constexpr const char* kImpossible = "the outcome is impossible";
+  for (auto* event : {&state.found, &state.won}) {
+    const auto robot = in.takeNumber<std::uint64_t>();
+    const auto step = in.takeNumber<std::uint64_t>();
+    if (robot == kNone && step == kNone) continue;
+    requireContents(robot < model.fleet.robots.size() && step <= state.time.step, kImpossible);
+    *event = RobotAtStep{static_cast<std::size_t>(robot), step};
+  }
+  if (const auto step = in.takeNumber<std::uint64_t>(); step != kNone) {
+    requireContents(step <= state.time.step, kImpossible);
+    state.all_halted_step = step;
+  }
+}
+
 State readContents(const Model& model, StateReader in) {
   State state = initialState(model);
   const std::size_t robots = model.fleet.robots.size();
   state.time.step = in.takeNumber<std::uint64_t>();
   state.seed = in.takeNumber<std::uint64_t>();
+  state.placements = in.takeNumber<std::uint64_t>();
   state.stalls = in.takeNumber<std::uint64_t>();
   state.messages_delivered = in.takeNumber<std::uint64_t>();
   state.messages_dropped = in.takeNumber<std::uint64_t>();
   readMessages(model, in, state);
-  const auto winner = in.takeNumber<std::uint64_t>();
-  requireContents(winner <= robots, "the winner is unknown");
+  readOutcome(model, in, state);
   for (std::size_t i = 0; i < robots; ++i) readRobot(model, i, in, state);
-  if (winner < robots) {
-    state.winner = static_cast<std::size_t>(winner);
-    for (auto& readings : state.readings) readings.winner = model.fleet.robots[*state.winner].info.name;
+  if (state.won) {
+    for (auto& readings : state.readings) readings.winner = model.fleet.robots[state.won->robot].info.name;
   }
   if (in.isAtEnd() && robots > 0) {
     state.digest.reset();
@@ -269,11 +296,12 @@ std::string toBytes(const Model& model, const State& state) {
   out.addNumber(digestOf(model));
   out.addNumber(state.time.step);
   out.addNumber(state.seed);
+  out.addNumber(state.placements);
   out.addNumber(state.stalls);
   out.addNumber(state.messages_delivered);
   out.addNumber(state.messages_dropped);
   writeMessages(state, out);
-  out.addNumber(std::uint64_t{state.winner.value_or(state.readings.size())});
+  writeOutcome(state, out);
   for (std::size_t i = 0; i < state.readings.size(); ++i) writeRobot(state, i, out);
   if (state.digest) state.digest->save(out.bytes);
   const std::uint64_t size = out.bytes.size() + kChecksumBytes;

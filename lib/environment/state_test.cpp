@@ -32,13 +32,13 @@ TEST(State, ContinuesBitForBitFromARandomStepOfARandomRun) {
     environment.setCommand(3, {.speed_mps = 0.3});
     const State saved = environment.state();
     const std::string bytes = toBytes(*environment.model(), saved);
-    steps_after_a_win += saved.winner ? 1 : 0;
+    steps_after_a_win += saved.won ? 1 : 0;
 
     for (std::uint32_t i = saved_at; i < kSteps; ++i) run.step();
     const State end = environment.state();
     stalls += end.stalls;
     messages += end.messages_delivered;
-    wins += end.winner ? 1 : 0;
+    wins += end.won ? 1 : 0;
 
     const auto expect_same_end = [&](Environment& other, const char* how) {
       for (std::uint32_t i = saved_at; i < kSteps; ++i) run.step(other);
@@ -166,6 +166,7 @@ TEST(State, DiffersInEachOfItsParts) {
       [](State& s) { s.activity[1] = Activity::found; },
       [](State& s) { s.laser_pan_rad[1] += 1; },
       [](State& s) { s.commands[1].by_driver = !s.commands[1].by_driver; },
+      [](State& s) { s.commands[1].emergency_stop = !s.commands[1].emergency_stop; },
       [](State& s) {
         s.outboxes[1].messages.push_back({0, "x"});
       },
@@ -178,7 +179,14 @@ TEST(State, DiffersInEachOfItsParts) {
         s.readings[1].inbox.push_back({"r0", "r1", "x"});
       },
       [](State& s) { std::get<Echoes>(s.readings[1].measurements[0])[0].range_m += 1; },
-      [](State& s) { s.winner = 1; },
+      [](State& s) {
+        s.found = {1, 1};
+      },
+      [](State& s) {
+        s.won = {1, 1};
+      },
+      [](State& s) { s.all_halted_step = 1; },
+      [](State& s) { ++s.placements; },
       [](State& s) { ++s.stalls; },
       [](State& s) { ++s.messages_delivered; },
       [](State& s) { ++s.messages_dropped; },

@@ -33,7 +33,7 @@ TEST(Winning, CheckWinWithinTheWinDistanceWinsAndHaltsAll) {
   environment->setCommand(0, {.speed_mps = 1});
   environment->checkWin(1);
   environment->step();
-  EXPECT_EQ(environment->state().winner, 1u);
+  EXPECT_EQ(environment->state().winner(), 1u);
   for (const auto& readings : environment->state().readings)
     EXPECT_EQ(readings.winner, "b") << "all robots are informed";
   EXPECT_EQ(environment->state().activity, (Activities{Activity::halted, Activity::found}));
@@ -43,7 +43,7 @@ TEST(Winning, CheckWinWithinTheWinDistanceWinsAndHaltsAll) {
   environment->setCommand(0, {.speed_mps = 1});
   environment->step();
   EXPECT_EQ(environment->state().world_from_robot[0].x, x) << "a halted robot stays halted";
-  EXPECT_EQ(environment->state().winner, 1u);
+  EXPECT_EQ(environment->state().winner(), 1u);
 }
 
 TEST(Winning, DoesNotChangeTheCommandsOfTheStepInWhichItIsDecided) {
@@ -55,7 +55,7 @@ TEST(Winning, DoesNotChangeTheCommandsOfTheStepInWhichItIsDecided) {
   for (const std::size_t robot : {0, 1}) environment->setCommand(robot, {.turn_radps = 0.5});
   environment->checkWin(1);
   environment->step();
-  ASSERT_EQ(environment->state().winner, 1u);
+  ASSERT_EQ(environment->state().winner(), 1u);
   for (const auto& command : environment->state().commands) EXPECT_EQ(command.activity, Activity::active);
   EXPECT_NE(environment->state().turn_radps[0], 0);
 
@@ -84,7 +84,7 @@ TEST(Winning, RequiresCheckWin) {
   contest.robot("a", 0.5);
   const auto environment = contest.start();
   environment->step();
-  EXPECT_EQ(environment->state().winner, std::nullopt);
+  EXPECT_EQ(environment->state().winner(), std::nullopt);
 }
 
 TEST(Winning, UsesThePoseAfterTheStep) {
@@ -94,7 +94,7 @@ TEST(Winning, UsesThePoseAfterTheStep) {
   environment->setCommand(0, {.speed_mps = 1});
   environment->checkWin(0);
   environment->step();
-  EXPECT_EQ(environment->state().winner, 0u);
+  EXPECT_EQ(environment->state().winner(), 0u);
 }
 
 TEST(Winning, NearestOfSeveralWins) {
@@ -126,7 +126,7 @@ TEST(Winning, MeasuresToTheOutlineOfEveryHotObject) {
   const auto environment = contest.start();
   environment->checkWin(0);
   environment->step();
-  EXPECT_EQ(environment->state().winner, 0u);
+  EXPECT_EQ(environment->state().winner(), 0u);
 }
 
 TEST(Winning, IsImpossibleWithoutGold) {
@@ -136,7 +136,7 @@ TEST(Winning, IsImpossibleWithoutGold) {
   const auto environment = contest.start();
   environment->checkWin(0);
   environment->step();
-  EXPECT_EQ(environment->state().winner, std::nullopt);
+  EXPECT_EQ(environment->state().winner(), std::nullopt);
   EXPECT_TRUE(environment->state().readings[0].is_too_far);
 }
 

@@ -25,6 +25,9 @@ class Hardware {
   virtual const Readings& readings() const = 0;
   /// Sets the command for the next time step. The last command before a step is used, and kept until the next one.
   virtual void command(const Command&) = 0;
+  /// The command for the next time step: the last one of command(), or the initial one. The hardware is its only owner,
+  /// so that a controller whose robot is restored to another state continues from the command of that state.
+  virtual const Command& lastCommand() const = 0;
   /// Sends a message to another robot.
   /// @throws std::invalid_argument when there is no robot named `to`, or the text is longer than
   /// kMaxMessageBytes.

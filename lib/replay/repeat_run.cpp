@@ -105,6 +105,7 @@ class RunAgain {
     while (now) {
       if (interrupt.isRequested()) throw Interrupted("interrupted; no result");
       if (const auto difference = firstDifference(*now)) {
+        refusePlacements();
         const SimTime time = run_.environment().time();
         verdict_ << "Not the same run. It first differs in step " << time.step << " (" << fixed(time.seconds(), 3)
                  << " s): " << printableText(*difference) << '\n';
@@ -249,7 +250,21 @@ class RunAgain {
   /// Number of steps of the run so far, as its summary states it; the recording also contains the start.
   std::string stepsTaken() const { return withCommas(run_.environment().time().step) + " steps"; }
 
-  bool sameDigest() const {
+  /// Explains a difference by placements, which recordings do not contain. Reads the recording to its end, where its
+  /// outcome is. @throws ConfigError if there were any
+  void refusePlacements() {
+    while (recorded_.next()) {
+    }
+    const auto note = RunNote::parse(recorded_.note());
+    const auto placements =
+        note && note->outcome.is_object() ? note->outcome.value("placements", std::uint64_t{0}) : std::uint64_t{0};
+    if (placements == 0) return;
+    throw ConfigError("during the run, robots were placed elsewhere " + withCommas(placements) +
+                      " times, as by SIM_SET_POSE or SIM_RESET of an ARCOS program; the recording does not contain " +
+                      "where, so that the run cannot be repeated: record a run without placements");
+  }
+
+  bool sameDigest() {
     const auto note = RunNote::parse(recorded_.note());
     const std::string recorded = note && note->outcome.is_object() ? note->outcome.value("digest", "") : "";
     const std::string now = run_.environment().digest();
@@ -258,6 +273,7 @@ class RunAgain {
       return true;
     }
     if (recorded != now) {
+      refusePlacements();
       verdict_ << "Every reading is the same, but not the digest: recorded " << recorded << ", now " << now << '\n';
       return false;
     }

@@ -1,7 +1,6 @@
 #include "run/local_run.h"
 
 #include <algorithm>
-#include <cstring>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -168,7 +167,6 @@ LocalRun::LocalRun(ForkOf original)
       environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
                    images_.get()),
       workers_(options_.environment.threads),
-      gold_(original.run.gold_),
       observers_(RunObservers::Fork{original.run.observers_}) {
   const auto& robots = environment_.fleet().robots;
   auto local = original.run.local_robots_.begin();  // in the world's order
@@ -181,8 +179,7 @@ LocalRun::LocalRun(ForkOf original)
     }
     const std::string& controller_name = (*local)->controller_name;
     auto controller = cloneOf(*(*local)->controller, controller_name, name);
-    local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller),
-                                                         (*local)->robot.command()));
+    local_robots_.push_back(std::make_unique<LocalRobot>(environment_, i, controller_name, std::move(controller)));
     local_robots_.back()->breakdown_s = (*local)->breakdown_s;
     ++local;
   }
@@ -212,7 +209,7 @@ bool LocalRun::hasDrawnRandomNumbers() const {
 void LocalRun::step() {
   decide();
   environment_.step();
-  noteOutcome();
+  observe();
 }
 
 void LocalRun::decide() {
@@ -231,25 +228,23 @@ void LocalRun::decide() {
   });
 }
 
-void LocalRun::noteOutcome() {
+void LocalRun::observe() { observers_.observe(environment_); }
+
+GoldOutcome LocalRun::gold() const {
   const State& state = environment_.state();
-  if (!gold_.found_s) {
-    static_assert(sizeof(Activity) == 1);
-    const Activity* const begin = state.activity.data();
-    const void* const found =
-        begin ? std::memchr(begin, static_cast<int>(Activity::found), state.activity.size()) : nullptr;
-    if (found) {
-      const auto robot = static_cast<std::size_t>(static_cast<const Activity*>(found) - begin);
-      gold_.found_by = environment_.fleet().robots[robot].info.name;
-      gold_.found_s = state.time.seconds();
-    }
+  const auto name_of = [&](std::size_t robot) { return environment_.fleet().robots[robot].info.name; };
+  const auto seconds_of = [&](std::uint64_t step) { return SimTime{step, state.time.period_s}.seconds(); };
+  GoldOutcome gold;
+  if (state.found) {
+    gold.found_by = name_of(state.found->robot);
+    gold.found_s = seconds_of(state.found->step);
   }
-  if (state.winner && !gold_.won_by) {
-    gold_.won_by = environment_.fleet().robots[*state.winner].info.name;
-    gold_.won_s = state.time.seconds();
+  if (state.won) {
+    gold.won_by = name_of(state.won->robot);
+    gold.won_s = seconds_of(state.won->step);
   }
-  if (!gold_.all_halted_s && environment_.allHalted()) gold_.all_halted_s = state.time.seconds();
-  observers_.observe(environment_);
+  if (state.all_halted_step) gold.all_halted_s = seconds_of(*state.all_halted_step);
+  return gold;
 }
 
 }  // namespace robosim

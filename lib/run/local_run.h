@@ -107,15 +107,15 @@ class LocalRun {
   /// @name Phases of step(), for callers that step the environment themselves
   ///@{
   void decide();
-  void noteOutcome();  ///< after the step; also calls the observers
+  void observe();  ///< calls the observers, after the step
   ///@}
 
   Environment& environment() { return environment_; }
   const Environment& environment() const { return environment_; }
-  const GoldOutcome& gold() const { return gold_; }
+  GoldOutcome gold() const;  ///< that of the State
   const RunObservers& observers() const { return observers_; }
   /// Whether the run has reached an end of its own: all robots have halted, or an observer ends it.
-  bool isOver() const { return gold_.all_halted_s.has_value() || observers_.end(); }
+  bool isOver() const { return environment_.state().all_halted_step || observers_.end(); }
   /// Whether another seed would give another run: some sensor is noisy, messages are lost, or a controller has drawn a
   /// random number. Assumed for robots driven by another process.
   bool dependsOnSeed() const;
@@ -132,9 +132,8 @@ class LocalRun {
     std::string controller_name;  ///< as TypeChoice::text()
     std::unique_ptr<Controller> controller;
     double breakdown_s = std::numeric_limits<double>::infinity();  ///< simulated time
-    LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c,
-               const Command& last = {})
-        : hardware(environment, i), robot(hardware, last), controller_name(std::move(name)), controller(std::move(c)) {}
+    LocalRobot(Environment& environment, std::size_t i, std::string name, std::unique_ptr<Controller> c)
+        : hardware(environment, i), robot(hardware), controller_name(std::move(name)), controller(std::move(c)) {}
   };
   struct ForkOf {
     const LocalRun& run;
@@ -148,7 +147,6 @@ class LocalRun {
   Environment environment_;
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware
-  GoldOutcome gold_;
   std::optional<bool> has_drawn_elsewhere_;
   RunObservers observers_;
 };

@@ -123,6 +123,7 @@ RunSummary RunSummary::of(const LocalRun& run) {
   summary.messages_sent = messagesSent(state);
   summary.messages_dropped = state.messages_dropped;
   summary.messages_lost = state.messages_lost;
+  summary.placements = state.placements;
   summary.metrics = run.observers().metrics();
   summary.observer_end = run.observers().end();
   return summary;
@@ -154,6 +155,7 @@ nlohmann::ordered_json RunSummary::json() const {
           {"messages_sent", messages_sent},
           {"messages_dropped", messages_dropped},
           {"messages_lost", lossesJson(messages_lost)},
+          {"placements", placements},
           {"late", orNull(late)},
           {"metrics", metricsJson(metrics)},
           {"clients", report ? clientsJson(*report) : nlohmann::ordered_json(nullptr)}};
@@ -174,6 +176,10 @@ std::string RunSummary::text() const {
   rows.push_back({"digest", digest});
   for (auto& row : metricRows(metrics)) rows.push_back(std::move(row));
   std::string sentence = sentenceOn(gold, ended_by, observer_end);
+  if (placements > 0) {
+    sentence += "; not reproducible: robots were placed elsewhere " + withCommas(placements) +
+                (placements == 1 ? " time" : " times");
+  }
   if (report) {
     addClients(*report, rows);
     if (!report->hasAllRobots()) sentence += "; INCOMPLETE: steps were taken without some robots, or messages lost";

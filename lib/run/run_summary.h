@@ -48,6 +48,7 @@ struct RunSummary {
   std::uint64_t messages_sent = 0;     ///< including those on their way
   std::uint64_t messages_dropped = 0;  ///< beyond a robot's limits on messages in a step
   MessageLosses messages_lost;
+  std::uint64_t placements = 0;             ///< State::placements
   std::optional<std::uint64_t> late;        ///< robot-steps whose command came too late; nullopt for a lockstep run
   std::optional<RunReport> report;          ///< of a served run
   std::vector<Metric> metrics;              ///< of the observers

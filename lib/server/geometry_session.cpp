@@ -212,7 +212,7 @@ void GeometrySession::step(Environment& environment) {
   }
   const std::size_t shares = workers.size() + 1;
   for (std::size_t k = 0; k < workers.size(); ++k) workers[k]->share = {n * (k + 1) / shares, n * (k + 2) / shares};
-  if (std::exchange(placements_, environment.placements()) != environment.placements()) {
+  if (std::exchange(pose_changes_, environment.poseChanges()) != environment.poseChanges()) {
     for (const auto& stream : streams_) stream->needs_state = true;
   }
   internal::ReplicaState state;

@@ -55,7 +55,7 @@ class GeometrySession final : public internal::Geometry::WithRawMethod_Work<inte
   std::uint64_t workers_so_far_ = 0;       ///< for Stream::number
   RunReport report_;                       ///< of the current run
   std::vector<Command> replica_commands_;  ///< by robot: the last command sent to the replicas
-  std::uint64_t placements_ = 0;           ///< Environment::placements() that the replicas know
+  std::uint64_t pose_changes_ = 0;         ///< Environment::poseChanges() that the replicas know
 };
 
 }  // namespace robosim

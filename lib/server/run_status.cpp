@@ -48,7 +48,7 @@ void describeRun(const ServedRun& run, v1::RunStatus& status) {
   status.set_recording(recordingStateOf(recording.state));
   status.set_recording_file(recording.file);
   status.set_recording_failure(recording.failure);
-  if (state.winner) status.set_winner(run_info.robot_names[*state.winner]);
+  if (state.winner()) status.set_winner(run_info.robot_names[*state.winner()]);
 }
 
 void describeReport(const RunReport& report, v1::RunStatus& status) {

@@ -109,7 +109,7 @@ void ViewerSession::send(Stream& stream) {
   }
   frame.set_step(state.time.step);
   frame.set_time_s(state.time.seconds());
-  if (state.winner) frame.set_winner(run_info.robot_names[*state.winner]);
+  if (state.winner()) frame.set_winner(run_info.robot_names[*state.winner()]);
   if (stream.needs_world) {
     stream.sent_steps.assign(run_info.robot_names.size(), std::nullopt);
     stream.sent_pictures.clear();

@@ -1,5 +1,6 @@
 """Simulations in Python: steps, arrays, commands, messages, saved states, and misuse."""
 import gc
+import gzip
 import os
 import signal
 import subprocess
@@ -165,6 +166,43 @@ class SavedStateTest(unittest.TestCase):
         self.assertEqual(simulation.step_count, 10)
         simulation.step(10)
         self.assertEqual(simulation.digest, digest)
+
+    def test_a_robot_that_has_halted_meanwhile_obeys_again(self):
+        simulation = driven()
+        robot = simulation.robot("R1")
+        robot.drive(0.3, 0.1)
+        simulation.step(5)
+        state = simulation.save()
+        simulation.step(5)
+        digest = simulation.digest
+        simulation.restore(state)
+        robot.halt()
+        simulation.step(5)
+        self.assertNotEqual(simulation.digest, digest)
+        simulation.restore(state)
+        simulation.step(5)
+        self.assertEqual(simulation.digest, digest)
+        robot.drive(0, 0.5)
+        self.assertEqual(simulation.commands[0].tolist(), [0, 0.5])
+
+    def test_a_recording_after_it_has_the_outcome_of_the_restored_run(self):
+        simulation = driven()
+        state = simulation.save()
+        for name in ("R1", "R2"):
+            simulation.robot(name).halt(found=True)
+        simulation.step()
+        self.assertTrue(simulation.all_halted)
+        simulation.restore(state)
+        self.assertFalse(simulation.all_halted)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "run.rawlog")
+            simulation.record(file)
+            simulation.step(5)
+            simulation.stop_recording()
+            with gzip.open(file) as packed:
+                recording = packed.read()
+        for unset in (rb"gold_found_by", rb"all_halted_time_s"):
+            self.assertRegex(recording, unset + rb'": *null')
 
     def test_refuses_other_bytes_and_changes_nothing(self):
         simulation = driven()

@@ -54,12 +54,12 @@ class FakeHardware : public Hardware, public RefereeLink {
   const std::vector<std::string>& robots() const override { return robot_names; }
   const Readings& readings() const override { return readings_; }
   void command(const Command& command) override { command_ = command; }
+  const Command& lastCommand() const override { return command_; }
   void send(const std::string& to, const std::string& text) override { sent.push_back({info_.name, to, text}); }
   RefereeLink* referee() override { return this; }
   BaseLink* base() override { return base_link ? &*base_link : nullptr; }
   void checkWin() override { ++win_checks; }
 
-  const Command& lastCommand() const { return command_; }
   Readings& mutableReadings() { return readings_; }
   RobotInfo& mutableInfo() { return info_; }
   const Odometry& odometry() const { return std::get<Odometry>(readings_.measurements[0]); }

@@ -9,7 +9,7 @@ namespace {
 
 constexpr const char* kProbe = R"(<robot name="probe" help="Has every kind of sensor.">
   <body radius_m="0.2" height_m="0.3"/>
-  <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" turn_max_degps="100" turn_accel_degps2="200"/>
+  <limits speed_max_mps="1" accel_mps2="1" decel_mps2="2" emergency_decel_mps2="3" turn_max_degps="100" turn_accel_degps2="200"/>
   <sensors>
     <sonar range_max_m="3" beam_width_deg="20" noise="polaroid">
       <noise dropout="0.05" ringing="0.05" crosstalk="0.1" robot_crosstalk="0.2"/>
@@ -109,6 +109,7 @@ void ProbeRun::prepare(Environment& environment) const {
                       .laser_pan_rad = static_cast<float>(rng.uniform(-2, 2))};
       if (rng.below(100) == 0) command.activity = Activity::halted;
       command.by_driver = rng.below(2) == 0;
+      command.emergency_stop = rng.below(8) == 0;
       environment.setCommand(i, command);
     }
     for (std::uint32_t k = rng.below(3); k > 0; --k) {
