@@ -221,7 +221,7 @@ TEST_F(RemoteControlRobotTest, ALaterOrderOfTheSameStepDoesNotSupersedeAStop) {
   turn.turn_radps = 1;
   robot.obey(turn);
   step();
-  EXPECT_EQ(hardware.lastCommand(), (Command{.turn_radps = 1, .by_driver = true}));
+  EXPECT_EQ(hardware.lastCommand(), (Command{.turn_radps = 1, .by_driver = true, .emergency_stop = true}));
 }
 
 TEST_F(RemoteControlRobotTest, MergesDriveOrdersOfAStep) {

@@ -62,7 +62,7 @@ LoadedWorld randomWorld(std::uint64_t seed) {
     robot.world_from_robot = {i < 2 ? -2.5 : 2.5, i % 2 == 0 ? -2.5 : 2.5, rng.uniform(-3, 3)};
     made.world.robots.push_back(robot);
   }
-  addGold(made.world, rng.uniform(-1, 1), -2.5, 0.1);
+  addGold(made.world, rng.uniform(-2, 0), -2.5, 0.1);
   ErrorList errors;
   made.fleet = buildFleet(made.world, "made.xml", robotTypesIn(robotTypeFolders("made.xml")), {}, errors);
   errors.throwIfAny();

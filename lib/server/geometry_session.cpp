@@ -103,7 +103,7 @@ void GeometrySession::reset() {
   }
   report_ = {};
   replica_commands_.assign(serving_.run_info->robot_names.size(), Command{});
-  placements_ = 0;
+  pose_changes_ = 0;
 }
 
 void GeometrySession::received(Stream& stream, const internal::WorkRequest& message) {
