@@ -17,6 +17,7 @@
 #include "environment/world_changes.h"
 #include "robots/fleet.h"
 #include "robots/robot_types.h"
+#include "robots/start_places.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/wait.h"
 
@@ -183,18 +184,44 @@ LoadedWorld officeWith(std::size_t robots) {
   return changedWorld(ROBOSIM_SOURCE_DIR "/maps/office.map", changes, {}, 1);
 }
 
+/// Robots in an open world, the first at the origin and the others as `robosim arcos -r` places them.
+LoadedWorld openWorldWith(std::size_t robots) {
+  const RobotTypes types = robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"});
+  LoadedWorld made{emptyWorld(20), {}};
+  for (std::size_t i = 0; i < robots; ++i) {
+    RobotPlacement robot;
+    robot.name = "P" + std::to_string(i + 1);
+    robot.model = "p3dx";
+    if (i > 0) robot.world_from_robot = findStartBeside(made.world, "open.xml", types, "p3dx").value();
+    made.world.robots.push_back(robot);
+  }
+  ErrorList errors;
+  made.fleet = buildFleet(made.world, "open.xml", types, {}, errors);
+  errors.throwIfAny();
+  return made;
+}
+
 // At 300 mm/s² and 100 °/s², a speed of v for a time t and the way to rest after it are v · t together; the turn comes
 // to rest within a step, before it reverses: 50° - 99° = -49°.
-TEST(ArcosServer, EndsSimpleMotionCommandsAtTheSamePlaceBesideOtherRobots) {
+void expectEndOfSimpleMotion(const mrpt::math::TPose2D& end) {
   const double turned = -49 * M_PI / 180;
-  for (const std::size_t robots : {1, 2, 3}) {
+  EXPECT_NEAR(end.x, 1.25 + 0.75 * std::cos(turned), 1e-6);
+  EXPECT_NEAR(end.y, 0.75 * std::sin(turned), 1e-6);
+  EXPECT_NEAR(end.phi, turned, 1e-6);
+}
+
+TEST(ArcosServer, EndsSimpleMotionCommandsAtTheSamePlaceBesideOtherRobots) {
+  for (const std::size_t robots : {1, 2, 4}) {
     for (std::size_t i = 0; i < robots; ++i) {
-      ServedRobots served(officeWith(robots));
-      const auto end = afterSimpleMotion(served, i);
-      EXPECT_NEAR(end.x, 1.25 + 0.75 * std::cos(turned), 1e-6) << "robot " << i << " of " << robots;
-      EXPECT_NEAR(end.y, 0.75 * std::sin(turned), 1e-6) << "robot " << i << " of " << robots;
-      EXPECT_NEAR(end.phi, turned, 1e-6);
+      SCOPED_TRACE("robot " + std::to_string(i) + " of " + std::to_string(robots));
+      ServedRobots served(openWorldWith(robots));
+      expectEndOfSimpleMotion(afterSimpleMotion(served, i));
     }
+  }
+  for (const std::size_t robots : {1, 2}) {
+    SCOPED_TRACE("of " + std::to_string(robots) + " in the office");
+    ServedRobots served(officeWith(robots));
+    expectEndOfSimpleMotion(afterSimpleMotion(served, 0));
   }
 }
 
