@@ -111,9 +111,10 @@ TEST(StartPoses, KeepTheDistanceOfTheWorld) {
     RandomStarts(room.world, room.fleet).draw(1);
     FAIL();
   } catch (const ConfigError& error) {
-    EXPECT_STREQ(error.what(),
-                 "world 'small': there is not enough space to shuffle 1 robots 4 m away from the gold; use fewer robots, a "
-                 "shorter distance or a larger world");
+    EXPECT_STREQ(
+        error.what(),
+        "world 'small': there is not enough space to shuffle 1 robots 4 m away from the gold; use fewer robots, a "
+        "shorter distance or a larger world");
   }
 }
 

@@ -19,8 +19,8 @@ namespace robosim {
 /// Dead-man timeout: the robot stops when its driver has sent no message for longer than `dead_man`; whyStopped()
 /// returns the reason. It stands until it is steered again; ALIVE does not restart it.
 ///
-/// STOP, the dead-man timeout and release() stop the robot by Command::emergency_stop until endStop(): orders before that
-/// take effect then, as after ESTOP of ARCOS.
+/// STOP, the dead-man timeout and release() stop the robot by Command::emergency_stop until endStop(): orders before
+/// that take effect then, as after ESTOP of ARCOS.
 class DriveCommandFilter {
  public:
   using Clock = std::chrono::steady_clock;

@@ -23,7 +23,8 @@ class RecordedStepsTest : public TestFolder {
     for (std::size_t step = 0; step < steps; ++step) {
       written_.push_back(readingsAt(step));
       truth_.push_back({mrpt::math::TPose2D(1, 0.1 * static_cast<double>(step), 0.25), mrpt::math::TPose2D(2, 3, -1)});
-      commands_.push_back({{0.1, 0.2, 0.5F, Activity::active, step == 3, step % 4 == 3}, {0.3, -0.4, 0, Activity::halted}});
+      commands_.push_back(
+          {{0.1, 0.2, 0.5F, Activity::active, step == 3, step % 4 == 3}, {0.3, -0.4, 0, Activity::halted}});
       writer.write(written_.back(), truth_.back(), commands_.back());
     }
     writer.close("last note");
