@@ -137,11 +137,17 @@ std::optional<TPose2D> findStartBeside(const World& world, const std::string& wo
   const Fleet others = validFleetOf(world, world_file, types);
   const FleetRobot kind = robotOfType(types, type);
   FreePlaces places(world, others, kind);
-  for (const auto& other : others.robots) {
-    const double apart_m = other.info.radius_m + kind.info.radius_m + kClearanceBeside_m;
-    for (const TPose2D& other_from_robot : {TPose2D(0, apart_m, 0), TPose2D(0, -apart_m, 0), TPose2D(-apart_m, 0, 0)}) {
-      const TPose2D start = portable::compose(other.world_from_start, other_from_robot);
-      if (places.takeAt({start.x, start.y}, kClearanceBeside_m)) return start;
+  // A robot behind another one has less room to drive.
+  for (const bool is_behind : {false, true}) {
+    for (const auto& other : others.robots) {
+      const double apart_m = other.info.radius_m + kind.info.radius_m + kClearanceBeside_m;
+      const std::vector<TPose2D> other_from_robot = is_behind
+                                                        ? std::vector{TPose2D(-apart_m, 0, 0)}
+                                                        : std::vector{TPose2D(0, apart_m, 0), TPose2D(0, -apart_m, 0)};
+      for (const TPose2D& at : other_from_robot) {
+        const TPose2D start = portable::compose(other.world_from_start, at);
+        if (places.takeAt({start.x, start.y}, kClearanceBeside_m)) return start;
+      }
     }
   }
   const TPose2D& first = others.robots.front().world_from_start;

@@ -56,10 +56,10 @@ std::optional<FoundStart> findStart(World& world, const std::string& world_file,
 /// Clearance that findStartBeside() keeps between robots [m].
 constexpr double kClearanceBeside_m = 1;
 
-/// The rule by which a robot without a place of its own joins the robots of a world: to the left of one of them, to its
-/// right or behind it, at kClearanceBeside_m and with its heading; the robots are tried in their order. Where none of
-/// these places is free: at the place nearest to the first robot with that clearance, rather beside and behind it than
-/// ahead; and where there is none, at the nearest free place.
+/// The rule by which a robot without a place of its own joins the robots of a world: to the left of one of them or to
+/// its right, else behind one, at kClearanceBeside_m and with its heading; the robots are tried in their order. Where
+/// none of these places is free: at the place nearest to the first robot with that clearance, rather beside and behind
+/// it than ahead; and where there is none, at the nearest free place.
 /// @param world has at least one robot @return nullopt when there is no room
 /// @throws ConfigError for faulty robots in the world, an unknown type, and a world too large for FreeSpace
 std::optional<mrpt::math::TPose2D> findStartBeside(const World& world, const std::string& world_file,

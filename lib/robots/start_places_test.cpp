@@ -131,9 +131,8 @@ TEST(StartPlaces, BesideRobotsAreToTheLeftToTheRightAndBehindWithAMetreBetween) 
   discs.emplace_back(0, 1.4, 0);
   expectStart(besideIn(worldWithDiscs(bounds, discs)), 0, -1.4, 0);
   discs.emplace_back(0, -1.4, 0);
-  expectStart(besideIn(worldWithDiscs(bounds, discs)), -1.4, 0, 0);
-  discs.emplace_back(-1.4, 0, 0);
-  expectStart(besideIn(worldWithDiscs(bounds, discs)), 0, 2.8, 0);  // to the left of the second one
+  expectStart(besideIn(worldWithDiscs(bounds, discs)), 0, 2.8, 0);           // to the left of the second one
+  expectStart(besideIn(worldWithDiscs({-4, 4, -2, 2}, discs)), -1.4, 0, 0);  // the row is full
 }
 
 TEST(StartPlaces, BesideRobotsDependOnTheirHeading) {

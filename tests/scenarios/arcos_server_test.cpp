@@ -75,6 +75,7 @@ class TcpProgram {
   TcpProgram(ServedRobots& served, int port) : served_(served), socket_(io_) {
     socket_.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
     socket_.non_blocking(true);
+    socket_.set_option(tcp::no_delay(true));  // a command is not held back until an earlier one is acknowledged
   }
   void send(const std::string& bytes) { boost::asio::write(socket_, boost::asio::buffer(bytes)); }
   /// Lets the server work until a packet arrives. @return an empty one when the server has closed the connection
