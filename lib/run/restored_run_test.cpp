@@ -64,7 +64,7 @@ LoadedWorld randomWorld(std::uint64_t seed) {
   }
   addGold(made.world, rng.uniform(-2, 0), -2.5, 0.1);
   ErrorList errors;
-  made.fleet = buildFleet(made.world, "made.xml", robotTypesIn(robotTypeFolders("made.xml")), {}, errors);
+  made.fleet = buildFleet(made.world, "made.xml", robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), {}, errors);
   errors.throwIfAny();
   return made;
 }
