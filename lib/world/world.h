@@ -152,7 +152,8 @@ struct World {
   Bounds2D bounds;    ///< area of the surface, within which robots start
   Communication communication;
   double win_distance_m = kWinDistance_m;  ///< maximum distance to the gold at which checkWin() succeeds
-  /// Minimum distance of random starts from the gold, between centres; nullopt: RandomStarts chooses it.
+  /// Minimum distance of random starts from the gold, from a robot's centre to the gold's outline; nullopt: that of
+  /// RandomStarts.
   std::optional<double> start_distance_m;
   std::vector<WorldObject> objects;
   std::vector<WorldMap> maps;
