@@ -11,6 +11,7 @@
 #include "control/controller_error.h"
 #include "maze/controllers.h"
 #include "run/known_world.h"
+#include "run/selected_images.h"
 
 namespace robosim {
 namespace {
@@ -36,13 +37,15 @@ ImageSourceMaker& imageSourceMaker() {
   return maker;
 }
 
-std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world) {
-  if (!hasCamera(world.fleet)) return nullptr;
+std::unique_ptr<ImageSource> imagesFor(const LoadedWorld& world, const RunOptions& options) {
+  if (!options.takes_pictures || !hasCamera(world.fleet)) return nullptr;
   if (!imageSourceMaker())
     throw ConfigError(
         "robots have cameras, but this program cannot render pictures; it must call "
         "setImageSourceMaker(makeOffscreenRenderer), of the library robosim::rendering");
-  return imageSourceMaker()(world.world, world.fleet);
+  auto images = imageSourceMaker()(world.world, world.fleet);
+  if (!options.pictures_on_request) return images;
+  return std::make_unique<SelectedImages>(std::move(images));
 }
 
 /// When a robot breaks down [simulated s].
@@ -82,13 +85,16 @@ std::unique_ptr<Controller> makeController(const std::string& choice, const Cont
   return controller;
 }
 
+bool needsPictures(const std::string& controller) {
+  const auto& needs = controllers().typeOf(controller).needs;
+  return std::any_of(needs.begin(), needs.end(),
+                     [](SensorKind kind) { return kind == SensorKind::camera || kind == SensorKind::blob_finder; });
+}
+
 bool needPictures(const Fleet& fleet, const std::string& instead, const std::vector<std::string>& observers) {
-  if (readPictures(observers)) return true;
-  return std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const FleetRobot& robot) {
-    const auto& needs = controllers().typeOf(controllerOf(robot.controller, instead)).needs;
-    return std::any_of(needs.begin(), needs.end(),
-                       [](SensorKind kind) { return kind == SensorKind::camera || kind == SensorKind::blob_finder; });
-  });
+  return readPictures(observers) || std::any_of(fleet.robots.begin(), fleet.robots.end(), [&](const FleetRobot& robot) {
+           return needsPictures(controllerOf(robot.controller, instead));
+         });
 }
 
 void setImageSourceMaker(ImageSourceMaker maker) { imageSourceMaker() = maker; }
@@ -140,7 +146,8 @@ LoadedWorld loadWorldToRun(const WorldSource& source, const std::string& instead
 
 LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vector<std::uint8_t>& elsewhere)
     : options_(options),
-      images_(options.takes_pictures ? imagesFor(world) : nullptr),
+      images_(imagesFor(world, options)),
+      selected_images_(options.pictures_on_request ? static_cast<SelectedImages*>(images_.get()) : nullptr),
       environment_(std::move(world.world), std::move(world.fleet), options.environment, images_.get()),
       workers_(options.environment.threads),
       observers_(options.observers, options.environment.seed, options.observers_log) {
@@ -158,12 +165,14 @@ LocalRun::LocalRun(LoadedWorld world, const RunOptions& options, const std::vect
         std::make_unique<LocalRobot>(environment_, i, name, makeController(name, setup, robots[i].info.name)));
     local_robots_.back()->breakdown_s = breakdownOf(i, options);
   }
+  if (readPictures(options.observers)) takePictures(std::vector<std::uint8_t>(environment_.robotCount(), 1));
   observers_.observe(environment_);
 }
 
 LocalRun::LocalRun(ForkOf original)
     : options_(original.run.options_),
       images_(original.run.images_),
+      selected_images_(original.run.selected_images_),
       environment_(original.run.environment_.model(), original.run.environment_.state(), options_.environment.threads,
                    images_.get()),
       workers_(options_.environment.threads),
@@ -204,6 +213,42 @@ bool LocalRun::dependsOnSeed() const {
 bool LocalRun::hasDrawnRandomNumbers() const {
   return std::any_of(local_robots_.begin(), local_robots_.end(),
                      [](const auto& robot) { return robot->controller->hasDrawnRandomNumbers(); });
+}
+
+void LocalRun::selectPictures(std::vector<std::uint8_t> robots) {
+  if (selected_images_) selected_images_->selected = std::move(robots);
+}
+
+void LocalRun::takePictures(const std::vector<std::uint8_t>& robots) {
+  if (!selected_images_) return;
+  std::vector<std::uint8_t>& selected = selected_images_->selected;
+  const std::size_t count = environment_.robotCount();
+  if (taken_step_ != environment_.time().step) {
+    // Step 0 is taken before anything is selected.
+    taken_ = environment_.time().step > 0 ? selected : std::vector<std::uint8_t>();
+    taken_.resize(count);
+    taken_step_ = environment_.time().step;
+  }
+  std::vector<std::uint32_t> missing;
+  for (std::size_t i = 0; i < std::min(count, robots.size()); ++i) {
+    if (robots[i] && !taken_[i]) missing.push_back(static_cast<std::uint32_t>(i));
+  }
+  if (missing.empty()) return;
+  std::vector<std::uint8_t> only(count);
+  for (const std::uint32_t robot : missing) only[robot] = taken_[robot] = 1;
+  selected.swap(only);
+  measureWithCameras(environment_, missing);
+  selected.swap(only);
+}
+
+std::vector<std::uint8_t> LocalRun::pictureReaders() const {
+  std::vector<std::uint8_t> readers(environment_.robotCount());
+  std::size_t i = 0;
+  for (const auto& local : local_robots_) {  // in the world's order
+    while (environment_.fleet().robots[i].info.name != local->robot.name()) ++i;
+    readers[i] = needsPictures(local->controller_name);
+  }
+  return readers;
 }
 
 void LocalRun::step() {

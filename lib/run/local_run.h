@@ -18,6 +18,8 @@
 
 namespace robosim {
 
+class SelectedImages;  // run/selected_images.h
+
 struct RunOptions {
   EnvironmentOptions environment;
   /// For all robots, as TypeChoice::text(); empty: as given in the world, else kDefaultController.
@@ -28,6 +30,7 @@ struct RunOptions {
   /// more [simulated s]; 0: none does.
   double breakdown_mean_s = 0;
   bool takes_pictures = true;  ///< otherwise cameras take none, which saves most of the time of a run with cameras
+  bool pictures_on_request = false;  ///< only the cameras of robots of LocalRun::selectPictures() take pictures
 };
 
 /// Controller of robots for which neither the world nor the command line gives one: the 2005 application.
@@ -53,6 +56,8 @@ std::string controllerOf(const std::string& in_world, const std::string& instead
 /// Whether a robot, of this index in the world's order, needs no controller of RoboSim.
 using DrivenElsewhere = std::function<bool(const FleetRobot&, std::size_t index)>;
 
+/// Whether a controller, given as TypeChoice::text(), requires a camera or a blob finder. @throws ConfigError
+bool needsPictures(const std::string& controller);
 /// Whether something in the run reads pictures: a controller of a world, or the one `instead` of them, that requires a
 /// camera or a blob finder, or an observer that reads them.
 /// @throws ConfigError for an unknown controller or observer
@@ -110,6 +115,17 @@ class LocalRun {
   void observe();  ///< calls the observers, after the step
   ///@}
 
+  /// @name With RunOptions::pictures_on_request
+  /// Flags by robot; initially none. Without cameras, and without this option, they have no effect.
+  ///@{
+  /// Robots whose cameras take pictures in the next step.
+  void selectPictures(std::vector<std::uint8_t> robots);
+  /// Takes the pictures of the present step of those robots for which it has not been done.
+  void takePictures(const std::vector<std::uint8_t>& robots);
+  ///@}
+  /// By robot: whether its controller in this process requires pictures.
+  std::vector<std::uint8_t> pictureReaders() const;
+
   Environment& environment() { return environment_; }
   const Environment& environment() const { return environment_; }
   GoldOutcome gold() const;  ///< that of the State
@@ -144,6 +160,10 @@ class LocalRun {
   RunOptions options_;
   /// Null without cameras; OpenGL is then not initialised. Shared with forks, because pictures depend on poses only.
   std::shared_ptr<ImageSource> images_;
+  SelectedImages* selected_images_ = nullptr;  ///< the same, with RunOptions::pictures_on_request; else null
+  /// By robot: whether the pictures of a step, with RunOptions::pictures_on_request, have been taken.
+  std::vector<std::uint8_t> taken_;
+  std::optional<std::uint64_t> taken_step_;
   Environment environment_;
   ParallelExecutor workers_;
   std::vector<std::unique_ptr<LocalRobot>> local_robots_;  ///< on the heap: each Robot refers to its LocalHardware

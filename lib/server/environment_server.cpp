@@ -55,6 +55,7 @@ struct EnvironmentServer::Impl {
   Clock::time_point due;  ///< time of the next step
   StepRate rate;
   std::uint64_t messages_dropped = 0;  ///< already logged
+  std::vector<std::uint8_t> pictured;  ///< by robot: whether a client receives its pictures
   CompletionQueueServer queue_server;
 
   Impl(const ServerOptions& options, std::shared_ptr<const RunInfo> run_info)
@@ -100,8 +101,17 @@ struct EnvironmentServer::Impl {
     geometry.reset();
   }
 
+  /// Requests the pictures that clients receive, including those that have connected since the last call.
+  void requestPictures(ServedRun& run) {
+    pictured.assign(serving.run_info->robot_names.size(), 0);
+    robots.addPictured(pictured);
+    viewers.addPictured(pictured);
+    run.requestPictures(pictured);
+  }
+
   /// Admits the clients that have connected since the last call.
-  void admit() {
+  void admit(ServedRun& run) {
+    requestPictures(run);
     robots.admit();
     geometry.admit();
     viewers.publish();
@@ -220,7 +230,7 @@ struct EnvironmentServer::Impl {
     serving.interrupted = interrupted;
     operations.set_recording = [&run](bool on) { run.setRecording(on); };
     operations.describe = [&](v1::RunStatus& status) { describe(run, status); };
-    admit();
+    admit(run);
     areRobotsConnected();  // so that a status requested first is correct
     while (awaits_next_run || !run.isOver()) {
       serving.wake_requested = false;
@@ -229,7 +239,7 @@ struct EnvironmentServer::Impl {
       if (run_control.stop) return Served::stopped;
       if (interrupted()) return Served::interrupted;
       run.poll();
-      admit();
+      admit(run);
       if (run.isOver()) {
         endOnce(run);
         serving.pollUntil(ServingState::kPollInterval, [&] { return mustAct(); });
@@ -250,6 +260,7 @@ struct EnvironmentServer::Impl {
       if (!is_time) continue;
       if (on_lost_robot != OnLostRobot::continue_ && robots.isAnyLost()) continue;  // lost during the wait
       const std::size_t late = robots.applyAnswers(run.environment());
+      requestPictures(run);
       run.decide();
       geometry.step(run.environment());
       logDroppedMessages(run.environment().state());

@@ -291,6 +291,12 @@ void RobotSession::describe(RunReport& report) const {
   for (const auto robot : attendance_.lost(activity)) report.messages_lost += inboxes_.count(robot);
 }
 
+void RobotSession::addPictured(std::vector<std::uint8_t>& robots) const {
+  for (const auto& stream : streams_) {
+    for (const std::size_t robot : stream->robots) robots[robot] = 1;
+  }
+}
+
 void RobotSession::disconnectLate() {
   const auto is_late = [&](const auto& stream) {
     return stream->owes_answer && serving_.now() - stream->since >= serving_.step_deadline;

@@ -1,7 +1,9 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/error_list.h"
 #include "environment/environment.h"
@@ -39,6 +41,9 @@ class ServedRun {
   /// Called at least every ServingState::kPollInterval, between steps, also while the run is paused: serves clients
   /// that are not the server's.
   virtual void poll() {}
+  /// Requests pictures of robots for clients, in addition to those that the run itself needs: flags by robot, until the
+  /// next call. Those of the present step are taken if they have not been. No effect by default.
+  virtual void requestPictures(const std::vector<std::uint8_t>& /*robots*/) {}
   /// Runs the environment's own controllers; called immediately before a step.
   virtual void decide() = 0;
   /// Called after each step, for example to record it. @param late number of robots whose commands were too late

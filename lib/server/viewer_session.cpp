@@ -95,6 +95,12 @@ void ViewerSession::publish() {
   }
 }
 
+void ViewerSession::addPictured(std::vector<std::uint8_t>& robots) const {
+  for (const auto& stream : streams_) {
+    for (const std::uint32_t robot : stream->selection.of) robots[robot] = 1;
+  }
+}
+
 void ViewerSession::send(Stream& stream) {
   const RunInfo& run_info = *serving_.run_info;
   const State& state = run_info.environment.state();

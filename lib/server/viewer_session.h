@@ -26,6 +26,9 @@ class ViewerSession final : public v1::Viewing::WithRawMethod_Watch<v1::Viewing:
   /// Sends the current step to the viewers with a pending request, unless they have received it with the same readings.
   void publish();
 
+  /// Sets the flags of robots whose pictures a viewer receives.
+  void addPictured(std::vector<std::uint8_t>& robots) const;
+
   std::size_t count() const { return streams_.size(); }
 
  private:

@@ -52,6 +52,11 @@ std::vector<std::uint8_t> either(std::vector<std::uint8_t> a, const std::vector<
   return a;
 }
 
+RunOptions onRequest(RunOptions options) {
+  options.pictures_on_request = true;
+  return options;
+}
+
 /// "run.rawlog" → "run_2.rawlog" for the second run; an empty name stays empty.
 std::string numbered(const std::string& file, int number) {
   if (file.empty() || number == 1) return file;
@@ -69,14 +74,25 @@ class WorldRun::OneRun {
       : arguments(std::move(of_this_run)),
         is_arcos(arcosFlags(world.fleet, options)),
         networked(networkedRobots(world.fleet, options, is_arcos)),
-        run(std::move(world), arguments.run, either(networked, is_arcos)),
+        run(std::move(world), onRequest(arguments.run), either(networked, is_arcos)),
         run_info(run.environment(), source, arguments.run.environment.seed, networked),
         outputs(arguments, run.environment(), noteOf(source, run, arguments.run, either(networked, is_arcos))) {
     if (options.arcos && options.arcos->is_factory) {
       run.environment().remove(arcosRobots());  // they enter the world with their programs
     }
+    requestPictures({});
     outputs.observe(run.environment());
     if (options.is_realtime) late = 0;
+  }
+
+  /// Selects the robots whose cameras take pictures: those of clients, and those that the run itself needs.
+  void requestPictures(std::vector<std::uint8_t> robots) {
+    robots.resize(run.environment().robotCount());
+    const RunRecording* recording = outputs.recording();
+    if ((recording && recording->isOn()) || readPictures(arguments.run.observers)) robots.assign(robots.size(), 1);
+    robots = either(std::move(robots), picture_readers);
+    run.takePictures(robots);
+    run.selectPictures(std::move(robots));
   }
 
   /// Indices of the robots that ARCOS programs drive.
@@ -110,6 +126,7 @@ class WorldRun::OneRun {
   RunInfo run_info;
   RunOutputs outputs;
   RunReport report;
+  std::vector<std::uint8_t> picture_readers = run.pictureReaders();
   std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
   bool is_finished = false;  ///< its outputs are written
@@ -165,6 +182,8 @@ void WorldRun::poll() {
   if (arcos_) arcos_->poll();
 }
 
+void WorldRun::requestPictures(const std::vector<std::uint8_t>& robots) { run_->requestPictures(robots); }
+
 void WorldRun::decide() {
   if (arcos_) arcos_->decide();
   run_->run.decide();
@@ -190,6 +209,7 @@ RecordingStatus WorldRun::recording() const {
 void WorldRun::setRecording(bool on) {
   if (on && run_->is_finished) throw ConfigError("the run is over, and cannot be recorded; load the next one");
   try {
+    if (on) run_->run.takePictures(std::vector<std::uint8_t>(environment().robotCount(), 1));  // of its first step
     run_->outputs.setRecording(on, run_->run);
   } catch (const RecordingError& error) {  // the run continues without this recording
     throw ConfigError(error.what());

@@ -30,6 +30,7 @@ class WorldRun final : public ServedRun {
   Environment& environment() override;
   std::shared_ptr<const RunInfo> runInfo() const override;  ///< keeps its run alive
   void poll() override;
+  void requestPictures(const std::vector<std::uint8_t>& robots) override;
   void decide() override;
   void stepped(std::size_t late) override;
   bool isOver() const override;

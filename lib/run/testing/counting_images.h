@@ -9,24 +9,28 @@
 namespace robosim {
 
 /// Counts the pictures of this process's runs instead of rendering them, while it exists. A picture consists of the
-/// number of its robot.
+/// number of its robot between the first and last bytes of a JPEG file.
 class CountedPictures {
  public:
-  /// @param robots number of robots of each run
-  explicit CountedPictures(std::size_t robots) {
+  /// @param robots number of robots of each run @param afterwards the maker of this process's other runs
+  explicit CountedPictures(std::size_t robots, ImageSourceMaker afterwards = nullptr) : afterwards_(afterwards) {
     counts().assign(robots, 0);
     setImageSourceMaker(
         [](const World&, const Fleet&) -> std::unique_ptr<ImageSource> { return std::make_unique<Images>(); });
   }
-  ~CountedPictures() { setImageSourceMaker(nullptr); }
+  ~CountedPictures() { setImageSourceMaker(afterwards_); }
   CountedPictures(const CountedPictures&) = delete;
   CountedPictures& operator=(const CountedPictures&) = delete;
 
   /// By robot. Not while a run takes a step.
   const std::vector<int>& taken() const { return counts(); }
-  static std::string pictureOf(std::size_t robot) { return "picture of " + std::to_string(robot); }
+  static std::string pictureOf(std::size_t robot) {
+    return "\xFF\xD8 picture of " + std::to_string(robot) + " \xFF\xD9";
+  }
 
  private:
+  ImageSourceMaker afterwards_;
+
   static std::vector<int>& counts() {
     static std::vector<int> of_robots;
     return of_robots;
