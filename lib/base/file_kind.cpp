@@ -39,9 +39,11 @@ FileKind kindOfXml(std::string_view text) {
 /// The class name with which MRPT's serialised objects begin: its length, whose highest bit is set in newer versions,
 /// and its letters. Empty for other files.
 std::string_view mrptClass(std::string_view bytes) {
+  // Versions before 2008 wrote the length in four bytes.
+  const std::size_t prefix = bytes.size() > 4 && bytes.substr(1, 3) == std::string_view("\0\0\0", 3) ? 4 : 1;
   const std::size_t length = bytes.empty() ? 0 : static_cast<unsigned char>(bytes[0]) & 0x7fu;
-  if (length < 4 || bytes.size() <= length) return {};
-  const std::string_view name = bytes.substr(1, length);
+  if (length < 4 || bytes.size() < prefix + length) return {};
+  const std::string_view name = bytes.substr(prefix, length);
   const bool is_name = std::all_of(name.begin(), name.end(),
                                    [](unsigned char c) { return std::isalnum(c) != 0 || c == ':' || c == '_'; });
   const std::size_t scope = name.rfind(':');

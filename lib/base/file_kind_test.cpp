@@ -44,6 +44,11 @@ TEST(FileKind, IsRecognisedForFilesOfOtherPrograms) {
   EXPECT_EQ(kindOfBytes("# CARMEN log\nFLASER 1 1.0\n"), FileKind::carmen_log);
   EXPECT_EQ(kindOfBytes("ODOM 0 0 0 0 0 0 1.0 host 1.0\n"), FileKind::carmen_log);
   EXPECT_EQ(kindOfBytes("SQLite format 3"), FileKind::sqlite);
+  EXPECT_EQ(kindOfBytes("\x8a"
+                        "CSimpleMap\x01"),
+            FileKind::simple_map);
+  EXPECT_EQ(kindOfBytes(std::string("\x16\0\0\0CSensFrameProbSequence\0\0\0\0", 30)), FileKind::simple_map)
+      << "before 2008";
 }
 
 TEST(FileKind, IsUnknownForAnythingElse) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/system/datetime.h>
 
 #include "recording/rawlog_reader.h"
@@ -59,6 +60,7 @@ ObservationTimes::ObservationTimes(const std::filesystem::path& rawlog)
     : counts_entries_(std::filesystem::is_regular_file(rawlog) && hasLostItsTimes(rawlog)) {}
 
 double ObservationTimes::of(const mrpt::obs::CObservation& observation, std::uint64_t entry) {
+  if (dynamic_cast<const mrpt::obs::CObservationComment*>(&observation) != nullptr) return last_s_;
   if (!first_entry_) first_entry_ = entry;
   if (counts_entries_) return static_cast<double>(entry - *first_entry_) * kUntimedStep_s;
   if (observation.timestamp == INVALID_TIMESTAMP) {

@@ -12,9 +12,10 @@ namespace robosim {
 /// timeDifference() throws for invalid ones.
 double secondsBetween(mrpt::Clock::time_point from, mrpt::Clock::time_point to);
 
-/// Computes the times of a recording's observations, in seconds since the first one. An observation without a timestamp
-/// gets the time of the previous one. Before the first timestamp of a recording, each entry adds kUntimedStep_s. So
-/// does each entry of a recording that has lost its times, as by a conversion that stamps all entries in an instant.
+/// Computes the times of a recording's observations, in seconds since the first one. A comment, which may have been
+/// added at any time, and an observation without a timestamp get the time of the previous one. Before the first
+/// timestamp of a recording, each entry adds kUntimedStep_s. So does each entry of a recording that has lost its times,
+/// as by a conversion that stamps all entries in an instant.
 ///
 /// Times may decrease or be negative: some recordings are concatenations.
 class ObservationTimes {

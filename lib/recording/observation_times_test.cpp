@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/system/datetime.h>
 
@@ -38,6 +39,17 @@ TEST(ObservationTimes, UseThePreviousTimeWithoutATimestamp) {
   times.of(madeAt(unixTime(1.2e9 + 3)), 2);
   EXPECT_DOUBLE_EQ(times.of(madeAt(INVALID_TIMESTAMP), 3), 3);
   EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9 + 4)), 4), 4);
+}
+
+TEST(ObservationTimes, AreNotRelativeToAComment) {
+  // The rawlog test_rtk_path of mrpt-common begins with a comment that was added years after the measurements.
+  mrpt::obs::CObservationComment comment;
+  comment.timestamp = unixTime(1.5e9);
+  ObservationTimes times;
+  EXPECT_EQ(times.of(comment, 1), 0);
+  EXPECT_EQ(times.of(madeAt(unixTime(1.2e9)), 2), 0);
+  EXPECT_DOUBLE_EQ(times.of(madeAt(unixTime(1.2e9 + 2)), 3), 2);
+  EXPECT_DOUBLE_EQ(times.of(comment, 4), 2);
 }
 
 TEST(ObservationTimes, CountEntriesAsStepsWithoutTimestamps) {

@@ -1,13 +1,32 @@
 #include "replay/npz_writer.h"
 
+#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <new>
 
 #include <gtest/gtest.h>
 
 #include "base/error_list.h"
 #include "base/temporary_directory.h"
+
+namespace {
+
+constexpr std::size_t kLargeAllocation = 1 << 20;
+std::atomic<int> large_allocations{0};
+
+}  // namespace
+
+// Not inline: g++ 12 would warn about free() of memory from operator new.
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  if (size >= kLargeAllocation) ++large_allocations;
+  if (void* const memory = std::malloc(size)) return memory;
+  throw std::bad_alloc();
+}
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return std::malloc(size); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace robosim {
 namespace {
@@ -37,6 +56,16 @@ assert a["empty"].tolist() == [""]
   const std::string command =
       "/usr/bin/python3 '" + (folder / "check.py").string() + "' '" + (folder / "a.npz").string() + "'";
   EXPECT_EQ(std::system(command.c_str()), 0);
+}
+
+TEST(NpzWriter, AllocatesTheMemoryOfAnArrayOnce) {
+  const TemporaryDirectory folder;
+  AtomicFile file(folder / "a.npz");
+  NpzWriter npz(file);
+  const std::vector<double> values(4 * kLargeAllocation / sizeof(double));
+  const int before = large_allocations;
+  npz.add("values", values);
+  EXPECT_EQ(large_allocations - before, 2) << "the array of 4 MiB, and the space for the compressed one";
 }
 
 TEST(NpzWriter, RefusesWhatZipCannotHold) {
