@@ -116,7 +116,7 @@ TEST(ArcosSerialLine, KeepsEveryCycleAt960BytesPerSecond) {
   options.log = [&](const std::string& line) { log += line + '\n'; };
   ArcosHardware hardware(openChannel("serial:" + relay.device() + ":9600"), std::move(options));
   EXPECT_NE(log.find("the scans of 'laser' need a line of 108300 baud"), std::string::npos) << log;
-  EXPECT_NE(log.find("not available: laser"), std::string::npos) << log;
+  EXPECT_NE(log.find("not available: CheckWin, laser"), std::string::npos) << log;
   const auto x_m = [&] { return std::get<Odometry>(hardware.readings().measurements[2]).odom_from_robot.x; };
   // Until it drives at 0.3 m/s; then each SIP adds 30 mm, of units of 0.485 mm, unless one is lost.
   double before_m = x_m();
