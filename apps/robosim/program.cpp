@@ -54,7 +54,7 @@ int execute(CLI::App& program, int argc, char** argv, const std::function<void(C
   replaceHelpSubcommand(argc, argv);
   const auto [command, unknown] = findArgumentError(program, argc, argv, add_all);
   if (!unknown.empty()) return fail(command, kBadInput, unknown);
-  const auto end = [&](int code) {
+  const auto end = [&, &command = command](int code) {  // clang 14 captures a structured binding by an initialiser only
     std::cout.flush();
     return std::cout ? code : fail(command, kRunFailed, kFullDisk);
   };
