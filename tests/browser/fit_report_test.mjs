@@ -1,8 +1,7 @@
 // The report of `robosim fit` in Chromium: the same page as that of `robosim bench gold`, in light and dark and on a phone.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -10,8 +9,7 @@ import { pathToFileURL } from 'node:url';
 
 import { openBrowser } from './browser.mjs';
 import { Program, ROBOSIM } from './program.mjs';
-
-const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+import { assertLegible, testReportPage } from './report_page.mjs';
 
 let folder, browser, page, url;
 const requests = [], problems = [];
@@ -56,24 +54,6 @@ test('background, text and histograms follow the dark theme', async () => {
   light.forEach((color, i) => assert.notEqual(color, dark[i]));
 });
 
-for (const colorScheme of ['light', 'dark']) {
-  test(`axe-core finds no violation in ${colorScheme}`, async () => {
-    await page.emulateMedia({ colorScheme });
-    await page.evaluate(AXE);
-    const violations = await page.evaluate(async () => {
-      const { violations: list } = await window.axe.run(document, { resultTypes: ['violations'] });
-      return list.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)} ${nodes[0].failureSummary}`);
-    });
-    assert.deepEqual(violations, []);
-  });
-}
+testReportPage(() => page);
 
-test('on a phone only the boxes scroll sideways, and charts keep their texts legible', async () => {
-  await page.setViewportSize({ width: 360, height: 640 });
-  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 360), 'the page scrolls sideways');
-  const size_px = await page.evaluate(() => {
-    const svg = document.querySelector('svg');
-    return 11 * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
-  });
-  assert.ok(size_px >= 9, `${size_px} px`);
-});
+test('on a phone charts keep their texts legible', () => assertLegible(page, 11));

@@ -1,8 +1,7 @@
 // The report of `robosim bench gold` in Chromium: complete without a network, sortable, accessible in light and dark.
 
 import assert from 'node:assert/strict';
-import { mkdtempSync, readFileSync, rmSync } from 'node:fs';
-import { createRequire } from 'node:module';
+import { mkdtempSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -10,8 +9,7 @@ import { pathToFileURL } from 'node:url';
 
 import { openBrowser } from './browser.mjs';
 import { Program, ROBOSIM } from './program.mjs';
-
-const AXE = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+import { assertLegible, testReportPage } from './report_page.mjs';
 
 let folder, browser, page;
 const requests = [], problems = [];
@@ -107,27 +105,8 @@ test('strategy, robots and header stay in view when a table is scrolled', async 
 
 test('charts keep their texts legible on a phone', async () => {
   await page.setViewportSize({ width: 390, height: 844 });
-  const size_px = await page.evaluate(() => {
-    const svg = document.querySelector('svg');
-    return 12 * svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
-  });
-  assert.ok(size_px >= 9, `${size_px} px`);
+  await assertLegible(page, 12);
   await page.setViewportSize({ width: 1280, height: 800 });
 });
 
-for (const colorScheme of ['light', 'dark']) {
-  test(`axe-core finds no violation in ${colorScheme}`, async () => {
-    await page.emulateMedia({ colorScheme });
-    await page.evaluate(AXE);
-    const violations = await page.evaluate(async () => {
-      const { violations: list } = await window.axe.run(document, { resultTypes: ['violations'] });
-      return list.map(({ id, nodes }) => `${id}: ${nodes[0].html.slice(0, 200)} ${nodes[0].failureSummary}`);
-    });
-    assert.deepEqual(violations, []);
-  });
-}
-
-test('on a phone nothing but tables and charts is wider than the window', async () => {
-  await page.setViewportSize({ width: 360, height: 640 });
-  assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= 360), 'the page scrolls sideways');
-});
+testReportPage(() => page);
