@@ -7,7 +7,6 @@
 #include <utility>
 
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CObservationBeaconRanges.h>
 #include <mrpt/obs/CObservationBearingRange.h>
 #include <mrpt/obs/CObservationGPS.h>
@@ -16,10 +15,10 @@
 #include <mrpt/obs/CObservationRange.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 #include <mrpt/obs/CObservationRotatingScan.h>
-#include <mrpt/obs/CObservationVelodyneScan.h>
 
 #include "hardware/neighbour_quantities.h"
 #include "recording/cone_aperture.h"
+#include "viewing/foreign_cloud.h"
 #include "world/occupancy_grid.h"
 
 namespace robosim {
@@ -29,7 +28,6 @@ using mrpt::math::TPose2D;
 using mrpt::math::TPose3D;
 using mrpt::obs::CObservation;
 using mrpt::obs::CObservation2DRangeScan;
-using mrpt::obs::CObservation3DRangeScan;
 using mrpt::obs::CObservationBeaconRanges;
 using mrpt::obs::CObservationBearingRange;
 using mrpt::obs::CObservationGasSensors;
@@ -38,12 +36,9 @@ using mrpt::obs::CObservationOdometry;
 using mrpt::obs::CObservationRange;
 using mrpt::obs::CObservationRobotPose;
 using mrpt::obs::CObservationRotatingScan;
-using mrpt::obs::CObservationVelodyneScan;
 
-/// Maximum number of points per scan; more would only slow down drawing.
-constexpr std::size_t kMaxBeams = 2000;
-/// The same for a cloud of points, and for landmarks and beacons.
-constexpr std::size_t kMaxPoints = 6000, kMaxLandmarks = 200;
+/// Maximum number of points per scan, and of landmarks and beacons; more would only slow down drawing.
+constexpr std::size_t kMaxBeams = 2000, kMaxLandmarks = 200;
 
 Echo echoOf(const TPose3D& robot_from_beam, float range_m) {
   const auto end = robot_from_beam.composePoint({range_m, 0, 0});
@@ -121,68 +116,6 @@ std::size_t beamsIn(const CObservationRotatingScan& scan) {
   return (columns + stride - 1) / stride;
 }
 
-/// Collects the points of a cloud that are finite and within reach, in the robot's frame.
-class Cloud {
- public:
-  explicit Cloud(const mrpt::poses::CPose3D& robot_from_sensor) : robot_from_sensor_(robot_from_sensor) {}
-  void add(double x_m, double y_m, double z_m) {
-    const auto at = robot_from_sensor_.composePoint({x_m, y_m, z_m});
-    const double range_m = std::hypot(x_m, y_m, z_m);
-    if (!(range_m > 0 && range_m <= kMapReach_m) || !isWithinReach(at.x, at.y, at.z)) return;
-    echoes_.push_back(
-        {static_cast<float>(range_m), {static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(at.z)}});
-  }
-  Echoes take() { return std::move(echoes_); }
-
- private:
-  mrpt::poses::CPose3D robot_from_sensor_;
-  Echoes echoes_;
-};
-
-/// Of the depth image, by the pinhole model of its camera; else the points that the observation contains.
-Echoes pointsOf(const CObservation3DRangeScan& scan) {
-  Cloud cloud(scan.sensorPose);
-  if (scan.hasRangeImage && scan.rangeImage.size() > 0) {
-    const double focal_x = scan.cameraParams.fx(), focal_y = scan.cameraParams.fy();
-    const auto pixels = static_cast<double>(scan.rangeImage.size());
-    const auto stride = static_cast<long>(std::ceil(std::sqrt(std::max(1.0, pixels / kMaxPoints))));
-    for (long row = 0; row < scan.rangeImage.rows(); row += stride) {
-      for (long column = 0; column < scan.rangeImage.cols(); column += stride) {
-        const double left = (scan.cameraParams.cx() - static_cast<double>(column)) / focal_x;
-        const double up = (scan.cameraParams.cy() - static_cast<double>(row)) / focal_y;
-        const double measured_m = scan.rangeImage(row, column) * static_cast<double>(scan.rangeUnits);
-        const double ahead_m = scan.range_is_depth ? measured_m : measured_m / std::hypot(1, left, up);
-        cloud.add(ahead_m, left * ahead_m, up * ahead_m);
-      }
-    }
-  } else if (scan.hasPoints3D) {
-    const std::size_t count = std::min({scan.points3D_x.size(), scan.points3D_y.size(), scan.points3D_z.size()});
-    for (std::size_t i = 0; i < count; i += 1 + count / kMaxPoints) {
-      cloud.add(scan.points3D_x[i], scan.points3D_y[i], scan.points3D_z[i]);
-    }
-  }
-  return cloud.take();
-}
-
-Echoes pointsOf(const CObservationVelodyneScan& scan) {
-  Cloud cloud(scan.sensorPose);
-  CObservationVelodyneScan copy(scan);
-  try {
-    if (copy.point_cloud.x.empty()) copy.generatePointCloud();
-  } catch (const std::exception&) {
-    return {};  // without its calibration, or of an unknown model
-  }
-  const auto& points = copy.point_cloud;
-  const std::size_t count = std::min({points.x.size(), points.y.size(), points.z.size()});
-  for (std::size_t i = 0; i < count; i += 1 + count / kMaxPoints) cloud.add(points.x[i], points.y[i], points.z[i]);
-  return cloud.take();
-}
-
-Echoes pointsOf(const CObservation& observation) {
-  if (const auto* scan = dynamic_cast<const CObservation3DRangeScan*>(&observation)) return pointsOf(*scan);
-  return pointsOf(dynamic_cast<const CObservationVelodyneScan&>(observation));
-}
-
 /// Horizontal ranges and bearings to landmarks, as of a sensor with neighbourQuantities().
 Values bearingsOf(const CObservationBearingRange& bearings) {
   Values values;
@@ -257,8 +190,7 @@ ObservationKind observationKind(const CObservation& observation) {
                       std::isfinite(scan->rangeResolution),
                   ObservationKind::scan);
   }
-  if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
-      dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+  if (isCloud(observation)) {
     mrpt::poses::CPose3D mount;
     observation.getSensorPose(mount);
     if (!isWithinReach(mount.asTPose(), 0)) return ObservationKind::out_of_range;
@@ -329,8 +261,7 @@ Measurement observedMeasurement(const CObservation& observation) {
   if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation)) return rangesOf(*scan).echoes;
   if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) return bearingsOf(*bearings);
   if (const auto* beacons = dynamic_cast<const CObservationBeaconRanges*>(&observation)) return beaconsOf(*beacons);
-  if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
-      dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+  if (isCloud(observation)) {
     return pointsOf(observation);
   }
   if (const auto* scan = dynamic_cast<const CObservation2DRangeScan*>(&observation)) return rangesOf(*scan).echoes;
@@ -363,8 +294,7 @@ void updateDescription(SensorInfo& sensor, const CObservation& observation) {
   } else if (const auto* rotating = dynamic_cast<const CObservationRotatingScan*>(&observation)) {
     sensor.kind = SensorKind::laser;
     update_ranges(*rotating, rotating->maxRange);
-  } else if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
-             dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+  } else if (isCloud(observation)) {
     sensor.kind = SensorKind::laser;  // without beams: a cloud of points
     sensor.range_max_m = sensor.no_echo_m = 2 * kMapReach_m;
   } else if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) {
@@ -398,8 +328,7 @@ Surroundings observedSurroundings(const CObservation& observation) {
   if (const auto* scan = dynamic_cast<const CObservationRotatingScan*>(&observation)) {
     return boxAround(rangesOf(*scan), scan->maxRange);
   }
-  if (dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
-      dynamic_cast<const CObservationVelodyneScan*>(&observation)) {
+  if (isCloud(observation)) {
     return boxAround({{}, pointsOf(observation)}, kMapReach_m);
   }
   if (const auto* bearings = dynamic_cast<const CObservationBearingRange*>(&observation)) {
