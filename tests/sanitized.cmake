@@ -12,7 +12,7 @@ endif()
 set(ROBOSIM_UNSANITIZED_MODULES geometry generation learning maze distributed calibration outputs rendering benchmark)
 # Files of tests/scenarios, without _test.cpp, that are repeated with the sanitizers.
 set(ROBOSIM_SANITIZED_SCENARIOS
-  arcos_board arcos_hardware arcos_serial arcos_server attack bad_input console_permissions control controller_parameters faults
+  arcos_board arcos_hardware arcos_programs arcos_serial arcos_server attack bad_input console_permissions control controller_parameters faults
   first_connection first_message flood foreign_recording fork geometry_worker input_files joystick load lost_robot reconnection
   requested_recording rpc_permissions run_operator soak standard_services tokens wrong_worker)
 

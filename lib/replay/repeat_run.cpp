@@ -260,7 +260,8 @@ class RunAgain {
         note && note->outcome.is_object() ? note->outcome.value("placements", std::uint64_t{0}) : std::uint64_t{0};
     if (placements == 0) return;
     throw ConfigError("during the run, robots were placed elsewhere " + withCommas(placements) +
-                      " times, as by SIM_SET_POSE or SIM_RESET of an ARCOS program; the recording does not contain " +
+                      (placements == 1 ? " time" : " times") +
+                      ", as by SIM_SET_POSE or SIM_RESET of an ARCOS program; the recording does not contain " +
                       "where, so that the run cannot be repeated: record a run without placements");
   }
 

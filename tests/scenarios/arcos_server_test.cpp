@@ -2,7 +2,6 @@
 #include "serving/arcos_server.h"
 
 #include <cmath>
-#include <numeric>
 #include <optional>
 
 #include <boost/asio.hpp>
@@ -19,6 +18,7 @@
 #include "robots/robot_types.h"
 #include "robots/start_places.h"
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/served_robots.h"
 #include "tests/scenarios/wait.h"
 
 namespace robosim {
@@ -27,110 +27,6 @@ namespace {
 namespace command = arcos::command;
 using arcos::encodeCommand;
 using boost::asio::ip::tcp;
-
-/// A world with robots of the type p3dx in a row.
-LoadedWorld rowOfRobots(int robots) {
-  LoadedWorld made{emptyWorld(20), {}};
-  const FleetRobot type = robotOfType(robotTypesIn({ROBOSIM_SOURCE_DIR "/worlds/robots"}), "p3dx");
-  for (int i = 0; i < robots; ++i) {
-    FleetRobot robot = type;
-    robot.info.name = "P" + std::to_string(i + 1);
-    robot.world_from_start = {-10.0 + 2 * i, 0, 0};
-    robot.body.world_from_body = robot.world_from_start;
-    made.fleet.robots.push_back(robot);
-  }
-  return made;
-}
-
-/// The robots of a world, served on ports that the system chooses.
-struct ServedRobots {
-  explicit ServedRobots(int robots, bool is_factory = false) : ServedRobots(rowOfRobots(robots), is_factory) {}
-  explicit ServedRobots(LoadedWorld world, bool is_factory = false) {
-    std::vector<std::size_t> indices(world.fleet.robots.size());
-    std::iota(indices.begin(), indices.end(), std::size_t{0});
-    environment = std::make_unique<Environment>(std::move(world.world), std::move(world.fleet), EnvironmentOptions{});
-    ArcosOptions options;
-    options.listen = "127.0.0.1:0";
-    options.is_factory = is_factory;
-    for (const auto i : indices) {
-      if (is_factory) environment->remove(i);
-    }
-    options.log = [this](const std::string& line) { log += line + '\n'; };
-    server = std::make_unique<ArcosServer>(options, *environment, indices);
-  }
-  void step() {
-    server->decide();
-    environment->step();
-    server->stepped();
-  }
-
-  std::string log;
-  std::unique_ptr<Environment> environment;
-  std::unique_ptr<ArcosServer> server;
-};
-
-/// A program: its socket, and the packets that it has received.
-class TcpProgram {
- public:
-  TcpProgram(ServedRobots& served, int port) : served_(served), socket_(io_) {
-    socket_.connect({boost::asio::ip::address_v4::loopback(), static_cast<std::uint16_t>(port)});
-    socket_.non_blocking(true);
-    socket_.set_option(tcp::no_delay(true));  // a command is not held back until an earlier one is acknowledged
-  }
-  void send(const std::string& bytes) { boost::asio::write(socket_, boost::asio::buffer(bytes)); }
-  /// Lets the server work until a packet arrives. @return an empty one when the server has closed the connection
-  arcos::Packet next() {
-    std::optional<arcos::Packet> packet;
-    waitUntil("a packet arrives", [&] {
-      served_.server->poll();
-      receive();
-      packet = reader_.next();
-      return packet || is_closed_;
-    });
-    return packet.value_or(arcos::Packet{});
-  }
-  bool isClosed() {
-    waitUntil("the server closes the connection", [&] {
-      served_.server->poll();
-      receive();
-      return is_closed_;
-    });
-    return is_closed_;
-  }
-  void open() {
-    for (const auto id : {command::sync0, command::sync1, command::sync2}) {
-      send(encodeCommand(id));
-      EXPECT_EQ(next().id, id);
-    }
-    send(encodeCommand(command::open, 1) + encodeCommand(command::config, 1));
-    EXPECT_EQ(next().id, arcos::packet_type::config);
-  }
-  /// The SIP of the next step.
-  arcos::Sip step() {
-    served_.step();
-    for (;;) {
-      const auto packet = next();
-      if (const auto sip = arcos::decodeSip(packet)) return *sip;
-      if (is_closed_) return {};
-    }
-  }
-  void close() { socket_.close(); }
-
- private:
-  void receive() {
-    std::array<char, 4096> bytes;
-    boost::system::error_code error;
-    const std::size_t size = socket_.read_some(boost::asio::buffer(bytes), error);
-    reader_.add({bytes.data(), size});
-    is_closed_ = error && error != boost::asio::error::would_block;
-  }
-
-  ServedRobots& served_;
-  boost::asio::io_context io_;
-  tcp::socket socket_;
-  arcos::PacketReader reader_;
-  bool is_closed_ = false;
-};
 
 TEST(ArcosServer, DrivesEachRobotByTheProgramAtItsPort) {
   ServedRobots served(2);
@@ -410,141 +306,6 @@ TEST(ArcosServer, LogsARefusalDuringAFloodOfRequests) {
   TcpProgram second(served, served.server->ports()[0]);
   EXPECT_TRUE(second.isClosed());
   EXPECT_EQ(countOf("robot P1 has a program already", served.log), 1u) << served.log;
-}
-
-TEST(ArcosPrograms, OnAMapAreRepeatedFromTheRecordingAndTheMap) {
-  const auto rawlog = emptyFolder() / "run.rawlog";
-  StartedProgram server({"arcos", "maps/office.map", "-r", "p3dx", "-r", "p3at:Tom", "--port", "18421", "--listen",
-                         "127.0.0.1:0", "--speed", "20", "--record", rawlog.string()});
-  server.waitForError("robot Tom (p3at) for ARCOS programs on 127.0.0.1:18422");
-  StartedProgram robot({"robot", "--arcos", "tcp:127.0.0.1:18422", "--controller", "wander"});
-  robot.waitForError("connected to MobileSim (p3at)");
-  robot.interrupt();
-  EXPECT_EQ(robot.wait().exit_code, 0);
-  server.interrupt();
-  EXPECT_EQ(server.wait().exit_code, 0);
-  const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
-  EXPECT_EQ(check.exit_code, 0) << check.err;
-  EXPECT_TRUE(check.out.starts_with("The same run: ")) << check.out;
-}
-
-TEST(ArcosPrograms, DriveARobotOfAServedMapByAControllerOverItsPort) {
-  const auto folder = emptyFolder();
-  StartedProgram server({"arcos", "maps/office.map", "--port", "18411", "--listen", "127.0.0.1:0"});
-  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18411");
-  StartedProgram robot({"robot", "--arcos", "tcp:127.0.0.1:18411", "--controller", "wander", "--record",
-                        (folder / "run.rawlog").string(), "--arcos-log", (folder / "arcos.log").string()});
-  robot.waitForError("connected to MobileSim (p3dx)");
-  waitUntil("some cycles are logged", [&] { return textOf(folder / "arcos.log").size() > 50000; });
-  robot.interrupt();
-  const Ended ended = robot.wait();
-  EXPECT_EQ(ended.exit_code, 0) << ended.err;
-  EXPECT_NE(ended.out.find("drove for "), std::string::npos);
-  server.interrupt();
-  EXPECT_EQ(server.wait().exit_code, 0);
-  // The recording ends with the standing robot: the last column is the turn rate, recorded as 1e-06 at
-  // rest, the one before the speed.
-  const Ended odometry =
-      runProgram("replay --print --csv --robot robot --sensor odometry " + quoted(folder / "run.rawlog"));
-  EXPECT_EQ(odometry.exit_code, 0) << odometry.err;
-  EXPECT_TRUE(odometry.out.ends_with(",0,1e-06\n")) << odometry.out.substr(odometry.out.size() - 200);
-  const Ended replay = runProgram("robot --arcos replay:" + quoted(folder / "arcos.log") + " --controller wander");
-  EXPECT_EQ(replay.exit_code, 0) << replay.err;
-  // The log also has the cycles in which the robot came to rest at the end.
-  const auto cycles = [](const std::string& text) { return std::stoi(text.substr(std::string("drove for ").size())); };
-  EXPECT_GE(cycles(replay.out), cycles(ended.out));
-}
-
-TEST(ArcosPrograms, GetRobotsOfTheirOwnInARunThatCanBeRepeated) {
-  const auto folder = emptyFolder();
-  const std::string recording = (folder / "run.rawlog").string();
-  StartedProgram server({"arcos", "maps/office.map", "-R", "p3dx:3", "--port", "18413", "--listen", "127.0.0.1:0",
-                         "--record", recording});
-  server.waitForError("up to 3 robots, one for each ARCOS program on 127.0.0.1:18413");
-  const auto start = [&](const std::string& name) {
-    auto robot = std::make_unique<StartedProgram>(std::vector<std::string>{
-        "robot", "--arcos", "tcp:127.0.0.1:18413", "--controller", "wander", "--arcos-log", (folder / name).string()});
-    robot->waitForError("connected to MobileSim (p3dx)");
-    return robot;
-  };
-  const auto end = [&](StartedProgram& robot, const std::string& name) {
-    waitUntil("some cycles are logged", [&] { return textOf(folder / name).size() > 10000; });
-    robot.interrupt();
-    EXPECT_EQ(robot.wait().exit_code, 0);
-  };
-  const auto first = start("first"), second = start("second");
-  end(*first, "first");
-  server.waitForError(": disconnected");
-  const auto third = start("third");
-  end(*third, "third");
-  end(*second, "second");
-  server.interrupt();
-  EXPECT_EQ(server.wait().exit_code, 0);
-  const Ended check = runProgram("replay " + quoted(folder / "run.rawlog") + " --observer coverage");
-  EXPECT_EQ(check.exit_code, 0) << check.out << check.err;
-  EXPECT_NE(check.out.find("The same run"), std::string::npos) << check.out;
-}
-
-// The program drives 0.2 m and is placed back at its start, which the recording does not contain.
-TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatCannotBeRepeatedAndIsRefused) {
-  const auto rawlog = emptyFolder() / "run.rawlog";
-  StartedProgram server({"arcos", "maps/office.map", "--port", "18431", "--listen", "127.0.0.1:0", "--speed", "5",
-                         "--record", rawlog.string()});
-  server.waitForError("robot Robot1 (p3dx) for ARCOS programs on 127.0.0.1:18431");
-  boost::asio::io_context io;
-  tcp::socket socket(io);
-  socket.connect({boost::asio::ip::address_v4::loopback(), 18431});
-  arcos::PacketReader reader;
-  const auto send = [&](const std::string& bytes) { boost::asio::write(socket, boost::asio::buffer(bytes)); };
-  const auto next = [&] {
-    for (;;) {
-      if (auto packet = reader.next()) return *packet;
-      std::array<char, 4096> bytes;
-      reader.add({bytes.data(), socket.read_some(boost::asio::buffer(bytes))});
-    }
-  };
-  for (const auto id : {command::sync0, command::sync1, command::sync2}) {
-    send(encodeCommand(id));
-    next();
-  }
-  send(encodeCommand(command::open, 1) + encodeCommand(command::vel, 200));
-  for (std::optional<arcos::Sip> sip; !sip || sip->x < 400;) sip = arcos::decodeSip(next());  // units of 0.485 mm
-  send(arcos::encode(command::sim_reset) + encodeCommand(command::stop));
-  for (std::optional<arcos::Sip> sip; !sip || sip->is_moving;) sip = arcos::decodeSip(next());
-  socket.close();
-  server.interrupt();
-  const Ended ended = server.wait();
-  EXPECT_NE(ended.out.find("not reproducible: robots were placed elsewhere 1 time"), std::string::npos) << ended.out;
-  const Ended check = runProgram("replay --check maps/office.map " + quoted(rawlog));
-  EXPECT_EQ(check.exit_code, 1) << check.out;
-  EXPECT_NE(
-      check.err.find("during the run, robots were placed elsewhere 1 times, as by SIM_SET_POSE or SIM_RESET of an "
-                     "ARCOS program; the recording does not contain where, so that the run cannot be repeated"),
-      std::string::npos)
-      << check.err;
-  EXPECT_EQ(check.out.find("Not the same run"), std::string::npos) << check.out;
-  const Ended summary = runProgram("replay " + quoted(rawlog));
-  EXPECT_NE(summary.out.find("not reproducible: robots were placed elsewhere"), std::string::npos) << summary.out;
-}
-
-TEST(ArcosPrograms, ExplainWrongArguments) {
-  const auto error_of = [](const std::string& arguments) { return runProgram(arguments).err; };
-  const auto contains = [](const std::string& text, const std::string& part) {
-    EXPECT_NE(text.find(part), std::string::npos) << text;
-  };
-  contains(error_of("serve worlds/open_house.xml --arcos 0.0.0.0:18412"), "ARCOS has neither passwords nor encryption");
-  contains(error_of("serve worlds/open_house.xml --arcos 18412 --pace lockstep"), "--arcos needs --pace realtime");
-  contains(error_of("serve worlds/open_house.xml --arcos-factory p3dx"),
-           "--arcos-factory: has no effect without --arcos");
-  contains(error_of("serve worlds/open_house.xml --arcos 18412 --arcos-factory p3dx:x"), "optionally with a number");
-  contains(error_of("arcos maps/office.map -r nothing"), "there is no robot type 'nothing'");
-  contains(error_of("arcos maps/office.map -r p3dx:"), "must be a robot type, optionally with a name");
-  contains(error_of("arcos maps/office.map --start x"), "in millimetres and degrees");
-  contains(error_of("arcos maps/office.map -R p3dx --start 1,2"), "--start is for the first robot of -r");
-  contains(error_of("serve worlds/open_house.xml --arcos 18412 --step 0.04"), "--step must divide the cycle of ARCOS");
-  contains(error_of("robot --arcos tcp:127.0.0.1:1"), "--arcos needs --controller");
-  contains(error_of("robot --arcos tcp:127.0.0.1:1 --controller wander"), "Connection refused");
-  contains(error_of("robot"), "NAME is required");
 }
 
 }  // namespace
