@@ -10,6 +10,7 @@
 #include "control/controller_error.h"
 #include "net/host_port.h"
 #include "recording/recording_error.h"
+#include "robots/fleet.h"
 #include "robots/world_source.h"
 #include "run/local_run.h"
 #include "server/run_info.h"
@@ -87,9 +88,10 @@ class WorldRun::OneRun {
 
   /// Selects the robots whose cameras take pictures: those of clients, and those that the run itself needs.
   void requestPictures(std::vector<std::uint8_t> robots) {
+    if (!has_cameras) return;
     robots.resize(run.environment().robotCount());
     const RunRecording* recording = outputs.recording();
-    if ((recording && recording->isOn()) || readPictures(arguments.run.observers)) robots.assign(robots.size(), 1);
+    if ((recording && recording->isOn()) || observers_read_pictures) robots.assign(robots.size(), 1);
     robots = either(std::move(robots), picture_readers);
     run.takePictures(robots);
     run.selectPictures(std::move(robots));
@@ -126,6 +128,8 @@ class WorldRun::OneRun {
   RunInfo run_info;
   RunOutputs outputs;
   RunReport report;
+  bool has_cameras = hasCamera(run.environment().fleet());
+  bool observers_read_pictures = readPictures(arguments.run.observers);
   std::vector<std::uint8_t> picture_readers = run.pictureReaders();
   std::optional<std::uint64_t> late;  ///< robot-steps whose command came too late
   std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
