@@ -1,6 +1,7 @@
 // `robosim arcos` with programs that connect to it: their runs, recordings and arguments.
 #include <array>
 #include <optional>
+#include <utility>
 
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
