@@ -260,7 +260,7 @@ void checkLayers(const ExportArguments& arguments, const std::string& figures, c
   for (const auto& layer : arguments.layers.hidden) {
     if (std::find(drawn.begin(), drawn.end(), layer) != drawn.end()) continue;
     throw ConfigError("--hide " + layer + ": " + figures + " has no " + layer +
-                      " anyway; omit it, or use robosim view" + " --offscreen");
+                      "; omit it, or use robosim view --offscreen");
   }
 }
 
