@@ -7,6 +7,7 @@
 #include "base/error_list.h"
 #include "net/file_signature.h"
 #include "net/guess_limiter.h"
+#include "net/peer_address.h"
 #include "net/private_file.h"
 #include "net/wire_error.h"
 
@@ -119,14 +120,17 @@ Access::Authenticated Access::authenticate(std::optional<std::string_view> token
   return done;
 }
 
+Access::Authenticated Access::authenticateHeader(std::optional<std::string_view> value, std::string_view peer) const {
+  if (value && value->starts_with(kTokenPrefix)) value->remove_prefix(kTokenPrefix.size());
+  return authenticate(value, peer);
+}
+
 Access::Authenticated Access::authenticate(const grpc::ServerContextBase& call) const {
   if (isOpen()) return {};
   const auto& metadata = call.client_metadata();
   const auto entry = metadata.find(kTokenKey);
   if (entry == metadata.end()) return authenticate(std::nullopt, "");
-  std::string_view token(entry->second.data(), entry->second.size());
-  if (token.substr(0, kTokenPrefix.size()) == kTokenPrefix) token.remove_prefix(kTokenPrefix.size());
-  return authenticate(token, call.peer());
+  return authenticateHeader(std::string_view(entry->second.data(), entry->second.size()), peerOf(call));
 }
 
 grpc::Status Access::check(const Identity& client, Right right, std::span<const std::string> robots) const {

@@ -65,6 +65,8 @@ class Access {
   /// @param token sent by the client; nullopt for none
   /// @param peer address of the client, as reported by gRPC or the web server
   Authenticated authenticate(std::optional<std::string_view> token, std::string_view peer) const;
+  /// The same with the value of the header `authorization`: "Bearer TOKEN".
+  Authenticated authenticateHeader(std::optional<std::string_view> value, std::string_view peer) const;
   /// The same for a call, with the token in its metadata: `authorization: Bearer TOKEN`.
   Authenticated authenticate(const grpc::ServerContextBase& call) const;
 

@@ -131,7 +131,7 @@ void CompletionQueueServer::close(Clock::duration at_most) {
     const std::lock_guard lock(wake_mutex_);
     accepts_wakes_ = false;
   }
-  for (auto& endpoint : endpoints_) endpoint.port.listener.reset();
+  for (auto& endpoint : endpoints_) endpoint.port.gate.reset();
   std::thread closing([&] {
     const auto until = std::chrono::system_clock::now() + kShutdownGracePeriod;
     for (const auto& endpoint : endpoints_) {

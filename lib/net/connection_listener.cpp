@@ -10,13 +10,10 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <poll.h>
-#include <sys/eventfd.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include "net/flood_guard.h"
 #include "net/host_port.h"
 #include "net/net_log.h"
 
@@ -24,7 +21,6 @@ namespace robosim {
 namespace {
 
 constexpr int kBacklog = 1024;
-constexpr int kPauseMs = 100;  ///< before accepting is tried again
 
 /// Raises the soft limit of descriptors (often 1,024) to the hard limit.
 /// @return the number of descriptors that connections and everything else may use
@@ -111,43 +107,18 @@ ConnectionListener::ConnectionListener(const std::string& address, const std::st
 }
 
 ConnectionListener::~ConnectionListener() {
-  if (thread_.joinable()) {
-    const std::uint64_t one = 1;
-    if (write(end_, &one, sizeof one) == sizeof one) thread_.join();
-    close(end_);
-  }
   for (const int listener : listeners_) close(listener);
 }
 
-void ConnectionListener::start(std::function<void(int, int)> take) {
-  take_ = std::move(take);
-  end_ = eventfd(0, EFD_CLOEXEC);
-  if (end_ < 0) throw std::runtime_error("cannot listen on " + address_ + ": " + std::strerror(errno));
-  thread_ = std::thread([this] { acceptAll(); });
-}
-
-void ConnectionListener::acceptAll() {
-  std::vector<pollfd> ready{{end_, POLLIN, 0}};
-  for (const int listener : listeners_) ready.push_back({listener, POLLIN, 0});
-  for (;;) {
-    poll(ready.data(), ready.size(), -1);
-    if (ready.front().revents != 0) return;
-    for (std::size_t i = 1; i < ready.size(); ++i) {
-      if (ready[i].revents != 0 && !acceptFrom(ready[i].fd)) poll(ready.data(), 1, kPauseMs);
-    }
-  }
-}
-
-/// @return false when there is a connection that cannot be accepted now
-bool ConnectionListener::acceptFrom(int listener) {
-  const int connection = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+ConnectionListener::Accepted ConnectionListener::accept(int listener, int& connection) const {
+  connection = accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
   if (connection < 0) {
+    if (errno == EAGAIN || errno == EWOULDBLOCK) return Accepted::none;
     const bool is_full = errno == EMFILE || errno == ENFILE || errno == ENOBUFS || errno == ENOMEM;
-    if (is_full) {
-      logFromNet("connections not accepted",
-                 address_ + ": cannot accept a connection now: " + std::strerror(errno) + "; trying again");
-    }
-    return !is_full;
+    if (!is_full) return Accepted::none;  // the client has left
+    logFromNet("connections not accepted",
+               address_ + ": cannot accept a connection now: " + std::strerror(errno) + "; trying again");
+    return Accepted::later;
   }
   // The system assigns the lowest free number, so a high number implies that nearly as many are in use.
   if (connection >= descriptors_ - kReservedDescriptors) {
@@ -155,16 +126,10 @@ bool ConnectionListener::acceptFrom(int listener) {
     logFromNet("connections refused", address_ + ": connection refused: the limit of " + std::to_string(descriptors_) +
                                           " descriptors is reached (ulimit -Hn; at most " +
                                           std::to_string(kMaxDescriptors) + ")");
-    return true;
-  }
-  if (!flood_guard::admit(connection)) {
-    close(connection);
-    logFromNet("connections refused", address_ + ": connection refused: its address is banned after a flood");
-    return true;
+    return Accepted::none;
   }
   setOption(connection, IPPROTO_TCP, TCP_NODELAY);
-  take_(listener, connection);
-  return true;
+  return Accepted::connection;
 }
 
 }  // namespace robosim

@@ -1,14 +1,12 @@
 #pragma once
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace robosim {
 
-/// The listening sockets of one address, and the thread that accepts their connections. gRPC 1.51's own listener stops
-/// accepting for good once the process has run out of descriptors. This class retries after a pause, and reserves
-/// descriptors for files and for the program's own connections: a connection beyond the limit is closed at once.
+/// The listening sockets of one address. gRPC 1.51's own listener stops accepting for good once the process has run out
+/// of descriptors. This class reports that case, so that its caller can try again, and reserves descriptors for files
+/// and for the program's own connections: a connection beyond the limit is closed at once.
 class ConnectionListener {
  public:
   /// Maximum number of descriptors that the process uses, for connections and everything else; lower where the system's
@@ -26,22 +24,22 @@ class ConnectionListener {
   ConnectionListener& operator=(const ConnectionListener&) = delete;
 
   int port() const { return port_; }
+  const std::string& address() const { return address_; }
+  const std::vector<int>& sockets() const { return listeners_; }
+  /// Number of descriptors that the process may use.
+  int descriptors() const { return descriptors_; }
 
-  /// Starts the accepting thread.
-  /// @param take receives the listening and the accepted socket, and owns the latter; called from that thread
-  void start(std::function<void(int listener, int connection)> take);
+  enum class Accepted { connection, none, later };
+  /// Accepts a connection of one of the sockets, without waiting.
+  /// @param connection receives a non-blocking socket
+  /// @return later when there may be a connection that cannot be accepted now
+  Accepted accept(int listener, int& connection) const;
 
  private:
-  void acceptAll();
-  bool acceptFrom(int listener);
-
   std::string address_;
   std::vector<int> listeners_;
   int port_ = 0;
-  int end_ = -1;  ///< an eventfd that stops the thread
   int descriptors_ = kMaxDescriptors;
-  std::function<void(int, int)> take_;
-  std::thread thread_;
 };
 
 }  // namespace robosim

@@ -1,8 +1,8 @@
 #include "net/flood_guard.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
+#include <cstdlib>
 #include <ctime>
 #include <map>
 #include <mutex>
@@ -12,11 +12,12 @@
 #include <utility>
 #include <vector>
 
-#include <arpa/inet.h>
+#include <fcntl.h>
 #include <linux/tcp.h>
 #include <netinet/in.h>
 #include <pthread.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include "net/net_log.h"
 
@@ -25,38 +26,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 using std::chrono::nanoseconds;
-
-struct Peer {
-  std::string host;
-  std::uint16_t port = 0;
-  bool operator==(const Peer&) const = default;
-
-  /// Whether gRPC's name of a peer matches: "ipv4:10.0.0.5:41234", "ipv6:%5Bfe80::1%5D:41234"; in 1.51 an IPv4 address
-  /// accepted by an IPv6 socket is "ipv4:".
-  bool isNamed(const std::string& peer) const {
-    const std::string mapped = "::ffff:";
-    const std::string address = host.starts_with(mapped) ? host.substr(mapped.size()) : host;
-    const std::string end = ":" + std::to_string(port);
-    return peer == "ipv4:" + address + end || peer == "ipv6:[" + address + "]" + end ||
-           peer == "ipv6:%5B" + address + "%5D" + end;
-  }
-};
-
-/// @return nullopt for a descriptor that is not a connected socket
-std::optional<Peer> peerOf(int connection) {
-  sockaddr_storage address{};
-  socklen_t size = sizeof address;
-  if (getpeername(connection, reinterpret_cast<sockaddr*>(&address), &size) != 0) return std::nullopt;
-  std::array<char, INET6_ADDRSTRLEN> text{};
-  if (address.ss_family == AF_INET6) {
-    const auto& six = reinterpret_cast<const sockaddr_in6&>(address);
-    inet_ntop(AF_INET6, &six.sin6_addr, text.data(), text.size());
-    return Peer{text.data(), ntohs(six.sin6_port)};
-  }
-  const auto& four = reinterpret_cast<const sockaddr_in&>(address);
-  inet_ntop(AF_INET, &four.sin_addr, text.data(), text.size());
-  return Peer{text.data(), ntohs(four.sin_port)};
-}
 
 struct Traffic {
   std::uint64_t received = 0;
@@ -75,10 +44,17 @@ std::optional<Traffic> trafficOf(int connection) {
 /// connection, whose counters are lower.
 std::uint64_t increase(std::uint64_t before, std::uint64_t now) { return now > before ? now - before : 0; }
 
-/// Resets a connection and discards its received data, which shutdown() would leave to be read.
-void disconnect(int connection) {
+/// Resets the connection of a peer and discards its received data, which shutdown() would leave to be read. Acts on a
+/// duplicate: another thread may close the descriptor meanwhile, which may then denote another connection.
+/// @return false when the descriptor no longer denotes that connection
+bool disconnect(int descriptor, const PeerAddress& peer) {
+  const int connection = fcntl(descriptor, F_DUPFD_CLOEXEC, 0);
+  if (connection < 0) return false;
+  const bool is_same = PeerAddress::of(connection) == peer;
   const sockaddr unspecified{AF_UNSPEC, {}};
-  connect(connection, &unspecified, sizeof unspecified);
+  if (is_same) connect(connection, &unspecified, sizeof unspecified);
+  close(connection);
+  return is_same;
 }
 
 class Guard;
@@ -114,19 +90,52 @@ class Guard {
     const std::lock_guard lock(mutex_);
     std::erase(waiters_, &waiter);
   }
-  bool admit(int connection) {
+  void admit(int connection, bool is_authorised) {
     const std::lock_guard lock(mutex_);
-    const auto peer = peerOf(connection);
-    if (!peer) return true;  // already disconnected
-    const auto now = Clock::now();
-    std::erase_if(bans_, [&](const auto& ban) { return ban.second.end <= now; });
-    if (const auto ban = bans_.find(peer->host); ban != bans_.end()) {
-      if (!hasExempt(peer->host) || now < ban->second.next_admission) return false;
-      ban->second.next_admission = now + kThrottle;
-    }
+    const auto peer = PeerAddress::of(connection);
+    if (!peer) return;                                                                     // already disconnected
     std::erase_if(connections_, [&](const auto& it) { return it.second.peer == *peer; });  // closed: its port is reused
-    connections_[connection] = {.peer = *peer};
-    return true;
+    connections_[connection] = {.peer = *peer, .is_authorised = is_authorised};
+  }
+  std::size_t unauthorised() {
+    const std::lock_guard lock(mutex_);
+    std::erase_if(connections_,
+                  [](const auto& it) { return !it.second.is_authorised && !isOpen(it.first, it.second.peer); });
+    return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(),
+                                                  [](const auto& it) { return !it.second.is_authorised; }));
+  }
+  void noteAuthorised(const std::string& peer) {
+    const std::lock_guard lock(mutex_);
+    if (const auto it = find(peer); it != connections_.end()) it->second.is_authorised = true;
+  }
+  void noteRefused(const std::string& peer) {
+    const std::lock_guard lock(mutex_);
+    const auto it = find(peer);
+    if (it == connections_.end() || it->second.is_authorised) return;
+    if (++it->second.refused_calls > kMaxRefusedCalls) disconnectFlood(it, "repeats calls that are refused");
+  }
+  void reportFlood(const PeerAddress& peer, std::string_view what) {
+    const std::lock_guard lock(mutex_);
+    ban(peer, what);
+  }
+  void raiseAlarm(const std::string& why) {
+    const std::lock_guard lock(mutex_);
+    if (Clock::now() >= alarm_end_) logFromNet("floods", why);
+    startAlarm();
+  }
+  bool isAlarmed() {
+    const std::lock_guard lock(mutex_);
+    return Clock::now() < alarm_end_;
+  }
+  bool isBanned(const std::string& network) {
+    const std::lock_guard lock(mutex_);
+    const auto found = bans_.find(network);
+    return found != bans_.end() && Clock::now() < found->second;
+  }
+  void endAlarm() {
+    const std::lock_guard lock(mutex_);
+    bans_.clear();
+    alarm_end_ = {};
   }
   void exempt(const std::string& peer) {
     const std::lock_guard lock(mutex_);
@@ -142,7 +151,9 @@ class Guard {
 
  private:
   struct Connection {
-    Peer peer;
+    PeerAddress peer;
+    bool is_authorised = false;  ///< has made an authorised call
+    int refused_calls = 0;
     std::uint64_t bytes = 0;           ///< received when the wait was first seen
     Traffic counted{};                 ///< at the last count of bytes
     std::uint64_t unanswered = 0;      ///< bytes
@@ -151,21 +162,19 @@ class Guard {
 
     bool isExempt() const { return exemptions > 0 || Clock::now() < exempt_until; }
   };
-  struct Ban {
-    Clock::time_point end;
-    Clock::time_point next_admission;  ///< from an address that has exempt connections
-  };
-
   using Connections = std::map<int, Connection>;  ///< by descriptor; may include closed ones
 
-  /// @param peer gRPC's name of it
+  static constexpr std::size_t kMaxBans = 4096;
+
+  static bool isOpen(int descriptor, const PeerAddress& peer) { return PeerAddress::of(descriptor) == peer; }
+
+  /// @param peer as returned by peerOf()
   Connections::iterator find(const std::string& peer) {
-    return std::find_if(connections_.begin(), connections_.end(),
-                        [&](const auto& it) { return it.second.peer.isNamed(peer); });
-  }
-  bool hasExempt(const std::string& host) const {
-    return std::any_of(connections_.begin(), connections_.end(),
-                       [&](const auto& it) { return it.second.peer.host == host && it.second.isExempt(); });
+    const std::string end = peer.substr(std::min(peer.rfind(':'), peer.size()));
+    const auto port = static_cast<std::uint16_t>(end.size() > 1 ? std::strtoul(end.c_str() + 1, nullptr, 10) : 0);
+    return std::find_if(connections_.begin(), connections_.end(), [&](const auto& it) {
+      return it.second.peer.port == port && it.second.peer.grpcName() == peer;
+    });
   }
 
   [[noreturn]] void watch() {
@@ -197,7 +206,7 @@ class Guard {
   }
 
   void removeClosed() {
-    std::erase_if(connections_, [](const auto& it) { return peerOf(it.first) != it.second.peer; });
+    std::erase_if(connections_, [](const auto& it) { return !isOpen(it.first, it.second.peer); });
   }
 
   void recordBytes() {
@@ -210,7 +219,7 @@ class Guard {
   void countBytes() {
     removeClosed();
     for (auto it = connections_.begin(); it != connections_.end();) {
-      const auto here = it++;  // ban() removes it
+      const auto here = it++;  // disconnectFlood() removes it
       Connection& connection = here->second;
       const auto now = trafficOf(here->first);
       if (!now) continue;
@@ -218,7 +227,7 @@ class Guard {
       connection.unanswered -= std::min(connection.unanswered, increase(connection.counted.sent, now->sent));
       connection.counted = *now;
       if (connection.isExempt()) connection.unanswered = 0;
-      if (connection.unanswered > kMaxUnansweredBytes) ban(here);
+      if (connection.unanswered > kMaxUnansweredBytes) disconnectFlood(here, kFrames);
     }
   }
 
@@ -234,33 +243,49 @@ class Guard {
       max_sent = sent;
     }
     if (busiest == connections_.end()) return false;
-    ban(busiest);
+    disconnectFlood(busiest, kFrames);
     return true;
   }
 
-  /// Disconnects, and bans or throttles the address; only removes a connection that has been closed.
-  void ban(Connections::iterator it) {
+  static constexpr std::string_view kFrames = "floods the server with HTTP/2 frames";
+
+  /// Disconnects, and bans the network; only removes a connection that has been closed.
+  void disconnectFlood(Connections::iterator it, std::string_view what) {
     const auto [descriptor, connection] = *it;
-    const Peer& peer = connection.peer;
     connections_.erase(it);
-    if (peerOf(descriptor) != peer) return;
-    disconnect(descriptor);
+    if (disconnect(descriptor, connection.peer)) ban(connection.peer, what);
+  }
+
+  void ban(const PeerAddress& peer, std::string_view what) {
+    const std::string network = peer.network();
     const auto now = Clock::now();
-    bans_[peer.host] = {now + kBan, now + kThrottle};
-    const std::string consequence = hasExempt(peer.host)
-                                        ? "at most one connection from " + peer.host + " is accepted each " +
-                                              std::to_string(kThrottle.count()) + " s for "
-                                        : "no connection from " + peer.host + " is accepted for ";
-    logFromNet("floods", peer.host + " port " + std::to_string(peer.port) +
-                             ": disconnected: it floods the server with HTTP/2 frames; " + consequence +
-                             std::to_string(kBan.count()) + " s");
+    std::erase_if(bans_, [&](const auto& ban) { return ban.second <= now; });
+    if (bans_.size() >= kMaxBans) bans_.erase(bans_.begin());
+    bans_[network] = now + kAlarm;
+    logFromNet("floods", peer.host + " port " + std::to_string(peer.port) + ": disconnected: it " + std::string(what) +
+                             "; for " + std::to_string(kAlarm.count()) +
+                             " s new connections are served after an authorised call only, those from " + network +
+                             " last");
+    startAlarm();
+  }
+
+  /// Connections without an authorised call may take part in the flood.
+  void startAlarm() {
+    const auto now = Clock::now();
+    const bool is_new = now >= std::exchange(alarm_end_, now + kAlarm);
+    if (!is_new) return;
+    std::erase_if(connections_, [](const auto& it) {
+      if (!it.second.is_authorised) disconnect(it.first, it.second.peer);
+      return !it.second.is_authorised;
+    });
   }
 
   std::mutex mutex_;
   std::vector<Waiter*> waiters_;
   Connections connections_;
-  std::map<std::string, Ban> bans_;  ///< by host
-  bool has_bytes_ = false;           ///< of the wait under examination
+  std::map<std::string, Clock::time_point> bans_;  ///< end, by network
+  Clock::time_point alarm_end_{};
+  bool has_bytes_ = false;  ///< of the wait under examination
   std::thread thread_;
 };
 
@@ -283,7 +308,15 @@ Waiter& waiterOfThisThread() {
 
 }  // namespace
 
-bool admit(int connection) { return theGuard().admit(connection); }
+void admit(int connection, bool is_authorised) { theGuard().admit(connection, is_authorised); }
+std::size_t unauthorised() { return theGuard().unauthorised(); }
+void noteAuthorised(const std::string& peer) { theGuard().noteAuthorised(peer); }
+void noteRefused(const std::string& peer) { theGuard().noteRefused(peer); }
+void reportFlood(const PeerAddress& peer, std::string_view what) { theGuard().reportFlood(peer, what); }
+void raiseAlarm(const std::string& why) { theGuard().raiseAlarm(why); }
+bool isAlarmed() { return theGuard().isAlarmed(); }
+bool isBanned(const std::string& network) { return theGuard().isBanned(network); }
+void endAlarm() { theGuard().endAlarm(); }
 
 Exemption::Exemption(std::string peer) : peer_(std::move(peer)) {
   if (!peer_.empty()) theGuard().exempt(peer_);

@@ -24,8 +24,8 @@ OpenPort openPort(const std::string& address, const PortOptions& options, const 
   const auto idle_limit_ms = static_cast<int>(options.idle_limit.count());
   grpc::EnableDefaultHealthCheckService(options.standard_services.health);
   OpenPort open;
-  open.listener = std::make_unique<ConnectionListener>(address, options.option);
-  open.number = open.listener->port();
+  auto listener = std::make_unique<ConnectionListener>(address, options.option);
+  open.number = listener->port();
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, keepalive_ms);
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, keepalive_ms);
   // Permits clients' keepalive pings at this rate; by default, gRPC would disconnect such clients.
@@ -35,22 +35,33 @@ OpenPort openPort(const std::string& address, const PortOptions& options, const 
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kCallsMost);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, idle_limit_ms);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, idle_limit_ms);
-  // Shared, because connections may be accepted while the server is being created.
-  const std::shared_ptr acceptor = builder.experimental().AddExternalConnectionAcceptor(
-      grpc::ServerBuilder::experimental_type::ExternalConnectionType::FROM_FD,
-      options.tls ? options.tls->credentials() : grpc::InsecureServerCredentials());
+  using Acceptor = grpc::experimental::ExternalConnectionAcceptor;
+  using Kind = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+  const std::shared_ptr<Acceptor> plain =
+      builder.experimental().AddExternalConnectionAcceptor(Kind::FROM_FD, grpc::InsecureServerCredentials());
+  const std::shared_ptr<Acceptor> encrypted =
+      options.tls ? builder.experimental().AddExternalConnectionAcceptor(Kind::FROM_FD, options.tls->credentials())
+                  : nullptr;
   for (auto* service : services) builder.RegisterService(service);
   open.server = builder.BuildAndStart();
   if (!open.server) {
     throw std::runtime_error("cannot serve on " + address + ": gRPC refuses " +
                              (options.tls ? "the certificate or its key" : "to start"));
   }
-  open.listener->start([acceptor](int listener, int connection) {
-    grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters accepted;
-    accepted.listener_fd = listener;
-    accepted.fd = connection;
-    acceptor->HandleNewConnection(&accepted);
-  });
+  ConnectionGate::Options rules{.access = options.access, .tls = options.tls, .opening_limit = options.idle_limit};
+  if (options.standard_services.health) rules.public_paths.emplace_back("/grpc.health.v1.Health/");
+  if (options.standard_services.reflection) rules.public_paths.emplace_back("/grpc.reflection.");
+  open.gate = std::make_unique<ConnectionGate>(
+      std::move(listener), rules, [plain, encrypted](const ConnectionGate::Admitted& admitted) {
+        Acceptor::NewConnectionParameters connection;
+        connection.listener_fd = admitted.listener;
+        connection.fd = admitted.connection;
+        if (!admitted.received.empty()) {
+          const grpc::Slice received(admitted.received);
+          connection.read_buffer = grpc::ByteBuffer(&received, 1);
+        }
+        (admitted.is_encrypted ? encrypted : plain)->HandleNewConnection(&connection);
+      });
   return open;
 }
 

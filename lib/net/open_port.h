@@ -8,7 +8,7 @@
 #include <grpcpp/grpcpp.h>
 
 #include "net/connect.h"
-#include "net/connection_listener.h"
+#include "net/connection_gate.h"
 #include "net/tls.h"
 
 namespace robosim {
@@ -16,8 +16,8 @@ namespace robosim {
 /// A server that listens at one address.
 struct OpenPort {
   std::unique_ptr<grpc::Server> server;
-  std::unique_ptr<ConnectionListener> listener;  ///< accepts the connections; destroyed first
-  int number = 0;                                ///< TCP port
+  std::unique_ptr<ConnectionGate> gate;  ///< accepts the connections; destroyed first
+  int number = 0;                        ///< TCP port
 };
 
 /// Services of gRPC itself. They answer every client, without a token, on threads of their own (doc/security.md).
@@ -33,6 +33,7 @@ struct PortOptions {
   /// Timeout for a connection's handshake (TLS, and the first frames of HTTP/2), and for a connection without calls.
   std::chrono::milliseconds idle_limit{10'000};
   StandardServices standard_services{};
+  Access access{};  ///< decides which connections are passed to gRPC; each session checks its client itself
 };
 
 /// Starts a gRPC server at an address, "host:port"; port 0 lets the system choose.

@@ -16,7 +16,7 @@ void ServerSession::onCalled(bool ok) {
   }
   startOperation();  // completed by done_
   endCallOnException([&] {
-    peer_ = context_.peer();
+    peer_ = peerOf(context_);
     since_ = host_.now();
     state_ = State::awaiting_first_message;
     host_.handshakes_.splice(host_.handshakes_.end(), host_.others_, position_);
@@ -30,6 +30,11 @@ void ServerSession::authorize() {
   host_.access.refresh();  // checkSessions() may have been called long ago
   auto [status, client] = host_.access.authenticate(context_);
   client_ = std::move(client);
+  if (!status.ok()) {
+    flood_guard::noteRefused(peer_);
+  } else if (!host_.access.isOpen()) {
+    flood_guard::noteAuthorised(peer_);
+  }
   if (status.ok()) status = permission();
   if (status.ok() && host_.is_over) status = SessionHost::runIsOver();
   if (status.ok()) status = admit();
@@ -50,6 +55,7 @@ bool ServerSession::mayReceive() {
 
 void ServerSession::establish() {
   state_ = State::established;
+  flood_guard::noteAuthorised(peer_);
   host_.others_.splice(host_.others_.end(), host_.handshakes_, position_);
 }
 

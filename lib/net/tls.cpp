@@ -1,5 +1,8 @@
 #include "net/tls.h"
 
+#include <new>
+#include <stdexcept>
+
 #include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
@@ -165,6 +168,69 @@ std::shared_ptr<grpc::ServerCredentials> TlsIdentity::credentials() const {
   grpc::SslServerCredentialsOptions options;
   options.pem_key_cert_pairs.push_back({key_pem, certificate_pem});
   return grpc::SslServerCredentials(options);
+}
+
+TlsServer::TlsServer(const TlsIdentity& identity) {
+  Owned<SSL_CTX> context(SSL_CTX_new(TLS_server_method()));
+  SSL_CTX_set_min_proto_version(context.get(), TLS1_2_VERSION);
+  SSL_CTX_set_cipher_list(context.get(), "ECDHE+AESGCM:ECDHE+CHACHA20");
+  SSL_CTX_set_options(context.get(), SSL_OP_NO_RENEGOTIATION | SSL_OP_CIPHER_SERVER_PREFERENCE);
+  SSL_CTX_set_session_cache_mode(context.get(), SSL_SESS_CACHE_OFF);
+  SSL_CTX_set_mode(context.get(),
+                   SSL_MODE_ENABLE_PARTIAL_WRITE | SSL_MODE_ACCEPT_MOVING_WRITE_BUFFER | SSL_MODE_RELEASE_BUFFERS);
+  const auto selectHttp2 = [](SSL*, const unsigned char** out, unsigned char* out_size, const unsigned char* in,
+                              unsigned in_size, void*) {
+    static constexpr unsigned char kHttp2[] = "\x02h2";
+    unsigned char* selected = nullptr;
+    const int found = SSL_select_next_proto(&selected, out_size, kHttp2, sizeof(kHttp2) - 1, in, in_size);
+    *out = selected;
+    return found == OPENSSL_NPN_NEGOTIATED ? SSL_TLSEXT_ERR_OK : SSL_TLSEXT_ERR_ALERT_FATAL;
+  };
+  SSL_CTX_set_alpn_select_cb(context.get(), selectHttp2, nullptr);
+  const Owned<BIO> chain = bioOf(identity.certificate_pem), key_pem = bioOf(identity.key_pem);
+  const Owned<EVP_PKEY> key(PEM_read_bio_PrivateKey(key_pem.get(), nullptr, noPassphrase, nullptr));
+  const Owned<X509> leaf = nextCertificate(chain.get());
+  if (!key || !leaf || SSL_CTX_use_certificate(context.get(), leaf.get()) != 1 ||
+      SSL_CTX_use_PrivateKey(context.get(), key.get()) != 1) {
+    ERR_clear_error();
+    throw std::runtime_error("OpenSSL refuses the certificate or its key; create new ones, as doc/security.md shows");
+  }
+  while (const Owned<X509> issuer = nextCertificate(chain.get())) SSL_CTX_add1_chain_cert(context.get(), issuer.get());
+  context_ = context.release();
+}
+TlsServer::~TlsServer() { SSL_CTX_free(context_); }
+
+TlsServer::Connection::Connection(const TlsServer& server, int socket) : ssl_(SSL_new(server.context_)) {
+  if (!ssl_) throw std::bad_alloc();
+  SSL_set_fd(ssl_, socket);
+  SSL_set_accept_state(ssl_);
+}
+TlsServer::Connection::~Connection() { SSL_free(ssl_); }
+
+int TlsServer::Connection::read(std::span<char> into) {
+  return judge(SSL_read(ssl_, into.data(), static_cast<int>(into.size())));
+}
+int TlsServer::Connection::write(std::string_view bytes) {
+  return bytes.empty() ? 0 : judge(SSL_write(ssl_, bytes.data(), static_cast<int>(bytes.size())));
+}
+
+int TlsServer::Connection::judge(int done) const {
+  if (done > 0) return done;
+  const int error = SSL_get_error(ssl_, done);
+  ERR_clear_error();  // the queue of this thread, which OpenSSL consults next time
+  return error == SSL_ERROR_WANT_READ || error == SSL_ERROR_WANT_WRITE ? 0 : -1;
+}
+
+bool TlsServer::Connection::hasHttp2() const {
+  const unsigned char* name = nullptr;
+  unsigned size = 0;
+  SSL_get0_alpn_selected(ssl_, &name, &size);
+  return std::string_view(reinterpret_cast<const char*>(name), size) == "h2";
+}
+
+void TlsServer::Connection::close() {
+  SSL_shutdown(ssl_);
+  ERR_clear_error();
 }
 
 std::string readTrustedCertificates(const std::filesystem::path& file) {

@@ -2,9 +2,14 @@
 #include <chrono>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include <grpcpp/grpcpp.h>
+
+struct ssl_ctx_st;
+struct ssl_st;
 
 namespace robosim {
 
@@ -20,6 +25,39 @@ struct TlsIdentity {
   static TlsIdentity read(const std::filesystem::path& certificate_file, const std::filesystem::path& key_file);
 
   std::shared_ptr<grpc::ServerCredentials> credentials() const;
+};
+
+/// Server's ends of TLS connections that gRPC does not handle itself, with the versions and ciphers of gRPC's.
+class TlsServer {
+ public:
+  explicit TlsServer(const TlsIdentity& identity);
+  ~TlsServer();
+  TlsServer(const TlsServer&) = delete;
+  TlsServer& operator=(const TlsServer&) = delete;
+
+  /// One connection over a non-blocking socket, which the caller closes.
+  class Connection {
+   public:
+    Connection(const TlsServer& server, int socket);
+    ~Connection();
+    Connection(const Connection&) = delete;
+    Connection& operator=(const Connection&) = delete;
+
+    /// Continues the handshake, then reads or writes without waiting.
+    /// @return number of bytes; 0 when it would wait; -1 when the connection has ended
+    int read(std::span<char> into);
+    int write(std::string_view bytes);
+    /// Whether the client has accepted HTTP/2 (ALPN).
+    bool hasHttp2() const;
+    void close();  ///< sends the close notification
+
+   private:
+    int judge(int done) const;
+    ssl_st* ssl_;
+  };
+
+ private:
+  ssl_ctx_st* context_;
 };
 
 /// Reads the certificates that a client trusts: an authority's, or the environment's own.

@@ -152,7 +152,9 @@ class RemotePort::Impl::Stream final : public StreamSession<v1::ControlRequest, 
 };
 
 RemotePort::Impl::Impl(const Options& options, const Run& the_run, const std::vector<RemoteControlRobot*>& the_robots)
-    : run(the_run), queue_server({{options.listen, this}}, {options.tls, "--remote-port"}) {
+    : run(the_run),
+      queue_server({{options.listen, this}},
+                   {.tls = options.tls, .option = "--remote-port", .access = options.access}) {
   for (auto* robot : the_robots) robots.emplace_back(*robot);
   host.log = options.log;
   host.access = options.access;

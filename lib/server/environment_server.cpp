@@ -69,7 +69,8 @@ struct EnvironmentServer::Impl {
                      {.tls = options.tls,
                       .option = "--listen",
                       .keepalive = options.keepalive,
-                      .standard_services = options.standard_services}) {
+                      .standard_services = options.standard_services,
+                      .access = options.access}) {
     serving.log = options.log;
     serving.step_deadline = options.step_deadline;
     serving.hello_deadline = options.hello_deadline;

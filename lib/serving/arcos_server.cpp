@@ -34,6 +34,8 @@ constexpr double kMm = 1000;
 /// ARIA's programs end after 8 s without a SIP, so that SIPs are sent while the run is paused, too.
 constexpr std::chrono::seconds kIdleCycle{1};
 constexpr std::chrono::milliseconds kAcceptPause{100};
+/// Events handled in one poll: connections that are accepted, and reads of up to 4 KiB.
+constexpr std::size_t kMinEventsPerPoll = 16;
 
 /// A robot of the run, its board, and the program that drives it.
 struct ServedRobot final : Simulator {
@@ -247,7 +249,10 @@ struct ArcosServer::Impl {
     if (!std::exchange(accepts_programs, true)) {
       for (std::size_t i = 0; i < acceptors.size(); ++i) accept(i);
     }
-    io.poll();
+    // Not until no event is left: floods and programs that reconnect at once would delay the step.
+    const std::size_t max_events = std::max(kMinEventsPerPoll, 4 * robots.size());
+    for (std::size_t n = 0; n < max_events && io.poll_one() > 0; ++n) {
+    }
     const auto now = Clock::now();
     if (!paused_acceptors.empty() && now >= accept_again) {
       for (const auto i : std::exchange(paused_acceptors, {})) accept(i);

@@ -1,0 +1,140 @@
+#include "net/connection_gate.h"
+
+#include <memory>
+#include <string>
+
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <openssl/evp.h>
+#include <openssl/pem.h>
+#include <openssl/x509v3.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "net/flood_guard.h"
+#include "net/open_port.h"
+#include "net/peer_address.h"
+#include "robosim/v1/viewing.grpc.pb.h"
+
+namespace robosim {
+namespace {
+
+const std::string kToken = "viewer-0123456789abcdef";
+
+/// Answers each request, and stores the client's address.
+class AnsweringService final : public v1::Viewing::Service {
+ public:
+  std::string peer;
+
+ private:
+  grpc::Status Watch(grpc::ServerContext* call,
+                     grpc::ServerReaderWriter<v1::Frame, v1::FrameRequest>* stream) override {
+    peer = peerOf(*call);
+    v1::Frame frame;
+    for (v1::FrameRequest request; stream->Read(&request);) {
+      frame.set_step(request.protocol());
+      stream->Write(frame);
+    }
+    return grpc::Status::OK;
+  }
+};
+
+/// A self-signed certificate for 127.0.0.1, valid for an hour.
+TlsIdentity selfSigned() {
+  EVP_PKEY* const key = EVP_EC_gen("P-256");
+  X509* const certificate = X509_new();
+  X509_set_version(certificate, 2);
+  X509_gmtime_adj(X509_getm_notBefore(certificate), 0);
+  X509_gmtime_adj(X509_getm_notAfter(certificate), 3600);
+  X509_set_pubkey(certificate, key);
+  X509_NAME_add_entry_by_txt(X509_get_subject_name(certificate), "CN", MBSTRING_ASC,
+                             reinterpret_cast<const unsigned char*>("test"), -1, -1, 0);
+  X509_set_issuer_name(certificate, X509_get_subject_name(certificate));
+  X509_EXTENSION* const names = X509V3_EXT_conf_nid(nullptr, nullptr, NID_subject_alt_name, "IP:127.0.0.1");
+  X509_add_ext(certificate, names, -1);
+  X509_EXTENSION_free(names);
+  X509_sign(certificate, key, EVP_sha256());
+  const auto textOf = [](auto write) {
+    BIO* const pem = BIO_new(BIO_s_mem());
+    write(pem);
+    char* begin = nullptr;
+    const auto size = BIO_get_mem_data(pem, &begin);
+    std::string text(begin, static_cast<std::size_t>(size));
+    BIO_free(pem);
+    return text;
+  };
+  TlsIdentity identity{textOf([&](BIO* pem) { PEM_write_bio_X509(pem, certificate); }), textOf([&](BIO* pem) {
+                         PEM_write_bio_PrivateKey(pem, key, nullptr, nullptr, 0, nullptr, nullptr);
+                       })};
+  X509_free(certificate);
+  EVP_PKEY_free(key);
+  return identity;
+}
+
+/// A port for clients with kToken.
+struct ConnectionGateTest : testing::TestWithParam<bool> {
+  ~ConnectionGateTest() override { flood_guard::endAlarm(); }
+
+  const std::optional<TlsIdentity> tls = GetParam() ? std::optional(selfSigned()) : std::nullopt;
+  AnsweringService service;
+  OpenPort open =
+      openPort("127.0.0.1:0",
+               {.tls = tls, .option = "--listen", .access = Access::parse(kToken + " viewer\n", "tokens")}, {&service});
+
+  /// Makes a call of 100 messages over a new connection.
+  grpc::StatusCode call(const std::string& token) const {
+    constexpr std::uint32_t kMessages = 100;
+    ConnectOptions options{.address = "127.0.0.1:" + std::to_string(open.number), .token = token};
+    options.shares_connections = false;
+    options.tls = tls.has_value();
+    if (tls) options.trusted_pem = tls->certificate_pem;
+    grpc::ClientContext context;
+    attachToken(context, options);
+    const auto stub = v1::Viewing::NewStub(connect(options));
+    const auto stream = stub->Watch(&context);
+    v1::Frame frame;
+    for (std::uint32_t i = 1; i <= kMessages; ++i) {
+      v1::FrameRequest request;
+      request.set_protocol(i);
+      if (!stream->Write(request) || !stream->Read(&frame)) return stream->Finish().error_code();
+      EXPECT_EQ(frame.step(), i);
+    }
+    stream->WritesDone();
+    return stream->Finish().error_code();
+  }
+};
+
+TEST_P(ConnectionGateTest, PassesCallsWithAValidTokenDuringAnAlarmAndNoOthers) {
+  EXPECT_EQ(call(kToken), grpc::StatusCode::OK);
+  EXPECT_EQ(call("guess-0123456789abcdef"), grpc::StatusCode::OK) << "this service does not check tokens";
+  flood_guard::raiseAlarm("a test");
+  EXPECT_EQ(call(kToken), grpc::StatusCode::OK);
+  EXPECT_TRUE(service.peer.starts_with("ipv4:127.0.0.1:")) << service.peer;
+  EXPECT_EQ(call("guess-0123456789abcdef"), grpc::StatusCode::UNAVAILABLE);
+  EXPECT_EQ(call(""), grpc::StatusCode::UNAVAILABLE);
+}
+
+TEST_P(ConnectionGateTest, ResetsAFloodAndServesItsNetwork) {
+  const int flooding = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  to.sin_port = htons(static_cast<std::uint16_t>(open.number));
+  ASSERT_EQ(connect(flooding, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  std::string bytes = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + std::string("\0\0\0\4\0\0\0\0\0", 9);
+  for (int i = 0; i < 200; ++i) bytes += std::string("\0\0\10\6\0\0\0\0\0PINGPING", 17);
+  ASSERT_GT(send(flooding, bytes.data(), bytes.size(), MSG_NOSIGNAL), 0);
+  char byte = 0;
+  while (recv(flooding, &byte, 1, 0) > 0) {
+  }
+  close(flooding);
+  EXPECT_EQ(flood_guard::isBanned("127.0.0.0/24"), !tls) << "with TLS, it is no handshake";
+  EXPECT_EQ(call(kToken), grpc::StatusCode::OK);
+}
+
+INSTANTIATE_TEST_SUITE_P(WithoutTls, ConnectionGateTest, testing::Values(false));
+INSTANTIATE_TEST_SUITE_P(WithTls, ConnectionGateTest, testing::Values(true));
+
+}  // namespace
+}  // namespace robosim
