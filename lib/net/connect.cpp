@@ -1,5 +1,7 @@
 #include "net/connect.h"
 
+#include <cstdlib>
+
 #include "base/error_list.h"
 #include "net/access.h"
 #include "net/deadlock_detection.h"
@@ -36,6 +38,14 @@ std::string describe(const grpc::Status& status, const ConnectOptions& connect_o
          (connect_options.tls ? "" : " And if it is started with --tls-cert, add --tls-ca");
 }
 
+/// gRPC handles the events of a client's connection while a thread waits for a call, and else at this interval, 5 s by
+/// default. While a server is absent calls fail without a wait, so that attempts would exceed connect_limit before the
+/// first frames or the TLS handshake are complete, even when the server has returned.
+void handleEventsBetweenCalls() {
+  static const int is_set = setenv("GRPC_CLIENT_CHANNEL_BACKUP_POLL_INTERVAL_MS", "100", 0);
+  static_cast<void>(is_set);
+}
+
 }  // namespace
 
 ConnectionError::ConnectionError(const grpc::Status& status, const ConnectOptions& connect_options)
@@ -52,6 +62,7 @@ std::shared_ptr<grpc::Channel> connect(const ConnectOptions& options) {
   if (options.channel) return options.channel;
   disableDeadlockDetection();
   limitGrpcLog();
+  handleEventsBetweenCalls();  // before gRPC is initialised; a server waits for events anyway
   grpc::ChannelArguments arguments;
   arguments.SetMaxReceiveMessageSize(-1);  // the size of the environment's messages depends on its world
   // By default, gRPC's back-off between reconnection attempts grows to two minutes.

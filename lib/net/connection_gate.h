@@ -21,7 +21,8 @@ namespace robosim {
 /// message. A connection that sends anything else to excess (ConnectionOpening) is a flood: it is not read any further,
 /// and is reset after kPenalty. Without an alarm (flood_guard), up to flood_guard::kMaxUnauthorised connections pass
 /// before an authorised call, so that a session reports why it refuses a call, and with TLS so that gRPC handles TLS
-/// itself. During an alarm the gate terminates TLS (TlsRelay). Connections of banned networks are read last.
+/// itself; these after their first byte. During an alarm the gate terminates TLS (TlsRelay). Connections of banned
+/// networks are read last.
 ///
 /// All bytes that were received are passed on. The gate sends its own SETTINGS, which clients await before their first
 /// call; gRPC's own follow later.
@@ -30,9 +31,6 @@ class ConnectionGate {
   static constexpr double kProcessorShare = 0.2;
   static constexpr std::chrono::milliseconds kBurst{50};  ///< of processor time
   static constexpr std::chrono::seconds kPenalty{2};
-  /// Maximum number of connections before an authorised call, of all gates; at most half of the descriptors. Beyond it
-  /// the oldest flood is closed, or else the oldest connection of the network that has the most.
-  static constexpr std::size_t kMaxPending = 1024;
 
   struct Options {
     Access access;                            ///< rights by token

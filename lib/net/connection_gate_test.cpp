@@ -1,7 +1,9 @@
 #include "net/connection_gate.h"
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <arpa/inet.h>
 #include <gtest/gtest.h>
@@ -72,6 +74,34 @@ TlsIdentity selfSigned() {
   return identity;
 }
 
+/// A client that speaks no HTTP/2 by itself.
+class RawClient {
+ public:
+  explicit RawClient(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in to{};
+    to.sin_family = AF_INET;
+    to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    to.sin_port = htons(static_cast<std::uint16_t>(port));
+    EXPECT_EQ(::connect(socket_, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  }
+  ~RawClient() { close(socket_); }
+  RawClient(const RawClient&) = delete;
+  RawClient& operator=(const RawClient&) = delete;
+
+  bool send(const std::string& bytes) const {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(bytes.size());
+  }
+  /// Waits for a byte. @return 1, or another value once the server has closed the connection
+  ssize_t receive(char* byte) const { return recv(socket_, byte, 1, 0); }
+  ssize_t receive() const {
+    char byte = 0;
+    return receive(&byte);
+  }
+
+ private:
+  const int socket_;
+};
+
 /// A port for clients with kToken.
 struct ConnectionGateTest : testing::TestWithParam<bool> {
   ~ConnectionGateTest() override { flood_guard::endAlarm(); }
@@ -116,21 +146,44 @@ TEST_P(ConnectionGateTest, PassesCallsWithAValidTokenDuringAnAlarmAndNoOthers) {
 }
 
 TEST_P(ConnectionGateTest, ResetsAFloodAndServesItsNetwork) {
-  const int flooding = socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  sockaddr_in to{};
-  to.sin_family = AF_INET;
-  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  to.sin_port = htons(static_cast<std::uint16_t>(open.number));
-  ASSERT_EQ(connect(flooding, reinterpret_cast<const sockaddr*>(&to), sizeof to), 0);
+  const RawClient flooding(open.number);
   std::string bytes = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + std::string("\0\0\0\4\0\0\0\0\0", 9);
   for (int i = 0; i < 200; ++i) bytes += std::string("\0\0\10\6\0\0\0\0\0PINGPING", 17);
-  ASSERT_GT(send(flooding, bytes.data(), bytes.size(), MSG_NOSIGNAL), 0);
-  char byte = 0;
-  while (recv(flooding, &byte, 1, 0) > 0) {
+  ASSERT_TRUE(flooding.send(bytes));
+  while (flooding.receive() > 0) {
   }
-  close(flooding);
   EXPECT_EQ(flood_guard::isBanned("127.0.0.0/24"), !tls) << "with TLS, it is no handshake";
   EXPECT_EQ(call(kToken), grpc::StatusCode::OK);
+}
+
+TEST_P(ConnectionGateTest, LeavesPlacesToOthersThanSilentConnections) {
+  std::vector<std::unique_ptr<RawClient>> silent;
+  for (std::size_t i = 0; i < 2 * flood_guard::kMaxUnauthorised; ++i) {
+    silent.push_back(std::make_unique<RawClient>(open.number));
+  }
+  EXPECT_EQ(call(kToken), grpc::StatusCode::OK);
+  EXPECT_EQ(call("guess-0123456789abcdef"), grpc::StatusCode::OK) << "there is a place, and no alarm";
+}
+
+TEST_P(ConnectionGateTest, ClosesConnectionsOfOtherProtocolsAtOnceWithoutAnAlarm) {
+  for (const std::string bytes : {"GET / HTTP/1.1\r\n\r\n", "\x16 neither TLS nor HTTP/2"}) {
+    const RawClient other(open.number);
+    ASSERT_TRUE(other.send(bytes));
+    while (other.receive() > 0) {
+    }
+  }
+  EXPECT_FALSE(flood_guard::isAlarmed());
+}
+
+/// Without TLS: gRPC's client does not poll between two attempts to connect, and misses its own time limit otherwise.
+TEST(ConnectionGate, SendsItsSettingsBeforeTheClientSendsAnything) {
+  AnsweringService service;
+  const OpenPort open = openPort("127.0.0.1:0", {.option = "--listen"}, {&service});
+  const RawClient silent(open.number);
+  std::string frame;
+  for (char byte = 0; frame.size() < 9 && silent.receive(&byte) > 0;) frame += byte;
+  ASSERT_EQ(frame.size(), 9u);
+  EXPECT_EQ(frame[3], 4) << "type SETTINGS";
 }
 
 INSTANTIATE_TEST_SUITE_P(WithoutTls, ConnectionGateTest, testing::Values(false));

@@ -9,7 +9,7 @@ namespace {
 constexpr std::string_view kPreface = "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 constexpr std::size_t kFrameHeader = 9, kMaxPayload = 16 * 1024;
 
-enum Type : std::uint8_t { data = 0, headers = 1, reset = 3, settings = 4, push = 5, goaway = 7, continuation = 9 };
+enum Type : std::uint8_t { data = 0, headers = 1, reset = 3, settings = 4, push = 5, continuation = 9 };
 constexpr std::uint8_t kEndHeaders = 0x4, kPadded = 0x8, kPriority = 0x20;
 
 std::uint32_t numberAt(std::string_view bytes, std::size_t at, std::size_t size) {
@@ -49,9 +49,7 @@ ConnectionOpening::Verdict ConnectionOpening::parse() {
     // The payload of a message need not be complete: a call with a message is the end of the opening.
     const bool is_complete = rest.size() >= kFrameHeader + frame.size;
     if (!is_complete && frame.type == Type::data) {
-      if (Call* const call = callOf(frame.stream)) {
-        call->message_bytes = std::max(call->message_bytes, std::min(frame.size, rest.size() - kFrameHeader));
-      }
+      if (Call* const call = callOf(frame.stream)) call->partial_bytes = rest.size() - kFrameHeader;
     }
     if (!is_complete) return Verdict::valid;
     if (++frames_ > kMaxFrames) return Verdict::excess;
@@ -65,7 +63,10 @@ ConnectionOpening::Verdict ConnectionOpening::take(const Frame& frame, std::stri
   switch (frame.type) {
     case Type::data: {
       if (frame.stream == 0 || frame.stream > last_stream_) return Verdict::invalid;
-      if (Call* const call = callOf(frame.stream)) call->message_bytes += payload.size();
+      if (Call* const call = callOf(frame.stream)) {
+        call->message_bytes += payload.size();
+        call->partial_bytes = 0;
+      }
       return Verdict::valid;
     }
     case Type::headers:
@@ -80,10 +81,8 @@ ConnectionOpening::Verdict ConnectionOpening::take(const Frame& frame, std::stri
       return Verdict::valid;
     case Type::push:
       return Verdict::invalid;
-    case Type::goaway:
-      return Verdict::excess;  // the client makes no call
     default:
-      return Verdict::valid;  // SETTINGS, PING, WINDOW_UPDATE, PRIORITY, extensions
+      return Verdict::valid;  // SETTINGS, PING, GOAWAY, WINDOW_UPDATE, PRIORITY, extensions
   }
 }
 

@@ -23,10 +23,11 @@ class ConnectionOpening {
     std::uint32_t stream = 0;
     std::string path;                  ///< "/package.Service/Method"
     std::optional<std::string> token;  ///< value of `authorization`
-    std::size_t message_bytes = 0;     ///< received
+    std::size_t message_bytes = 0;     ///< received in complete frames
+    std::size_t partial_bytes = 0;     ///< received of an incomplete frame
     /// Whether the client has sent the prefix of a message. A call without one may be reset without any cost to the
     /// client.
-    bool hasMessage() const { return message_bytes >= 5; }
+    bool hasMessage() const { return message_bytes + partial_bytes >= 5; }
   };
   enum class Verdict {
     valid,
@@ -37,8 +38,6 @@ class ConnectionOpening {
 
   /// Adds received bytes. @return valid, or the first fault so far
   Verdict add(std::string_view bytes);
-  /// Whether the client's connection preface is complete, which the server's SETTINGS must follow.
-  bool hasPreface() const { return parsed_ > 0; }
   /// Calls that have not been reset.
   const std::vector<Call>& calls() const { return calls_; }
   /// All bytes received.

@@ -99,8 +99,7 @@ class Guard {
   }
   std::size_t unauthorised() {
     const std::lock_guard lock(mutex_);
-    std::erase_if(connections_,
-                  [](const auto& it) { return !it.second.is_authorised && !isOpen(it.first, it.second.peer); });
+    removeClosed([](const Connection& connection) { return !connection.is_authorised; });
     return static_cast<std::size_t>(std::count_if(connections_.begin(), connections_.end(),
                                                   [](const auto& it) { return !it.second.is_authorised; }));
   }
@@ -120,8 +119,7 @@ class Guard {
   }
   void raiseAlarm(const std::string& why) {
     const std::lock_guard lock(mutex_);
-    if (Clock::now() >= alarm_end_) logFromNet("floods", why);
-    startAlarm();
+    raise(why);
   }
   bool isAlarmed() {
     const std::lock_guard lock(mutex_);
@@ -205,8 +203,37 @@ class Guard {
     if (disconnectBusiest()) has_bytes_ = false;
   }
 
+  /// Removes the closed ones of some connections.
+  template <typename Filter>
+  void removeClosed(const Filter& isMeant) {
+    int failed = 0;
+    std::erase_if(connections_, [&](const auto& it) {
+      if (!isMeant(it.second) || isOpen(it.first, it.second.peer)) return false;
+      failed += it.second.is_authorised ? 0 : 1;
+      return true;
+    });
+    if (failed > 0) noteFailures(failed);
+  }
   void removeClosed() {
-    std::erase_if(connections_, [](const auto& it) { return !isOpen(it.first, it.second.peer); });
+    removeClosed([](const Connection&) { return true; });
+  }
+
+  /// Connections have been closed without an authorised call.
+  void noteFailures(int count) {
+    const auto now = Clock::now();
+    if (now - failures_since_ >= std::chrono::seconds(1)) failures_ = 0;
+    if (failures_ == 0) failures_since_ = now;
+    failures_ += count;
+    if (failures_ <= kMaxFailures) return;
+    failures_ = 0;
+    raise("more than " + std::to_string(kMaxFailures) + " connections in a second had no authorised call");
+  }
+  void raise(const std::string& why) {
+    if (Clock::now() >= alarm_end_) {
+      logFromNet("floods", why + "; for " + std::to_string(kAlarm.count()) +
+                               " s new connections are served after an authorised call only");
+    }
+    startAlarm();
   }
 
   void recordBytes() {
@@ -285,6 +312,8 @@ class Guard {
   Connections connections_;
   std::map<std::string, Clock::time_point> bans_;  ///< end, by network
   Clock::time_point alarm_end_{};
+  int failures_ = 0;
+  Clock::time_point failures_since_{};
   bool has_bytes_ = false;  ///< of the wait under examination
   std::thread thread_;
 };

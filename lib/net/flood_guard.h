@@ -22,6 +22,8 @@ namespace robosim {
 /// than it has received (a client without an exemption receives more bytes for each request than it sends), and one
 /// without an authorised call after kMaxRefusedCalls.
 ///
+/// Connections that end without an authorised call cost as well: more than kMaxFailures of them in a second are a flood.
+///
 /// After each flood an alarm lasts for kAlarm: it disconnects the other connections without an authorised call, no
 /// further ones are passed to gRPC, and the network of the flood (PeerAddress::network()) is banned: gates handle its
 /// new connections last. The guard is global, as the descriptors of the process are. Thread-safe.
@@ -39,6 +41,7 @@ constexpr std::uint64_t kMaxUnansweredBytes = 512 * 1024;
 constexpr int kPeriodsPerCount = 25;  ///< interval at which the bytes of all connections are counted
 constexpr std::size_t kMaxUnauthorised = 8;
 constexpr int kMaxRefusedCalls = 256;
+constexpr int kMaxFailures = 32;  ///< of connections in a second
 
 /// Monitors a connection that is passed to gRPC until it is closed.
 void admit(int connection, bool is_authorised);

@@ -134,6 +134,14 @@ TEST_F(FloodGuard, ResetsAConnectionThatRepeatsRefusedCalls) {
   EXPECT_TRUE(flood_guard::isBanned("127.0.8.0/24"));
 }
 
+TEST_F(FloodGuard, RaisesAnAlarmWhenManyConnectionsEndWithoutAnAuthorisedCall) {
+  for (int i = 0; i < 100'000 && !flood_guard::isAlarmed(); ++i) {
+    Connection(listener, "127.0.9.9", false);
+    EXPECT_EQ(flood_guard::unauthorised(), 0u);
+  }
+  EXPECT_TRUE(flood_guard::isAlarmed());
+}
+
 TEST(PeerAddress, GroupsTheAddressesThatOneHostMayUse) {
   EXPECT_EQ((PeerAddress{"127.1.2.3", 4711, false}.network()), "127.1.2.0/24");
   EXPECT_EQ((PeerAddress{"192.0.2.7", 4711, false}.network()), "192.0.2.7");

@@ -221,12 +221,7 @@ int TlsServer::Connection::judge(int done) const {
   return error == SSL_ERROR_WANT_READ || error == SSL_ERROR_WANT_WRITE ? 0 : -1;
 }
 
-bool TlsServer::Connection::hasHttp2() const {
-  const unsigned char* name = nullptr;
-  unsigned size = 0;
-  SSL_get0_alpn_selected(ssl_, &name, &size);
-  return std::string_view(reinterpret_cast<const char*>(name), size) == "h2";
-}
+bool TlsServer::Connection::isEstablished() const { return SSL_is_init_finished(ssl_) == 1; }
 
 void TlsServer::Connection::close() {
   SSL_shutdown(ssl_);

@@ -47,8 +47,8 @@ class TlsServer {
     /// @return number of bytes; 0 when it would wait; -1 when the connection has ended
     int read(std::span<char> into);
     int write(std::string_view bytes);
-    /// Whether the client has accepted HTTP/2 (ALPN).
-    bool hasHttp2() const;
+    /// Whether the handshake is complete.
+    bool isEstablished() const;
     void close();  ///< sends the close notification
 
    private:

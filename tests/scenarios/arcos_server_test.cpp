@@ -1,8 +1,11 @@
 // Programs that speak ARCOS over TCP: their sessions, and what misbehaving ones can do.
 #include "serving/arcos_server.h"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
+#include <vector>
 
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
@@ -210,6 +213,22 @@ TEST(ArcosServer, LosesOnlyTheConnectionsOfMisbehavingPrograms) {
   }
   EXPECT_EQ(good.step().turn_rate, 100) << "0.1 °/s";
   EXPECT_LE(served.server->clients(), 2u);
+}
+
+TEST(ArcosServer, HandlesABoundedNumberOfConnectionsInOnePoll) {
+  constexpr std::size_t kFlood = 100, kMaxEvents = 16;
+  ServedRobots served(1);
+  TcpProgram program(served, served.server->ports()[0]);
+  program.open();
+  std::vector<std::unique_ptr<TcpProgram>> flood;
+  for (std::size_t i = 0; i < kFlood; ++i) {
+    flood.push_back(std::make_unique<TcpProgram>(served, served.server->ports()[0]));
+    flood.back()->send("\xfa\xfb\xff");
+  }
+  served.server->poll();
+  EXPECT_LE(std::count_if(flood.begin(), flood.end(), [](const auto& one) { return one->hasEnded(); }), kMaxEvents);
+  for (const auto& one : flood) EXPECT_TRUE(one->isClosed());
+  EXPECT_NE(program.step().flags, 0);
 }
 
 TEST(ArcosServer, SendsSipsOfAPausedRunToo) {

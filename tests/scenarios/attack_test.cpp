@@ -4,10 +4,16 @@
 #include <chrono>
 #include <future>
 #include <map>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include "net/wire_error.h"
+#include "remote/robot_link.h"
 #include "robosim/v1/remote_control.grpc.pb.h"
 #include "robosim/v1/viewing.pb.h"
 #include "tests/scenarios/attacked_run.h"
@@ -182,16 +188,106 @@ TEST(Attack, DisconnectsFloodsOfEveryKindAndServesTheOperator) {
   EXPECT_TRUE(run.hasKeptAllRobots()) << run.server().error();
 }
 
+/// Floods a server over one connection after the other, on a thread of its own, for its lifetime.
+class ReconnectingFlood {
+ public:
+  ReconnectingFlood(const std::string& address, const std::string& frames)
+      : thread_([this, address, frames] {
+          while (!is_over_) {
+            Http2Peer peer(address);
+            if (peer.sendPreface() && peer.send(frames)) peer.waitUntilClosed();
+          }
+        }) {}
+  ~ReconnectingFlood() {
+    is_over_ = true;
+    thread_.join();
+  }
+  ReconnectingFlood(const ReconnectingFlood&) = delete;
+  ReconnectingFlood& operator=(const ReconnectingFlood&) = delete;
+
+ private:
+  std::atomic<bool> is_over_{false};
+  std::thread thread_;
+};
+
+/// Observes a robot at its remote port.
+class Observer {
+ public:
+  Observer(const std::string& robot, const std::string& address) : link_(robot, optionsFor(address), [this] {
+      ++news_;
+      news_.notify_all();
+    }) {
+    link_.setLive(true);
+    link_.claim("Anna", true);
+    link_.connect();
+  }
+  void waitForUpdates(std::size_t count) {
+    for (std::shared_ptr<const RobotUpdate> seen; count > 0;) {
+      const int news = news_;
+      if (const auto update = link_.news().update; update != seen) {
+        seen = update;
+        --count;
+      } else {
+        news_.wait(news);
+      }
+    }
+  }
+  bool isUp() const { return link_.news().is_up; }
+
+ private:
+  static ConnectOptions optionsFor(const std::string& address) {
+    ConnectOptions options;
+    options.address = address;
+    return options;
+  }
+  std::atomic<int> news_{0};
+  RobotLink link_;
+};
+
+/// The address of the remote port that a program announces.
+std::string remotePortOf(StartedProgram& robots) {
+  const std::string announced = "remote control on ";
+  robots.waitForError(announced);
+  const std::string log = robots.error();
+  const auto at = log.find(announced) + announced.size();
+  return log.substr(at, log.find('\n', at) - at);
+}
+
+TEST(Attack, FloodsOfARemotePortDelayItsDriverByLessThanHalf) {
+  using Clock = std::chrono::steady_clock;
+  const std::size_t updates = isVerifying() ? 100 : 10;
+  AttackedRun run({"--pace", "realtime", "--step-deadline", "600"});
+  StartedProgram robots({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", run.address(),
+                         "--remote-port", "127.0.0.1:0"});
+  const std::string address = remotePortOf(robots);
+  Observer driver("Pioneer1", address);
+  std::string headers;
+  for (std::uint32_t stream = 1; stream < 2 * 10'000; stream += 2) headers += http2Frame(kHeaders, kEndHeaders, stream, "");
+  for (const auto& [kind, frames] : {std::pair("PING", floods().at("PING")), std::pair("HEADERS", headers)}) {
+    const auto begin = Clock::now();
+    driver.waitForUpdates(updates);
+    const std::chrono::duration<double> calm = Clock::now() - begin;
+    const auto attacked = Clock::now();
+    {
+      const ReconnectingFlood first(address, frames), second(address, frames), third(address, frames);
+      driver.waitForUpdates(updates);
+    }
+    const std::chrono::duration<double> flooded = Clock::now() - attacked;
+    EXPECT_TRUE(driver.isUp()) << kind;
+    EXPECT_EQ(countOf("has left", run.server().error()), 0u) << kind;
+    if (!isVerifying()) continue;
+    std::cout << kind << ": " << updates / flooded.count() << " of " << updates / calm.count() << " updates/s, "
+              << residentMib(robots.process()) << " MiB\n";
+    EXPECT_LT(flooded, 2 * calm) << kind;
+  }
+}
+
 TEST(Attack, DisconnectsRapidResetAtARemotePort) {
   constexpr std::size_t kResets = 1'000'000;
   AttackedRun run({"--speed", "20", "--step-deadline", "600"});
   StartedProgram robots({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", run.address(),
                          "--remote-port", "127.0.0.1:0"});
-  const std::string announced = "remote control on ";
-  robots.waitForError(announced);
-  const std::string log = robots.error();
-  const auto at = log.find(announced) + announced.size();
-  const std::string address = log.substr(at, log.find('\n', at) - at);
+  const std::string address = remotePortOf(robots);
   run.waitForSteps(20);
   Http2Peer attacker(address);
   ASSERT_TRUE(attacker.sendPreface());

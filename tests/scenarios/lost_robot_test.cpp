@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "tests/scenarios/certificates.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/serving.h"
 
@@ -136,31 +137,53 @@ TEST(LostRobot, IsNotAwaitedInRealTime) {
   EXPECT_EQ(clientsOf(ended)["on_lost_robot"], "continue");
 }
 
-TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) {
-  auto first = std::make_unique<Serving>(std::vector<std::string>{"--wait-for-robots", "--paused"});
+/// The robots of a server that is killed, as on a restart of its machine, and of another that then listens at its address.
+/// @param tls whether both use TLS
+void expectEndOfStaleRobots(bool tls) {
+  std::vector<std::string> of_server, of_client;
+  if (tls) {
+    const auto folder = certificates();
+    of_server = {"--tls-cert", folder / "cert.pem", "--tls-key", folder / "key.pem"};
+    of_client = {"--tls-ca", folder / "cert.pem"};
+  }
+  const auto with = [](std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+  };
+  auto first = std::make_unique<Serving>(with({"--wait-for-robots", "--paused"}, of_server));
   const std::string address = first->address();
-  const std::vector<std::string> words{
-      "robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address, "--reconnect-timeout", "600"};
-  StartedProgram stale(words);
+  const auto control = [&](const std::string& what) {
+    return runProgram("control " + address + " " + what + (tls ? " --tls-ca '" + of_client.back() + "'" : ""));
+  };
+  StartedProgram stale(with({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address,
+                             "--reconnect-timeout", "600"},
+                            of_client));
   first->program().waitForError("all robots are connected");
-  EXPECT_EQ(runProgram("control " + address + " step 2").exit_code, 0);  // the robots have received the welcome
-  first.reset();                                                         // killed, as on a restart of its machine
+  EXPECT_EQ(control("step 2").exit_code, 0);  // the robots have received the welcome
+  first.reset();
+  stale.waitForError("reconnecting");  // and attempts to connect are refused
 
-  StartedProgram next(
-      {"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20"});
+  StartedProgram next(with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json",
+                            "--time", "20"},
+                           of_server));
   const Ended ended = stale.wait();
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("the robots have joined the run '"), std::string::npos) << ended.err;
   EXPECT_NE(ended.err.find("restart their program to join it"), std::string::npos) << ended.err;
-  const Ended status = runProgram("control " + address + " status");
+  const Ended status = control("status");
   EXPECT_NE(status.out.find("waits for robots at step 0"), std::string::npos) << status.out << status.err;
 
-  const auto fresh = startRobots({"Pioneer1", "Scout1"}, address);
+  const StartedProgram fresh(with({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address},
+                                  of_client));
   const Ended run = next.wait();
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(json::parse(run.out)["steps"], 200);
   EXPECT_EQ(clientsOf(run)["lost_robots"], json::array());
 }
+
+TEST(StaleRobots, EndAndAreNotCountedAsPresentInTheNextRun) { expectEndOfStaleRobots(false); }
+
+TEST(StaleRobots, EndWithTlsToo) { expectEndOfStaleRobots(true); }
 
 }  // namespace
 }  // namespace robosim

@@ -91,6 +91,11 @@ class TcpProgram {
     });
     return is_closed_;
   }
+  /// Whether the server has closed the connection before.
+  bool hasEnded() {
+    receive();
+    return is_closed_;
+  }
   void open() {
     for (const auto id : {arcos::command::sync0, arcos::command::sync1, arcos::command::sync2}) {
       send(arcos::encodeCommand(id));
@@ -116,7 +121,7 @@ class TcpProgram {
     boost::system::error_code error;
     const std::size_t size = socket_.read_some(boost::asio::buffer(bytes), error);
     reader_.add({bytes.data(), size});
-    is_closed_ = error && error != boost::asio::error::would_block;
+    is_closed_ = is_closed_ || (error && error != boost::asio::error::would_block);
   }
 
   ServedRobots& served_;
