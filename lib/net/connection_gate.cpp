@@ -167,12 +167,13 @@ class ConnectionGate::Loop {
 
   void read(Iterator it) {
     PendingConnection& pending = it->second;
-    const bool is_closed = pending.parked_at.has_value();  // only its end is reported
+    if (pending.parked_at) {  // only its end is reported
+      pending_.drop(it);
+      return;
+    }
     const bool is_raw = tls_ && !pending.tls;
-    const ssize_t size = is_closed ? 0
-                         : is_raw  ? recv(pending.socket, buffer_.data(), 1, MSG_PEEK)
-                         : pending.tls ? pending.tls->read(buffer_)
-                                       : recv(pending.socket, buffer_.data(), buffer_.size(), 0);
+    const ssize_t size = pending.tls ? pending.tls->read(buffer_)
+                                     : recv(pending.socket, buffer_.data(), buffer_.size(), is_raw ? MSG_PEEK : 0);
     const bool would_wait = pending.tls ? size == 0 : size < 0 && (errno == EAGAIN || errno == EINTR);
     if (would_wait) {
       if (pending.tls && pending.tls->isEstablished() && !pending.has_settings) sendSettings(pending);

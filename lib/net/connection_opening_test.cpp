@@ -94,7 +94,8 @@ TEST(ConnectionOpening, ExceedsItsLimitsInEveryKindOfFlood) {
   for (const std::string& flood :
        {repeated(frame(kPing, 0, 0, std::string(8, '\0')), 100), repeated(frame(kSettings, 0, 0, ""), 100),
         call + repeated(frame(kData, 0, 1, ""), 100), begun + repeated(frame(kContinuation, 0, 1, ""), 100), headers,
-        resets, repeated(frame(kGoaway, 0, 0, std::string(8, '\0')), 100), repeated(frame(kWindowUpdate, 0, 0, {0, 0, 0, 1}), 100)}) {
+        resets, repeated(frame(kGoaway, 0, 0, std::string(8, '\0')), 100),
+        repeated(frame(kWindowUpdate, 0, 0, {0, 0, 0, 1}), 100)}) {
     EXPECT_EQ(verdictOf(kOpening + flood), Verdict::excess);
   }
   EXPECT_EQ(verdictOf(kOpening + repeated(frame(200, 0, 0, std::string(8192, 'x')), 3)), Verdict::excess) << "bytes";

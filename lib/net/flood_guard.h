@@ -22,7 +22,7 @@ namespace robosim {
 /// than it has received (a client without an exemption receives more bytes for each request than it sends), and one
 /// without an authorised call after kMaxRefusedCalls.
 ///
-/// Connections that end without an authorised call cost as well: more than kMaxFailures of them in a second are a flood.
+/// Connections that end without an authorised call cost as well: more than kMaxFailures in a second are a flood.
 ///
 /// After each flood an alarm lasts for kAlarm: it disconnects the other connections without an authorised call, no
 /// further ones are passed to gRPC, and the network of the flood (PeerAddress::network()) is banned: gates handle its

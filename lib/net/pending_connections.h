@@ -21,12 +21,12 @@ struct PendingConnection {
   PeerAddress peer;
   std::string network;  ///< PeerAddress::network()
   Clock::time_point since;
-  ConnectionOpening opening{};                        ///< what was received, without TLS
-  std::unique_ptr<TlsServer::Connection> tls{};       ///< null: without TLS, or not yet decrypted
-  bool has_settings = false;                          ///< has been sent the server's SETTINGS
-  bool wants_place = false;                           ///< is to be passed on before an authorised call
-  std::optional<Clock::time_point> parked_at{};       ///< a flood, which is not read any further
-  std::uint32_t last_checked_stream = 0;              ///< the tokens up to this call are not valid
+  ConnectionOpening opening{};                   ///< what was received, without TLS
+  std::unique_ptr<TlsServer::Connection> tls{};  ///< null: without TLS, or not yet decrypted
+  bool has_settings = false;                     ///< has been sent the server's SETTINGS
+  bool wants_place = false;                      ///< is to be passed on before an authorised call
+  std::optional<Clock::time_point> parked_at{};  ///< a flood, which is not read any further
+  std::uint32_t last_checked_stream = 0;         ///< the tokens up to this call are not valid
 };
 
 /// The pending connections of one gate. The gates of the process together have at most kMax: beyond it, the oldest

@@ -1,10 +1,11 @@
-// Fuzzes the parser of HTTP/2 frames and header blocks before the first authorised call, in pieces; the first byte selects
-// their length. The result does not depend on the pieces, up to the limit of bytes.
+// Fuzzes the parser of HTTP/2 frames and header blocks before the first authorised call, in pieces; the first byte
+// selects their length. The result does not depend on the pieces, up to the limit of bytes.
+#include "net/connection_opening.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <string_view>
 
-#include "net/connection_opening.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace robosim;
@@ -21,8 +22,8 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const auto is_same = [](const ConnectionOpening::Call& a, const ConnectionOpening::Call& b) {
     return a.stream == b.stream && a.path == b.path && a.token == b.token && a.hasMessage() == b.hasMessage();
   };
-  if (verdict != verdict_of_pieces || !std::equal(whole.calls().begin(), whole.calls().end(), pieces.calls().begin(),
-                                                  pieces.calls().end(), is_same)) {
+  if (verdict != verdict_of_pieces ||
+      !std::equal(whole.calls().begin(), whole.calls().end(), pieces.calls().begin(), pieces.calls().end(), is_same)) {
     std::abort();
   }
   return 0;

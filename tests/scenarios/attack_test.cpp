@@ -213,10 +213,11 @@ class ReconnectingFlood {
 /// Observes a robot at its remote port.
 class Observer {
  public:
-  Observer(const std::string& robot, const std::string& address) : link_(robot, optionsFor(address), [this] {
-      ++news_;
-      news_.notify_all();
-    }) {
+  Observer(const std::string& robot, const std::string& address)
+      : link_(robot, optionsFor(address), [this] {
+          ++news_;
+          news_.notify_all();
+        }) {
     link_.setLive(true);
     link_.claim("Anna", true);
     link_.connect();
@@ -262,7 +263,8 @@ TEST(Attack, FloodsOfARemotePortDelayItsDriverByLessThanHalf) {
   const std::string address = remotePortOf(robots);
   Observer driver("Pioneer1", address);
   std::string headers;
-  for (std::uint32_t stream = 1; stream < 2 * 10'000; stream += 2) headers += http2Frame(kHeaders, kEndHeaders, stream, "");
+  for (std::uint32_t stream = 1; stream < 2 * 10'000; stream += 2)
+    headers += http2Frame(kHeaders, kEndHeaders, stream, "");
   for (const auto& [kind, frames] : {std::pair("PING", floods().at("PING")), std::pair("HEADERS", headers)}) {
     const auto begin = Clock::now();
     driver.waitForUpdates(updates);

@@ -137,7 +137,8 @@ TEST(LostRobot, IsNotAwaitedInRealTime) {
   EXPECT_EQ(clientsOf(ended)["on_lost_robot"], "continue");
 }
 
-/// The robots of a server that is killed, as on a restart of its machine, and of another that then listens at its address.
+/// The robots of a server that is killed, as on a restart of its machine, and of another that then listens at its
+/// address.
 /// @param tls whether both use TLS
 void expectEndOfStaleRobots(bool tls) {
   std::vector<std::string> of_server, of_client;
@@ -155,17 +156,17 @@ void expectEndOfStaleRobots(bool tls) {
   const auto control = [&](const std::string& what) {
     return runProgram("control " + address + " " + what + (tls ? " --tls-ca '" + of_client.back() + "'" : ""));
   };
-  StartedProgram stale(with({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address,
-                             "--reconnect-timeout", "600"},
-                            of_client));
+  StartedProgram stale(with(
+      {"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address, "--reconnect-timeout", "600"},
+      of_client));
   first->program().waitForError("all robots are connected");
   EXPECT_EQ(control("step 2").exit_code, 0);  // the robots have received the welcome
   first.reset();
   stale.waitForError("reconnecting");  // and attempts to connect are refused
 
-  StartedProgram next(with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json",
-                            "--time", "20"},
-                           of_server));
+  StartedProgram next(
+      with({"serve", "worlds/small_maze.xml", "--listen", address, "--wait-for-robots", "--json", "--time", "20"},
+           of_server));
   const Ended ended = stale.wait();
   EXPECT_EQ(ended.exit_code, 2);
   EXPECT_NE(ended.err.find("the robots have joined the run '"), std::string::npos) << ended.err;
@@ -173,8 +174,8 @@ void expectEndOfStaleRobots(bool tls) {
   const Ended status = control("status");
   EXPECT_NE(status.out.find("waits for robots at step 0"), std::string::npos) << status.out << status.err;
 
-  const StartedProgram fresh(with({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address},
-                                  of_client));
+  const StartedProgram fresh(
+      with({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", address}, of_client));
   const Ended run = next.wait();
   EXPECT_EQ(run.exit_code, 0) << run.err;
   EXPECT_EQ(json::parse(run.out)["steps"], 200);

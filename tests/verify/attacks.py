@@ -162,7 +162,7 @@ class Run:
                 file.write_text(token + '\n')
                 file.chmod(0o600)
                 self.tokens[role] = ['--token-file', str(file)]
-        self.server = subprocess.Popen([robosim, *arguments], stderr=self.log_path.open('w'), env=environment)
+        self.server = subprocess.Popen([robosim, *arguments], stdout=subprocess.DEVNULL, stderr=self.log_path.open('w'), env=environment)
         self.await_log('listening on ')
         self.address = re.search(r'listening on (\S+)', self.log_path.read_text()).group(1)
         self.attacked = self.address
@@ -230,7 +230,7 @@ class Pace:
 
 def measure(run, kind, addresses, options):
     """Prints a line of the table. @return whether the run has withstood the attack"""
-    alone, attacked, recovered = Pace(), Pace(), Pace()
+    alone, attacked, recovered, rest = Pace(), Pace(), Pace(), Pace()
     pauses, failures = 0, []
     for _ in range(options.rounds):
         alone.add(*run.wait(options.seconds / 2))
@@ -247,11 +247,12 @@ def measure(run, kind, addresses, options):
             attacker.join()
         time.sleep(1)
         recovered.add(*run.wait(options.seconds / 2))
-    rest = float(alone)
+    rest.add(alone.steps + recovered.steps, alone.seconds + recovered.seconds)
     mib = max_resident_mib(run.server.pid)
-    print(f'| {kind} | {len(addresses)} | {float(attacked) / rest:.2f} of {rest:.0f}/s | {float(recovered) / rest:.2f} '
+    print(f'| {kind} | {len(addresses)} | {float(attacked) / float(rest):.2f} of {float(rest):.0f}/s '
+          f'| {float(recovered) / float(alone):.2f} '
           f'| {mib:.0f} MiB | {pauses} of {options.rounds} {"; ".join(failures)}| {run.evictions()} |', flush=True)
-    return (min(float(attacked), float(recovered)) >= rest / 2 and pauses == options.rounds and run.evictions() == 0 and
+    return (float(attacked) >= float(rest) / 2 and float(recovered) >= float(alone) / 2 and pauses == options.rounds and run.evictions() == 0 and
             mib <= MAX_MIB)
 
 

@@ -6,12 +6,22 @@ cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 cmake --preset release >/dev/null
 cmake --build --preset release --target robosim_program robosim_scenarios_test
 ROBOSIM_VERIFY=1 build/release/bin/robosim_scenarios_test --gtest_filter='Attack.*:ReverseProxy.*:Flood.*'
-# Floods of every kind of frame, from one and from 1,000 addresses: pace, memory and evictions as a table.
+# Floods of every kind of frame, from one and from 1,000 addresses: pace, memory and evictions as tables.
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 openssl req -x509 -newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -nodes -days 1 -subj /CN=127.0.0.1 \
   -addext subjectAltName=IP:127.0.0.1 -keyout "$folder/key.pem" -out "$folder/cert.pem" 2>/dev/null
 chmod 600 "$folder/key.pem"
-tests/verify/attacks.py build/release/bin/robosim
-tests/verify/attacks.py build/release/bin/robosim --tokens
-tests/verify/attacks.py build/release/bin/robosim --tokens --tls "$folder"
+attacks() {
+  echo "attacks.py $*"
+  tests/verify/attacks.py build/release/bin/robosim "$@"
+}
+attacks
+attacks --tokens
+attacks --tokens --tls "$folder"
+attacks --arcos
+# All addresses of an IPv6 network of 64 bits, in a network namespace of its own.
+unshare --user --map-root-user --net bash -euc '
+  ip link set lo up
+  ip -6 route add local fd00:1:1:1::/64 dev lo
+  exec tests/verify/attacks.py build/release/bin/robosim --tokens --ipv6 fd00:1:1:1:'
