@@ -180,6 +180,7 @@ class Guard {
       std::this_thread::sleep_for(kPeriod);
       const std::lock_guard lock(mutex_);
       for (Waiter* waiter : waiters_) inspect(*waiter);
+      disconnectUnauthorised();
       if (period % kPeriodsPerCount == 0) countBytes();
     }
   }
@@ -243,10 +244,22 @@ class Guard {
       connection.bytes = trafficOf(descriptor).value_or(Traffic{}).received;
   }
 
+  /// A client whose bytes are answered with as many, such as PING, may flood in waits that end soon.
+  void disconnectUnauthorised() {
+    for (auto it = connections_.begin(); it != connections_.end();) {
+      const auto here = it++;
+      if (here->second.is_authorised || here->second.isExempt()) continue;
+      const auto now = trafficOf(here->first);
+      if (!now || now->received <= kMinBytes || !isOpen(here->first, here->second.peer)) continue;
+      disconnectFlood(here, kFrames);
+      return;  // the alarm disconnects the others
+    }
+  }
+
   void countBytes() {
     removeClosed();
     for (auto it = connections_.begin(); it != connections_.end();) {
-      const auto here = it++;  // disconnectFlood() removes it
+      const auto here = it++;
       Connection& connection = here->second;
       const auto now = trafficOf(here->first);
       if (!now) continue;
@@ -254,7 +267,9 @@ class Guard {
       connection.unanswered -= std::min(connection.unanswered, increase(connection.counted.sent, now->sent));
       connection.counted = *now;
       if (connection.isExempt()) connection.unanswered = 0;
-      if (connection.unanswered > kMaxUnansweredBytes) disconnectFlood(here, kFrames);
+      if (connection.unanswered <= kMaxUnansweredBytes) continue;
+      disconnectFlood(here, kFrames);
+      return;  // the alarm may have removed the others; those that remain are counted next time
     }
   }
 

@@ -211,9 +211,9 @@ class ReconnectingFlood {
 };
 
 /// Observes a robot at its remote port.
-class Observer {
+class RemoteObserver {
  public:
-  Observer(const std::string& robot, const std::string& address)
+  RemoteObserver(const std::string& robot, const std::string& address)
       : link_(robot, optionsFor(address), [this] {
           ++news_;
           news_.notify_all();
@@ -261,7 +261,7 @@ TEST(Attack, FloodsOfARemotePortDelayItsDriverByLessThanHalf) {
   StartedProgram robots({"robot", "Pioneer1", "Scout1", "--controller", "wander", "--environment", run.address(),
                          "--remote-port", "127.0.0.1:0"});
   const std::string address = remotePortOf(robots);
-  Observer driver("Pioneer1", address);
+  RemoteObserver driver("Pioneer1", address);
   std::string headers;
   for (std::uint32_t stream = 1; stream < 2 * 10'000; stream += 2)
     headers += http2Frame(kHeaders, kEndHeaders, stream, "");
