@@ -20,7 +20,7 @@ namespace robosim {
 /// only if it has sent more than kMaxExemptBytes. A flood whose waits end, or that other threads of gRPC handle, is
 /// detected by its bytes: a connection without an exemption is disconnected when it has sent kMaxUnansweredBytes more
 /// than it has received (a client without an exemption receives more bytes for each request than it sends), and one
-/// without an authorised call after kMaxRefusedCalls.
+/// without an authorised call or exemption after kMinBytes or kMaxRefusedCalls.
 ///
 /// Connections that end without an authorised call cost as well: more than kMaxFailures in a second are a flood.
 ///
