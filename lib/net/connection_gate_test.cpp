@@ -178,7 +178,7 @@ TEST_P(ConnectionGateTest, ClosesConnectionsOfOtherProtocolsAtOnceWithoutAnAlarm
 /// Without TLS: gRPC's client does not poll between two attempts to connect, and misses its own time limit otherwise.
 TEST(ConnectionGate, SendsItsSettingsBeforeTheClientSendsAnything) {
   AnsweringService service;
-  const OpenPort open = openPort("127.0.0.1:0", {.option = "--listen"}, {&service});
+  const OpenPort open = openPort("127.0.0.1:0", {.tls = {}, .option = "--listen"}, {&service});
   const RawClient silent(open.number);
   std::string frame;
   for (char byte = 0; frame.size() < 9 && silent.receive(&byte) > 0;) frame += byte;
