@@ -1,6 +1,5 @@
 // Clients that send invalid input: each receives an error, and other clients are not affected.
 #include <functional>
-#include <future>
 #include <limits>
 
 #include <arpa/inet.h>
@@ -17,6 +16,7 @@
 #include "robosim/v1/robots.grpc.pb.h"
 #include "robosim/v1/viewing.grpc.pb.h"
 #include "server/geometry_seal.h"
+#include "tests/scenarios/beside_run.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/served_world.h"
 
@@ -86,7 +86,7 @@ class BadInput : public testing::Test {
       for (int i = 0; i < 3; ++i) EXPECT_TRUE(robots.nextStep());
     };
     NetworkHardware other(world_.connectOptions(), {"Scout1"});
-    auto others_steps = std::async(std::launch::async, [&] { take_steps(other); });
+    BesideRun others_steps(world_, [&] { take_steps(other); });
     take_steps(correct_robot_);
     others_steps.get();
   }

@@ -5,7 +5,6 @@
 // delay is at most the time advanced.
 #include <csignal>
 #include <fstream>
-#include <future>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -13,6 +12,7 @@
 #include "client/network_hardware.h"
 #include "net/wire_error.h"
 #include "robosim/v1/robots.grpc.pb.h"
+#include "tests/scenarios/beside_run.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/manual_clock.h"
 #include "tests/scenarios/panel.h"
@@ -99,7 +99,7 @@ TEST(Faults, FrozenRobotProcessDelaysOneDeadlineAndReconnects) {
   TwoRobots two;
   two.pioneer->signal(SIGSTOP);
   // It may have answered step 10 before it was frozen.
-  auto steps = std::async(std::launch::async, [&] { return two.panel.step(2); });
+  BesideRun steps(two.world, [&] { return two.panel.step(2); });
   waitForDeadline(two.clock, two.world, "disconnected");
   EXPECT_EQ(steps.get().step(), 12u);
   EXPECT_NE(two.lineWith("disconnected").find("robot Pioneer1 (ipv4:"), std::string::npos) << two.world.log();
@@ -122,7 +122,7 @@ TEST(Faults, ConnectionCutWithinAMessageStopsTheRobotUntilItReconnects) {
   Panel panel(world);
   panel.step(10);
   line.cutAfter(20);  // fewer than an answer has
-  auto step = std::async(std::launch::async, [&] { return panel.step(5); });
+  BesideRun step(world, [&] { return panel.step(5); });
   world.waitForLog("): has left");
   world.waitForLog("): connected", 3);
   EXPECT_EQ(step.get().step(), 15u);
@@ -143,7 +143,7 @@ TEST(Faults, KilledGeometryWorkerDoesNotChangeTheRun) {
   world.waitForLog(": ready");
   panel.step(10);
   worker->signal(SIGSTOP);  // ensures that it holds work when it is killed
-  auto step = std::async(std::launch::async, [&] { return panel.step(1); });
+  BesideRun step(world, [&] { return panel.step(1); });
   world.waitUntilStepping();
   worker->signal(SIGKILL);
   EXPECT_EQ(step.get().step(), 11u);
@@ -165,7 +165,7 @@ TEST(Faults, FrozenGeometryWorkerDelaysOneDeadlineAndReconnects) {
   const auto worker = startWorker(world.connectOptions().address);
   world.waitForLog(": ready");
   worker->signal(SIGSTOP);
-  auto step = std::async(std::launch::async, [&] { return panel.step(1); });
+  BesideRun step(world, [&] { return panel.step(1); });
   waitForDeadline(clock, world, "disconnected: no result within the step deadline");
   EXPECT_EQ(step.get().step(), 1u);
   worker->signal(SIGCONT);
@@ -283,7 +283,7 @@ TEST(Faults, DelayedEnvironmentDisconnectsNoRobot) {
   RawRobot pioneer(world), scout(world);
   pioneer.hello("Pioneer1");
   scout.hello("Scout1");
-  auto step = std::async(std::launch::async, [&] { return Panel(world).step(1); });
+  BesideRun step(world, [&] { return Panel(world).step(1); });
   for (RawRobot* robot : {&pioneer, &scout}) {
     robot->receive();
     robot->receive();

@@ -1,11 +1,11 @@
 // Geometry workers: the replicas that they build, and the states that they get.
-#include <future>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "robosim/internal/geometry.grpc.pb.h"
 #include "server/geometry_seal.h"
+#include "tests/scenarios/beside_run.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
@@ -95,7 +95,7 @@ TEST(GeometryWorker, GetsTheStateAfterStepsWithoutATask) {
   panel.step(2);
   first.beReady();
   world.waitForLog(": ready", 3);
-  auto without_third = std::async(std::launch::async, [&] { return panel.step(1); });
+  BesideRun without_third(world, [&] { return panel.step(1); });
   first.waitForTask();
   first.leave();
   without_third.get();

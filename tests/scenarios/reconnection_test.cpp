@@ -1,6 +1,6 @@
 // A broken connection neither loses nor duplicates messages; in lockstep the run is identical to one without the break.
-#include <future>
 #include <random>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -8,6 +8,7 @@
 #include "client/network_hardware.h"
 #include "net/robot_wire.h"
 #include "robosim/v1/robots.grpc.pb.h"
+#include "tests/scenarios/beside_run.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
@@ -60,6 +61,17 @@ TEST(Reconnection, DoesNotChangeTheRunWhereverConnectionsAreCut) {
   EXPECT_GE(times, static_cast<unsigned>(cuts()) / 3) << "some cuts fall on a connection that is being made";
 }
 
+TEST(BesideRun, EndsTheRunOfATestThatEndsEarly) {
+  ServedWorld world(robotsElsewhere(OnLostRobot::wait));
+  Panel panel(world);
+  const auto test = [&] {
+    const BesideRun step(world, [&] { return panel.step(1); });  // waits for robots, which never connect
+    throw std::runtime_error("unexpected");
+  };
+  EXPECT_THROW(test(), std::runtime_error);
+  EXPECT_EQ(world.wait(), Served::interrupted);
+}
+
 /// Takes steps as a robot process, and stores received messages, until the run is over.
 std::vector<std::string> inboxUntilTheEnd(NetworkHardware& robots) {
   std::vector<std::string> texts;
@@ -74,7 +86,7 @@ TEST(Reconnection, ResendsUnconfirmedMessages) {
   FaultProxy line(world.port());
   NetworkHardware pioneer(world.connectOptions(), {"Pioneer1"});
   NetworkHardware scout({.address = line.address()}, {"Scout1"});
-  auto inbox = std::async(std::launch::async, [&] { return inboxUntilTheEnd(pioneer); });
+  BesideRun inbox(world, [&] { return inboxUntilTheEnd(pioneer); });
   line.cutAfter(3);
   scout.robot(0).send("Pioneer1", "GOLD Scout1");
   EXPECT_THROW(scout.nextStep(), ConnectionError);
@@ -86,7 +98,7 @@ TEST(Reconnection, ResendsUnconfirmedMessages) {
   scout.rejoin();
   EXPECT_EQ(scout.robot(0).readings().time.step, 3u);
   EXPECT_FALSE(scout.hasAnswered()) << "its last answer was to step 0";
-  auto steps = std::async(std::launch::async, [&] { return panel.step(2); });
+  BesideRun steps(world, [&] { return panel.step(2); });
   EXPECT_TRUE(scout.nextStep());
   EXPECT_EQ(scout.unconfirmedMessages(), 0u);
   EXPECT_TRUE(scout.nextStep());
@@ -103,7 +115,7 @@ TEST(Reconnection, ResendsTheAnswerToTheCurrentStep) {
   FaultProxy line(world.port());
   NetworkHardware pioneer(world.connectOptions(), {"Pioneer1"});
   NetworkHardware scout({.address = line.address()}, {"Scout1"});
-  auto inbox = std::async(std::launch::async, [&] { return inboxUntilTheEnd(pioneer); });
+  BesideRun inbox(world, [&] { return inboxUntilTheEnd(pioneer); });
   line.cutAfter(3);
   scout.robot(0).command({0.25, 0, 0, Activity::active});
   scout.robot(0).send("Pioneer1", "GOLD Scout1");
@@ -112,7 +124,7 @@ TEST(Reconnection, ResendsTheAnswerToTheCurrentStep) {
   scout.rejoin();
   EXPECT_TRUE(scout.hasAnswered());
   Panel panel(world);
-  auto steps = std::async(std::launch::async, [&] { return panel.step(5); });
+  BesideRun steps(world, [&] { return panel.step(5); });
   for (int i = 0; i < 5; ++i) EXPECT_TRUE(scout.nextStep());
   steps.get();
   EXPECT_GT(world.state().driven_m[1], 0) << "the command that was cut off counts";
@@ -125,7 +137,7 @@ TEST(Reconnection, RepeatsTheLastCommandAfterStepsWithoutTheRobot) {
   FaultProxy line(world.port());
   NetworkHardware pioneer(world.connectOptions(), {"Pioneer1"});
   NetworkHardware scout({.address = line.address()}, {"Scout1"});
-  auto inbox = std::async(std::launch::async, [&] { return inboxUntilTheEnd(pioneer); });
+  BesideRun inbox(world, [&] { return inboxUntilTheEnd(pioneer); });
   line.cutAfter(3);
   scout.robot(0).command({0.25, 0, 0, Activity::active});
   EXPECT_THROW(scout.nextStep(), ConnectionError);
@@ -134,7 +146,7 @@ TEST(Reconnection, RepeatsTheLastCommandAfterStepsWithoutTheRobot) {
   panel.step(3);
   EXPECT_EQ(world.state().driven_m[1], 0) << "it stands still while its process is absent";
   scout.rejoin();
-  auto steps = std::async(std::launch::async, [&] { return panel.step(2); });
+  BesideRun steps(world, [&] { return panel.step(2); });
   EXPECT_TRUE(scout.nextStep());
   EXPECT_TRUE(scout.nextStep());
   steps.get();
@@ -249,7 +261,7 @@ TEST(Reconnection, StoresMessagesForAnAbsentRobot) {
   NetworkHardware pioneer(world.connectOptions(), {"Pioneer1"});
   connectAndLeave(world, "Scout1");
   Panel panel(world);
-  auto steps = std::async(std::launch::async, [&] { return panel.step(2); });
+  BesideRun steps(world, [&] { return panel.step(2); });
   pioneer.robot(0).send("Scout1", "first");
   EXPECT_TRUE(pioneer.nextStep());
   pioneer.robot(0).send("Scout1", "second");
@@ -267,7 +279,7 @@ TEST(Reconnection, CountsMessagesForARobotAbsentAtTheEndAsLost) {
   NetworkHardware pioneer(world.connectOptions(), {"Pioneer1"});
   connectAndLeave(world, "Scout1");
   Panel panel(world);
-  auto step = std::async(std::launch::async, [&] { return panel.step(1); });
+  BesideRun step(world, [&] { return panel.step(1); });
   pioneer.robot(0).send("Scout1", "GOLD Pioneer1");
   EXPECT_TRUE(pioneer.nextStep());
   step.get();
