@@ -37,7 +37,8 @@ class CountingStream final : public StreamSession<v1::FrameRequest, v1::Frame> {
 class Client {
  public:
   explicit Client(int port)
-      : stub_(v1::Viewing::NewStub(connect({.address = "127.0.0.1:" + std::to_string(port)}))),
+      : stub_(v1::Viewing::NewStub(
+            connect({.address = "127.0.0.1:" + std::to_string(port), .shares_connections = false}))),
         stream_(stub_->Watch(&context_)) {}
   ~Client() {
     context_.TryCancel();
@@ -93,8 +94,11 @@ TEST(CompletionQueueServer, ServesOtherClientsDuringAFloodOfMessages) {
   // Calls are assigned to requested streams in order.
   const auto* flooding_stream = streams.back().get();
   Client flooding_client(queue_server.port(0));
+  auto first_of_flood = std::async(std::launch::async, [&] { flooding_client.send(1); });
+  wait_until([&] { return flooding_stream->received_count == 1; });  // else its connection counts as unauthorised
+  first_of_flood.get();
   auto flood = std::async(std::launch::async, [&] { flooding_client.send(1'000'000); });
-  wait_until([&] { return flooding_stream->received_count > 0; });
+  wait_until([&] { return flooding_stream->received_count > 1; });
   const auto* other_stream = streams.back().get();
   Client other_client(queue_server.port(0));
   auto first_message = std::async(std::launch::async, [&] { other_client.send(1); });

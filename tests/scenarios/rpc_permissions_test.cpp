@@ -1,6 +1,7 @@
 // Checks every RPC, for every role and for permitted and forbidden robots, against the table in doc/security.md. RPCs
 // are enumerated through protobuf's descriptors, so that a new one without a table row or a first message here fails.
 #include <filesystem>
+#include <map>
 #include <memory>
 
 #include <google/protobuf/descriptor.h>
@@ -10,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "net/access.h"
+#include "net/connect.h"
 #include "net/wire_error.h"
 #include "remote/testing/test_robot.h"
 #include "tests/scenarios/permission_table.h"
@@ -146,6 +148,8 @@ struct RpcPermissions : testing::Test {
   const Access access = Access::parse(kTokens, "tokens");
   TestRobot permitted{kPermitted, access}, forbidden{kForbidden, access};
   std::unique_ptr<ServedWorld> world;
+  /// By address. All calls use one connection: many without an authorised call are a flood (net/flood_guard.h).
+  std::map<std::string, std::shared_ptr<grpc::Channel>> channels;
 
   /// Result of a call.
   std::string outcome(const std::string& rpc, const MethodDescriptor& method, const std::string& token,
@@ -160,10 +164,14 @@ struct RpcPermissions : testing::Test {
     if (rpc.starts_with("RemoteControl."))
       connect_options.address = (robot == kPermitted ? permitted : forbidden).address();
     connect_options.token = token;
+    auto& channel = channels[connect_options.address];
+    if (!channel) channel = connect(connect_options);
+    connect_options.channel = channel;
     const std::string outcome =
         outcomeOf(call(connect_options, method, encoded(method, firstMessages().at(rpc), robot)));
     if (rpc == "ControlPanel.Stop" && outcome == "yes") {
       EXPECT_EQ(world->wait(), Served::stopped);
+      channels.erase(connect_options.address);
       world.reset();
     }
     return outcome;
