@@ -84,6 +84,7 @@ class RobotProcess {
                                   robots_.worldFromStart(i), known_world};
       const std::string name = controllerOf(robots_.controller(i), arguments.controller);
       auto controller = makeController(name, setup, arguments.names[i]);
+      reads_pictures_.push_back(needsPictures(name));
       if (arguments.remote_port.empty()) {
         driven_robots_.push_back({Robot(robots_.robot(i)), name, std::move(controller)});
       } else {
@@ -100,6 +101,7 @@ class RobotProcess {
       for (auto& driven : driven_robots_) driven.step();
       for (auto& remote : remote_robots_) remote.step();
       if (port_) port_->publish();
+      requestPictures();
     } while (robots_.nextStep());
   }
   void rejoin() { robots_.rejoin(); }
@@ -109,6 +111,13 @@ class RobotProcess {
   std::uint64_t stepNumber() { return robots_.robot(0).readings().time.step; }
 
  private:
+  /// Pictures are rendered and sent only for a controller that requires a camera, and for a remote control that shows
+  /// them.
+  void requestPictures() {
+    for (std::size_t i = 0; i < reads_pictures_.size(); ++i) {
+      robots_.setPictures(i, reads_pictures_[i] || (port_ && port_->isWatched(i)));
+    }
+  }
   void openPort() {
     std::vector<RemoteControlRobot*> robots;
     for (auto& remote : remote_robots_) robots.push_back(remote.robot.get());
@@ -120,6 +129,7 @@ class RobotProcess {
 
   RemotePort::Options port_options_;
   NetworkHardware robots_;
+  std::vector<std::uint8_t> reads_pictures_;  ///< by robot: whether its controller requires a camera
   std::vector<DrivenRobot> driven_robots_;
   std::vector<RemotelyDrivenRobot> remote_robots_;
   std::unique_ptr<RemotePort> port_;

@@ -21,7 +21,12 @@ class ProcessRobot final : public Hardware, public RefereeLink {
  public:
   /// @param welcome of the environment @param all_robots its robots' names, for lookup; both must outlive this
   ProcessRobot(RobotInfo info, const RobotsWelcome& welcome, const std::unordered_set<std::string>& all_robots)
-      : info_(std::move(info)), welcome_(welcome), all_robots_(all_robots), readings_(blankReadings(*info_.sensors)) {}
+      : info_(std::move(info)),
+        welcome_(welcome),
+        all_robots_(all_robots),
+        readings_(blankReadings(*info_.sensors)),
+        has_camera_(std::any_of(info_.sensors->begin(), info_.sensors->end(),
+                                [](const SensorInfo& sensor) { return sensor.kind == SensorKind::camera; })) {}
 
   const RobotInfo& info() const override { return info_; }
   const std::vector<std::string>& robots() const override { return welcome_.all_robots; }
@@ -49,6 +54,8 @@ class ProcessRobot final : public Hardware, public RefereeLink {
   void checkWin() override { is_win_check_requested_ = true; }
 
   Readings& mutableReadings() { return readings_; }
+
+  bool has_pictures = true;  ///< whether its cameras take pictures
 
   /// Repeats the last command, because the environment has stopped the robot and its controller may not repeat it.
   void commandAgain() { is_command_new_ = was_commanded_; }
@@ -80,6 +87,7 @@ class ProcessRobot final : public Hardware, public RefereeLink {
     }
     outbox_.clear();
     if (std::exchange(is_win_check_requested_, false)) out.add_win_checks(index);
+    if (has_camera_ && has_pictures) out.add_pictures(index);
   }
 
  private:
@@ -103,6 +111,7 @@ class ProcessRobot final : public Hardware, public RefereeLink {
   const RobotsWelcome& welcome_;
   const std::unordered_set<std::string>& all_robots_;
   Readings readings_;
+  bool has_camera_;
   Command command_;
   bool is_command_new_ = false;
   bool was_commanded_ = false;
@@ -161,6 +170,7 @@ struct NetworkHardware::Impl {
     hello.set_run(welcome.run);
     hello.set_last_step(step);
     hello.set_process(process);
+    hello.set_pictures_on_request(true);
     for (const auto& name : names) hello.add_names(name);
     stream.write(first);
     if (!read()) stream.fail();
@@ -233,6 +243,7 @@ struct NetworkHardware::Impl {
       out.clear_commands();
       out.clear_messages();
       out.clear_win_checks();
+      out.clear_pictures();
       out.clear_messages_dropped();
       for (std::size_t i = 0; i < robots.size(); ++i) robots[i]->flush(static_cast<std::uint32_t>(i), out);
     }
@@ -258,6 +269,9 @@ std::size_t NetworkHardware::place(std::size_t i) const { return impl_->welcome.
 const std::string& NetworkHardware::controller(std::size_t i) const { return impl_->welcome.robots[i].controller; }
 std::optional<mrpt::math::TPose2D> NetworkHardware::worldFromStart(std::size_t i) const {
   return impl_->welcome.robots[i].world_from_start;
+}
+void NetworkHardware::setPictures(std::size_t robot, bool has_pictures) {
+  impl_->robots[robot]->has_pictures = has_pictures;
 }
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
 const std::string& NetworkHardware::world() const { return impl_->welcome.world; }

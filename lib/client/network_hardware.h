@@ -36,6 +36,8 @@ class NetworkHardware {
   std::uint64_t seed() const;        ///< of the run
   const std::string& world() const;  ///< its name
 
+  /// Whether the cameras of a robot take pictures, from the next step on; initially they do. No effect without cameras.
+  void setPictures(std::size_t robot, bool has_pictures);
   /// Sends the robots' commands and messages since the last step, and waits for the next step's readings.
   /// @return false when the run is over
   /// @throws ConnectionError when the server closes the connection, or it breaks. rejoin() may restore it.

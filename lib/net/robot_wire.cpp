@@ -177,6 +177,8 @@ void decode(const v1::StepAnswer& in, std::size_t robots, RobotsAnswer& out) {
   decodeMessages(in, robots, out);
   out.win_checks.clear();
   for (const auto robot : in.win_checks()) out.win_checks.push_back(checkedRobot(robot, robots, "a CheckWin request"));
+  out.pictures.clear();
+  for (const auto robot : in.pictures()) out.pictures.push_back(checkedRobot(robot, robots, "a request for pictures"));
 }
 
 void encode(const Measurement& measurement, v1::Measurement& out) {

@@ -40,6 +40,7 @@ struct RobotsAnswer {
   std::vector<Message> messages;              ///< at most kMaxMessagesSent of each robot
   std::vector<ProcessRobotIndex> win_checks;  ///< robots that request CheckWin
   std::uint64_t messages_dropped = 0;         ///< not sent because of that limit; at most 2^32
+  std::vector<ProcessRobotIndex> pictures;    ///< robots whose cameras take pictures from the next step on
 };
 
 v1::Activity encode(Activity activity);

@@ -136,6 +136,18 @@ TEST(RobotWire, DecodesCommandsMessagesAndWinChecks) {
   EXPECT_EQ(answer.messages[0].text.size(), kMaxMessageBytes);
 }
 
+TEST(RobotWire, DecodesTheRobotsWhoseCamerasTakePictures) {
+  v1::StepAnswer message;
+  message.add_pictures(1);
+  RobotsAnswer answer;
+  decode(message, 2, answer);
+  EXPECT_EQ(answer.pictures, std::vector{ProcessRobotIndex{1}});
+  decode(v1::StepAnswer(), 2, answer);
+  EXPECT_TRUE(answer.pictures.empty());
+  message.add_pictures(2);
+  EXPECT_THROW(decode(message, 2, answer), WireError);
+}
+
 TEST(RobotWire, DecodesABroadcastAndRejectsOneThatNamesAReceiver) {
   v1::StepAnswer message;
   auto& sent = *message.add_messages();

@@ -214,6 +214,17 @@ TEST_F(RemotePortTest, SendsAPictureToARemoteControlThatMissedItsStep) {
   EXPECT_EQ(ben->news().picture, first) << "it comes once";
 }
 
+TEST_F(RemotePortTest, IsWatchedFromARequestOfAllReadingsUntilSomeStepsAfterTheLast) {
+  connect(*anna, "Anna");
+  anna->send({.type = RemoteType::req_sonar});
+  wait([&] { return anna->news().answers[2] != nullptr; });
+  EXPECT_FALSE(robot.isWatched()) << "the sonars are no picture";
+  anna->setLive(true);
+  waitUntil([&] { return robot.isWatched(); }, [&] { robot.step(); });
+  anna->setLive(false);
+  waitUntil([&] { return !robot.isWatched(); }, [&] { robot.step(); });
+}
+
 TEST_F(RemotePortTest, ReportsTheWinnerAndTheEndOfTheRunToAll) {
   connect(*anna, "Anna");
   const auto ben = linkTo(robot);

@@ -18,6 +18,12 @@ void PortRobot::keepPictures() {
   }
 }
 
+void PortRobot::dropPicturesBefore(std::uint64_t steps) {
+  for (Picture& picture : pictures_) {
+    if (picture.step && *picture.step + steps < readings().time.step) picture = {};
+  }
+}
+
 ResponseOutbox::ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome)
     : robot_(robot), welcome_(std::move(welcome)), sent_(robot.pictures().size()) {}
 
@@ -35,6 +41,7 @@ void ResponseOutbox::addState(bool is_driver) {
 }
 
 void ResponseOutbox::addReadings(bool is_driver) {
+  steps_since_all_ = is_requested_[kAll] ? 0 : std::min(kWatchingSteps, steps_since_all_ + 1);
   for (const auto& request : kRequests) {
     if (!is_requested_[request.topic]) continue;
     if (request.topic == kAll) {

@@ -32,6 +32,8 @@ class PortRobot {
   const std::vector<Picture>& pictures() const { return pictures_; }
   /// Stores this step's pictures.
   void keepPictures();
+  /// Deletes pictures older than `steps`: while no remote control shows the robot, its cameras may take none.
+  void dropPicturesBefore(std::uint64_t steps);
 
  private:
   RemoteControlRobot* robot_;
@@ -42,6 +44,9 @@ class PortRobot {
 /// fewer. Readings are added only on request. Not thread-safe.
 class ResponseOutbox {
  public:
+  /// Steps after a request of all readings in which the remote control is assumed to show them.
+  static constexpr int kWatchingSteps = 50;
+
   /// @param robot must outlive this
   /// @param welcome description, for the first state
   ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome);
@@ -53,6 +58,9 @@ class ResponseOutbox {
   void addState(bool is_driver);
   /// Adds the requested readings of this step.
   void addReadings(bool is_driver);
+  /// Whether all readings have been requested in one of the last steps: a remote control that shows them requests them
+  /// again when it has received them.
+  bool isWatching() const { return is_requested_[kAll] || steps_since_all_ < kWatchingSteps; }
   bool isEmpty() const;
   /// Moves the next message to `out`: the state first. @pre not isEmpty()
   void takeNext(v1::ControlResponse& out);
@@ -73,6 +81,7 @@ class ResponseOutbox {
   void noteSent(v1::Measurement& measurement, std::size_t sensor);
 
   const PortRobot& robot_;
+  int steps_since_all_ = kWatchingSteps;  ///< since the last request of all readings, at most kWatchingSteps
   std::optional<RobotsWelcome> welcome_;  ///< until it was taken
   std::array<bool, kTopics> is_requested_{}, is_due_{};
   std::array<v1::ControlResponse, kTopics> due_;

@@ -27,11 +27,13 @@ class RobotSession::Stream final : public StreamSession<v1::DriveRequest, v1::Dr
     return (names.size() == 1 ? "robot " : "robots ") + listed(names) + " (" + peer() + ")";
   }
 
-  bool is_admitted = false;         ///< has received the welcome
-  std::vector<std::string> names;   ///< empty before the hello
-  std::vector<std::size_t> robots;  ///< indices in the world
-  std::string process;              ///< RobotsHello.process
-  bool continues = false;           ///< the process has been connected in this run before
+  bool is_admitted = false;                ///< has received the welcome
+  std::vector<std::string> names;          ///< empty before the hello
+  std::vector<std::size_t> robots;         ///< indices in the world
+  std::string process;                     ///< RobotsHello.process
+  bool pictures_on_request = false;        ///< RobotsHello.pictures_on_request
+  std::vector<std::uint8_t> has_pictures;  ///< by robot of the process: whether it receives pictures
+  bool continues = false;                  ///< the process has been connected in this run before
   bool owes_answer = false;
   std::uint64_t awaited_step = 0;
   ServingState::Clock::time_point since;  ///< the answer is owed
@@ -113,6 +115,8 @@ void RobotSession::hello(Stream& stream, const v1::DriveRequest& message) {
   }
   stream.robots = std::move(robots);
   stream.process = hello.process();
+  stream.pictures_on_request = hello.pictures_on_request();
+  stream.has_pictures.assign(stream.robots.size(), 1);
   stream.continues = !hello.run().empty();
   stream.names = std::move(names);
   stream.establish();
@@ -134,6 +138,10 @@ void RobotSession::answer(Stream& stream, const v1::DriveRequest& message) {
   }
   std::swap(stream.answer, stream.decoded);
   for (const auto robot : stream.robots) inboxes_.confirm(robot, stream.answer.step);
+  if (stream.pictures_on_request) {
+    stream.has_pictures.assign(stream.robots.size(), 0);
+    for (const auto robot : stream.answer.pictures) stream.has_pictures[indexOf(robot)] = 1;
+  }
   stream.has_answer = true;
   stream.owes_answer = false;
   --missing_;
@@ -293,7 +301,7 @@ void RobotSession::describe(RunReport& report) const {
 
 void RobotSession::addPictured(std::vector<std::uint8_t>& robots) const {
   for (const auto& stream : streams_) {
-    for (const std::size_t robot : stream->robots) robots[robot] = 1;
+    for (std::size_t i = 0; i < stream->robots.size(); ++i) robots[stream->robots[i]] |= stream->has_pictures[i];
   }
 }
 

@@ -39,7 +39,8 @@ class RobotSession final : public v1::Robots::WithRawMethod_Drive<v1::Robots::Se
   bool allAnswered() const { return missing_ == 0; }
   /// Disconnects the processes beyond the step deadline.
   void disconnectLate();
-  /// Sets the flags of robots whose pictures a process receives: those that one drives.
+  /// Sets the flags of robots whose pictures a process receives: all of a process that does not request pictures, or
+  /// that has not answered yet; else those that its last answer requests.
   void addPictured(std::vector<std::uint8_t>& robots) const;
   /// Passes the answers to the environment, including those of processes that have left since; robots without a process
   /// stop.

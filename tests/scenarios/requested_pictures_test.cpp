@@ -70,14 +70,45 @@ class ServedCameras {
   std::thread thread_;
 };
 
-TEST(RequestedPictures, OfARobotThatAProcessDrivesAreInAllItsReadings) {
-  ServedCameras served(true);
+std::vector<std::string> namesOfAll() {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < ServedCameras::kRobots; ++i) names.push_back("R" + std::to_string(i));
+  return names;
+}
+
+const std::string& pictureOf(NetworkHardware& robots, std::size_t i) {
+  return std::get<Image>(robots.robot(i).readings().measurements[0]).jpeg;
+}
+
+TEST(RequestedPictures, OfTenRobotsAreThoseOfTheOneThatItsProcessShowsAtEachStep) {
+  ServedCameras served(true);
+  constexpr int steps_after = 20;
+  {
+    NetworkHardware robots(served.connectOptions(), namesOfAll());
+    for (std::size_t i = 0; i < ServedCameras::kRobots; ++i) {
+      EXPECT_EQ(pictureOf(robots, i), CountedPictures::pictureOf(i)) << "in the first step";
+      robots.setPictures(i, i == 3);
+    }
+    for (int step = 0; step < steps_after; ++step) {
+      ASSERT_TRUE(robots.nextStep());
+      for (std::size_t i = 0; i < ServedCameras::kRobots; ++i) {
+        EXPECT_EQ(pictureOf(robots, i), i == 3 ? CountedPictures::pictureOf(3) : "") << step;
+      }
+    }
+  }
+  served.end();
+  std::vector<int> expected(ServedCameras::kRobots, 1);
+  expected[3] += steps_after;
+  EXPECT_EQ(served.taken(), expected);
+}
+
+TEST(RequestedPictures, OfARobotThatAProcessDrivesAreInAllItsReadings) {
+  ServedCameras served(true);
+  const std::vector<std::string> names = namesOfAll();
   NetworkHardware robots(served.connectOptions(), names);
   for (int step = 0; step < 5; ++step) {
     for (std::size_t i = 0; i < names.size(); ++i) {
-      EXPECT_EQ(std::get<Image>(robots.robot(i).readings().measurements[0]).jpeg, CountedPictures::pictureOf(i));
+      EXPECT_EQ(pictureOf(robots, i), CountedPictures::pictureOf(i));
     }
     ASSERT_TRUE(robots.nextStep());
   }

@@ -81,6 +81,7 @@ class TestRobot {
   }
 
   int port() const { return number_; }
+  bool isWatched() const { return port_->isWatched(0); }
   std::string address() const { return "127.0.0.1:" + std::to_string(number_); }
   void close() { port_.reset(); }
   void reopen() { open(address()); }
