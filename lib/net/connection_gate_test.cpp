@@ -1,5 +1,6 @@
 #include "net/connection_gate.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include <netinet/in.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
+#include <openssl/ssl.h>
 #include <openssl/x509v3.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -184,6 +186,25 @@ TEST(ConnectionGate, SendsItsSettingsBeforeTheClientSendsAnything) {
   for (char byte = 0; frame.size() < 9 && silent.receive(&byte) > 0;) frame += byte;
   ASSERT_EQ(frame.size(), 9u);
   EXPECT_EQ(frame[3], 4) << "type SETTINGS";
+}
+
+TEST(TlsServer, ReportsAConnectionThatItsClientClosesDuringTheHandshake) {
+  const TlsServer server(selfSigned());
+  std::array<int, 2> ends{};
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()), 0);
+  SSL_CTX* const context = SSL_CTX_new(TLS_client_method());
+  SSL* const client = SSL_new(context);
+  SSL_set_fd(client, ends[1]);
+  EXPECT_EQ(SSL_connect(client), -1) << "its first message is sent";
+  SSL_free(client);
+  SSL_CTX_free(context);
+  close(ends[1]);
+  {
+    TlsServer::Connection connection(server, ends[0]);
+    std::array<char, 16> bytes;
+    EXPECT_EQ(connection.read(bytes), -1) << "the answer cannot be sent; SIGPIPE would end the process";
+  }
+  close(ends[0]);
 }
 
 INSTANTIATE_TEST_SUITE_P(WithoutTls, ConnectionGateTest, testing::Values(false));

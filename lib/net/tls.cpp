@@ -1,5 +1,7 @@
 #include "net/tls.h"
 
+#include <csignal>
+#include <ctime>
 #include <new>
 #include <stdexcept>
 
@@ -26,6 +28,29 @@ struct Free {
 };
 template <typename T>
 using Owned = std::unique_ptr<T, Free>;
+
+/// For its lifetime, a write of the calling thread to a connection that the peer has closed is an error only. OpenSSL
+/// writes without MSG_NOSIGNAL, and SIGPIPE would end the process.
+class SigpipeBlock {
+ public:
+  SigpipeBlock() {
+    sigemptyset(&sigpipe_);
+    sigaddset(&sigpipe_, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &sigpipe_, &before_);
+  }
+  ~SigpipeBlock() {
+    if (sigismember(&before_, SIGPIPE) == 1) return;
+    const timespec at_once{};
+    while (sigtimedwait(&sigpipe_, nullptr, &at_once) > 0) {  // discards it
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+  SigpipeBlock(const SigpipeBlock&) = delete;
+  SigpipeBlock& operator=(const SigpipeBlock&) = delete;
+
+ private:
+  sigset_t sigpipe_{}, before_{};
+};
 
 Owned<BIO> bioOf(const std::string& text) {
   return Owned<BIO>(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
@@ -208,9 +233,11 @@ TlsServer::Connection::Connection(const TlsServer& server, int socket) : ssl_(SS
 TlsServer::Connection::~Connection() { SSL_free(ssl_); }
 
 int TlsServer::Connection::read(std::span<char> into) {
+  const SigpipeBlock block;
   return judge(SSL_read(ssl_, into.data(), static_cast<int>(into.size())));
 }
 int TlsServer::Connection::write(std::string_view bytes) {
+  const SigpipeBlock block;
   return bytes.empty() ? 0 : judge(SSL_write(ssl_, bytes.data(), static_cast<int>(bytes.size())));
 }
 
@@ -224,6 +251,7 @@ int TlsServer::Connection::judge(int done) const {
 bool TlsServer::Connection::isEstablished() const { return SSL_is_init_finished(ssl_) == 1; }
 
 void TlsServer::Connection::close() {
+  const SigpipeBlock block;
   SSL_shutdown(ssl_);
   ERR_clear_error();
 }
@@ -241,6 +269,7 @@ bool isListening(const std::string& address, std::chrono::milliseconds limit) {
 }
 
 std::string diagnoseTls(const std::string& address, const std::string& trusted_pem, std::chrono::milliseconds limit) {
+  const SigpipeBlock block;
   const auto until = Clock::now() + limit;
   const Owned<BIO> tcp = connectTcp(address, until);
   if (!tcp) return "";
