@@ -51,8 +51,7 @@ KINDS = {  # what is sent once, what is repeated, whether answers are read
     'rapid reset': (b''.join(frame(1, 4, s, CALL) + frame(3, 0, s, bytes([0, 0, 0, 8])) for s in STREAMS), b'', True),
     'GOAWAY': (b'', frame(7, 0, 0, bytes(8)) * 1000, True),
 }
-
-
+BUSY = 'none; a busy process instead'  # what the attackers cost as a program beside the server
 ARCOS = 'reconnecting FA FB FF'
 ARCOS_PORT = r'for ARCOS programs on (\S+)'
 IPV6_FREEBIND = 78
@@ -66,7 +65,8 @@ class Attacker(multiprocessing.Process):
         super().__init__(daemon=True)
         host, self.port = address.rsplit(':', 1)
         self.host, self.port = host.strip('[]'), int(self.port)
-        self.kind = (b'', b'', True) if kind == ARCOS else KINDS[kind]
+        self.is_busy = kind == BUSY
+        self.kind = KINDS.get(kind, (b'', b'', True))
         self.opening = b'\xfa\xfb\xff' if kind == ARCOS else PREFACE + self.kind[0]
         self.tls, self.addresses = tls, addresses
 
@@ -81,6 +81,8 @@ class Attacker(multiprocessing.Process):
         return s
 
     def run(self):
+        while self.is_busy:
+            pass
         epoll = select.epoll()
         open_ones = {}
         waiting = list(self.addresses)
@@ -143,8 +145,7 @@ class Run:
         self.log_path = folder / 'log'
         world = 'worlds/open_house.xml' if with_arcos else 'worlds/small_maze.xml'
         arguments = ['serve', world, '--listen', '[::1]:0' if with_ipv6 else '127.0.0.1:0', '--time', '1000000']
-        arguments += (['--controller', 'wander', '--pace', 'realtime', '--arcos', '127.0.0.1:0', '--arcos-all'] if with_arcos
-                      else ['--wait-for-robots'])
+        arguments += ['--arcos', '127.0.0.1:0', '--arcos-all'] if with_arcos else ['--wait-for-robots']
         self.client = []
         environment = dict(os.environ)
         if tls:
@@ -162,7 +163,8 @@ class Run:
                 file.write_text(token + '\n')
                 file.chmod(0o600)
                 self.tokens[role] = ['--token-file', str(file)]
-        self.server = subprocess.Popen([robosim, *arguments], stdout=subprocess.DEVNULL, stderr=self.log_path.open('w'), env=environment)
+        self.server = subprocess.Popen([robosim, *arguments], stdout=subprocess.DEVNULL, stderr=self.log_path.open('w'),
+                                       env=environment)
         self.await_log('listening on ')
         self.address = re.search(r'listening on (\S+)', self.log_path.read_text()).group(1)
         self.attacked = self.address
@@ -249,11 +251,12 @@ def measure(run, kind, addresses, options):
         recovered.add(*run.wait(options.seconds / 2))
     rest.add(alone.steps + recovered.steps, alone.seconds + recovered.seconds)
     mib = max_resident_mib(run.server.pid)
-    print(f'| {kind} | {len(addresses)} | {float(attacked) / float(rest):.2f} of {float(rest):.0f}/s '
+    count = len(addresses) if kind != BUSY else 0
+    print(f'| {kind} | {count} | {float(attacked) / float(rest):.2f} of {float(rest):.0f}/s '
           f'| {float(recovered) / float(alone):.2f} '
           f'| {mib:.0f} MiB | {pauses} of {options.rounds} {"; ".join(failures)}| {run.evictions()} |', flush=True)
-    return (float(attacked) >= float(rest) / 2 and float(recovered) >= float(alone) / 2 and pauses == options.rounds and run.evictions() == 0 and
-            mib <= MAX_MIB)
+    return (float(attacked) >= float(rest) / 2 and float(recovered) >= float(alone) / 2 and pauses == options.rounds and
+            run.evictions() == 0 and mib <= MAX_MIB)
 
 
 def main():
@@ -266,14 +269,16 @@ def main():
     options.add_argument('--tokens', action='store_true')
     options.add_argument('--ipv6')
     options.add_argument('--arcos', action='store_true')
-    options.add_argument('--kinds', default=','.join(k for k in KINDS if ',' not in k) + ',unread')
+    options.add_argument('--kinds', default=','.join(['busy', *(k for k in KINDS if ',' not in k), 'unread']))
     options = options.parse_args()
-    kinds = [ARCOS] if options.arcos else [UNREAD if k == 'unread' else k for k in options.kinds.split(',')]
+    names = {'busy': BUSY, 'unread': UNREAD}
+    kinds = [BUSY, ARCOS] if options.arcos else [names.get(k, k) for k in options.kinds.split(',')]
     is_good = True
     print('| attack | addresses | pace | recovered | memory | pause | evictions |\n|---|---|---|---|---|---|---|')
     for kind in kinds:
-        for count in sorted({1, options.addresses}):
-            addresses = [f'{options.ipv6}:{i + 1:x}' if options.ipv6 else f'127.0.{i // 250}.{i % 250 + 1}' for i in range(count)]
+        for count in sorted({1, options.addresses} if kind != BUSY else {1}):
+            addresses = [f'{options.ipv6}:{i + 1:x}' if options.ipv6 else f'127.0.{i // 250}.{i % 250 + 1}'
+                         for i in range(count)]
             with tempfile.TemporaryDirectory() as folder:
                 run = Run(options.robosim, options.tls, options.tokens, options.ipv6, options.arcos, pathlib.Path(folder))
                 try:
