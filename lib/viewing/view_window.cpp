@@ -3,7 +3,7 @@
 #include <functional>
 #include <iostream>
 
-#include <mrpt/gui/CDisplayWindowGUI.h>
+#include <nanogui/nanogui.h>
 #include <nanogui/opengl.h>
 
 #include "base/error_list.h"
@@ -24,12 +24,12 @@ using nanogui::Vector2i;
 constexpr int kPressed = 1, kRepeated = 2;
 constexpr int kEscape = 256, kRight = 262, kLeft = 263, kF1 = 290, kF11 = 300;
 
-class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
+/// On nanogui alone: MRPT's window also loads wxWidgets, Qt and GTK, which takes 0.3 s of processor time.
+class ViewWindow final : public nanogui::Screen {
  public:
   ViewWindow(ViewSource& source, const MakePanes& make_panes, Size size, const ViewTimes& times,
              const Panes::Look& look, const TopViewLayers& layers)
-      : CDisplayWindowGUI("RoboSim: " + printableText(source.title()), static_cast<unsigned>(size.width_px),
-                          static_cast<unsigned>(size.height_px)),
+      : Screen(Vector2i(size.width_px, size.height_px), "RoboSim: " + printableText(source.title())),
         source_(source),
         times_(times),
         scale_(static_cast<float>(look.scale)),
@@ -48,15 +48,10 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
       source_.seek(times.from_s.value_or(0));
       source_.setSpeed(times.speed.value_or(1));
     }
-    addLoopCallback([this] { goOn(); });
-    addKeyboardCallback([this](int key, int, int action, int) {
-      // Key repeat applies to seeking, but not to toggles.
-      const bool is_wanted = action == kPressed || (action == kRepeated && (key == kLeft || key == kRight));
-      return is_wanted && handle(key);
-    });
     performLayout();
     layOut();
   }
+  ~ViewWindow() override { setVisible(false); }
 
   /// Failure while the window was open; exceptions do not pass nanogui's loop.
   std::exception_ptr failure() const { return failure_; }
@@ -112,8 +107,8 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     switches_.emplace_back(button, layer);
   }
 
-  /// Called before each repaint.
-  void goOn() {
+  /// Called before each repaint of the widgets.
+  void drawContents() override {
     safely([this] {
       const auto now = std::chrono::steady_clock::now();
       const std::chrono::duration<double> since = now - last_;
@@ -221,9 +216,14 @@ class ViewWindow final : public mrpt::gui::CDisplayWindowGUI {
     });
   }
 
+  bool keyboardEvent(int key, int scancode, int action, int modifiers) override {
+    // Key repeat applies to seeking, but not to toggles.
+    const bool is_wanted = action == kPressed || (action == kRepeated && (key == kLeft || key == kRight));
+    return (is_wanted && handle(key)) || Screen::keyboardEvent(key, scancode, action, modifiers);
+  }
   /// '?' is on different keys in different keyboard layouts.
   bool keyboardCharacterEvent(unsigned codepoint) override {
-    if (codepoint != '?') return CDisplayWindowGUI::keyboardCharacterEvent(codepoint);
+    if (codepoint != '?') return Screen::keyboardCharacterEvent(codepoint);
     toggleHelp();
     return true;
   }

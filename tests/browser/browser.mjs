@@ -8,7 +8,7 @@ const { chromium } = await import('playwright-core').catch(() => {
 
 const CHROMIUM = process.env.ROBOSIM_CHROMIUM ?? '/usr/bin/chromium';
 // For calls that never return.
-const TIMEOUT_MS = 120_000;
+export const TIMEOUT_MS = 120_000;
 
 export async function openBrowser() {
   if (!existsSync(CHROMIUM)) throw new Error(`${CHROMIUM} is not installed: run ./dev test, which installs it, or apt-get install chromium`);

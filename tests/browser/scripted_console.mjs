@@ -4,6 +4,7 @@
 import { readFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
 
+import { TIMEOUT_MS } from './browser.mjs';
 import { FOLDER } from './program.mjs';
 
 const ORIGIN = 'http://console.test';
@@ -172,6 +173,7 @@ class Script {
 // `hasClock`: the page's clock is page.clock (Playwright); `init`: a script that runs before the page's.
 export async function visitScripted(browser, state, { hasClock = false, init, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 800 }, reducedMotion: 'reduce', ...options });
+  context.setDefaultTimeout(TIMEOUT_MS);
   const page = await context.newPage();
   page.problems = [];
   page.on('console', (message) => message.type() === 'error' && page.problems.push(message.text()));

@@ -129,31 +129,37 @@ constexpr InstructionLoad kLoads[] = {
     {"sonar", "robot-step", [] { return robots("sonar"); }},
     {"sector", "robot-step", [] { return robots("sector"); }},
     {"laser", "robot-step", [] { return robots("laser"); }},
-    {"laser, Gaussian noise", "robot-step", [] { return laserWith("", "<noise/>"); }},
+    {"laser, Gaussian noise", "robot-step", [] { return laserWith("", "<noise/>"); }, false},
     {"laser, Gaussian noise by range and quantum", "robot-step",
-     [] { return laserWith("", "<noise quantum_m='0.01'><at range_m='0' std_m='0.005'/></noise>"); }},
+     [] { return laserWith("", "<noise quantum_m='0.01'><at range_m='0' std_m='0.005'/></noise>"); }, false},
     {"laser, tail, outliers, drift", "robot-step",
-     [] { return laserWith("", "<noise tail='0.1' outlier='0.001' dropout='0.001' drift_m='0.01'/>"); }},
-    {"laser, mixed pixels", "robot-step", [] { return laserWith("", "<noise divergence_deg='0.25'/>"); }},
-    {"laser, reflectivity", "robot-step", [] { return laserWith("", "<noise reach_m='20'/>"); }},
-    {"laser, sweep", "robot-step", [] { return laserWith("sweep_s='0.00667' latency_s='0.01'", ""); }},
+     [] { return laserWith("", "<noise tail='0.1' outlier='0.001' dropout='0.001' drift_m='0.01'/>"); }, false},
+    {"laser, mixed pixels", "robot-step", [] { return laserWith("", "<noise divergence_deg='0.25'/>"); }, false},
+    {"laser, reflectivity", "robot-step", [] { return laserWith("", "<noise reach_m='20'/>"); }, false},
+    {"laser, sweep", "robot-step", [] { return laserWith("sweep_s='0.00667' latency_s='0.01'", ""); }, false},
     {"laser, all errors", "robot-step", [] { return laserWith("noise='lms200' latency_s='0.01'", ""); }},
-    {"laser, all errors of laser and sonars", "robot-step", allErrors},
-    {"sonar, Gaussian noise", "robot-step", [] { return sonarWith("", "<noise/>"); }},
+    {"laser, all errors of laser and sonars", "robot-step", allErrors, false},
+    {"sonar, Gaussian noise", "robot-step", [] { return sonarWith("", "<noise/>"); }, false},
     {"sonar, all errors", "robot-step", [] { return sonarWith("noise='polaroid'", ""); }},
     {"infrared", "robot-step", [] { return robots("infrared"); }},
     {"batch of laser", "agent-step", batch},
     {"rays, scans to 8 m", "ray", [] { return rays(&RayCaster::castScans, 8); }},
-    {"rays, scans to 20 m", "ray", [] { return rays(&RayCaster::castScans, 20); }},
+    {"rays, scans to 20 m", "ray", [] { return rays(&RayCaster::castScans, 20); }, false},
     {"rays, single rays to 8 m", "ray", [] { return rays(&RayCaster::castSingles, 8); }},
-    {"rays, single rays to 20 m", "ray", [] { return rays(&RayCaster::castSingles, 20); }},
+    {"rays, single rays to 20 m", "ray", [] { return rays(&RayCaster::castSingles, 20); }, false},
     {"opho2_1", "robot-step", smallRun},
     {"loading maze_20x20", "world", loading},
 };
 
 }  // namespace
 
-std::span<const InstructionLoad> instructionLoads() { return kLoads; }
+std::vector<InstructionLoad> instructionLoads(Form form) {
+  std::vector<InstructionLoad> loads;
+  for (const auto& load : kLoads) {
+    if (form == Form::whole || load.is_in_short_form) loads.push_back(load);
+  }
+  return loads;
+}
 
 }  // namespace robosim
 

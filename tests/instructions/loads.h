@@ -1,6 +1,6 @@
 #pragma once
 #include <functional>
-#include <span>
+#include <vector>
 
 namespace robosim {
 
@@ -15,9 +15,13 @@ struct InstructionLoad {
   const char* name;
   const char* unit;  ///< "robot-step": unit of work
   InstructionWork (*prepare)();
+  bool is_in_short_form = true;
 };
 
-std::span<const InstructionLoad> instructionLoads();
+/// The short form of ./dev test counts the shapes of beams, all errors together, a batch, a run and a load of a world;
+/// the long form also each error by itself, and longer rays.
+enum class Form { brief, whole };
+std::vector<InstructionLoad> instructionLoads(Form form = Form::whole);
 
 }  // namespace robosim
 

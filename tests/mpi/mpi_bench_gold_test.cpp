@@ -3,20 +3,26 @@
 #include <csignal>
 #include <fstream>
 #include <map>
+#include <thread>
 
 #include <gtest/gtest.h>
 
+#include "base/temporary_directory.h"
 #include "tests/mpi/full_disk.h"
 #include "tests/scenarios/program.h"
+#include "tests/scenarios/verifying.h"
 
 namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
 
-const std::string kBench =
-    "bench gold worlds/small_maze.xml --controller random_walk --controller gold_finder --team 1,3 --condition ideal "
-    "--condition noise+loss=0.5 --runs 5 --time 60 --report ";
+/// 8 experiments of some runs each.
+std::string benchOfTables(const fs::path& report) {
+  return "bench gold worlds/small_maze.xml --controller random_walk --controller gold_finder --team 1,3 --condition "
+         "ideal --condition noise+loss=0.5 --time 60 --runs " +
+         std::string(isVerifying() ? "5" : "2") + " --report " + quoted(report);
+}
 
 Ended benchOnRanks(int ranks, const std::string& arguments) {
   return runCommand(ROBOSIM_MPIRUN " -n " + std::to_string(ranks) + " " ROBOSIM_PROGRAM " " + arguments);
@@ -34,11 +40,11 @@ std::map<std::string, std::string> reportOf(const fs::path& folder) {
 
 TEST(MpiBenchGold, WritesTheSameReportOnAnyNumberOfRanks) {
   const auto folder = emptyFolder();
-  const Ended alone = runProgram(kBench + quoted(folder / "1"));
+  const Ended alone = runProgram(benchOfTables(folder / "1"));
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
   for (const int ranks : {2, 3}) {
     const auto of_ranks = folder / std::to_string(ranks);
-    const Ended ended = benchOnRanks(ranks, kBench + quoted(of_ranks));
+    const Ended ended = benchOnRanks(ranks, benchOfTables(of_ranks));
     ASSERT_EQ(ended.exit_code, 0) << ended.err;
     EXPECT_EQ(ended.out.substr(0, ended.out.find("\nreport")), alone.out.substr(0, alone.out.find("\nreport")))
         << "one rank prints";
@@ -46,61 +52,71 @@ TEST(MpiBenchGold, WritesTheSameReportOnAnyNumberOfRanks) {
   }
 }
 
+/// Each run takes long enough that most are missing when the first is in the journal.
+int endedRuns() { return isVerifying() ? 40 : 8; }
+std::string longBench(const fs::path& report) {
+  return "bench gold maze_20x20 --controller random_walk --runs " + std::to_string(endedRuns()) +
+         (isVerifying() ? " --time 1000" : " --time 500") + " --report " + quoted(report);
+}
+
+/// The report of all its runs, made by one process once for all tests.
+const std::map<std::string, std::string>& wholeReport() {
+  static const auto report = [] {
+    const TemporaryDirectory folder;
+    const Ended alone = runProgram(longBench(folder.path()) + " --threads 2");
+    EXPECT_EQ(alone.exit_code, 0) << alone.err;
+    return reportOf(folder.path());
+  }();
+  return report;
+}
+
+int runsIn(const fs::path& journal) {
+  const std::string text = textOf(journal);
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;  // the first line is the plan
+}
+
+void waitForARun(StartedProgram& mpirun, const fs::path& journal) {
+  mpirun.waitForFile(journal);
+  while (mpirun.isRunning() && runsIn(journal) < 1) std::this_thread::yield();
+}
+
 TEST(MpiBenchGold, CompletesTheSameReportAfterAFailedRank) {
-  const auto folder = emptyFolder();
-  const std::string bench = "bench gold worlds/small_maze.xml --controller gold_finder --runs 400 --report ";
-  const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
-  ASSERT_EQ(alone.exit_code, 0) << alone.err;
-  fs::create_directories(folder / "killed");
+  const auto folder = emptyFolder(), report = folder / "killed";
+  fs::create_directories(report);
   StartedProgram mpirun(ROBOSIM_MPIRUN, {"-n", "2", "/bin/sh", "-c",
                                          // Each rank notes its process.
                                          "echo $$ > '" + (folder / "pid").string() + "'$OMPI_COMM_WORLD_RANK; exec '" +
-                                             ROBOSIM_PROGRAM + "' " + bench + quoted(folder / "killed")});
-  const auto journal = folder / "killed" / "journal.jsonl";
-  mpirun.waitForFile(journal);
-  // Until some runs are in the journal.
-  while (mpirun.isRunning() && textOf(journal).size() < 5000) {
-  }
+                                             ROBOSIM_PROGRAM + "' " + longBench(report)});
+  waitForARun(mpirun, report / "journal.jsonl");
   pid_t worker = 0;
   std::ifstream(folder / "pid1") >> worker;
   ASSERT_GT(worker, 1);
   ::kill(worker, SIGKILL);
   const Ended ended = mpirun.wait();
   EXPECT_NE(ended.exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder / "killed" / "index.html"));
-  const Ended resumed = benchOnRanks(3, bench + quoted(folder / "killed") + " --resume");
+  EXPECT_FALSE(fs::exists(report / "index.html"));
+  const Ended resumed = benchOnRanks(3, longBench(report) + " --resume");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
-  EXPECT_EQ(reportOf(folder / "killed"), reportOf(folder / "alone"));
+  EXPECT_EQ(reportOf(report), wholeReport());
 }
 
 TEST(MpiBenchGold, CompletesTheSameReportAfterCtrlC) {
-  const auto folder = emptyFolder();
-  // Each run takes long enough that most are missing when the signal arrives.
-  const std::string bench = "bench gold maze_20x20 --controller random_walk --runs 20 --time 1000 --report ";
-  const Ended alone = runProgram(bench + quoted(folder / "alone") + " --threads 2");
-  ASSERT_EQ(alone.exit_code, 0) << alone.err;
-  fs::create_directories(folder / "interrupted");
+  const auto report = emptyFolder() / "interrupted";
+  fs::create_directories(report);
   // The shell becomes mpirun, which receives the signal as from a terminal.
-  StartedProgram mpirun(
-      "/bin/sh", {"-c", "exec " ROBOSIM_MPIRUN " -n 2 " ROBOSIM_PROGRAM " " + bench + quoted(folder / "interrupted")});
-  const auto journal = folder / "interrupted" / "journal.jsonl";
-  mpirun.waitForFile(journal);
-  const auto runs = [&journal] {
-    const std::string text = textOf(journal);
-    return std::count(text.begin(), text.end(), '\n') - 1;  // the first line is the plan
-  };
-  while (mpirun.isRunning() && runs() < 1) {
-  }
+  StartedProgram mpirun("/bin/sh", {"-c", "exec " ROBOSIM_MPIRUN " -n 2 " ROBOSIM_PROGRAM " " + longBench(report)});
+  const auto journal = report / "journal.jsonl";
+  waitForARun(mpirun, journal);
   mpirun.interrupt();
   EXPECT_NE(mpirun.wait().exit_code, 0);
-  EXPECT_FALSE(fs::exists(folder / "interrupted" / "index.html"));
-  EXPECT_GE(runs(), 1);
-  EXPECT_LT(runs(), 20);
+  EXPECT_FALSE(fs::exists(report / "index.html"));
+  EXPECT_GE(runsIn(journal), 1);
+  EXPECT_LT(runsIn(journal), endedRuns());
   const std::string before = textOf(journal);
-  const Ended resumed = benchOnRanks(3, bench + quoted(folder / "interrupted") + " --resume");
+  const Ended resumed = benchOnRanks(3, longBench(report) + " --resume");
   ASSERT_EQ(resumed.exit_code, 0) << resumed.err;
   EXPECT_EQ(textOf(journal).substr(0, before.size()), before) << "no finished run is made again";
-  EXPECT_EQ(reportOf(folder / "interrupted"), reportOf(folder / "alone"));
+  EXPECT_EQ(reportOf(report), wholeReport());
 }
 
 TEST(MpiBenchGold, ReportsAFullDiskOnceAndContinues) {

@@ -77,13 +77,13 @@ TEST(MpiRun, EqualsThatOfOneProcessWithSearchStrategies) {
 
 TEST(MpiRun, EqualsThatOfOneProcessInRandomWorlds) {
   const auto folder = emptyFolder();
-  int seed = 1;
+  int seed = 1;  // ./dev verify mpi runs each kind on 1 to 8 ranks
   for (const std::string kind : {"maze", "cave", "office", "open"}) {
     const auto world = folder / (kind + ".xml");
     const Ended generated = runProgram("generate " + kind + " " + quoted(world) + " --seed " + std::to_string(seed));
     ASSERT_EQ(generated.exit_code, 0) << generated.err;
-    const std::string options = " --random-robots 7 --noise on --random-starts --seed " + std::to_string(seed++);
-    expectSameOnRanks(quoted(world) + " --time 5" + options, {2, 3}, folder);
+    const std::string options = " --random-robots 7 --noise on --random-starts --seed " + std::to_string(seed);
+    expectSameOnRanks(quoted(world) + " --time 5" + options, {2 + seed++ % 2}, folder);
   }
 }
 

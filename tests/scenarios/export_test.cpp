@@ -197,8 +197,8 @@ TEST(Export, WritesASceneForSceneViewer3D) {
   exportWorld("'" + (folder / "hall.xml").string() + "' '" + (folder / "hall.3Dscene").string() + "'");
   const Screen screen;
   StartedProgram viewer = startStockWindow("SceneViewer3D", folder / "hall.3Dscene");
-  const auto is_blue = [](const cv::Vec3b& pixel) { return pixel[0] > 60 && pixel[1] < 20 && pixel[2] < 20; };
-  EXPECT_GE(screen.waitForPixels(4000, is_blue, folder, viewer), 4000) << viewer.error();
+  const auto dark_blues_in = [](const cv::Mat& seen) { return pixelsBetween(seen, {61, 0, 0}, {255, 19, 19}); };
+  EXPECT_GE(screen.waitForPixels(4000, dark_blues_in, viewer), 4000) << viewer.error();
 }
 
 TEST(Export, WritesAPlanToScale) {

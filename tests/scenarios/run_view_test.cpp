@@ -6,10 +6,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
-#include "tests/scenarios/wait.h"
 
 namespace robosim {
 namespace {
@@ -28,21 +28,13 @@ fs::path writeHallWithRedRobot(const fs::path& folder) {
   return folder / "hall.xml";
 }
 
-bool isRed(const cv::Vec3b& pixel) { return pixel[2] > 180 && pixel[0] < 60 && pixel[1] < 60; }
-
 /// Mean position of the red pixels [px], which are the robot's once its trail is hidden; nullopt if there is no robot.
 std::optional<cv::Point2d> robotIn(const cv::Mat& picture) {
-  cv::Point2d sum;
-  int count = 0;
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) {
-      if (!isRed(picture.at<cv::Vec3b>(y, x))) continue;
-      sum += cv::Point2d(x, y);
-      ++count;
-    }
-  }
-  if (count < 100) return std::nullopt;
-  return sum / count;
+  cv::Mat reds;
+  cv::inRange(picture, cv::Scalar(0, 0, 181), cv::Scalar(59, 59, 255), reds);
+  if (cv::countNonZero(reds) < 100) return std::nullopt;
+  const cv::Moments moments = cv::moments(reds, true);
+  return cv::Point2d(moments.m10 / moments.m00, moments.m01 / moments.m00);
 }
 
 StartedProgram startRunInWindow(const fs::path& world, const std::vector<std::string>& more) {
@@ -52,8 +44,8 @@ StartedProgram startRunInWindow(const fs::path& world, const std::vector<std::st
 }
 
 /// Waits until the window shows the blue box.
-void waitForWindow(const Screen& screen, const fs::path& folder, StartedProgram& run) {
-  ASSERT_GT(screen.waitForPixels(2000, isBlue, folder, run), 2000) << run.error();
+void waitForWindow(const Screen& screen, StartedProgram& run) {
+  ASSERT_GT(screen.waitForPixels(2000, bluesIn, run), 2000) << run.error();
 }
 
 std::string endedBy(const Ended& run) { return nlohmann::json::parse(run.out)["ended_by"]; }
@@ -64,14 +56,16 @@ TEST(RunView, ShowsTheRobotsMovingAndEndsTheRunWhenTheWindowIsClosed) {
   const auto rawlog = folder / "run.rawlog";
   auto run = startRunInWindow(writeHallWithRedRobot(folder),
                               {"--speed", "10", "--time", "100000", "--record", rawlog.string()});
-  waitForWindow(screen, folder, run);
+  waitForWindow(screen, run);
   screen.act(Screen::keys("t v"));
   std::optional<cv::Point2d> first, now;
-  waitUntil("the robot has moved by 50 px, several times its length", [&] {
-    now = robotIn(screen.shot(folder));
-    if (!first) first = now;
-    return !run.isRunning() || (now && cv::norm(*now - *first) > 50);
-  });
+  screen.waitFor(
+      [&](const cv::Mat& seen) {
+        now = robotIn(seen);
+        if (!first) first = now;
+        return now && cv::norm(*now - *first) > 50;  // several times its length
+      },
+      run);
   screen.act(Screen::keys("q"));
   const Ended ended = run.wait();
   EXPECT_EQ(ended.exit_code, 0) << ended.err;
@@ -85,7 +79,7 @@ TEST(RunView, StaysOpenAtTheEndOfTheRun) {
   const Screen screen;
   // The first repaint takes the only step.
   auto run = startRunInWindow(writeHallWithRedRobot(folder), {"--speed", "max", "--time", "0.1"});
-  waitForWindow(screen, folder, run);
+  waitForWindow(screen, run);
   screen.act(Screen::keys("space plus s"));  // without effect
   EXPECT_TRUE(run.isRunning());
   screen.act(Screen::keys("q"));
@@ -99,7 +93,7 @@ TEST(RunView, PrintsTheSummaryWhenInterrupted) {
   const auto folder = emptyFolder();
   const Screen screen;
   auto run = startRunInWindow(writeHallWithRedRobot(folder), {"--time", "100000"});
-  waitForWindow(screen, folder, run);
+  waitForWindow(screen, run);
   run.interrupt();
   const Ended ended = run.wait();
   EXPECT_EQ(ended.exit_code, 130) << ended.err;

@@ -1,39 +1,32 @@
 #pragma once
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 
-#include <opencv2/imgcodecs.hpp>
+#include <opencv2/core.hpp>
 
 #include "tests/scenarios/program.h"
+
+struct xcb_connection_t;
 
 namespace robosim {
 
 inline bool isBlue(const cv::Vec3b& pixel) { return pixel[0] > 120 && pixel[2] < 80; }
+/// Number of pixels of a BGR picture whose channels are all between those of two colours, inclusive.
+int pixelsBetween(const cv::Mat& picture, const cv::Scalar& low, const cv::Scalar& high);
+/// Number of pixels for which isBlue().
+int bluesIn(const cv::Mat& picture);
+/// Number of pixels that are not black.
+int litsIn(const cv::Mat& picture);
 
 /// A virtual X server (Xvfb), with inspection of its screen. It does not reset when the last client disconnects, which
 /// would reject the next one, and does not repeat keys that are released late on a slow machine.
 class Screen {
  public:
-  Screen()
-      : server_("/usr/bin/Xvfb",
-                {"-displayfd", "1", "-screen", "0", "1024x768x24", "-nolisten", "tcp", "-noreset", "-r"}) {
-    server_.waitForOutput("\n");
-    display_ = ":" + server_.output().substr(0, server_.output().find('\n'));
-    setenv("DISPLAY", display_.c_str(), 1);
-    // LeakSanitizer cannot name leaks of window system libraries that have been unloaded. Programs without a window are
-    // still checked for leaks.
-    // MRPT's nanogui deallocates widgets with another operator delete than programs of C++17 and later require.
-    setenv("ASAN_OPTIONS", "detect_leaks=0:alloc_dealloc_mismatch=0", 1);
-  }
-  ~Screen() {
-    unsetenv("DISPLAY");
-    unsetenv("ASAN_OPTIONS");
-    server_.signal(SIGTERM);  // lets it remove its lock and its socket
-    server_.wait();
-  }
+  Screen();
+  ~Screen();
 
   /// Prefix for act() that sends keys, named as in `xdotool`, to the focused window (0) rather than to a given window:
   /// if a key closes the window, its release would go to that window, and the server would consider the key pressed and
@@ -42,30 +35,19 @@ class Screen {
   /// Runs `xdotool` on RoboSim's window.
   void act(const std::string& what) const { runCommand("xdotool search --name RoboSim " + what); }
 
-  cv::Mat shot(const std::filesystem::path& folder) const {
-    const auto file = folder / "screen.png";
-    runCommand("import -window root '" + file.string() + "'");
-    return cv::imread(file.string());
-  }
-
-  /// Number of pixels that satisfy a predicate, as soon as it is at least `count`; the last number when the program has
-  /// ended, or after a timeout.
-  int waitForPixels(int count, const std::function<bool(const cv::Vec3b&)>& is_one, const std::filesystem::path& folder,
-                    StartedProgram& program) const {
-    int found = 0;
-    for (int tries = 0; tries < 600 && found < count && program.isRunning(); ++tries) {
-      const cv::Mat seen = shot(folder);
-      found = 0;
-      for (int y = 0; y < seen.rows; ++y) {
-        for (int x = 0; x < seen.cols; ++x) found += is_one(seen.at<cv::Vec3b>(y, x)) ? 1 : 0;
-      }
-    }
-    return found;
-  }
+  /// The screen, 1024 × 768, as the server has it between two requests of its clients.
+  cv::Mat shot() const;
+  /// The first picture of the screen that satisfies a predicate; the last one when the program has ended, or after
+  /// kLongestWait.
+  cv::Mat waitFor(const std::function<bool(const cv::Mat& screen)>& is_it, StartedProgram& program) const;
+  /// What `pixels_in` counts, as soon as it is at least `count`; the last number when the program has ended, or after
+  /// kLongestWait.
+  int waitForPixels(int count, const std::function<int(const cv::Mat& screen)>& pixels_in,
+                    StartedProgram& program) const;
 
  private:
   StartedProgram server_;
-  std::string display_;
+  std::unique_ptr<xcb_connection_t, void (*)(xcb_connection_t*)> connection_;
 };
 
 /// Opens a file in one of MRPT's programs with a window. Mesa's software renderer is correct for them only with

@@ -27,6 +27,10 @@ class Sdk : public testing::Test {
     const auto add = [&](const std::string& name, const std::string& source) {
       std::ofstream(folder / (name + ".cpp")) << source;
       cmake << "robosim_add_plugin(" << name << " " << name << ".cpp)\n";
+      // Once for all that use it.
+      if (source.find("run/plugin.h") == std::string::npos) return;
+      cmake << "target_precompile_headers(" << name
+            << (name == "throwing" ? " PRIVATE <run/plugin.h>)\n" : " REUSE_FROM throwing)\n");
     };
     add("nothing", "int x;\n");
     add("throwing", R"(#include "run/plugin.h"

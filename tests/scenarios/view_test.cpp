@@ -183,7 +183,7 @@ TEST(View, OpensAWindowAndClosesOnQ) {
   const Screen screen;
   StartedProgram view({"view", hall.string(), "--size", "648x684"});  // 648 x 648 above the toolbar
   // Independent of the window's position, a blue square of 120 px appears.
-  const int blue = screen.waitForPixels(12000, isBlue, folder, view);
+  const int blue = screen.waitForPixels(12000, bluesIn, view);
   EXPECT_NEAR(blue, 120 * 120, 1000) << view.error();
   screen.act(Screen::keys("q"));
   const Ended ended = view.wait();
@@ -201,17 +201,17 @@ class RunWindow {
   ~RunWindow() { unsetenv("ROBOSIM_TOKEN"); }
   void press(const std::string& keys) const { screen_.act(Screen::keys(keys)); }
   bool isOpen() { return view_.isRunning(); }
-  int waitUntilLit() {
-    const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
-    return screen_.waitForPixels(100'000, is_lit, emptyFolder(), view_);
-  }
+  int waitUntilLit() { return screen_.waitForPixels(100'000, litsIn, view_); }
   /// Waits until a large part of the screen has changed.
   void waitForChange(const cv::Mat& before) {
-    cv::Mat difference, differs;
-    do {
-      cv::absdiff(screen_.shot(emptyFolder()), before, difference);
-      cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(0, 0, 0), differs);
-    } while (isOpen() && cv::countNonZero(differs) > 1024 * 768 - 20'000);
+    screen_.waitFor(
+        [&](const cv::Mat& seen) {
+          cv::Mat difference, equals;
+          cv::absdiff(seen, before, difference);
+          cv::inRange(difference, cv::Scalar(0, 0, 0), cv::Scalar(0, 0, 0), equals);
+          return cv::countNonZero(equals) <= 1024 * 768 - 20'000;
+        },
+        view_);
   }
   Ended quit() {
     press("q");
@@ -295,11 +295,10 @@ TEST(View, StaysOpenWithTheReasonWhenTheServerEnds) {
   auto serving = std::make_unique<Serving>(std::vector<std::string>{"--speed", "1", "--controller", "wander"},
                                            "worlds/opho2_1.xml");
   StartedProgram view({"view", serving->address(), "--size", "800x600"});
-  const auto is_lit = [](const cv::Vec3b& pixel) { return pixel != cv::Vec3b(0, 0, 0); };
-  ASSERT_GE(screen.waitForPixels(100'000, is_lit, emptyFolder(), view), 100'000) << view.error();
+  ASSERT_GE(screen.waitForPixels(100'000, litsIn, view), 100'000) << view.error();
   serving.reset();  // ends the server's process
-  const auto is_red = [](const cv::Vec3b& pixel) { return pixel[2] > 140 && pixel[1] < 60 && pixel[0] < 60; };
-  EXPECT_GE(screen.waitForPixels(20'000, is_red, emptyFolder(), view), 20'000) << "a banner; " << view.error();
+  const auto reds_in = [](const cv::Mat& seen) { return pixelsBetween(seen, {0, 0, 141}, {59, 59, 255}); };
+  EXPECT_GE(screen.waitForPixels(20'000, reds_in, view), 20'000) << "a banner; " << view.error();
   EXPECT_TRUE(view.isRunning());
   screen.act(Screen::keys("q"));
   const Ended ended = view.wait();
@@ -318,7 +317,7 @@ TEST(View, ContinuesWithAWorldWithoutTheFollowedRobot) {
   ControlPanel panel(connect_options);
   const Screen screen;
   RunWindow window(world, master, screen, {"--follow", "Pioneer1"});
-  const cv::Mat before = screen.shot(emptyFolder());
+  const cv::Mat before = screen.shot();
   panel.load(readWorldSource(ROBOSIM_SOURCE_DIR "/worlds/opho2_1.xml"));
   window.waitForChange(before);
   EXPECT_TRUE(window.isOpen());
@@ -390,7 +389,7 @@ TEST(View, RawLogViewerOpensARecording) {
   const Screen screen;
   StartedProgram viewer = startStockWindow("RawLogViewer", folder / "run.rawlog");
   // Its time line has a blue dot for each observation.
-  const int blue = screen.waitForPixels(2000, isBlue, folder, viewer);
+  const int blue = screen.waitForPixels(2000, bluesIn, viewer);
   EXPECT_GE(blue, 2000) << viewer.error();
 }
 

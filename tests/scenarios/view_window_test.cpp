@@ -6,22 +6,16 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "base/temporary_directory.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/screen.h"
+#include "tests/scenarios/verifying.h"
 
 namespace robosim {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace std::string_literals;
-
-int bluesIn(const cv::Mat& picture) {
-  int count = 0;
-  for (int y = 0; y < picture.rows; ++y) {
-    for (int x = 0; x < picture.cols; ++x) count += isBlue(picture.at<cv::Vec3b>(y, x)) ? 1 : 0;
-  }
-  return count;
-}
 
 bool areSame(const cv::Mat& a, const cv::Mat& b) { return cv::norm(a, b, cv::NORM_INF) == 0; }
 
@@ -39,12 +33,19 @@ fs::path writeHallOfTwoBoxes(const fs::path& folder) {
   return folder / "hall.xml";
 }
 
-/// The hall, run for 20 s.
-fs::path recordHall(const fs::path& folder) {
+/// Runs the hall.
+fs::path recordHall(const fs::path& folder, const std::string& seconds) {
   const auto rawlog = folder / "run.rawlog";
   const Ended run =
-      runProgram("run '" + writeHallOfTwoBoxes(folder).string() + "' --time 20 --record '" + rawlog.string() + "'");
+      runProgram("run " + quoted(writeHallOfTwoBoxes(folder)) + " --time " + seconds + " --record " + quoted(rawlog));
   EXPECT_EQ(run.exit_code, 0) << run.err;
+  return rawlog;
+}
+
+/// The hall, run for 20 s; recorded once for all tests.
+const fs::path& recordedHall() {
+  static const TemporaryDirectory folder;
+  static const fs::path rawlog = recordHall(folder.path(), "20");
   return rawlog;
 }
 
@@ -54,8 +55,8 @@ cv::Mat picturePart(const cv::Mat& screen) { return screen(cv::Rect(0, 0, 900, 6
 /// A window of `robosim view`, after its first drawing.
 class Window {
  public:
-  Window(const fs::path& folder, const std::vector<std::string>& arguments) : folder_(folder), view_(arguments) {
-    screen_.waitForPixels(2000, isBlue, folder, view_);
+  explicit Window(const std::vector<std::string>& arguments) : view_(arguments) {
+    screen_.waitForPixels(2000, bluesIn, view_);
     start_ = last_ = settled();
   }
 
@@ -66,20 +67,18 @@ class Window {
   cv::Mat afterDoing(const std::string& what) {
     const cv::Mat before = last_;
     screen_.act(what);
-    for (int tries = 0; tries < 200 && view_.isRunning(); ++tries) {
-      if (!areSame(screen_.shot(folder_), before)) return last_ = settled();
-    }
+    const cv::Mat seen = screen_.waitFor([&](const cv::Mat& each) { return !areSame(each, before); }, view_);
+    if (!areSame(seen, before)) return last_ = settled();
     ADD_FAILURE() << what << " changes nothing; " << view_.error();
     return before;
   }
   /// Whether the part above the bar becomes equal to this picture.
   bool comesToShow(const cv::Mat& expected, const std::string& what) {
     screen_.act(what);
-    for (int tries = 0; tries < 200 && view_.isRunning(); ++tries) {
-      last_ = screen_.shot(folder_);
-      if (areSame(picturePart(last_), expected)) return last_ = settled(), true;
-    }
-    return false;
+    last_ = screen_.waitFor([&](const cv::Mat& seen) { return areSame(picturePart(seen), expected); }, view_);
+    const bool shows = areSame(picturePart(last_), expected);
+    if (shows) last_ = settled();
+    return shows;
   }
   /// Result of the program after these actions.
   Ended endAfter(const std::string& what) {
@@ -97,18 +96,21 @@ class Window {
   }
 
  private:
-  /// The picture when it has stopped changing.
+  /// The picture when it has stopped changing, for as long as a window takes for several repaints.
   cv::Mat settled() {
-    cv::Mat last = screen_.shot(folder_);
-    while (view_.isRunning()) {
-      cv::Mat next = screen_.shot(folder_);
-      if (areSame(next, last)) break;
-      last = next;
-    }
+    using Clock = std::chrono::steady_clock;
+    cv::Mat last = screen_.shot();
+    Clock::time_point since = Clock::now();
+    screen_.waitFor(
+        [&](const cv::Mat& seen) {
+          if (!areSame(seen, last)) since = Clock::now();
+          last = seen;
+          return Clock::now() - since > std::chrono::milliseconds(150);
+        },
+        view_);
     return last;
   }
 
-  fs::path folder_;
   Screen screen_;
   StartedProgram view_;
   cv::Mat start_, last_;
@@ -124,8 +126,7 @@ std::vector<std::string> viewOf(const fs::path& file, const std::vector<std::str
 }
 
 TEST(ViewWindow, SeeksInARecordingWithKeys) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const cv::Mat paused = window.after("space");
   // Edges differ slightly in the first picture, which is drawn in another way than later ones (TopView::draw()).
   const cv::Mat going = window.after("space");
@@ -141,8 +142,7 @@ TEST(ViewWindow, SeeksInARecordingWithKeys) {
 }
 
 TEST(ViewWindow, SeeksInARecordingWithTheSlider) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   // Without paths, a picture does not depend on how its time was reached.
   window.after("Right");
   window.after("t");
@@ -166,11 +166,8 @@ TEST(ViewWindow, SeeksInARecordingWithTheSlider) {
 
 TEST(ViewWindow, ClosesWithAnErrorWhenReadingFails) {
   const auto folder = emptyFolder();
-  const auto rawlog = folder / "run.rawlog";
-  const Ended run =
-      runProgram("run '" + writeHallOfTwoBoxes(folder).string() + "' --time 300 --record '" + rawlog.string() + "'");
-  ASSERT_EQ(run.exit_code, 0) << run.err;
-  Window window(folder, viewOf(rawlog, {"--speed", "0.001", "--size", "900x700", "--from", "299"}));
+  const auto rawlog = recordHall(folder, "300");
+  Window window(viewOf(rawlog, {"--speed", "0.001", "--size", "900x700", "--from", "299"}));
   // The file is truncated, and then its beginning is shown.
   fs::resize_file(rawlog, 0);
   const Ended ended = window.endAfter("windowfocus mousemove --window %1 450 686 mousedown 1 mouseup 1");
@@ -180,17 +177,15 @@ TEST(ViewWindow, ClosesWithAnErrorWhenReadingFails) {
 }
 
 TEST(ViewWindow, ClosesOnCtrlCWithoutOtherEvents) {
-  const auto folder = emptyFolder();
-  const auto rawlog = recordHall(folder);
-  for (int i = 0; i < 4; ++i) {  // the failure was intermittent
-    const Ended ended = Window(folder, viewOf(rawlog)).interrupt();
+  // The failure was intermittent.
+  for (int i = 0; i < (isVerifying() ? 10 : 2); ++i) {
+    const Ended ended = Window(viewOf(recordedHall())).interrupt();
     EXPECT_EQ(ended.exit_code, 0) << ended.err;
   }
 }
 
 TEST(ViewWindow, FollowsARobotAndShowsEverythingAgain) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const cv::Mat riding = window.after("f");
   EXPECT_LT(bluesIn(riding), bluesIn(window.start())) << "the boxes are beyond 3 m";
   EXPECT_TRUE(areSame(window.after("0"), window.start()));
@@ -198,8 +193,7 @@ TEST(ViewWindow, FollowsARobotAndShowsEverythingAgain) {
 }
 
 TEST(ViewWindow, HidesAndShowsPathsSensorsAndNames) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const cv::Mat all = window.after("Right");
   std::vector<cv::Mat> less;
   for (const char* key : {"t", "v", "n"}) {
@@ -212,8 +206,7 @@ TEST(ViewWindow, HidesAndShowsPathsSensorsAndNames) {
 }
 
 TEST(ViewWindow, ShowsTheSpeedChangedWithKeys) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const cv::Mat slowest = window.after("space plus");  // 0.01, the minimum, and paused
   const cv::Mat faster = window.after("plus");
   EXPECT_FALSE(areSame(faster, slowest));
@@ -222,8 +215,7 @@ TEST(ViewWindow, ShowsTheSpeedChangedWithKeys) {
 }
 
 TEST(ViewWindow, PlacesTheBarBelowThePicture) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const int above = bluesIn(window.start()(cv::Rect(0, 0, 1024, 350)));
   const int below = bluesIn(window.start()(cv::Rect(0, 350, 1024, 350)));
   EXPECT_GT(above, 5000);
@@ -233,9 +225,10 @@ TEST(ViewWindow, PlacesTheBarBelowThePicture) {
 
 TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
   const auto folder = emptyFolder();
-  const auto rawlog = recordHall(folder);
+  const auto rawlog = folder / "run.rawlog";
+  fs::copy_file(recordedHall(), rawlog);
   fs::resize_file(rawlog, fs::file_size(rawlog) / 2);
-  Window window(folder, viewOf(rawlog));
+  Window window(viewOf(rawlog));
   EXPECT_EQ(countOf("robosim view: " + rawlog.string() + ": ends early", window.error()), 1u) << window.error();
   EXPECT_EQ(window.quit(), 0);
 }
@@ -243,7 +236,7 @@ TEST(ViewWindow, PrintsWhyARecordingEndsEarly) {
 TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
   const auto folder = emptyFolder();
   const auto hall = writeHallOfTwoBoxes(folder);
-  Window window(folder, viewOf(hall, {"--3d", "--size", "600x536"}));  // 500 px above the toolbar
+  Window window(viewOf(hall, {"--3d", "--size", "600x536"}));  // 500 px above the toolbar
   const auto file = folder / "air.png";
   ASSERT_EQ(
       runProgram("view '" + hall.string() + "' --3d --size 600x500 --offscreen '" + file.string() + "'").exit_code, 0);
@@ -259,8 +252,7 @@ TEST(ViewWindow, Shows3dViewsLikePictureFiles) {
 }
 
 TEST(ViewWindow, ShowsThePathOfAnyTimeHoweverItWasReached) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   window.after("space");
   const cv::Mat at_5_s = picturePart(window.after("Right"));
   window.after("Right Right");
@@ -269,8 +261,7 @@ TEST(ViewWindow, ShowsThePathOfAnyTimeHoweverItWasReached) {
 }
 
 TEST(ViewWindow, ShowsHelpOnAQuestionMark) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const cv::Mat before = window.after("space");
   const cv::Mat help = window.afterDoing("windowfocus key --window 0 question");
   EXPECT_GT(cv::norm(help, before, cv::NORM_L1) / static_cast<double>(before.total()), 20) << "a large panel";
@@ -279,8 +270,7 @@ TEST(ViewWindow, ShowsHelpOnAQuestionMark) {
 }
 
 TEST(ViewWindow, FillsTheScreenOnF11) {
-  const auto folder = emptyFolder();
-  Window window(folder, viewOf(recordHall(folder)));
+  Window window(viewOf(recordedHall()));
   const auto is_black = [](const cv::Mat& picture) { return picture.at<cv::Vec3b>(760, 1015) == cv::Vec3b(0, 0, 0); };
   ASSERT_TRUE(is_black(window.start())) << "the screen of 1024 x 768 beside the window";
   EXPECT_FALSE(is_black(window.after("F11")));
