@@ -71,7 +71,7 @@ TEST(MpiRun, EqualsThatOfOneProcessWithSearchStrategies) {
   const auto folder = emptyFolder();
   for (const std::string strategy : {"stigmergy", "coordinated_frontiers", "market", "oracle"}) {
     SCOPED_TRACE(strategy);
-    expectSameOnRanks("worlds/benchmark/gold_office_20.xml --time 10 --controller " + strategy, {2}, folder);
+    expectSameOnRanks("worlds/benchmark/gold_office_20.xml --time 5 --controller " + strategy, {2}, folder);
   }
 }
 
@@ -83,12 +83,12 @@ TEST(MpiRun, EqualsThatOfOneProcessInRandomWorlds) {
     const Ended generated = runProgram("generate " + kind + " " + quoted(world) + " --seed " + std::to_string(seed));
     ASSERT_EQ(generated.exit_code, 0) << generated.err;
     const std::string options = " --random-robots 7 --noise on --random-starts --seed " + std::to_string(seed);
-    expectSameOnRanks(quoted(world) + " --time 5" + options, {2 + seed++ % 2}, folder);
+    expectSameOnRanks(quoted(world) + " --time 3" + options, {2 + seed++ % 2}, folder);
   }
 }
 
 TEST(MpiRun, WithAnObserverHasTheSameMetricsAndEnd) {
-  expectSameOnRanks("worlds/open_100.xml --time 60 --controller wander --observer 'coverage end_percent=5'", {2},
+  expectSameOnRanks("worlds/open_100.xml --time 60 --controller wander --observer 'coverage end_percent=2'", {2},
                     emptyFolder());
 }
 
