@@ -80,6 +80,12 @@ TEST(Libraries, OfSubcommandsWithANetworkIncludeNeitherWindowsNorDrivers) {
   EXPECT_FALSE(loads(librariesOf("robosim-net"), "glfw|nanogui|mrpt-gui|mrpt-hwdrivers|wx"));
 }
 
+TEST(Libraries, OfWindowsAreThoseOfNanoguiAndOfNoOtherToolkit) {
+  const std::string libraries = librariesOf("robosim-view");
+  EXPECT_TRUE(loads(libraries, "nanogui"));
+  EXPECT_FALSE(loads(libraries, "mrpt-gui|libwx|Qt|gtk")) << libraries;
+}
+
 TEST(Libraries, ThatForwardsToOpenCvsPictureCodecsHasAllTheirFunctions) {
   std::smatch found;
   const std::string libraries = librariesOf("robosim-run");
