@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "environment/environment.h"
+#include "environment/step_phases.h"
 #include "net/client_stream.h"
 #include "net/robot_wire.h"
 #include "robosim/internal/geometry.grpc.pb.h"
@@ -33,11 +34,11 @@ void doTask(const internal::Task& task, Environment& environment) {
     environment.restore(state);
   }
   putCommands(task, environment);
-  environment.begin();
+  environment.phases().begin();
   if (environment.time().step != task.step()) throw WireError("a task for another step than the replica's");
   putOutcome(task, environment);
-  environment.move();
-  environment.sense(range);
+  environment.phases().move();
+  environment.phases().sense(range);
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "distributed/rank_bytes.h"
 #include "distributed/run_identity.h"
+#include "environment/step_phases.h"
 #include "ranks/agreement.h"
 
 namespace robosim {
@@ -96,22 +97,22 @@ void DistributedRun::step(bool is_end_requested, const std::exception_ptr& failu
     limitToKnownRobots();
   }
   exchangeOrders(failure);
-  environment.begin();
+  environment.phases().begin();
   finished(moves);
-  environment.clip(shares_.work[own_]);
+  environment.phases().clip(shares_.work[own_]);
   finished(clips);
   exchangePaths();
-  environment.judge(shares_.work[own_]);
+  environment.phases().judge(shares_.work[own_]);
   finished(judgements);
   exchangeStays(is_end_requested);
-  environment.move();
+  environment.phases().move();
   measured_.robots_moved += near_ ? known_.size() : shares_.robots;
   finished(moves);
-  sensor_failure_ = failureOf([&] { environment.senseFully(shares_.work[own_]); });
+  sensor_failure_ = failureOf([&] { environment.phases().senseFully(shares_.work[own_]); });
   finished(sensors);
   if (sends_readings_) exchangeReadings(shares_.work, needed_);
   exchangeWinCandidates();
-  environment.conclude();
+  environment.phases().conclude();
   const std::exception_ptr observer_failure = failureOf([&] { run_->observe(); });
   finished(rest);
   if (has_observers_) {
@@ -169,11 +170,11 @@ void DistributedRun::exchangeOf(Part part, const RobotsByRank& known, const Writ
 
 void DistributedRun::exchangeOrders(const std::exception_ptr& failure) {
   const RobotRange home = shares_.home[own_];
-  orders_.begin(run_->environment().orders(), home);
+  orders_.begin(run_->environment().phases().orders(), home);
   std::exception_ptr own = sensor_failure_ ? sensor_failure_ : failure;
   if (!own) own = failureOf([&] { run_->decide(); });
   finished(controllers);
-  const StepOrders orders = run_->environment().orders();
+  const StepOrders orders = run_->environment().phases().orders();
   orders_.end(orders, near_ ? std::span<const std::uint32_t>() : std::span<const std::uint32_t>(orders_of_[0]));
   // For all ranks. A rank with an error sends only that, behind a byte.
   out_.clear();
@@ -212,7 +213,7 @@ void DistributedRun::throwFirstSent(const std::exception_ptr& own) {
 }
 
 void DistributedRun::exchangePaths() {
-  const PhaseResults results = run_->environment().results();
+  const PhaseResults results = run_->environment().phases().results();
   exchangeOf(clips, motion_of_,
              [&](std::span<const std::uint32_t> known, std::string& out) { writePaths(results, known, out); });
   for (std::size_t rank = 0; rank < all_.size(); ++rank) {
@@ -222,7 +223,7 @@ void DistributedRun::exchangePaths() {
 }
 
 void DistributedRun::exchangeStays(bool is_end_requested) {
-  const PhaseResults results = run_->environment().results();
+  const PhaseResults results = run_->environment().phases().results();
   is_end_requested_ |= is_end_requested;
   exchangeOf(judgements, motion_of_, [&](std::span<const std::uint32_t> known, std::string& out) {
     out.push_back(is_end_requested ? 1 : 0);
@@ -238,7 +239,7 @@ void DistributedRun::exchangeStays(bool is_end_requested) {
 }
 
 void DistributedRun::exchangeReadings(const std::vector<RobotRange>& from, const std::vector<RobotRange>& to) {
-  const PhaseResults results = run_->environment().results();
+  const PhaseResults results = run_->environment().phases().results();
   // To all ranks, so that all throw in this step; and behind a byte, as in exchangeOrders().
   const std::string error = errorBytes(sensor_failure_);
   for (std::size_t rank = 0; rank < to.size(); ++rank) {
@@ -295,9 +296,9 @@ void DistributedRun::balance() {
   const RobotRange kept = shares_.kept(own_);
   // Both the readings to be sent and those to be received, until they are.
   Environment& environment = run_->environment();
-  environment.keepReadings(hull(kept, before[own_]));
+  environment.phases().keepReadings(hull(kept, before[own_]));
   if (overlapOtherRanks(before, after)) exchangeReadings(before, after);
-  environment.keepReadings(kept);
+  environment.phases().keepReadings(kept);
   if (!near_) return;
   exchangeMovedShares(before, kept_before);
   findKnownRobots();
@@ -310,7 +311,7 @@ void DistributedRun::finish(const std::exception_ptr& failure) {
     if (failure) std::rethrow_exception(failure);
   });
   if (near_) gatherMotion();
-  RunDigest* const digest = run_->environment().results().digest;
+  RunDigest* const digest = run_->environment().phases().results().digest;
   out_.assign(1, run_->hasDrawnRandomNumbers() ? 1 : 0);
   if (digest) digest->save(shares_.digested[own_], out_);
   group_.gather(out_, all_);

@@ -6,6 +6,7 @@
 #include "distributed/distributed_run.h"
 #include "distributed/rank_bytes.h"
 #include "environment/known_robots.h"
+#include "environment/step_phases.h"
 
 namespace robosim {
 namespace {
@@ -57,7 +58,7 @@ double DistributedRun::gatherKnownShare() {
 
 void DistributedRun::findKnownRobots() {
   Environment& environment = run_->environment();
-  const MotionState motion = environment.motion();
+  const MotionState motion = environment.phases().motion();
   out_ = near_->areaOf(motion.world_from_robot, shares_.work[own_]);
   finished(moves);
   allGather();
@@ -69,7 +70,7 @@ void DistributedRun::findKnownRobots() {
   orders_of_ = shares_.home[own_] == shares_.work[own_] ? motion_of_ : known_of(shares_.home[own_]);
   for (std::size_t rank = 0; rank < to_.size(); ++rank) {
     to_[rank].clear();
-    writeMotion(motion, environment.orders(), motion_of_[rank], to_[rank]);
+    writeMotion(motion, environment.phases().orders(), motion_of_[rank], to_[rank]);
   }
   finished(moves);
   exchange();
@@ -83,14 +84,15 @@ std::vector<std::uint32_t> DistributedRun::readMotionOfOthers(const std::vector<
   Environment& environment = run_->environment();
   std::vector<std::uint32_t> robots;
   for (std::size_t rank = 0; rank < shares_.ranks(); ++rank) {
-    if (rank != own_) readMotion(all_[rank], of_rank[rank], environment.motion(), environment.orders(), robots);
+    if (rank != own_)
+      readMotion(all_[rank], of_rank[rank], environment.phases().motion(), environment.phases().orders(), robots);
   }
   return robots;
 }
 
 void DistributedRun::limitToKnownRobots() {
   const bool knows_all = own_ == 0 && firstNeedsAll();
-  run_->environment().limitTo(known_, knows_all ? RobotRange{0, shares_.robots} : shares_.work[own_]);
+  run_->environment().phases().limitTo(known_, knows_all ? RobotRange{0, shares_.robots} : shares_.work[own_]);
   near_until_step_ = run_->environment().time().step + near_->steps();
   finished(moves);
 }
@@ -104,7 +106,7 @@ void DistributedRun::exchangeMovedShares(const std::vector<RobotRange>& before,
     const RobotRange sent = intersection(before[own_], shares_.kept(rank));
     std::vector<std::uint32_t> robots = listOf(sent);
     std::erase_if(robots, [&](std::uint32_t robot) { return kept_before[rank].contains(robot); });
-    writeMotion(environment.motion(), environment.orders(), robots, to_[rank]);
+    writeMotion(environment.phases().motion(), environment.phases().orders(), robots, to_[rank]);
   }
   finished(rest);
   exchange();
@@ -115,11 +117,11 @@ void DistributedRun::exchangeMovedShares(const std::vector<RobotRange>& before,
 void DistributedRun::exchangeWinCandidates() {
   Environment& environment = run_->environment();
   // The requests are the same on all ranks.
-  if (!near_ || environment.state().winner() || !anyFlag(environment.orders().win_requests)) return;
+  if (!near_ || environment.state().winner() || !anyFlag(environment.phases().orders().win_requests)) return;
   std::vector<std::uint32_t> candidates = listOf(shares_.work[own_]);
-  std::erase_if(candidates, [&](std::uint32_t robot) { return !environment.orders().win_requests[robot]; });
+  std::erase_if(candidates, [&](std::uint32_t robot) { return !environment.phases().orders().win_requests[robot]; });
   out_.clear();
-  writeMotion(environment.motion(), environment.orders(), candidates, out_);
+  writeMotion(environment.phases().motion(), environment.phases().orders(), candidates, out_);
   finished(rest);
   allGather();
   finished(waiting);
@@ -128,11 +130,11 @@ void DistributedRun::exchangeWinCandidates() {
 
 void DistributedRun::gatherMotion() {
   Environment& environment = run_->environment();
-  const MotionState motion = environment.motion();
+  const MotionState motion = environment.phases().motion();
   StateWriter own;
   own.addNumber(motion.stalls);
   out_ = std::move(own.bytes);
-  writeMotion(motion, environment.orders(), listOf(shares_.work[own_]), out_);
+  writeMotion(motion, environment.phases().orders(), listOf(shares_.work[own_]), out_);
   group_.gather(out_, all_);
   if (own_ > 0) return;
   for (std::size_t rank = 1; rank < shares_.ranks(); ++rank) {

@@ -6,6 +6,7 @@
 
 #include "distributed/rank_bytes.h"
 #include "environment/measurement_bytes.h"
+#include "environment/step_phases.h"
 
 namespace robosim {
 namespace {

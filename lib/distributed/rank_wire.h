@@ -6,6 +6,7 @@
 
 #include "environment/environment.h"
 #include "environment/state_stream.h"
+#include "environment/step_phases.h"
 
 namespace robosim {
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "environment/step_phases.h"
+
 namespace robosim {
 namespace {
 

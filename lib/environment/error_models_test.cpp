@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "environment/state_bytes.h"
+#include "environment/step_phases.h"
 #include "environment/testing/probe_run.h"
 
 namespace robosim {
@@ -58,21 +59,22 @@ void stepTogether(Environment& owner, Environment& replica, std::size_t robots) 
   replica.restore(state);
   const RobotRange every{0, owner.robotCount()};
   for (Environment* environment : {&owner, &replica}) {
-    environment->begin();
-    environment->clip(every);
-    environment->judge(every);
-    environment->move();
+    environment->phases().begin();
+    environment->phases().clip(every);
+    environment->phases().judge(every);
+    environment->phases().move();
   }
-  replica.sense({0, robots});
-  owner.sense({robots, every.end});
+  replica.phases().sense({0, robots});
+  owner.phases().sense({robots, every.end});
   for (std::size_t i = 0; i < robots; ++i) {
     const auto& sensors = owner.fleet().robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
       if (sensors[slot]->sensesInHostProcess()) continue;
-      owner.results().readings[i].measurements[slot] = replica.results().readings[i].measurements[slot];
+      owner.phases().results().readings[i].measurements[slot] =
+          replica.phases().results().readings[i].measurements[slot];
     }
   }
-  owner.finish();
+  owner.phases().finish();
 }
 
 TEST(ErrorModels, AreIndependentOfTheProcessThatSenses) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "environment/environment.h"
+#include "environment/step_phases.h"
 #include "environment/testing/small_world.h"
 
 namespace robosim {
@@ -54,7 +55,7 @@ TEST(KnownRobots, NeitherMoveNorMeetTheOthers) {
   // The second one is 0.1 m before the first; the third one would drive on.
   environment.setCommand(0, {.speed_mps = 2});
   environment.setCommand(2, {.speed_mps = 1});
-  environment.limitTo(std::vector<std::uint32_t>{0, 1}, {0, 1});
+  environment.phases().limitTo(std::vector<std::uint32_t>{0, 1}, {0, 1});
   environment.step();
   EXPECT_NEAR(environment.state().world_from_robot[0].x, 0.1, 2e-6);
   EXPECT_EQ(environment.state().world_from_robot[2].x, -0.6);
@@ -68,7 +69,7 @@ TEST(KnownRobots, NeitherMoveNorMeetTheOthers) {
   const std::uint64_t stalls = environment.state().stalls;
 
   // Now the first one only: it drives where the second one is, and its stalls are not counted.
-  environment.limitTo(std::vector<std::uint32_t>{0}, {1, 1});
+  environment.phases().limitTo(std::vector<std::uint32_t>{0}, {1, 1});
   environment.setCommand(0, {.speed_mps = 1});
   for (int i = 0; i < 100; ++i) environment.step();
   EXPECT_NEAR(environment.state().world_from_robot[0].x, 5 - 0.25, 2e-6);
@@ -82,7 +83,7 @@ TEST(KnownRobots, AreNotTheOnlyOnesWhoseMessagesAreRemovedAfterAStep) {
   for (const char* name : {"a", "b", "c"})
     addDisc(world, fleet, name, {static_cast<double>(fleet.robots.size()), 0, 0});
   Environment environment(world, fleet, {});
-  environment.limitTo(std::vector<std::uint32_t>{0}, {0, 1});
+  environment.phases().limitTo(std::vector<std::uint32_t>{0}, {0, 1});
   const auto messages = [&] {
     std::vector<std::size_t> counts;
     for (const auto& readings : environment.state().readings) counts.push_back(readings.inbox.size());
@@ -111,11 +112,11 @@ TEST(KnownRobots, HaveTheMotionThatAnotherProcessHasComputed) {
   addDisc(world, fleet, "a", {0, 0, 0});
   addDisc(world, fleet, "b", {2, 0, 0});
   Environment environment(world, fleet, {});
-  environment.limitTo(std::vector<std::uint32_t>{0}, {0, 1});
+  environment.phases().limitTo(std::vector<std::uint32_t>{0}, {0, 1});
   environment.step();
-  environment.motion().world_from_robot[1] = {0.6, 0, 0};
-  environment.orders().activity[1] = Activity::halted;
-  environment.limitTo(std::vector<std::uint32_t>{0, 1}, {0, 1});
+  environment.phases().motion().world_from_robot[1] = {0.6, 0, 0};
+  environment.phases().orders().activity[1] = Activity::halted;
+  environment.phases().limitTo(std::vector<std::uint32_t>{0, 1}, {0, 1});
   environment.setCommand(0, {.speed_mps = 1});
   for (int i = 0; i < 5; ++i) environment.step();
   EXPECT_NEAR(environment.state().world_from_robot[0].x, 0.1, 2e-6);

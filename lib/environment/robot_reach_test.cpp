@@ -6,6 +6,7 @@
 
 #include "base/random.h"
 #include "environment/environment.h"
+#include "environment/step_phases.h"
 #include "environment/testing/small_world.h"
 #include "sensors/testing/single_robot_scene.h"
 
@@ -64,7 +65,7 @@ Measurement measuredWith(Environment& environment, const Sensor& sensor, double 
   for (std::uint32_t robot = 1; robot <= kOthers; ++robot) {
     if (distanceTo(environment, robot) <= distance_m + 1e-9) known.push_back(robot);
   }
-  environment.limitTo(known, {0, 1});
+  environment.phases().limitTo(known, {0, 1});
   std::vector<Readings> readings(1 + kOthers);
   readings[0].measurements = {sensor.blank()};
   environment.measure(sensor, std::vector<std::uint32_t>{0}, readings);

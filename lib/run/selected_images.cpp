@@ -3,6 +3,7 @@
 #include <map>
 #include <utility>
 
+#include "environment/step_phases.h"
 #include "sensors/sensor.h"
 
 namespace robosim {
@@ -66,7 +67,7 @@ void measureWithCameras(Environment& environment, const std::vector<std::uint32_
   }
   for (const auto& [model, some] : of_model) {
     // Pictures and what is found in them are no part of the digest (doc/decisions/pictures.md).
-    environment.measure(Cameras(*model), some, environment.results().readings);
+    environment.measure(Cameras(*model), some, environment.phases().results().readings);
   }
 }
 

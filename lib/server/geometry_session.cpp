@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "environment/step_phases.h"
 #include "net/robot_wire.h"
 #include "server/geometry_seal.h"
 #include "server/geometry_wire.h"
@@ -219,22 +220,22 @@ void GeometrySession::step(Environment& environment) {
   if (std::any_of(workers.begin(), workers.end(), [](const auto& stream) { return stream->needs_state; })) {
     encode(environment.state(), state);
   }
-  environment.begin();
-  environment.clip(every);
-  environment.judge(every);
+  environment.phases().begin();
+  environment.phases().clip(every);
+  environment.phases().judge(every);
   const internal::Task task = taskOf(environment);
   environment_ = &environment;
   for (const auto& stream : workers) send(*stream, task, state);
-  environment.move();
-  environment.sense({0, n / shares});
+  environment.phases().move();
+  environment.phases().sense({0, n / shares});
   for (const auto& stream : workers) stream->sample = samples_.compute(environment, stream->share, stream->number);
   awaitResults(workers);
   compareSamples(workers, environment);
   environment_ = nullptr;
   for (const auto& stream : workers) {
-    if (stream->isGone()) environment.sense(stream->share);
+    if (stream->isGone()) environment.phases().sense(stream->share);
   }
-  environment.finish();
+  environment.phases().finish();
 }
 
 void GeometrySession::awaitResults(const Streams& workers) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "environment/step_phases.h"
 #include "net/robot_wire.h"
 #include "server/plausible_echoes.h"
 
@@ -78,7 +79,7 @@ void encode(const Environment& environment, internal::TaskResult& out) {
 }
 
 void put(const internal::TaskResult& in, Environment& environment) {
-  const auto readings = environment.results().readings;
+  const auto readings = environment.phases().results().readings;
   int next = 0;
   forMeasurements(environment.fleet(), readings, {in.begin(), in.end()}, [&](Measurement& m, const SensorInfo& sensor) {
     if (next == in.measurements_size()) throw WireError("a result with too few measurements");
@@ -103,7 +104,7 @@ void putCommands(const internal::Task& in, Environment& environment) {
 }
 
 void encodeOutcome(Environment& environment, internal::Task& out) {
-  const PhaseResults results = environment.results();
+  const PhaseResults results = environment.phases().results();
   for (std::size_t i = 0; i < environment.robotCount(); ++i) {
     const auto robot = static_cast<std::uint32_t>(i);
     const double fraction = results.paths[i].end_fraction;
@@ -118,7 +119,7 @@ void encodeOutcome(Environment& environment, internal::Task& out) {
 
 void putOutcome(const internal::Task& in, Environment& environment) {
   const RobotRange every{0, environment.robotCount()};
-  const PhaseResults results = environment.results();
+  const PhaseResults results = environment.phases().results();
   for (const auto& clipped : in.clipped()) {
     results.paths[checkedRobot(clipped.world_robot(), every)].end_fraction = checkedFraction(clipped.fraction());
   }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "environment/step_phases.h"
 #include "net/wire_error.h"
 #include "robots/world_source.h"
 
@@ -74,12 +75,12 @@ TEST(GeometryWire, RefusesAStateOfAnotherWorldOrThatIsNotFinite) {
 TEST(GeometryWire, RoundTripsMeasurements) {
   const auto here = maze(), there = maze();
   for (const auto& environment : {here.get(), there.get()}) {
-    environment->begin();
-    environment->clip({0, 2});
-    environment->judge({0, 2});
-    environment->move();
+    environment->phases().begin();
+    environment->phases().clip({0, 2});
+    environment->phases().judge({0, 2});
+    environment->phases().move();
   }
-  there->sense({0, 2});
+  there->phases().sense({0, 2});
   internal::TaskResult result = emptyResult(1, 2);
   encode(*there, result);
   put(result, *here);
@@ -122,18 +123,18 @@ TEST(GeometryWire, RefusesResultsOfAnotherSizeOrImplausibleOnes) {
 
 TEST(GeometryWire, RoundTripsTheMotionOfAllRobots) {
   const auto here = maze(), there = maze();
-  here->begin();
-  there->begin();
-  here->results().paths[0].end_fraction = 0.25;
-  here->results().stays[1] = 1;
+  here->phases().begin();
+  there->phases().begin();
+  here->phases().results().paths[0].end_fraction = 0.25;
+  here->phases().results().stays[1] = 1;
   internal::Task task;
   encodeOutcome(*here, task);
   EXPECT_EQ(task.clipped_size(), 1) << "only the clipped one is sent";
   putOutcome(task, *there);
-  EXPECT_EQ(there->results().paths[0].end_fraction, 0.25);
-  EXPECT_EQ(there->results().paths[1].end_fraction, 1);
-  EXPECT_EQ(there->results().stays[0], 0);
-  EXPECT_EQ(there->results().stays[1], 1);
+  EXPECT_EQ(there->phases().results().paths[0].end_fraction, 0.25);
+  EXPECT_EQ(there->phases().results().paths[1].end_fraction, 1);
+  EXPECT_EQ(there->phases().results().stays[0], 0);
+  EXPECT_EQ(there->phases().results().stays[1], 1);
 
   internal::Task unknown = task;
   unknown.add_staying(2);

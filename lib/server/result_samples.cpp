@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/digest.h"
+#include "environment/step_phases.h"
 
 namespace robosim {
 namespace {
@@ -32,7 +33,7 @@ std::vector<ResultSamples::Expected> ResultSamples::compute(Environment& environ
   std::vector<Expected> sample;
   for (std::size_t k = 0; k < count; ++k) {
     const std::size_t robot = share.begin + (first + k) % robots;
-    environment.sense({robot, robot + 1});
+    environment.phases().sense({robot, robot + 1});
     sample.push_back({robot, measurementsOf(environment, robot)});
   }
   return sample;

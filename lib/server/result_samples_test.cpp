@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "environment/step_phases.h"
 #include "robots/world_source.h"
 
 namespace robosim {
@@ -32,7 +33,7 @@ TEST(ResultSamples, ReachEachRobotOfTheShareAndNoOther) {
   const ResultSamples samples(0, 42);
   std::set<std::size_t> chosen;
   for (int step = 0; step < 400; ++step) {
-    environment->begin();  // the choice depends on the step
+    environment->phases().begin();  // the choice depends on the step
     for (const auto robot : robotsOf(samples.compute(*environment, {20, 40}, 7))) chosen.insert(robot);
   }
   // Of 400 draws from 20 robots a given one is missing with a probability of 0.95^400 = 1e-9.
@@ -56,7 +57,7 @@ TEST(ResultSamples, FindAMeasurementThatDiffersInOneBit) {
   const auto environment = openWorld();
   const auto sample = ResultSamples(1, 1).compute(*environment, {0, 10}, 1);
   EXPECT_EQ(ResultSamples::firstDifference(sample, *environment), std::nullopt);
-  auto& echo = std::get<Echoes>(environment->results().readings[6].measurements[0])[0];
+  auto& echo = std::get<Echoes>(environment->phases().results().readings[6].measurements[0])[0];
   echo.point_m.z = std::nextafter(echo.point_m.z, 1e3f);
   EXPECT_EQ(ResultSamples::firstDifference(sample, *environment), 6u);
 }

@@ -1,6 +1,7 @@
 // A step computed in parts by replicas is identical to that of one environment, bit for bit.
 #include <gtest/gtest.h>
 
+#include "environment/step_phases.h"
 #include "run/local_run.h"
 
 namespace robosim {
@@ -40,26 +41,26 @@ void takeReadings(Environment& from, Environment& to, RobotRange range) {
 void stepTogether(Environment& owner, Environment& replica, RobotRange share) {
   const RobotRange every{0, owner.robotCount()};
   const RobotRange others[] = {{0, share.begin}, {share.end, every.end}};
-  owner.begin();
+  owner.phases().begin();
   for (std::size_t i = 0; i < every.end; ++i) replica.setCommand(i, owner.state().commands[i]);
-  replica.begin();
+  replica.phases().begin();
 
-  replica.clip(share);
-  for (const auto range : others) owner.clip(range);
+  replica.phases().clip(share);
+  for (const auto range : others) owner.phases().clip(range);
   takeClips(replica, owner, share);
   for (const auto range : others) takeClips(owner, replica, range);
 
-  replica.judge(share);
-  for (const auto range : others) owner.judge(range);
+  replica.phases().judge(share);
+  for (const auto range : others) owner.phases().judge(range);
   takeStays(replica, owner, share);
   for (const auto range : others) takeStays(owner, replica, range);
 
-  owner.move();
-  replica.move();
-  replica.sense(share);
-  for (const auto range : others) owner.sense(range);
+  owner.phases().move();
+  replica.phases().move();
+  replica.phases().sense(share);
+  for (const auto range : others) owner.phases().sense(range);
   takeReadings(replica, owner, share);
-  owner.finish();
+  owner.phases().finish();
 }
 
 TEST(SharedStep, IsIdenticalForAnyPartition) {

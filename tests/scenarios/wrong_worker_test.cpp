@@ -10,6 +10,7 @@
 #include <mrpt/serialization/CSerializable.h>
 #include <nlohmann/json.hpp>
 
+#include "environment/step_phases.h"
 #include "net/robot_wire.h"
 #include "net/wire_error.h"
 #include "robosim/internal/geometry.grpc.pb.h"
@@ -80,10 +81,10 @@ class WrongResultWorker {
       replica_->restore(state);
     }
     putCommands(task, *replica_);
-    replica_->begin();
+    replica_->phases().begin();
     putOutcome(task, *replica_);
-    replica_->move();
-    replica_->sense({task.begin(), task.end()});
+    replica_->phases().move();
+    replica_->phases().sense({task.begin(), task.end()});
     internal::WorkRequest message;
     auto& result = *message.mutable_result();
     result.set_step(task.step());

@@ -1,0 +1,323 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "environment/environment.h"
+#include "environment/known_robots.h"
+#include "environment/message_router.h"
+#include "environment/move_authorisation.h"
+#include "environment/placed_bodies.h"
+#include "environment/referee.h"
+#include "environment/robot_groups.h"
+#include "environment/run_digest.h"
+#include "robots/differential_drive.h"
+
+namespace robosim {
+
+/// The state of an environment and the phases of its step. Of Environment and StepPhases only.
+struct Environment::Impl {
+  /// Selects sensors by Sensor::sensesInHostProcess().
+  enum class SensorGroup { anywhere, in_host_process };
+
+  /// A property of each robot. In an array of its own, because to look it up in the fleet would cost a cache miss or
+  /// more.
+  template <typename Property>
+  static auto ofRobots(const Fleet& fleet, const Property& property) {
+    std::vector<std::decay_t<decltype(property(fleet.robots.front()))>> values;
+    values.reserve(fleet.robots.size());
+    for (const auto& robot : fleet.robots) values.push_back(property(robot));
+    return values;
+  }
+
+  static Mover moverOf(const FleetRobot& robot) { return {robot.info.radius_m, robot.body.heights()}; }
+  static double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
+
+  const std::shared_ptr<const Model> model;
+  const Fleet& fleet;  ///< of the model
+  ImageSource* images;
+  ParallelExecutor workers;
+  State state;
+  PlacedBodies bodies;
+  Scene& scene;  ///< of the bodies
+  MoveAuthorisation move_authorisation;
+  MessageRouter message_router;
+  Referee referee;
+  RobotGroups robot_groups;
+  std::vector<MotionLimits> limits;  ///< by robot
+  KnownRobots known;
+  RobotRange counted;  ///< known robots whose stalls are counted
+  std::vector<Path> paths;
+  std::vector<double> antenna_z_m;  ///< by robot
+  std::uint64_t pose_changes = 0;
+  bool has_absent_robots = false;
+  bool may_have_messages = true;       ///< in any inbox; false: only in those of MessageRouter::receivers()
+  std::vector<std::uint8_t> may_send;  ///< MessageRouter::Robots::may_send
+  RobotShare share;
+
+  /// @param the_share of a process that shares the run; nullopt: all robots
+  Impl(std::shared_ptr<const Model> the_model, State the_state, int threads, ImageSource* the_images,
+       const std::optional<RobotShare>& the_share = {})
+      : model(std::move(the_model)),
+        fleet(model->fleet),
+        images(the_images),
+        workers(threads),
+        state(std::move(the_state)),
+        bodies(*model),
+        scene(bodies.scene()),
+        move_authorisation(ofRobots(fleet, moverOf), model->world.bounds),
+        message_router(ofRobots(fleet, [](const auto& robot) { return robot.info.name; }), model->world.communication),
+        referee(model->world),
+        robot_groups(fleet, model->period_s),
+        limits(ofRobots(fleet, [](const auto& robot) { return robot.info.limits; })),
+        known(fleet.robots.size()),
+        counted(everyRobot()),
+        paths(fleet.robots.size()),
+        antenna_z_m(ofRobots(fleet, [](const auto& robot) { return robot.body.heights().z_max_m; })),
+        share(the_share.value_or(RobotShare{everyRobot(), everyRobot()})) {
+    noteState();
+    placeBodies();
+  }
+
+  /// After the state was replaced.
+  void noteState() {
+    noteAbsentRobots();
+    may_have_messages = true;
+    may_send.resize(state.outboxes.size());
+    std::transform(state.outboxes.begin(), state.outboxes.end(), may_send.begin(),
+                   [](const Outbox& outbox) -> std::uint8_t { return outbox == Outbox() ? 0 : 1; });
+  }
+
+  void noteAbsentRobots() {
+    has_absent_robots =
+        std::find(state.activity.begin(), state.activity.end(), Activity::absent) != state.activity.end();
+  }
+
+  void placeBodies() { bodies.place(state, known, share.kept, workers); }
+
+  void clearInboxes() {
+    const auto clear = [&](std::size_t i) { state.readings[i].inbox.clear(); };
+    if (std::exchange(may_have_messages, false)) {
+      workers.forEach(state.readings.size(), kRobotChunk, clear);
+      return;
+    }
+    const std::vector<std::uint32_t>& receivers = message_router.receivers();
+    workers.forEach(receivers.size(), kRobotChunk, [&](std::size_t k) { clear(receivers[k]); });
+  }
+
+  void takeCommands() {
+    known.forEach(workers, kRobotChunk, [&](std::size_t i) {
+      Command& command = state.commands[i];
+      if (state.activity[i] == Activity::active && command.activity != Activity::absent) {
+        state.activity[i] = command.activity;
+      }
+      command.activity = state.activity[i];
+      state.laser_pan_rad[i] =
+          std::clamp(command.laser_pan_rad, -static_cast<float>(M_PI_2), static_cast<float>(M_PI_2));
+      const DriveSpeeds speeds =
+          reachableSpeeds({state.speed_mps[i], state.turn_radps[i]}, command, limits[i], model->period_s);
+      state.speed_mps[i] = speeds.speed_mps;
+      state.turn_radps[i] = speeds.turn_radps;
+      paths[i] = pathOf(state.world_from_robot[i], speeds, model->period_s);
+    });
+  }
+
+  void move() {
+    move_authorisation.conclude(workers, known, paths, state.stalled);
+    known.forEach(workers, kRobotChunk, [&](std::size_t i) {
+      const Path& path = paths[i];
+      if (path.length_m != 0 || path.turn_rad != 0) state.world_from_robot[i] = path.endPose();
+      state.last_motion[i] = {path.clippedLength(), path.turn_rad};
+      state.driven_m[i] += std::abs(path.clippedLength());
+      if (state.stalled[i]) state.speed_mps[i] = 0;  // blocked: starts from rest in the next step
+    });
+    const auto stalls_of = [&](std::size_t begin, std::size_t end) {
+      std::uint64_t stalls = 0;
+      for (std::size_t i = counted.begin + begin; i < counted.begin + end; ++i) stalls += state.stalled[i];
+      return stalls;
+    };
+    state.stalls += workers.reduce(counted.end - counted.begin, std::uint64_t{0}, stalls_of, std::plus<>());
+    placeBodies();
+  }
+
+  RobotRange everyRobot() const { return {0, fleet.robots.size()}; }
+
+  /// @param kept memory for the result
+  std::span<const std::uint32_t> presentOf(std::span<const std::uint32_t> robots,
+                                           std::vector<std::uint32_t>& kept) const {
+    if (!has_absent_robots) return robots;
+    std::copy_if(robots.begin(), robots.end(), std::back_inserter(kept),
+                 [&](auto robot) { return !state.isAbsent(robot); });
+    return kept;
+  }
+
+  void sense(RobotRange range, SensorGroup which) {
+    const Snapshot now = bodies.snapshot(state, paths, images);
+    for (const RobotGroup& group : robot_groups.groups) {
+      const auto of_group = group.within(range);
+      workers.forChunks(of_group.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
+        std::vector<std::uint32_t> kept;
+        const auto robots = presentOf(of_group.subspan(begin, end - begin), kept);
+        for (const auto i : robots) scene.updateNeighbours(i, group.reach_m);
+        for (std::size_t slot = 0; slot < group.model->sensors.size(); ++slot) {
+          const Sensor& sensor = *group.model->sensors[slot];
+          if (sensor.sensesInHostProcess() != (which == SensorGroup::in_host_process)) continue;
+          sensor.sense(now, robots, slot, state.readings);
+        }
+      });
+    }
+  }
+
+  void measure(const Sensor& sensor, std::span<const std::uint32_t> robots, std::span<Readings> readings) {
+    const Snapshot now = bodies.snapshot(state, paths, images);
+    const double sensor_reach_m = reachOf(sensor) + kContactGap_m;
+    workers.forChunks(robots.size(), kRobotChunk, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const auto robot = robots[i];
+        // The reach of the model too, so that its own sensors find the same neighbours in the next step.
+        scene.updateNeighbours(robot, std::max(sensor_reach_m, robot_groups.groupOf(robot).reach_m));
+      }
+      sensor.sense(now, robots.subspan(begin, end - begin), 0, readings);
+    });
+  }
+
+  bool place(std::size_t robot, const mrpt::math::TPose2D& world_from_robot) {
+    if (!bodies.isFree(robot, {{world_from_robot.x, world_from_robot.y}, fleet.robots[robot].info.radius_m}))
+      return false;
+    if (!state.isAbsent(robot) || world_from_robot != fleet.robots[robot].world_from_start) ++state.placements;
+    state.world_from_robot[robot] = world_from_robot;
+    state.world_from_robot[robot].phi = std::remainder(world_from_robot.phi, 2 * M_PI);
+    if (state.isAbsent(robot)) resetRobot(state, robot, Activity::active, *fleet.robots[robot].model);
+    ++pose_changes;
+    noteAbsentRobots();
+    placeBodies();
+    return true;
+  }
+
+  void remove(std::span<const std::size_t> robots) {
+    const auto changes_before = pose_changes;
+    for (const std::size_t robot : robots) {
+      if (state.isAbsent(robot)) continue;
+      resetRobot(state, robot, Activity::absent, *fleet.robots[robot].model);
+      ++pose_changes;
+    }
+    if (pose_changes == changes_before) return;
+    noteAbsentRobots();
+    placeBodies();
+  }
+
+  void begin() {
+    ++state.time.step;
+    clearInboxes();
+    takeCommands();
+    move_authorisation.begin(workers, known, paths);
+  }
+
+  void deliverMessages() {
+    const auto counts = message_router.deliver(state.seed, state.time,
+                                               {scene, state.world_from_robot, antenna_z_m, state.activity, may_send},
+                                               state.outboxes, state.messages_in_flight, state.readings);
+    state.messages_delivered += counts.delivered;
+    state.messages_dropped += counts.dropped;
+    state.messages_lost += counts.lost;
+  }
+
+  /// The phase after all sensing.
+  void finish() {
+    deliverMessages();
+    sense(everyRobot(), SensorGroup::in_host_process);
+    conclude();
+  }
+
+  /// The phase after all sensing and the delivery of messages.
+  void conclude() {
+    workers.forEach(share.kept.end - share.kept.begin, kRobotChunk, [&](std::size_t k) {
+      const std::size_t i = share.kept.begin + k;
+      Readings& readings = state.readings[i];
+      readings.time = state.time;
+      readings.stalled = state.stalled[i] != 0;
+      readings.laser_pan_rad = state.laser_pan_rad[i];
+      readings.is_too_far = false;
+    });
+    if (anyFlag(state.win_requests)) {
+      if (!state.won) decideWinner();
+      std::fill(state.win_requests.begin(), state.win_requests.end(), 0);
+    }
+    noteOutcome();
+    if (state.digest) state.digest->add(state, workers, share.digested);
+  }
+
+  void noteOutcome() {
+    if (!state.found && !state.activity.empty()) {
+      static_assert(sizeof(Activity) == 1);
+      const Activity* const begin = state.activity.data();
+      const void* const found = std::memchr(begin, static_cast<int>(Activity::found), state.activity.size());
+      if (found) state.found = {static_cast<std::size_t>(static_cast<const Activity*>(found) - begin), state.time.step};
+    }
+    if (!state.all_halted_step && state.haveAllHalted()) state.all_halted_step = state.time.step;
+  }
+
+  void keepReadings(RobotRange range) {
+    for (std::size_t i = share.kept.begin; i < share.kept.end; ++i) {
+      if (!range.contains(i)) state.readings[i].measurements = std::vector<Measurement>();
+    }
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      if (!share.kept.contains(i)) state.readings[i].measurements = blankMeasurements(*fleet.robots[i].model);
+    }
+    share.kept = range;
+  }
+
+  void decideWinner() {
+    const auto winner = referee.decide(state.win_requests, [this](std::size_t robot) {
+      const auto& pose = state.world_from_robot[robot];
+      return Circle{{pose.x, pose.y}, fleet.robots[robot].info.radius_m};
+    });
+    if (!winner) {
+      forFlags(state.win_requests, [&](std::size_t i) {
+        if (share.kept.contains(i)) state.readings[i].is_too_far = true;
+      });
+      return;
+    }
+    state.won = {*winner, state.time.step};
+    for (std::size_t i = 0; i < state.readings.size(); ++i) {
+      state.readings[i].winner = fleet.robots[*winner].info.name;
+      if (state.activity[i] == Activity::active) {
+        state.activity[i] = i == *winner ? Activity::found : Activity::halted;
+      }
+    }
+  }
+
+  void setCommand(std::size_t robot, const Command& command) {
+    Command& kept = state.commands[robot];
+    kept = command;
+    kept.speed_mps = finiteOrZero(command.speed_mps);
+    kept.turn_radps = finiteOrZero(command.turn_radps);
+    if (!std::isfinite(command.laser_pan_rad)) kept.laser_pan_rad = 0;
+  }
+
+  void restore(const State& saved) {
+    requireSameShape(saved, state);
+    state = saved;
+    noteState();
+    placeBodies();
+  }
+
+  /// Measures step 0.
+  void start() {
+    sense(share.kept, SensorGroup::anywhere);
+    deliverMessages();
+    sense(share.kept, SensorGroup::in_host_process);
+    conclude();
+  }
+
+  void restart(const State& start_state) {
+    restore(start_state);
+    start();
+  }
+};
+
+}  // namespace robosim
