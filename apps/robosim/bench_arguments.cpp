@@ -2,9 +2,9 @@
 
 #include <CLI/CLI.hpp>
 
+#include "benchmark/sweep.h"
 #include "robosim/arguments.h"
 #include "run/local_run.h"
-#include "run/sweep.h"
 
 namespace robosim {
 

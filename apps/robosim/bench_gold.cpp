@@ -1,6 +1,5 @@
 // robosim bench gold: success and time of finding gold, over worlds, controllers, teams, conditions and seeds.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <iostream>
 #include <memory>
@@ -12,17 +11,18 @@
 #include "base/data_folders.h"
 #include "base/interrupt.h"
 #include "base/printable_text.h"
-#include "base/progress.h"
 #include "base/text_table.h"
 #include "base/type_choice.h"
 #include "base/xml_element.h"
 #include "benchmark/case_summary.h"
 #include "benchmark/journal.h"
-#include "benchmark/runs_on_ranks.h"
+#include "benchmark/search_benchmark.h"
 #include "benchmark/search_report.h"
 #include "ranks/agreement.h"
+#include "ranks/tasks_on_ranks.h"
 #include "robosim/arguments.h"
 #include "robosim/bench_arguments.h"
+#include "robosim/bench_runs.h"
 #include "robosim/command_line.h"
 #include "robosim/plugin_options.h"
 #include "run/output_files.h"
@@ -120,7 +120,7 @@ std::vector<std::string> row(const SearchPlan& plan, const CaseSummary& summary)
                              secondsOrNever(summary.median_s), secondsOrNever(summary.quantile90_s),
                              fixed(summary.driven_m, 1), fixed(summary.stalls, 1)});
   for (const auto& metric : summary.metrics) {
-    cells.push_back(std::isfinite(metric.value) ? fixed(metric.value, 2) : "none");
+    cells.push_back(std::isfinite(metric.value) ? fixed(metric.value, 2) : "–");
   }
   return cells;
 }
@@ -134,44 +134,12 @@ void printTable(const SearchPlan& plan, const SearchRuns& runs) {
       << table(rows)
       << "Times to the gold are simulated; \"never\" is beyond the time limit. Distance and stalls: all robots of "
          "a run.";
-  if (!metrics.empty()) std::cout << " Metrics: mean over the runs.";
+  if (!metrics.empty()) {
+    std::cout << " Metrics: mean over the runs; \"–\": a time that some runs have not, of which robosim bench metrics "
+              << "states the quantiles.";
+  }
   std::cout << '\n';
 }
-
-/// Timings vary between repetitions, and are printed separately from the reproducible table.
-void printSpeed(const SearchPlan& plan, const SearchRuns& runs) {
-  const std::size_t runs_per_world = runs.size() / plan.worlds.size();
-  for (std::size_t world = 0; world < plan.worlds.size(); ++world) {
-    double simulated_s = 0, busy_s = 0;
-    for (std::size_t i = world * runs_per_world; i < (world + 1) * runs_per_world; ++i) {
-      if (!runs[i] || runs[i]->wall_s <= 0) continue;
-      simulated_s += runs[i]->sim_time_s;
-      busy_s += runs[i]->wall_s;
-    }
-    if (busy_s <= 0) continue;
-    std::cerr << printableText(plan.worlds[world]) << ": "
-              << withCommas(static_cast<std::uint64_t>(simulated_s / busy_s))
-              << " simulated seconds per second on one thread\n";
-  }
-}
-
-/// "run 12 of 400, 3 min left"
-class RunProgress {
- public:
-  RunProgress(std::size_t done, std::size_t planned) : done_before_(done), planned_(planned) {}
-  void show(std::size_t done) {
-    if (!progress_.due()) return;
-    const double elapsed_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    progress_.show("run " + std::to_string(done) + " of " + std::to_string(planned_) +
-                   commaRemainingTime(elapsed_s, static_cast<double>(done - done_before_),
-                                      static_cast<double>(planned_ - done_before_)));
-  }
-
- private:
-  std::size_t done_before_, planned_;
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  Progress progress_;
-};
 
 /// Creates the folder of a report, and its journal, with whose runs it begins.
 std::unique_ptr<Journal> openJournal(const GoldArguments& arguments, const SearchPlan& plan, SearchRuns& runs) {
@@ -184,31 +152,18 @@ std::unique_ptr<Journal> openJournal(const GoldArguments& arguments, const Searc
                                    [&](std::size_t index, SearchRun run) { runs[index] = std::move(run); });
 }
 
-/// Makes the runs of a rank other than the first, which prints and writes the results.
-void help(RankGroup& group, const SearchBenchmark& benchmark) {
-  const Interrupt interrupt;
-  requireSamePlan(group, benchmark.plan());
-  agree(group, [] {});
-  SearchRuns none;
-  makeRunsOnRanks(
-      group, benchmark, [&] { return interrupt.isRequested(); }, [](const SearchRun&) {}, none);
-}
-
 void bench(const GoldArguments& arguments) {
   RankGroup& group = rankGroup();
-  if (group.size() > 1 && arguments.threads > 1) {
-    throw ConfigError("--threads " + std::to_string(arguments.threads) +
-                      ": each process of mpirun makes one run at a time; start more processes instead");
-  }
+  refuseThreadsOnRanks(arguments.threads);
   const SearchBenchmark benchmark(arguments.plan, arguments.files, arguments.changes);
-  if (!group.isFirst()) return help(group, benchmark);
+  if (!group.isFirst()) return helpFirstRank(benchmark);
   const SearchPlan& plan = benchmark.plan();
   warnOfPartialStep(plan.time_s, plan.period_s);
   const Interrupt interrupt;
   std::optional<AtomicFile> csv;
   SearchRuns runs;
   std::unique_ptr<Journal> journal;
-  requireSamePlan(group, plan);
+  requireSamePlan(group, benchmark.planText());
   agree(group, [&] {
     if (plan.runCount() > kRunsMax) {
       throw ConfigError("these are " + withCommas(plan.runCount()) + " runs; 10,000,000 at most");
@@ -220,29 +175,21 @@ void bench(const GoldArguments& arguments) {
     runs.resize(plan.runCount());
     journal = openJournal(arguments, plan, runs);
   });
-  std::size_t done = runs.size() - missing(runs).size();
-  {
-    RunProgress progress(done, runs.size());
-    const auto is_interrupted = [&] { return interrupt.isRequested(); };
-    const auto finished = [&](const SearchRun& run) {
-      if (journal) journal->add(run);
-      progress.show(++done);
-    };
-    if (group.size() > 1) {
-      makeRunsOnRanks(group, benchmark, is_interrupted, finished, runs);
-    } else {
-      makeRuns(benchmark, arguments.threads, is_interrupted, finished, runs);
-    }
-  }
+  makeBenchRuns(
+      benchmark, arguments.threads, [&] { return interrupt.isRequested(); },
+      [&](const SearchRun& run) {
+        if (journal) journal->add(run);
+      },
+      runs);
   printTable(plan, runs);
   if (csv) {
     csv->write(runsCsv(plan, runs));
     csv->commit();
   }
-  printSpeed(plan, runs);
-  if (done < runs.size()) {
+  printBenchSpeed(plan.worlds, runs);
+  if (const std::size_t left = missing(runs).size(); left > 0) {
     setFailureShared();  // the other ranks have ended
-    throw Interrupted("interrupted; the figures are of the " + std::to_string(done) + " of " +
+    throw Interrupted("interrupted; the figures are of the " + std::to_string(runs.size() - left) + " of " +
                       std::to_string(runs.size()) + " runs that were completed" +
                       (journal ? "; --resume makes the others, and then the report" : ""));
   }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "benchmark/metric_summary.h"
 #include "benchmark/search_pairs.h"
 
 namespace robosim {
@@ -39,7 +40,11 @@ void addMeans(std::span<const SearchRun* const> runs, CaseSummary& summary) {
   summary.overlap = mean([](const SearchRun& run) { return run.metric(kOverlapMetric); });
   for (const auto& metric : runs.front()->metrics) {
     if (metric.name.starts_with("effort.")) continue;
-    summary.metrics.push_back({metric.name, mean([&](const SearchRun& run) { return run.metric(metric.name); })});
+    const auto value = [&](const SearchRun& run) { return run.metric(metric.name); };
+    const bool is_known = !isTime(metric.name) || std::all_of(runs.begin(), runs.end(), [&](const SearchRun* run) {
+      return std::isfinite(value(*run));
+    });
+    summary.metrics.push_back({metric.name, is_known ? mean(value) : std::numeric_limits<double>::quiet_NaN()});
   }
 }
 

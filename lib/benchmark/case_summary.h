@@ -30,7 +30,9 @@ struct CaseSummary {
   /// team only, or when either is infinite.
   std::optional<double> speed_up;
   double driven_m = 0, energy_wh = 0, messages = 0, message_bytes = 0, overlap = 0, stalls = 0;  ///< means over runs
-  std::vector<Metric> metrics;  ///< means of the other observers' over the runs that have a value; NaN for none
+  /// Means of the other observers' over the runs that have a value; NaN for none, and for a time (isTime()) that some
+  /// runs have not.
+  std::vector<Metric> metrics;
 };
 
 /// One for each case with finished runs, in the order of the plan.

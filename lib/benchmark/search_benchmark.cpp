@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <nlohmann/json.hpp>
+
 #include "run/local_run.h"
 #include "run/output_files.h"
 #include "run/seeded_run.h"
@@ -59,6 +61,8 @@ SearchBenchmark::SearchBenchmark(SearchPlan plan, const std::vector<std::string>
     }
   }
 }
+
+std::string SearchBenchmark::planText() const { return plan_.json().dump(); }
 
 std::optional<SearchRun> SearchBenchmark::run(std::size_t index, const std::function<bool()>& is_interrupted) const {
   const std::size_t case_index = index / plan_.runs;

@@ -13,9 +13,8 @@
 
 namespace robosim {
 
-/// A plan with its worlds, ready to run: run() may be called from several threads and, with equal files, in several
-/// processes.
-class SearchBenchmark {
+/// A plan with its worlds, ready to run.
+class SearchBenchmark : public NumberedRuns {
  public:
   /// Reads the worlds and checks all that can be checked before a run.
   /// @param files world files, by name or path; with their names and versions they are the plan's worlds
@@ -27,10 +26,10 @@ class SearchBenchmark {
   /// Files that the worlds were read from.
   const std::vector<std::filesystem::path>& inputFiles() const { return input_files_; }
 
-  /// @param index below plan().runCount(): `runs` successive ones belong to one case
-  /// @return nullopt when interrupted
-  /// @throws ConfigError, ControllerError, ObserverError
-  std::optional<SearchRun> run(std::size_t index, const std::function<bool()>& is_interrupted) const;
+  std::size_t runCount() const override { return plan_.runCount(); }
+  /// @param index `runs` successive ones belong to one case
+  std::optional<SearchRun> run(std::size_t index, const std::function<bool()>& is_interrupted) const override;
+  std::string planText() const override;
 
  private:
   struct PreparedWorld {

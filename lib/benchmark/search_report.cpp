@@ -39,7 +39,8 @@ std::vector<std::string> metricNames(const SearchRuns& runs) {
 
 std::string runsCsv(const SearchPlan& plan, const SearchRuns& runs) {
   std::string csv =
-      "world,controller,seed,condition,robots,gold_found,gold_found_by,gold_time_s,all_halted_time_s,sim_time_s,"
+      "world,controller,seed,condition,robots,gold_found,gold_found_by,gold_time_s,all_halted_time_s,sim_time_s,ended_"
+      "by,"
       "driven_m,stalls,messages_sent,messages,messages_lost";
   const auto metrics = metricNames(runs);
   for (const auto& name : metrics) csv += "," + name;
@@ -51,8 +52,9 @@ std::string runsCsv(const SearchPlan& plan, const SearchRuns& runs) {
            std::to_string(run->seed) + "," + csvField(plan.conditions[c.condition].text()) + "," +
            std::to_string(run->robots) + "," + (run->found_s ? "1" : "0") + "," + csvField(run->found_by.value_or("")) +
            "," + orEmpty(run->found_s) + "," + orEmpty(run->all_halted_s) + "," + toText(run->sim_time_s) + "," +
-           toText(run->driven_m) + "," + std::to_string(run->stalls) + "," + std::to_string(run->messages_sent) + "," +
-           std::to_string(run->messages_delivered) + "," + std::to_string(run->messages_lost);
+           run->ended_by + "," + toText(run->driven_m) + "," + std::to_string(run->stalls) + "," +
+           std::to_string(run->messages_sent) + "," + std::to_string(run->messages_delivered) + "," +
+           std::to_string(run->messages_lost);
     for (const auto& name : metrics) csv += "," + numberOrEmpty(run->metric(name));
     csv += "," + run->digest + "\n";
   }

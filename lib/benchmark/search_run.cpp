@@ -28,6 +28,8 @@ SearchRun SearchRun::of(std::size_t case_index, const RunSummary& summary) {
   run.seed = summary.seed;
   run.robots = summary.robots;
   run.sim_time_s = summary.sim_time_s;
+  run.ended_by = nameOf(summary.ended_by);
+  if (summary.observer_end) run.end_reason = summary.observer_end->reason;
   run.found_by = summary.gold.found_by;
   run.found_s = summary.gold.found_s;
   run.all_halted_s = summary.gold.all_halted_s;
@@ -56,6 +58,8 @@ Json SearchRun::json() const {
           {"seed", seed},
           {"robots", robots},
           {"sim_time_s", sim_time_s},
+          {"ended_by", ended_by},
+          {"end_reason", end_reason},
           {"found_by", orNull(found_by)},
           {"found_s", orNull(found_s)},
           {"all_halted_s", orNull(all_halted_s)},
@@ -74,6 +78,8 @@ SearchRun SearchRun::fromJson(const Json& json) {
   run.seed = json.at("seed").get<std::uint64_t>();
   run.robots = json.at("robots").get<std::size_t>();
   run.sim_time_s = json.at("sim_time_s").get<double>();
+  run.ended_by = json.at("ended_by").get<std::string>();
+  run.end_reason = json.at("end_reason").get<std::string>();
   run.found_by = optionalOf<std::string>(json.at("found_by"));
   run.found_s = optionalOf<double>(json.at("found_s"));
   run.all_halted_s = optionalOf<double>(json.at("all_halted_s"));

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +13,14 @@
 
 namespace robosim {
 
-/// Result of one search. All but the duration depends only on the plan.
+/// Result of one run, such as a search for gold. All but the duration depends only on the plan.
 struct SearchRun {
-  std::size_t case_index = 0;  ///< SearchPlan::caseAt()
+  std::size_t case_index = 0;  ///< SearchPlan::caseAt(), SweepPlan::caseAt()
   std::uint64_t seed = 0;
   std::size_t robots = 0;
   double sim_time_s = 0;
+  std::string ended_by;    ///< nameOf(EndedBy)
+  std::string end_reason;  ///< of the observer that ended it; else empty
   std::optional<std::string> found_by;
   std::optional<double> found_s;
   std::optional<double> all_halted_s;
@@ -39,6 +43,19 @@ struct SearchRun {
   nlohmann::ordered_json json() const;
   /// @throws std::exception for a document that json() cannot have made
   static SearchRun fromJson(const nlohmann::ordered_json& json);
+};
+
+/// Numbered runs that depend on a plan only. With equal files, each can be made by any thread of any process.
+class NumberedRuns {
+ public:
+  virtual ~NumberedRuns() = default;
+  virtual std::size_t runCount() const = 0;
+  /// @param index below runCount(); may be called from several threads
+  /// @return nullopt when interrupted
+  /// @throws ConfigError, ControllerError, ObserverError
+  virtual std::optional<SearchRun> run(std::size_t index, const std::function<bool()>& is_interrupted) const = 0;
+  /// All that the results depend on, as bytes.
+  virtual std::string planText() const = 0;
 };
 
 /// Names of metrics of the observer `effort`.

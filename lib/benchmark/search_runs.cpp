@@ -6,13 +6,13 @@
 
 namespace robosim {
 
-void makeRuns(const SearchBenchmark& benchmark, int threads, const std::function<bool()>& is_interrupted,
+void makeRuns(const NumberedRuns& source, int threads, const std::function<bool()>& is_interrupted,
               const std::function<void(const SearchRun&)>& finished, SearchRuns& runs) {
   const auto to_do = missing(runs);
   std::mutex mutex;
   ParallelExecutor(threads).forEach(to_do.size(), 1, [&](std::size_t i) {
     if (is_interrupted()) return;
-    auto run = benchmark.run(to_do[i], is_interrupted);
+    auto run = source.run(to_do[i], is_interrupted);
     if (!run) return;
     const std::lock_guard lock(mutex);
     finished(*run);

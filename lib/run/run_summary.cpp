@@ -12,28 +12,6 @@
 namespace robosim {
 namespace {
 
-const char* nameOf(EndedBy why) {
-  switch (why) {
-    case EndedBy::all_halted:
-      return "all_halted";
-    case EndedBy::time_limit:
-      return "time_limit";
-    case EndedBy::interrupt:
-      return "interrupted";
-    case EndedBy::control_panel:
-      return "control_panel";
-    case EndedBy::robot_lost:
-      return "robot_lost";
-    case EndedBy::window_closed:
-      return "window_closed";
-    case EndedBy::observer:
-      return "observer";
-    case EndedBy::recording_stopped:
-      return "recording_stopped";
-  }
-  return "";
-}
-
 template <typename T>
 nlohmann::ordered_json orNull(const std::optional<T>& value) {
   return value ? nlohmann::ordered_json(*value) : nlohmann::ordered_json(nullptr);
@@ -85,6 +63,28 @@ std::string sentenceOn(const GoldOutcome& gold, EndedBy why, const std::optional
 }
 
 }  // namespace
+
+const char* nameOf(EndedBy why) {
+  switch (why) {
+    case EndedBy::all_halted:
+      return "all_halted";
+    case EndedBy::time_limit:
+      return "time_limit";
+    case EndedBy::interrupt:
+      return "interrupted";
+    case EndedBy::control_panel:
+      return "control_panel";
+    case EndedBy::robot_lost:
+      return "robot_lost";
+    case EndedBy::window_closed:
+      return "window_closed";
+    case EndedBy::observer:
+      return "observer";
+    case EndedBy::recording_stopped:
+      return "recording_stopped";
+  }
+  return "";
+}
 
 EndedBy endedByItself(const LocalRun& run) {
   if (run.gold().all_halted_s) return EndedBy::all_halted;

@@ -22,6 +22,9 @@ enum class EndedBy {
   recording_stopped
 };
 
+/// As in JSON: "all_halted", "time_limit"
+const char* nameOf(EndedBy why);
+
 /// Why a run ended that neither a person nor a lost robot has ended: all robots halted, an observer, or the time limit.
 EndedBy endedByItself(const LocalRun& run);
 

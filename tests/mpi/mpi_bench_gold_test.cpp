@@ -133,13 +133,27 @@ TEST(MpiBenchGold, ReportsAFullDiskOnceAndContinues) {
   EXPECT_EQ(reportOf(folder / "full"), reportOf(folder / "alone"));
 }
 
+TEST(MpiBenchMetrics, TabulatesTheRunsOfOneProcess) {
+  const auto folder = emptyFolder();
+  const std::string bench =
+      "bench metrics worlds/small_maze.xml --runs 5 --time 20 --observer coverage --controller wander --controller "
+      "gold_finder --csv ";
+  const Ended alone = runProgram(bench + quoted(folder / "alone.csv"));
+  ASSERT_EQ(alone.exit_code, 0) << alone.err;
+  const Ended ranks = benchOnRanks(3, bench + quoted(folder / "ranks.csv"));
+  EXPECT_EQ(ranks.exit_code, 0) << ranks.err;
+  EXPECT_EQ(ranks.out, alone.out);
+  EXPECT_EQ(textOf(folder / "ranks.csv"), textOf(folder / "alone.csv"));
+}
+
 TEST(MpiBenchGold, RefusesOnAllRanksWithOneMessage) {
   const auto folder = emptyFolder();
   std::ofstream(folder / "file") << "x";
   const std::pair<std::string, std::string> wrong[] = {
       {"bench gold worlds/small_maze.xml --runs 2 --report " + quoted(folder / "file" / "r"), "cannot be created"},
       {"bench gold worlds/small_maze.xml --runs 2 --threads 2", "start more processes instead"},
-      {"bench metrics worlds/small_maze.xml --runs 2 --observer coverage", "runs in one process"},
+      {"bench metrics worlds/small_maze.xml --runs 2 --observer coverage --csv " + quoted(folder / "file" / "r"),
+       "cannot be created"},
       {"bench gold worlds/missing.xml", "worlds/missing.xml"}};
   for (const auto& [arguments, text] : wrong) {
     const Ended ended = benchOnRanks(3, arguments);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -160,9 +161,30 @@ TEST(BenchMetrics, TabulatesMetricsOverControllersAndParameterValues) {
   }
   const std::string csv = textOf(folder / "runs.csv");
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 2);
+  EXPECT_EQ(countOf(",5.000,time_limit,,", csv), 3u * 2u) << csv;
   EXPECT_EQ(bench.out.find("found"), std::string::npos);  // which bench gold has
 
   EXPECT_EQ(runProgram("bench metrics worlds/small_maze.xml --runs 1").exit_code, 1);  // without an observer
+}
+
+TEST(BenchMetrics, CountsATimeThatRunsHaveNotReachedAsLater) {
+  const auto folder = emptyFolder();
+  // A robot that stands still covers no half of the maze; one that searches does so in some runs of 60 s.
+  const Ended bench = runProgram(
+      "bench metrics small_maze --runs 4 --time 60 --observer coverage --controller still --controller wander "
+      "--csv " +
+      quoted(folder / "runs.csv"));
+  ASSERT_EQ(bench.exit_code, 0) << bench.err;
+  std::istringstream lines(bench.out);
+  std::string still, wander;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.find("coverage.half_covered_s") == std::string::npos) continue;
+    (line.find(" still ") != std::string::npos ? still : wander) = line;
+  }
+  EXPECT_EQ(countOf("later", still), 5u) << "quantiles and interval: " << still;
+  EXPECT_NE(still.find("0 of 4"), std::string::npos) << still;
+  EXPECT_NE(still.find("–"), std::string::npos) << "no mean: " << still;
+  EXPECT_NE(bench.out.find("\"later\": the event has not happened within the runs."), std::string::npos) << bench.out;
 }
 
 TEST(BenchGold, PrintsTheCompletedRunsWhenInterrupted) {
