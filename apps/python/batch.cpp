@@ -13,6 +13,7 @@
 #include "array_arguments.h"
 #include "generated_world.h"
 #include "learning/environment_batch.h"
+#include "other_robots.h"
 #include "python_errors.h"
 #include "python_released.h"
 #include "python_world.h"
@@ -28,7 +29,8 @@ class PythonBatch {
  public:
   /// @param worlds std::vector<LoadedWorld>, or EnvironmentBatch::MakeWorld
   template <typename Worlds>
-  PythonBatch(Worlds worlds, BatchOptions options) : batch_(std::move(worlds), std::move(options)) {}
+  PythonBatch(Worlds worlds, BatchOptions options, EnvironmentBatch::MakeOthers others)
+      : batch_(std::move(worlds), std::move(options), std::move(others)) {}
 
   const EnvironmentBatch& batch() const { return batch_; }
   py::ssize_t environments() const { return static_cast<py::ssize_t>(batch_.options().environments); }
@@ -74,10 +76,14 @@ RewardWeights weightsOf(const py::dict& given) {
   return weights;
 }
 
-std::unique_ptr<PythonBatch> makeBatch(const std::vector<std::shared_ptr<PythonWorld>>& worlds, BatchOptions options) {
+std::unique_ptr<PythonBatch> makeBatch(const std::vector<std::shared_ptr<PythonWorld>>& worlds, BatchOptions options,
+                                       EnvironmentBatch::MakeOthers others) {
   std::vector<LoadedWorld> loaded;
-  for (const auto& world : worlds) loaded.push_back(world->loaded);
-  return std::make_unique<PythonBatch>(std::move(loaded), std::move(options));
+  for (const auto& world : worlds) {
+    loaded.push_back(world->loaded);
+    if (others && options.agents > 0) checkOtherRobots(world->loaded, options.agents);
+  }
+  return std::make_unique<PythonBatch>(std::move(loaded), std::move(options), std::move(others));
 }
 
 /// Seed of each environment's generated world: uint64, shape (num_envs,).
@@ -99,6 +105,17 @@ py::array_t<std::int64_t> stepsOf(const PythonBatch& of) {
   return steps;
 }
 
+/// Poses of all robots of an environment: float64, shape (robots, 3).
+py::array_t<double> episodePosesOf(const PythonBatch& of, std::size_t environment) {
+  const auto& poses = of.batch().environment(environment).state().world_from_robot;
+  py::array_t<double> all(std::vector<py::ssize_t>{static_cast<py::ssize_t>(poses.size()), 3});
+  double* out = all.mutable_data();
+  for (const auto& pose : poses) {
+    for (const double value : {pose.x, pose.y, pose.phi}) *out++ = value;
+  }
+  return all;
+}
+
 /// Name of the winner of each environment: object, shape (num_envs,); None without one.
 py::array winnersOf(const PythonBatch& of) {
   py::list winners;
@@ -110,21 +127,44 @@ py::array winnersOf(const PythonBatch& of) {
   return py::module_::import("numpy").attr("array")(winners, py::arg("dtype") = "object");
 }
 
+/// Whether the gold was found in each environment's episode: bool, shape (num_envs,). By an agent, which then has won,
+/// or by a robot with a controller.
+py::array_t<bool> goldFoundIn(const PythonBatch& of) {
+  py::array_t<bool> found(of.environments());
+  for (py::ssize_t i = 0; i < of.environments(); ++i) {
+    const State& state = of.batch().environment(static_cast<std::size_t>(i)).state();
+    found.mutable_at(i) = state.winner().has_value() || std::find(state.activity.begin(), state.activity.end(),
+                                                                  Activity::found) != state.activity.end();
+  }
+  return found;
+}
+
+/// Bounds of each agent's observation: float32, shape (agents, size); 0 beyond its own size.
 py::array_t<float> boundsOf(const PythonBatch& of, std::vector<float> ObservationPart::*bound) {
-  py::array_t<float> bounds(of.size());
-  float* out = bounds.mutable_data();
-  for (const auto& part : of.batch().layout().parts()) out = std::copy((part.*bound).begin(), (part.*bound).end(), out);
+  py::array_t<float> bounds(std::vector<py::ssize_t>{of.agents(), of.size()});
+  std::fill_n(bounds.mutable_data(), bounds.size(), 0.f);
+  for (py::ssize_t agent = 0; agent < of.agents(); ++agent) {
+    float* out = bounds.mutable_data(agent, 0);
+    for (const auto& part : of.batch().layout(static_cast<std::size_t>(agent)).parts()) {
+      out = std::copy((part.*bound).begin(), (part.*bound).end(), out);
+    }
+  }
   return bounds;
 }
 
+/// Name, begin and end of each part of each agent's observation.
 py::list partsOf(const PythonBatch& of) {
-  py::list parts;
-  std::size_t begin = 0;
-  for (const auto& part : of.batch().layout().parts()) {
-    parts.append(py::make_tuple(part.name, begin, begin + part.size));
-    begin += part.size;
+  py::list all;
+  for (py::ssize_t agent = 0; agent < of.agents(); ++agent) {
+    py::list parts;
+    std::size_t begin = 0;
+    for (const auto& part : of.batch().layout(static_cast<std::size_t>(agent)).parts()) {
+      parts.append(py::make_tuple(part.name, begin, begin + part.size));
+      begin += part.size;
+    }
+    all.append(parts);
   }
-  return parts;
+  return all;
 }
 
 py::list agentNames(const PythonBatch& of) {
@@ -179,7 +219,7 @@ void bindBatch(py::module_& module) {
   const auto make = [](const Worlds& worlds, std::size_t num_envs, std::size_t agents,
                        std::vector<std::string> observations, const py::dict& reward, double period_s,
                        std::uint32_t max_steps, bool random_starts, std::optional<double> start_distance_m, int threads,
-                       std::uint64_t seed) {
+                       std::uint64_t seed, bool has_controllers) {
     BatchOptions options{.environments = num_envs,
                          .agents = agents,
                          .observations = std::move(observations),
@@ -191,17 +231,18 @@ void bindBatch(py::module_& module) {
                          .threads = threads,
                          .seed = seed};
     const PythonReleased no_python;
+    const EnvironmentBatch::MakeOthers others = has_controllers ? otherRobots : EnvironmentBatch::MakeOthers();
     if (const auto* given = std::get_if<std::vector<std::shared_ptr<PythonWorld>>>(&worlds)) {
-      return makeBatch(*given, std::move(options));
+      return makeBatch(*given, std::move(options), others);
     }
     return std::make_unique<PythonBatch>(
         EnvironmentBatch::MakeWorld(std::get<std::shared_ptr<PythonGenerator>>(worlds)->forEpisodes()),
-        std::move(options));
+        std::move(options), others);
   };
   py::class_<PythonBatch>(module, "_Batch")
       .def(py::init(make), py::arg("worlds"), py::arg("num_envs"), py::arg("agents"), py::arg("observations"),
            py::arg("reward"), py::arg("period_s"), py::arg("max_steps"), py::arg("random_starts"),
-           py::arg("start_distance_m"), py::arg("threads"), py::arg("seed"))
+           py::arg("start_distance_m"), py::arg("threads"), py::arg("seed"), py::arg("controllers"))
       .def_property_readonly("agents", &PythonBatch::agents)
       .def_property_readonly("size", &PythonBatch::size)
       .def_property_readonly("agent_names", agentNames)
@@ -210,7 +251,10 @@ void bindBatch(py::module_& module) {
       .def_property_readonly("high", [](const PythonBatch& of) { return boundsOf(of, &ObservationPart::high); })
       .def_property_readonly("world_seeds", worldSeedsOf)
       .def_property_readonly("steps", stepsOf)
+      .def("poses", episodePosesOf)
       .def_property_readonly("winners", winnersOf)
+      .def_property_readonly("gold_found", goldFoundIn)
+      .def_property_readonly("period_s", [](const PythonBatch& of) { return of.batch().options().period_s; })
       .def("set_seed",
            [](PythonBatch& of, std::size_t environment, Seed seed) {
              of.exclusively([&](EnvironmentBatch& batch) { batch.setSeed(environment, seed); });

@@ -19,9 +19,9 @@ struct RewardWeights {
 /// What the agents of an EnvironmentBatch observe, and how their episodes begin and end.
 struct BatchOptions {
   std::size_t environments = 1;  ///< > 0; environment i uses world i modulo the number of worlds
-  std::size_t agents = 0;  ///< the first robots of each world, which are controlled; the others stand still. 0: all
+  std::size_t agents = 0;        ///< the first robots of each world, which are controlled; 0: all
   /// Parts of an observation, in this order: a kind of sensor (the first one of the robot) or a sensor's label,
-  /// "stalled", "pose".
+  /// "stalled", "pose". Agents of another robot type leave out those that they do not have.
   std::vector<std::string> observations{"sonar", "heat"};
   RewardWeights reward;
   double period_s = 0.1;           ///< length of a time step, (0, 1]

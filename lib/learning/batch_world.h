@@ -23,15 +23,17 @@ struct BatchWorld {
 
 /// What the agents of all worlds of a batch have in common.
 struct BatchAgents {
-  std::size_t count;  ///< in each world
-  ObservationLayout layout;
+  std::vector<ObservationLayout> layouts;  ///< by agent
+  std::size_t size = 0;                    ///< of the longest observation
+
+  std::size_t count() const { return layouts.size(); }  ///< in each world
 };
 
-/// The agents of a batch's first world.
-/// @throws ConfigError for a world without robots and a sensor that the first robot does not have
+/// The agents of a batch's first world, which may be of different robot types.
+/// @throws ConfigError for a world with too few robots, and for ObservationLayout::ofTeam()
 BatchAgents agentsOf(const LoadedWorld& world, const BatchOptions& options);
 
-/// @throws ConfigError for a world whose robots differ from the agents in number or in what they observe
+/// @throws ConfigError for a world whose robots differ from those of the first one in number or in what they observe
 std::shared_ptr<const BatchWorld> makeBatchWorld(LoadedWorld world, const BatchOptions& options,
                                                  const BatchAgents& agents);
 

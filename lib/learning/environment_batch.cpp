@@ -19,6 +19,7 @@ constexpr std::size_t kActionSize = 2;
 struct Episode {
   std::unique_ptr<Environment> environment;
   std::shared_ptr<const BatchWorld> world;
+  std::unique_ptr<OtherRobots> others;  ///< refers to the environment; null: they stand still
   std::uint64_t seed = 0;
   std::uint64_t number = 0;      ///< of episodes since the seed was set
   std::uint64_t world_seed = 0;  ///< of a generated world
@@ -63,14 +64,16 @@ void checkOptions(const BatchOptions& options) {
 
 struct EnvironmentBatch::Impl {
   BatchOptions options;
-  MakeWorld make_world;  ///< of each episode; null: the environments keep their worlds
+  MakeWorld make_world;    ///< of each episode; null: the environments keep their worlds
+  MakeOthers make_others;  ///< null: other robots stand still
   BatchAgents agents;
   std::vector<Episode> episodes;
   ParallelExecutor workers;
 
-  Impl(std::vector<LoadedWorld> loaded, BatchOptions the_options, MakeWorld make)
+  Impl(std::vector<LoadedWorld> loaded, BatchOptions the_options, MakeWorld make, MakeOthers others)
       : options(std::move(the_options)),
         make_world(std::move(make)),
+        make_others(std::move(others)),
         agents(agentsOf(loaded.front(), options)),
         episodes(options.environments),
         workers(options.threads) {
@@ -83,6 +86,7 @@ struct EnvironmentBatch::Impl {
   }
 
   static void enter(Episode& episode, std::shared_ptr<const BatchWorld> world) {
+    episode.others.reset();
     episode.environment = std::make_unique<Environment>(world->model, world->start);
     episode.world = std::move(world);
   }
@@ -97,21 +101,25 @@ struct EnvironmentBatch::Impl {
     State start = episode.world->start;
     if (episode.world->random_starts) start.world_from_robot = episode.world->random_starts->draw(seed);
     start.seed = seed;
+    episode.others.reset();
     episode.environment->restart(start);
+    if (make_others) episode.others = make_others(*episode.environment, agents.count());
     episode.is_over = false;
   }
 
   void observe(std::size_t i, std::span<float> observations) const {
-    const std::size_t size = agents.layout.size();
     const State& state = episodes[i].environment->state();
-    for (std::size_t agent = 0; agent < agents.count; ++agent) {
-      agents.layout.write(state, agent, observations.subspan((i * agents.count + agent) * size, size));
+    for (std::size_t agent = 0; agent < agents.count(); ++agent) {
+      const ObservationLayout& layout = agents.layouts[agent];
+      const auto out = observations.subspan((i * agents.count() + agent) * agents.size, agents.size);
+      layout.write(state, agent, out);
+      std::fill(out.begin() + static_cast<std::ptrdiff_t>(layout.size()), out.end(), 0.f);
     }
   }
 
   void step(std::size_t i, std::span<const float> actions, const BatchResults& results) {
     Episode& episode = episodes[i];
-    const auto rewards = results.rewards.subspan(i * agents.count, agents.count);
+    const auto rewards = results.rewards.subspan(i * agents.count(), agents.count());
     results.terminated[i] = results.truncated[i] = 0;
     if (episode.is_over) {
       startEpisode(episode);
@@ -121,8 +129,8 @@ struct EnvironmentBatch::Impl {
     Environment& environment = *episode.environment;
     const State& state = environment.state();
     const RewardWeights& weights = options.reward;
-    for (std::size_t agent = 0; agent < agents.count; ++agent) {
-      const float* action = &actions[(i * agents.count + agent) * kActionSize];
+    for (std::size_t agent = 0; agent < agents.count(); ++agent) {
+      const float* action = &actions[(i * agents.count() + agent) * kActionSize];
       const MotionLimits& limit = episode.world->model->fleet.robots[agent].info.limits;
       Command command;
       command.speed_mps = std::clamp(static_cast<double>(action[0]), -1.0, 1.0) * limit.speed_max_mps;
@@ -131,9 +139,10 @@ struct EnvironmentBatch::Impl {
       environment.checkWin(agent);
       rewards[agent] = -weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]);
     }
+    if (episode.others) episode.others->act();
     environment.step();
     const bool is_won = state.winner().has_value();
-    for (std::size_t agent = 0; agent < agents.count; ++agent) {
+    for (std::size_t agent = 0; agent < agents.count(); ++agent) {
       rewards[agent] += weights.heat * heatOf(state, agent, episode.world->heat_slots[agent]) +
                         weights.win * (is_won ? 1 : 0) + weights.forward * state.last_motion[agent].length_m +
                         weights.stall * state.stalled[agent] + weights.step;
@@ -148,30 +157,31 @@ struct EnvironmentBatch::Impl {
     const auto bad = std::find_if(actions.begin(), actions.end(), [](float a) { return !std::isfinite(a); });
     if (bad == actions.end()) return;
     const auto index = static_cast<std::size_t>(bad - actions.begin());
-    throw std::invalid_argument("the action of agent " + std::to_string(index / kActionSize % agents.count) +
-                                " in environment " + std::to_string(index / kActionSize / agents.count) +
+    throw std::invalid_argument("the action of agent " + std::to_string(index / kActionSize % agents.count()) +
+                                " in environment " + std::to_string(index / kActionSize / agents.count()) +
                                 " is not finite; actions are fractions in [-1, 1]");
   }
 };
 
-EnvironmentBatch::EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options) {
+EnvironmentBatch::EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options, MakeOthers others) {
   checkOptions(options);
   if (worlds.empty()) throw ConfigError("a batch requires at least one world");
-  impl_ = std::make_unique<Impl>(std::move(worlds), std::move(options), nullptr);
+  impl_ = std::make_unique<Impl>(std::move(worlds), std::move(options), nullptr, std::move(others));
 }
 
-EnvironmentBatch::EnvironmentBatch(MakeWorld make, BatchOptions options) {
+EnvironmentBatch::EnvironmentBatch(MakeWorld make, BatchOptions options, MakeOthers others) {
   checkOptions(options);
   std::vector<LoadedWorld> first;
   first.push_back(make(episodeSeed(options.seed, 0)));
-  impl_ = std::make_unique<Impl>(std::move(first), std::move(options), std::move(make));
+  impl_ = std::make_unique<Impl>(std::move(first), std::move(options), std::move(make), std::move(others));
 }
 
 EnvironmentBatch::~EnvironmentBatch() = default;
 
 const BatchOptions& EnvironmentBatch::options() const { return impl_->options; }
-std::size_t EnvironmentBatch::agentCount() const { return impl_->agents.count; }
-const ObservationLayout& EnvironmentBatch::layout() const { return impl_->agents.layout; }
+std::size_t EnvironmentBatch::agentCount() const { return impl_->agents.count(); }
+const ObservationLayout& EnvironmentBatch::layout(std::size_t agent) const { return impl_->agents.layouts.at(agent); }
+std::size_t EnvironmentBatch::observationSize() const { return impl_->agents.size; }
 const Environment& EnvironmentBatch::environment(std::size_t i) const { return *impl_->episodes.at(i).environment; }
 
 std::uint64_t EnvironmentBatch::worldSeed(std::size_t i) const { return impl_->episodes.at(i).world_seed; }

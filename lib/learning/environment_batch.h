@@ -12,9 +12,17 @@
 
 namespace robosim {
 
+/// Drives the robots of an environment that are no agents.
+class OtherRobots {
+ public:
+  virtual ~OtherRobots() = default;
+  virtual void act() = 0;  ///< gives their commands for the next step
+};
+
 /// Memory of the caller, into which EnvironmentBatch writes the results of a step, in row-major order.
 struct BatchResults {
-  std::span<float> observations;       ///< environments × agents × observationSize()
+  /// Environments × agents × observationSize(). The end of an agent's observation that is shorter is 0.
+  std::span<float> observations;
   std::span<double> rewards;           ///< environments × agents
   std::span<std::uint8_t> terminated;  ///< by environment; 1 when the world was won in this step
   std::span<std::uint8_t> truncated;   ///< by environment; 1 when the episode has reached BatchOptions::steps_max
@@ -28,28 +36,31 @@ struct BatchResults {
 ///
 /// The results depend on the options and actions only, bit for bit, for any number of threads. An episode's start
 /// poses, noise and lost messages, and its world if that is generated, depend on the seed of its environment and on the
-/// number of the episode.
+/// number of the episode. Robots that are no agents stand still, unless MakeOthers drives them.
 class EnvironmentBatch {
  public:
   /// Makes the world of an episode, which depends on the seed only; may be called from several threads at once.
   using MakeWorld = std::function<LoadedWorld(std::uint64_t seed)>;
+  /// Makes what drives the robots of an environment from number `first` on, for one episode; null: they stand still.
+  /// May be called from several threads at once. The environment outlives it.
+  using MakeOthers = std::function<std::unique_ptr<OtherRobots>(Environment&, std::size_t first)>;
 
   /// @throws ConfigError for options out of range, worlds whose robots differ in number, and agents whose observations
-  /// differ in size or bounds
-  EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options);
+  /// differ in size or bounds from those of the first world; errors of `others`
+  EnvironmentBatch(std::vector<LoadedWorld> worlds, BatchOptions options, MakeOthers others = nullptr);
   /// Every episode of every environment has a world of its own (such as WorldGenerator makes). Before the first reset()
   /// all environments have the world of the first one's first episode.
   /// @throws ConfigError also for a world that cannot be made, here and when an episode starts; that environment's next
   /// step or reset then tries its next episode
-  EnvironmentBatch(MakeWorld make, BatchOptions options);
+  EnvironmentBatch(MakeWorld make, BatchOptions options, MakeOthers others = nullptr);
   ~EnvironmentBatch();
   EnvironmentBatch(const EnvironmentBatch&) = delete;
   EnvironmentBatch& operator=(const EnvironmentBatch&) = delete;
 
   const BatchOptions& options() const;
   std::size_t agentCount() const;  ///< of each environment
-  const ObservationLayout& layout() const;
-  std::size_t observationSize() const { return layout().size(); }  ///< number of values per agent
+  const ObservationLayout& layout(std::size_t agent = 0) const;
+  std::size_t observationSize() const;  ///< number of values per agent: that of the longest observation
   /// It has a digest if BatchOptions::has_digests. The reference is valid until the next episode if worlds are
   /// generated.
   const Environment& environment(std::size_t i) const;

@@ -98,30 +98,62 @@ struct MeasurementWriter {
   void operator()(const Blobs&) const {}
 };
 
+/// @return nullopt if the robot does not have the part
+std::optional<ObservationPart> partNamed(const std::string& name, const RobotInfo& robot) {
+  ObservationPart part;
+  part.name = name;
+  if (name == "stalled") {
+    part.slot = ObservationPart::kStalled;
+    bound(part, 1, 0, 1);
+  } else if (name == "pose") {
+    part.slot = ObservationPart::kPose;
+    bound(part, 3, -kInfinite, kInfinite);
+    part.low[2] = -static_cast<float>(M_PI);
+    part.high[2] = static_cast<float>(M_PI);
+  } else if (const auto slot = slotNamed(name, *robot.sensors)) {
+    part.slot = *slot;
+    describe((*robot.sensors)[part.slot], part);
+  } else {
+    return std::nullopt;
+  }
+  return part;
+}
+
+[[noreturn]] void refuse(const RobotInfo& robot, const std::string& what) {
+  throw ConfigError("robot '" + robot.name + "' cannot observe " + what + "; observations may be " +
+                    listed(observableNames(*robot.sensors)));
+}
+
 }  // namespace
 
-ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<std::string>& names) {
-  const std::vector<SensorInfo>& sensors = *robot.sensors;
+std::vector<ObservationLayout> ObservationLayout::ofTeam(std::span<const FleetRobot> robots,
+                                                         const std::vector<std::string>& names) {
   for (const auto& name : names) {
-    ObservationPart part;
-    part.name = name;
-    if (name == "stalled") {
-      part.slot = ObservationPart::kStalled;
-      bound(part, 1, 0, 1);
-    } else if (name == "pose") {
-      part.slot = ObservationPart::kPose;
-      bound(part, 3, -kInfinite, kInfinite);
-      part.low[2] = -static_cast<float>(M_PI);
-      part.high[2] = static_cast<float>(M_PI);
-    } else if (const auto slot = slotNamed(name, sensors)) {
-      part.slot = *slot;
-      describe(sensors[part.slot], part);
-    } else {
-      throw ConfigError("robot '" + robot.name + "' cannot observe '" + name + "'; observations may be " +
-                        listed(observableNames(sensors)));
-    }
-    size_ += part.size;
-    parts_.push_back(std::move(part));
+    const bool is_of_one = std::any_of(
+        robots.begin(), robots.end(), [&](const FleetRobot& robot) { return partNamed(name, robot.info).has_value(); });
+    if (!is_of_one) refuse(robots.front().info, "'" + name + "'");
+  }
+  std::vector<ObservationLayout> layouts;
+  for (const auto& robot : robots) {
+    layouts.push_back(ofPresent(robot.info, names));
+    if (layouts.back().parts_.empty() && !names.empty()) refuse(robot.info, listed(names));
+  }
+  return layouts;
+}
+
+ObservationLayout ObservationLayout::ofPresent(const RobotInfo& robot, const std::vector<std::string>& names) {
+  std::vector<std::string> present;
+  std::copy_if(names.begin(), names.end(), std::back_inserter(present),
+               [&](const std::string& name) { return partNamed(name, robot).has_value(); });
+  return {robot, present};
+}
+
+ObservationLayout::ObservationLayout(const RobotInfo& robot, const std::vector<std::string>& names) {
+  for (const auto& name : names) {
+    auto part = partNamed(name, robot);
+    if (!part) refuse(robot, "'" + name + "'");
+    size_ += part->size;
+    parts_.push_back(*std::move(part));
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "environment/state.h"
 #include "hardware/robot_info.h"
+#include "robots/fleet.h"
 
 namespace robosim {
 
@@ -32,7 +33,13 @@ struct ObservationPart {
 ///  * pose: x, y [m] and heading [rad], world frame; the true pose, which no real robot knows
 class ObservationLayout {
  public:
-  /// @throws ConfigError for an unknown name, a kind that the robot does not have, and cameras
+  /// The layout of each robot of a team. Each part must be one that at least one of them has; the others leave it out.
+  /// @throws ConfigError for a part that none has, and for a robot with none
+  static std::vector<ObservationLayout> ofTeam(std::span<const FleetRobot> robots,
+                                               const std::vector<std::string>& names);
+  /// Of the named parts, those that the robot has.
+  static ObservationLayout ofPresent(const RobotInfo& robot, const std::vector<std::string>& names);
+  /// @throws ConfigError for a part that the robot does not have, such as an unknown name and cameras
   ObservationLayout(const RobotInfo& robot, const std::vector<std::string>& names);
 
   std::span<const ObservationPart> parts() const { return parts_; }

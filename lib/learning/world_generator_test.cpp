@@ -147,8 +147,8 @@ TEST(GeneratedEpisodes, RefuseRobotsThatMeasureTheSameByOtherSensors) {
     FAIL();
   } catch (const ConfigError& error) {
     EXPECT_STREQ(error.what(),
-                 "world 'maze': robot 'Robot1' observes other numbers than the first agent, or by other sensors; use "
-                 "agents of one robot type");
+                 "world 'maze': robot 'Robot1' observes other numbers than agent 1 of the first world, or by other "
+                 "sensors; use the same robot types in all worlds");
   }
 }
 

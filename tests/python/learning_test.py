@@ -22,9 +22,46 @@ class VectorEnvTest(unittest.TestCase):
             count += 1
             self.assertEqual(infos["step"].tolist(), [count, count])
             self.assertEqual(infos["_step"].tolist(), [True, True])
+            np.testing.assert_allclose(infos["time_s"], [count / 10, count / 10])
+            self.assertEqual(infos["gold_found"].tolist(), [terminated[0], False])
             self.assertEqual("winner" in infos, terminated[0])
         self.assertEqual((infos["winner"].tolist(), infos["_winner"].tolist()), (["R1", None], [True, False]))
-        self.assertEqual(env.step(np.zeros((2, 2)))[4]["step"].tolist(), [0, count + 1])
+        self.assertEqual((infos["ended_by"].tolist(), infos["_ended_by"].tolist()), (["win", None], [True, False]))
+        infos = env.step(np.zeros((2, 2)))[4]
+        self.assertEqual(infos["step"].tolist(), [0, count + 1])
+        self.assertEqual(infos["gold_found"].tolist(), [False, False])
+
+    def test_infos_name_the_limit_of_steps_as_the_end(self):
+        env = at_the_start(max_steps=1)
+        env.reset()
+        infos = env.step(np.zeros((2, 2)))[4]
+        self.assertEqual(infos["ended_by"].tolist(), ["max_steps", "max_steps"])
+        self.assertNotIn("winner", infos)
+
+    def test_other_robots_are_driven_by_the_controllers_that_the_world_names(self):
+        world = robosim.World.parse(scene.text(3).replace(
+            "<name>R2</name>", '<name>R2</name><controller name="wander"/>'))
+        for others, moves in (("controllers", True), ("still", False)):
+            with self.subTest(others=others):
+                env = robosim.VectorEnv(world, 2, robots=1, observations="pose", random_starts=False, others=others)
+                env.reset(seed=1)
+                for _ in range(10):
+                    env.step(np.zeros((2, 2)))
+                # What a simulation with the world's controllers does; R1 and R3 have none here.
+                poses = env._batch.poses(1)
+                self.assertEqual(bool(np.any(poses[1] != [0, 1, 0])), moves)
+                np.testing.assert_array_equal(poses[[0, 2]], [[0, 0, 0], [0, 2, 0]])
+        with self.assertRaisesRegex(ValueError, "others is 'none'; it must be 'controllers' or 'still'"):
+            robosim.VectorEnv(world, others="none")
+
+    def test_refuses_controllers_that_cannot_drive_other_robots(self):
+        world = robosim.World.parse(scene.text(2).replace(
+            "<name>R2</name>", '<name>R2</name><controller>gold_finder</controller><sensors><laser/></sensors>'))
+        with self.assertRaisesRegex(robosim.ConfigError, "robot 'R2': its controller gold_finder requires a sensor of "
+                                    'kind heat; add one, make the robot an agent, or use others="still"'):
+            robosim.VectorEnv(world)
+        robosim.VectorEnv(world, robots=2, observations="pose")
+        robosim.VectorEnv(world, others="still")
 
     def test_random_starts_keep_a_distance_from_the_gold(self):
         def nearest(**options):
@@ -215,11 +252,59 @@ class VectorEnvTest(unittest.TestCase):
             robosim.VectorEnv(world, robots=2)
 
 
+def mixed_world():
+    """A Pioneer, R1, which has a laser, and a Scout, R2, which has none."""
+    before, after = scene.text(2).rsplit("<model>pioneer3dx</model>", 1)
+    return robosim.World.parse(before + "<model>scout</model>" + after)
+
+
+class MixedTeamTest(unittest.TestCase):
+    parts = ("sonar", "laser", "heat")
+
+    def test_each_agent_of_a_parallel_env_has_its_own_spaces(self):
+        env = robosim.ParallelEnv(mixed_world(), observations=self.parts)
+        self.assertEqual(list(env.observation_parts("R1")), list(self.parts))
+        self.assertEqual(list(env.observation_parts("R2")), ["sonar", "heat"])
+        self.assertGreater(env.observation_space("R1").shape, env.observation_space("R2").shape)
+        observations, _ = env.reset(seed=1)
+        for agent in env.agents:
+            self.assertIn(observations[agent], env.observation_space(agent))
+        robosim.check_env(env)
+
+    def test_shorter_observations_of_a_vector_env_end_with_zeros(self):
+        env = robosim.VectorEnv(mixed_world(), 2, robots=2, observations=self.parts)
+        parts = env.agent_observation_parts
+        used = parts["R2"]["heat"].stop
+        self.assertLess(used, parts["R1"]["heat"].stop)
+        self.assertEqual(env.single_observation_space.shape, (2, parts["R1"]["heat"].stop))
+        self.assertEqual(env.single_observation_space.high[1, used:].max(), 0)
+        observations, _ = env.reset(seed=1)
+        np.testing.assert_array_equal(observations[:, 1, used:], 0)
+        robosim.check_env(env)
+
+    def test_refuses_parts_that_no_agent_has(self):
+        with self.assertRaisesRegex(robosim.ConfigError, "robot 'R1' cannot observe 'radar'"):
+            robosim.ParallelEnv(mixed_world(), observations=("sonar", "radar"))
+        with self.assertRaisesRegex(robosim.ConfigError, "robot 'R2' cannot observe laser; observations may be "):
+            robosim.ParallelEnv(mixed_world(), observations="laser")
+
+
 class ParallelEnvTest(unittest.TestCase):
     def test_accepts_options_as_pettingzoo_requires_and_reports_steps(self):
         env = robosim.ParallelEnv(scene.world(2))
-        self.assertEqual(env.reset(seed=0, options={"options": 1})[1], {"R1": {"step": 0}, "R2": {"step": 0}})
-        self.assertEqual(env.step({"R1": [0, 0], "R2": [0, 0]})[4], {"R1": {"step": 1}, "R2": {"step": 1}})
+        start = {"step": 0, "time_s": 0, "gold_found": False}
+        self.assertEqual(env.reset(seed=0, options={"options": 1})[1], {"R1": start, "R2": start})
+        first = {"step": 1, "time_s": 0.1, "gold_found": False}
+        self.assertEqual(env.step({"R1": [0, 0], "R2": [0, 0]})[4], {"R1": first, "R2": first})
+
+    def test_infos_name_the_winner_and_the_end(self):
+        env = robosim.ParallelEnv(scene.world(2), observations="pose", random_starts=False)
+        env.reset()
+        while env.agents:
+            infos = env.step({"R1": [1, 0], "R2": [0, 0]})[4]
+        for agent in ("R1", "R2"):
+            self.assertEqual((infos[agent]["ended_by"], infos[agent]["winner"], infos[agent]["gold_found"]),
+                             ("win", "R1", True))
 
     def test_conforms(self):
         world = robosim.World.generate("maze", columns=3, rows=3, robots=3)

@@ -19,22 +19,42 @@ def _worlds_of(worlds):
 
 
 def make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts, start_distance_m,
-               threads, seed):
+               threads, seed, others):
     if isinstance(observations, str):
         observations = [observations]
     for name, value, least, most in (("num_envs", num_envs, 1, 2**31 - 1), ("robots", robots, 0, 2**31 - 1),
                                      ("max_steps", max_steps, 1, 2**32 - 1), ("threads", threads, 1, 1024),
                                      ("the seed", seed, 0, SEED_MAX)):
         require_whole(name, value, least, most)
+    if others not in ("controllers", "still"):
+        raise ValueError(f"others is {others!r}; it must be 'controllers' or 'still'")
     return _robosim._Batch(_worlds_of(worlds), num_envs, robots, list(observations), dict(reward or {}), period_s,
-                           max_steps, random_starts, start_distance_m, threads, seed)
+                           max_steps, random_starts, start_distance_m, threads, seed, others == "controllers")
 
 
-def spaces_of(batch, agents):
-    """Spaces of the observation and the action; agents: () of one agent, (n,) of a team."""
-    shape = (*agents, batch.size)
-    observation = Box(np.broadcast_to(batch.low, shape), np.broadcast_to(batch.high, shape), shape, np.float32)
-    return observation, Box(-1, 1, (*agents, 2), np.float32)
+def spaces_of(batch, agent=None):
+    """Spaces of the observation and the action of an agent, of its own size; None: of all agents together."""
+    if agent is None:
+        low, high = batch.low, batch.high
+    else:
+        size = size_of(batch, agent)
+        low, high = batch.low[agent, :size], batch.high[agent, :size]
+    return Box(low, high, low.shape, np.float32), Box(-1, 1, (*low.shape[:-1], 2), np.float32)
+
+
+def size_of(batch, agent):
+    """Size of an agent's own observation."""
+    return max((end for _, _, end in batch.parts[agent]), default=0)
+
+
+def parts_of(batch, agent):
+    """Slice of an agent's observation by the name of its part."""
+    return {name: slice(begin, end) for name, begin, end in batch.parts[agent]}
+
+
+def end_reason(terminated, truncated):
+    """How an episode has ended: "win", "max_steps"; None: it has not."""
+    return "win" if terminated else "max_steps" if truncated else None
 
 
 def batched(space, count):

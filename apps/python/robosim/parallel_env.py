@@ -1,6 +1,6 @@
 """A team of agents in one world, with the interface of PettingZoo's ParallelEnv."""
 from ._farama import ParallelEnvBase
-from ._learning import SEED_MAX, Results, make_batch, require_whole, spaces_of
+from ._learning import SEED_MAX, Results, end_reason, make_batch, parts_of, require_whole, size_of, spaces_of
 
 
 class ParallelEnv(ParallelEnvBase):
@@ -8,24 +8,29 @@ class ParallelEnv(ParallelEnvBase):
     one, with Gymnasium's spaces, when these packages are installed.
 
     world: World or file, or a WorldGenerator, which makes a new world for each episode.
-    robots: the first robots of the world, which are the agents; 0: all.
+    robots: the first robots of the world, which are the agents; 0: all. They may be of different types: each has the
+        observation and action spaces of its own sensors, and leaves out parts of `observations` that only others have.
     Other arguments, observations (float32, shape (size,)), actions (shape (2,)) and rewards are those of VectorEnv.
-    infos has "step", the number of steps since the episode's beginning, and "winner" in the step in which the world is won.
-    All agents' episodes end together. Observations are copies.
+    infos has, for each agent, "step" (number of steps since the episode's beginning), "time_s" (simulated time since
+    then), "gold_found" (whether a robot has found the gold), and in the step in which the episode ends "ended_by" ("win"
+    or "max_steps") and "winner" (name of the robot that has won; None). All agents' episodes end together.
+    Observations are copies.
     """
 
     metadata = {"render_modes": [], "name": "robosim", "is_parallelizable": True}
     render_mode = None
 
     def __init__(self, world, robots=0, observations=("sonar", "heat"), reward=None, max_steps=1000, period_s=0.1,
-                 random_starts=True, seed=1, start_distance_m=None):
+                 random_starts=True, seed=1, start_distance_m=None, others="controllers"):
         self._batch = make_batch(world, 1, robots, observations, reward, period_s, max_steps, random_starts,
-                                 start_distance_m, 1, seed)
+                                 start_distance_m, 1, seed, others)
         self.possible_agents = list(self._batch.agent_names)
         self.agents = []
         self.observation_spaces, self.action_spaces = {}, {}
-        for agent in self.possible_agents:
-            self.observation_spaces[agent], self.action_spaces[agent] = spaces_of(self._batch, ())
+        self._sizes = {}
+        for index, agent in enumerate(self.possible_agents):
+            self.observation_spaces[agent], self.action_spaces[agent] = spaces_of(self._batch, index)
+            self._sizes[agent] = size_of(self._batch, index)
         self._results = Results(self._batch, 1)
         self._has_episode = False
 
@@ -48,6 +53,11 @@ class ParallelEnv(ParallelEnvBase):
 
     def action_space(self, agent):
         return self.action_spaces[agent]
+
+    def observation_parts(self, agent):
+        """Slice of an agent's observation by the name of its part."""
+        self._require_open()
+        return parts_of(self._batch, self.possible_agents.index(agent))
 
     def reset(self, seed=None, options=None):
         """Begins a new episode; returns observations and infos by agent. Without a seed, the next episode follows.
@@ -80,10 +90,10 @@ class ParallelEnv(ParallelEnvBase):
         terminated, truncated = bool(results.terminated[0]), bool(results.truncated[0])
         observed = self._observed()
         infos = self._infos(agents)
-        if terminated:
-            for info in infos.values():
-                info["winner"] = self._batch.winners[0]
         if terminated or truncated:
+            end = {"ended_by": end_reason(terminated, truncated), "winner": self._batch.winners[0]}
+            for info in infos.values():
+                info.update(end)
             self.agents = []
         return (observed, rewards, dict.fromkeys(agents, terminated), dict.fromkeys(agents, truncated), infos)
 
@@ -104,7 +114,9 @@ class ParallelEnv(ParallelEnvBase):
 
     def _infos(self, agents):
         step = int(self._batch.steps[0])
-        return {agent: {"step": step} for agent in agents}
+        info = {"step": step, "time_s": step * self._batch.period_s, "gold_found": bool(self._batch.gold_found[0])}
+        return {agent: dict(info) for agent in agents}
 
     def _observed(self):
-        return {agent: self._results.observations[0, i].copy() for i, agent in enumerate(self.agents)}
+        observed = self._results.observations[0]
+        return {agent: observed[i, :self._sizes[agent]].copy() for i, agent in enumerate(self.agents)}

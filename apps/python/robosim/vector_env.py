@@ -2,7 +2,7 @@
 import numpy as np
 
 from ._farama import AutoresetMode, VectorEnvBase
-from ._learning import SEED_MAX, Results, batched, make_batch, require_whole, spaces_of
+from ._learning import SEED_MAX, Results, batched, end_reason, make_batch, parts_of, require_whole, spaces_of
 
 
 class VectorEnv(VectorEnvBase):
@@ -12,7 +12,11 @@ class VectorEnv(VectorEnvBase):
     worlds: World or file, or a list of them; environment i is of world i modulo their number. Or a WorldGenerator: each
         episode has a new world, which depends on the environment's seed and the number of the episode.
     num_envs: number of environments.
-    robots: the first robots of each world, which are the agents; others stand still. 0: all robots.
+    robots: the first robots of each world, which are the agents. 0: all robots. Actions drive them, whatever controller
+        the world names. Of agents of different types each leaves out the parts of `observations` that only others have;
+        the rest of its row is 0, within bounds of 0.
+    others: "controllers": the other robots are driven by the controllers that the world names for them, and stand still
+        without one; "still": all stand still.
     observations: parts of an observation: kinds of sensors, labels of sensors, "stalled", "pose" (Simulation.readings() lists them).
     reward: weights by name: "win" (1 when the world is won), "forward" (distance driven [m]), "heat" (increase of the
         reading [°C]), "stall" (1 when an obstacle stopped the robot), "step" (1). Default {"win": 1}.
@@ -30,8 +34,10 @@ class VectorEnv(VectorEnvBase):
     The step in which an episode ends returns its final observation. The next step ignores the action of that
     environment, begins its next episode, and returns its first observation with reward 0 (AutoresetMode.NEXT_STEP).
 
-    infos has, by environment, "step": number of steps since the episode's beginning, int64; and in a step in which a world
-    is won "winner": name of the robot, None elsewhere; with Gymnasium's masks "_step" and "_winner".
+    infos has, by environment, "step": number of steps since the episode's beginning, int64; "time_s": simulated time
+    since then; "gold_found": whether a robot has found the gold; and when an episode ends "ended_by": "win" or
+    "max_steps", and "winner": name of the robot that has won. Each has Gymnasium's mask ("_step"); values are None where
+    the masks of the last two are False.
 
     The engine writes into the returned arrays without a copy, alternating between two sets: they keep their values
     until the next but one call of step() or reset(). Copy what is to be kept for longer.
@@ -42,15 +48,15 @@ class VectorEnv(VectorEnvBase):
     render_mode = None
 
     def __init__(self, worlds, num_envs=1, robots=1, observations=("sonar", "heat"), reward=None, max_steps=1000,
-                 period_s=0.1, random_starts=True, threads=1, seed=1, start_distance_m=None):
+                 period_s=0.1, random_starts=True, threads=1, seed=1, start_distance_m=None, others="controllers"):
         self.closed = True
         self._batch = make_batch(worlds, num_envs, robots, observations, reward, period_s, max_steps, random_starts,
-                                 start_distance_m, threads, seed)
+                                 start_distance_m, threads, seed, others)
         self.closed = False
         self.num_envs = int(num_envs)
         self.agent_names = tuple(self._batch.agent_names)
-        agents = () if robots == 1 else (self._batch.agents,)
-        self.single_observation_space, self.single_action_space = spaces_of(self._batch, agents)
+        agent = 0 if robots == 1 else None
+        self.single_observation_space, self.single_action_space = spaces_of(self._batch, agent)
         self.observation_space = batched(self.single_observation_space, self.num_envs)
         self.action_space = batched(self.single_action_space, self.num_envs)
         self._sets = [Results(self._batch, self.num_envs) for _ in range(2)]
@@ -63,8 +69,13 @@ class VectorEnv(VectorEnvBase):
 
     @property
     def observation_parts(self):
-        """Slice of an observation by the name of its part."""
-        return {name: slice(begin, end) for name, begin, end in self._batch.parts}
+        """Slice of the first agent's observation by the name of its part."""
+        return parts_of(self._batch, 0)
+
+    @property
+    def agent_observation_parts(self):
+        """The slices of each agent, by its name."""
+        return {name: parts_of(self._batch, index) for index, name in enumerate(self.agent_names)}
 
     @property
     def world_seeds(self):
@@ -115,6 +126,10 @@ class VectorEnv(VectorEnvBase):
         self._sets.reverse()
         rewards = results.rewards if len(self.action_space.shape) == 3 else results.rewards[:, 0]
         infos = self._infos(self._all)
+        ended = results.terminated | results.truncated
+        if ended.any():
+            reasons = [end_reason(*flags) for flags in zip(results.terminated, results.truncated)]
+            infos["ended_by"], infos["_ended_by"] = np.array(reasons, object), ended
         if results.terminated.any():
             infos["winner"] = self._batch.winners
             infos["_winner"] = results.terminated.copy()
@@ -190,7 +205,9 @@ class VectorEnv(VectorEnvBase):
 
     def _infos(self, which):
         """In Gymnasium's form: an array for each name, and whether it is given for each environment."""
-        return {"step": self._batch.steps, "_step": which}
+        steps = self._batch.steps
+        return {"step": steps, "_step": which, "time_s": steps * self._batch.period_s, "_time_s": which,
+                "gold_found": self._batch.gold_found, "_gold_found": which}
 
     def _shaped(self, observations):
         return observations if len(self.action_space.shape) == 3 else observations[:, 0]
