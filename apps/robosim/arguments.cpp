@@ -14,6 +14,7 @@
 #include "base/xml_element.h"
 #include "robosim/command_line.h"
 #include "run/local_run.h"
+#include "world/world_file.h"
 
 namespace robosim {
 
@@ -70,13 +71,10 @@ CLI::Validator seedNumber() {
 CLI::Validator inputFile(const std::vector<FileKind>& taken) {
   return {[taken](std::string& text) -> std::string {
             if (text.empty()) return "the file name is empty";
-            std::error_code ignored;  // for broken links, whose reading reports a better error
-            if (const auto found = findDataFile(text)) {
-              text = found->string();
-            } else if (!std::filesystem::exists(std::filesystem::symlink_status(text, ignored))) {
-              throw ConfigError(text + ": no such file; check the path" + searchedText(text));
-            }
+            text = requireDataFile(text).string();
             requireKind(text, taken);
+            const bool takes_maps = std::find(taken.begin(), taken.end(), FileKind::activmedia) != taken.end();
+            if (takes_maps) requireNameOfKind(text);
             return "";
           },
           ""};

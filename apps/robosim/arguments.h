@@ -29,10 +29,10 @@ CLI::Validator numberIn(double low, double high);
 CLI::Validator wholeNumberIn(int low, int high);
 /// Accepts a whole number from 0 to 2^64 - 1; CLI11 alone would turn -1 into the largest.
 CLI::Validator seedNumber();
-/// The argument type of every world, map, recording and list of robots: replaces the name of the file by findDataFile()
+/// The argument type of every world, map, recording and list of robots: replaces the name by requireDataFile()
 /// (base/data_folders.h), and recognises its kind by its first bytes.
 /// @param taken kinds that the command takes
-/// @throws ConfigError when there is no such file, and nothing with its name, and by requireKind()
+/// @throws ConfigError as requireDataFile() and requireKind()
 CLI::Validator inputFile(const std::vector<FileKind>& taken);
 /// Rejects an empty text, as from an unset shell variable.
 CLI::Validator fileName();

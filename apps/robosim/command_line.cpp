@@ -21,7 +21,7 @@ struct Partner {
   std::function<bool()> holds;
 };
 
-/// Options are created once in a process, except in tests; an entry is replaced with its option.
+/// Of the options of the last program that setHelpFormat() was called for. A process has one, except in tests.
 std::map<const CLI::Option*, Partner>& partners() {
   static std::map<const CLI::Option*, Partner> all;
   return all;
@@ -72,39 +72,18 @@ std::string rightColumn(const CLI::Option& option) {
   return (help.empty() ? "" : help + " ") + "(" + notes + ")";
 }
 
-/// Appends words to lines of at most kHelpColumns. @param indent of the lines after the first
-void appendWrapped(std::string& text, std::size_t column, const std::string& words, std::size_t indent) {
-  std::istringstream in(words);
-  bool is_first = true;
-  for (std::string word; in >> word; is_first = false) {
-    if (!is_first && column + 1 + displayWidth(word) > kHelpColumns) {
-      text += "\n" + std::string(indent, ' ');
-      column = indent;
-    } else if (!is_first) {
-      text += ' ';
-      ++column;
-    }
-    text += word;
-    column += displayWidth(word);
-  }
-  text += '\n';
-}
-
 constexpr std::size_t kHelpIndent = 30;
 
 void appendRow(std::string& text, const std::string& left, const std::string& right) {
-  text += left;
-  std::size_t column = displayWidth(left);
   if (right.empty()) {
-    text += '\n';
+    text += left + '\n';
     return;
   }
-  if (column + 2 > kHelpIndent) {
-    text += '\n';
-    column = 0;
-  }
-  text += std::string(kHelpIndent - column, ' ');
-  appendWrapped(text, kHelpIndent, right, kHelpIndent);
+  const std::size_t column = displayWidth(left);
+  const bool fits = column + 2 <= kHelpIndent;
+  const std::string before = fits ? left + std::string(kHelpIndent - column, ' ') : std::string(kHelpIndent, ' ');
+  if (!fits) text += left + '\n';
+  text += wrappedLine(before + right, kHelpColumns) + '\n';
 }
 
 std::string usage(const CLI::App& app, const std::string& name) {
@@ -131,7 +110,7 @@ std::string footerOf(const CLI::App& app) {
 std::string helpOf(const CLI::App& app, std::string name) {
   name = CLI::detail::trim_copy(name);  // those of all commands from the program on
   std::string text;
-  if (!app.get_description().empty()) appendWrapped(text, 0, app.get_description(), 0);
+  if (!app.get_description().empty()) text += wrappedLine(app.get_description(), kHelpColumns) + "\n";
   text += usage(app, name);
   std::string arguments;
   std::vector<std::pair<std::string, std::string>> groups;  // in their order, the general one last
@@ -251,6 +230,7 @@ std::string unknownSubcommand(const CLI::App& command, const std::string& path, 
 }  // namespace
 
 void setHelpFormat(CLI::App& program) {
+  partners().clear();  // of an earlier program, whose options may have had the addresses of those that follow
   program.formatter_fn([](const CLI::App* app, std::string name, CLI::AppFormatMode) { return helpOf(*app, name); });
 }
 

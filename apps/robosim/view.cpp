@@ -5,6 +5,7 @@
 
 #include "base/data_folders.h"
 #include "base/error_list.h"
+#include "base/file_kind.h"
 #include "base/text_table.h"
 #include "rendering/offscreen_renderer.h"
 #include "rendering/panes.h"
@@ -18,6 +19,7 @@
 #include "viewing/view_keys.h"
 #include "viewing/view_outputs.h"
 #include "viewing/view_source.h"
+#include "world/world_file.h"
 
 namespace robosim {
 namespace {
@@ -133,6 +135,7 @@ void view(ViewArguments a) {
     std::vector<FileKind> kinds = kWorldKinds;
     kinds.push_back(FileKind::rawlog);
     requireKind(*file, kinds);
+    requireNameOfKind(*file);
   }
   const Size size = sizeFrom(a.size);
   a.figure.check(isFigure(a.offscreen), a.offscreen);
@@ -222,6 +225,13 @@ void addView(CLI::App& program) {
   setGroup(*command, kFigureGroup, {"--offscreen", "--from", "--to", "--for", "--speed", "--fps"});
   addSecurityOptions(*command, a->connection);
   addConnectTimeout(*command, a->connection);
+  for (const char* option : {"--tls-ca", "--tls", "--token-file", "--send-token-unencrypted", "--connect-timeout"}) {
+    dependsOn(command->get_option(option), "an address as SOURCE", [a] { return !findDataFile(a->source); });
+  }
+  dependsOn(command->get_option("--seed"), "a world or a map as SOURCE", [a] {
+    const auto file = findDataFile(a->source);
+    return file && kindOfFile(*file) != FileKind::rawlog;
+  });
   Rows keys;
   for (const auto& [key, meaning] : viewKeys()) keys.push_back({"  " + std::string(key), meaning});
   command->footer("In the window:\n" + listing(keys) +

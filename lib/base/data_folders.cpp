@@ -67,6 +67,13 @@ std::optional<fs::path> findDataFile(const fs::path& file) {
   return std::nullopt;
 }
 
+fs::path requireDataFile(const fs::path& file) {
+  if (auto found = findDataFile(file)) return *std::move(found);
+  std::error_code none;
+  if (fs::exists(fs::symlink_status(file, none))) return file;
+  throw ConfigError(file.string() + ": no such file; check the path" + searchedText(file));
+}
+
 std::string searchedText(const fs::path& file) {
   if (file.is_absolute()) return "";
   std::vector<std::string> folders;

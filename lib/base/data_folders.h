@@ -31,6 +31,10 @@ std::vector<std::filesystem::path> dataFolders();
 /// @return nullopt if there is none
 std::optional<std::filesystem::path> findDataFile(const std::filesystem::path& file);
 
+/// findDataFile(). Of a broken link, which exists although it cannot be read, the path itself.
+/// @throws ConfigError if there is none, with the folders searched
+std::filesystem::path requireDataFile(const std::filesystem::path& file);
+
 /// Names dataFolders() for an error message: "; searched are also FOLDER, … (ROBOSIM_PATH adds folders)". Empty for an
 /// absolute path, for which no folder is searched.
 std::string searchedText(const std::filesystem::path& file);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error_list.h"
 #include "base/temporary_directory.h"
 
 namespace robosim {
@@ -53,6 +54,21 @@ TEST_F(DataFolders, OfTheEnvironmentVariableHaveFilesFirst) {
   std::ofstream(folder.path() / "small_maze.xml") << "<world/>";
   ASSERT_EQ(setenv("ROBOSIM_PATH", folder.path().c_str(), 1), 0);
   EXPECT_EQ(findDataFile("small_maze"), folder.path() / "small_maze.xml");
+}
+
+TEST_F(DataFolders, HaveNoFileThatIsNowhere) {
+  EXPECT_EQ(requireDataFile("small_maze"), *findDataFile("small_maze"));
+  EXPECT_EQ(requireDataFile("/"), "/") << "reading it reports a better error";
+  const TemporaryDirectory folder;
+  const auto link = folder.path() / "link";
+  std::filesystem::create_symlink("nowhere", link);
+  EXPECT_EQ(requireDataFile(link), link);
+  try {
+    requireDataFile("no_such_maze");
+    FAIL();
+  } catch (const ConfigError& error) {
+    EXPECT_EQ(error.what(), "no_such_maze: no such file; check the path" + searchedText("no_such_maze"));
+  }
 }
 
 TEST_F(DataFolders, AreNamedInErrors) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -213,19 +214,6 @@ void clearLines(XmlElement& element) {
   for (auto& child : element.children) clearLines(child);
 }
 
-/// A map is read by the ending of its name.
-void requireNameOfKind(const std::filesystem::path& file) {
-  if (isMapFile(file)) return;
-  const std::pair<FileKind, const char*> endings[] = {{FileKind::gridmap, ".gridmap"},
-                                                      {FileKind::ros_yaml, ".yaml"},
-                                                      {FileKind::picture, ".png, .pgm, .ppm or .pbm"},
-                                                      {FileKind::activmedia, ".map"}};
-  const FileKind kind = kindOfFile(file);
-  for (const auto& [map, ending] : endings) {
-    if (kind == map) throw ConfigError(file.string() + ": is a map whose name must end in " + ending + "; rename it");
-  }
-}
-
 /// A generated world that consists of one map.
 XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider& files) {
   const std::string name = map_file.filename().string();
@@ -253,6 +241,31 @@ XmlElement worldAround(const std::filesystem::path& map_file, const FileProvider
 }
 
 }  // namespace
+
+void requireNameOfKind(const std::filesystem::path& file) {
+  struct Ending {
+    FileKind kind;
+    std::optional<MapFormat> format;  ///< nullopt: no map
+    const char* ending;
+  };
+  const Ending endings[] = {{FileKind::gridmap, MapFormat::gridmap, ".gridmap or .gridmap.gz"},
+                            {FileKind::ros_yaml, MapFormat::ros_yaml, ".yaml"},
+                            {FileKind::picture, MapFormat::picture, ".png, .pgm, .ppm or .pbm"},
+                            {FileKind::activmedia, MapFormat::activmedia, ".map"},
+                            {FileKind::world, std::nullopt, ".xml"},
+                            {FileKind::robot_type, std::nullopt, ".xml"},
+                            {FileKind::robot_list, std::nullopt, ".xml"},
+                            {FileKind::rawlog, std::nullopt, ".rawlog"}};
+  const FileKind kind = kindOfFile(file);
+  for (const auto& one : endings) {
+    if (kind != one.kind) continue;
+    const std::optional<MapFormat> named = isMapFile(file) ? std::optional(mapFormatOf(file)) : std::nullopt;
+    if (named == one.format) return;
+    const std::string what = kindText(kind);
+    throw ConfigError(file.string() + ": is " + what.substr(0, what.find(": ")) + ", so that its name must end in " +
+                      one.ending + "; rename it");
+  }
+}
 
 std::string readWorldText(const std::filesystem::path& file, const FileProvider& files) {
   requireKind(file, kWorldKinds);

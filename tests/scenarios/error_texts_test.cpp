@@ -2,12 +2,15 @@
 #include <algorithm>
 #include <cctype>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include <gtest/gtest.h>
 
 #include "base/data_folders.h"
 #include "base/text_table.h"
+#include "robosim/program.h"
+#include "robosim/subcommands.h"
 #include "tests/scenarios/benchmark.h"
 
 namespace robosim {
@@ -30,6 +33,13 @@ class ErrorTexts : public testing::Test {
   }
   void expectLine(const std::string& text, const std::string& line) const {
     EXPECT_NE(text.find(folder_.string() + "/" + line), std::string::npos) << text << "has no\n" << line;
+  }
+
+  /// Standard error of a command that is refused.
+  std::string refusal(const std::string& arguments) const {
+    const Ended ended = runProgram(arguments);
+    EXPECT_EQ(ended.exit_code, 1) << arguments;
+    return ended.err + ended.out;
   }
 
   const std::filesystem::path folder_ = emptyFolder();
@@ -138,11 +148,6 @@ TEST_F(ErrorTexts, NameTheNearestOptionOrSubcommand) {
 }
 
 TEST_F(ErrorTexts, NameTheKindOfAFileOfAnotherProgram) {
-  const auto refusal = [&](const std::string& arguments) {
-    const Ended ended = runProgram(arguments);
-    EXPECT_EQ(ended.exit_code, 1) << arguments;
-    return ended.err + ended.out;
-  };
   expectLine(refusal("check " + quoted(written("plan.bmp", std::string("BM:\0\0", 5)))),
              "plan.bmp: is a picture in the format BMP: ");
   expectLine(refusal("run " + quoted(written("stage.world", "define wall model ( size [1 1 1] )\n"))),
@@ -157,8 +162,23 @@ TEST_F(ErrorTexts, NameTheKindOfAFileOfAnotherProgram) {
     if (command != "fit ")
       expectLine(text, "b.rawlog: is a rawlog, a recording: robosim replay, view, export and fit take it");
   }
-  expectLine(refusal("run " + quoted(written("renamed.xml", "2D-Map\n"))),
-             "renamed.xml: is a map whose name must end in .map; rename it");
+}
+
+TEST_F(ErrorTexts, SayHowToRenameAFileWhoseNameIsOfAnotherKindInEveryCommand) {
+  const std::string world = "<world><surface/></world>";
+  const std::string yaml = "image: a.pgm" + std::string(kYaml);
+  const std::vector<std::pair<std::filesystem::path, std::string>> renamed{
+      {written("map.xml", "2D-Map\n"), "map.xml: is a map (.map), so that its name must end in .map; rename it"},
+      {written("ros.xml", yaml), "ros.xml: is a map (.yaml of ROS), so that its name must end in .yaml; rename it"},
+      {written("ros.map", yaml), "ros.map: is a map (.yaml of ROS), so that its name must end in .yaml; rename it"},
+      {written("world.map", world), "world.map: is a world, so that its name must end in .xml; rename it"},
+      {written("world.yaml", world), "world.yaml: is a world, so that its name must end in .xml; rename it"}};
+  for (const auto& [file, text] : renamed) {
+    for (const std::string command : {"run ", "check ", "serve ", "view ", "arcos ", "bench gold ", "robot R --map "}) {
+      expectLine(refusal(command + quoted(file)), text);
+    }
+    expectLine(refusal("export " + quoted(file) + " " + quoted(folder_ / "out.svg")), text);
+  }
 }
 
 TEST_F(ErrorTexts, PointOutThatThePictureOfAMapLiesBesideIt) {
@@ -188,18 +208,56 @@ struct ListedOption {
   std::string help;   ///< with its notes, on one line
 };
 
-const std::vector<std::string> kCommands{"run",        "serve",          "arcos",
-                                         "robot",      "remote",         "geometry",
-                                         "control",    "control status", "view",
-                                         "replay",     "check",          "export",
-                                         "fit",        "generate maze",  "generate office",
-                                         "bench",      "bench gold",     "bench metrics",
-                                         "",           "observers",      "sensors",
-                                         "controllers"};
+/// `robosim ARGUMENTS` in this process, for what ends before a command begins: a start of the program takes 0.1 s.
+/// @param arguments separated by spaces
+Ended parsedHere(const std::string& arguments) {
+  std::vector<std::string> words{"robosim"};
+  std::istringstream in(arguments);
+  for (std::string word; in >> word;) words.push_back(word);
+  std::vector<char*> argv;
+  for (auto& word : words) argv.push_back(word.data());
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  Ended ended;
+  ended.exit_code =
+      executeRobosim({addRun, addServe, addArcos, addRobot, addRemote, addGeometry, addControl, addView, addReplay,
+                      addCheck, addExport, addFit, addGenerate, addControllers, addSensors, addObservers, addBench},
+                     static_cast<int>(argv.size()), argv.data());
+  ended.out = testing::internal::GetCapturedStdout();
+  ended.err = testing::internal::GetCapturedStderr();
+  return ended;
+}
+
+std::string helpOf(const std::string& command) { return parsedHere(command + " --help").out; }
+
+/// A command and all its subcommands, as its help lists them.
+void addCommands(const std::string& command, std::vector<std::string>& all) {
+  all.push_back(command);
+  std::istringstream lines(helpOf(command));
+  bool is_list = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line == "Subcommands:") is_list = !line.empty();
+    if (!is_list || line.size() < 3 || !line.starts_with("  ") || line[2] == ' ') continue;
+    addCommands((command.empty() ? "" : command + " ") + line.substr(2, line.find(' ', 2) - 2), all);
+  }
+}
+
+/// The program, every subcommand, and every subcommand of these.
+const std::vector<std::string>& allCommands() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> commands;
+    addCommands("", commands);
+    for (const auto& subcommand : kSubcommands) {
+      EXPECT_EQ(std::count(commands.begin(), commands.end(), subcommand.name), 1) << subcommand.name;
+    }
+    return commands;
+  }();
+  return all;
+}
 
 std::vector<ListedOption> optionsOf(const std::string& command, std::size_t* groups = nullptr) {
   std::vector<ListedOption> options;
-  std::istringstream lines(runProgram(command + " --help").out);
+  std::istringstream lines(helpOf(command));
   std::string before;
   for (std::string line; std::getline(lines, line); before = line) {
     if (groups && line.starts_with("  -") && before.ends_with(":")) ++*groups;
@@ -218,8 +276,8 @@ std::vector<ListedOption> optionsOf(const std::string& command, std::size_t* gro
 }
 
 TEST(Help, FitsInto100ColumnsAndGroupsManyOptions) {
-  for (const auto& command : kCommands) {
-    std::istringstream lines(runProgram(command + " --help").out);
+  for (const auto& command : allCommands()) {
+    std::istringstream lines(helpOf(command));
     for (std::string line; std::getline(lines, line);) EXPECT_LE(displayWidth(line), 100u) << command << ": " << line;
     std::size_t groups = 0;
     const auto options = optionsOf(command, &groups);
@@ -229,9 +287,8 @@ TEST(Help, FitsInto100ColumnsAndGroupsManyOptions) {
 }
 
 TEST(Help, IsThatOfTheSubcommandOnly) {
-  for (const auto& command : kCommands) {
-    const bool has_codes =
-        runProgram(command + " --help").out.find("serve and\n      remote run until") != std::string::npos;
+  for (const auto& command : allCommands()) {
+    const bool has_codes = helpOf(command).find("serve and\n      remote run until") != std::string::npos;
     EXPECT_EQ(has_codes, command.empty()) << command;
   }
   EXPECT_EQ(runProgram("help run").out, runProgram("run --help").out);
@@ -240,7 +297,7 @@ TEST(Help, IsThatOfTheSubcommandOnly) {
 }
 
 TEST(Options, ThatNameAnotherOneInTheirHelpDeclareItAsTheirPartner) {
-  for (const auto& command : kCommands) {
+  for (const auto& command : allCommands()) {
     for (const auto& option : optionsOf(command)) {
       const std::size_t begin = std::min(option.help.find_first_not_of(' '), option.help.size());
       EXPECT_FALSE(option.help.substr(begin).starts_with("with --")) << command << " " << option.name;
@@ -269,34 +326,38 @@ std::string valueOf(const ListedOption& option) {
 
 TEST(Options, AreRefusedWithoutTheirPartners) {
   const auto folder = emptyFolder();
-  const std::string rawlog = quoted(folder / "a.rawlog");
+  const std::string rawlog = (folder / "a.rawlog").string();
   ASSERT_EQ(runProgram("run worlds/small_maze.xml --time 0.2 --record " + rawlog).exit_code, 0);
-  const std::vector<std::pair<std::string, std::string>> commands{
-      {"run", "worlds/small_maze.xml --time 0.1"},
-      {"serve", "worlds/small_maze.xml --listen 127.0.0.1:0 --time 0.1"},
-      {"robot", "Pioneer1 --connect-timeout 0"},
-      {"remote", "worlds/teams/small_maze.xml --listen 127.0.0.1:0"},
-      {"control status", "--connect-timeout 0"},
-      {"view", "worlds/small_maze.xml --offscreen " + quoted(folder / "a.png")},
-      {"replay", rawlog},
-      {"export", "worlds/small_maze.xml " + quoted(folder / "a.svg")},
-      {"bench gold", "worlds/small_maze.xml --runs 1 --time 0.1"}};
+  // Arguments with which a command runs, and none of its options has its partner.
+  const std::map<std::string, std::string> arguments{{"run", "worlds/small_maze.xml --time 0.1"},
+                                                     {"serve", "worlds/small_maze.xml --listen 127.0.0.1:0 --time 0.1"},
+                                                     {"robot", "Pioneer1 --connect-timeout 0"},
+                                                     {"remote", "worlds/teams/small_maze.xml --listen 127.0.0.1:0"},
+                                                     {"control status", "--connect-timeout 0"},
+                                                     {"check", "worlds/small_maze.xml"},
+                                                     {"view", rawlog + " --offscreen " + (folder / "a.png").string()},
+                                                     {"replay", rawlog},
+                                                     {"export", "worlds/small_maze.xml " + (folder / "a.svg").string()},
+                                                     {"bench gold", "worlds/small_maze.xml --runs 1 --time 0.1"}};
   std::size_t refused = 0;
-  for (const auto& [command, arguments] : commands) {
+  for (const auto& command : allCommands()) {
     for (const auto& option : optionsOf(command)) {
       if (option.help.find("requires ", option.help.rfind('(')) == std::string::npos) continue;
+      const auto given = arguments.find(command);
+      ASSERT_NE(given, arguments.end()) << "arguments of a command that this test does not know: " << command << " "
+                                        << option.name << option.help;
       // The figure of the others has layers that may be hidden; a map has none.
       const bool hides = command == "export" && option.name == "--hide";
-      const std::string given = command + " " +
-                                (hides ? "worlds/small_maze.xml " + quoted(folder / "a.bt") : arguments) + " " +
-                                option.name + valueOf(option);
-      const Ended ended = runProgram(given);
-      EXPECT_EQ(ended.exit_code, 1) << given << ended.out;
-      EXPECT_NE(ended.err.find(option.name + ": has no effect without "), std::string::npos) << given << ended.err;
+      const std::string line = command + " " +
+                               (hides ? "worlds/small_maze.xml " + (folder / "a.bt").string() : given->second) + " " +
+                               option.name + valueOf(option);
+      const Ended ended = parsedHere(line);
+      EXPECT_EQ(ended.exit_code, 1) << line << ended.out;
+      EXPECT_NE(ended.err.find(option.name + ": has no effect without "), std::string::npos) << line << ended.err;
       ++refused;
     }
   }
-  EXPECT_GE(refused, 25u) << "the options that were accepted in silence are among them";
+  EXPECT_GE(refused, 35u) << "the options that were accepted in silence are among them";
   EXPECT_EQ(runProgram("run worlds/small_maze.xml --time 0.1 --rawlog-format sf --record-images external --record " +
                        quoted(folder / "b.rawlog"))
                 .exit_code,
