@@ -60,14 +60,16 @@ struct StandingModel {
 };
 
 StandingModel modelOf(const ScanSeries& series, const std::vector<ScanPair>& pairs, double quantum_m, double jump_m) {
-  StandingModel model{.fit = fitLaser(statisticsOf(series, pairs, jump_m), quantum_m),
-                      .echoes = lostEchoesOf(series, pairs),
-                      .scene = {}};
+  const PairStatistics statistics = statisticsOf(series, pairs, jump_m);
+  StandingModel model{.fit = fitLaser(statistics, quantum_m), .echoes = lostEchoesOf(series, pairs), .scene = {}};
   LaserFit& fit = model.fit;
   fit.errors.dropout = model.echoes.dropout;
   fit.dropout = model.echoes.interval;
-  // A lost echo is no outlier.
-  const double kept = 1 - fit.errors.dropout;
+  // An outlier is read also where the echo of the surface would not have been detected, so that the share s of outliers
+  // among the compared readings exceeds their rate r among all readings. Of a beam with the share v of valid readings,
+  // v² of the pairs are compared: s = Σ v² (r / v) / Σ v², and Σ 2 v (1 - v) pairs change their validity.
+  const auto compared = static_cast<double>(statistics.compared);
+  const double kept = compared / std::max(1.0, compared + static_cast<double>(statistics.flips) / 2);
   fit.errors.outlier *= kept;
   fit.outlier = {fit.outlier.low * kept, fit.outlier.high * kept};
   fit.errors.fading = 0.1;
