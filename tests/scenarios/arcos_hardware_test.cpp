@@ -379,6 +379,7 @@ TEST(ArcosHardware, ExplainsWrongAddressesAndLogs) {
   EXPECT_NE(error_of("replay:" ROBOSIM_SOURCE_DIR "/README.md").find("README.md:1: is no log of --arcos-log"),
             std::string::npos)
       << error_of("replay:" ROBOSIM_SOURCE_DIR "/README.md");
+  EXPECT_EQ(error_of("replay:/dev/zero"), "/dev/zero: is a character device; name a regular file or a pipe");
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 // `robosim arcos` with programs that connect to it: their runs, recordings and arguments.
 #include <array>
+#include <cstdint>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -131,6 +133,24 @@ TEST(ArcosPrograms, ThatPlaceTheirRobotMakeARunThatCannotBeRepeatedAndIsRefused)
   EXPECT_EQ(check.out.find("Not the same run"), std::string::npos) << check.out;
   const Ended summary = runProgram("replay " + quoted(rawlog));
   EXPECT_NE(summary.out.find("not reproducible: robots were placed elsewhere"), std::string::npos) << summary.out;
+}
+
+TEST(ArcosLog, OfAnotherKindIsRefusedWithoutReadingAllOfIt) {
+  const auto error_of = [](const std::string& file) {
+    const Ended ended = runProgram("robot --controller wander --arcos replay:" + file);
+    EXPECT_EQ(ended.exit_code, 1) << file;
+    return ended.err;
+  };
+  const std::string device = error_of("/dev/zero");
+  EXPECT_NE(device.find("/dev/zero: "), std::string::npos) << device;
+  EXPECT_NE(device.find("device"), std::string::npos) << device;
+  const auto file = emptyFolder() / "long.log";
+  std::ofstream(file) << "RoboSim ARCOS log 1\n";
+  std::filesystem::resize_file(file, std::uintmax_t{1} << 33);  // a line of 8 GiB that takes no space on the disk
+  const std::string line = error_of(file.string());
+  EXPECT_NE(line.find("long.log:2: is no line of an ARCOS log"), std::string::npos) << line;
+  const std::string first = error_of("/usr/bin/env");
+  EXPECT_NE(first.find("/usr/bin/env:1: is no log of --arcos-log"), std::string::npos) << first;
 }
 
 TEST(ArcosPrograms, ExplainWrongArguments) {

@@ -1,4 +1,5 @@
 // The control panel, as a class and from the command line.
+#include <csignal>
 #include <fstream>
 #include <functional>
 #include <future>
@@ -222,6 +223,16 @@ TEST(Control, ControlsARunFromTheCommandLine) {
   const Ended served = serving.program().wait();
   EXPECT_EQ(served.exit_code, 0) << served.err;
   EXPECT_NE(served.out.find("\"ended_by\": \"control_panel\""), std::string::npos) << served.out;
+}
+
+TEST(Control, ASignalAfterTheSummaryDoesNotChangeTheExitCode) {
+  for (const int signal : {SIGINT, SIGTERM}) {
+    Serving serving({"--controller", "still", "--time", "0.1"});
+    serving.program().waitForOutput("simulated ");
+    serving.program().signal(signal);
+    const Ended ended = serving.program().wait();
+    EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  }
 }
 
 TEST(Control, EndsTheRunIfItsRecordingFailsDuringALoad) {

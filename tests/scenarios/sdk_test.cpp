@@ -194,6 +194,27 @@ TEST_F(Sdk, AnExceptionOfAControllerUnderRemoteControlNamesItAndItsRobot) {
       << robots.err;
 }
 
+TEST_F(Sdk, AGeometryWorkerLeavesASensorOfAPluginToTheServer) {
+  // The anemometer measures values, which only the server's own process computes.
+  const std::string plugin_file = installed->library("flocking").string();
+  const std::string program = installed->program().string();
+  StartedProgram serve(program, {"serve", (project() / "flock.xml").string(), "--plugin", plugin_file, "--listen", ":0",
+                                 "--paused", "--time", "1", "--json"});
+  serve.waitForError("listening on ");
+  const std::string log = serve.error();
+  const auto at = log.find("listening on ") + 13;
+  const std::string address = log.substr(at, log.find_first_of(" \n", at) - at);
+  const StartedProgram worker(program, {"geometry", "--environment", address, "--plugin", plugin_file});
+  serve.waitForError(": ready");
+  EXPECT_EQ(run("control " + address + " start").exit_code, 0);
+  const Ended served = serve.wait();
+  ASSERT_EQ(served.exit_code, 0) << served.err;
+  const Ended alone = run("run flock.xml --time 1 --json " + plugin("flocking"));
+  const auto with_worker = nlohmann::json::parse(served.out);
+  EXPECT_EQ(with_worker["digest"], nlohmann::json::parse(alone.out)["digest"]);
+  EXPECT_GT(with_worker["clients"]["geometry_results"], 0);
+}
+
 TEST_F(Sdk, AnOwnProgramServesAWorldToItself) {
   const fs::path program = project() / "build" / "flocking";
   FlockServer server(program, project(), "");
