@@ -9,6 +9,7 @@ usage: pages.py [FOLDER]      FOLDER: the source tree, by default that of this f
 - README.md, or a page that it names, links to every page of doc/.
 Exit code 1 if there are faults, each with file:line.
 """
+import os
 import re
 import sys
 from pathlib import Path
@@ -23,7 +24,11 @@ CODE = {".h", ".cpp", ".py", ".sh", ".mjs", ".js", ".html", ".cmake", ".proto", 
 
 
 def files_of(root):
-    return sorted(path for path in root.rglob("*") if path.is_file() and not OMITTED & set(path.relative_to(root).parts))
+    files = []
+    for folder, folders, names in os.walk(root):
+        folders[:] = set(folders) - OMITTED  # which are not entered
+        files += [Path(folder, name) for name in set(names) - OMITTED]
+    return sorted(path for path in files if path.is_file())
 
 
 def prose_of(text):
