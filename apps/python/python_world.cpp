@@ -4,6 +4,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "base/atomic_file.h"
+#include "base/data_folders.h"
 #include "generated_world.h"
 #include "pictures.h"
 #include "python_errors.h"
@@ -59,7 +60,7 @@ std::string described(const PythonWorld& world) {
 }  // namespace
 
 std::shared_ptr<PythonWorld> PythonWorld::load(const fs::path& file, std::uint64_t seed) {
-  return worldOf(readWorldSource(file), seed);
+  return worldOf(readWorldSource(requireDataFile(file)), seed);
 }
 
 std::shared_ptr<PythonWorld> PythonWorld::parse(std::string text, const fs::path& file, std::uint64_t seed) {
@@ -81,7 +82,9 @@ void bindWorld(py::module_& module) {
             return PythonWorld::load(file, seed);
           },
           py::arg("file"), py::arg("seed") = kDefaultSeed,
-          "Reads a world file or a map file.\n\nseed determines the places of scattered robots and objects.\n"
+          "Reads a world file or a map file, which is also found by its name in worlds/ and maps/ of RoboSim and in\n"
+          "ROBOSIM_PATH, as on the command line: \"opho2_1\".\n\n"
+          "seed determines the places of scattered robots and objects.\n"
           "Raises ConfigError with all faults found, each with file:line.")
       .def_static("parse", parse, py::arg("text"), py::arg("folder") = fs::path("."), py::arg("name") = "world",
                   py::arg("seed") = kDefaultSeed,

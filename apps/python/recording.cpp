@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "base/data_folders.h"
 #include "python_errors.h"
 #include "python_released.h"
 #include "replay/read_recording.h"
@@ -59,7 +60,7 @@ py::tuple readRawlog(const std::filesystem::path& file) {
   const RecordingContents read = [&] {
     PythonReleased no_python;
     std::uint64_t calls = 0;
-    return readRecording(file.string(), {}, [&](std::uint64_t) {
+    return readRecording(requireDataFile(file).string(), {}, [&](std::uint64_t) {
       if (++calls % 4096 != 0) return;
       no_python.acquire();
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();

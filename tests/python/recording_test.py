@@ -66,6 +66,7 @@ class RecordingTest(unittest.TestCase):
         (robot,) = recording.robots
         self.assertEqual(len(recording.scans(robot)), len(recording.times_s(robot, "laser")))
         self.assertEqual(recording.scans(robot).shape[1], 91)
+        self.assertEqual(robosim.read_rawlog("slam.rawlog").robots, recording.robots)
 
     def test_reports_what_is_not_there(self):
         with self.assertRaisesRegex(robosim.ConfigError, "missing.rawlog"):

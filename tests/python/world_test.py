@@ -45,13 +45,22 @@ class WorldTest(unittest.TestCase):
         self.assertIsInstance(raised.exception, ValueError)
 
     def test_reports_a_missing_file(self):
-        with self.assertRaisesRegex(robosim.ConfigError, "missing.xml"):
+        with self.assertRaisesRegex(robosim.ConfigError, "^missing.xml: no such file; check the path; searched are also "):
             robosim.World.load("missing.xml")
 
     def test_loads_installed_worlds_and_finds_installed_robot_types(self):
         share = os.path.join(os.environ["ROBOSIM_PREFIX"], "share", "robosim")
         world = robosim.World.load(os.path.join(share, "worlds", "small_maze.xml"))
         self.assertEqual([robot.type for robot in world.robots], ["pioneer3dx", "scout"])
+
+    def test_finds_installed_worlds_and_maps_by_name_as_the_command_line_does(self):
+        share = os.path.join(os.environ["ROBOSIM_PREFIX"], "share", "robosim")
+        for name, file in (("opho2_1", "worlds/opho2_1.xml"), ("worlds/opho2_1.xml", "worlds/opho2_1.xml"),
+                           ("office.map", "maps/office.map")):
+            with self.subTest(name=name):
+                world = robosim.World.load(name)
+                self.assertTrue(os.path.samefile(world.file, os.path.join(share, file)), world.file)
+        self.assertEqual(len(robosim.VectorEnv("small_maze").reset()[0]), 1)
 
     def test_generates_equal_worlds_for_equal_seeds(self):
         def maze(seed):
