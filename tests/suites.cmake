@@ -29,8 +29,8 @@ endif()
 
 cmake_policy(VERSION 3.25)
 # Suites that take longest start first, so that none runs alone at the end.
-set(long_suites Camera ChosenControllers ConsoleSessionProperty Control Faults InputFiles LostRobot Rawlogs Replay View ViewWindow
-    OfEveryController/Standstill InputFiles/WaitingForAPipe Worlds/Golden)
+set(long_suites AriaExamples BenchSpeed Camera ChosenControllers ConsoleSessionProperty Control Faults Fit InputFiles LostRobot Rawlogs Replay Sdk
+    Video View ViewWindow OfEveryController/Standstill InputFiles/WaitingForAPipe Worlds/Golden)
 
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE tests COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "(^|\n)[^ \n]+\\." suites "${tests}")  # tests are indented
