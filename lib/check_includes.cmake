@@ -1,12 +1,36 @@
-# cmake -DMODULE=r -DUSES="a;b" -DLIB=dir -P check_includes.cmake: fails on an #include of a module beyond USES.
+# cmake -DMODULE=robots -DFOLDER=lib/simulator/robots -DUSES="a;b" -DMODULES="maps=world/maps;…" -P check_includes.cmake: fails on an
+# #include of a module beyond USES. MODULES are the names of all modules with their paths in #include.
 cmake_minimum_required(VERSION 3.25)
-file(GLOB modules RELATIVE ${LIB} ${LIB}/*)
-file(GLOB_RECURSE files ${LIB}/${MODULE}/*.h ${LIB}/${MODULE}/*.cpp)
+file(GLOB_RECURSE files ${FOLDER}/*.h ${FOLDER}/*.cpp)
 set(allowed ${MODULE} ${USES})
 set(failed FALSE)
+
+# The module with the longest path that begins an included file's.
+function(module_of file result)
+  set(found "")
+  set(length 0)
+  foreach(entry IN LISTS MODULES)
+    string(REGEX REPLACE "=.*" "" name "${entry}")
+    string(REGEX REPLACE ".*=" "" path "${entry}")
+    string(FIND "${file}" "${path}/" position)
+    string(LENGTH "${path}" path_length)
+    if(position EQUAL 0 AND path_length GREATER length)
+      set(found ${name})
+      set(length ${path_length})
+    endif()
+  endforeach()
+  set(${result} "${found}" PARENT_SCOPE)
+endfunction()
+
 foreach(file IN LISTS files)
+  # Of a module in a folder of this one, which has a test of its own.
+  string(REGEX REPLACE ".*/lib/[a-z]+/" "" within "${file}")
+  module_of(${within} owner)
+  if(NOT owner STREQUAL MODULE)
+    continue()
+  endif()
   file(STRINGS ${file} detours REGEX "^[ \t]*#[ \t]*include[ \t]*\"(\\.\\./|robosim/)")
-  # Generated from lib/net/proto.
+  # Generated from lib/foundation/net/proto.
   list(FILTER detours EXCLUDE REGEX "\"robosim/(v1|internal)/[a-z_]+\\.(grpc\\.)?pb\\.h\"")
   foreach(line IN LISTS detours)
     message(SEND_ERROR "${file}: ${line}\n  a module includes by \"module/file.h\", and never from apps/.")
@@ -21,10 +45,11 @@ foreach(file IN LISTS files)
   endif()
   file(STRINGS ${file} lines REGEX "^[ \t]*#[ \t]*include[ \t]*[<\"][a-z0-9_]+/")
   foreach(line IN LISTS lines)
-    string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([a-z0-9_]+)/.*" "\\1" module "${line}")
-    if(IS_DIRECTORY ${LIB}/${module} AND NOT module IN_LIST allowed)
+    string(REGEX REPLACE "^[ \t]*#[ \t]*include[ \t]*[<\"]([^>\"]+).*" "\\1" included "${line}")
+    module_of(${included} module)
+    if(module AND NOT module IN_LIST allowed)
       message(SEND_ERROR "${file}: ${line}\n  module '${MODULE}' may include only: ${allowed}. "
-                         "Move the code to the module that may, or add '${module}' to USES in lib/CMakeLists.txt and to the "
+                         "Move the code to the module that may, or add '${module}' to USES in the CMakeLists.txt of the storey and to the "
                          "table in doc/architecture.md, if it lies further down.")
       set(failed TRUE)
     endif()

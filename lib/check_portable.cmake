@@ -2,7 +2,7 @@
 # depends on: libm's elementary functions, distributions of <random>, and MRPT's poses, which call libm.
 # base/portable_math.h and base/portable_pose.h have the same functions with the same bits everywhere.
 #
-#   cmake "-DFILES=lib/geometry/ray.cpp;…" -P check_portable.cmake               searches sources: quick, for ./dev lint
+#   cmake "-DFILES=lib/foundation/geometry/ray.cpp;…" -P check_portable.cmake               searches sources: quick, for ./dev lint
 #   cmake -DLIBRARY=librobosim_geometry.a -DNM=nm -P check_portable.cmake        searches a library for calls: complete
 #
 # std::sqrt, fmod, remainder, floor, ceil, round and similar functions are exactly specified, and therefore allowed.

@@ -17,8 +17,8 @@ echo "driven.rawlog"
 work=$(mktemp -d)
 trap 'kill "$server" 2>/dev/null || true; rm -rf "$work"' EXIT
 server=
-protoc -I lib/net/proto --python_out="$work" --grpc_out="$work" --plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin \
-    lib/net/proto/robosim/v1/robots.proto lib/net/proto/robosim/v1/sensors.proto
+protoc -I lib/foundation/net/proto --python_out="$work" --grpc_out="$work" --plugin=protoc-gen-grpc=/usr/bin/grpc_python_plugin \
+    lib/foundation/net/proto/robosim/v1/robots.proto lib/foundation/net/proto/robosim/v1/sensors.proto
 cp rawlogs/drive.py "$work"
 "$robosim" serve rawlogs/driven.xml --wait-for-robots --listen 127.0.0.1:0 --time 18.8 --record rawlogs/driven.rawlog \
     2>"$work/log" &

@@ -7,9 +7,9 @@
 #include <pybind11/stl.h>
 
 #include "base/error_list.h"
-#include "generation/generators.h"
 #include "python_errors.h"
 #include "python_released.h"
+#include "world/generation/generators.h"
 #include "world/world_file.h"
 
 namespace robosim {

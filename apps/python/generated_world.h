@@ -15,7 +15,7 @@ namespace robosim {
 /// Robot types of generated worlds unless others are given.
 inline const std::vector<std::string> kGeneratedTypes{"pioneer3dx"};
 
-/// Python's class WorldGenerator: random worlds (generation/generators.h) that differ in their seed only.
+/// Python's class WorldGenerator: random worlds (world/generation/generators.h) that differ in their seed only.
 class PythonGenerator {
  public:
   /// @param kind "maze", "cave", "office" or "open"

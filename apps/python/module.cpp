@@ -4,12 +4,12 @@
 
 #include "batch.h"
 #include "generated_world.h"
-#include "outputs/standard_parts.h"
 #include "python_errors.h"
 #include "python_released.h"
 #include "python_robot.h"
 #include "python_world.h"
 #include "recording.h"
+#include "run/outputs/standard_parts.h"
 #include "run/plugin.h"
 #include "simulation.h"
 

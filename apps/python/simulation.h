@@ -12,10 +12,10 @@
 #include "control/robot.h"
 #include "environment/local_hardware.h"
 #include "learning/observation_layout.h"
-#include "outputs/run_note.h"
 #include "python_world.h"
 #include "recording/rawlog_writer.h"
 #include "run/local_run.h"
+#include "run/outputs/run_note.h"
 
 namespace robosim {
 

@@ -4,13 +4,13 @@
 
 #include <CLI/CLI.hpp>
 
+#include "arcos/client/arcos_hardware.h"
+#include "arcos/client/open_channel.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "control/robot.h"
 #include "maze/controllers.h"
 #include "net/host_port.h"
-#include "pioneer/arcos_hardware.h"
-#include "pioneer/open_channel.h"
 #include "recording/rawlog_writer.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"

@@ -9,8 +9,8 @@
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "benchmark/runs_on_ranks.h"
-#include "ranks/agreement.h"
-#include "ranks/tasks_on_ranks.h"
+#include "distributed/ranks/agreement.h"
+#include "distributed/ranks/tasks_on_ranks.h"
 
 namespace robosim {
 namespace {

@@ -5,10 +5,10 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "aria/robot_list.h"
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "base/xml_parser.h"
-#include "control/robot_list.h"
 #include "environment/world_changes.h"
 #include "robosim/arguments.h"
 #include "robosim/check_errors.h"

@@ -3,7 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "pioneer/arcos_hardware.h"
+#include "arcos/client/arcos_hardware.h"
 #include "remote/joystick.h"
 
 namespace robosim {

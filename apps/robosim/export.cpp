@@ -13,7 +13,6 @@
 #include "base/printable_text.h"
 #include "base/progress.h"
 #include "base/text_table.h"
-#include "maps/map_writer.h"
 #include "recording/rawlog_file.h"
 #include "rendering/plan.h"
 #include "rendering/stock_scene.h"
@@ -25,6 +24,7 @@
 #include "robots/fleet.h"
 #include "robots/world_source.h"
 #include "run/output_files.h"
+#include "world/maps/map_writer.h"
 #include "world/raster.h"
 
 namespace robosim {

@@ -11,11 +11,11 @@
 #include "base/printable_text.h"
 #include "base/text_table.h"
 #include "base/xml_element.h"
-#include "generation/generators.h"
 #include "robosim/arguments.h"
 #include "robosim/subcommands.h"
 #include "robots/fleet.h"
 #include "run/local_run.h"
+#include "world/generation/generators.h"
 #include "world/world_file.h"
 
 namespace robosim {

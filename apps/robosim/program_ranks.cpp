@@ -10,8 +10,9 @@
 
 #include "base/error_list.h"
 #include "base/log.h"
-#include "ranks/agreement.h"
-#include "ranks/launcher.h"
+#include "distributed/mpi/mpi_ranks.h"
+#include "distributed/ranks/agreement.h"
+#include "distributed/ranks/launcher.h"
 #include "robosim/loaded_function.h"
 #include "robosim/subcommands.h"
 
@@ -22,7 +23,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kSubcommandsOnRanks{"run", "bench"};
 
 std::unique_ptr<RankGroup> connectRanks(const LaunchedRank& launched) {
-  using Connect = RankGroup* (*)();
+  using Connect = decltype(&robosimConnectMpiRanks);
   Connect connect = nullptr;
   try {
     // Global: the components that Open MPI loads use its functions.

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "ranks/rank_group.h"
+#include "distributed/ranks/rank_group.h"
 
 namespace robosim {
 

@@ -5,15 +5,15 @@
 #include <CLI/CLI.hpp>
 #include <unistd.h>
 
+#include "aria/robot_list.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"
 #include "client/run_monitor.h"
 #include "client/viewer_map.h"
-#include "control/robot_list.h"
+#include "console/console.h"
 #include "net/host_port.h"
 #include "net/listen.h"
-#include "remote/console.h"
 #include "robosim/arguments.h"
 #include "robosim/command_line.h"
 #include "robosim/connection.h"

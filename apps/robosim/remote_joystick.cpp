@@ -10,8 +10,8 @@
 
 #include "base/printable_text.h"
 #include "base/text_table.h"
+#include "console/team_events.h"
 #include "remote/joystick_control.h"
-#include "remote/team_events.h"
 #include "robosim/device_library.h"
 
 namespace robosim {

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "base/error_list.h"
-#include "outputs/standard_parts.h"
-#include "ranks/launcher.h"
+#include "distributed/ranks/launcher.h"
 #include "robosim/loaded_function.h"
 #include "robosim/plugin_options.h"
 #include "robosim/program.h"
 #include "robosim/program_ranks.h"
 #include "robosim/subcommands.h"
+#include "run/outputs/standard_parts.h"
 
 namespace robosim {
 namespace {

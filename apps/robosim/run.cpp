@@ -18,8 +18,7 @@
 #include "base/progress.h"
 #include "base/text_table.h"
 #include "distributed/distributed_run.h"
-#include "outputs/run_outputs.h"
-#include "ranks/agreement.h"
+#include "distributed/ranks/agreement.h"
 #include "recording/recording_error.h"
 #include "replay/run_tables.h"
 #include "robosim/arguments.h"
@@ -29,6 +28,7 @@
 #include "robosim/subcommands.h"
 #include "run/local_run.h"
 #include "run/output_files.h"
+#include "run/outputs/run_outputs.h"
 
 namespace robosim {
 namespace {

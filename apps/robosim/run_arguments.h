@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "outputs/run_outputs.h"
 #include "robosim/cli11_names.h"
+#include "run/outputs/run_outputs.h"
 
 namespace robosim {
 

@@ -1,9 +1,9 @@
 #pragma once
 #include <functional>
 
-#include "outputs/run_outputs.h"
 #include "robosim/cli11_names.h"
 #include "run/local_run.h"
+#include "run/outputs/run_outputs.h"
 
 namespace robosim {
 

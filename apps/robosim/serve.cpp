@@ -6,7 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <google/protobuf/stubs/logging.h>
 
-#include "arcos/parameters.h"
+#include "arcos/protocol/parameters.h"
 #include "base/error_list.h"
 #include "base/interrupt.h"
 #include "base/log.h"

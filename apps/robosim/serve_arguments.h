@@ -3,8 +3,8 @@
 
 #include "net/listen.h"
 #include "net/open_port.h"
-#include "outputs/run_outputs.h"
 #include "robosim/connection.h"
+#include "run/outputs/run_outputs.h"
 
 namespace CLI {
 class App;

@@ -49,13 +49,17 @@ function(robosim_shared_library name)
     install(TARGETS ${target} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component} NAMELINK_SKIP)
     return()
   endif()
-  # For programs and plugins of users (doc/sdk.md): #include "run/plugin.h", with find_package(robosim).
-  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${ROBOSIM_INCLUDE_DIR}>)
+  # For programs and plugins of users (doc/sdk.md): #include <robosim/run/plugin.h>, with find_package(robosim).
+  target_include_directories(${target} INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   install(TARGETS ${target} EXPORT robosim LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT ${component}
           NAMELINK_COMPONENT robosim-dev)
   foreach(module ${LIBRARY_MODULES})
-    if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/lib/${module})
-      install(DIRECTORY ${PROJECT_SOURCE_DIR}/lib/${module} DESTINATION ${ROBOSIM_INCLUDE_DIR} COMPONENT robosim-dev
+    get_property(is_module GLOBAL PROPERTY ROBOSIM_MODULE_${module} SET)
+    if(is_module)
+      get_property(found GLOBAL PROPERTY ROBOSIM_MODULE_${module})
+      list(GET found 0 folder)
+      list(GET found 1 path)
+      install(DIRECTORY ${folder}/ DESTINATION ${ROBOSIM_INCLUDE_DIR}/${path} COMPONENT robosim-dev
               FILES_MATCHING PATTERN "*.h" PATTERN testing EXCLUDE)
     endif()
   endforeach()

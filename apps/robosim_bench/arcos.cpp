@@ -12,11 +12,11 @@
 #include <boost/asio.hpp>
 #include <nlohmann/json.hpp>
 
-#include "arcos/command.h"
-#include "arcos/laser_packets.h"
+#include "arcos/client/arcos_client.h"
+#include "arcos/protocol/command.h"
+#include "arcos/protocol/laser_packets.h"
 #include "base/temporary_directory.h"
 #include "base/text_table.h"
-#include "pioneer/arcos_client.h"
 #include "robosim/arguments.h"
 #include "robosim_bench/benchmarks.h"
 #include "robosim_bench/child_program.h"

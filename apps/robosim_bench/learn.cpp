@@ -6,7 +6,6 @@
 
 #include "base/random.h"
 #include "base/text_table.h"
-#include "generation/generators.h"
 #include "learning/environment_batch.h"
 #include "learning/world_generator.h"
 #include "robosim/arguments.h"
@@ -15,6 +14,7 @@
 #include "robosim_bench/rounds.h"
 #include "robosim_bench/workloads.h"
 #include "run/local_run.h"
+#include "world/generation/generators.h"
 
 namespace robosim {
 namespace {

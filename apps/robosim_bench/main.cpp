@@ -1,9 +1,9 @@
 #include <CLI/CLI.hpp>
 
-#include "outputs/standard_parts.h"
 #include "robosim/command_line.h"
 #include "robosim/program.h"
 #include "robosim_bench/benchmarks.h"
+#include "run/outputs/standard_parts.h"
 
 int main(int argc, char** argv) {
   CLI::App program("Measures the speed and memory use of RoboSim, beside its peers where they are installed.");

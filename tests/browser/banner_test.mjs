@@ -1,4 +1,4 @@
-// One banner with one cause, and when "You drive" is shown: lib/remote/page/banner.js, in all combinations of its inputs.
+// One banner with one cause, and when "You drive" is shown: lib/controller/console/page/banner.js, in all combinations of its inputs.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

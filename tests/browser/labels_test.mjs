@@ -1,4 +1,4 @@
-// Names on the map without a browser: lib/remote/page/labels.js.
+// Names on the map without a browser: lib/controller/console/page/labels.js.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

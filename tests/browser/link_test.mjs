@@ -1,4 +1,4 @@
-// The page's connection to the console: lib/remote/page/link.js, with a WebSocket whose events the test causes.
+// The page's connection to the console: lib/controller/console/page/link.js, with a WebSocket whose events the test causes.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -1,4 +1,4 @@
-// Random sequences of events of lib/remote/page/motion.js, 1,000,000 events in all. A reference model, which knows the
+// Random sequences of events of lib/controller/console/page/motion.js, 1,000,000 events in all. A reference model, which knows the
 // physical state of every input, states what must hold after each event:
 //
 // - After a stop, and after anything else that latches, no message moves the robot before every input was neutral while

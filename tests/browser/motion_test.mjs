@@ -1,4 +1,4 @@
-// Motion commands of the page without a browser: lib/remote/page/motion.js. Random sequences: motion_property_test.mjs.
+// Motion commands of the page without a browser: lib/controller/console/page/motion.js. Random sequences: motion_property_test.mjs.
 
 import assert from 'node:assert/strict';
 import { test } from 'node:test';

@@ -7,7 +7,7 @@ import { fileURLToPath, pathToFileURL } from 'node:url';
 
 const folder = mkdtempSync(join(tmpdir(), 'robosim_page_'));
 process.on('exit', () => rmSync(folder, { recursive: true, force: true }));
-cpSync(fileURLToPath(new URL('../../lib/remote/page', import.meta.url)), folder, { recursive: true });
+cpSync(fileURLToPath(new URL('../../lib/controller/console/page', import.meta.url)), folder, { recursive: true });
 writeFileSync(join(folder, 'package.json'), '{"type":"module"}');
 
 export const pageModule = (name) => import(pathToFileURL(join(folder, name)));

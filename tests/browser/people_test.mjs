@@ -87,7 +87,7 @@ test('fifty spectators, ten of which never read, do not affect the driver', asyn
   await ada.waitForFunction(() => document.querySelector('#spectators').textContent === '');
 });
 
-// Messages as such are tested without sockets (lib/remote/console_session_pages_test.cpp).
+// Messages as such are tested without sockets (lib/controller/console/console_session_pages_test.cpp).
 for (const [what, message, why] of [
   ['text that is not JSON', 'hello', /not a JSON object/],
   ['a message that is too long', `"${' '.repeat(5000)}"`, /more than 4096 bytes/],

@@ -1,4 +1,4 @@
-// What holds for the page of every report (lib/base/report_page.h).
+// What holds for the page of every report (lib/foundation/base/report_page.h).
 
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';

@@ -1,5 +1,5 @@
-// A console without programs: the page from lib/remote/page, and a script in place of its WebSocket, so that every state of
-// the page can be shown at every size within milliseconds. The messages are those of lib/remote/page_json.h.
+// A console without programs: the page from lib/controller/console/page, and a script in place of its WebSocket, so that every state of
+// the page can be shown at every size within milliseconds. The messages are those of lib/controller/console/page_json.h.
 
 import { readFileSync } from 'node:fs';
 import { extname, join } from 'node:path';
@@ -9,7 +9,7 @@ import { FOLDER } from './program.mjs';
 
 const ORIGIN = 'http://console.test';
 const TYPES = { '.html': 'text/html; charset=utf-8', '.css': 'text/css', '.js': 'text/javascript', '.svg': 'image/svg+xml' };
-const [, CSP] = readFileSync(join(FOLDER, 'lib/remote/web_answer.cpp'), 'utf8').match(/"Content-Security-Policy",\s*((?:"[^"]*"\s*)+)/);
+const [, CSP] = readFileSync(join(FOLDER, 'lib/controller/console/web_answer.cpp'), 'utf8').match(/"Content-Security-Policy",\s*((?:"[^"]*"\s*)+)/);
 const HEADERS = { 'content-security-policy': CSP.replace(/"\s*"/g, '').replaceAll('"', '').trim() };
 const JPEG = readFileSync(join(FOLDER, 'doc/images/camera.jpg'));
 const LONG_NAME = 'The_robot_with_the_longest_name_of_the_team_which_is_'.padEnd(120, 'abcdefghij_');
@@ -180,7 +180,7 @@ export async function visitScripted(browser, state, { hasClock = false, init, ..
   page.on('pageerror', (error) => page.problems.push(error.message));
   await page.route(`${ORIGIN}/**`, (route) => {
     const path = new URL(route.request().url()).pathname;
-    const file = join(FOLDER, 'lib/remote/page', path === '/' ? 'index.html' : path);
+    const file = join(FOLDER, 'lib/controller/console/page', path === '/' ? 'index.html' : path);
     return route.fulfill({ body: readFileSync(file), headers: { ...HEADERS, 'content-type': TYPES[extname(file)] } });
   });
   await page.routeWebSocket(`${ORIGIN.replace('http', 'ws')}/**`, (socket) => {

@@ -1,7 +1,7 @@
 // Fuzzes the robot's side of ARCOS with the bytes that a program sends, in pieces; the first byte selects their length.
+#include "arcos/board/arcos_board.h"
+#include "arcos/board/arcos_session.h"
 #include "environment/local_hardware.h"
-#include "firmware/arcos_board.h"
-#include "firmware/arcos_session.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/small_maze.h"
 

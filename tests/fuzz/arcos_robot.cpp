@@ -1,5 +1,5 @@
 // Fuzzes the program's side of ARCOS with the bytes that a robot sends, in pieces; the first byte selects their length.
-#include "pioneer/arcos_client.h"
+#include "arcos/client/arcos_client.h"
 #include "tests/fuzz/fuzz.h"
 
 using namespace robosim;

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <exception>
 
-#include "remote/testing/console_scenario.h"
+#include "console/testing/console_scenario.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // Fuzzes a world sent by a control panel.
-#include "server/world_wire.h"
 #include "tests/fuzz/fuzz.h"
+#include "wire/world_wire.h"
 
 using namespace robosim;
 

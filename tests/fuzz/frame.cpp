@@ -1,8 +1,8 @@
 // Fuzzes the frames that an environment sends to viewers.
-#include "server/viewed_run.h"
-#include "server/world_wire.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/small_maze.h"
+#include "wire/viewed_run.h"
+#include "wire/world_wire.h"
 
 using namespace robosim;
 

@@ -1,9 +1,9 @@
 // Fuzzes the requests of a viewer.
 #include <cstdlib>
 
-#include "server/viewed_run.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/small_maze.h"
+#include "wire/viewed_run.h"
 
 using namespace robosim;
 

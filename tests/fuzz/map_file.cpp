@@ -2,8 +2,8 @@
 // is the content. A .yaml file refers to a small image.
 #include <algorithm>
 
-#include "maps/map_formats.h"
 #include "tests/fuzz/fuzz.h"
+#include "world/maps/map_formats.h"
 
 using namespace robosim;
 

@@ -1,7 +1,7 @@
 // Fuzzes tasks sent to a geometry worker.
-#include "server/geometry_wire.h"
 #include "tests/fuzz/fuzz.h"
 #include "tests/fuzz/small_maze.h"
+#include "wire/geometry_wire.h"
 
 using namespace robosim;
 

@@ -23,7 +23,8 @@ std::string compilerName() {
          std::to_string(__GNUC_PATCHLEVEL__);
 }
 
-/// The variant of withVectors() (lib/base/vector_width.h) used on callgrind's processor, which is never the widest.
+/// The variant of withVectors() (lib/foundation/base/vector_width.h) used on callgrind's processor, which is never the
+/// widest.
 std::string vectorsName() {
 #ifdef __x86_64__
   __builtin_cpu_init();

@@ -1,10 +1,10 @@
 // Operations of the ranks of MPI; started by mpirun. Exit code 1 after a fault.
-#include "mpi/mpi_ranks.h"
+#include "distributed/mpi/mpi_ranks.h"
 
 #include <cstdio>
 
-#include "ranks/launcher.h"
-#include "ranks/testing/rank_group_checks.h"
+#include "distributed/ranks/launcher.h"
+#include "distributed/ranks/testing/rank_group_checks.h"
 
 namespace {
 

@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include "arcos/bytes.h"
-#include "arcos/command.h"
-#include "arcos/config_packet.h"
-#include "arcos/laser_packets.h"
-#include "arcos/simulator_packets.h"
-#include "arcos/sip.h"
-#include "arcos/testing/hex.h"
+#include "arcos/protocol/bytes.h"
+#include "arcos/protocol/command.h"
+#include "arcos/protocol/config_packet.h"
+#include "arcos/protocol/laser_packets.h"
+#include "arcos/protocol/simulator_packets.h"
+#include "arcos/protocol/sip.h"
+#include "arcos/protocol/testing/hex.h"
 #include "tests/scenarios/simulated_arcos_robot.h"
 
 namespace robosim {
@@ -83,7 +83,7 @@ TEST(ArcosBoard, AnswersTheHandshakeWithItsNameAndNothingElse) {
   EXPECT_NE(session.cycle(), "");
 }
 
-TEST(ArcosBoard, AcceptsANewSync0AtAnyPointOfTheHandshake) {
+TEST(ArcosBoard, AcceptsAnotherSync0AtAnyPointOfTheHandshake) {
   SimulatedArcosRobot robot("p3dx");
   auto& session = robot.session();
   for (const auto& before : {std::string(), encodeCommand(command::sync0), encodeCommand(command::sync1),

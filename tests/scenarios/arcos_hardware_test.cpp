@@ -1,14 +1,14 @@
 // ArcosHardware: the controllers of simulated robots drive robots that speak ARCOS.
-#include "pioneer/arcos_hardware.h"
+#include "arcos/client/arcos_hardware.h"
 
 #include <cmath>
 
 #include <gtest/gtest.h>
 
-#include "arcos/command.h"
-#include "arcos/sip.h"
+#include "arcos/client/open_channel.h"
+#include "arcos/protocol/command.h"
+#include "arcos/protocol/sip.h"
 #include "base/random.h"
-#include "pioneer/open_channel.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/simulated_arcos_robot.h"
 

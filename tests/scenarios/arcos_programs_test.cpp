@@ -8,9 +8,9 @@
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
 
-#include "arcos/command.h"
-#include "arcos/packet.h"
-#include "arcos/sip.h"
+#include "arcos/protocol/command.h"
+#include "arcos/protocol/packet.h"
+#include "arcos/protocol/sip.h"
 #include "tests/scenarios/program.h"
 #include "tests/scenarios/wait.h"
 

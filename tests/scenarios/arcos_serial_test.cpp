@@ -12,7 +12,7 @@
 #include <termios.h>
 #include <unistd.h>
 
-#include "pioneer/open_channel.h"
+#include "arcos/client/open_channel.h"
 #include "serving/arcos_server.h"
 #include "tests/scenarios/simulated_arcos_robot.h"
 

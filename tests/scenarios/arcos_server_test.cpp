@@ -10,10 +10,10 @@
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
 
-#include "arcos/bytes.h"
-#include "arcos/command.h"
-#include "arcos/simulator_packets.h"
-#include "arcos/sip.h"
+#include "arcos/protocol/bytes.h"
+#include "arcos/protocol/command.h"
+#include "arcos/protocol/simulator_packets.h"
+#include "arcos/protocol/sip.h"
 #include "base/portable_pose.h"
 #include "environment/testing/small_world.h"
 #include "environment/world_changes.h"

@@ -15,10 +15,10 @@
 #include "robosim/internal/geometry.grpc.pb.h"
 #include "robosim/v1/robots.grpc.pb.h"
 #include "robosim/v1/viewing.grpc.pb.h"
-#include "server/geometry_seal.h"
 #include "tests/scenarios/beside_run.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/served_world.h"
+#include "wire/geometry_seal.h"
 
 namespace robosim {
 namespace {

@@ -7,9 +7,9 @@
 
 #include <gtest/gtest.h>
 
-#include "remote/console.h"
-#include "remote/page_message.h"
-#include "remote/testing/test_page.h"
+#include "console/console.h"
+#include "console/page_message.h"
+#include "console/testing/test_page.h"
 #include "remote/testing/test_robot.h"
 #include "tests/scenarios/permission_table.h"
 

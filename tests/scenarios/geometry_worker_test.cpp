@@ -4,12 +4,12 @@
 #include <nlohmann/json.hpp>
 
 #include "robosim/internal/geometry.grpc.pb.h"
-#include "server/geometry_seal.h"
 #include "tests/scenarios/beside_run.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
 #include "tests/scenarios/served_world.h"
 #include "tests/scenarios/serving.h"
+#include "wire/geometry_seal.h"
 
 namespace robosim {
 namespace {

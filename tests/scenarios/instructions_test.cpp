@@ -16,7 +16,8 @@ InstructionCounts counts(double sonar, double laser) {
   return {.compiler = "g++ 12", .vectors = "x86-64-v3", .instructions = {{"sonar", sonar}, {"laser", laser}}};
 }
 
-const char* const kMend = "If what was gained is worth it, keep the new counts: ./dev bench --instructions --update";
+const char* const kHowToFix =
+    "If what was gained is worth it, keep the new counts: ./dev bench --instructions --update";
 
 TEST(Instructions, MayGrowByTenPercentAndFallWithoutLimit) {
   EXPECT_EQ(growthOf(counts(1100, 5000), counts(1000, 50000)), Lines{});
@@ -26,7 +27,7 @@ TEST(Instructions, ReportLargerGrowthAndHowToFixIt) {
   EXPECT_EQ(growthOf(counts(1000, 60500), counts(1000, 50000)),
             (Lines{"laser: 60,500 instructions a robot-step, which is +21.0 % on the 50,000 that are kept; +10 % is "
                    "allowed",
-                   kMend}));
+                   kHowToFix}));
 }
 
 TEST(Instructions, ReportAnotherCompiler) {
@@ -37,15 +38,16 @@ TEST(Instructions, ReportAnotherCompiler) {
                    "allowed",
                    "The counts that are kept are of g++ 12 for x86-64-v3, these of g++ 13 for x86-64-v3: they may "
                    "differ for that reason alone.",
-                   kMend}));
+                   kHowToFix}));
 }
 
 TEST(Instructions, ReportNewAndMissingLoads) {
   InstructionCounts now = counts(1000, 50000);
   now.instructions.erase("laser");
   now.instructions["radar"] = 1;
-  EXPECT_EQ(growthOf(now, counts(1000, 50000)), (Lines{"radar: there is no count to compare with",
-                                                       "laser: a count is kept, but there is no such load", kMend}));
+  EXPECT_EQ(growthOf(now, counts(1000, 50000)),
+            (Lines{"radar: there is no count to compare with", "laser: a count is kept, but there is no such load",
+                   kHowToFix}));
 }
 
 TEST(Instructions, LimitTheCostOfErrorsOfSensors) {

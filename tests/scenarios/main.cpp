@@ -1,7 +1,7 @@
 // Lets tests that load worlds in their own process read maps and render cameras.
 #include <gtest/gtest.h>
 
-#include "outputs/standard_parts.h"
+#include "run/outputs/standard_parts.h"
 
 int main(int argc, char** argv) {
   robosim::useStandardParts();

@@ -17,7 +17,7 @@ const char* const kExample = ROBOSIM_SOURCE_DIR "/doc/examples/python_robot/wand
 std::filesystem::path exampleWithItsModules() {
   const auto folder = emptyFolder();
   std::filesystem::copy_file(kExample, folder / "wander.py");
-  const std::string make = "'" ROBOSIM_PROTOC "' -I '" ROBOSIM_SOURCE_DIR "/lib/net/proto' --python_out='" +
+  const std::string make = "'" ROBOSIM_PROTOC "' -I '" ROBOSIM_SOURCE_DIR "/lib/foundation/net/proto' --python_out='" +
                            folder.string() + "' --grpc_out='" + folder.string() +
                            "' --plugin=protoc-gen-grpc='" ROBOSIM_GRPC_PYTHON_PLUGIN
                            "' robosim/v1/robots.proto robosim/v1/sensors.proto";

@@ -114,7 +114,7 @@ TEST(RequestedPictures, OfARobotThatAProcessDrivesAreInAllItsReadings) {
   }
 }
 
-TEST(RequestedPictures, AreNoneForARunThatNobodyWatches) {
+TEST(RequestedPictures, AreNoneForARunWithoutViewers) {
   ServedCameras served(false);
   served.end(true);
   EXPECT_EQ(served.steps(), 20u);

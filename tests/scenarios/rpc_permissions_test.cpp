@@ -68,7 +68,7 @@ const std::map<std::string, std::string>& firstMessages() {
 /// "Robots.Drive", by its descriptor.
 std::map<std::string, const MethodDescriptor*> allRpcs() {
   std::map<std::string, const MethodDescriptor*> rpcs;
-  const std::filesystem::path root = ROBOSIM_SOURCE_DIR "/lib/net/proto";
+  const std::filesystem::path root = ROBOSIM_SOURCE_DIR "/lib/foundation/net/proto";
   for (const auto& file : std::filesystem::recursive_directory_iterator(root)) {
     if (file.path().extension() != ".proto") continue;
     const std::string name = std::filesystem::relative(file.path(), root);

@@ -33,14 +33,14 @@ class Sdk : public testing::Test {
             << (name == "throwing" ? " PRIVATE <run/plugin.h>)\n" : " REUSE_FROM throwing)\n");
     };
     add("nothing", "int x;\n");
-    add("throwing", R"(#include "run/plugin.h"
+    add("throwing", R"(#include <robosim/run/plugin.h>
 #include <stdexcept>
 ROBOSIM_PLUGIN(registry) { registry.controllers.add({"half", "", {}, {}, [](const auto&, const auto&) { return nullptr; }});
   throw std::runtime_error("no licence"); })");
     add("older",
         "#include \"run/plugin.h\"\n#undef ROBOSIM_VERSION\n#define ROBOSIM_VERSION \"0.0.9\"\n"
         "ROBOSIM_PLUGIN(registry) { (void)registry; }\n");
-    add("failing", R"(#include "run/plugin.h"
+    add("failing", R"(#include <robosim/run/plugin.h>
 #include <stdexcept>
 struct Failing : robosim::Controller {
   void step(robosim::Robot& robot) override { if (robot.stepNumber() == 5) throw std::runtime_error("lost the flock"); }

@@ -11,9 +11,9 @@
 #include <boost/asio.hpp>
 #include <gtest/gtest.h>
 
-#include "arcos/command.h"
-#include "arcos/packet.h"
-#include "arcos/sip.h"
+#include "arcos/protocol/command.h"
+#include "arcos/protocol/packet.h"
+#include "arcos/protocol/sip.h"
 #include "environment/testing/small_world.h"
 #include "robots/robot_types.h"
 #include "serving/arcos_server.h"

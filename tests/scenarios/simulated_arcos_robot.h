@@ -3,12 +3,12 @@
 #include <memory>
 #include <string>
 
+#include "arcos/board/arcos_board.h"
+#include "arcos/board/arcos_session.h"
+#include "arcos/client/arcos_hardware.h"
+#include "arcos/client/byte_channel.h"
 #include "environment/environment.h"
 #include "environment/local_hardware.h"
-#include "firmware/arcos_board.h"
-#include "firmware/arcos_session.h"
-#include "pioneer/arcos_hardware.h"
-#include "pioneer/byte_channel.h"
 
 namespace robosim {
 

@@ -50,7 +50,7 @@ TEST(ViewerMap, ShowsObjectsAndRobotsAtTheirSizes) {
   EXPECT_EQ(shown->robots[0].radius_m, loaded.fleet.robots[0].info.radius_m);
 }
 
-TEST(ViewerMap, FollowsALoadedWorldAndDisconnectsWhenNobodyWatches) {
+TEST(ViewerMap, FollowsALoadedWorldAndDisconnectsWithoutViewers) {
   ServedWorld world(paused());
   Panel panel(world);
   ViewerMap map(world.connectOptions());

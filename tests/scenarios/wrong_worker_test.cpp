@@ -14,9 +14,6 @@
 #include "net/robot_wire.h"
 #include "net/wire_error.h"
 #include "robosim/internal/geometry.grpc.pb.h"
-#include "server/geometry_seal.h"
-#include "server/geometry_wire.h"
-#include "server/world_wire.h"
 #include "tests/scenarios/fault_proxy.h"
 #include "tests/scenarios/panel.h"
 #include "tests/scenarios/robot_processes.h"
@@ -25,6 +22,9 @@
 #include "tests/scenarios/verifying.h"
 #include "tests/scenarios/wait.h"
 #include "tests/stock_tools.h"
+#include "wire/geometry_seal.h"
+#include "wire/geometry_wire.h"
+#include "wire/world_wire.h"
 
 namespace robosim {
 namespace {

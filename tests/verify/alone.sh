@@ -4,5 +4,5 @@
 set -euo pipefail
 cd "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/../.."
 cmake --preset develop >/dev/null
-cmake --build --preset develop --target robosim_wire_sources >/dev/null
+cmake --build --preset develop --target robosim_proto_sources >/dev/null
 exec tests/compile_alone.py build/develop "$@"

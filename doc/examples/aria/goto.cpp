@@ -3,7 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "control/aria.h"
+#include <robosim/aria/aria.h>
+
 #include "types.h"
 
 using namespace robosim;

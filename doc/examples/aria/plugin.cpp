@@ -1,4 +1,4 @@
-#include "run/plugin.h"
+#include <robosim/run/plugin.h>
 
 #include "types.h"
 

@@ -5,7 +5,8 @@
 #include <memory>
 #include <stdexcept>
 
-#include "control/aria.h"
+#include <robosim/aria/aria.h>
+
 #include "types.h"
 
 using namespace robosim;

@@ -2,7 +2,8 @@
 // simulation proceeds while it waits.
 #include <memory>
 
-#include "control/aria.h"
+#include <robosim/aria/aria.h>
+
 #include "types.h"
 
 using namespace robosim;

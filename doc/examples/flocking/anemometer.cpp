@@ -3,9 +3,9 @@
 #include <vector>
 
 #include <mrpt/obs/CObservationWindSensor.h>
+#include <robosim/base/portable_math.h>
+#include <robosim/recording/codec.h>
 
-#include "base/portable_math.h"
-#include "recording/codec.h"
 #include "types.h"
 
 namespace {

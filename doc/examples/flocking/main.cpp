@@ -1,4 +1,5 @@
-#include "robosim/robosim_main.h"
+#include <robosim/robosim_main.h>
+
 #include "types.h"
 
 int main(int argc, char** argv) {

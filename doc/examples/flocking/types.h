@@ -1,5 +1,5 @@
 #pragma once
-#include "run/registry.h"
+#include <robosim/run/registry.h>
 
 /// The controller `flocking`: turns away from near objects, and otherwise into the wind.
 robosim::ControllerType flockingType();

@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/temporary_directory.h"
+#include "environment/environment.h"
+#include "recording/rawlog_writer.h"
+#include "replay/export_recording.h"
+#include "run/outputs/run_note.h"
+
+namespace robosim {
+
+/// Tables of a run: those that exportRecording() writes of its recording, which is a temporary file.
+class RunTables {
+ public:
+  /// @param tables may be empty  @param world its file  @param note of the recording
+  /// @throws ConfigError for a file that cannot be written or is an input of the run
+  RunTables(std::vector<RecordingOutput> tables, const std::string& world, const Environment& environment,
+            const RunNote& note);
+
+  void observe(const Environment& environment);  ///< records the current step @throws RecordingError
+  void finish();                                 ///< writes the tables @throws RecordingError @throws ConfigError
+  void keep() noexcept;                          ///< writes those of a failed run, with its steps so far, if possible
+  const std::vector<RecordingOutput>& tables() const { return tables_; }
+
+ private:
+  std::filesystem::path rawlog() const { return *folder_ / "run.rawlog"; }
+
+  std::vector<RecordingOutput> tables_;
+  std::optional<TemporaryDirectory> folder_;
+  std::unique_ptr<RawlogWriter> recording_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,69 @@
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "environment/world_changes.h"
+#include "run/local_run.h"
+#include "run/outputs/run_note.h"
+#include "run/outputs/run_recording.h"
+#include "run/outputs/tracks.h"
+#include "run/run_summary.h"
+
+namespace robosim {
+
+/// Settings of a run, local or served.
+struct RunArguments {
+  std::string world;
+  WorldChanges changes;
+  RunOptions run;
+  double time_s = 1800;
+  std::string speed = "max";
+  std::string record;
+  bool is_recorded_on_request = false;  ///< the recording is off until it is requested
+  std::string rawlog_format = "obs";
+  std::string record_images = "embedded";
+  std::string picture;
+  bool json = false;
+
+  /// Whether the time limit is reached.
+  bool timeIsUp(const SimTime& now) const;
+};
+
+/// The world given by the arguments, including their changes. @throws ConfigError
+WorldSource sourceOf(const RunArguments& arguments);
+
+/// Output files of a run: rawlog, picture and summary, according to the arguments.
+class RunOutputs {
+ public:
+  /// Opens the recording. @param note first entry of the recording @throws ConfigError
+  RunOutputs(const RunArguments& arguments, const Environment& environment, RunNote note);
+
+  /// Records the current step. @throws RecordingError as RunRecording::write()
+  void observe(const Environment& environment);
+  /// null for a run without a name for recordings
+  const RunRecording* recording() const { return recording_.get(); }
+  /// Starts or stops the recording between two steps; no effect when it is already so. A file that is stopped ends with
+  /// a note of the run so far.
+  /// @throws ConfigError when it cannot be started @throws RecordingError when the file cannot be completed
+  void setRecording(bool on, const LocalRun& run);
+  /// Closes the recording of a failed run, keeping what was recorded.
+  void keep(const Environment& environment);
+  /// Closes the recording, draws the picture, and prints the summary, also before it throws.
+  /// @throws RecordingError as RunRecording::finish() @throws std::runtime_error when the picture cannot be written
+  /// @param late robot-steps whose command came too late; nullopt for a lockstep run
+  /// @param report of a served run; else nullopt
+  void finish(const LocalRun& run, double wall_s, EndedBy ended_by, std::optional<std::uint64_t> late = {},
+              const std::optional<RunReport>& report = {});
+
+ private:
+  RunSummary summaryOf(const LocalRun& run, EndedBy ended_by) const;
+
+  const RunArguments& arguments_;
+  std::vector<Command> commands_;  ///< of the current step
+  std::unique_ptr<RunRecording> recording_;
+  std::unique_ptr<Tracks> tracks_;
+};
+
+}  // namespace robosim

@@ -1,0 +1,102 @@
+#include "run/outputs/run_recording.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "recording/recording_error.h"
+
+namespace robosim {
+
+RunRecording::RunRecording(RecordingOptions options, std::vector<RobotInfo> robots, RunNote note)
+    : options_(std::move(options)), robots_(std::move(robots)), note_(std::move(note)) {}
+
+void RunRecording::open() {
+  is_requested_ = false;
+  open(options_.file, {});
+}
+
+void RunRecording::openNext(const State& state) {
+  int number = 1;
+  while (!isFree(part(number))) ++number;
+  SimTime start = state.time;
+  if (last_step_ == start.step) ++start.step;
+  is_requested_ = true;
+  open(part(number), start);
+  write(state);
+}
+
+void RunRecording::open(const std::filesystem::path& file, const SimTime& start) {
+  failure_.clear();
+  note_.outcome = nullptr;
+  note_.first_step = start.step;
+  writer_ = std::make_unique<RawlogWriter>(file, robots_, options_.format, options_.images, note_.text(), start);
+  previous_file_ = std::exchange(file_, file);
+  const auto files = writer_->files();
+  files_.insert(files_.end(), files.begin(), files.end());
+}
+
+void RunRecording::write(const State& state) {
+  if (!writer_ || last_step_ == state.time.step) return;
+  try {
+    writer_->write(state.readings, state.world_from_robot, state.commands);
+  } catch (const RecordingError& error) {
+    if (!is_requested_) throw;
+    const auto writer = std::move(writer_);
+    discard(*writer);
+    failure_ = error.what();
+    return;
+  }
+  last_step_ = state.time.step;
+}
+
+void RunRecording::close(const RunSummary& outcome) {
+  if (!writer_) return;
+  note_.outcome = outcome.json();
+  // The file of a repeated run is identical regardless of its duration.
+  for (const char* of_the_clock : {"wall_s", "real_time_factor"}) note_.outcome.erase(of_the_clock);
+  const auto writer = std::move(writer_);
+  try {
+    writer->close(note_.text());
+  } catch (...) {
+    discard(*writer);
+    throw;
+  }
+}
+
+void RunRecording::finish(const RunSummary& outcome) {
+  try {
+    close(outcome);
+  } catch (const RecordingError& error) {
+    if (!is_requested_) throw;
+    failure_ = error.what();
+  }
+}
+
+void RunRecording::discard(RawlogWriter& writer) {
+  files_.erase(files_.end() - static_cast<std::ptrdiff_t>(writer.files().size()), files_.end());
+  file_ = previous_file_;
+}
+
+void RunRecording::keep() {
+  if (!writer_) return;
+  writer_->close();
+  writer_.reset();
+}
+
+std::filesystem::path RunRecording::part(int number) const {
+  if (number == 1) return options_.file;
+  const std::filesystem::path& file = options_.file;
+  return file.parent_path() / (file.stem().string() + "_part" + std::to_string(number) + file.extension().string());
+}
+
+/// Format "sf" has a file per robot, and external pictures a folder; their names are derived from the file's.
+bool RunRecording::isFree(const std::filesystem::path& file) const {
+  const auto paths = RawlogWriter::pathsOf(file, robots_, options_.format, options_.images);
+  return std::none_of(paths.begin(), paths.end(), [](const auto& path) {
+    std::error_code error;
+    return std::filesystem::symlink_status(path, error).type() != std::filesystem::file_type::not_found;
+  });
+}
+
+}  // namespace robosim

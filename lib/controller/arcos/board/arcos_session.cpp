@@ -1,0 +1,219 @@
+#include "arcos/board/arcos_session.h"
+
+#include <utility>
+
+#include "arcos/protocol/bytes.h"
+#include "arcos/protocol/command.h"
+
+namespace robosim {
+namespace {
+
+namespace command = arcos::command;
+using arcos::LaserRequest;
+using arcos::Packet;
+
+// ARIA recognises a simulator by this name, and then uses the simulated laser.
+constexpr const char* kSimulatorName = "MobileSim";
+constexpr const char* kRobotClass = "Pioneer";
+
+}  // namespace
+
+ArcosSession::ArcosSession(ArcosBoard& board, Simulator& simulator, Clock::time_point now)
+    : board_(board), simulator_(simulator), connected_at_(now), last_bytes_(now), last_packet_(now) {}
+
+void ArcosSession::end(const std::string& reason) {
+  if (end_reason_.empty()) end_reason_ = reason;
+}
+
+std::string ArcosSession::receive(std::string_view bytes, Clock::time_point now) {
+  std::string answer;
+  if (!bytes.empty()) {
+    reader_.add(bytes);
+    last_bytes_ = now;
+  }
+  while (end_reason_.empty()) {
+    auto packet = reader_.next();
+    if (!packet && reader_.pendingBytes() > 0 && now - last_bytes_ > arcos::PacketReader::kStalled) {
+      reader_.abandonIncomplete();
+      packet = reader_.next();
+    }
+    if (!packet) break;
+    last_packet_ = now;
+    if (++commands_ > kCommandsPerCycleMax)
+      end("it sends more than " + std::to_string(kCommandsPerCycleMax) + " commands in a cycle");
+    if (isOpen()) {
+      execute(*packet, answer);
+    } else {
+      handshake(*packet, answer);
+    }
+  }
+  if (reader_.rejectedBytes() > kRejectedBytesMax) end("it sends bytes that are no ARCOS packets");
+  if (!isOpen() && now - connected_at_ > kSilenceMax) end("it has not completed the handshake in time");
+  if (now - last_packet_ > kSilenceMax) end("it has sent nothing for a minute");
+  return answer;
+}
+
+/// SYNC0 to SYNC2 have no payload, unlike OPEN and CLOSE with the same numbers. A program that has missed an answer
+/// starts again at SYNC0.
+void ArcosSession::handshake(const Packet& packet, std::string& answer) {
+  const bool is_sync = packet.payload.empty();
+  if (is_sync && packet.id == command::sync0) {
+    answer += encode(packet);
+    phase_ = Phase::sync1;
+  } else if (is_sync && packet.id == command::sync1 && phase_ != Phase::sync0) {
+    answer += encode(packet);
+    phase_ = Phase::sync2;
+  } else if (is_sync && packet.id == command::sync2 && (phase_ == Phase::sync2 || phase_ == Phase::connected)) {
+    arcos::ByteWriter identity;
+    identity.addText(kSimulatorName).addText(kRobotClass).addText(board_.config().subclass);
+    answer += arcos::encode(command::sync2, identity.bytes());
+    phase_ = Phase::connected;
+  } else if (!is_sync && packet.id == command::open && phase_ == Phase::connected) {
+    board_.startSession();
+    phase_ = Phase::open;
+  } else if (!is_sync && packet.id == command::close && phase_ == Phase::connected) {
+    end("it has closed the session");
+  } else if (phase_ == Phase::connected) {
+    execute(packet, answer);
+  }
+}
+
+void ArcosSession::execute(const Packet& packet, std::string& answer) {
+  switch (packet.id) {
+    case command::pulse:
+    case command::open:
+      return;
+    case command::close:
+      return end("it has closed the session");
+    case command::config:
+      answer += encode(board_.config());
+      return;
+    case command::encoder:
+      encoder_ = streamOf(packet);
+      return;
+    case command::io_request:
+      io_ = streamOf(packet);
+      return;
+    case command::old_laser_enable:
+    case command::old_laser_start:
+    case command::old_laser_end:
+    case command::old_laser_increment:
+    case command::laser_enable:
+    case command::laser_start:
+    case command::laser_end:
+    case command::laser_resolution:
+      return configureLaser(packet);
+    case command::sim_set_pose:
+    case command::sim_reset:
+    case command::sim_stat:
+    case command::sim_control:
+    case command::sim_message:
+    case command::sim_exit:
+      return executeSimulator(packet, answer);
+    default:
+      board_.execute(packet);
+  }
+}
+
+void ArcosSession::executeSimulator(const Packet& packet, std::string& answer) {
+  switch (packet.id) {
+    case command::sim_set_pose:
+      if (const auto pose = arcos::decodeSetPose(packet)) simulator_.setTruePose(*pose);
+      return;
+    case command::sim_reset:
+      simulator_.resetTruePose();
+      board_.zeroOdometry();
+      return;
+    case command::sim_stat:
+      sim_stat_ = packet.payload.empty() ? Stream::once : streamOf(packet);
+      return;
+    case command::sim_message:
+      simulator_.log("message: " + arcos::textOf(packet).value_or(""));
+      return;
+    case command::sim_control: {
+      arcos::ByteReader bytes(packet.payload);
+      bytes.take<std::uint8_t>();  // type of the argument
+      const auto operation = bytes.take<std::uint16_t>();
+      if (operation == arcos::sim_operation::request_info) {
+        answer += encode(arcos::SimInfo{"RoboSim", "1"});
+      } else if (operation == arcos::sim_operation::load_map || operation == arcos::sim_operation::load_master_map) {
+        // The program may wait for an answer.
+        answer += encode(arcos::SimMap{.file = simulator_.mapFile()});
+        simulator_.log("a map is not loaded for a program: give it to robosim arcos, or load it by robosim control");
+      } else {
+        simulator_.log(
+            "a SIM_CTRL operation without effect: only loading a map and the information request are answered");
+      }
+      return;
+    }
+    default:
+      simulator_.log("SIM_EXIT without effect: a program cannot end the run of the others");
+  }
+}
+
+void ArcosSession::configureLaser(const Packet& packet) {
+  const auto number = arcos::numberOf(packet);
+  if (!number) return;
+  // The commands from 230 on may name a laser; there is only the first one.
+  constexpr std::size_t kNumberBytes = 3;
+  if (packet.payload.size() > kNumberBytes && packet.payload[kNumberBytes] != 0) return;
+  switch (packet.id) {
+    case command::old_laser_start:
+    case command::laser_start:
+      laser_.start_deg = *number;
+      break;
+    case command::old_laser_end:
+    case command::laser_end:
+      laser_.end_deg = *number;
+      break;
+    case command::old_laser_increment:
+    case command::laser_resolution:
+      laser_.increment_centideg = *number;
+      break;
+    default:
+      laser_.form = *number == 2   ? LaserRequest::Form::extended
+                    : *number == 1 ? LaserRequest::Form::ranges
+                                   : LaserRequest::Form::off;
+  }
+  if (laser_.form == LaserRequest::Form::off || laser_.beamCount() > 0) return;
+  simulator_.log("a laser scan from " + std::to_string(laser_.start_deg) + "° to " + std::to_string(laser_.end_deg) +
+                 "° every " + std::to_string(laser_.increment_centideg) + "/100° is not possible: the laser is off");
+  laser_.form = LaserRequest::Form::off;
+}
+
+ArcosSession::Stream ArcosSession::streamOf(const Packet& packet) {
+  switch (arcos::numberOf(packet).value_or(0)) {
+    case 0:
+      return Stream::off;
+    case 1:
+      return Stream::once;
+    default:
+      return Stream::always;
+  }
+}
+
+bool ArcosSession::takes(Stream& stream) {
+  const bool is_on = stream != Stream::off;
+  if (stream == Stream::once) stream = Stream::off;
+  return is_on;
+}
+
+void ArcosSession::beforeStep(Clock::time_point now) {
+  board_.update(isOpen() && now - last_packet_ < std::chrono::milliseconds(arcos::kWatchdog_ms));
+}
+
+std::string ArcosSession::cycle() {
+  commands_ = 0;
+  if (!isOpen()) return {};
+  std::string packets;
+  if (takes(sim_stat_)) packets += encode(simulator_.stat());
+  packets += encode(board_.sip());
+  if (takes(encoder_)) packets += encode(board_.encoderTicks());
+  if (takes(io_)) packets += encode(board_.ports());
+  if (laser_.form != LaserRequest::Form::off) {
+    packets += arcos::encodeScan(laser_.form, simulator_.scan(), std::exchange(was_moved_, false));
+  }
+  return packets;
+}
+
+}  // namespace robosim

@@ -1,0 +1,69 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "arcos/board/arcos_board.h"
+#include "arcos/board/simulator.h"
+#include "arcos/protocol/laser_packets.h"
+#include "arcos/protocol/packet.h"
+
+namespace robosim {
+
+/// The robot's side of a connection with one ARCOS program: handshake, commands, and packets in each cycle. A state
+/// machine of bytes without a socket.
+class ArcosSession {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  /// @name Limits of a well-behaved program
+  ///@{
+  static constexpr std::chrono::seconds kSilenceMax{60};  ///< without a valid packet; also from the connection to OPEN
+  static constexpr std::size_t kRejectedBytesMax = 4096;  ///< that are no packet
+  static constexpr std::size_t kCommandsPerCycleMax = 2000;  ///< ARIA sends fewer than 20
+  ///@}
+
+  /// @param board, simulator must outlive this
+  ArcosSession(ArcosBoard& board, Simulator& simulator, Clock::time_point now);
+
+  /// Processes bytes of the program, possibly none. @return the bytes to answer with
+  std::string receive(std::string_view bytes, Clock::time_point now);
+  /// Continues the robot's motion, before a time step.
+  void beforeStep(Clock::time_point now);
+  /// Begins the next cycle of kCommandsPerCycleMax. To be called in each cycle, also while the run is paused.
+  /// @return the packets after a time step: SIP, and what the program has requested with it
+  std::string cycle();
+
+  /// Whether SIPs are requested.
+  bool isOpen() const { return phase_ == Phase::open; }
+  /// Why the connection is to be closed; empty while it is not.
+  const std::string& endReason() const { return end_reason_; }
+  const arcos::LaserRequest& laser() const { return laser_; }
+  void noteMoved() { was_moved_ = true; }  ///< the robot has been placed elsewhere
+
+ private:
+  enum class Phase : std::uint8_t { sync0, sync1, sync2, connected, open };
+  enum class Stream : std::uint8_t { off, once, always };
+
+  void handshake(const arcos::Packet& packet, std::string& answer);
+  void execute(const arcos::Packet& packet, std::string& answer);
+  void executeSimulator(const arcos::Packet& packet, std::string& answer);
+  void configureLaser(const arcos::Packet& packet);
+  void end(const std::string& reason);
+  static Stream streamOf(const arcos::Packet& packet);
+  static bool takes(Stream& stream);
+
+  ArcosBoard& board_;
+  Simulator& simulator_;
+  arcos::PacketReader reader_;
+  Phase phase_ = Phase::sync0;
+  Clock::time_point connected_at_, last_bytes_, last_packet_;
+  std::size_t commands_ = 0;  ///< since the last cycle
+  std::string end_reason_;
+  arcos::LaserRequest laser_;
+  bool was_moved_ = false;
+  Stream encoder_ = Stream::off, io_ = Stream::off, sim_stat_ = Stream::off;
+};
+
+}  // namespace robosim

@@ -1,0 +1,144 @@
+#include "console/console.h"
+
+#include <utility>
+#include <variant>
+
+#include "base/log_limiter.h"
+#include "console/console_session.h"
+#include "console/page.h"
+#include "console/web_server.h"
+#include "net/audit.h"
+
+namespace robosim {
+namespace {
+
+WebServer::Options serverOptions(const Console::Options& options) {
+  WebServer::Options server;
+  server.listen = options.listen;
+  server.tls = options.tls;
+  server.files = pageFiles();
+  server.protocol = kPageProtocol;
+  server.log = options.log;
+  return server;
+}
+
+RemoteControl::Options controlOptions(const Console::Options& options, WebServer& server) {
+  RemoteControl::Options control = options.control;
+  control.on_news = [&server] { server.requestTick(); };
+  return control;
+}
+
+}  // namespace
+
+/// Adapter of ConsoleSession: passes it the events of the web server with the time, and performs its actions.
+struct Console::Impl final : public WebPageHandler {
+  Impl(const Options& the_options, const std::vector<RobotAddress>& team)
+      : options(the_options),
+        session(options.access),
+        server(serverOptions(options), *this),
+        control(team, controlOptions(options, server)) {
+    perform(update());
+  }
+
+  void opened(PageId page, const std::string& peer) override { perform(session.pageOpened(page, peer, now())); }
+  void received(PageId page, std::string_view text) override { perform(session.pageMessage(page, text, now())); }
+  void receivedInvalid(PageId page, const std::string& why) override { perform(session.pageInvalid(page, why)); }
+  void closed(PageId page) override { perform(session.pageClosed(page)); }
+  WebMessagePtr next(PageId page) override { return session.nextMessage(page, now()); }
+  void tick() override {
+    limited_log.reportSuppressed();
+    audit.reportSuppressed();
+    control.tick();
+    perform(update());
+  }
+
+  /// @name Actions. @return whether the team has changed
+  ///@{
+  bool operator()(const WakePage& action) {
+    server.wake(action.page);
+    return false;
+  }
+  bool operator()(const DisconnectPage& action) {
+    server.disconnect(action.page, action.why);
+    return false;
+  }
+  bool operator()(const SendOrder& action) {
+    control.send(action.order);
+    return false;
+  }
+  bool operator()(const SetDriver& action) {
+    control.setDriver(action.name);
+    return true;
+  }
+  bool operator()(const SetAutonomous& action) {
+    control.setAutonomous(action.autonomous);
+    return true;
+  }
+  bool operator()(const SwitchPrimary& action) {
+    control.switchTo(action.robot);
+    return true;
+  }
+  bool operator()(const RestartRun&) {
+    if (options.run) options.run->restart();
+    return false;
+  }
+  bool operator()(const RecordRun& action) {
+    if (options.run) options.run->setRecording(action.on);
+    return false;
+  }
+  bool operator()(const WatchMap& action) {
+    is_map_watched = action.watched;
+    if (options.map) options.map->setWatched(action.watched);
+    return false;
+  }
+  bool operator()(const WriteLog& action) {
+    write(action.kind, action.line);
+    return false;
+  }
+  bool operator()(const WriteAudit& action) {
+    audit.write(action.client, action.peer, action.action);
+    return false;
+  }
+  ///@}
+
+  void perform(const ConsoleActions& actions) {
+    bool has_changed = false;
+    for (const auto& action : actions) has_changed |= std::visit(*this, action);
+    if (has_changed) perform(update());
+  }
+
+  ConsoleActions update() {
+    ConsoleSession::Inputs inputs;
+    inputs.robots = control.robots();
+    if (options.map && is_map_watched) inputs.map = options.map->newest();
+    if (options.run) inputs.run = options.run->newest();
+    inputs.access_version = options.access.refresh();
+    return session.update(inputs, now());
+  }
+
+  void write(std::string_view kind, const std::string& line) {
+    if (kind.empty()) {
+      options.log(line);
+    } else {
+      limited_log.write(kind, line);
+    }
+  }
+
+  RemoteControl::Clock::time_point now() const { return options.control.now(); }
+
+  Options options;
+  LogLimiter limited_log{options.log, [this] { return now(); }};  ///< for events that any client can cause
+  AuditLog audit{options.log, [this] { return now(); }};
+  ConsoleSession session;
+  bool is_map_watched = false;
+  WebServer server;
+  RemoteControl control;
+};
+
+Console::Console(const Options& options, const std::vector<RobotAddress>& team)
+    : impl_(std::make_unique<Impl>(options, team)) {}
+Console::~Console() = default;
+int Console::port() const { return impl_->server.port(); }
+void Console::serve(const std::function<bool()>& interrupted) { impl_->server.serve(interrupted); }
+
+}  // namespace robosim

@@ -1,0 +1,164 @@
+#pragma once
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "console/console_action.h"
+#include "console/console_feed.h"
+#include "console/map_view.h"
+#include "console/order_limiter.h"
+#include "console/page_authorization.h"
+#include "console/page_json.h"
+#include "console/page_outbox.h"
+#include "console/run_view.h"
+#include "console/team_events.h"
+#include "net/access.h"
+
+namespace robosim {
+
+/// State machine of the console: admits pages, holds the control lock, converts the pages' messages to orders for the
+/// primary robot, and selects the next message for each page. Events are function calls; outputs are the returned
+/// actions and nextMessage(). It has no socket and no thread, and its deadlines depend only on the time passed as a
+/// parameter, which must not decrease; the expiry of tokens depends on the clock of its Access (Access::Options::now).
+///
+/// Every message of a page is authorised (page_authorization.h) before it is handled. Messages are untrusted: no
+/// function throws because of them, and a page that sends an invalid one is disconnected. What waits for a page is
+/// bounded (PageOutbox). Pages whose hello has not been received: at most kMaxSilent, beyond which the oldest is
+/// disconnected, and each for at most kHelloWithin.
+///
+/// After actions that change the team (SetDriver, SetAutonomous, SwitchPrimary) update() must follow before the next
+/// message. Orders that move a robot are ignored while a switch is pending.
+class ConsoleSession {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+
+  static constexpr std::size_t kMaxSilent = 128;
+  static constexpr std::chrono::seconds kHelloWithin{10};
+
+  /// State of everything outside.
+  struct Inputs {
+    std::vector<TeamRobot> robots;       ///< in the order of the queue: the primary first; not empty
+    std::shared_ptr<const MapView> map;  ///< the newest; null without a map, or while it is not watched
+    std::uint64_t access_version = 0;    ///< of Access::refresh()
+    RunView run{};
+  };
+
+  /// @param access rights by token
+  explicit ConsoleSession(Access access) : access_(std::move(access)) {}
+
+  /// @param id greater than all previous ones
+  /// @param peer address
+  ConsoleActions pageOpened(PageId id, const std::string& peer, Time now);
+  ConsoleActions pageClosed(PageId id);
+  ConsoleActions pageMessage(PageId id, std::string_view text, Time now);
+  /// A page has sent what is not a text message within the limits: it is disconnected.
+  ConsoleActions pageInvalid(PageId id, const std::string& why);
+  /// Takes the state of team, map and tokens, and checks deadlines. To be called first, at least 20 times per second,
+  /// and when there is news.
+  ConsoleActions update(const Inputs& inputs, Time now);
+
+  /// The next message for a page; null for none. To be called after WakePage and after each message sent, when the
+  /// connection accepts another.
+  WebMessagePtr nextMessage(PageId id, Time now);
+
+  /// The page that holds the control lock; 0 for none.
+  PageId lockHolder() const { return lock_.holder; }
+  /// The outbox of an open page; null for others.
+  const PageOutbox* outboxOf(PageId id) const;
+
+ private:
+  struct Page {
+    PageId id = 0;
+    std::string peer, name;
+    Identity client;
+    Time opened;
+    bool is_admitted = false;  ///< its hello was accepted
+    bool is_leaving = false;   ///< DisconnectPage was returned: its messages are ignored
+    PageOutbox outbox;
+  };
+  struct PendingSwitch {
+    PageId page;
+    std::string robot;
+  };
+
+  /// @name Messages of pages (console_session_messages.cpp)
+  ///@{
+  void handle(Page& page, const PageMessage& message, Time now);
+  void handleHello(Page& page, const PageMessage& message);
+  void acknowledge(Page& page, std::uint64_t number, Time now);
+  void subscribeMap(Page& page, bool on);
+  void requestReading(RemoteType type);
+  void take(Page& page);
+  void drive(const PageMessage& message, Time now);
+  void steer(const RemoteOrder& order, Time now);
+  void checkWin(Page& page, Time now);
+  void setAutonomous(Page& page, bool autonomous);
+  void switchPrimary(Page& page, const std::string& robot);
+  void playAgain(Page& page);
+  void record(Page& page, bool on);
+  void deny(Page& page, const PageMessage& message, const std::string& why);
+  ///@}
+
+  /// @name Pages and the control lock
+  ///@{
+  Page* find(PageId id);
+  PageState stateOf(const Page& page) const;
+  void reject(Page& page, const std::string& why);
+  void disconnect(Page& page, const std::string& why);
+  void disconnectInvalid(Page& page, const std::string& why);
+  void disconnectOldestSilent();
+  void release(Page& page, const std::string& why);
+  void reply(Page& page, const std::string& json);
+  void noteToAll(const std::string& json);
+  ///@}
+
+  /// @name Steps of update()
+  ///@{
+  void checkAccess(std::uint64_t version);
+  void checkDeadlines(Time now);
+  void finishSwitch();
+  void reportEvents();
+  void reportAnswers();
+  bool takeRobots(const std::vector<TeamRobot>& robots);
+  void takeRun(const RunView& run);
+  bool takeMap(const std::shared_ptr<const MapView>& map);
+  void wakeAdmittedPages();
+  void publishTeam();
+  void publishVitals(Time now);
+  void watchMap();
+  void wakePages(bool is_news, Time now);
+  ///@}
+
+  const std::string& primary() const;
+  template <typename Action>
+  void act(Action&& action) {
+    actions_.emplace_back(std::forward<Action>(action));
+  }
+  void audit(const Page& page, const std::string& action);
+  ConsoleActions takeActions();
+
+  Access access_;
+  std::uint64_t access_version_ = 0;
+  std::map<PageId, Page> pages_;
+  ControlLock lock_;
+  std::vector<TeamRobot> robots_;  ///< at the last update(); the primary first
+  TeamEvents events_;
+  std::array<std::shared_ptr<const RobotAnswer>, 3> answers_;  ///< of the primary, already sent
+  OrderLimiter orders_;
+  std::optional<PendingSwitch> pending_switch_;
+  bool is_map_watched_ = false;
+  RunView run_;
+  bool was_over_ = false;  ///< the run, at the last update()
+  ConsoleFeed feed_;
+  Time vitals_published_{};
+  ConsoleActions actions_;  ///< of the current event
+};
+
+}  // namespace robosim

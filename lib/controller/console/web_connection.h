@@ -1,0 +1,97 @@
+#pragma once
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <boost/asio/steady_timer.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/http/parser.hpp>
+#include <boost/beast/websocket/stream.hpp>
+
+#include "console/web_answer.h"
+#include "console/web_stream.h"
+
+namespace robosim {
+
+class WebConnection;
+
+/// Interface of a connection to its server. Called in the server's thread.
+class WebConnectionOwner {
+ public:
+  virtual ~WebConnectionOwner() = default;
+  virtual WebAnswer answer(const WebRequest& request, bool has_body) = 0;
+  virtual bool hasTls() const = 0;
+  /// Whether a WebSocket may be opened; `offered` is what the page names as the subprotocol.
+  virtual bool mayOpen(const std::string& origin, const std::string& host, const std::string& offered) = 0;
+  virtual const std::string& protocol() const = 0;
+  /// A WebSocket is open. @return its page's id; nullopt when there are too many
+  virtual std::optional<PageId> opened(WebConnection& connection) = 0;
+  virtual void received(PageId page, std::string_view text) = 0;
+  /// The page has sent a frame that is not a text message within the limits, and must be disconnected.
+  virtual void receivedInvalid(PageId page, const std::string& why) = 0;
+  virtual WebMessagePtr next(PageId page) = 0;
+  virtual void closed(WebConnection& connection) = 0;
+};
+
+/// Connection of a browser: TLS handshake, HTTP requests, and after an upgrade a WebSocket. Every wait has a deadline.
+class WebConnection : public std::enable_shared_from_this<WebConnection> {
+ public:
+  /// For the TLS handshake and the first request's header, and for each later request.
+  static constexpr std::chrono::seconds kRequestWithin{5};
+  /// For an answer or a message to be accepted by the peer.
+  static constexpr std::chrono::seconds kWriteWithin{10};
+  /// For the peer to answer the closing frame.
+  static constexpr std::chrono::seconds kCloseWithin{2};
+  /// A peer that is silent for half of this is sent a ping, and one that is silent for all of it is disconnected.
+  static constexpr std::chrono::seconds kIdle{10};
+  static constexpr std::size_t kMaxHeaderBytes = 8192;
+  static constexpr std::size_t kMaxMessageBytes = 4096;
+
+  /// @param tls null for none; both must outlive this
+  WebConnection(WebConnectionOwner& owner, WebStream::Socket socket, boost::asio::ssl::context* tls);
+
+  void start();
+  /// A message for the page may be available.
+  void wake();
+  /// Sends the pending messages, then the closing frame with the reason.
+  void disconnect(const std::string& why);
+  /// Closes the connection now.
+  void drop();
+
+  const std::string& peer() const { return peer_; }  ///< address
+  bool isDisconnecting() const { return is_disconnecting_; }
+  PageId page() const { return page_; }  ///< 0 as long as there is no WebSocket
+
+ private:
+  using Parser = boost::beast::http::request_parser<boost::beast::http::empty_body>;
+  using WebSocket = boost::beast::websocket::stream<WebStream>;
+  using Error = boost::system::error_code;
+
+  void expire(std::chrono::steady_clock::duration time);
+  void readRequest();
+  void takeRequest(const Error& error);
+  void send(WebAnswer answer);
+  void upgrade();
+  void readMessage();
+  void takeMessage(const Error& error);
+  void sendNext();
+  void close();
+
+  WebConnectionOwner& owner_;
+  std::string peer_;
+  std::optional<WebStream> stream_;  ///< until there is a WebSocket
+  std::optional<WebSocket> socket_;
+  boost::asio::steady_timer deadline_;
+  boost::beast::flat_buffer buffer_;
+  std::optional<Parser> parser_;
+  std::optional<WebAnswer> answer_;
+  std::string message_;  ///< the part received so far
+  std::string close_reason_;
+  PageId page_ = 0;
+  bool is_send_due_ = false, is_writing_ = false, is_disconnecting_ = false, is_closing_ = false, is_over_ = false;
+};
+
+}  // namespace robosim
