@@ -32,6 +32,9 @@ cmake_policy(VERSION 3.25)
 set(long_suites AriaExamples BenchSpeed Camera ChosenControllers ConsoleSessionProperty Control Faults Fit InputFiles LostRobot Rawlogs Replay Sdk
     Video View ViewWindow OfEveryController/Standstill InputFiles/WaitingForAPipe Worlds/Golden)
 
+# No other test runs beside these, on two processors: the simulated serial line is read in real time.
+set(suites_sensitive_to_delays ArcosSerialLine)
+
 execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE tests COMMAND_ERROR_IS_FATAL ANY)
 string(REGEX MATCHALL "(^|\n)[^ \n]+\\." suites "${tests}")  # tests are indented
 set(script "")
@@ -47,6 +50,9 @@ foreach(suite IN LISTS suites)
     "add_test([[${PREFIX}.${suite}]] ${timed} [[${PREFIX}.${suite}]] [[${PROGRAM}]] [[--gtest_filter=${suite}.*]] --gtest_brief=1)\n")
   if(suite IN_LIST long_suites)
     string(APPEND script "set_tests_properties([[${PREFIX}.${suite}]] PROPERTIES COST 100)\n")
+  endif()
+  if(suite IN_LIST suites_sensitive_to_delays)
+    string(APPEND script "set_tests_properties([[${PREFIX}.${suite}]] PROPERTIES PROCESSORS 3)\n")
   endif()
 endforeach()
 file(WRITE ${LIST} "${script}")

@@ -1,5 +1,5 @@
 #pragma once
-#include "run/registry.h"
+#include <robosim/run/registry.h>
 
 /// The controller `aria_wander`: drives about, away from obstacles and out of stalls.
 robosim::ControllerType wanderType();
