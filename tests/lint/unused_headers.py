@@ -31,7 +31,7 @@ def unused_headers(texts, for_users):
 def main():
     root = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).resolve().parents[2]
     files = subprocess.run(["git", "ls-files", "-z", "--", "*.h", "*.cpp"], cwd=root, check=True, capture_output=True, text=True).stdout
-    texts = {file: (root / file).read_text() for file in files.split("\0")[:-1]}
+    texts = {file: (root / file).read_text() for file in files.split("\0")[:-1] if (root / file).exists()}
     unused = unused_headers(texts, {header for page in USERS_PAGES for header in FOR_USERS.findall((root / page).read_text())})
     for path in unused:
         print(f"{path}: no file of the product includes it; delete it, move it to testing/, or list it in doc/sdk.md", file=sys.stderr)

@@ -21,18 +21,18 @@ std::string digestAlone() {
 /// Applies the results of another environment for some robots.
 void takeClips(Environment& from, Environment& to, RobotRange range) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    to.results().paths[i].end_fraction = from.results().paths[i].end_fraction;
+    to.phases().results().paths[i].end_fraction = from.phases().results().paths[i].end_fraction;
   }
 }
 void takeStays(Environment& from, Environment& to, RobotRange range) {
-  for (std::size_t i = range.begin; i < range.end; ++i) to.results().stays[i] = from.results().stays[i];
+  for (std::size_t i = range.begin; i < range.end; ++i) to.phases().results().stays[i] = from.phases().results().stays[i];
 }
 void takeReadings(Environment& from, Environment& to, RobotRange range) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
     const auto& sensors = to.fleet().robots[i].model->sensors;
     for (std::size_t slot = 0; slot < sensors.size(); ++slot) {
       if (sensors[slot]->sensesInHostProcess()) continue;
-      to.results().readings[i].measurements[slot] = from.results().readings[i].measurements[slot];
+      to.phases().results().readings[i].measurements[slot] = from.phases().results().readings[i].measurements[slot];
     }
   }
 }

@@ -55,6 +55,7 @@ class ConnectionGate::Loop {
                                          2, listener.descriptors() - ConnectionListener::kReservedDescriptors)) /
                                          2) {
     if (events_ < 0) throw std::runtime_error("cannot listen on " + listener.address() + ": " + std::strerror(errno));
+    if (tls_) TlsRelay::prepare();
     watch(EPOLL_CTL_ADD, end_, kEnd, EPOLLIN);
     for (const int socket : listener_.sockets()) watch(EPOLL_CTL_ADD, socket, kListener, EPOLLIN);
   }
@@ -215,6 +216,7 @@ class ConnectionGate::Loop {
         refuse(it, "connections with invalid HTTP/2", "its frames do not follow RFC 9113");
         return;
       case ConnectionOpening::Verdict::excess:
+        if (isAuthorised(pending)) return pass(it, true);
         flood_guard::reportFlood(pending.peer, "floods the server with HTTP/2 frames");
         park(it);
         return;
@@ -249,20 +251,23 @@ class ConnectionGate::Loop {
   }
 
   /// Passes on a connection without an authorised call, if there is a place for it. During an alarm there is none:
-  /// reads what is encrypted, and parks what has no valid token.
+  /// reads what is encrypted, and parks what has no valid token. Of a server with public paths, it reads what is
+  /// encrypted at any time.
   void passToPlace(Iterator it) {
     PendingConnection& pending = it->second;
     const bool is_raw = tls_ && !pending.tls;
-    if (!flood_guard::isAlarmed()) {
+    // gRPC answers calls of public paths itself, so that only the gate can authorise their connections.
+    const bool is_alarmed = flood_guard::isAlarmed();
+    if (is_raw && (is_alarmed || !options_.public_paths.empty())) {
+      pending.wants_place = false;
+      pending.tls = std::make_unique<TlsServer::Connection>(*tls_, pending.socket);
+      watch(EPOLL_CTL_MOD, pending.socket, it->first, EPOLLIN | EPOLLRDHUP);
+    } else if (!is_alarmed) {
       if (flood_guard::unauthorised() < flood_guard::kMaxUnauthorised) {
         pass(it, false);
       } else {
         any_wants_place_ = true;
       }
-    } else if (is_raw) {
-      pending.wants_place = false;
-      pending.tls = std::make_unique<TlsServer::Connection>(*tls_, pending.socket);
-      watch(EPOLL_CTL_MOD, pending.socket, it->first, EPOLLIN | EPOLLRDHUP);
     } else if (!options_.access.isOpen()) {  // else its message may follow
       park(it);
     }

@@ -207,6 +207,41 @@ TEST(TlsServer, ReportsAConnectionThatItsClientClosesDuringTheHandshake) {
   close(ends[0]);
 }
 
+/// TLS 1.3 has no limit of updates: without a return after each, a client that sends nothing else would hold the
+/// thread.
+TEST(TlsServer, ReturnsAfterEachUpdateOfTheKeysUnlessItContinues) {
+  const TlsServer server(selfSigned());
+  for (const bool continues : {false, true}) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0, ends.data()), 0);
+    SSL_CTX* const context = SSL_CTX_new(TLS_client_method());
+    SSL_CTX_set_alpn_protos(context, reinterpret_cast<const unsigned char*>("\x02h2"), 3);
+    SSL* const client = SSL_new(context);
+    SSL_set_fd(client, ends[1]);
+    {
+      TlsServer::Connection connection(server, ends[0]);
+      std::array<char, 16> bytes;
+      while (SSL_connect(client) != 1) ASSERT_EQ(connection.read(bytes), 0);
+      while (!connection.isEstablished()) ASSERT_EQ(connection.read(bytes), 0);
+      constexpr int kUpdates = 3;
+      for (int i = 0; i < kUpdates; ++i) {
+        SSL_key_update(client, SSL_KEY_UPDATE_NOT_REQUESTED);
+        ASSERT_EQ(SSL_do_handshake(client), 1);
+      }
+      ASSERT_EQ(SSL_write(client, "x", 1), 1);
+      if (continues) connection.continueAfterControlRecords();
+      int reads = 1;
+      while (connection.read(bytes) == 0 && reads < 100) ++reads;
+      EXPECT_EQ(reads, continues ? 1 : kUpdates + 1);
+      EXPECT_EQ(bytes[0], 'x');
+    }
+    SSL_free(client);
+    SSL_CTX_free(context);
+    close(ends[0]);
+    close(ends[1]);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(WithoutTls, ConnectionGateTest, testing::Values(false));
 INSTANTIATE_TEST_SUITE_P(WithTls, ConnectionGateTest, testing::Values(true));
 

@@ -15,6 +15,16 @@ namespace {
 /// this process passes its sockets to gRPC.
 constexpr std::string_view kRelayed = "robosim-relayed/";
 
+/// gRPC's name of a link-local peer has its interface, "ipv6:%5Bfe80::1%25eth0%5D:3000", which PeerAddress has not.
+std::string withoutZone(std::string_view grpc_peer) {
+  constexpr std::string_view kBegin = "ipv6:%5B", kEnd = "%5D";
+  std::string name(grpc_peer);
+  const auto end = name.find(kEnd);
+  if (!name.starts_with(kBegin) || end == std::string::npos) return name;
+  const auto zone = name.find('%', kBegin.size());
+  return zone < end ? name.erase(zone, end - zone) : name;
+}
+
 }  // namespace
 
 std::optional<PeerAddress> PeerAddress::of(int connection) {
@@ -65,7 +75,7 @@ std::string peerOfName(std::string_view grpc_peer) {
   std::string name(grpc_peer);
   for (std::size_t at = 0; (at = name.find("%2F", at)) != std::string::npos;) name.replace(at, 3, "/");
   const auto begin = name.find(kRelayed);
-  if (!name.starts_with("unix") || begin == std::string::npos) return std::string(grpc_peer);
+  if (!name.starts_with("unix") || begin == std::string::npos) return withoutZone(grpc_peer);
   const auto port = name.rfind('/');
   const auto host = name.rfind('/', port - 1);
   const bool is_ipv6 = name[host - 1] == '6';

@@ -20,7 +20,7 @@ std::atomic<std::size_t>& pendingOfAllGates() {
 }  // namespace
 
 PendingConnections::PendingConnections(std::string address, std::size_t max)
-    : address_(std::move(address)), max_(std::min(kMax, max)) {}
+    : address_(std::move(address)), max_(std::min(kMax, max)), share_(std::max<std::size_t>(1, max_ / 4)) {}
 
 PendingConnections::~PendingConnections() {
   for (auto& [number, pending] : map_) {
@@ -32,7 +32,7 @@ PendingConnections::~PendingConnections() {
 
 PendingConnections::Iterator PendingConnections::add(int listener, int socket) {
   auto peer = PeerAddress::of(socket);
-  if (!peer || (pendingOfAllGates() >= max_ && !dropOne())) {
+  if (!peer || (pendingOfAllGates() >= max_ && map_.size() >= share_ && !dropOne())) {
     close(socket);
     return end();
   }
@@ -62,7 +62,7 @@ void PendingConnections::drop(Iterator it) {
   close(pending.socket);
 }
 
-/// Makes room for a connection. @return false if there is none to close
+/// Makes room for a connection. @return false if this gate has none to close
 bool PendingConnections::dropOne() {
   if (map_.empty()) return false;
   std::map<std::string, std::size_t> count;

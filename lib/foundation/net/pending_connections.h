@@ -29,8 +29,9 @@ struct PendingConnection {
   std::uint32_t last_checked_stream = 0;         ///< the tokens up to this call are not valid
 };
 
-/// The pending connections of one gate. The gates of the process together have at most kMax: beyond it, the oldest
-/// parked connection is closed, or else the oldest of the network that has the most.
+/// The pending connections of one gate. The gates of the process together have at most kMax, except that each may have
+/// a quarter of it, whatever the others have. Beyond it, the oldest connection of the network that has the most is
+/// closed, of parked ones if there are any.
 class PendingConnections {
  public:
   static constexpr std::size_t kMax = 1024;
@@ -61,7 +62,7 @@ class PendingConnections {
   bool dropOne();
 
   const std::string address_;
-  const std::size_t max_;
+  const std::size_t max_, share_;
   Map map_;
   Number next_ = kFirst;
 };

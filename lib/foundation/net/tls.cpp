@@ -229,6 +229,7 @@ TlsServer::Connection::Connection(const TlsServer& server, int socket) : ssl_(SS
   if (!ssl_) throw std::bad_alloc();
   SSL_set_fd(ssl_, socket);
   SSL_set_accept_state(ssl_);
+  SSL_clear_mode(ssl_, SSL_MODE_AUTO_RETRY);
 }
 TlsServer::Connection::~Connection() { SSL_free(ssl_); }
 
@@ -247,6 +248,8 @@ int TlsServer::Connection::judge(int done) const {
   ERR_clear_error();  // the queue of this thread, which OpenSSL consults next time
   return error == SSL_ERROR_WANT_READ || error == SSL_ERROR_WANT_WRITE ? 0 : -1;
 }
+
+void TlsServer::Connection::continueAfterControlRecords() { SSL_set_mode(ssl_, SSL_MODE_AUTO_RETRY); }
 
 bool TlsServer::Connection::isEstablished() const { return SSL_is_init_finished(ssl_) == 1; }
 

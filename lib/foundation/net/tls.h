@@ -44,9 +44,13 @@ class TlsServer {
     Connection& operator=(const Connection&) = delete;
 
     /// Continues the handshake, then reads or writes without waiting.
-    /// @return number of bytes; 0 when it would wait; -1 when the connection has ended
+    /// @return number of bytes; 0 when it would wait, or has read a record without data, such as an update of the keys;
+    /// -1 when the connection has ended
     int read(std::span<char> into);
     int write(std::string_view bytes);
+    /// From now on, a read continues after records without data, until it would wait, which edge-triggered events
+    /// require. Before, a client that sends nothing else does not hold the thread.
+    void continueAfterControlRecords();
     /// Whether the handshake is complete.
     bool isEstablished() const;
     void close();  ///< sends the close notification

@@ -8,6 +8,8 @@
 #include <cstring>
 #include <map>
 #include <mutex>
+#include <stdexcept>
+#include <string>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -44,38 +46,44 @@ struct Relayed {
   Relayed(const Relayed&) = delete;
   Relayed& operator=(const Relayed&) = delete;
 
-  /// Passes on what can be passed on without waiting, in both directions. @return false once the connection has ended
-  bool pump() {
+  enum class Pumped { waits, has_more, ended };
+
+  /// Passes on what can be passed on without waiting, in both directions; has_more: after kRounds, as other connections
+  /// have their turn.
+  Pumped pump() {
+    constexpr int kRounds = 16;
     // Events are edge-triggered, so that each direction continues until it would wait.
-    for (bool has_moved = true; has_moved;) {
+    bool has_moved = true;
+    for (int round = 0; has_moved; ++round) {
+      if (round == kRounds) return Pumped::has_more;
       has_moved = false;
       if (to_server.isEmpty()) {
         const int size = tls->read(to_server.bytes);
-        if (size < 0) return false;
+        if (size < 0) return Pumped::ended;
         to_server.begin = 0;
         to_server.end = static_cast<std::size_t>(size);
       }
       if (!to_server.isEmpty()) {
         const ssize_t size = send(local, to_server.rest().data(), to_server.rest().size(), MSG_NOSIGNAL);
-        if (size < 0 && errno != EAGAIN) return false;
+        if (size < 0 && errno != EAGAIN) return Pumped::ended;
         if (size > 0) to_server.begin += static_cast<std::size_t>(size);
         has_moved = size > 0;
       }
       if (to_client.isEmpty()) {
         const ssize_t size = recv(local, to_client.bytes.data(), to_client.bytes.size(), 0);
         if (size == 0) tls->close();
-        if (size == 0 || (size < 0 && errno != EAGAIN)) return false;
+        if (size == 0 || (size < 0 && errno != EAGAIN)) return Pumped::ended;
         to_client.begin = 0;
         to_client.end = size > 0 ? static_cast<std::size_t>(size) : 0;
       }
       if (!to_client.isEmpty()) {
         const int size = tls->write(to_client.rest());
-        if (size < 0) return false;
+        if (size < 0) return Pumped::ended;
         to_client.begin += static_cast<std::size_t>(size);
         has_moved = has_moved || size > 0;
       }
     }
-    return true;
+    return Pumped::waits;
   }
 
   int socket, local;
@@ -88,6 +96,8 @@ struct Relayed {
 class RelayThread {
  public:
   RelayThread() : events_(epoll_create1(EPOLL_CLOEXEC)) {
+    if (events_ < 0)
+      throw std::runtime_error(std::string("cannot relay connections with TLS: ") + std::strerror(errno));
     std::thread([this] { run(); }).detach();
   }
   void add(std::unique_ptr<Relayed> relayed) {
@@ -95,15 +105,17 @@ class RelayThread {
     const std::uint64_t number = next_++;
     Relayed& added = *relayed;
     relayed_[number] = std::move(relayed);
-    for (const int descriptor : {added.socket, added.local}) {
-      epoll_event event{};
-      event.events = EPOLLIN | EPOLLOUT | EPOLLET;  // reports the present state at once
-      event.data.u64 = number;
-      epoll_ctl(events_, EPOLL_CTL_ADD, descriptor, &event);
-    }
+    for (const int descriptor : {added.socket, added.local}) watch(EPOLL_CTL_ADD, descriptor, number);
   }
 
  private:
+  /// Adds a descriptor, or again reports its present state at once.
+  void watch(int operation, int descriptor, std::uint64_t number) const {
+    epoll_event event{};
+    event.events = EPOLLIN | EPOLLOUT | EPOLLET;
+    event.data.u64 = number;
+    epoll_ctl(events_, operation, descriptor, &event);
+  }
   [[noreturn]] void run() {
     std::array<epoll_event, 64> ready;
     for (;;) {
@@ -111,7 +123,10 @@ class RelayThread {
       const std::lock_guard lock(mutex_);
       for (int i = 0; i < count; ++i) {
         const auto found = relayed_.find(ready[static_cast<std::size_t>(i)].data.u64);
-        if (found != relayed_.end() && !found->second->pump()) relayed_.erase(found);
+        if (found == relayed_.end()) continue;
+        const auto pumped = found->second->pump();
+        if (pumped == Relayed::Pumped::has_more) watch(EPOLL_CTL_MOD, found->second->socket, found->first);
+        if (pumped == Relayed::Pumped::ended) relayed_.erase(found);
       }
     }
   }
@@ -140,6 +155,8 @@ bool bindAbstract(int socket, const std::string& name) {
 
 }  // namespace
 
+void TlsRelay::prepare() { relayThread(); }
+
 int TlsRelay::start(int socket, std::shared_ptr<TlsServer> server, std::unique_ptr<TlsServer::Connection> tls) {
   static std::atomic<std::uint64_t> number{0};
   const auto peer = PeerAddress::of(socket);
@@ -149,6 +166,7 @@ int TlsRelay::start(int socket, std::shared_ptr<TlsServer> server, std::unique_p
     close(socket);
     return -1;
   }
+  tls->continueAfterControlRecords();
   auto relayed = std::make_unique<Relayed>(socket, ends[0], std::move(server), std::move(tls));
   if (!bindAbstract(ends[0], relayedPeerName(*peer, number++))) {
     close(ends[1]);
