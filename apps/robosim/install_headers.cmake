@@ -1,6 +1,7 @@
 # Installs headers `from` a folder `to` one below the prefix: those in the list `headers`, or all except in the folders `without`. They include each
 # other as <robosim/module/file.h>, so that no folder of a user's own project can take a module's place. A header that is installed
 # already is not written again, so that plugins need not be compiled again.
+cmake_policy(VERSION 3.25)  # scripts of an installation have none
 if(IS_ABSOLUTE "${to}")
   set(folder "$ENV{DESTDIR}${to}")
 else()
