@@ -53,7 +53,7 @@ TEST(MpiBenchGold, WritesTheSameReportOnAnyNumberOfRanks) {
 }
 
 /// Each run takes long enough that most are missing when the first is in the journal.
-int endedRuns() { return isVerifying() ? 40 : 8; }
+int endedRuns() { return isVerifying() ? 40 : 16; }
 std::string longBench(const fs::path& report) {
   return "bench gold maze_20x20 --controller random_walk --runs " + std::to_string(endedRuns()) +
          (isVerifying() ? " --time 1000" : " --time 500") + " --report " + quoted(report);
