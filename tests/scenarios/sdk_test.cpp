@@ -27,10 +27,6 @@ class Sdk : public testing::Test {
     const auto add = [&](const std::string& name, const std::string& source) {
       std::ofstream(folder / (name + ".cpp")) << source;
       cmake << "robosim_add_plugin(" << name << " " << name << ".cpp)\n";
-      // Once for all that use it.
-      if (source.find("run/plugin.h") == std::string::npos) return;
-      cmake << "target_precompile_headers(" << name
-            << (name == "throwing" ? " PRIVATE <run/plugin.h>)\n" : " REUSE_FROM throwing)\n");
     };
     add("nothing", "int x;\n");
     add("throwing", R"(#include <robosim/run/plugin.h>
@@ -38,7 +34,7 @@ class Sdk : public testing::Test {
 ROBOSIM_PLUGIN(registry) { registry.controllers.add({"half", "", {}, {}, [](const auto&, const auto&) { return nullptr; }});
   throw std::runtime_error("no licence"); })");
     add("older",
-        "#include \"run/plugin.h\"\n#undef ROBOSIM_VERSION\n#define ROBOSIM_VERSION \"0.0.9\"\n"
+        "#include <robosim/run/plugin.h>\n#undef ROBOSIM_VERSION\n#define ROBOSIM_VERSION \"0.0.9\"\n"
         "ROBOSIM_PLUGIN(registry) { (void)registry; }\n");
     add("failing", R"(#include <robosim/run/plugin.h>
 #include <stdexcept>
