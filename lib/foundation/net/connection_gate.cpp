@@ -72,7 +72,10 @@ class ConnectionGate::Loop {
       const int count = epoll_wait(events_, ready.data(), static_cast<int>(ready.size()), timeoutMs());
       if (count < 0 && errno != EINTR) return;
       readable.clear();
-      for (int i = 0; i < count; ++i) readable.push_back(ready[static_cast<std::size_t>(i)].data.u64);
+      for (int i = 0; i < count; ++i) {
+        const Number number = ready[static_cast<std::size_t>(i)].data.u64;  // a copy, because epoll_event is packed
+        readable.push_back(number);
+      }
       if (std::find(readable.begin(), readable.end(), kEnd) != readable.end()) return;
       if (!acceptAll() && isEndedWithin(kAcceptPause)) return;
       readAll(readable);

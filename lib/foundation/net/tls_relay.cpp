@@ -122,7 +122,9 @@ class RelayThread {
       const int count = epoll_wait(events_, ready.data(), static_cast<int>(ready.size()), -1);
       const std::lock_guard lock(mutex_);
       for (int i = 0; i < count; ++i) {
-        const auto found = relayed_.find(ready[static_cast<std::size_t>(i)].data.u64);
+        const std::uint64_t number =
+            ready[static_cast<std::size_t>(i)].data.u64;  // a copy, because epoll_event is packed
+        const auto found = relayed_.find(number);
         if (found == relayed_.end()) continue;
         const auto pumped = found->second->pump();
         if (pumped == Relayed::Pumped::has_more) watch(EPOLL_CTL_MOD, found->second->socket, found->first);
