@@ -25,7 +25,8 @@ void takeClips(Environment& from, Environment& to, RobotRange range) {
   }
 }
 void takeStays(Environment& from, Environment& to, RobotRange range) {
-  for (std::size_t i = range.begin; i < range.end; ++i) to.phases().results().stays[i] = from.phases().results().stays[i];
+  for (std::size_t i = range.begin; i < range.end; ++i)
+    to.phases().results().stays[i] = from.phases().results().stays[i];
 }
 void takeReadings(Environment& from, Environment& to, RobotRange range) {
   for (std::size_t i = range.begin; i < range.end; ++i) {
