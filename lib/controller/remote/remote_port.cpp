@@ -37,7 +37,8 @@ struct RemotePort::Impl final : public v1::RemoteControl::WithRawMethod_Control<
     const std::string& name() const { return robot().name(); }
 
     Stream* driver = nullptr;
-    RemoteState published;  ///< state last sent
+    RemoteState published;    ///< state last sent
+    bool is_watched = false;  ///< by a remote control, in the last publish()
   };
 
   Impl(const Options& the_options, const Run& the_run, const std::vector<RemoteControlRobot*>& the_robots);
@@ -49,9 +50,8 @@ struct RemotePort::Impl final : public v1::RemoteControl::WithRawMethod_Control<
   void releaseRobot(Stream& stream);
   void sendState(const DrivenRobot& robot);
   RobotsWelcome welcomeOf(const DrivenRobot& robot) const;
-  void publish();                     ///< without the mutex
-  bool isWatched(std::size_t robot);  ///< without the mutex
-  void endRun();                      ///< without the mutex
+  void publish();  ///< without the mutex
+  void endRun();   ///< without the mutex
 
   Run run;
   std::mutex mutex;
@@ -270,22 +270,15 @@ void RemotePort::Impl::publish() {
   const std::lock_guard lock(mutex);
   host.checkSessions();
   for (auto& robot : robots) {
-    const bool is_watched = std::any_of(streams.begin(), streams.end(), [&](const auto& stream) {
-      return stream->robot == &robot && stream->isWatching();
-    });
+    robot.is_watched = std::any_of(streams.begin(), streams.end(),
+                                   [&](const auto& stream) { return stream->robot == &robot && stream->isWatching(); });
     robot.keepPictures();
-    if (!is_watched) robot.dropPicturesBefore(ResponseOutbox::kWatchingSteps);
+    if (!robot.is_watched) robot.dropPicturesBefore(ResponseOutbox::kWatchingSteps);
     const RemoteState state = robot.robot().state();
     if (reportedPartOf(state) != reportedPartOf(robot.published)) sendState(robot);
     robot.published = state;
   }
   for (const auto& stream : streams) stream->sendReadings();
-}
-
-bool RemotePort::Impl::isWatched(std::size_t robot) {
-  const std::lock_guard lock(mutex);
-  return std::any_of(streams.begin(), streams.end(),
-                     [&](const auto& stream) { return stream->robot == &robots[robot] && stream->isWatching(); });
 }
 
 void RemotePort::Impl::endRun() {
@@ -302,7 +295,7 @@ RemotePort::RemotePort(const Options& options, const Run& run, const std::vector
 RemotePort::~RemotePort() = default;
 int RemotePort::port() const { return impl_->queue_server.port(0); }
 void RemotePort::publish() { impl_->publish(); }
-bool RemotePort::isWatched(std::size_t robot) const { return impl_->isWatched(robot); }
+bool RemotePort::isWatched(std::size_t robot) const { return impl_->robots[robot].is_watched; }
 void RemotePort::endRun() { impl_->endRun(); }
 
 }  // namespace robosim

@@ -44,7 +44,8 @@ class RemotePort {
   /// Sends the requested readings to all remote controls; called after each step by the thread that steps the robots.
   /// Does not block.
   void publish();
-  /// Whether a remote control shows the readings of a robot, with its pictures. @param robot in the constructor's order
+  /// Whether a remote control showed the readings of a robot, with its pictures, in the last publish(). Called by the
+  /// same thread. @param robot in the constructor's order
   bool isWatched(std::size_t robot) const;
   /// Ends all calls, because the run is over.
   void endRun();
