@@ -133,8 +133,7 @@ py::array_t<bool> goldFoundIn(const PythonBatch& of) {
   py::array_t<bool> found(of.environments());
   for (py::ssize_t i = 0; i < of.environments(); ++i) {
     const State& state = of.batch().environment(static_cast<std::size_t>(i)).state();
-    found.mutable_at(i) = state.winner().has_value() || std::find(state.activity.begin(), state.activity.end(),
-                                                                  Activity::found) != state.activity.end();
+    found.mutable_at(i) = state.found || state.won;
   }
   return found;
 }

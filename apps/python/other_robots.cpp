@@ -1,6 +1,5 @@
 #include "other_robots.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -21,12 +20,10 @@ void checkNeeds(const FleetRobot& robot) {
   const ControllerType& type = controllers().typeOf(robot.controller);
   const std::string who = "robot '" + robot.info.name + "': its controller " + type.name;
   constexpr const char* kCure = "make the robot an agent, or use others=\"still\"";
-  for (const SensorKind kind : type.needs) {
-    if (kind == SensorKind::camera || kind == SensorKind::blob_finder) {
-      throw ConfigError(who + " requires pictures, which learning environments do not take; " + kCure);
-    }
-    const auto& sensors = *robot.info.sensors;
-    if (std::any_of(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; })) continue;
+  if (needsPictures(robot.controller)) {
+    throw ConfigError(who + " requires pictures, which learning environments do not take; " + kCure);
+  }
+  for (const SensorKind kind : missingSensors(type, *robot.info.sensors)) {
     throw ConfigError(who + " requires a sensor of kind " + nameOf(kind) + "; add one, " + kCure);
   }
 }

@@ -40,9 +40,7 @@ ArcosRobotType typeOf(const std::string& name) {
 
 void checkSensors(const std::string& controller, const RobotInfo& robot) {
   const ControllerType& type = controllers().typeOf(controller);
-  for (const SensorKind kind : type.needs) {
-    const auto& sensors = *robot.sensors;
-    if (std::any_of(sensors.begin(), sensors.end(), [&](const auto& sensor) { return sensor.kind == kind; })) continue;
+  for (const SensorKind kind : missingSensors(type, *robot.sensors)) {
     throw ConfigError("controller " + type.name + " requires a sensor of kind " + nameOf(kind) +
                       ", which the robot does not have; use another controller");
   }

@@ -1,6 +1,7 @@
 #include "run/local_run.h"
 
 #include <algorithm>
+#include <iterator>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -108,6 +109,14 @@ std::string controllerOf(const std::string& in_world, const std::string& instead
   return in_world.empty() ? kDefaultController : in_world;
 }
 
+std::vector<SensorKind> missingSensors(const ControllerType& type, const std::vector<SensorInfo>& sensors) {
+  std::vector<SensorKind> missing;
+  std::copy_if(type.needs.begin(), type.needs.end(), std::back_inserter(missing), [&](SensorKind kind) {
+    return std::none_of(sensors.begin(), sensors.end(), [&](const SensorInfo& sensor) { return sensor.kind == kind; });
+  });
+  return missing;
+}
+
 void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
                       ErrorList& errors, const DrivenElsewhere& is_elsewhere) {
   const std::size_t count = std::min(world.world.robots.size(), world.fleet.robots.size());
@@ -116,9 +125,7 @@ void checkControllers(const LoadedWorld& world, const std::string& world_file, c
     if (is_elsewhere && is_elsewhere(robot, i)) continue;
     const ControllerType* type = typeOrNull(controllerOf(robot.controller, instead));
     if (!type) continue;  // reported by buildFleet()
-    for (const SensorKind kind : type->needs) {
-      const auto& sensors = *robot.info.sensors;
-      if (std::any_of(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; })) continue;
+    for (const SensorKind kind : missingSensors(*type, *robot.info.sensors)) {
       const SourceLine& line = world.world.robots[i].line;
       errors.add(world.world.fileOf(line, world_file), line.number,
                  "robot '" + robot.info.name + "': its controller " + type->name + " requires a sensor of kind " +

@@ -63,6 +63,9 @@ bool needsPictures(const std::string& controller);
 /// @throws ConfigError for an unknown controller or observer
 bool needPictures(const Fleet& fleet, const std::string& instead, const std::vector<std::string>& observers = {});
 
+/// Kinds of sensors that a controller requires and a robot with these sensors lacks.
+std::vector<SensorKind> missingSensors(const ControllerType& type, const std::vector<SensorInfo>& sensors);
+
 /// Adds an error for each robot that lacks a sensor required by its controller. `world_file` is the file name in
 /// errors.
 void checkControllers(const LoadedWorld& world, const std::string& world_file, const std::string& instead,
