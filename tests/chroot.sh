@@ -11,4 +11,5 @@ inside='
   mount --rbind /dev "$1/dev"
   exec chroot "$1" env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 TERM="${TERM:-dumb}" \
     ${ROBOSIM_VERIFY:+ROBOSIM_VERIFY=1} "${@:2}"'
-exec unshare --mount bash -c "$inside" chroot "$@"
+# Its processes end with it, also when it is killed.
+exec unshare --mount --pid --fork --kill-child bash -c "$inside" chroot "$@"

@@ -205,7 +205,7 @@ class Sonar : public Sensor {
       if (!options_.firing.fires(i, now.time)) continue;
       if (noise.hasReflections() && detections[i].body != kNoBody)
         reflect(now, robot, frame, sonars_[i], detections[i]);
-      if (noise.blanking_m > 0) blank(detections[i]);
+      if (noise.blanking_m > 0) applyBlanking(detections[i]);
       // Drawn without an echo too, so that a sonar's noise does not depend on the echoes of the others.
       detections[i].range_m = noise.range.apply(detections[i].range_m, rng);
     }
@@ -241,7 +241,7 @@ class Sonar : public Sensor {
 
   /// An echo during the blanking is lost. The ping continues between the sonar and the object, and its first repetition
   /// after the blanking is read.
-  void blank(Detection& detection) const {
+  void applyBlanking(Detection& detection) const {
     const double blanking_m = options_.noise.blanking_m;
     if (!(detection.range_m < blanking_m)) return;
     if (detection.range_m <= 0) {
