@@ -32,14 +32,14 @@ struct NearestEcho {
 };
 
 std::string driveState(const RobotNews& news) {
-  const RemoteState& state = news.state;
-  if (!state.winner.empty() && (news.is_up || news.is_over)) return state.winner + " has won";
+  const v1::RobotState& state = news.state;
+  if (!state.winner().empty() && (news.is_up || news.is_over)) return state.winner() + " has won";
   if (news.is_over) return news.problem;
   if (!news.is_up) return news.problem.empty() ? "connecting" : "down: " + news.problem;
-  if (!state.is_yours) return state.driver.empty() ? "no driver" : state.driver + " drives";
-  if (state.autonomous) return "autonomous";
-  if (state.is_stopping) return state.why_stopped.empty() ? "stopping" : "stopping: " + state.why_stopped;
-  return state.why_stopped.empty() ? "you drive" : "stopped: " + state.why_stopped;
+  if (!state.is_yours()) return state.driver().empty() ? "no driver" : state.driver() + " drives";
+  if (state.autonomous()) return "autonomous";
+  if (state.is_stopping()) return state.why_stopped().empty() ? "stopping" : "stopping: " + state.why_stopped();
+  return state.why_stopped().empty() ? "you drive" : "stopped: " + state.why_stopped();
 }
 
 /// "Pioneer1: 12.3 s, 0.40 m/s, 12 °/s, heat 3.1, nearest 0.84 m; you drive"
@@ -48,8 +48,8 @@ std::string statusText(const RemoteControl::Robot& robot) {
   std::string line = robot.name + ": ";
   if (news.update && news.is_up) {
     const Readings& readings = news.update->readings;
-    line += fixed(readings.time.seconds(), 1) + " s, " + fixed(news.update->state.speed_mps, 2) + " m/s, " +
-            fixed(news.update->state.turn_radps * 180 / M_PI, 0) + " °/s";
+    line += fixed(readings.time.seconds(), 1) + " s, " + fixed(news.update->state.speed_mps(), 2) + " m/s, " +
+            fixed(news.update->state.turn_radps() * 180 / M_PI, 0) + " °/s";
     double nearest_m = INFINITY;
     for (std::size_t i = 0; i < readings.measurements.size(); ++i) {
       const auto& measured = readings.measurements[i];
@@ -113,7 +113,7 @@ void driveByJoystick(RemoteControl& control, int number, double top_speed, const
     if (!has_reported || has_stick != stick.has_value()) {
       has_stick = stick.has_value();
       // Afterwards nothing is sent, so that the robot's dead man's switch also stops it.
-      if (!has_stick) control.send({.type = RemoteType::stop, .why = "the joystick is disconnected"});
+      if (!has_stick) control.send(stopOrder("the joystick is disconnected"));
       report(has_stick ? device + " drives " + robots.front().name
                        : "no " + device + " (/dev/input/js" + std::to_string(number) +
                              "): connect a joystick and check its read permission; the robot stands still");

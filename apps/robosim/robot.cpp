@@ -100,7 +100,7 @@ class RobotProcess {
     do {
       for (auto& driven : driven_robots_) driven.step();
       for (auto& remote : remote_robots_) remote.step();
-      if (port_) port_->publish();
+      if (port_) port_->publish(&robots_.received());
       requestPictures();
     } while (robots_.nextStep());
   }

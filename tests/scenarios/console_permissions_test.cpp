@@ -157,7 +157,7 @@ const std::map<std::string, Example>& examples() {
       {"alive", {R"({"type":"alive"})", nullptr}},
       {"check_win", {R"({"type":"check_win"})", [](Team& t, TestPage&) { return t.ann.hardware->win_checks > 0; }}},
       {"autonomous",
-       {R"({"type":"autonomous","on":true})", [](Team& t, TestPage&) { return t.ann.robot.state().autonomous; }}},
+       {R"({"type":"autonomous","on":true})", [](Team& t, TestPage&) { return t.ann.robot.state().autonomous(); }}},
       {"switch", {R"({"type":"switch"})", [](Team&, TestPage& p) { return primaryOf(p) == "Bob"; }}},
       {"switch to the next robot",
        {R"({"type":"switch","robot":"Bob"})", [](Team&, TestPage& p) { return primaryOf(p) == "Bob"; }}},
@@ -175,10 +175,10 @@ const std::map<std::string, Example>& examples() {
 std::string stateOf(Team& team) {
   std::string text;
   for (TestRobot* robot : {&team.ann, &team.bob}) {
-    const RemoteState state = robot->robot.state();
+    const v1::RobotState state = robot->robot.state();
     const Command command = robot->hardware->lastCommand();
-    text += state.driver + (state.autonomous ? " autonomous " : " driven ") + std::to_string(command.speed_mps) + " " +
-            std::to_string(command.turn_radps) + " " + std::to_string(robot->hardware->win_checks) + "\n";
+    text += state.driver() + (state.autonomous() ? " autonomous " : " driven ") + std::to_string(command.speed_mps) +
+            " " + std::to_string(command.turn_radps) + " " + std::to_string(robot->hardware->win_checks) + "\n";
   }
   return text + (team.map.is_watched ? "map" : "") + (team.run.is_restarted ? "restarted" : "") +
          (team.run.is_recorded ? "recorded" : "");
@@ -203,9 +203,8 @@ TEST(ConsolePermissions, MatchTheTableForEveryMessageAndRole) {
   const PermissionTable table = permissionTable("message");
   for (const auto& [name, row] : table)
     EXPECT_TRUE(examples().contains(name)) << "doc/security.md has no longer " << name;
-  for (const auto type : pageMessageTypes()) {
-    const std::string name = nameOf(type);
-    EXPECT_TRUE(examples().contains(name)) << "give an example of " << name << " here";
+  for (const auto& row : pageMessageRows()) {
+    EXPECT_TRUE(examples().contains(row.name)) << "give an example of " << row.name << " here";
   }
   auto shared = std::make_unique<Team>();  // for pages without permission to drive, which do not change it
   for (const auto& entry : examples()) {

@@ -41,11 +41,7 @@ class DrivenPioneer {
   RemoteControlRobot& robot() { return *robot_; }
   double speed() const { return environment_->state().speed_mps[0]; }
   void drive(double speed_mps) {
-    RemoteOrder order;
-    order.type = RemoteType::drive;
-    order.speed_mps = speed_mps;
-    order.turn_radps = 0;
-    robot_->obey(order);
+    robot_->obey(driveOrder(speed_mps, 0));
     step();
   }
   void step() {
@@ -67,13 +63,6 @@ class DrivenPioneer {
   std::unique_ptr<RemoteControlRobot> robot_;
 };
 
-RemoteOrder stopOrder(const std::string& why = "") {
-  RemoteOrder order;
-  order.type = RemoteType::stop;
-  order.why = why;
-  return order;
-}
-
 // From 1 m/s: 0.8, 0.6, 0.4, 0.2 and 0 m/s for 0.1 s each. From 0.44 m/s: 0.24, 0.04 and 0 m/s.
 TEST(EmergencyStop, OfTheDriverBrakesWithin20CentimetresFrom1MetrePerSecond) {
   DrivenPioneer fast(1);
@@ -94,7 +83,7 @@ TEST(EmergencyStop, IsNotMadeByADriverWhoSlowsDown) {
 TEST(EmergencyStop, IsMadeWithoutAMessageOfTheDriverAndWithoutRemoteControl) {
   DrivenPioneer silent(1);  // the dead-man timeout is 0.5 s: 0.6 s after the last message
   EXPECT_NEAR(silent.pathToStand(), 0.5 * 1 + 0.1 * (0.8 + 0.6 + 0.4 + 0.2), 1e-9);
-  EXPECT_EQ(silent.robot().state().why_stopped, "no message from Anna for 0.5 s");
+  EXPECT_EQ(silent.robot().state().why_stopped(), "no message from Anna for 0.5 s");
   DrivenPioneer lost(1);
   lost.robot().release("its remote control has disconnected");
   EXPECT_NEAR(lost.pathToStand(), 0.2, 1e-9);
@@ -102,19 +91,19 @@ TEST(EmergencyStop, IsMadeWithoutAMessageOfTheDriverAndWithoutRemoteControl) {
 
 TEST(EmergencyStop, IsReportedUntilTheRobotStands) {
   DrivenPioneer pioneer(0.44);
-  EXPECT_FALSE(pioneer.robot().state().is_stopping);
+  EXPECT_FALSE(pioneer.robot().state().is_stopping());
   pioneer.robot().obey(stopOrder("Anna's page is hidden"));
-  EXPECT_TRUE(pioneer.robot().state().is_stopping);
+  EXPECT_TRUE(pioneer.robot().state().is_stopping());
   pioneer.step();  // 0.24 m/s
   pioneer.step();  // 0.04 m/s
   pioneer.step();  // 0, as measured in the next step
-  EXPECT_TRUE(pioneer.robot().state().is_stopping);
+  EXPECT_TRUE(pioneer.robot().state().is_stopping());
   pioneer.step();
-  EXPECT_FALSE(pioneer.robot().state().is_stopping);
-  EXPECT_EQ(pioneer.robot().state().why_stopped, "Anna's page is hidden");
+  EXPECT_FALSE(pioneer.robot().state().is_stopping());
+  EXPECT_EQ(pioneer.robot().state().why_stopped(), "Anna's page is hidden");
   pioneer.drive(0.1);
   EXPECT_DOUBLE_EQ(pioneer.speed(), 0.03) << "steered again";
-  EXPECT_FALSE(pioneer.robot().state().is_stopping);
+  EXPECT_FALSE(pioneer.robot().state().is_stopping());
 }
 
 }  // namespace

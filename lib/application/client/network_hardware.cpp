@@ -276,6 +276,7 @@ void NetworkHardware::setPictures(std::size_t robot, bool has_pictures) {
 std::uint64_t NetworkHardware::seed() const { return impl_->welcome.seed; }
 const std::string& NetworkHardware::world() const { return impl_->welcome.world; }
 bool NetworkHardware::nextStep() { return impl_->nextStep(); }
+const v1::StepReadings& NetworkHardware::received() const { return impl_->in->readings(); }
 std::size_t NetworkHardware::unconfirmedMessages() const {
   return impl_->is_unconfirmed ? static_cast<std::size_t>(impl_->out.messages_size()) : 0;
 }

@@ -9,6 +9,10 @@
 #include "hardware/hardware.h"
 #include "net/connect.h"
 
+namespace robosim::v1 {
+class StepReadings;
+}
+
 namespace robosim {
 
 /// Client of the Robots service: the robots of one process, connected to an environment (2005: the hardware
@@ -42,6 +46,9 @@ class NetworkHardware {
   /// @return false when the run is over
   /// @throws ConnectionError when the server closes the connection, or it breaks. rejoin() may restore it.
   bool nextStep();
+  /// The message from which the robots' readings of this step were decoded, to be forwarded; valid until nextStep() or
+  /// rejoin().
+  const v1::StepReadings& received() const;
 
   /// Reconnects under the same names, and waits for the readings of the current step. The robots stay valid and
   /// continue as if some steps had been missed. nextStep() repeats the answer to the last step unless the environment

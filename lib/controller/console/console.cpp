@@ -64,14 +64,10 @@ struct Console::Impl final : public WebPageHandler {
   }
   bool operator()(const SendOrder& action) {
     control.send(action.order);
-    return false;
+    return action.order.has_set_mode();
   }
   bool operator()(const SetDriver& action) {
     control.setDriver(action.name);
-    return true;
-  }
-  bool operator()(const SetAutonomous& action) {
-    control.setAutonomous(action.autonomous);
     return true;
   }
   bool operator()(const SwitchPrimary& action) {

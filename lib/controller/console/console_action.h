@@ -6,7 +6,7 @@
 
 #include "console/web_message.h"
 #include "net/access.h"
-#include "net/remote_wire.h"
+#include "remote/orders.h"
 
 namespace robosim {
 
@@ -25,15 +25,11 @@ struct DisconnectPage {
 
 /// Sends an order to the primary robot.
 struct SendOrder {
-  RemoteOrder order;
+  v1::ControlRequest order;
 };
 /// Claims the primary robot for a driver. The robot stands until it is steered.
 struct SetDriver {
   std::string name;
-};
-/// Enables or disables the primary robot's own controller.
-struct SetAutonomous {
-  bool autonomous;
 };
 /// Makes another robot the primary; the result is reported by the next ConsoleSession::update().
 struct SwitchPrimary {
@@ -63,8 +59,8 @@ struct WriteAudit {
   std::string peer, action;
 };
 
-using ConsoleAction = std::variant<WakePage, DisconnectPage, SendOrder, SetDriver, SetAutonomous, SwitchPrimary,
-                                   RestartRun, RecordRun, WatchMap, WriteLog, WriteAudit>;
+using ConsoleAction = std::variant<WakePage, DisconnectPage, SendOrder, SetDriver, SwitchPrimary, RestartRun, RecordRun,
+                                   WatchMap, WriteLog, WriteAudit>;
 using ConsoleActions = std::vector<ConsoleAction>;
 
 }  // namespace robosim

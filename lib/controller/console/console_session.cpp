@@ -9,9 +9,6 @@ namespace {
 /// Minimum between two messages with the heat and stall of all robots.
 constexpr std::chrono::seconds kVitalsPeriod{1};
 
-constexpr std::array kAnswerNames{"heat", "laser", "sonar"};
-static_assert(kAnswerNames.size() == std::tuple_size_v<decltype(RobotNews::answers)>);
-
 bool isSilent(const auto& page) { return !page.is_admitted && !page.is_leaving; }
 
 }  // namespace
@@ -144,7 +141,7 @@ void ConsoleSession::release(Page& page, const std::string& why) {
   audit(page, "release " + primary() + ": " + why);
   lock_ = {};
   orders_.clear();
-  act(SendOrder{{.type = RemoteType::stop, .why = why}});
+  act(SendOrder{stopOrder(why)});
   publishTeam();
 }
 
@@ -231,7 +228,7 @@ void ConsoleSession::reportAnswers() {
     const auto& answer = feed_.primary.answers[i];
     if (!answer || answer == answers_[i]) continue;
     answers_[i] = answer;
-    noteToAll(answerJson(kAnswerNames[i], *answer));
+    noteToAll(answerJson(nameOf(readingRow(i).sensor), *answer));
   }
 }
 

@@ -33,8 +33,8 @@ namespace robosim {
 /// bounded (PageOutbox). Pages whose hello has not been received: at most kMaxSilent, beyond which the oldest is
 /// disconnected, and each for at most kHelloWithin.
 ///
-/// After actions that change the team (SetDriver, SetAutonomous, SwitchPrimary) update() must follow before the next
-/// message. Orders that move a robot are ignored while a switch is pending.
+/// After actions that change the team (SetDriver, SwitchPrimary, the order of a mode) update() must follow before the
+/// next message. Orders that move a robot are ignored while a switch is pending.
 class ConsoleSession {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -94,12 +94,9 @@ class ConsoleSession {
   void handleHello(Page& page, const PageMessage& message);
   void acknowledge(Page& page, std::uint64_t number, Time now);
   void subscribeMap(Page& page, bool on);
-  void requestReading(RemoteType type);
   void take(Page& page);
-  void drive(const PageMessage& message, Time now);
-  void steer(const RemoteOrder& order, Time now);
-  void checkWin(Page& page, Time now);
-  void setAutonomous(Page& page, bool autonomous);
+  void giveOrder(Page& page, const PageMessage& message, OrderType type, Time now);
+  v1::ControlRequest orderOf(const Page& page, const PageMessage& message, OrderType type) const;
   void switchPrimary(Page& page, const std::string& robot);
   void playAgain(Page& page);
   void record(Page& page, bool on);
@@ -150,7 +147,7 @@ class ConsoleSession {
   ControlLock lock_;
   std::vector<TeamRobot> robots_;  ///< at the last update(); the primary first
   TeamEvents events_;
-  std::array<std::shared_ptr<const RobotAnswer>, 3> answers_;  ///< of the primary, already sent
+  std::array<std::shared_ptr<const RobotAnswer>, kReadings> answers_;  ///< of the primary, already sent
   OrderLimiter orders_;
   std::optional<PendingSwitch> pending_switch_;
   bool is_map_watched_ = false;

@@ -23,21 +23,21 @@ TEST_F(ConsoleSessionTest, GivesTheControlLockToOnePageAtATime) {
   EXPECT_EQ(orders(), "Ann stop: Ada has released control");
   console.send(bea, R"({"type":"take"})");
   EXPECT_EQ(holder(), bea);
-  EXPECT_EQ(console.row.front().news.state.driver, "Bea");
+  EXPECT_EQ(console.row.front().news.state.driver(), "Bea");
 }
 
 TEST_F(ConsoleSessionTest, IgnoresDrivingMessagesOfPagesWithoutTheControlLock) {
   const PageId ada = driver();
   const PageId mallory = console.join("", "Mallory");
-  for (const auto type : pageMessageTypes()) {
-    if (ruleOf(type).page != MessageRule::Page::holds_lock) continue;
-    console.send(mallory, std::string(R"({"type":")") + nameOf(type) + "\"}");
+  for (const auto& row : pageMessageRows()) {
+    if (row.page != PageMessageRow::Page::holds_lock) continue;
+    console.send(mallory, std::string(R"({"type":")") + row.name + "\"}");
   }
   console.tick(1s);
   EXPECT_EQ(orders(), "");
   EXPECT_EQ(console.switches, 0u);
   EXPECT_EQ(holder(), ada);
-  EXPECT_FALSE(console.row.front().news.state.autonomous && console.row.front().news.state.driver.empty());
+  EXPECT_FALSE(console.row.front().news.state.autonomous() && console.row.front().news.state.driver().empty());
 }
 
 TEST_F(ConsoleSessionTest, ReleasesTheControlLockOfAPageThatDisconnects) {
@@ -63,11 +63,11 @@ TEST_F(ConsoleSessionTest, TakingControlAgainClaimsTheRobotAndDiscardsOrders) {
   const PageId ada = driver();
   console.send(ada, R"({"type":"accelerate"})");
   console.send(ada, R"({"type":"drive","speed":1})");  // waits for 10 ms
-  console.row.front().news.state.driver = "";
+  console.row.front().news.state.set_driver("");
   console.send(ada, R"({"type":"take"})");
   console.tick(1s);
   EXPECT_EQ(orders(), "Ann accelerate");
-  EXPECT_EQ(console.row.front().news.state.driver, "Ada");
+  EXPECT_EQ(console.row.front().news.state.driver(), "Ada");
 }
 
 TEST_F(ConsoleSessionTokensTest, DeniesTheControlLockToTokensThatDoNotPermitThePrimary) {
@@ -131,6 +131,20 @@ TEST_F(ConsoleSessionTest, SendsAliveOnlyWhenThePageDoes) {
   EXPECT_EQ(orders(), "Ann alive");
 }
 
+TEST_F(ConsoleSessionTest, GivesEachOrderOfTheTableToThePrimary) {
+  const PageId ada = driver();
+  for (const OrderRow& row : kOrders) {
+    console.tick(std::chrono::seconds(1));
+    const auto actions = console.session.pageMessage(ada, R"({"type":")" + std::string(row.name) + "\"}", console.now);
+    const auto given = std::find_if(actions.begin(), actions.end(), [](const ConsoleAction& action) {
+      return std::holds_alternative<SendOrder>(action);
+    });
+    ASSERT_NE(given, actions.end()) << row.name;
+    EXPECT_EQ(typeOf(std::get<SendOrder>(*given).order), row.type) << row.name;
+    EXPECT_NO_THROW(validate(std::get<SendOrder>(*given).order)) << row.name;
+  }
+}
+
 TEST_F(ConsoleSessionTest, NamesThePageInTheReasonOfAStop) {
   const PageId ada = driver();
   console.send(ada, R"({"type":"stop","why":"is hidden"})");
@@ -143,12 +157,12 @@ TEST_F(ConsoleSessionTest, TheEncodedReasonOfAStopNeverExceedsWhatARobotAccepts)
   for (int i = 0; i < 59; ++i) reason += "é";
   const PageId page = driver(name);
   console.send(page, R"({"type":"stop","why":")" + reason + R"(yz"})");  // 120 bytes
-  v1::ControlRequest message;
-  encode(console.takeOrders().back().order, message);
+  const v1::ControlRequest message = console.takeOrders().back().order;
+  EXPECT_NO_THROW(validate(message));
   // "'s page " is 8 bytes: of the reason 52 bytes remain, which are 26 characters.
   std::string remaining;
   for (int i = 0; i < 26; ++i) remaining += "é";
-  EXPECT_EQ(decode(message).why, name + "'s page " + remaining);
+  EXPECT_EQ(message.stop().why(), name + "'s page " + remaining);
 }
 
 TEST_F(ConsoleSessionTest, IgnoresSpeedsForARobotThatWasNeverConnected) {
@@ -167,9 +181,9 @@ TEST_F(ConsoleSessionTest, SetsTheRobotAutonomousAndBack) {
   console.send(ada, R"({"type":"autonomous","on":true})");
   console.tick(1s);
   EXPECT_EQ(orders(), "Ann accelerate") << "the waiting order is discarded";
-  EXPECT_TRUE(console.row.front().news.state.autonomous);
+  EXPECT_TRUE(console.row.front().news.state.autonomous());
   console.send(ada, R"({"type":"autonomous","on":false})");
-  EXPECT_FALSE(console.row.front().news.state.autonomous);
+  EXPECT_FALSE(console.row.front().news.state.autonomous());
   EXPECT_TRUE(console.hasLogged("autonomous on Ann (page of Ada)"));
 }
 
@@ -203,7 +217,7 @@ TEST_F(ConsoleSessionTest, SwitchesToANamedRobot) {
 TEST_F(ConsoleSessionTest, KeepsThePrimaryWhenNoOtherRobotIsFit) {
   const PageId ada = driver();
   console.row[1].news.is_up = false;
-  console.row[2].news.state.driver = "another console";
+  console.row[2].news.state.set_driver("another console");
   console.update();
   console.send(ada, R"({"type":"switch"})");
   EXPECT_TRUE(received(ada, "No other robot can be driven now."));
@@ -231,7 +245,7 @@ TEST_F(ConsoleSessionTest, IgnoresDrivingUntilASwitchIsConfirmed) {
   EXPECT_TRUE(session.pageMessage(1, R"({"type":"drive","speed":1})", now).empty());
   const auto actions = session.pageMessage(1, R"({"type":"stop"})", now);
   ASSERT_EQ(actions.size(), 1u);
-  EXPECT_EQ(std::get<SendOrder>(actions[0]).order.type, RemoteType::stop);
+  EXPECT_TRUE(std::get<SendOrder>(actions[0]).order.has_stop());
   session.update({console.row, nullptr, 0}, now);
   EXPECT_EQ(session.pageMessage(1, R"({"type":"drive","speed":1})", now).size(), 1u);
 }
@@ -289,10 +303,10 @@ TEST_F(ConsoleSessionTest, ReportsTheWinnerOnceAndCheckWinThatFailed) {
   console.send(ada, R"({"type":"check_win"})");
   EXPECT_EQ(orders(), "Ann check_win");
   EXPECT_TRUE(console.hasLogged("check_win Ann (page of Ada)"));
-  ++console.row.front().news.state.win_refusals;
+  console.row.front().news.state.set_win_refusals(console.row.front().news.state.win_refusals() + 1);
   console.update();
   EXPECT_TRUE(received(ada, "Ann is too far from the gold to have won."));
-  for (auto& robot : console.row) robot.news.state.winner = "Ann";
+  for (auto& robot : console.row) robot.news.state.set_winner("Ann");
   console.update();
   console.update();
   EXPECT_TRUE(received(ada, R"("winner":"Ann")"));
@@ -344,12 +358,12 @@ TEST_F(ConsoleSessionTokensTest, StartsTheNextRunOnlyForOperators) {
 TEST_F(ConsoleSessionTest, OfTeamsThatAreUpReportsTheWinnerOfTheirRunOnly) {
   const PageId ada = driver();
   for (auto& robot : console.row) {
-    robot.news.state.winner = "Ann";
+    robot.news.state.set_winner("Ann");
     robot.news.is_up = false;  // the run is over
   }
   console.update();
   EXPECT_TRUE(received(ada, R"("winner":"Ann")"));
-  console.row[1].news.state.winner.clear();
+  console.row[1].news.state.clear_winner();
   console.row[1].news.is_up = true;  // in the next run
   console.update();
   console.read(ada);
@@ -385,7 +399,7 @@ TEST_F(ConsoleSessionTest, ReportsTheEndOfTheRunOnceHoweverItIsObserved) {
 
 TEST_F(ConsoleSessionTest, ShowsAnotherDriverOfTheRobot) {
   const PageId ada = console.join();
-  console.row.front().news.state.driver = "another console";
+  console.row.front().news.state.set_driver("another console");
   console.update();
   EXPECT_TRUE(received(ada, R"("driver":"another console","is_yours":false)"));
 }

@@ -1,76 +1,53 @@
 // Handlers of the pages' messages. Each is called only after the message was authorised.
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "console/console_session.h"
 
 namespace robosim {
-namespace {
 
-using Type = PageMessage::Type;
-
-/// The order of the remote control protocol for a message that consists of its type only.
-RemoteType orderTypeOf(Type type) {
-  switch (type) {
-    case Type::accelerate:
-      return RemoteType::accelerate;
-    case Type::decelerate:
-      return RemoteType::decelerate;
-    case Type::turn_left:
-      return RemoteType::turn_left;
-    case Type::turn_right:
-      return RemoteType::turn_right;
-    default:
-      return RemoteType::alive;
+void ConsoleSession::handle(Page& page, const PageMessage& message, Time now) {
+  if (const auto* order = std::get_if<OrderType>(&message.type)) return giveOrder(page, message, *order, now);
+  switch (std::get<ConsoleRequest>(message.type)) {
+    case ConsoleRequest::hello:
+      return handleHello(page, message);
+    case ConsoleRequest::ack:
+      return acknowledge(page, message.number, now);
+    case ConsoleRequest::ping:
+      return reply(page, pongJson(message.number));
+    case ConsoleRequest::live:
+      return page.outbox.subscribeSensors(message.on);
+    case ConsoleRequest::map:
+      return subscribeMap(page, message.on);
+    case ConsoleRequest::take:
+      return take(page);
+    case ConsoleRequest::release:
+      return release(page, page.name + " has released control");
+    case ConsoleRequest::switch_primary:
+      return switchPrimary(page, message.robot);
+    case ConsoleRequest::play_again:
+      return playAgain(page);
+    case ConsoleRequest::record:
+      return record(page, message.on);
   }
 }
 
-}  // namespace
+/// An order to the primary robot. The answer to a request of a reading is sent to every page.
+void ConsoleSession::giveOrder(Page& page, const PageMessage& message, OrderType type, Time now) {
+  if (type == OrderType::check_win) audit(page, "check_win " + primary());
+  if (type == OrderType::set_mode) audit(page, (message.on ? "autonomous on " : "autonomous off ") + primary());
+  for (auto& order : orders_.add(orderOf(page, message, type), now)) act(SendOrder{std::move(order)});
+}
 
-void ConsoleSession::handle(Page& page, const PageMessage& message, Time now) {
-  switch (message.type) {
-    case Type::hello:
-      return handleHello(page, message);
-    case Type::ack:
-      return acknowledge(page, message.number, now);
-    case Type::ping:
-      return reply(page, pongJson(message.number));
-    case Type::live:
-      return page.outbox.subscribeSensors(message.on);
-    case Type::map:
-      return subscribeMap(page, message.on);
-    case Type::req_heat:
-      return requestReading(RemoteType::req_heat);
-    case Type::req_laser:
-      return requestReading(RemoteType::req_laser);
-    case Type::req_sonar:
-      return requestReading(RemoteType::req_sonar);
-    case Type::take:
-      return take(page);
-    case Type::release:
-      return release(page, page.name + " has released control");
-    case Type::drive:
-      return drive(message, now);
-    case Type::accelerate:
-    case Type::decelerate:
-    case Type::turn_left:
-    case Type::turn_right:
-    case Type::alive:
-      return steer({.type = orderTypeOf(message.type)}, now);
-    case Type::stop:
-      return steer({.type = RemoteType::stop, .why = message.why.empty() ? "" : page.name + "'s page " + message.why},
-                   now);
-    case Type::check_win:
-      return checkWin(page, now);
-    case Type::autonomous:
-      return setAutonomous(page, message.on);
-    case Type::switch_primary:
-      return switchPrimary(page, message.robot);
-    case Type::play_again:
-      return playAgain(page);
-    case Type::record:
-      return record(page, message.on);
-  }
+v1::ControlRequest ConsoleSession::orderOf(const Page& page, const PageMessage& message, OrderType type) const {
+  if (type == OrderType::set_mode) return modeOrder(message.on);
+  if (type == OrderType::stop) return stopOrder(message.why.empty() ? "" : page.name + "'s page " + message.why);
+  if (type != OrderType::drive) return makeOrder(type);
+  const MotionLimits& limits = feed_.primary.info->limits;
+  const auto scaled = [](std::optional<double> part, double max) { return part ? std::optional(*part * max) : part; };
+  return driveOrder(scaled(message.speed, limits.speed_max_mps), scaled(message.turn, limits.turn_max_radps),
+                    message.pan_rad);
 }
 
 /// Authenticates a page. A later hello may change the page's name, and with a token its rights: whatever the new token
@@ -109,9 +86,6 @@ void ConsoleSession::subscribeMap(Page& page, bool on) {
   watchMap();
 }
 
-/// The answer is sent to every page.
-void ConsoleSession::requestReading(RemoteType type) { act(SendOrder{{.type = type}}); }
-
 void ConsoleSession::take(Page& page) {
   if (lock_.holder != 0 && lock_.holder != page.id) {
     reply(page, noteJson(lock_.name + " drives; you may watch.", false));
@@ -123,30 +97,6 @@ void ConsoleSession::take(Page& page) {
   orders_.clear();  // the robot stands for the new driver, even if the driver is the same
   act(SetDriver{page.name});
   publishTeam();
-}
-
-void ConsoleSession::drive(const PageMessage& message, Time now) {
-  const MotionLimits& limits = feed_.primary.info->limits;
-  RemoteOrder order{.type = RemoteType::drive};
-  if (message.speed) order.speed_mps = *message.speed * limits.speed_max_mps;
-  if (message.turn) order.turn_radps = *message.turn * limits.turn_max_radps;
-  if (message.pan_rad) order.laser_pan_rad = static_cast<float>(*message.pan_rad);
-  steer(order, now);
-}
-
-void ConsoleSession::steer(const RemoteOrder& order, Time now) {
-  for (auto& next : orders_.add(order, now)) act(SendOrder{std::move(next)});
-}
-
-void ConsoleSession::checkWin(Page& page, Time now) {
-  audit(page, "check_win " + primary());
-  steer({.type = RemoteType::check_win}, now);
-}
-
-void ConsoleSession::setAutonomous(Page& page, bool autonomous) {
-  audit(page, (autonomous ? "autonomous on " : "autonomous off ") + primary());
-  orders_.clear();
-  act(SetAutonomous{autonomous});
 }
 
 /// @param robot empty for the next robot of the queue that is fit and that the page's token permits
@@ -181,7 +131,7 @@ void ConsoleSession::record(Page& page, bool on) {
 /// Informs a page that its token does not permit a message, and releases the control lock if the token no longer
 /// permits driving.
 void ConsoleSession::deny(Page& page, const PageMessage& message, const std::string& why) {
-  const bool needs_lock = ruleOf(message.type).page == MessageRule::Page::holds_lock;
+  const bool needs_lock = rowOf(message.type).page == PageMessageRow::Page::holds_lock;
   reply(page, noteJson(why, needs_lock));
   if (needs_lock && !mayDrive(access_, page.client, primary())) release(page, page.name + "'s token was refused");
 }

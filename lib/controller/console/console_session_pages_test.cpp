@@ -32,7 +32,7 @@ TEST_F(ConsoleSessionTest, RepliesToAPing) {
 TEST_F(ConsoleSessionTest, SendsHeatAndStallAtMostOncePerSecond) {
   const PageId ada = console.join("", "Ada");
   console.tick(1s);
-  console.row.back().news.state.stalled = true;
+  console.row.back().news.state.set_stalled(true);
   console.tick(900ms);
   EXPECT_FALSE(received(ada, R"("stalled":true)"));
   console.tick(100ms);
@@ -140,7 +140,7 @@ TEST_F(ConsoleSessionTest, ATokenThatNoLongerPermitsThePrimaryEndsControl) {
   const auto stop = std::find_if(actions.begin(), actions.end(),
                                  [](const auto& action) { return std::holds_alternative<SendOrder>(action); });
   ASSERT_NE(stop, actions.end());
-  EXPECT_EQ(std::get<SendOrder>(*stop).order.why, "Page 1's token no longer permits driving");
+  EXPECT_EQ(std::get<SendOrder>(*stop).order.stop().why(), "Page 1's token no longer permits driving");
 }
 
 TEST(ConsoleSessionBeforeUpdate, SendsNoTeam) {

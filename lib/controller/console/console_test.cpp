@@ -103,7 +103,7 @@ struct ConsoleTest : testing::Test {
   }
   void take(TestPage& page) {
     page.send(R"({"type":"take"})");
-    wait([&] { return team[0]->robot.state().driver == "Page"; });
+    wait([&] { return team[0]->robot.state().driver() == "Page"; });
   }
 };
 

@@ -7,93 +7,98 @@ namespace {
 
 using namespace std::chrono_literals;
 
-RemoteOrder driveAt(std::optional<double> speed_mps, std::optional<double> turn_radps = {}) {
-  RemoteOrder order{.type = RemoteType::drive};
-  order.speed_mps = speed_mps;
-  order.turn_radps = turn_radps;
-  return order;
-}
-
 struct OrderLimiterTest : testing::Test {
   OrderLimiter limiter;
   OrderLimiter::Time now{1h};
 
   /// Names of the orders that are sent for one order.
-  std::vector<RemoteType> sent(const RemoteOrder& order) {
-    std::vector<RemoteType> types;
-    for (const auto& one : limiter.add(order, now)) types.push_back(one.type);
+  std::vector<OrderType> sent(const v1::ControlRequest& order) {
+    std::vector<OrderType> types;
+    for (const auto& one : limiter.add(order, now)) types.push_back(typeOf(one));
     return types;
   }
-  std::vector<RemoteType> sent(RemoteType type) { return sent(RemoteOrder{.type = type}); }
+  std::vector<OrderType> sent(OrderType type) { return sent(makeOrder(type)); }
 };
 
-using Types = std::vector<RemoteType>;
+using Types = std::vector<OrderType>;
 
 TEST_F(OrderLimiterTest, SendsTheFirstOrderAtOnce) {
-  EXPECT_EQ(sent(RemoteType::accelerate), Types{RemoteType::accelerate});
-  EXPECT_EQ(limiter.due(now), std::nullopt);
+  EXPECT_EQ(sent(OrderType::accelerate), Types{OrderType::accelerate});
+  EXPECT_FALSE(limiter.due(now));
 }
 
 TEST_F(OrderLimiterTest, DelaysTheNextOrderUntilThePauseIsOver) {
-  sent(RemoteType::accelerate);
+  sent(OrderType::accelerate);
   now += 9ms;
-  EXPECT_EQ(sent(RemoteType::turn_left), Types{});
-  EXPECT_EQ(limiter.due(now), std::nullopt);
+  EXPECT_EQ(sent(OrderType::turn_left), Types{});
+  EXPECT_FALSE(limiter.due(now));
   now += 1ms;
-  EXPECT_EQ(limiter.due(now)->type, RemoteType::turn_left);
-  EXPECT_EQ(limiter.due(now + 1h), std::nullopt) << "once";
+  EXPECT_EQ(typeOf(*limiter.due(now)), OrderType::turn_left);
+  EXPECT_FALSE(limiter.due(now + 1h)) << "once";
 }
 
 TEST_F(OrderLimiterTest, OfManyOrdersSendsTheNewest) {
-  sent(RemoteType::accelerate);
-  for (int i = 0; i < 1000; ++i) EXPECT_EQ(sent(RemoteType::turn_left), Types{});
-  EXPECT_EQ(sent(RemoteType::turn_right), Types{});
+  sent(OrderType::accelerate);
+  for (int i = 0; i < 1000; ++i) EXPECT_EQ(sent(OrderType::turn_left), Types{});
+  EXPECT_EQ(sent(OrderType::turn_right), Types{});
   now += OrderLimiter::kPause;
-  EXPECT_EQ(limiter.due(now)->type, RemoteType::turn_right);
+  EXPECT_EQ(typeOf(*limiter.due(now)), OrderType::turn_right);
 }
 
 TEST_F(OrderLimiterTest, MergesDriveOrdersByField) {
-  sent(RemoteType::accelerate);
-  sent(driveAt(0.5, 0.25));
-  sent(driveAt(0.0));
-  sent(driveAt({}, 1.0));
+  sent(OrderType::accelerate);
+  sent(driveOrder(0.5, 0.25));
+  sent(driveOrder(0.0));
+  sent(driveOrder({}, 1.0));
   now += OrderLimiter::kPause;
   const auto order = limiter.due(now);
-  EXPECT_EQ(order->speed_mps, 0.0);
-  EXPECT_EQ(order->turn_radps, 1.0);
+  EXPECT_EQ(order->drive().speed_mps(), 0.0);
+  EXPECT_EQ(order->drive().turn_radps(), 1.0);
 }
 
 TEST_F(OrderLimiterTest, SendsADriveOrderBeforeAnotherOrderThatFollowsIt) {
-  sent(RemoteType::accelerate);
-  sent(driveAt(0.0));
-  EXPECT_EQ(sent(RemoteType::turn_left), Types{RemoteType::drive});
+  sent(OrderType::accelerate);
+  sent(driveOrder(0.0));
+  EXPECT_EQ(sent(OrderType::turn_left), Types{OrderType::drive});
   now += OrderLimiter::kPause;
-  EXPECT_EQ(limiter.due(now)->type, RemoteType::turn_left);
+  EXPECT_EQ(typeOf(*limiter.due(now)), OrderType::turn_left);
 }
 
 TEST_F(OrderLimiterTest, SendsAStopAtOnceAndDiscardsWhatWaits) {
-  sent(RemoteType::accelerate);
-  sent(driveAt(1.0));
-  EXPECT_EQ(sent(RemoteType::stop), Types{RemoteType::stop});
+  sent(OrderType::accelerate);
+  sent(driveOrder(1.0));
+  EXPECT_EQ(sent(OrderType::stop), Types{OrderType::stop});
   now += 1h;
-  EXPECT_EQ(limiter.due(now), std::nullopt);
+  EXPECT_FALSE(limiter.due(now));
 }
 
 TEST_F(OrderLimiterTest, SendsAliveAndCheckWinAtOnceAndKeepsWhatWaits) {
-  sent(RemoteType::accelerate);
-  sent(driveAt(1.0));
-  EXPECT_EQ(sent(RemoteType::alive), Types{RemoteType::alive});
-  EXPECT_EQ(sent(RemoteType::check_win), Types{RemoteType::check_win});
+  sent(OrderType::accelerate);
+  sent(driveOrder(1.0));
+  EXPECT_EQ(sent(OrderType::alive), Types{OrderType::alive});
+  EXPECT_EQ(sent(OrderType::check_win), Types{OrderType::check_win});
   now += OrderLimiter::kPause;
-  EXPECT_EQ(limiter.due(now)->type, RemoteType::drive);
+  EXPECT_EQ(typeOf(*limiter.due(now)), OrderType::drive);
+}
+
+TEST_F(OrderLimiterTest, DelaysOnlyOrdersThatSteer) {
+  for (const OrderRow& row : kOrders) {
+    limiter.clear();
+    now += OrderLimiter::kPause;
+    sent(OrderType::accelerate);
+    const bool waits = row.rule == OrderRule::set || row.rule == OrderRule::steer;
+    EXPECT_EQ(sent(row.type), waits ? Types{} : Types{row.type}) << row.name;
+    now += OrderLimiter::kPause;
+    EXPECT_EQ(limiter.due(now).has_value(), waits) << row.name;
+  }
 }
 
 TEST_F(OrderLimiterTest, ClearDiscardsWhatWaits) {
-  sent(RemoteType::accelerate);
-  sent(driveAt(1.0));
+  sent(OrderType::accelerate);
+  sent(driveOrder(1.0));
   limiter.clear();
   now += 1h;
-  EXPECT_EQ(limiter.due(now), std::nullopt);
+  EXPECT_FALSE(limiter.due(now));
 }
 
 }  // namespace

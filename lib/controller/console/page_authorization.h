@@ -6,36 +6,6 @@
 
 namespace robosim {
 
-/// What a message requires. page_authorization.cpp contains one rule per type; no message is handled before its rule
-/// was checked.
-struct MessageRule {
-  /// Right of the page's token.
-  enum class Right {
-    none,                      ///< moves no robot, and shows only what every page receives
-    look,                      ///< true poses: the right to watch the run
-    drive_primary,             ///< the right to drive the primary robot
-    drive_primary_and_target,  ///< the right to drive the primary robot and the one that becomes primary
-    operate,                   ///< the right to control the run
-  };
-  /// State of the page.
-  enum class Page {
-    any,
-    admitted,    ///< its hello was accepted
-    holds_lock,  ///< it holds the control lock
-  };
-  /// State of the primary robot.
-  enum class Primary {
-    any,
-    settled,  ///< no switch to another robot is pending
-    known,    ///< settled, and it has been connected, so that its limits are known
-  };
-  PageMessage::Type type;
-  Right right;
-  Page page;
-  Primary primary;
-};
-const MessageRule& ruleOf(PageMessage::Type type);
-
 /// State of a page and of the console on which authorisation depends.
 struct PageState {
   bool is_admitted = false;  ///< its hello was accepted

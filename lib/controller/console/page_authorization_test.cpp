@@ -41,33 +41,33 @@ struct PageAuthorizationTest : testing::Test {
 TEST_F(PageAuthorizationTest, PermitsEachMessageToTheRolesOfTheTable) {
   // viewer, robot Ann, robot Bob, robot Ann Bob, operator, geometry; the primary is Ann
   const std::map<Type, std::string> table{
-      {Type::hello, "yes yes yes yes yes yes"},     {Type::ack, "yes yes yes yes yes yes"},
-      {Type::ping, "yes yes yes yes yes yes"},      {Type::live, "yes yes yes yes yes yes"},
-      {Type::map, "yes no no no yes no"},           {Type::req_heat, "yes yes yes yes yes yes"},
-      {Type::req_laser, "yes yes yes yes yes yes"}, {Type::req_sonar, "yes yes yes yes yes yes"},
-      {Type::take, "no yes no yes yes no"},         {Type::release, "yes yes yes yes yes yes"},
-      {Type::drive, "no yes no yes yes no"},        {Type::accelerate, "no yes no yes yes no"},
-      {Type::decelerate, "no yes no yes yes no"},   {Type::turn_left, "no yes no yes yes no"},
-      {Type::turn_right, "no yes no yes yes no"},   {Type::stop, "no yes no yes yes no"},
-      {Type::alive, "no yes no yes yes no"},        {Type::check_win, "no yes no yes yes no"},
-      {Type::autonomous, "no yes no yes yes no"},   {Type::switch_primary, "no yes no yes yes no"},
-      {Type::play_again, "no no no no yes no"},     {Type::record, "no no no no yes no"},
+      {ConsoleRequest::hello, "yes yes yes yes yes yes"}, {ConsoleRequest::ack, "yes yes yes yes yes yes"},
+      {ConsoleRequest::ping, "yes yes yes yes yes yes"},  {ConsoleRequest::live, "yes yes yes yes yes yes"},
+      {ConsoleRequest::map, "yes no no no yes no"},       {OrderType::req_heat, "yes yes yes yes yes yes"},
+      {OrderType::req_laser, "yes yes yes yes yes yes"},  {OrderType::req_sonar, "yes yes yes yes yes yes"},
+      {ConsoleRequest::take, "no yes no yes yes no"},     {ConsoleRequest::release, "yes yes yes yes yes yes"},
+      {OrderType::drive, "no yes no yes yes no"},         {OrderType::accelerate, "no yes no yes yes no"},
+      {OrderType::decelerate, "no yes no yes yes no"},    {OrderType::turn_left, "no yes no yes yes no"},
+      {OrderType::turn_right, "no yes no yes yes no"},    {OrderType::stop, "no yes no yes yes no"},
+      {OrderType::alive, "no yes no yes yes no"},         {OrderType::check_win, "no yes no yes yes no"},
+      {OrderType::set_mode, "no yes no yes yes no"},      {ConsoleRequest::switch_primary, "no yes no yes yes no"},
+      {ConsoleRequest::play_again, "no no no no yes no"}, {ConsoleRequest::record, "no no no no yes no"},
   };
-  for (const Type type : pageMessageTypes()) {
-    ASSERT_TRUE(table.contains(type)) << "add a row for " << nameOf(type);
-    std::string row;
+  for (const auto& row : pageMessageRows()) {
+    ASSERT_TRUE(table.contains(row.type)) << "add a row for " << row.name;
+    std::string results;
     for (const char* token : kColumns) {
-      const auto result = authorize(access, client(token), inControl(), message(type)).result;
-      row += row.empty() ? "" : " ";
-      row += result == Result::permitted ? "yes" : result == Result::denied ? "no" : "?";
+      const auto result = authorize(access, client(token), inControl(), message(row.type)).result;
+      results += results.empty() ? "" : " ";
+      results += result == Result::permitted ? "yes" : result == Result::denied ? "no" : "?";
     }
-    EXPECT_EQ(row, table.at(type)) << nameOf(type);
+    EXPECT_EQ(results, table.at(row.type)) << row.name;
   }
 }
 
 TEST_F(PageAuthorizationTest, PermitsASwitchOnlyToRobotsOfTheToken) {
   const auto result = [&](const char* token, const std::string& robot) {
-    return authorize(access, client(token), inControl(), message(Type::switch_primary, robot));
+    return authorize(access, client(token), inControl(), message(ConsoleRequest::switch_primary, robot));
   };
   EXPECT_EQ(result("both-0123456789abcdef", "Bob").result, Result::permitted);
   EXPECT_EQ(result("operator-0123456789abcdef", "Cid").result, Result::permitted);
@@ -81,30 +81,32 @@ TEST_F(PageAuthorizationTest, StatesWhyATokenDoesNotPermitAMessage) {
   const auto why = [&](const char* token, Type type) {
     return authorize(access, client(token), inControl(), message(type)).why;
   };
-  EXPECT_EQ(why("viewer-0123456789abcdef", Type::drive), "Your token permits watching, not driving.");
-  EXPECT_EQ(why("only-bob-0123456789abcdef", Type::drive), "Your token is not for Ann.");
-  EXPECT_EQ(why("both-0123456789abcdef", Type::record), "Your token does not permit recording the run.");
-  EXPECT_EQ(why("both-0123456789abcdef", Type::play_again), "Your token does not permit starting a run.");
-  EXPECT_EQ(why("only-bob-0123456789abcdef", Type::map), "Your token does not permit the map, which shows true poses.");
+  EXPECT_EQ(why("viewer-0123456789abcdef", OrderType::drive), "Your token permits watching, not driving.");
+  EXPECT_EQ(why("only-bob-0123456789abcdef", OrderType::drive), "Your token is not for Ann.");
+  EXPECT_EQ(why("both-0123456789abcdef", ConsoleRequest::record), "Your token does not permit recording the run.");
+  EXPECT_EQ(why("both-0123456789abcdef", ConsoleRequest::play_again), "Your token does not permit starting a run.");
+  EXPECT_EQ(why("only-bob-0123456789abcdef", ConsoleRequest::map),
+            "Your token does not permit the map, which shows true poses.");
 }
 
 TEST_F(PageAuthorizationTest, TreatsMessagesBeforeTheHelloAsProtocolErrors) {
   PageState state = inControl();
   state.is_admitted = state.holds_lock = false;
-  for (const Type type : pageMessageTypes()) {
-    const auto authorization = authorize(access, Identity(), state, message(type));
-    EXPECT_EQ(authorization.result, type == Type::hello ? Result::permitted : Result::protocol_error) << nameOf(type);
-    EXPECT_EQ(authorization.why, type == Type::hello ? "" : "the first message of a page must be its hello");
+  for (const auto& row : pageMessageRows()) {
+    const auto authorization = authorize(access, Identity(), state, message(row.type));
+    const bool is_hello = row.type == Type(ConsoleRequest::hello);
+    EXPECT_EQ(authorization.result, is_hello ? Result::permitted : Result::protocol_error) << row.name;
+    EXPECT_EQ(authorization.why, is_hello ? "" : "the first message of a page must be its hello");
   }
 }
 
 /// The messages with a result in a state, for a token with every right.
 std::set<std::string> typesWith(Result result, const PageState& state) {
   std::set<std::string> types;
-  for (const Type type : pageMessageTypes()) {
+  for (const auto& row : pageMessageRows()) {
     PageMessage message;
-    message.type = type;
-    if (authorize(Access(), Identity(), state, message).result == result) types.insert(nameOf(type));
+    message.type = row.type;
+    if (authorize(Access(), Identity(), state, message).result == result) types.insert(row.name);
   }
   return types;
 }
@@ -143,7 +145,7 @@ TEST(PageAuthorizationExpiry, DeniesWhatAnExpiredTokenPermitted) {
   const Identity client = access.authenticate("driver-0123456789abcdef", "127.0.0.1").identity;
   const PageState state{.is_admitted = true, .holds_lock = true, .primary = "Ann", .is_primary_known = true};
   PageMessage drive;
-  drive.type = Type::drive;
+  drive.type = OrderType::drive;
   EXPECT_EQ(authorize(access, client, state, drive).result, Result::permitted);
   wall += std::chrono::days(1);
   EXPECT_EQ(authorize(access, client, state, drive).result, Result::denied);

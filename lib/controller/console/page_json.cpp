@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "hardware/measurement_fields.h"
+#include "net/robot_wire.h"
 
 namespace robosim {
 namespace {
@@ -143,14 +144,20 @@ Json jsonOf(const SensorInfo& sensor) {
   return out;
 }
 
+const char* nameOf(v1::Activity activity) { return nameOf(*decode(activity)); }
+
+std::optional<double> drivenOf(const v1::RobotState& state) {
+  return state.has_driven_m() ? std::optional(state.driven_m()) : std::nullopt;
+}
+
 Json numberOrNull(const std::optional<double>& number) { return number ? Json(fine(*number)) : Json(nullptr); }
 
-Json jsonOf(const RemoteState& state) {
-  return {{"autonomous", state.autonomous},       {"driver", state.driver},
-          {"is_yours", state.is_yours},           {"speed_mps", fine(state.speed_mps)},
-          {"turn_radps", fine(state.turn_radps)}, {"activity", nameOf(state.activity)},
-          {"why_stopped", state.why_stopped},     {"win_refusals", state.win_refusals},
-          {"is_stopping", state.is_stopping},     {"stops", state.stops}};
+Json jsonOf(const v1::RobotState& state) {
+  return {{"autonomous", state.autonomous()},       {"driver", state.driver()},
+          {"is_yours", state.is_yours()},           {"speed_mps", fine(state.speed_mps())},
+          {"turn_radps", fine(state.turn_radps())}, {"activity", nameOf(state.activity())},
+          {"why_stopped", state.why_stopped()},     {"win_refusals", state.win_refusals()},
+          {"is_stopping", state.is_stopping()},     {"stops", state.stops()}};
 }
 
 /// The newest heat reading: of the primary, in its update; of the others, in the answer to a request.
@@ -207,16 +214,16 @@ std::string teamJson(const std::vector<TeamRobot>& robots, const ControlLock& lo
                     {"over", news.is_over},
                     {"problem", news.problem},
                     {"fit", robot.isFit()},
-                    {"autonomous", news.state.autonomous},
-                    {"driver", news.state.driver},
-                    {"is_yours", news.state.is_yours},
-                    {"activity", nameOf(news.state.activity)},
-                    {"is_stopping", news.state.is_stopping},
-                    {"why_stopped", news.state.why_stopped},
+                    {"autonomous", news.state.autonomous()},
+                    {"driver", news.state.driver()},
+                    {"is_yours", news.state.is_yours()},
+                    {"activity", nameOf(news.state.activity())},
+                    {"is_stopping", news.state.is_stopping()},
+                    {"why_stopped", news.state.why_stopped()},
                     {"color", news.info && news.info->color_rgb ? hexOf(*news.info->color_rgb) : ""}});
     // Robots that have left keep the winner of their run, and those of the next run have none.
-    if (news.is_up == is_any_up && !news.state.winner.empty()) winner = news.state.winner;
-    if (news.state.winner == robot.name) winner_driven_m = news.state.driven_m;
+    if (news.is_up == is_any_up && !news.state.winner().empty()) winner = news.state.winner();
+    if (news.state.winner() == robot.name) winner_driven_m = drivenOf(news.state);
     if (!news.world.empty()) world = news.world;
   }
   return textOf({{"type", "team"},
@@ -234,7 +241,7 @@ std::string vitalsJson(const std::vector<TeamRobot>& robots) {
     if (!robot.news.is_up) continue;
     const auto heat = heatOf(robot.news);
     vitals[robot.name] = {{"heat", heat ? Json(std::round(*heat * 10) / 10) : Json(nullptr)},
-                          {"stalled", robot.news.state.stalled}};
+                          {"stalled", robot.news.state.stalled()}};
   }
   return textOf({{"type", "vitals"}, {"robots", vitals}});
 }
@@ -253,7 +260,7 @@ std::string updateJson(const RobotInfo& robot, const RobotUpdate& update, const 
                {"step", readings.time.step},
                {"time_s", rounded(readings.time.seconds(), 1e-3)},
                {"stalled", readings.stalled},
-               {"driven_m", numberOrNull(update.state.driven_m)},
+               {"driven_m", numberOrNull(drivenOf(update.state))},
                {"laser_pan_rad", fine(readings.laser_pan_rad)},
                {"state", jsonOf(update.state)},
                {"measurements", measurements}};

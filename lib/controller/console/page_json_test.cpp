@@ -61,7 +61,7 @@ TEST(PageJson, HasHeatAndStallOfEveryConnectedRobot) {
   RobotAnswer answer{.step = 19, .sensor = 0, .has_sensor = true, .measurement = Scalar{1.5}};
   team[0].news.answers[0] = std::make_shared<const RobotAnswer>(answer);  // older than the update
   team[1].news.answers[0] = std::make_shared<const RobotAnswer>(answer);
-  team[1].news.state.stalled = true;
+  team[1].news.state.set_stalled(true);
   EXPECT_EQ(Json::parse(vitalsJson(team)), Json::parse(R"({"type": "vitals", "robots": {
       "Ann": {"heat": 7.3, "stalled": false}, "Bob": {"heat": 1.5, "stalled": true},
       "Cid": {"heat": null, "stalled": false}}})"));
@@ -73,16 +73,16 @@ TEST(PageJson, HasTheWinnersDistanceAlsoIfItIsNotThePrimary) {
   team[1].name = "Bob";
   for (auto& robot : team) {
     robot.news.is_up = true;
-    robot.news.state.driven_m = 3;
+    robot.news.state.set_driven_m(3);
   }
   const auto distance = [&] { return Json::parse(teamJson(team, {}))["winner_driven_m"]; };
   EXPECT_EQ(distance(), nullptr) << "there is no winner";
-  for (auto& robot : team) robot.news.state.winner = "Bob";
-  team[1].news.state.driven_m = 12.25;
+  for (auto& robot : team) robot.news.state.set_winner("Bob");
+  team[1].news.state.set_driven_m(12.25);
   EXPECT_EQ(distance(), 12.25);
-  team[1].news.state.driven_m = std::nullopt;
+  team[1].news.state.clear_driven_m();
   EXPECT_EQ(distance(), nullptr) << "it has no odometry";
-  for (auto& robot : team) robot.news.state.winner = "Cid";
+  for (auto& robot : team) robot.news.state.set_winner("Cid");
   EXPECT_EQ(distance(), nullptr) << "it is not in the team";
 }
 

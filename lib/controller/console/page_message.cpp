@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include <nlohmann/json.hpp>
 
@@ -12,50 +11,57 @@ namespace robosim {
 namespace {
 
 using nlohmann::json;
-using Type = PageMessage::Type;
+using Page = PageMessageRow::Page;
+using Needs = PageMessageRow::Right;
 
-struct Syntax {
-  Type type;
-  const char* name;
-  std::array<const char*, 3> members{};  ///< that it may have
-};
-
-constexpr std::array<Syntax, PageMessage::kTypes> kSyntax{{
-    {Type::hello, "hello", {"protocol", "name", "token"}},
-    {Type::ack, "ack", {"number"}},
-    {Type::ping, "ping", {"number"}},
-    {Type::live, "live", {"on"}},
-    {Type::map, "map", {"on"}},
-    {Type::req_heat, "req_heat"},
-    {Type::req_laser, "req_laser"},
-    {Type::req_sonar, "req_sonar"},
-    {Type::take, "take"},
-    {Type::release, "release"},
-    {Type::drive, "drive", {"speed", "turn", "pan"}},
-    {Type::accelerate, "accelerate"},
-    {Type::decelerate, "decelerate"},
-    {Type::turn_left, "turn_left"},
-    {Type::turn_right, "turn_right"},
-    {Type::stop, "stop", {"why"}},
-    {Type::alive, "alive"},
-    {Type::check_win, "check_win"},
-    {Type::autonomous, "autonomous", {"on"}},
-    {Type::switch_primary, "switch", {"robot"}},
-    {Type::play_again, "play_again"},
-    {Type::record, "record", {"on"}},
+constexpr std::array<PageMessageRow, kConsoleRequests> kConsoleRows{{
+    {ConsoleRequest::hello, "hello", {"protocol", "name", "token"}, Needs::none, Page::any, PrimaryState::any},
+    {ConsoleRequest::ack, "ack", {"number"}, Needs::none, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::ping, "ping", {"number"}, Needs::none, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::live, "live", {"on"}, Needs::none, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::map, "map", {"on"}, Needs::look, Page::admitted, PrimaryState::any},
+    {ConsoleRequest::take, "take", {}, Needs::drive_primary, Page::admitted, PrimaryState::settled},
+    {ConsoleRequest::release, "release", {}, Needs::none, Page::holds_lock, PrimaryState::any},
+    {ConsoleRequest::switch_primary,
+     "switch",
+     {"robot"},
+     Needs::drive_primary_and_target,
+     Page::holds_lock,
+     PrimaryState::settled},
+    {ConsoleRequest::play_again, "play_again", {}, Needs::operate, Page::holds_lock, PrimaryState::any},
+    {ConsoleRequest::record, "record", {"on"}, Needs::operate, Page::holds_lock, PrimaryState::any},
 }};
 
-constexpr bool isEntryAtItsIndex() {
-  for (std::size_t i = 0; i < kSyntax.size(); ++i) {
-    if (static_cast<std::size_t>(kSyntax[i].type) != i) return false;
-  }
-  return true;
+/// Readings of the primary are sent to every page: only an order of a driver requires the control lock and a token for
+/// the robot.
+constexpr PageMessageRow rowOfOrder(const OrderRow& order) {
+  const bool drives = order.right == Right::drive;
+  return {order.type,
+          order.name,
+          order.members,
+          drives ? Needs::drive_primary : Needs::none,
+          drives ? Page::holds_lock : Page::admitted,
+          order.primary};
 }
-static_assert(isEntryAtItsIndex(), "a type's entry is at its index");
 
-bool hasMember(const Syntax& syntax, const std::string& member) {
-  return std::any_of(syntax.members.begin(), syntax.members.end(),
-                     [&](const char* name) { return name && member == name; });
+constexpr std::size_t rowIndex(PageMessage::Type type) {
+  const auto* request = std::get_if<ConsoleRequest>(&type);
+  return request ? static_cast<std::size_t>(*request) : kConsoleRequests + indexOf(std::get<OrderType>(type));
+}
+
+constexpr std::array<PageMessageRow, PageMessage::kTypes> kRows = [] {
+  std::array<PageMessageRow, PageMessage::kTypes> rows{};
+  std::copy(kConsoleRows.begin(), kConsoleRows.end(), rows.begin());
+  std::transform(kOrders.begin(), kOrders.end(), rows.begin() + kConsoleRequests, rowOfOrder);
+  return rows;
+}();
+
+static_assert(std::all_of(kRows.begin(), kRows.end(),
+                          [](const PageMessageRow& row) { return &kRows[rowIndex(row.type)] == &row; }),
+              "a type's row is at its index");
+
+bool hasMember(const PageMessageRow& row, const std::string& member) {
+  return std::any_of(row.members.begin(), row.members.end(), [&](const char* name) { return name && member == name; });
 }
 
 /// A fraction of the robot's maximum, clamped to [-1, 1].
@@ -103,26 +109,28 @@ void read(const std::string& member, const json& value, PageMessage& message) {
 
 }  // namespace
 
-const char* nameOf(PageMessage::Type type) { return kSyntax[static_cast<std::size_t>(type)].name; }
+const std::array<PageMessageRow, PageMessage::kTypes>& pageMessageRows() { return kRows; }
+
+const PageMessageRow& rowOf(PageMessage::Type type) { return kRows[rowIndex(type)]; }
 
 PageMessage PageMessage::parse(std::string_view text) {
   const json object = json::parse(text, nullptr, false);
   if (object.is_discarded() || !object.is_object()) throw WireError("a message that is not a JSON object");
   const auto type = object.find("type");
   const std::string name = type != object.end() && type->is_string() ? type->get<std::string>() : "";
-  const auto* const syntax =
-      std::find_if(kSyntax.begin(), kSyntax.end(), [&](const Syntax& known) { return name == known.name; });
-  if (syntax == kSyntax.end()) throw WireError("a message without a known type");
+  const auto* const row =
+      std::find_if(kRows.begin(), kRows.end(), [&](const PageMessageRow& known) { return name == known.name; });
+  if (row == kRows.end()) throw WireError("a message without a known type");
   PageMessage message;
-  message.type = syntax->type;
+  message.type = row->type;
   for (const auto& [member, value] : object.items()) {
     if (member == "type") continue;
-    if (!hasMember(*syntax, member)) {
+    if (!hasMember(*row, member)) {
       throw WireError("a message of the type '" + name + "' with " + inQuotes(member) + ", which it does not have");
     }
     read(member, value, message);
   }
-  if (message.type == Type::hello) checkProtocol(message.protocol);
+  if (message.type == PageMessage::Type(ConsoleRequest::hello)) checkProtocol(message.protocol);
   return message;
 }
 

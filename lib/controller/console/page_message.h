@@ -5,41 +5,34 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 
-#include "net/remote_wire.h"
+#include "remote/orders.h"
 
 namespace robosim {
 
-/// Message of a page to the console: a JSON object, {"type": "drive", "speed": 0.5, "turn": -0.2}. Unknown members are
-/// an error. Which page may send which message: page_authorization.h.
-struct PageMessage {
-  enum class Type : std::uint8_t {
-    hello,           ///< protocol, name, token: the first message
-    ack,             ///< number: an update has been drawn
-    ping,            ///< number: requests a pong, to measure the round trip
-    live,            ///< on: sensors' readings with every update, not only on request
-    map,             ///< on: true poses, seen from above
-    req_heat,        ///< requests one reading
-    req_laser,       ///< the same
-    req_sonar,       ///< the same
-    take,            ///< acquires the control lock, if it is free
-    release,         ///< releases the control lock
-    drive,           ///< speed, turn, pan
-    accelerate,      ///< by a tenth of the robot's maximum speed
-    decelerate,      ///< the same
-    turn_left,       ///< for a moment
-    turn_right,      ///< the same
-    stop,            ///< why: the reason, if the driver did not request it
-    alive,           ///< the driver is present
-    check_win,       ///< requests CheckWin
-    autonomous,      ///< on: the primary's own controller drives
-    switch_primary,  ///< "switch": to `robot`, or to the next
-    play_again,      ///< loads and starts the world again after the end of the run
-    record,          ///< on: starts or stops the recording of the run
-  };
-  static constexpr std::size_t kTypes = 22;
+/// Requests of a page to the console itself. All other messages of pages are orders to the primary robot (kOrders).
+enum class ConsoleRequest : std::uint8_t {
+  hello,           ///< protocol, name, token: the first message
+  ack,             ///< number: an update has been drawn
+  ping,            ///< number: requests a pong, to measure the round trip
+  live,            ///< on: sensors' readings with every update, not only on request
+  map,             ///< on: true poses, seen from above
+  take,            ///< acquires the control lock, if it is free
+  release,         ///< releases the control lock
+  switch_primary,  ///< "switch": to `robot`, or to the next
+  play_again,      ///< loads and starts the world again after the end of the run
+  record,          ///< on: starts or stops the recording of the run
+};
+constexpr std::size_t kConsoleRequests = 10;
 
-  Type type = Type::hello;
+/// Message of a page to the console: a JSON object, {"type": "drive", "speed": 0.5, "turn": -0.2}. Unknown members are
+/// an error.
+struct PageMessage {
+  using Type = std::variant<ConsoleRequest, OrderType>;
+  static constexpr std::size_t kTypes = kConsoleRequests + kOrders.size();
+
+  Type type = ConsoleRequest::hello;
   std::uint32_t protocol = 0;
   std::string name, token, robot, why;
   std::uint64_t number = 0;
@@ -52,14 +45,34 @@ struct PageMessage {
   static PageMessage parse(std::string_view text);
 };
 
-/// The name of a type in JSON, "drive" for example.
-const char* nameOf(PageMessage::Type type);
+/// Syntax of a message of pages, and what it requires. No message is handled before its rule was checked
+/// (page_authorization.h).
+struct PageMessageRow {
+  /// Right of the page's token.
+  enum class Right : std::uint8_t {
+    none,                      ///< moves no robot, and shows only what every page receives
+    look,                      ///< true poses: the right to watch the run
+    drive_primary,             ///< the right to drive the primary robot
+    drive_primary_and_target,  ///< the right to drive the primary robot and the one that becomes primary
+    operate,                   ///< the right to control the run
+  };
+  /// State of the page.
+  enum class Page : std::uint8_t {
+    any,
+    admitted,    ///< its hello was accepted
+    holds_lock,  ///< it holds the control lock
+  };
 
-/// All types, in the order of the enumeration.
-constexpr std::array<PageMessage::Type, PageMessage::kTypes> pageMessageTypes() {
-  std::array<PageMessage::Type, PageMessage::kTypes> all{};
-  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<PageMessage::Type>(i);
-  return all;
-}
+  PageMessage::Type type;
+  const char* name;
+  std::array<const char*, 3> members;  ///< that it may have
+  Right right;
+  Page page;
+  PrimaryState primary;
+};
+
+/// Those to the console, then the orders.
+const std::array<PageMessageRow, PageMessage::kTypes>& pageMessageRows();
+const PageMessageRow& rowOf(PageMessage::Type type);
 
 }  // namespace robosim

@@ -12,15 +12,15 @@ std::vector<TeamEvents::Note> TeamEvents::news(const std::vector<TeamRobot>& rob
     if (!now.is_up && before.is_up && !now.is_over) {
       notes.push_back({Kind::down, robot.name + " is down.", now.problem});
     }
-    if (now.state.why_stopped != before.state.why_stopped && !now.state.why_stopped.empty()) {
-      notes.push_back({Kind::stopped, robot.name + " stopped: " + now.state.why_stopped + "."});
+    if (now.state.why_stopped() != before.state.why_stopped() && !now.state.why_stopped().empty()) {
+      notes.push_back({Kind::stopped, robot.name + " stopped: " + now.state.why_stopped() + "."});
     }
-    if (before.is_up && now.state.win_refusals > before.state.win_refusals) {
+    if (before.is_up && now.state.win_refusals() > before.state.win_refusals()) {
       notes.push_back({Kind::too_far, robot.name + " is too far from the gold to have won."});
     }
     const bool is_primary = &robot == &robots.front();
-    if (is_primary && now.state.winner != before.state.winner && !now.state.winner.empty()) {
-      notes.push_back({Kind::won, now.state.winner + " has won"});
+    if (is_primary && now.state.winner() != before.state.winner() && !now.state.winner().empty()) {
+      notes.push_back({Kind::won, now.state.winner() + " has won"});
     }
     before = now;
   }

@@ -27,10 +27,10 @@ struct TeamEventsTest : testing::Test {
 };
 
 TEST_F(TeamEventsTest, ReportsEachEventOnce) {
-  robots[0].news.state.why_stopped = "no message from Ada for 0.5 s";
+  robots[0].news.state.set_why_stopped("no message from Ada for 0.5 s");
   EXPECT_EQ(eventOf(Kind::stopped), "Ann stopped: no message from Ada for 0.5 s.");
   EXPECT_TRUE(events.news(robots).empty());
-  robots[0].news.state.why_stopped = "";
+  robots[0].news.state.set_why_stopped("");
   EXPECT_TRUE(events.news(robots).empty()) << "the end of a stop is no event";
 }
 
@@ -63,9 +63,9 @@ TEST_F(TeamEventsTest, OmitsRobotsThatLeaveAtTheEndOfTheRunAndJoinTheNext) {
 }
 
 TEST_F(TeamEventsTest, ReportsTheResultOfCheckWin) {
-  ++robots[0].news.state.win_refusals;
+  robots[0].news.state.set_win_refusals(robots[0].news.state.win_refusals() + 1);
   EXPECT_EQ(eventOf(Kind::too_far), "Ann is too far from the gold to have won.");
-  for (auto& robot : robots) robot.news.state.winner = "Ann";
+  for (auto& robot : robots) robot.news.state.set_winner("Ann");
   EXPECT_EQ(eventOf(Kind::won), "Ann has won");
 }
 

@@ -9,8 +9,6 @@ namespace robosim {
 namespace {
 
 constexpr int kTenths = 10;
-/// Fraction of the robot's maximum turn rate.
-constexpr double kTurnPart = 0.5;
 
 std::string secondsText(DriveCommandFilter::Clock::duration time) {
   return mrpt::format("%.3g s", std::chrono::duration<double>(time).count());
@@ -24,45 +22,45 @@ void DriveCommandFilter::begin(Clock::time_point now) {
   last_message_ = now;
 }
 
-void DriveCommandFilter::obey(const RemoteOrder& order, Clock::time_point when) {
+void DriveCommandFilter::obey(const v1::ControlRequest& order, Clock::time_point when) {
   noteMessage(when);
-  const auto accelerate = [&](int tenths) {
-    // A speed that DRIVE has set may lie between two tenths.
-    const int now_tenths = static_cast<int>(std::lround(kTenths * speed_mps_ / limits_.speed_max_mps));
-    speed_mps_ = limits_.speed_max_mps * std::clamp(now_tenths + tenths, -kTenths, kTenths) / kTenths;
-  };
-  const auto turn = [&](double part) {
-    turn_radps_ = part * limits_.turn_max_radps;
-    turn_ends_ = when + kTurnTime;
-    turn_is_short_ = true;
-  };
-  switch (order.type) {
-    case RemoteType::accelerate:
-      accelerate(1);
+  const OrderRow& row = rowOf(typeOf(order));
+  switch (row.rule) {
+    case OrderRule::steer:
+      steer(row, when);
       break;
-    case RemoteType::decelerate:
-      accelerate(-1);
+    case OrderRule::set:
+      set(order.drive());
       break;
-    case RemoteType::turn_left:
-      turn(kTurnPart);
-      break;
-    case RemoteType::turn_right:
-      turn(-kTurnPart);
-      break;
-    case RemoteType::drive:
-      if (order.speed_mps) speed_mps_ = std::clamp(*order.speed_mps, -limits_.speed_max_mps, limits_.speed_max_mps);
-      if (order.turn_radps)
-        turn_radps_ = std::clamp(*order.turn_radps, -limits_.turn_max_radps, limits_.turn_max_radps);
-      if (order.turn_radps) turn_is_short_ = false;
-      if (order.laser_pan_rad) laser_pan_rad_ = *order.laser_pan_rad;
-      break;
-    case RemoteType::stop:
-      if (speed_mps_ != 0 || turn_radps_ != 0 || order.why.empty()) stop(order.why);
+    case OrderRule::stop:
+      if (speed_mps_ != 0 || turn_radps_ != 0 || whyOf(order).empty()) stop(std::string(whyOf(order)));
       return;
     default:
       return;  // does not steer
   }
   why_stopped_.clear();
+}
+
+void DriveCommandFilter::steer(const OrderRow& row, Clock::time_point when) {
+  if (row.speed_tenths != 0) {
+    // A speed that DRIVE has set may lie between two tenths.
+    const int now_tenths = static_cast<int>(std::lround(kTenths * speed_mps_ / limits_.speed_max_mps));
+    speed_mps_ = limits_.speed_max_mps * std::clamp(now_tenths + row.speed_tenths, -kTenths, kTenths) / kTenths;
+  }
+  if (row.turn_part != 0) {
+    turn_radps_ = row.turn_part * limits_.turn_max_radps;
+    turn_ends_ = when + kTurnTime;
+    turn_is_short_ = true;
+  }
+}
+
+void DriveCommandFilter::set(const v1::ControlRequest::Drive& drive) {
+  if (drive.has_speed_mps()) speed_mps_ = std::clamp(drive.speed_mps(), -limits_.speed_max_mps, limits_.speed_max_mps);
+  if (drive.has_turn_radps()) {
+    turn_radps_ = std::clamp(drive.turn_radps(), -limits_.turn_max_radps, limits_.turn_max_radps);
+    turn_is_short_ = false;
+  }
+  if (drive.has_laser_pan_rad()) laser_pan_rad_ = drive.laser_pan_rad();
 }
 
 void DriveCommandFilter::release(const std::string& why) {

@@ -6,7 +6,7 @@
 
 #include "hardware/command.h"
 #include "hardware/robot_info.h"
-#include "net/remote_wire.h"
+#include "remote/orders.h"
 
 namespace robosim {
 
@@ -36,7 +36,7 @@ class DriveCommandFilter {
   void noteMessage(Clock::time_point when) { last_message_ = std::max(last_message_, when); }
   /// Applies an order. Orders that do not steer only reset the dead-man timeout.
   /// @param when time at which the order was received
-  void obey(const RemoteOrder& order, Clock::time_point when);
+  void obey(const v1::ControlRequest& order, Clock::time_point when);
   /// Stops the robot because the driver has left, with the reason.
   void release(const std::string& why);
 
@@ -54,6 +54,8 @@ class DriveCommandFilter {
   std::uint32_t stops() const { return stops_; }
 
  private:
+  void steer(const OrderRow& row, Clock::time_point when);
+  void set(const v1::ControlRequest::Drive& drive);
   void stop(const std::string& why);
   void stand(const std::string& why);
 

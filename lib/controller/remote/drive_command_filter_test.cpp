@@ -15,12 +15,9 @@ struct DriveCommandFilterTest : testing::Test {
   DriveCommandFilter::Clock::time_point now{1h};
 
   DriveCommandFilterTest() { filter.begin(now); }
-  void order(RemoteType type) { filter.obey({.type = type}, now); }
+  void order(OrderType type) { filter.obey(makeOrder(type), now); }
   void drive(std::optional<double> speed_mps, std::optional<double> turn_radps) {
-    RemoteOrder order{.type = RemoteType::drive};
-    order.speed_mps = speed_mps;
-    order.turn_radps = turn_radps;
-    filter.obey(order, now);
+    filter.obey(driveOrder(speed_mps, turn_radps), now);
   }
   Command command() { return filter.command(now, "Anna"); }
 };
@@ -32,39 +29,39 @@ TEST_F(DriveCommandFilterTest, StandsUntilTheFirstOrder) {
 
 TEST_F(DriveCommandFilterTest, AcceleratesByATenthOfTheMaximum) {
   for (const double expected : {0.2, 0.4, 0.6}) {
-    order(RemoteType::accelerate);
+    order(OrderType::accelerate);
     EXPECT_DOUBLE_EQ(command().speed_mps, expected);
   }
-  for (int i = 0; i < 20; ++i) order(RemoteType::accelerate);
+  for (int i = 0; i < 20; ++i) order(OrderType::accelerate);
   EXPECT_DOUBLE_EQ(command().speed_mps, 2);
 }
 
 TEST_F(DriveCommandFilterTest, DeceleratesThroughStandstillToDrivingBackwards) {
   drive(0.4, {});
   for (const double expected : {0.2, 0.0, -0.2}) {
-    order(RemoteType::decelerate);
+    order(OrderType::decelerate);
     EXPECT_EQ(command().speed_mps, expected);
   }
-  for (int i = 0; i < 20; ++i) order(RemoteType::decelerate);
+  for (int i = 0; i < 20; ++i) order(OrderType::decelerate);
   EXPECT_DOUBLE_EQ(command().speed_mps, -2);
 }
 
 TEST_F(DriveCommandFilterTest, TurnsFor300MillisecondsAfterTheLastTurnOrder) {
-  order(RemoteType::turn_left);
+  order(OrderType::turn_left);
   EXPECT_DOUBLE_EQ(command().turn_radps, 0.5);
   now += 200ms;
-  order(RemoteType::turn_left);
+  order(OrderType::turn_left);
   now += 299ms;
   EXPECT_DOUBLE_EQ(command().turn_radps, 0.5);
   now += 1ms;
   EXPECT_EQ(command().turn_radps, 0);
-  order(RemoteType::turn_right);
+  order(OrderType::turn_right);
   EXPECT_DOUBLE_EQ(command().turn_radps, -0.5);
 }
 
 TEST_F(DriveCommandFilterTest, KeepsTheSpeedDuringATurn) {
   drive(1, {});
-  order(RemoteType::turn_right);
+  order(OrderType::turn_right);
   EXPECT_EQ(command().speed_mps, 1);
 }
 
@@ -86,7 +83,7 @@ TEST_F(DriveCommandFilterTest, KeepsValuesThatADriveOrderOmits) {
 }
 
 TEST_F(DriveCommandFilterTest, ATurnSetByDriveDoesNotExpire) {
-  order(RemoteType::turn_left);
+  order(OrderType::turn_left);
   drive({}, 0.25);
   now += 400ms;
   EXPECT_EQ(command().turn_radps, 0.25);
@@ -94,14 +91,14 @@ TEST_F(DriveCommandFilterTest, ATurnSetByDriveDoesNotExpire) {
 
 TEST_F(DriveCommandFilterTest, StopsOnAStopOrder) {
   drive(1, 1);
-  order(RemoteType::stop);
+  order(OrderType::stop);
   EXPECT_EQ(command(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(filter.whyStopped(), "");
 }
 
 TEST_F(DriveCommandFilterTest, MakesAnEmergencyStopUntilTheRobotStands) {
   drive(1, 1);
-  order(RemoteType::stop);
+  order(OrderType::stop);
   drive(0.5, 0);
   EXPECT_TRUE(command().emergency_stop) << "a later order takes effect when the robot stands";
   filter.endStop();
@@ -111,13 +108,13 @@ TEST_F(DriveCommandFilterTest, MakesAnEmergencyStopUntilTheRobotStands) {
 }
 
 TEST_F(DriveCommandFilterTest, ReportsTheReasonOfAStopThatTheDriverDidNotRequest) {
-  filter.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
+  filter.obey(stopOrder("Anna's page is hidden"), now);
   EXPECT_EQ(filter.whyStopped(), "") << "the robot stood";
   drive(1, 1);
-  filter.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
+  filter.obey(stopOrder("Anna's page is hidden"), now);
   EXPECT_EQ(command(), (Command{.by_driver = true, .emergency_stop = true}));
   EXPECT_EQ(filter.whyStopped(), "Anna's page is hidden");
-  order(RemoteType::stop);
+  order(OrderType::stop);
   EXPECT_EQ(filter.whyStopped(), "");
 }
 
@@ -132,7 +129,7 @@ TEST_F(DriveCommandFilterTest, StopsAfterTheDeadManTimeoutAndReportsTheReason) {
 
 TEST_F(DriveCommandFilterTest, CountsStopsWithAReason) {
   drive(1, 1);
-  order(RemoteType::stop);
+  order(OrderType::stop);
   EXPECT_EQ(filter.stops(), 0u) << "the driver has requested it";
   drive(1, 1);
   now += 501ms;
@@ -141,7 +138,7 @@ TEST_F(DriveCommandFilterTest, CountsStopsWithAReason) {
   EXPECT_EQ(filter.stops(), 1u) << "the dead-man timeout, once";
   drive(1, 1);
   EXPECT_EQ(filter.whyStopped(), "");
-  filter.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"}, now);
+  filter.obey(stopOrder("Anna's page is hidden"), now);
   EXPECT_EQ(filter.stops(), 2u);
   filter.begin(now);
   EXPECT_EQ(filter.stops(), 2u);
@@ -151,7 +148,7 @@ TEST_F(DriveCommandFilterTest, AliveResetsTheDeadManTimeout) {
   drive(1, 0);
   for (int i = 0; i < 10; ++i) {
     now += 400ms;
-    order(RemoteType::alive);
+    order(OrderType::alive);
     EXPECT_EQ(command().speed_mps, 1);
   }
 }
@@ -160,10 +157,10 @@ TEST_F(DriveCommandFilterTest, StandsAfterATimeoutUntilTheNextOrder) {
   drive(1, 0);
   now += 1s;
   command();
-  order(RemoteType::alive);
+  order(OrderType::alive);
   EXPECT_EQ(command().speed_mps, 0);
   EXPECT_NE(filter.whyStopped(), "");
-  order(RemoteType::accelerate);
+  order(OrderType::accelerate);
   EXPECT_DOUBLE_EQ(command().speed_mps, 0.2);
   EXPECT_EQ(filter.whyStopped(), "");
 }
@@ -177,7 +174,7 @@ TEST_F(DriveCommandFilterTest, ReportsNoTimeoutOfAStandingRobot) {
 TEST_F(DriveCommandFilterTest, AnOrderOlderThanTheTimeoutHasNoEffect) {
   const auto came = now;
   now += 1s;
-  filter.obey({.type = RemoteType::accelerate}, came);
+  filter.obey(makeOrder(OrderType::accelerate), came);
   EXPECT_EQ(command().speed_mps, 0);
   EXPECT_EQ(filter.whyStopped(), "no message from Anna for 0.5 s");
 }
@@ -192,7 +189,7 @@ TEST_F(DriveCommandFilterTest, StopsAtOnceWhenTheDriverDisconnects) {
 TEST_F(DriveCommandFilterTest, HasAConfigurableDeadManTimeout) {
   DriveCommandFilter patient(kLimits, 2500ms);
   patient.begin(now);
-  patient.obey({.type = RemoteType::accelerate}, now);
+  patient.obey(makeOrder(OrderType::accelerate), now);
   now += 2500ms;
   EXPECT_DOUBLE_EQ(patient.command(now, "Anna").speed_mps, 0.2);
   now += 1ms;

@@ -6,8 +6,8 @@ namespace robosim {
 
 /// Whether the robot has stopped for a reason of its own since the last call.
 bool JoystickControl::hasStopped(const RobotNews& robot) {
-  const auto before = std::exchange(stops_, robot.state.stops);
-  return before && *before != robot.state.stops;
+  const auto before = std::exchange(stops_, robot.state.stops());
+  return before && *before != robot.state.stops();
 }
 
 /// Whether the connected robot does not report.
@@ -19,12 +19,12 @@ bool JoystickControl::isLost(const RobotNews& robot, Clock::time_point now) {
 
 JoystickControl::Output JoystickControl::next(const RobotNews& robot, const StickState& stick, Clock::time_point now) {
   if (!robot.info) return {};  // it has never been connected
-  if (robot.update) driver_.setCommanded(robot.update->state.speed_mps / robot.info->limits.speed_max_mps, now);
+  if (robot.update) driver_.setCommanded(robot.update->state.speed_mps() / robot.info->limits.speed_max_mps, now);
   const auto converted = driver_.convert(stick, robot.info->limits, now);
   Output output{.switches = converted.switches};
-  const bool is_stop = converted.order && converted.order->type == RemoteType::stop;
+  const bool is_stop = converted.order && converted.order->has_stop();
   if (is_stop) output.orders.push_back(*converted.order);
-  if (!robot.is_up || !robot.state.is_yours) {
+  if (!robot.is_up || !robot.state.is_yours()) {
     driver_.latch();
     stops_.reset();
     updated_.reset();
@@ -32,7 +32,7 @@ JoystickControl::Output JoystickControl::next(const RobotNews& robot, const Stic
   }
   if (hasStopped(robot)) {
     driver_.latch();
-    output.orders.push_back({.type = RemoteType::stop, .why = "the joystick must be released after a stop"});
+    output.orders.push_back(stopOrder("the joystick must be released after a stop"));
     return output;
   }
   const bool is_lost = isLost(robot, now);
@@ -40,12 +40,12 @@ JoystickControl::Output JoystickControl::next(const RobotNews& robot, const Stic
   if (is_lost) {
     driver_.latch();
     if (!was_lost) {
-      output.orders.push_back({.type = RemoteType::stop, .why = "it has not reported to the joystick for 2 s"});
+      output.orders.push_back(stopOrder("it has not reported to the joystick for 2 s"));
     }
     return output;
   }
   if (converted.order && !is_stop) output.orders.push_back(*converted.order);
-  if (converted.checks_win) output.orders.push_back({.type = RemoteType::check_win});
+  if (converted.checks_win) output.orders.push_back(makeOrder(OrderType::check_win));
   return output;
 }
 

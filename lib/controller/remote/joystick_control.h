@@ -9,9 +9,8 @@
 namespace robosim {
 
 /// Drives a robot by a joystick: a JoystickDriver, which also latches
-/// - after a stop of the robot for a reason of its own (RemoteState::stops), after which the robot is stopped once
-/// more,
-///   because an order that was still on its way may have moved it again,
+/// - after a stop of the robot for a reason of its own (v1::RobotState::stops), after which the robot is stopped
+///   once more, because an order that was still on its way may have moved it again,
 /// - while the robot cannot be driven: it is disconnected, or has another driver,
 /// - while the robot does not report: kLost without an update. The robot is then stopped.
 /// Time is a parameter.
@@ -21,8 +20,8 @@ class JoystickControl {
   static constexpr std::chrono::seconds kLost{2};
 
   struct Output {
-    std::vector<RemoteOrder> orders{};  ///< to send now, in this sequence
-    bool switches = false;              ///< the next robot is requested
+    std::vector<v1::ControlRequest> orders{};  ///< to send now, in this sequence
+    bool switches = false;                     ///< the next robot is requested
   };
 
   /// @param top_speed fraction of the robot's maximum, (0, 1]

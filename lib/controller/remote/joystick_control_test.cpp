@@ -15,7 +15,7 @@ class JoystickControlTest : public testing::Test {
     info.limits.speed_max_mps = 2;
     robot_.info = std::make_shared<const RobotInfo>(info);
     robot_.is_up = true;
-    robot_.state.is_yours = true;
+    robot_.state.set_is_yours(true);
     next(0);  // not latched
   }
 
@@ -26,10 +26,10 @@ class JoystickControlTest : public testing::Test {
     std::string text;
     for (const auto& order : control_.next(robot_, {0, -deflection, std::move(buttons)}, now_).orders) {
       if (!text.empty()) text += ", ";
-      if (order.type == RemoteType::drive) text += "drive " + std::to_string(std::lround(*order.speed_mps));
-      if (order.type == RemoteType::stop) text += "stop: " + order.why;
-      if (order.type == RemoteType::alive) text += "alive";
-      if (order.type == RemoteType::check_win) text += "check_win";
+      if (order.has_drive()) text += "drive " + std::to_string(std::lround(order.drive().speed_mps()));
+      if (order.has_stop()) text += "stop: " + order.stop().why();
+      if (order.has_alive()) text += "alive";
+      if (order.has_check_win()) text += "check_win";
     }
     return text;
   }
@@ -59,23 +59,23 @@ TEST_F(JoystickControlTest, LatchesWhileTheRobotIsDisconnected) {
   robot_.is_up = false;
   for (int i = 0; i < 20; ++i) EXPECT_EQ(next(1), "");
   robot_.is_up = true;
-  robot_.state.stops = 0;
+  robot_.state.set_stops(0);
   expectLatched();
 }
 
 TEST_F(JoystickControlTest, LatchesWhileAnotherDriverHasTheRobot) {
   EXPECT_EQ(next(1), "drive 2");
-  robot_.state.is_yours = false;
+  robot_.state.set_is_yours(false);
   EXPECT_EQ(next(1), "");
   EXPECT_EQ(next(0), "");
   EXPECT_EQ(next(1), "") << "released and deflected again meanwhile";
-  robot_.state.is_yours = true;
+  robot_.state.set_is_yours(true);
   expectLatched();
 }
 
 TEST_F(JoystickControlTest, LatchesAfterAStopOfTheRobotWhoseReasonIsAlreadyLost) {
   EXPECT_EQ(next(1), "drive 2");
-  ++robot_.state.stops;  // a later order has cleared why_stopped, and moves the robot
+  robot_.state.set_stops(robot_.state.stops() + 1);  // a later order has cleared why_stopped, and moves the robot
   EXPECT_EQ(next(1), "stop: the joystick must be released after a stop");
   expectLatched();
 }
@@ -97,14 +97,14 @@ TEST_F(JoystickControlTest, AStopButtonStopsInEveryState) {
   for (int i = 1; i <= 41; ++i) next(0);
   EXPECT_EQ(next(0, button), "stop: ");
   next(0);
-  robot_.state.is_yours = false;
+  robot_.state.set_is_yours(false);
   EXPECT_EQ(next(0, button), "stop: ");
 }
 
 TEST_F(JoystickControlTest, ASwitchLatchesAndComparesNothingWithTheFormerRobot) {
   EXPECT_EQ(next(1), "drive 2");
   control_.switchRobot(now_);
-  robot_.state.stops = 7;
+  robot_.state.set_stops(7);
   expectLatched();
 }
 

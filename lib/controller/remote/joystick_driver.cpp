@@ -60,7 +60,7 @@ bool JoystickDriver::mayChangeSpeed(int tenths, Clock::time_point now) {
 
 JoystickDriver::Output JoystickDriver::convert(const StickState& state, const MotionLimits& limits,
                                                Clock::time_point now) {
-  Output output{.order = RemoteOrder{}};
+  Output output{.order = makeOrder(OrderType::alive)};
   output.switches = isPressed(state, 1, false, now);
   output.checks_win = isPressed(state, 2, false, now);
   const bool accelerates = isPressed(state, 3, true, now);
@@ -72,31 +72,32 @@ JoystickDriver::Output JoystickDriver::convert(const StickState& state, const Mo
   if (!is_neutral_ || output.switches || output.checks_win) input_ = now;
   if (is_stop) {
     latch();
-    output.order->type = RemoteType::stop;
+    output.order = stopOrder();
     return output;
   }
   if (is_neutral_) is_latched_ = false;
   if (input_ && now - *input_ >= kPresence) {
     input_.reset();
     latch();
-    output.order = RemoteOrder{.type = RemoteType::stop, .why = "received no joystick input for 5 s"};
+    output.order = stopOrder("received no joystick input for 5 s");
     return output;
   }
   if (!input_) output.order.reset();
   if (is_latched_ || !input_) return output;
-  if ((accelerates || decelerates) && mayChangeSpeed(accelerates ? 1 : -1, now)) {
+  const OrderType step = accelerates ? OrderType::accelerate : OrderType::decelerate;
+  if ((accelerates || decelerates) && mayChangeSpeed(rowOf(step).speed_tenths, now)) {
     // The robot executes one order per step: the stick's order follows at the next call.
-    output.order->type = accelerates ? RemoteType::accelerate : RemoteType::decelerate;
+    output.order = makeOrder(step);
     return output;
   }
-  RemoteOrder& order = *output.order;
+  std::optional<double> speed_mps, turn_radps;
   if (std::exchange(steers_speed_, speed != 0) || speed != 0) {
     commanded_ = speed;
     set_ = now;
-    order.speed_mps = speed * limits.speed_max_mps;
+    speed_mps = speed * limits.speed_max_mps;
   }
-  if (std::exchange(steers_turn_, turn != 0) || turn != 0) order.turn_radps = turn * limits.turn_max_radps;
-  if (order.speed_mps || order.turn_radps) order.type = RemoteType::drive;
+  if (std::exchange(steers_turn_, turn != 0) || turn != 0) turn_radps = turn * limits.turn_max_radps;
+  if (speed_mps || turn_radps) output.order = driveOrder(speed_mps, turn_radps);
   return output;
 }
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hardware/robot_info.h"
-#include "net/remote_wire.h"
 #include "remote/joystick.h"
+#include "remote/orders.h"
 
 namespace robosim {
 
@@ -33,7 +33,8 @@ class JoystickDriver {
   explicit JoystickDriver(double top_speed = 1) : top_speed_(top_speed) {}
 
   struct Output {
-    std::optional<RemoteOrder> order;  ///< to send now: steering, a stop, or ALIVE; nullopt while no driver is present
+    std::optional<v1::ControlRequest>
+        order;  ///< to send now: steering, a stop, or ALIVE; nullopt while no driver is present
     bool checks_win = false;
     bool switches = false;
   };

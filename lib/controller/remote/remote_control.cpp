@@ -72,7 +72,7 @@ void RemoteControl::requestHeat(Clock::time_point now) {
     const RobotNews news = members_[i]->link.news();
     const auto is_heat = [](const SensorInfo& sensor) { return sensor.kind == SensorKind::heat; };
     if (!news.is_up || std::none_of(news.info->sensors->begin(), news.info->sensors->end(), is_heat)) continue;
-    members_[i]->link.send({.type = RemoteType::req_heat});
+    members_[i]->link.send(makeOrder(OrderType::req_heat));
   }
 }
 
@@ -122,7 +122,7 @@ bool RemoteControl::switchTo(const std::string& name) {
 void RemoteControl::makePrimary(std::size_t index) {
   if (index == primaries_.primary()) return;
   members_[primaries_.primary()]->link.setLive(false);
-  setAutonomous(true);
+  send(modeOrder(true));
   primaries_.switchTo(index);
   claimPrimary();
   members_[index]->link.setLive(true);
@@ -135,10 +135,6 @@ void RemoteControl::setDriver(const std::string& driver) {
 
 void RemoteControl::claimPrimary() { members_[primaries_.primary()]->link.claim(options_.driver, false); }
 
-void RemoteControl::send(const RemoteOrder& order) { members_[primaries_.primary()]->link.send(order); }
-
-void RemoteControl::setAutonomous(bool autonomous) {
-  members_[primaries_.primary()]->link.send({.type = RemoteType::set_mode, .autonomous = autonomous});
-}
+void RemoteControl::send(const v1::ControlRequest& order) { members_[primaries_.primary()]->link.send(order); }
 
 }  // namespace robosim

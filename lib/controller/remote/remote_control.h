@@ -46,8 +46,7 @@ class RemoteControl {
   /// Sets the driver's name; the primary stands until the new driver steers it.
   void setDriver(const std::string& driver);
   /// Sends an order to the primary.
-  void send(const RemoteOrder& order);
-  void setAutonomous(bool autonomous);
+  void send(const v1::ControlRequest& order);
 
  private:
   struct TeamMember;

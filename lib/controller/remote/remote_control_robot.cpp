@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "base/portable_math.h"
+#include "net/robot_wire.h"
 
 namespace robosim {
 namespace {
@@ -77,7 +78,7 @@ void RemoteControlRobot::step() {
   Command driven;
   {
     const std::lock_guard lock(mutex_);
-    autonomous = state_.autonomous;
+    autonomous = state_.autonomous();
     wants_check_win = std::exchange(wants_check_win_, false);
     const auto now = options_.now();
     is_moving_ = is_moving;
@@ -86,7 +87,7 @@ void RemoteControlRobot::step() {
     if (!autonomous) {
       const std::string before = filter_.whyStopped();
       if (order_) filter_.obey(*order_, order_received_);
-      driven = filter_.command(now, state_.driver);
+      driven = filter_.command(now, state_.driver());
       logStop(before);
     }
     order_.reset();
@@ -104,14 +105,16 @@ void RemoteControlRobot::step() {
   }
   const Command& commanded = autonomous ? view_->lastCommand() : driven;
   const std::lock_guard lock(mutex_);
-  state_.speed_mps = commanded.speed_mps;
-  state_.turn_radps = commanded.turn_radps;
-  state_.activity = commanded.activity;
+  state_.set_speed_mps(commanded.speed_mps);
+  state_.set_turn_radps(commanded.turn_radps);
+  state_.set_activity(encode(commanded.activity));
   const Readings& readings = hardware_.readings();
-  state_.winner = readings.winner;
-  if (!readings.winner.empty()) state_.activity = readings.winner == name() ? Activity::found : Activity::halted;
-  if (readings.is_too_far) ++state_.win_refusals;
-  state_.stalled = readings.stalled;
+  state_.set_winner(readings.winner);
+  if (!readings.winner.empty()) {
+    state_.set_activity(readings.winner == name() ? v1::ACTIVITY_FOUND : v1::ACTIVITY_HALTED);
+  }
+  if (readings.is_too_far) state_.set_win_refusals(state_.win_refusals() + 1);
+  state_.set_stalled(readings.stalled);
   addDriven(readings);
 }
 
@@ -122,48 +125,47 @@ void RemoteControlRobot::addDriven(const Readings& readings) {
   if (!odometry) return;
   const auto& now = odometry->odom_from_robot;
   const auto last = std::exchange(odom_from_robot_, now);
-  state_.driven_m = state_.driven_m.value_or(0) + (last ? portable::hypot(now.x - last->x, now.y - last->y) : 0);
+  state_.set_driven_m(state_.driven_m() + (last ? portable::hypot(now.x - last->x, now.y - last->y) : 0));
 }
 
 void RemoteControlRobot::take(const std::string& driver, bool autonomous) {
   const std::lock_guard lock(mutex_);
-  state_.driver = driver;
-  state_.autonomous = autonomous;
-  order_.reset();
-  filter_.begin(options_.now());
+  state_.set_driver(driver);
+  setMode(autonomous, options_.now());
 }
 
-void RemoteControlRobot::setAutonomous(bool autonomous) {
-  const std::lock_guard lock(mutex_);
-  filter_.noteMessage(options_.now());
-  if (state_.autonomous == autonomous) return;
-  state_.autonomous = autonomous;
+void RemoteControlRobot::setAutonomous(bool autonomous) { obey(modeOrder(autonomous)); }
+
+/// @pre holds the mutex
+void RemoteControlRobot::setMode(bool autonomous, Clock::time_point now) {
+  state_.set_autonomous(autonomous);
   order_.reset();
-  filter_.begin(options_.now());
+  filter_.begin(now);
 }
 
-void RemoteControlRobot::obey(const RemoteOrder& order) {
+void RemoteControlRobot::obey(const v1::ControlRequest& order) {
+  const OrderType type = typeOf(order);
   const std::lock_guard lock(mutex_);
   const auto now = options_.now();
   filter_.noteMessage(now);
-  switch (order.type) {
-    case RemoteType::accelerate:
-    case RemoteType::decelerate:
-    case RemoteType::turn_left:
-    case RemoteType::turn_right:
-    case RemoteType::drive:
+  switch (rowOf(type).rule) {
+    case OrderRule::mode:
+      if (state_.autonomous() != order.set_mode().autonomous()) setMode(order.set_mode().autonomous(), now);
+      break;
+    case OrderRule::set:
+    case OrderRule::steer:
       // A DRIVE only sets values, so that it may take effect before the order that follows it in the same step.
-      if (order_ && order_->type == RemoteType::drive && !state_.autonomous) filter_.obey(*order_, order_received_);
+      if (order_ && order_->has_drive() && !state_.autonomous()) filter_.obey(*order_, order_received_);
       order_ = order;
       order_received_ = now;
       break;
-    case RemoteType::stop:
+    case OrderRule::stop:
       stop(order, now);
       break;
-    case RemoteType::check_win:
-      wants_check_win_ = true;
+    case OrderRule::at_once:
+      if (type == OrderType::check_win) wants_check_win_ = true;
       break;
-    default:
+    case OrderRule::request:
       break;
   }
 }
@@ -171,12 +173,11 @@ void RemoteControlRobot::obey(const RemoteOrder& order) {
 /// Takes effect at once: an order that follows within the same step must not supersede it. A stop that the driver has
 /// requested, which has no reason, ends the autonomous mode.
 /// @pre holds the mutex
-void RemoteControlRobot::stop(const RemoteOrder& order, Clock::time_point now) {
+void RemoteControlRobot::stop(const v1::ControlRequest& order, Clock::time_point now) {
   order_.reset();
-  if (state_.autonomous) {
-    if (!order.why.empty()) return;
-    state_.autonomous = false;
-    filter_.begin(now);
+  if (state_.autonomous()) {
+    if (!whyOf(order).empty()) return;
+    setMode(false, now);
     filter_.obey(order, now);
     options_.log(name() + " stops, and is no longer autonomous");
     return;
@@ -190,9 +191,9 @@ void RemoteControlRobot::release(const std::string& why) {
   const std::lock_guard lock(mutex_);
   order_.reset();
   const std::string before = filter_.whyStopped();
-  if (!state_.autonomous) filter_.release(why);
+  if (!state_.autonomous()) filter_.release(why);
   logStop(before);
-  state_.driver.clear();
+  state_.clear_driver();
 }
 
 /// Logs the reason of a new stop.
@@ -203,12 +204,12 @@ void RemoteControlRobot::logStop(const std::string& before) {
   }
 }
 
-RemoteState RemoteControlRobot::state() const {
+v1::RobotState RemoteControlRobot::state() const {
   const std::lock_guard lock(mutex_);
-  RemoteState state = state_;
-  state.why_stopped = filter_.whyStopped();
-  state.stops = filter_.stops();
-  state.is_stopping = !state.autonomous && filter_.isStopping() && is_moving_;
+  v1::RobotState state = state_;
+  state.set_why_stopped(filter_.whyStopped());
+  state.set_stops(filter_.stops());
+  state.set_is_stopping(!state.autonomous() && filter_.isStopping() && is_moving_);
   return state;
 }
 

@@ -46,20 +46,21 @@ class RemoteControlRobot {
   /// Assigns a driver, and selects autonomous or remote control.
   void take(const std::string& driver, bool autonomous);
   void setAutonomous(bool autonomous);
-  /// Applies an order: steering or CheckWin. Of several steering orders within one step the newest applies; a value
+  /// Applies an order. Of several steering orders within one step the newest applies; a value
   /// that a DRIVE omits is taken from an earlier DRIVE. STOP takes effect at once, so that no later order supersedes
   /// it. A STOP without a reason, which the driver has requested, ends the autonomous mode; a STOP with one, for
   /// example because the driver's page is hidden, has no effect on an autonomous robot.
-  void obey(const RemoteOrder& order);
+  void obey(const v1::ControlRequest& order);
   /// Removes the driver: a remotely driven robot stops, an autonomous one continues.
   void release(const std::string& why);
   ///@}
 
-  RemoteState state() const;
+  v1::RobotState state() const;
 
  private:
   class ControllersView;
-  void stop(const RemoteOrder& order, Clock::time_point now);
+  void setMode(bool autonomous, Clock::time_point now);
+  void stop(const v1::ControlRequest& order, Clock::time_point now);
   void logStop(const std::string& before);
   void addDriven(const Readings& readings);
 
@@ -72,8 +73,8 @@ class RemoteControlRobot {
   /// @name Guarded by the mutex
   ///@{
   DriveCommandFilter filter_;
-  RemoteState state_;
-  std::optional<RemoteOrder> order_;  ///< the newest that steers
+  v1::RobotState state_ = initialState();
+  std::optional<v1::ControlRequest> order_;  ///< the newest that steers
   Clock::time_point order_received_;
   bool wants_check_win_ = false;
   bool is_moving_ = false;  ///< by the odometry of the last step

@@ -38,15 +38,6 @@ class OnlyOnce : public Controller {
   bool done_ = false;
 };
 
-RemoteOrder orderOf(RemoteType type) { return {.type = type}; }
-
-RemoteOrder driveAt(double speed_mps, double turn_radps) {
-  RemoteOrder order = orderOf(RemoteType::drive);
-  order.speed_mps = speed_mps;
-  order.turn_radps = turn_radps;
-  return order;
-}
-
 struct RemoteControlRobotTest : testing::Test {
   FakeHardware hardware;
   std::vector<std::string> received, log;
@@ -71,8 +62,8 @@ struct RemoteControlRobotTest : testing::Test {
 TEST_F(RemoteControlRobotTest, IsAutonomousInitially) {
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
-  EXPECT_TRUE(robot.state().autonomous);
-  EXPECT_EQ(robot.state().speed_mps, 0.5);
+  EXPECT_TRUE(robot.state().autonomous());
+  EXPECT_EQ(robot.state().speed_mps(), 0.5);
 }
 
 TEST_F(RemoteControlRobotTest, ExecutesTheDriversOrdersInsteadOfTheControllers) {
@@ -80,17 +71,17 @@ TEST_F(RemoteControlRobotTest, ExecutesTheDriversOrdersInsteadOfTheControllers) 
   robot.take("Anna", false);
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true})) << "stands until it is steered";
-  robot.obey(driveAt(-0.25, 1));
+  robot.obey(driveOrder(-0.25, 1));
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = -0.25, .turn_radps = 1, .by_driver = true}));
-  EXPECT_EQ(robot.state().driver, "Anna");
-  EXPECT_EQ(robot.state().turn_radps, 1);
+  EXPECT_EQ(robot.state().driver(), "Anna");
+  EXPECT_EQ(robot.state().turn_radps(), 1);
 }
 
 TEST_F(RemoteControlRobotTest, DiscardsAPendingOrderWhenADriverTakesIt) {
   robot.take("Anna", false);
   step();
-  robot.obey(driveAt(0.5, 1));
+  robot.obey(driveOrder(0.5, 1));
   robot.take("Bert", false);
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true}));
@@ -98,12 +89,12 @@ TEST_F(RemoteControlRobotTest, DiscardsAPendingOrderWhenADriverTakesIt) {
 
 TEST_F(RemoteControlRobotTest, ExecutesTheControllersCommandsAgainWhenSetAutonomous) {
   robot.take("Anna", false);
-  robot.obey(driveAt(-0.25, 1));
+  robot.obey(driveOrder(-0.25, 1));
   step();
   robot.setAutonomous(true);
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
-  robot.obey(driveAt(0.1, 0));
+  robot.obey(driveOrder(0.1, 0));
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5})) << "an autonomous robot is not steered";
 }
@@ -115,7 +106,7 @@ TEST_F(RemoteControlRobotTest, ChangesTheSourceOfCommandsWithoutAJumpInSpeed) {
   const auto& limits = hardware.info().limits;
   for (int i = 0; i < 60; ++i) {
     if (i == 0) robot.take("Anna", false);
-    if (i % 10 == 5) robot.obey(driveAt(1, 2));
+    if (i % 10 == 5) robot.obey(driveOrder(1, 2));
     if (i == 30) robot.setAutonomous(true);
     if (i == 45) robot.setAutonomous(false);
     step();
@@ -130,7 +121,7 @@ TEST_F(RemoteControlRobotTest, RepeatsTheControllersLastCommandAfterRemoteContro
   RemoteControlRobot once(hardware, std::make_unique<OnlyOnce>(), options);
   once.step();
   once.take("Anna", false);
-  once.obey(driveAt(1, 1));
+  once.obey(driveOrder(1, 1));
   once.step();
   once.setAutonomous(true);
   once.step();
@@ -157,32 +148,32 @@ TEST_F(RemoteControlRobotTest, DeliversMessagesReceivedDuringRemoteControlToTheC
 
 TEST_F(RemoteControlRobotTest, ExecutesTheNewestOfSeveralOrdersOfAStep) {
   robot.take("Anna", false);
-  for (int i = 0; i < 1000; ++i) robot.obey(orderOf(RemoteType::accelerate));
+  for (int i = 0; i < 1000; ++i) robot.obey(makeOrder(OrderType::accelerate));
   step();
   EXPECT_DOUBLE_EQ(hardware.lastCommand().speed_mps, 0.1) << "a tenth of the maximum, once";
-  robot.obey(driveAt(1, 0));
-  robot.obey(driveAt(0.25, 0));
-  robot.obey(orderOf(RemoteType::alive));
+  robot.obey(driveOrder(1, 0));
+  robot.obey(driveOrder(0.25, 0));
+  robot.obey(makeOrder(OrderType::alive));
   step();
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0.25);
 }
 
 TEST_F(RemoteControlRobotTest, StopsAfterTheDeadManTimeoutAndLogsTheReasonOnce) {
   robot.take("Anna", false);
-  robot.obey(driveAt(0.5, 0));
+  robot.obey(driveOrder(0.5, 0));
   steps(6);
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0.5);
   steps(3);
   EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true, .emergency_stop = true}));
-  EXPECT_EQ(robot.state().why_stopped, "no message from Anna for 0.5 s");
+  EXPECT_EQ(robot.state().why_stopped(), "no message from Anna for 0.5 s");
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: no message from Anna for 0.5 s"});
 }
 
 TEST_F(RemoteControlRobotTest, LogsTheReasonOfARemoteControlsStop) {
   robot.take("Anna", false);
-  robot.obey(driveAt(0.5, 0));
+  robot.obey(driveOrder(0.5, 0));
   step();
-  robot.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  robot.obey(stopOrder("Anna's page is hidden"));
   step();
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0);
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: Anna's page is hidden"});
@@ -192,11 +183,11 @@ TEST_F(RemoteControlRobotTest, AStopOfTheDriverEndsTheAutonomousMode) {
   robot.take("Anna", true);
   steps(20);
   EXPECT_EQ(hardware.odometry().speed_mps, 0.5) << "its controller drives";
-  robot.obey(orderOf(RemoteType::stop));
-  EXPECT_FALSE(robot.state().autonomous);
+  robot.obey(makeOrder(OrderType::stop));
+  EXPECT_FALSE(robot.state().autonomous());
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.by_driver = true, .emergency_stop = true}));
-  EXPECT_EQ(robot.state().why_stopped, "");
+  EXPECT_EQ(robot.state().why_stopped(), "");
   EXPECT_EQ(log, std::vector<std::string>{"fake stops, and is no longer autonomous"});
   steps(10);
   EXPECT_EQ(hardware.odometry().speed_mps, 0) << "it stands until it is steered";
@@ -205,52 +196,46 @@ TEST_F(RemoteControlRobotTest, AStopOfTheDriverEndsTheAutonomousMode) {
 TEST_F(RemoteControlRobotTest, AStopWithAReasonHasNoEffectInAutonomousMode) {
   robot.take("Anna", true);
   step();
-  robot.obey({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  robot.obey(stopOrder("Anna's page is hidden"));
   step();
-  EXPECT_TRUE(robot.state().autonomous);
+  EXPECT_TRUE(robot.state().autonomous());
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.5}));
   EXPECT_EQ(log, std::vector<std::string>{});
 }
 
 TEST_F(RemoteControlRobotTest, ALaterOrderOfTheSameStepDoesNotSupersedeAStop) {
   robot.take("Anna", false);
-  robot.obey(driveAt(0.5, 0));
+  robot.obey(driveOrder(0.5, 0));
   step();
-  robot.obey(orderOf(RemoteType::stop));
-  RemoteOrder turn = orderOf(RemoteType::drive);
-  turn.turn_radps = 1;
-  robot.obey(turn);
+  robot.obey(makeOrder(OrderType::stop));
+  robot.obey(driveOrder({}, 1));
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.turn_radps = 1, .by_driver = true, .emergency_stop = true}));
 }
 
 TEST_F(RemoteControlRobotTest, MergesDriveOrdersOfAStep) {
   robot.take("Anna", false);
-  robot.obey(driveAt(0.5, 0));
+  robot.obey(driveOrder(0.5, 0));
   step();
-  RemoteOrder halt = orderOf(RemoteType::drive);
-  halt.speed_mps = 0;
-  RemoteOrder turn = orderOf(RemoteType::drive);
-  turn.turn_radps = 1;
-  robot.obey(halt);
-  robot.obey(turn);
+  robot.obey(driveOrder(0));
+  robot.obey(driveOrder({}, 1));
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.turn_radps = 1, .by_driver = true}));
-  robot.obey(driveAt(0, 0));
-  robot.obey(orderOf(RemoteType::accelerate));
+  robot.obey(driveOrder(0, 0));
+  robot.obey(makeOrder(OrderType::accelerate));
   step();
   EXPECT_EQ(hardware.lastCommand(), (Command{.speed_mps = 0.1, .by_driver = true})) << "a tenth of its maximum";
 }
 
 TEST_F(RemoteControlRobotTest, StopsAndHasNoDriverWhenTheDriverDisconnects) {
   robot.take("Anna", false);
-  robot.obey(driveAt(0.5, 0));
+  robot.obey(driveOrder(0.5, 0));
   step();
   robot.release("its remote control has disconnected");
   step();
   EXPECT_EQ(hardware.lastCommand().speed_mps, 0);
-  EXPECT_EQ(robot.state().driver, "");
-  EXPECT_FALSE(robot.state().autonomous) << "it waits for the next driver";
+  EXPECT_EQ(robot.state().driver(), "");
+  EXPECT_FALSE(robot.state().autonomous()) << "it waits for the next driver";
   EXPECT_EQ(log, std::vector<std::string>{"fake stops: its remote control has disconnected"});
 }
 
@@ -265,7 +250,7 @@ TEST_F(RemoteControlRobotTest, AnAutonomousRobotContinuesWhenTheDriverDisconnect
 
 TEST_F(RemoteControlRobotTest, RequestsCheckWinOnceAndCountsRefusals) {
   robot.take("Anna", false);
-  robot.obey(orderOf(RemoteType::check_win));
+  robot.obey(makeOrder(OrderType::check_win));
   step();
   step();
   EXPECT_EQ(hardware.win_checks, 1);
@@ -273,38 +258,38 @@ TEST_F(RemoteControlRobotTest, RequestsCheckWinOnceAndCountsRefusals) {
   step();
   hardware.mutableReadings().is_too_far = false;
   step();
-  EXPECT_EQ(robot.state().win_refusals, 1u);
+  EXPECT_EQ(robot.state().win_refusals(), 1u);
 }
 
 TEST_F(RemoteControlRobotTest, AddsTheDistanceDrivenInAllModes) {
   hardware.mutableOdometry().odom_from_robot = {5, 5, 0};  // where the odometry begins does not count
   step();
-  EXPECT_EQ(robot.state().driven_m, 0);
+  EXPECT_EQ(robot.state().driven_m(), 0);
   robot.take("Anna", false);
   hardware.mutableOdometry().odom_from_robot = {8, 9, 0};
   step();
-  EXPECT_DOUBLE_EQ(*robot.state().driven_m, 5);
+  EXPECT_DOUBLE_EQ(robot.state().driven_m(), 5);
   robot.setAutonomous(true);
   hardware.mutableOdometry().odom_from_robot = {8, 7, 1};
   step();
-  EXPECT_DOUBLE_EQ(*robot.state().driven_m, 7);
+  EXPECT_DOUBLE_EQ(robot.state().driven_m(), 7);
 }
 
 TEST_F(RemoteControlRobotTest, ReportsTheWinnerAndHalts) {
   hardware.mutableReadings().winner = "other";
   step();
-  EXPECT_EQ(robot.state().winner, "other");
-  EXPECT_EQ(robot.state().activity, Activity::halted);
+  EXPECT_EQ(robot.state().winner(), "other");
+  EXPECT_EQ(robot.state().activity(), v1::ACTIVITY_HALTED);
 }
 
 TEST_F(RemoteControlRobotTest, ARobotHaltedByItsControllerStaysHalted) {
   hardware.setHeat(20);
   step();
   robot.take("Anna", false);
-  robot.obey(driveAt(0.5, 0));
+  robot.obey(driveOrder(0.5, 0));
   step();
   EXPECT_EQ(hardware.lastCommand().activity, Activity::found);
-  EXPECT_EQ(robot.state().activity, Activity::found);
+  EXPECT_EQ(robot.state().activity(), v1::ACTIVITY_FOUND);
 }
 
 }  // namespace

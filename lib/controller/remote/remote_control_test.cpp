@@ -53,9 +53,9 @@ TEST_F(RemoteControlTest, SetsSecondaryRobotsAutonomousAndClaimsThePrimary) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   EXPECT_EQ(row(*control), "ABC");
-  EXPECT_FALSE(control->robots()[0].news.state.autonomous);
-  EXPECT_TRUE(control->robots()[1].news.state.autonomous);
-  EXPECT_TRUE(control->robots()[2].news.state.autonomous);
+  EXPECT_FALSE(control->robots()[0].news.state.autonomous());
+  EXPECT_TRUE(control->robots()[1].news.state.autonomous());
+  EXPECT_TRUE(control->robots()[2].news.state.autonomous());
 }
 
 TEST_F(RemoteControlTest, ConnectsThePrimaryLast) {
@@ -81,7 +81,7 @@ TEST_F(RemoteControlTest, RequestsTheHeatOfSecondaryRobots) {
 TEST_F(RemoteControlTest, SteersOnlyThePrimary) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
-  control->send({.type = RemoteType::accelerate});
+  control->send(makeOrder(OrderType::accelerate));
   wait(*control, [&] { return team[0]->hardware->lastCommand().speed_mps > 0; });
   EXPECT_EQ(team[1]->hardware->lastCommand(), (Command{.turn_radps = 1})) << "its controller's";
 }
@@ -92,8 +92,8 @@ TEST_F(RemoteControlTest, ASwitchSetsTheOldPrimaryAutonomousAndClaimsTheNext) {
   EXPECT_TRUE(control->switchPrimary());
   EXPECT_EQ(row(*control), "BCA");
   wait(*control,
-       [&] { return !control->robots()[0].news.state.autonomous && control->robots()[2].news.state.autonomous; });
-  control->send({.type = RemoteType::accelerate});
+       [&] { return !control->robots()[0].news.state.autonomous() && control->robots()[2].news.state.autonomous(); });
+  control->send(makeOrder(OrderType::accelerate));
   wait(*control, [&] { return team[1]->hardware->lastCommand().speed_mps > 0; });
   EXPECT_EQ(team[0]->hardware->lastCommand(), (Command{.turn_radps = 1}));
   wait(*control, [&] { return control->primary().news.update != nullptr; });
@@ -111,7 +111,7 @@ TEST_F(RemoteControlTest, SkipsAnUnreachableRobotAndReconnectsIt) {
 
   team[1]->reopen();
   wait(*control, [&] { return allUp(*control); });
-  EXPECT_TRUE(control->robots()[1].news.state.autonomous);
+  EXPECT_TRUE(control->robots()[1].news.state.autonomous());
   EXPECT_TRUE(control->switchTo("B"));
   EXPECT_EQ(row(*control), "BAC");
 }
@@ -123,32 +123,32 @@ TEST_F(RemoteControlTest, AReconnectedRobotIsDrivenOnlyIfItIsStillThePrimary) {
   wait(*control, [&] { return !control->primary().news.is_up; });
   team[0]->reopen();
   wait(*control, [&] { return control->primary().news.is_up; });
-  EXPECT_FALSE(control->primary().news.state.autonomous);
+  EXPECT_FALSE(control->primary().news.state.autonomous());
 
   team[0]->close();
   wait(*control, [&] { return !control->primary().news.is_up; });
   EXPECT_TRUE(control->switchPrimary());
   team[0]->reopen();
   wait(*control, [&] { return allUp(*control); });
-  EXPECT_TRUE(control->robots()[2].news.state.autonomous) << "A, at the tail";
+  EXPECT_TRUE(control->robots()[2].news.state.autonomous()) << "A, at the tail";
 }
 
 TEST_F(RemoteControlTest, AReconnectedRobotIsNotAutonomousAfterAStop) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
-  control->setAutonomous(true);
-  wait(*control, [&] { return control->primary().news.state.autonomous; });
-  control->send({.type = RemoteType::stop, .why = "Anna's page is hidden"});
-  control->send({.type = RemoteType::check_win});
+  control->send(modeOrder(true));
+  wait(*control, [&] { return control->primary().news.state.autonomous(); });
+  control->send(stopOrder("Anna's page is hidden"));
+  control->send(makeOrder(OrderType::check_win));
   wait(*control, [&] { return team[0]->hardware->win_checks > 0; });  // the stop precedes it
-  EXPECT_TRUE(team[0]->robot.state().autonomous) << "the driver has not requested this stop";
-  control->send({.type = RemoteType::stop});
-  wait(*control, [&] { return !control->primary().news.state.autonomous; });
+  EXPECT_TRUE(team[0]->robot.state().autonomous()) << "the driver has not requested this stop";
+  control->send(makeOrder(OrderType::stop));
+  wait(*control, [&] { return !control->primary().news.state.autonomous(); });
   team[0]->close();
   wait(*control, [&] { return !control->primary().news.is_up; });
   team[0]->reopen();
-  wait(*control, [&] { return control->primary().news.is_up && control->primary().news.state.is_yours; });
-  EXPECT_FALSE(control->primary().news.state.autonomous);
+  wait(*control, [&] { return control->primary().news.is_up && control->primary().news.state.is_yours(); });
+  EXPECT_FALSE(control->primary().news.state.autonomous());
 }
 
 TEST_F(RemoteControlTest, KeepsThePrimaryWithoutAnotherFitRobot) {
@@ -166,10 +166,10 @@ TEST_F(RemoteControlTest, ASecondRemoteControlWatchesAndSkipsRobotsOfTheFirst) {
   wait(*anna, [&] { return allUp(*anna); });
   const auto ben = start("Ben");
   wait(*ben, [&] { return allUp(*ben); });
-  EXPECT_FALSE(ben->primary().news.state.is_yours);
-  EXPECT_EQ(ben->primary().news.state.driver, "Anna");
+  EXPECT_FALSE(ben->primary().news.state.is_yours());
+  EXPECT_EQ(ben->primary().news.state.driver(), "Anna");
   EXPECT_FALSE(ben->switchPrimary()) << "all of them are Anna's";
-  ben->send({.type = RemoteType::accelerate});
+  ben->send(makeOrder(OrderType::accelerate));
   wait(*ben, [&] { return ben->primary().news.update != nullptr; });
   EXPECT_EQ(team[0]->hardware->lastCommand().speed_mps, 0);
 }
@@ -178,8 +178,8 @@ TEST_F(RemoteControlTest, SendsTheNameOfTheNextDriver) {
   const auto control = start();
   wait(*control, [&] { return allUp(*control); });
   control->setDriver("Ben");
-  wait(*control, [&] { return control->primary().news.state.driver == "Ben"; });
-  EXPECT_TRUE(control->primary().news.state.is_yours);
+  wait(*control, [&] { return control->primary().news.state.driver() == "Ben"; });
+  EXPECT_TRUE(control->primary().news.state.is_yours());
 }
 
 }  // namespace

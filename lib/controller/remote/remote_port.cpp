@@ -19,9 +19,10 @@ namespace robosim {
 namespace {
 
 /// The part of a state whose changes are sent at once; the rest is sent on request.
-auto reportedPartOf(const RemoteState& state) {
-  return std::tie(state.autonomous, state.driver, state.activity, state.why_stopped, state.winner, state.win_refusals,
-                  state.stalled, state.stops, state.is_stopping);
+auto reportedPartOf(const v1::RobotState& state) {
+  return std::tuple(state.autonomous(), std::string_view(state.driver()), state.activity(),
+                    std::string_view(state.why_stopped()), std::string_view(state.winner()), state.win_refusals(),
+                    state.stalled(), state.stops(), state.is_stopping());
 }
 
 }  // namespace
@@ -37,21 +38,21 @@ struct RemotePort::Impl final : public v1::RemoteControl::WithRawMethod_Control<
     const std::string& name() const { return robot().name(); }
 
     Stream* driver = nullptr;
-    RemoteState published;    ///< state last sent
-    bool is_watched = false;  ///< by a remote control, in the last publish()
+    v1::RobotState published = initialState();  ///< state last sent
+    bool is_watched = false;                    ///< by a remote control, in the last publish()
   };
 
   Impl(const Options& the_options, const Run& the_run, const std::vector<RemoteControlRobot*>& the_robots);
   ~Impl() override;
 
   void handleCalls();  ///< on its thread, without the mutex
-  void init(Stream& stream, const RemoteOrder& order);
-  void handle(Stream& stream, const RemoteOrder& order);
+  void init(Stream& stream, const v1::ControlRequest::Init& init);
+  void handle(Stream& stream, const v1::ControlRequest& order);
   void releaseRobot(Stream& stream);
   void sendState(const DrivenRobot& robot);
   RobotsWelcome welcomeOf(const DrivenRobot& robot) const;
-  void publish();  ///< without the mutex
-  void endRun();   ///< without the mutex
+  void publish(const v1::StepReadings* received);  ///< without the mutex
+  void endRun();                                   ///< without the mutex
 
   Run run;
   std::mutex mutex;
@@ -100,7 +101,8 @@ class RemotePort::Impl::Stream final : public StreamSession<v1::ControlRequest, 
     establish();
     port_.streams.push_back(std::static_pointer_cast<Stream>(shared_from_this()));
   }
-  bool request(RemoteType type) { return outbox_->request(type); }
+  bool request(OrderType type) { return outbox_->request(type); }
+  void requestAll() { outbox_->requestAll(); }
   bool isWatching() const { return outbox_ && outbox_->isWatching(); }
 
   void sendState() {
@@ -108,8 +110,9 @@ class RemotePort::Impl::Stream final : public StreamSession<v1::ControlRequest, 
     drained();
   }
   /// Sends the requested readings of this step. Called by the thread that steps the robot.
-  void sendReadings() {
-    outbox_->addReadings(isDriver());
+  /// @param received see ResponseOutbox::addReadings()
+  void sendReadings(const v1::RobotReadings* received) {
+    outbox_->addReadings(isDriver(), received);
     drained();
   }
   /// Posts the final state, as the last message.
@@ -125,11 +128,11 @@ class RemotePort::Impl::Stream final : public StreamSession<v1::ControlRequest, 
 
  private:
   ReadPolicy received(const v1::ControlRequest& message) override {
-    const RemoteOrder order = decode(message);
-    if (order.type == RemoteType::init) {
-      port_.init(*this, order);
+    validate(message);
+    if (message.has_init()) {
+      port_.init(*this, message.init());
     } else if (robot) {
-      port_.handle(*this, order);
+      port_.handle(*this, message);
     } else {
       throw WireError("the first message of a remote control must be its INIT");
     }
@@ -195,51 +198,52 @@ void RemotePort::Impl::handleCalls() {
   queue_server.close();
 }
 
-void RemotePort::Impl::init(Stream& stream, const RemoteOrder& order) {
-  const auto robot =
-      std::find_if(robots.begin(), robots.end(), [&](const DrivenRobot& other) { return other.name() == order.robot; });
+void RemotePort::Impl::init(Stream& stream, const v1::ControlRequest::Init& init) {
+  const auto robot = std::find_if(robots.begin(), robots.end(),
+                                  [&](const DrivenRobot& other) { return other.name() == init.robot(); });
   if (robot == robots.end()) {
     std::vector<std::string> names;
     for (const auto& other : robots) names.push_back(other.name());
-    throw WireError("this port serves no robot " + inQuotes(order.robot) + ", only " + listed(names) +
+    throw WireError("this port serves no robot " + inQuotes(init.robot()) + ", only " + listed(names) +
                         "; correct its port in the robot list",
-                    v1::ERROR_REASON_UNKNOWN_ROBOT, order.robot);
+                    v1::ERROR_REASON_UNKNOWN_ROBOT, init.robot());
   }
   if (stream.robot && stream.robot != &*robot) throw WireError("a second INIT for another robot; connect again for it");
-  stream.name = order.driver;
+  stream.name = init.driver();
   const bool has_other_driver = robot->driver && robot->driver != &stream;
-  const grpc::Status may_drive = stream.may(Right::drive, order.robot);
-  if (const auto status = stream.mayWatch(order.robot); !status.ok()) {
+  const grpc::Status may_drive = stream.may(Right::drive, init.robot());
+  if (const auto status = stream.mayWatch(init.robot()); !status.ok()) {
     throw WireError(status);
   }
   if (!stream.isEstablished()) stream.selectRobot(*robot);
   // A token without the right to drive may observe, as may a client whose robot has another driver.
-  if (order.only_observe || has_other_driver || !may_drive.ok()) {
+  if (init.only_observe() || has_other_driver || !may_drive.ok()) {
     releaseRobot(stream);
     stream.sendState();
     return;
   }
-  if (!robot->driver) stream.audit("take " + order.robot + (order.driver.empty() ? "" : " (" + order.driver + ")"));
+  if (!robot->driver) stream.audit("take " + init.robot() + (init.driver().empty() ? "" : " (" + init.driver() + ")"));
   if (robot->driver != &stream) stream.exemption = flood_guard::Exemption(stream.peer());
   robot->driver = &stream;
-  robot->robot().take(stream.name.empty() ? stream.peer() : stream.name, order.autonomous);
+  robot->robot().take(stream.name.empty() ? stream.peer() : stream.name, init.autonomous());
   sendState(*robot);
 }
 
-void RemotePort::Impl::handle(Stream& stream, const RemoteOrder& order) {
+void RemotePort::Impl::handle(Stream& stream, const v1::ControlRequest& order) {
   // Requests do not reset the dead-man timeout: a remote control may send them automatically without a driver.
-  if (stream.request(order.type)) return;
+  if (order.has_req_all()) return stream.requestAll();
+  const OrderRow& row = rowOf(typeOf(order));
+  if (stream.request(row.type)) return;
   if (!stream.isDriver()) return;  // its state contains the driver's name
-  if (const auto status = stream.may(Right::drive, stream.robot->name()); !status.ok()) {
+  if (const auto status = stream.may(row.right, stream.robot->name()); !status.ok()) {
     throw WireError(status);
   }
-  if (order.type == RemoteType::set_mode) {
-    stream.audit((order.autonomous ? "autonomous on " : "autonomous off ") + stream.robot->name());
-    stream.robot->robot().setAutonomous(order.autonomous);
-    sendState(*stream.robot);
-  } else {
-    stream.robot->robot().obey(order);
+  const bool is_mode = row.rule == OrderRule::mode;
+  if (is_mode) {
+    stream.audit((order.set_mode().autonomous() ? "autonomous on " : "autonomous off ") + stream.robot->name());
   }
+  stream.robot->robot().obey(order);
+  if (is_mode) sendState(*stream.robot);
 }
 
 /// Releases the robot of a driver. No effect for others.
@@ -266,7 +270,7 @@ RobotsWelcome RemotePort::Impl::welcomeOf(const DrivenRobot& robot) const {
   return welcome;
 }
 
-void RemotePort::Impl::publish() {
+void RemotePort::Impl::publish(const v1::StepReadings* received) {
   const std::lock_guard lock(mutex);
   host.checkSessions();
   for (auto& robot : robots) {
@@ -274,11 +278,14 @@ void RemotePort::Impl::publish() {
                                    [&](const auto& stream) { return stream->robot == &robot && stream->isWatching(); });
     robot.keepPictures();
     if (!robot.is_watched) robot.dropPicturesBefore(ResponseOutbox::kWatchingSteps);
-    const RemoteState state = robot.robot().state();
+    v1::RobotState state = robot.robot().state();
     if (reportedPartOf(state) != reportedPartOf(robot.published)) sendState(robot);
-    robot.published = state;
+    robot.published = std::move(state);
   }
-  for (const auto& stream : streams) stream->sendReadings();
+  for (const auto& stream : streams) {
+    const auto robot = static_cast<int>(stream->robot - robots.data());
+    stream->sendReadings(received ? &received->robots(robot) : nullptr);
+  }
 }
 
 void RemotePort::Impl::endRun() {
@@ -294,7 +301,7 @@ RemotePort::RemotePort(const Options& options, const Run& run, const std::vector
     : impl_(std::make_unique<Impl>(options, run, robots)) {}
 RemotePort::~RemotePort() = default;
 int RemotePort::port() const { return impl_->queue_server.port(0); }
-void RemotePort::publish() { impl_->publish(); }
+void RemotePort::publish(const v1::StepReadings* received) { impl_->publish(received); }
 bool RemotePort::isWatched(std::size_t robot) const { return impl_->robots[robot].is_watched; }
 void RemotePort::endRun() { impl_->endRun(); }
 

@@ -43,7 +43,9 @@ class RemotePort {
 
   /// Sends the requested readings to all remote controls; called after each step by the thread that steps the robots.
   /// Does not block.
-  void publish();
+  /// @param received message from which the robots' readings of this step were decoded, with the robots in the
+  /// constructor's order: it is forwarded. Null: the readings are encoded
+  void publish(const v1::StepReadings* received = nullptr);
   /// Whether a remote control showed the readings of a robot, with its pictures, in the last publish(). Called by the
   /// same thread. @param robot in the constructor's order
   bool isWatched(std::size_t robot) const;

@@ -34,11 +34,7 @@ struct RemotePortTest : testing::Test {
     link.connect();
     waitUp(link);
   }
-  static void drive(RobotLink& link, double speed_mps) {
-    RemoteOrder order{.type = RemoteType::drive};
-    order.speed_mps = speed_mps;
-    link.send(order);
-  }
+  static void drive(RobotLink& link, double speed_mps) { link.send(driveOrder(speed_mps)); }
   double commandedSpeed() const { return robot.hardware->lastCommand().speed_mps; }
 };
 
@@ -49,23 +45,21 @@ TEST_F(RemotePortTest, DescribesTheRobotToARemoteControl) {
   EXPECT_EQ(news.period_s, 0.1);
   EXPECT_EQ(news.info->name, "Pioneer1");
   EXPECT_EQ(news.info->sensors->size(), 4u);
-  EXPECT_TRUE(news.state.is_yours);
-  EXPECT_EQ(news.state.driver, "Anna");
-  EXPECT_FALSE(news.state.autonomous);
+  EXPECT_TRUE(news.state.is_yours());
+  EXPECT_EQ(news.state.driver(), "Anna");
+  EXPECT_FALSE(news.state.autonomous());
 }
 
 TEST_F(RemotePortTest, AStopAndASpeedOfZeroAreNotSuperseded) {
   connect(*anna, "Anna");
-  RemoteOrder halt{.type = RemoteType::drive};
-  halt.speed_mps = 0;
-  RemoteOrder turn{.type = RemoteType::drive};
-  for (const RemoteOrder& first : {RemoteOrder{.type = RemoteType::stop}, halt}) {
+  double turn_radps = 0;
+  for (const v1::ControlRequest& first : {stopOrder(), driveOrder(0)}) {
     drive(*anna, 0.5);
     wait([&] { return commandedSpeed() == 0.5; });
     anna->send(first);
-    turn.turn_radps = turn.turn_radps.value_or(0) + 0.5;
-    for (int i = 0; i < 100; ++i) anna->send(turn);
-    wait([&] { return robot.hardware->lastCommand().turn_radps == *turn.turn_radps; });
+    turn_radps += 0.5;
+    for (int i = 0; i < 100; ++i) anna->send(driveOrder({}, turn_radps));
+    wait([&] { return robot.hardware->lastCommand().turn_radps == turn_radps; });
     EXPECT_EQ(commandedSpeed(), 0);
   }
 }
@@ -74,9 +68,9 @@ TEST_F(RemotePortTest, ADriverSteersAndEnablesTheController) {
   connect(*anna, "Anna");
   drive(*anna, 0.5);
   wait([&] { return commandedSpeed() == 0.5; });
-  anna->send({.type = RemoteType::set_mode, .autonomous = true});
+  anna->send(modeOrder(true));
   wait([&] { return robot.hardware->lastCommand() == Command{.turn_radps = 1}; });
-  wait([&] { return anna->news().state.autonomous; });
+  wait([&] { return anna->news().state.autonomous(); });
 }
 
 TEST_F(RemotePortTest, AClaimDiscardsOrdersThatWait) {
@@ -84,8 +78,8 @@ TEST_F(RemotePortTest, AClaimDiscardsOrdersThatWait) {
   drive(*anna, 0.25);
   drive(*anna, 0.5);  // waits until the first is sent
   anna->claim("Ben", false);
-  wait([&] { return anna->news().state.driver == "Ben"; });
-  anna->send({.type = RemoteType::req_heat});  // sent after all orders that steer
+  wait([&] { return anna->news().state.driver() == "Ben"; });
+  anna->send(makeOrder(OrderType::req_heat));  // sent after all orders that steer
   wait([&] { return anna->news().answers[0] != nullptr; });
   robot.step();
   EXPECT_EQ(commandedSpeed(), 0);
@@ -113,15 +107,15 @@ TEST_F(RemotePortTest, StopsTheRobotAfterTheDeadManTimeoutAndReportsTheReason) {
     wait([&] { return anna->news().update != last; });
     return commandedSpeed() == 0;
   });
-  wait([&] { return anna->news().state.why_stopped == "no message from Anna for 0.5 s"; });
+  wait([&] { return anna->news().state.why_stopped() == "no message from Anna for 0.5 s"; });
 }
 
 TEST_F(RemotePortTest, ASecondDriverWatchesAndSeesTheDriversName) {
   connect(*anna, "Anna");
   const auto ben = linkTo(robot);
   connect(*ben, "Ben");
-  EXPECT_FALSE(ben->news().state.is_yours);
-  EXPECT_EQ(ben->news().state.driver, "Anna");
+  EXPECT_FALSE(ben->news().state.is_yours());
+  EXPECT_EQ(ben->news().state.driver(), "Anna");
   drive(*ben, 1);
   drive(*anna, 0.25);
   wait([&] { return commandedSpeed() == 0.25; });
@@ -129,9 +123,9 @@ TEST_F(RemotePortTest, ASecondDriverWatchesAndSeesTheDriversName) {
   wait([&] { return ben->news().update != nullptr; });
 
   anna.reset();
-  wait([&] { return ben->news().state.driver.empty(); });
+  wait([&] { return ben->news().state.driver().empty(); });
   ben->claim("Ben", false);
-  wait([&] { return ben->news().state.is_yours; });
+  wait([&] { return ben->news().state.is_yours(); });
   drive(*ben, 1);
   wait([&] { return commandedSpeed() == 1; });
 }
@@ -151,7 +145,7 @@ TEST_F(RemotePortTest, SendsReadingsToSubscribers) {
   wait([&] { return anna->news().update != last; });  // requested when the previous one was received
   const auto latest = anna->news().update;
   for (int i = 0; i < 10; ++i) robot.step();
-  anna->send({.type = RemoteType::req_sonar});
+  anna->send(makeOrder(OrderType::req_sonar));
   wait([&] { return anna->news().answers[2] != nullptr; });
   EXPECT_EQ(anna->news().update, latest);
 }
@@ -160,8 +154,7 @@ TEST_F(RemotePortTest, AnswersARequestWithTheNextReading) {
   connect(*anna, "Anna");
   robot.hardware->setHeat(3);
   robot.hardware->setLaserRange(2);
-  for (const auto type : {RemoteType::req_heat, RemoteType::req_laser, RemoteType::req_sonar})
-    anna->send({.type = type});
+  for (const auto type : {OrderType::req_heat, OrderType::req_laser, OrderType::req_sonar}) anna->send(makeOrder(type));
   wait([&] { return anna->news().answers[0] && anna->news().answers[1] && anna->news().answers[2]; });
   EXPECT_EQ(std::get<Scalar>(anna->news().answers[0]->measurement).value, 3);
   EXPECT_EQ(std::get<Echoes>(anna->news().answers[1]->measurement)[0].range_m, 2);
@@ -174,7 +167,7 @@ TEST_F(RemotePortTest, ReportsAMissingSensor) {
   info.sensors = std::make_shared<std::vector<SensorInfo>>(1, (*info.sensors)[0]);
   robot.hardware->mutableReadings().measurements.resize(1);
   connect(*anna, "Anna");
-  anna->send({.type = RemoteType::req_heat});
+  anna->send(makeOrder(OrderType::req_heat));
   wait([&] { return anna->news().answers[0] != nullptr; });
   EXPECT_FALSE(anna->news().answers[0]->has_sensor);
 }
@@ -216,7 +209,7 @@ TEST_F(RemotePortTest, SendsAPictureToARemoteControlThatMissedItsStep) {
 
 TEST_F(RemotePortTest, IsWatchedFromARequestOfAllReadingsUntilSomeStepsAfterTheLast) {
   connect(*anna, "Anna");
-  anna->send({.type = RemoteType::req_sonar});
+  anna->send(makeOrder(OrderType::req_sonar));
   wait([&] { return anna->news().answers[2] != nullptr; });
   EXPECT_FALSE(robot.isWatched()) << "the sonars are no picture";
   anna->setLive(true);
@@ -234,7 +227,7 @@ TEST_F(RemotePortTest, ReportsTheWinnerAndTheEndOfTheRunToAll) {
   robot.endRun();
   for (RobotLink* link : {anna.get(), ben.get()}) {
     waitUntil([&] { return !link->isCalling(); });
-    EXPECT_EQ(link->news().state.winner, "Pioneer1");
+    EXPECT_EQ(link->news().state.winner(), "Pioneer1");
     EXPECT_EQ(link->news().problem, "the run is over");
     EXPECT_TRUE(link->news().is_over);
   }
@@ -303,10 +296,10 @@ TEST(RemotePortAccess, PermitsEachTokenWhatItsRolePermits) {
     waitUntil([&] { return link->news().is_up || !link->isCalling(); }, [&] { robot.step(); });
     return link->news();
   };
-  EXPECT_TRUE(news_of(driver).state.is_yours);
-  waitUntil([&] { return robot.robot.state().driver.empty(); }, [&] { robot.step(); });
+  EXPECT_TRUE(news_of(driver).state.is_yours());
+  waitUntil([&] { return robot.robot.state().driver().empty(); }, [&] { robot.step(); });
   EXPECT_EQ(news_of(viewer).problem, "");
-  EXPECT_FALSE(news_of(viewer).state.is_yours) << "may watch only";
+  EXPECT_FALSE(news_of(viewer).state.is_yours()) << "may watch only";
   EXPECT_EQ(news_of(other).problem, "the token is not for robot 'Pioneer1' but for X; use another");
   EXPECT_NE(news_of("").problem.find("requires a token"), std::string::npos);
   EXPECT_NE(news_of("wrong-0123456789abcdef").problem.find("the token is unknown"), std::string::npos);

@@ -4,12 +4,21 @@
 
 namespace robosim {
 
-const std::array<ResponseOutbox::Request, 4> ResponseOutbox::kRequests{{
-    {kHeat, RemoteType::req_heat, SensorKind::heat},
-    {kLaser, RemoteType::req_laser, SensorKind::laser},
-    {kSonar, RemoteType::req_sonar, SensorKind::sonar},
-    {kAll, RemoteType::req_all, {}},
-}};
+namespace {
+
+/// Copies a received message without its pictures, which PortRobot has.
+void forward(const v1::RobotReadings& received, v1::RobotReadings& out) {
+  for (const auto& measurement : received.measurements()) {
+    v1::Measurement& copy = *out.add_measurements();
+    if (measurement.jpeg().empty()) copy = measurement;
+  }
+  out.set_stalled(received.stalled());
+  out.set_laser_pan_rad(received.laser_pan_rad());
+  out.set_is_too_far(received.is_too_far());
+  *out.mutable_inbox() = received.inbox();
+}
+
+}  // namespace
 
 void PortRobot::keepPictures() {
   for (std::size_t i = 0; i < pictures_.size(); ++i) {
@@ -27,11 +36,9 @@ void PortRobot::dropPicturesBefore(std::uint64_t steps) {
 ResponseOutbox::ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome)
     : robot_(robot), welcome_(std::move(welcome)), sent_(robot.pictures().size()) {}
 
-bool ResponseOutbox::request(RemoteType type) {
-  const auto* const found =
-      std::find_if(kRequests.begin(), kRequests.end(), [&](const Request& request) { return request.type == type; });
-  if (found == kRequests.end()) return false;
-  is_requested_[found->topic] = true;
+bool ResponseOutbox::request(OrderType type) {
+  if (rowOf(type).rule != OrderRule::request) return false;
+  is_requested_[kFirstReading + readingIndex(type)] = true;
   return true;
 }
 
@@ -40,16 +47,12 @@ void ResponseOutbox::addState(bool is_driver) {
   if (welcome_) encode(*welcome_, *message.mutable_welcome());
 }
 
-void ResponseOutbox::addReadings(bool is_driver) {
+void ResponseOutbox::addReadings(bool is_driver, const v1::RobotReadings* received) {
   steps_since_all_ = is_requested_[kAll] ? 0 : std::min(kWatchingSteps, steps_since_all_ + 1);
-  for (const auto& request : kRequests) {
-    if (!is_requested_[request.topic]) continue;
-    if (request.topic == kAll) {
-      addAll(is_driver);
-    } else {
-      addSensor(request, is_driver);
-    }
+  for (std::size_t reading = 0; reading < kReadings; ++reading) {
+    if (is_requested_[kFirstReading + reading]) addSensor(reading, is_driver, received);
   }
+  if (is_requested_[kAll]) addAll(is_driver, received);
 }
 
 bool ResponseOutbox::isEmpty() const { return std::find(is_due_.begin(), is_due_.end(), true) == is_due_.end(); }
@@ -76,35 +79,43 @@ void ResponseOutbox::noteSent(v1::Measurement& measurement, std::size_t sensor) 
   sent_[sensor] = measurement.step();
 }
 
-v1::ControlResponse& ResponseOutbox::add(Topic topic, bool is_driver) {
+v1::ControlResponse& ResponseOutbox::add(std::size_t topic, bool is_driver) {
   v1::ControlResponse& message = due_[topic];
   message.Clear();
   is_due_[topic] = true;
-  RemoteState state = robot_.robot().state();
-  state.is_yours = is_driver;
-  encode(state, *message.mutable_state());
+  *message.mutable_state() = robot_.robot().state();
+  message.mutable_state()->set_is_yours(is_driver);
   return message;
 }
 
-void ResponseOutbox::addSensor(const Request& request, bool is_driver) {
-  v1::ControlResponse::Reading& reading = *add(request.topic, is_driver).mutable_reading();
-  reading.set_kind(requestedKind(request.type));
+void ResponseOutbox::addSensor(std::size_t index, bool is_driver, const v1::RobotReadings* received) {
+  const SensorKind kind = readingRow(index).sensor;
+  v1::ControlResponse::Reading& reading = *add(kFirstReading + index, is_driver).mutable_reading();
+  reading.set_kind(nameOf(kind));
   reading.set_step(robot_.readings().time.step);
   const auto& sensors = *robot_.info().sensors;
-  const auto found =
-      std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == request.sensor; });
+  const auto found = std::find_if(sensors.begin(), sensors.end(), [&](const SensorInfo& s) { return s.kind == kind; });
   if (found == sensors.end()) return;
   const auto slot = static_cast<std::size_t>(found - sensors.begin());
   reading.set_sensor(static_cast<std::uint32_t>(slot));
-  encode(robot_.readings().measurements[slot], *reading.mutable_measurement());
-  reading.mutable_measurement()->set_step(reading.step());
-  reading.mutable_measurement()->set_is_new(true);
+  v1::Measurement& measurement = *reading.mutable_measurement();
+  if (received) {
+    measurement = received->measurements(static_cast<int>(slot));
+  } else {
+    encode(robot_.readings().measurements[slot], measurement);
+  }
+  measurement.set_step(reading.step());
+  measurement.set_is_new(true);
 }
 
-void ResponseOutbox::addAll(bool is_driver) {
+void ResponseOutbox::addAll(bool is_driver, const v1::RobotReadings* received) {
   v1::ControlResponse::AllReadings& all = *add(kAll, is_driver).mutable_all();
   all.set_step(robot_.readings().time.step);
-  encode(robot_.readings(), *all.mutable_readings());
+  if (received) {
+    forward(*received, *all.mutable_readings());
+  } else {
+    encode(robot_.readings(), *all.mutable_readings());
+  }
   for (std::size_t i = 0; i < robot_.pictures().size(); ++i) {
     const PortRobot::Picture& picture = robot_.pictures()[i];
     if (picture.step <= sent_[i]) continue;

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "net/robot_wire.h"
+#include "remote/orders.h"
 #include "remote/remote_control_robot.h"
-#include "robosim/v1/remote_control.pb.h"
 
 namespace robosim {
 
@@ -52,12 +52,15 @@ class ResponseOutbox {
   ResponseOutbox(const PortRobot& robot, RobotsWelcome welcome);
 
   /// Requests the next step's reading. @return false if the order is not a request
-  bool request(RemoteType type);
+  bool request(OrderType type);
+  /// Requests all readings of the next step.
+  void requestAll() { is_requested_[kAll] = true; }
   /// Adds the robot's state.
   /// @param is_driver whether the remote control is the robot's driver
   void addState(bool is_driver);
   /// Adds the requested readings of this step.
-  void addReadings(bool is_driver);
+  /// @param received message from which the robot's readings were decoded: it is forwarded. Null: they are encoded
+  void addReadings(bool is_driver, const v1::RobotReadings* received = nullptr);
   /// Whether all readings have been requested in one of the last steps: a remote control that shows them requests them
   /// again when it has received them.
   bool isWatching() const { return is_requested_[kAll] || steps_since_all_ < kWatchingSteps; }
@@ -66,18 +69,12 @@ class ResponseOutbox {
   void takeNext(v1::ControlResponse& out);
 
  private:
-  /// In the order in which messages are sent.
-  enum Topic : std::size_t { kState, kHeat, kLaser, kSonar, kAll, kTopics };
-  struct Request {
-    Topic topic;
-    RemoteType type;
-    SensorKind sensor;  ///< unused for kAll
-  };
-  static const std::array<Request, 4> kRequests;
+  /// Topics, in the order in which messages are sent: the state, each kind of reading, and all readings.
+  static constexpr std::size_t kState = 0, kFirstReading = 1, kAll = kFirstReading + kReadings, kTopics = kAll + 1;
 
-  v1::ControlResponse& add(Topic topic, bool is_driver);
-  void addSensor(const Request& request, bool is_driver);
-  void addAll(bool is_driver);
+  v1::ControlResponse& add(std::size_t topic, bool is_driver);
+  void addSensor(std::size_t reading, bool is_driver, const v1::RobotReadings* received);
+  void addAll(bool is_driver, const v1::RobotReadings* received);
   void noteSent(v1::Measurement& measurement, std::size_t sensor);
 
   const PortRobot& robot_;

@@ -62,16 +62,15 @@ TEST_F(ResponseOutboxTest, TheFirstStateContainsTheWelcome) {
 
 // The newest state replaces one that was not sent. That the robot has stopped follows from `stops` nevertheless.
 TEST_F(ResponseOutboxTest, CountsAStopWhoseReasonANewerStateHasCleared) {
-  RemoteOrder drive{.type = RemoteType::drive};
-  drive.speed_mps = 0.5;
-  const auto order = [&](const RemoteOrder& next) {
+  const auto drive = driveOrder(0.5);
+  const auto order = [&](const v1::ControlRequest& next) {
     robot.obey(next);
     robot.step();
     outbox.addState(true);
   };
   robot.take("Anna", false);
   order(drive);
-  order({.type = RemoteType::stop, .why = "Anna's page is hidden"});
+  order(stopOrder("Anna's page is hidden"));
   order(drive);
   const auto message = take();
   EXPECT_EQ(message.state().why_stopped(), "");
@@ -82,7 +81,7 @@ TEST_F(ResponseOutboxTest, CountsAStopWhoseReasonANewerStateHasCleared) {
 TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
   step();
   EXPECT_TRUE(outbox.isEmpty());
-  EXPECT_TRUE(outbox.request(RemoteType::req_heat));
+  EXPECT_TRUE(outbox.request(OrderType::req_heat));
   hardware.setHeat(7);
   step();
   const auto message = take();
@@ -94,15 +93,15 @@ TEST_F(ResponseOutboxTest, ContainsReadingsOnlyOnRequestAndOnce) {
 }
 
 TEST_F(ResponseOutboxTest, ReplacesReadingsThatWereNotSentByNewerOnes) {
-  outbox.request(RemoteType::req_all);
+  outbox.requestAll();
   for (int i = 0; i < 100; ++i) step();
   EXPECT_EQ(take().all().step(), 99u);
   EXPECT_TRUE(outbox.isEmpty());
 }
 
 TEST_F(ResponseOutboxTest, SendsTheStateFirst) {
-  outbox.request(RemoteType::req_all);
-  outbox.request(RemoteType::req_sonar);
+  outbox.requestAll();
+  outbox.request(OrderType::req_sonar);
   step();
   outbox.addState(true);
   EXPECT_TRUE(take().has_welcome());
@@ -116,34 +115,59 @@ TEST_F(ResponseOutboxTest, SendsEachPictureOnceEvenIfItsStepWasMissed) {
   };
   step("picture");
   step();
-  outbox.request(RemoteType::req_all);
+  outbox.requestAll();
   step();
   const auto message = take();
   EXPECT_EQ(picture_in(message), "picture");
   EXPECT_EQ(message.all().readings().measurements(4).step(), 0u);
-  outbox.request(RemoteType::req_all);
+  outbox.requestAll();
   step();
   EXPECT_EQ(picture_in(take()), "");
 }
 
+TEST_F(ResponseOutboxTest, ForwardsAReceivedMessageAsItWouldEncodeItsReadings) {
+  ResponseOutbox encoding{port_robot, welcome()};
+  hardware.setHeat(7);
+  hardware.setLaserRange(2);
+  hardware.mutableReadings().inbox = {{"other", hardware.info().name, "text"}};
+  for (const char* jpeg : {"picture", "", "another"}) {
+    std::get<Image>(hardware.mutableReadings().measurements[4]).jpeg = jpeg;
+    port_robot.keepPictures();
+    v1::RobotReadings received;
+    encode(hardware.readings(), received);
+    for (ResponseOutbox* one : {&outbox, &encoding}) {
+      one->requestAll();
+      one->request(OrderType::req_laser);
+      one->addReadings(true, one == &outbox ? &received : nullptr);
+    }
+    while (!outbox.isEmpty()) {
+      v1::ControlResponse message;
+      encoding.takeNext(message);
+      EXPECT_EQ(take().SerializeAsString(), message.SerializeAsString()) << message.DebugString();
+    }
+    EXPECT_TRUE(encoding.isEmpty());
+    hardware.advance();
+  }
+}
+
 TEST_F(ResponseOutboxTest, MarksAMeasurementAsNewInTheFirstOfItsMessages) {
-  outbox.request(RemoteType::req_heat);
-  outbox.request(RemoteType::req_all);
+  outbox.request(OrderType::req_heat);
+  outbox.requestAll();
   step();
   EXPECT_TRUE(take().reading().measurement().is_new());
   const auto of_same_step = take();
   EXPECT_EQ(of_same_step.all().readings().measurements(3).step(), 0u);
   EXPECT_FALSE(of_same_step.all().readings().measurements(3).is_new()) << "heat, received before";
   EXPECT_TRUE(of_same_step.all().readings().measurements(0).is_new());
-  outbox.request(RemoteType::req_all);
+  outbox.requestAll();
   step();
   EXPECT_TRUE(take().all().readings().measurements(3).is_new()) << "the next step";
 }
 
 TEST_F(ResponseOutboxTest, AcceptsOnlyRequests) {
-  EXPECT_TRUE(outbox.request(RemoteType::req_laser));
-  EXPECT_FALSE(outbox.request(RemoteType::stop));
-  EXPECT_FALSE(outbox.request(RemoteType::drive));
+  EXPECT_TRUE(outbox.request(OrderType::req_laser));
+  EXPECT_FALSE(outbox.request(OrderType::stop));
+  EXPECT_FALSE(outbox.request(OrderType::drive));
 }
 
 }  // namespace

@@ -9,7 +9,6 @@
 #include "net/client_stream.h"
 #include "net/robot_wire.h"
 #include "net/tls.h"
-#include "remote/drive_order.h"
 #include "robosim/v1/remote_control.grpc.pb.h"
 
 namespace robosim {
@@ -46,9 +45,8 @@ struct RobotLink::Impl {
   /// @name With the mutex locked
   ///@{
   void sendNext();  ///< unless a message is being written
-  std::optional<RemoteOrder> next();
-  void discardSteering();
-  void discardOrders();
+  std::optional<v1::ControlRequest> next();
+  void discardSuperseded(OrderRule newer);
   void processMessage();
   void processUpdate(const v1::ControlResponse::AllReadings& all);
   void processAnswer(const v1::ControlResponse::Reading& reading);
@@ -71,16 +69,10 @@ struct RobotLink::Impl {
   bool is_live = false;
   /// @name Messages to send, in this order
   ///@{
-  std::optional<RemoteOrder> init;
+  std::optional<v1::ControlRequest> init;
   bool init_is_due = false;
-  std::optional<RemoteOrder> switching;  ///< of the mode
-  std::optional<RemoteOrder> stop;       ///< never superseded by a later order
-  std::optional<RemoteOrder> driving;    ///< DRIVE: the newest speed, turn and pan
-  std::optional<RemoteOrder> steering;   ///< the newest other order that steers
-  bool check_win_is_due = false;
-  std::array<bool, 3> request_is_due{};  ///< heat, laser, sonar
+  std::array<std::optional<v1::ControlRequest>, kOrders.size()> waiting;  ///< the newest order of each type
   bool request_all_is_due = false;
-  bool alive_is_due = false;
   ///@}
 
   std::thread thread;
@@ -108,37 +100,22 @@ RobotLink::Impl::~Impl() {
 }
 
 /// The next message to send; nullopt for none.
-std::optional<RemoteOrder> RobotLink::Impl::next() {
-  if (init && init_is_due) {
-    init_is_due = false;
-    return init;
-  }
+std::optional<v1::ControlRequest> RobotLink::Impl::next() {
+  if (init && std::exchange(init_is_due, false)) return init;
   if (!news.is_up) return std::nullopt;  // not before the welcome
-  if (switching) return std::exchange(switching, std::nullopt);
-  if (stop) return std::exchange(stop, std::nullopt);
-  if (driving) return std::exchange(driving, std::nullopt);
-  if (steering) return std::exchange(steering, std::nullopt);
-  if (std::exchange(check_win_is_due, false)) return RemoteOrder{.type = RemoteType::check_win};
-  for (std::size_t i = 0; i < request_is_due.size(); ++i) {
-    const auto type = static_cast<RemoteType>(static_cast<std::size_t>(RemoteType::req_heat) + i);
-    if (std::exchange(request_is_due[i], false)) return RemoteOrder{.type = type};
+  for (auto& order : waiting) {
+    if (order) return std::exchange(order, std::nullopt);
   }
-  if (std::exchange(request_all_is_due, false)) return RemoteOrder{.type = RemoteType::req_all};
-  if (std::exchange(alive_is_due, false)) return RemoteOrder{.type = RemoteType::alive};
-  return std::nullopt;
+  if (!std::exchange(request_all_is_due, false)) return std::nullopt;
+  v1::ControlRequest request;
+  request.mutable_req_all();
+  return request;
 }
 
-void RobotLink::Impl::discardSteering() {
-  stop.reset();
-  driving.reset();
-  steering.reset();
-}
-
-void RobotLink::Impl::discardOrders() {
-  switching.reset();
-  discardSteering();
-  check_win_is_due = request_all_is_due = alive_is_due = false;
-  request_is_due.fill(false);
+void RobotLink::Impl::discardSuperseded(OrderRule newer) {
+  for (std::size_t i = 0; i < waiting.size(); ++i) {
+    if (supersedes(newer, kOrders[i].rule)) waiting[i].reset();
+  }
 }
 
 void RobotLink::Impl::makeCalls() {
@@ -158,7 +135,8 @@ void RobotLink::Impl::makeCalls() {
                        status.error_code() == grpc::StatusCode::UNAUTHENTICATED ||
                        status.error_code() == grpc::StatusCode::PERMISSION_DENIED ||
                        status.error_code() == grpc::StatusCode::FAILED_PRECONDITION;
-    discardOrders();
+    waiting = {};
+    request_all_is_due = false;
     lock.unlock();
     on_news();
     lock.lock();
@@ -195,9 +173,9 @@ grpc::Status RobotLink::Impl::call(std::string& error) {
 
 void RobotLink::Impl::sendNext() {
   if (!is_connected || stream.isWriting()) return;
-  const auto order = next();
+  auto order = next();
   if (!order) return;
-  encode(*order, out);
+  out = *std::move(order);
   stream.write(out);
 }
 
@@ -217,7 +195,8 @@ void RobotLink::Impl::processMessage() {
     request_all_is_due = is_live;
   }
   if (!news.is_up) throw WireError("the first message is not a welcome");
-  news.state = decode(in.state());
+  validate(in.state());
+  news.state = in.state();
   if (in.has_all()) processUpdate(in.all());
   if (in.has_reading()) processAnswer(in.reading());
 }
@@ -227,7 +206,7 @@ void RobotLink::Impl::processUpdate(const v1::ControlResponse::AllReadings& all)
   update->readings = blankReadings(*news.info->sensors);
   update->readings.time = {all.step(), news.period_s};
   decode(all.readings(), news.info->name, update->readings);
-  update->readings.winner = news.state.winner;
+  update->readings.winner = news.state.winner();
   update->state = news.state;
   bool is_first_camera = true;
   for (std::size_t i = 0; i < update->readings.measurements.size(); ++i) {
@@ -244,8 +223,10 @@ void RobotLink::Impl::processUpdate(const v1::ControlResponse::AllReadings& all)
 }
 
 void RobotLink::Impl::processAnswer(const v1::ControlResponse::Reading& reading) {
-  const auto type = requestFor(reading.kind());
-  if (!type) throw WireError("a reading of the kind " + inQuotes(reading.kind()) + ", which was not requested");
+  std::size_t index = 0;
+  while (index < kReadings && reading.kind() != nameOf(readingRow(index).sensor)) ++index;
+  if (index == kReadings)
+    throw WireError("a reading of the kind " + inQuotes(reading.kind()) + ", which was not requested");
   auto answer = std::make_shared<RobotAnswer>();
   answer->step = reading.step();
   answer->has_sensor = reading.has_sensor();
@@ -256,7 +237,7 @@ void RobotLink::Impl::processAnswer(const v1::ControlResponse::Reading& reading)
     answer->measurement = blankReadings(*news.info->sensors).measurements[answer->sensor];
     decode(reading.measurement(), answer->measurement);
   }
-  news.answers[static_cast<std::size_t>(*type) - static_cast<std::size_t>(RemoteType::req_heat)] = std::move(answer);
+  news.answers[index] = std::move(answer);
 }
 
 RobotLink::RobotLink(std::string robot, ConnectOptions connect_options, std::function<void()> on_news)
@@ -277,55 +258,30 @@ bool RobotLink::isCalling() const {
 
 void RobotLink::claim(const std::string& driver, bool autonomous) {
   const std::lock_guard lock(impl_->mutex);
-  impl_->init =
-      RemoteOrder{.type = RemoteType::init, .robot = impl_->robot, .driver = driver, .autonomous = autonomous};
+  auto& init = *impl_->init.emplace().mutable_init();
+  init.set_protocol(kProtocolVersion);
+  init.set_robot(impl_->robot);
+  init.set_driver(driver);
+  init.set_autonomous(autonomous);
   impl_->init_is_due = true;
-  impl_->switching.reset();
-  impl_->discardSteering();
+  impl_->waiting[indexOf(OrderType::set_mode)].reset();
+  impl_->discardSuperseded(OrderRule::mode);
   impl_->sendNext();
 }
 
-void RobotLink::send(const RemoteOrder& order) {
+void RobotLink::send(const v1::ControlRequest& order) {
+  const OrderRow& row = rowOf(typeOf(order));
   const std::lock_guard lock(impl_->mutex);
   // A disconnected robot receives the switch with its next INIT. A stop of the driver ends the autonomous mode.
-  if (order.type == RemoteType::set_mode && impl_->init) impl_->init->autonomous = order.autonomous;
-  const bool is_drivers_stop = order.type == RemoteType::stop && order.why.empty();
-  if (is_drivers_stop && impl_->init) impl_->init->autonomous = false;
-  if (!impl_->news.is_up) return;
-  switch (order.type) {
-    case RemoteType::init:
-      return;  // sent by claim()
-    case RemoteType::set_mode:
-      impl_->switching = order;
-      impl_->discardSteering();
-      break;
-    case RemoteType::check_win:
-      impl_->check_win_is_due = true;
-      break;
-    case RemoteType::req_heat:
-    case RemoteType::req_laser:
-    case RemoteType::req_sonar:
-      impl_->request_is_due[static_cast<std::size_t>(order.type) - static_cast<std::size_t>(RemoteType::req_heat)] =
-          true;
-      break;
-    case RemoteType::req_all:
-      impl_->request_all_is_due = true;
-      break;
-    case RemoteType::alive:
-      impl_->alive_is_due = true;
-      break;
-    case RemoteType::stop:
-      impl_->discardSteering();
-      impl_->stop = order;
-      break;
-    case RemoteType::drive:
-      impl_->driving = impl_->driving ? mergeDrive(*impl_->driving, order) : order;
-      impl_->steering.reset();
-      break;
-    default:
-      impl_->steering = order;
-      break;
+  if (row.rule == OrderRule::mode && impl_->init) {
+    impl_->init->mutable_init()->set_autonomous(order.set_mode().autonomous());
   }
+  const bool is_drivers_stop = row.rule == OrderRule::stop && whyOf(order).empty();
+  if (is_drivers_stop && impl_->init) impl_->init->mutable_init()->set_autonomous(false);
+  if (!impl_->news.is_up) return;
+  impl_->discardSuperseded(row.rule);
+  auto& waiting = impl_->waiting[indexOf(row.type)];
+  waiting = waiting && row.rule == OrderRule::set ? mergeDrive(*waiting, order) : order;
   impl_->sendNext();
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "net/connect.h"
-#include "net/remote_wire.h"
+#include "remote/orders.h"
 #include "remote/robot_news.h"
 
 namespace robosim {
@@ -29,7 +29,8 @@ class RobotLink {
   /// sent yet are discarded.
   void claim(const std::string& driver, bool autonomous);
   /// Sends an order. While disconnected, only a change of the mode is kept, for the next INIT.
-  void send(const RemoteOrder& order);
+  /// @throws WireError for a message that is no order of kOrders
+  void send(const v1::ControlRequest& order);
   /// Subscribes to updates and pictures, or unsubscribes.
   void setLive(bool live);
 

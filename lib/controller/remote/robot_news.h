@@ -6,14 +6,14 @@
 
 #include "hardware/readings.h"
 #include "hardware/robot_info.h"
-#include "net/remote_wire.h"
+#include "remote/orders.h"
 
 namespace robosim {
 
 /// All measurements of a robot in one step.
 struct RobotUpdate {
   Readings readings;  ///< without camera pictures: see RobotPicture
-  RemoteState state;
+  v1::RobotState state = initialState();
 };
 
 /// A camera's picture, separate because cameras do not take one in every step.
@@ -40,10 +40,10 @@ struct RobotNews {
   std::shared_ptr<const RobotInfo> info{};  ///< null as long as it has never been up
   std::string world{};
   double period_s = 0;
-  RemoteState state{};
-  std::shared_ptr<const RobotUpdate> update{};                  ///< null as long as there is none
-  std::shared_ptr<const RobotPicture> picture{};                ///< of the first camera
-  std::array<std::shared_ptr<const RobotAnswer>, 3> answers{};  ///< heat, laser, sonar
+  v1::RobotState state = initialState();
+  std::shared_ptr<const RobotUpdate> update{};                          ///< null as long as there is none
+  std::shared_ptr<const RobotPicture> picture{};                        ///< of the first camera
+  std::array<std::shared_ptr<const RobotAnswer>, kReadings> answers{};  ///< by readingIndex()
 };
 
 /// A robot of a team, as seen by its remote control.
@@ -53,7 +53,7 @@ struct TeamRobot {
   RobotNews news;
 
   /// Whether it can become the primary: connected, and without another driver.
-  bool isFit() const { return news.is_up && (news.state.is_yours || news.state.driver.empty()); }
+  bool isFit() const { return news.is_up && (news.state.is_yours() || news.state.driver().empty()); }
 };
 
 }  // namespace robosim

@@ -15,19 +15,20 @@
 // 5. The maximum speed applies to every input.
 
 import { GamepadInput } from './gamepad.js';
+import { STEERING } from './orders.js';
 
 export const ALIVE_MS = 100;
 export const PRESENCE_MS = 5000;
 export const PROMPT_MS = 3000;  // before the end of a cruise, the time for which the user is prompted
 export const SUSPENDED_MS = 2000;  // without a tick, after which the page was suspended
 const CONFIRM_MS = 1000;  // after an order, within which the robot's reports may be older
-const TURN_PART = 0.5;  // fraction of the robot's maximum, for keys and buttons
+const TURN_PART = STEERING.turn_left.turn;  // of keys and buttons, as of a single order
 
 export const MOTION_KEYS = {
   ArrowUp: { speed: 1 }, KeyW: { speed: 1 }, ArrowDown: { speed: -1 }, KeyS: { speed: -1 },
   ArrowLeft: { turn: 1 }, KeyA: { turn: 1 }, ArrowRight: { turn: -1 }, KeyD: { turn: -1 },
 };
-export const MOTION_ORDERS = new Set(['accelerate', 'decelerate', 'turn_left', 'turn_right']);
+export const MOTION_ORDERS = new Set(Object.keys(STEERING));
 const WHY_CLOSED = {
   focus: 'has lost the focus', visible: 'is hidden', link: 'has received nothing from the console for 2 s',
   robot: 'has received nothing from the robot for 2 s',
@@ -151,7 +152,7 @@ export class Motion {
   order(type, now) {
     this.noteInput(now);
     if (MOTION_ORDERS.has(type) && this.#isLatched) return [];
-    const by = { accelerate: 0.1, decelerate: -0.1 }[type] ?? 0;
+    const by = STEERING[type]?.speed ?? 0;
     const next = this.#commanded + by;
     if (by && Math.abs(next) > Math.abs(this.#commanded) && Math.abs(next) > this.#limit + 1e-9) return [];
     if (by) {

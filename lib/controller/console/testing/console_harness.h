@@ -49,7 +49,7 @@ class ConsoleHarness {
   };
   struct Order {
     std::string robot;
-    RemoteOrder order;
+    v1::ControlRequest order;
   };
 
   /// @param tokens token file; empty: every page has every right
@@ -153,9 +153,7 @@ class ConsoleHarness {
     return std::any_of(log.begin(), log.end(), [&](const auto& line) { return line.find(text) != std::string::npos; });
   }
 
-  static bool moves(RemoteType type) {
-    return type == RemoteType::drive || (type >= RemoteType::accelerate && type <= RemoteType::turn_right);
-  }
+  static bool moves(const v1::ControlRequest& order) { return order.has_drive() || order.has_steer(); }
 
   std::chrono::steady_clock::time_point now{std::chrono::hours(1)};
   Access access;
@@ -196,12 +194,12 @@ class ConsoleHarness {
   bool expect(PageId id, Page& page, const std::string& text) {
     try {
       const PageMessage message = PageMessage::parse(text);
-      if (message.type == Type::hello && !message.token.empty()) page.token = message.token;
-      if (message.type == Type::ack) page.acknowledged = std::max(page.acknowledged, message.number);
+      if (message.type == Type(ConsoleRequest::hello) && !message.token.empty()) page.token = message.token;
+      if (message.type == Type(ConsoleRequest::ack)) page.acknowledged = std::max(page.acknowledged, message.number);
       if (session.lockHolder() != id) return false;
-      const bool is_motion = message.type >= Type::drive && message.type <= Type::turn_right;
-      if (is_motion) may_move_ = true;
-      return message.type == Type::stop && holderMayDrive(primary());
+      const auto* const order = std::get_if<OrderType>(&message.type);
+      if (order && moves(makeOrder(*order))) may_move_ = true;
+      return order && *order == OrderType::stop && holderMayDrive(primary());
     } catch (const WireError&) {
       return false;
     }
@@ -231,33 +229,33 @@ class ConsoleHarness {
     return false;
   }
   bool operator()(const SendOrder& action) {
-    const RemoteType type = action.order.type;
-    if (type >= RemoteType::req_heat && type <= RemoteType::req_sonar) {
-      answer(type);
+    const v1::ControlRequest& order = action.order;
+    if (order.has_req_reading()) {
+      answer(typeOf(order));
       return true;
     }
-    if (moves(type)) {
+    if (order.has_set_mode()) {
+      require(holderMayDrive(primary()), "a robot's controller is enabled by the holder of the control lock only");
+      row.front().news.state.set_autonomous(order.set_mode().autonomous());
+      return true;
+    }
+    if (moves(order)) {
       require(holderMayDrive(primary()), "a robot moves only for the holder of the control lock and its token");
       require(may_move_, "no motion after a stop, a switch or a new driver without a new message");
       ++motions;
     }
-    if (type == RemoteType::stop) {
+    if (order.has_stop()) {
       may_move_ = false;
       ++stops_;
     }
-    orders.push_back({primary(), action.order});
+    orders.push_back({primary(), order});
     return false;
   }
   bool operator()(const SetDriver& action) {
     require(holderMayDrive(primary()), "a robot's driver holds the control lock and may drive it");
-    row.front().news.state.driver = action.name;
-    row.front().news.state.is_yours = true;
+    row.front().news.state.set_driver(action.name);
+    row.front().news.state.set_is_yours(true);
     may_move_ = false;
-    return true;
-  }
-  bool operator()(const SetAutonomous& action) {
-    require(holderMayDrive(primary()), "a robot's controller is enabled by the holder of the control lock only");
-    row.front().news.state.autonomous = action.autonomous;
     return true;
   }
   bool operator()(const SwitchPrimary& action) {
@@ -269,11 +267,11 @@ class ConsoleHarness {
     require(target != row.end(), "a robot of the team becomes primary");
     if (fails_switches) return true;
     ++switches;
-    row.front().news.state.autonomous = true;
+    row.front().news.state.set_autonomous(true);
     std::rotate(row.begin(), target, target + 1);
     std::rotate(row.begin() + 1, row.begin() + 2, row.end());  // the old primary moves to the end
-    row.front().news.state.autonomous = false;
-    row.front().news.state.is_yours = true;
+    row.front().news.state.set_autonomous(false);
+    row.front().news.state.set_is_yours(true);
     return true;
   }
   bool operator()(const RestartRun&) {
@@ -303,11 +301,10 @@ class ConsoleHarness {
   bool fails_switches = false;  ///< robots become unfit before a switch is performed
 
  private:
-  void answer(RemoteType type) {
+  void answer(OrderType type) {
     auto answer = std::make_shared<RobotAnswer>();
     answer->step = steps_;
-    row.front().news.answers[static_cast<std::size_t>(type) - static_cast<std::size_t>(RemoteType::req_heat)] =
-        std::move(answer);
+    row.front().news.answers[readingIndex(type)] = std::move(answer);
   }
 
   Access reference_;  ///< with the same tokens, and a limit on wrong tokens of its own

@@ -128,14 +128,14 @@ class ConsoleScenario {
         news.is_up = !news.is_up;
         break;
       case 1:
-        news.state.is_yours = !news.state.is_yours;
-        news.state.driver = news.state.is_yours ? "" : "another console";
+        news.state.set_is_yours(!news.state.is_yours());
+        news.state.set_driver(news.state.is_yours() ? "" : "another console");
         break;
       case 2:
-        news.state.winner = news.state.winner.empty() ? "Bob" : "";
+        news.state.set_winner(news.state.winner().empty() ? "Bob" : "");
         break;
       default:
-        news.state.why_stopped = news.state.why_stopped.empty() ? "a test" : "";
+        news.state.set_why_stopped(news.state.why_stopped().empty() ? "a test" : "");
         break;
     }
   }

@@ -27,24 +27,11 @@ inline constexpr const char* kTokens =
     "operator-0123456789abcdef operator\n"
     "one-day-0123456789abcdef operator expires=2027-01-01\n";
 
-inline std::string textOf(const RemoteOrder& order) {
-  switch (order.type) {
-    case RemoteType::drive:
-      return "drive" + (order.speed_mps ? mrpt::format(" speed %g", *order.speed_mps) : "") +
-             (order.turn_radps ? mrpt::format(" turn %g", *order.turn_radps) : "");
-    case RemoteType::stop:
-      return "stop" + (order.why.empty() ? "" : ": " + order.why);
-    case RemoteType::accelerate:
-      return "accelerate";
-    case RemoteType::turn_left:
-      return "turn_left";
-    case RemoteType::alive:
-      return "alive";
-    case RemoteType::check_win:
-      return "check_win";
-    default:
-      return "another order";
-  }
+inline std::string textOf(const v1::ControlRequest& order) {
+  std::string text = rowOf(typeOf(order)).name;
+  if (order.drive().has_speed_mps()) text += mrpt::format(" speed %g", order.drive().speed_mps());
+  if (order.drive().has_turn_radps()) text += mrpt::format(" turn %g", order.drive().turn_radps());
+  return text + (order.stop().why().empty() ? "" : ": " + order.stop().why());
 }
 
 /// Ann, the primary, Bob and Cid. Ann's maximum speeds are 1 m/s and 2 rad/s.
