@@ -118,8 +118,7 @@ TEST(Orders, TheRobotsPortAnswersTheRequestsAmongTheRowsAndNoOthers) {
     EXPECT_EQ(outbox.request(row.type), row.rule == OrderRule::request) << row.name;
     outbox.addReadings(false);
     EXPECT_EQ(outbox.isEmpty(), row.rule != OrderRule::request) << row.name;
-    EXPECT_EQ(row.right == Right::look, row.rule == OrderRule::request)
-        << row.name << ": whoever may watch may send it";
+    EXPECT_EQ(row.right == Right::look, row.rule == OrderRule::request) << row.name << ": the right to watch suffices";
     if (outbox.isEmpty()) continue;
     v1::ControlResponse message;
     outbox.takeNext(message);
