@@ -1,6 +1,6 @@
-#include "remote/primary_queue.h"
-
 #include <gtest/gtest.h>
+
+#include "remote/remote_control.h"
 
 namespace robosim {
 namespace {

@@ -63,7 +63,12 @@ TEST_F(RemoteControlTest, ConnectsThePrimaryLast) {
   const auto control = start();
   control->tick();
   EXPECT_EQ(team[0]->log(), "") << "the secondary robots are not connected yet";
-  wait(*control, [&] { return control->primary().news.is_up; });
+  // Without a limit in time: the clock stands.
+  waitUntil([&] { return control->primary().news.is_up; },
+            [&] {
+              for (auto& robot : team) robot->step();
+              control->tick();
+            });
   EXPECT_TRUE(control->robots()[2].news.is_up);
   EXPECT_FALSE(control->robots()[1].news.is_up);
 }

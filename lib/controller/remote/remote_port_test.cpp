@@ -306,6 +306,25 @@ TEST(RemotePortAccess, PermitsEachTokenWhatItsRolePermits) {
   EXPECT_EQ(robot.log().find("0123456789abcdef"), std::string::npos) << "no log contains a token";
 }
 
+TEST(RemotePortAccess, OfAViewersOrdersOnlyThoseOfTheRightToLookHaveAnEffect) {
+  const std::string viewer = "viewer-0123456789abcdef";
+  TestRobot robot("Pioneer1", Access::parse(viewer + " viewer\n", "tokens"));
+  const auto link = linkTo(robot, viewer);
+  link->claim("Anna", false);
+  link->connect();
+  waitUntil([&] { return link->news().is_up; }, [&] { robot.step(); });
+  for (const OrderRow& row : kOrders) {
+    const auto before = link->news().answers;
+    link->send(row.rule == OrderRule::set ? driveOrder(0.5) : makeOrder(row.type));
+    link->send(makeOrder(OrderType::req_sonar));  // whose answer follows
+    const std::size_t answer = readingIndex(row.right == Right::look ? row.type : OrderType::req_sonar);
+    waitUntil([&] { return link->news().answers[answer] != before[answer]; }, [&] { robot.step(); });
+    EXPECT_EQ(robot.hardware->lastCommand(), (Command{.turn_radps = 1})) << row.name;
+    EXPECT_TRUE(robot.robot.state().autonomous()) << row.name;
+    EXPECT_EQ(robot.hardware->win_checks, 0) << row.name;
+  }
+}
+
 TEST(RemotePortDeadline, EndsACallWithoutAnInit) {
   FakeHardware hardware;
   RemoteControlRobot robot(hardware, std::make_unique<Spinner>(), {});

@@ -1,5 +1,6 @@
 #include "remote/robot_link.h"
 
+#include <algorithm>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -45,7 +46,7 @@ struct RobotLink::Impl {
   /// @name With the mutex locked
   ///@{
   void sendNext();  ///< unless a message is being written
-  std::optional<v1::ControlRequest> next();
+  bool takeNext();
   void discardSuperseded(OrderRule newer);
   void processMessage();
   void processUpdate(const v1::ControlResponse::AllReadings& all);
@@ -99,17 +100,21 @@ RobotLink::Impl::~Impl() {
   thread.join();
 }
 
-/// The next message to send; nullopt for none.
-std::optional<v1::ControlRequest> RobotLink::Impl::next() {
-  if (init && std::exchange(init_is_due, false)) return init;
-  if (!news.is_up) return std::nullopt;  // not before the welcome
-  for (auto& order : waiting) {
-    if (order) return std::exchange(order, std::nullopt);
+/// Moves the next message to send to `out`. @return false if there is none
+bool RobotLink::Impl::takeNext() {
+  if (init && std::exchange(init_is_due, false)) {
+    out = *init;
+    return true;
   }
-  if (!std::exchange(request_all_is_due, false)) return std::nullopt;
-  v1::ControlRequest request;
-  request.mutable_req_all();
-  return request;
+  if (!news.is_up) return false;  // not before the welcome
+  const auto next = std::find_if(waiting.begin(), waiting.end(), [](const auto& order) { return order.has_value(); });
+  if (next != waiting.end()) {
+    out = *std::exchange(*next, std::nullopt);
+    return true;
+  }
+  if (!std::exchange(request_all_is_due, false)) return false;
+  out.mutable_req_all();
+  return true;
 }
 
 void RobotLink::Impl::discardSuperseded(OrderRule newer) {
@@ -173,10 +178,7 @@ grpc::Status RobotLink::Impl::call(std::string& error) {
 
 void RobotLink::Impl::sendNext() {
   if (!is_connected || stream.isWriting()) return;
-  auto order = next();
-  if (!order) return;
-  out = *std::move(order);
-  stream.write(out);
+  if (takeNext()) stream.write(out);
 }
 
 void RobotLink::Impl::processMessage() {
