@@ -14,7 +14,7 @@ using nlohmann::json;
 using Page = PageMessageRow::Page;
 using Needs = PageMessageRow::Right;
 
-constexpr std::array<PageMessageRow, kConsoleRequests> kConsoleRows{{
+constexpr auto kConsoleRows = std::to_array<PageMessageRow>({
     {ConsoleRequest::hello, "hello", {"protocol", "name", "token"}, Needs::none, Page::any, PrimaryState::any},
     {ConsoleRequest::ack, "ack", {"number"}, Needs::none, Page::admitted, PrimaryState::any},
     {ConsoleRequest::ping, "ping", {"number"}, Needs::none, Page::admitted, PrimaryState::any},
@@ -30,7 +30,8 @@ constexpr std::array<PageMessageRow, kConsoleRequests> kConsoleRows{{
      PrimaryState::settled},
     {ConsoleRequest::play_again, "play_again", {}, Needs::operate, Page::holds_lock, PrimaryState::any},
     {ConsoleRequest::record, "record", {"on"}, Needs::operate, Page::holds_lock, PrimaryState::any},
-}};
+});
+static_assert(kConsoleRows.size() == kConsoleRequests);
 
 /// Readings of the primary are sent to every page: only an order of a driver requires the control lock and a token for
 /// the robot.

@@ -24,7 +24,7 @@ enum class ConsoleRequest : std::uint8_t {
   play_again,      ///< loads and starts the world again after the end of the run
   record,          ///< on: starts or stops the recording of the run
 };
-constexpr std::size_t kConsoleRequests = 10;
+constexpr std::size_t kConsoleRequests = static_cast<std::size_t>(ConsoleRequest::record) + 1;
 
 /// Message of a page to the console: a JSON object, {"type": "drive", "speed": 0.5, "turn": -0.2}. Unknown members are
 /// an error.

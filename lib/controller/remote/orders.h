@@ -69,7 +69,7 @@ struct OrderRow {
 };
 
 /// `stop` and `alive` are permitted during a switch, so that no stop is lost.
-inline constexpr std::array<OrderRow, 12> kOrders = [] {
+inline constexpr auto kOrders = [] {
   using Request = v1::ControlRequest;
   using enum OrderRule;
   using enum PrimaryState;
@@ -79,7 +79,7 @@ inline constexpr std::array<OrderRow, 12> kOrders = [] {
   const auto reading = [](OrderType type, const char* name, SensorKind sensor) {
     return OrderRow{type, name, {}, Request::kReqReading, request, Right::look, any, {}, 0, 0, sensor};
   };
-  return std::array<OrderRow, 12>{{
+  return std::to_array<OrderRow>({
       {OrderType::set_mode, "autonomous", {"on"}, Request::kSetMode, mode, Right::drive, settled},
       {OrderType::stop, "stop", {"why"}, Request::kStop, stop, Right::drive, any},
       {OrderType::drive, "drive", {"speed", "turn", "pan"}, Request::kDrive, set, Right::drive, known},
@@ -92,7 +92,7 @@ inline constexpr std::array<OrderRow, 12> kOrders = [] {
       reading(OrderType::req_laser, "req_laser", SensorKind::laser),
       reading(OrderType::req_sonar, "req_sonar", SensorKind::sonar),
       {OrderType::alive, "alive", {}, Request::kAlive, at_once, Right::drive, any},
-  }};
+  });
 }();
 
 constexpr std::size_t indexOf(OrderType type) { return static_cast<std::size_t>(type); }
