@@ -4,13 +4,10 @@
 #include <cmath>
 #include <map>
 
-#include <opencv2/imgproc.hpp>
-
 #include "rendering/air_paths.h"
 #include "rendering/air_view.h"
-#include "rendering/bgr.h"
-#include "rendering/canvas.h"
 #include "rendering/detail_level.h"
+#include "rendering/drawing_surface.h"
 #include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
 #include "rendering/sensor_colors.h"
@@ -41,60 +38,49 @@ class AirTint {
       if (next.x >= AirView::kNearest_m) ahead.push_back(next);
       last = next;
     }
-    std::vector<cv::Point> polygon;
+    std::vector<TPoint2D> polygon;
     for (const auto& point : ahead) {
       const TPoint2D pixel = view_.pixel(point);
       constexpr double kMost_px = 20000;
-      polygon.push_back(rounded({std::clamp(pixel.x, -kMost_px, kMost_px), std::clamp(pixel.y, -kMost_px, kMost_px)}));
+      polygon.emplace_back(std::clamp(pixel.x, -kMost_px, kMost_px), std::clamp(pixel.y, -kMost_px, kMost_px));
     }
     if (polygon.size() > 2) polygons_.push_back(std::move(polygon));
   }
 
-  void draw(const Color& color, float opacity) const {
-    cv::Rect area;
-    for (const auto& polygon : polygons_)
-      area = area.empty() ? cv::boundingRect(polygon) : area | cv::boundingRect(polygon);
-    area &= cv::Rect({}, air_.picture.size());
-    if (area.empty()) return;
-    cv::Mat mask = cv::Mat::zeros(area.size(), CV_8U);
-    for (const auto& polygon : polygons_) {
-      cv::fillPoly(mask, std::vector<std::vector<cv::Point>>{polygon}, cv::Scalar(255), cv::LINE_8, 0, -area.tl());
-    }
+  void draw(DrawingSurface& surface, const Color& color, double opacity) const {
+    if (polygons_.empty()) return;
     // The plane's 1 / depth is linear in the picture.
     const auto rotation = air_.world_from_camera.getRotationMatrix();
     const double above_m = z_m_ - air_.world_from_camera.z;
     if (std::abs(above_m) < 1e-6) return;
     const double per_x = -rotation(2, 1) / view_.focalLength() / above_m;
     const double per_y = -rotation(2, 2) / view_.focalLength() / above_m;
-    const cv::Scalar paint = bgr(color);
-    for (int y = 0; y < area.height; ++y) {
-      const uchar* const covered = mask.ptr<uchar>(y);
-      auto* const pixels = air_.picture.ptr<cv::Vec3b>(y + area.y) + area.x;
-      const double row = rotation(2, 0) / above_m + per_y * (y + area.y - view_.middle().y);
-      for (int x = 0; x < area.width; ++x) {
-        if (covered[x] == 0) continue;
-        const double inverse = row + per_x * (x + area.x - view_.middle().x);
-        const float depth_m = view_.depthAt(x + area.x, y + area.y);
-        if (depth_m > 0 && inverse * depth_m * 1.01 < 1) continue;
-        for (int i = 0; i < 3; ++i)
-          pixels[x][i] = cv::saturate_cast<uchar>(pixels[x][i] + opacity * (paint[i] - pixels[x][i]));
+    cv::Mat covered = surface.coverage(polygons_);
+    for (int y = 0; y < covered.rows; ++y) {
+      auto* const pixels = covered.ptr<std::uint8_t>(y);
+      const double row = rotation(2, 0) / above_m + per_y * (y - view_.middle().y);
+      for (int x = 0; x < covered.cols; ++x) {
+        if (pixels[x] == 0) continue;
+        const double inverse = row + per_x * (x - view_.middle().x);
+        const float depth_m = view_.depthAt(x, y);
+        if (depth_m > 0 && inverse * depth_m * 1.01 < 1) pixels[x] = 0;
       }
     }
+    surface.fillMask(covered, color, opacity);
   }
 
  private:
   const AirPicture& air_;
   const AirView& view_;
   double z_m_;
-  std::vector<std::vector<cv::Point>> polygons_;
+  std::vector<std::vector<TPoint2D>> polygons_;
 };
 
 /// Draws lines of sightLines() at the height of their sensor, where nothing nearer covers them.
-void drawSightLines(const AirPicture& air, const AirView& view, const std::vector<std::vector<TPoint2D>>& lines,
-                    const SensorInfo& sensor) {
+void drawSightLines(DrawingSurface& surface, const AirView& view, const std::vector<std::vector<TPoint2D>>& lines,
+                    const SensorInfo& sensor, double width_px) {
   const double z_m = sensor.beams.empty() ? 0 : sensor.beams.front().robot_from_beam.z;
-  const int width_px = std::max(1, static_cast<int>(std::lround(air.scale)));
-  const cv::Scalar color = bgr(sensorColor(sensor.kind));
+  const Color color = sensorColor(sensor.kind);
   for (const auto& line : lines) {
     for (std::size_t i = 1; i < line.size(); ++i) {
       constexpr double kPiece_m = 0.25;
@@ -106,7 +92,7 @@ void drawSightLines(const AirPicture& air, const AirView& view, const std::vecto
         if (a.x < AirView::kNearest_m || b.x < AirView::kNearest_m) continue;
         const TPoint2D middle = view.pixel((a + b) * 0.5);
         if (!view.isOnPicture(middle) || !view.isVisible(middle, (a.x + b.x) / 2, 0.05)) continue;
-        cv::line(air.picture, rounded(view.pixel(a)), rounded(view.pixel(b)), color, width_px, cv::LINE_AA);
+        surface.line(view.pixel(a), view.pixel(b), width_px, color);
       }
     }
   }
@@ -114,8 +100,8 @@ void drawSightLines(const AirPicture& air, const AirView& view, const std::vecto
 
 constexpr double kBeforeEcho_m = 0.05;  ///< towards the robot, where an echo is tested for visibility
 
-void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
-                const std::vector<std::uint8_t>& shown) {
+void drawRanges(DrawingSurface& surface, const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
+                const Fleet& fleet, const std::vector<std::uint8_t>& shown) {
   std::map<std::pair<SensorKind, double>, AirTint> tints;  // by kind and height
   struct Dot {
     TPoint3D at;
@@ -129,7 +115,8 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
     const auto& sensors = *fleet.robots[i].info.sensors;
     for (std::size_t k = 0; k < sensors.size(); ++k) {
       const auto* echoes = std::get_if<Echoes>(&robot.readings->measurements[k]);
-      drawSightLines(air, view, sightLines(robot, sensors[k], robot.readings->measurements[k]), sensors[k]);
+      drawSightLines(surface, view, sightLines(robot, sensors[k], robot.readings->measurements[k]), sensors[k],
+                     air.scale);
       if (!echoes || echoes->empty()) continue;
       if (!sensors[k].beams.empty()) {  // else a cloud of points
         const double z_m = sensors[k].beams.front().robot_from_beam.z;
@@ -147,8 +134,7 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
       }
     }
   }
-  for (const auto& [what, tint] : tints) tint.draw(sensorColor(what.first), 0.17f);
-  const int radius_px = std::max(1, static_cast<int>(std::lround(2 * air.scale)));
+  for (const auto& [what, tint] : tints) tint.draw(surface, sensorColor(what.first), 0.17);
   for (const auto& dot : dots) {
     const TPoint3D seen = view.seen(dot.at);
     if (seen.x < AirView::kNearest_m) continue;
@@ -157,13 +143,13 @@ void drawRanges(const AirPicture& air, const AirView& view, const RunSnapshot& s
     // walls 10 cm thick hide it from the other side.
     const TPoint3D seen_before = view.seen(dot.before);
     if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen_before.x, 0.05, 0.003)) continue;
-    cv::circle(air.picture, rounded(pixel), radius_px, bgr(dot.color), cv::FILLED, cv::LINE_AA);
+    surface.dot(pixel, 2 * air.scale, dot.color);
   }
 }
 
 /// Writes the robots' names, those of near robots first, without overlaps: above a robot, or else beside or below it.
-void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
-                const std::vector<Color>& colors) {
+void writeNames(DrawingSurface& surface, const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
+                const Fleet& fleet, const std::vector<Color>& colors) {
   struct Label {
     double ahead_m;
     TPoint2D foot;              ///< above the robot
@@ -186,10 +172,9 @@ void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& s
   std::sort(labels.begin(), labels.end(), [](const Label& a, const Label& b) { return a.ahead_m < b.ahead_m; });
   std::vector<cv::Rect> taken;
   const double text_px = kTextSize_px * air.scale;
-  const Canvas measuring(cv::Mat(1, 1, CV_8UC3));
   for (const auto& label : labels) {
     const std::string& name = fleet.robots[label.robot].info.name;
-    const int width = static_cast<int>(std::ceil(measuring.textWidth(name, text_px) + 8 * air.scale));
+    const int width = static_cast<int>(std::ceil(surface.textWidth(name, text_px) + 8 * air.scale));
     const int height = static_cast<int>(std::ceil(text_px * 1.9));
     const auto is_free = [&](const cv::Rect& place) {
       return (place & cv::Rect({}, air.picture.size())) == place &&
@@ -210,9 +195,8 @@ void writeNames(const AirPicture& air, const AirView& view, const RunSnapshot& s
     if (found == std::end(places)) continue;
     const cv::Rect place(*found, cv::Size(width, height));
     taken.push_back(place);
-    Canvas canvas(air.picture(place));
-    canvas.text({4 * air.scale, height / 2.0}, name, text_px, mix(colors[label.robot], {0, 0, 0}, 0.35f));
-    canvas.picture().copyTo(air.picture(place));
+    surface.text({place.x + 4 * air.scale, place.y + height / 2.0}, name, text_px,
+                 mix(colors[label.robot], {0, 0, 0}, 0.35f));
   }
 }
 
@@ -234,9 +218,8 @@ DetailLevel levelOf(const AirView& view, const RunSnapshot& snapshot) {
 }
 
 /// Marks those of many robots that are too small on the picture to be seen with a dot in their colour.
-void drawDots(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot, const Fleet& fleet,
-              const std::vector<Color>& colors, const DetailLevel& level) {
-  constexpr int kSubpixelBits = 4;
+void drawDots(DrawingSurface& surface, const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
+              const Fleet& fleet, const std::vector<Color>& colors, const DetailLevel& level) {
   const double radius_px = level.radius_min_px * air.scale;
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     if (!snapshot.robots[i].isPresent()) continue;
@@ -247,9 +230,7 @@ void drawDots(const AirPicture& air, const AirView& view, const RunSnapshot& sna
     const TPoint2D pixel = view.pixel(seen);
     if (fleet.robots[i].info.radius_m * view.focalLength() / seen.x >= radius_px) continue;
     if (!view.isOnPicture(pixel) || !view.isVisible(pixel, seen.x, 2 * fleet.robots[i].info.radius_m)) continue;
-    const double one = 1 << kSubpixelBits;
-    cv::circle(air.picture, rounded(pixel * one), static_cast<int>(std::lround(radius_px * one)), bgr(colors[i]),
-               cv::FILLED, cv::LINE_AA, kSubpixelBits);
+    surface.dot(pixel, radius_px, colors[i]);
   }
 }
 
@@ -266,10 +247,16 @@ void drawAirOverlay(const AirPicture& air, const RunSnapshot& snapshot, const Fl
   const AirView view(air);
   const auto colors = robotColors(fleet);
   const DetailLevel level = levelOf(view, snapshot);
-  if (layers.paths && level.has_paths) drawAirPaths(air, view, snapshot, colors, paths, layers.paths_from_s, level);
-  if (layers.sensors) drawRanges(air, view, snapshot, fleet, shownOf(shown, snapshot.robots.size(), level));
-  if (level.is_crowded) return drawDots(air, view, snapshot, fleet, colors, level);
-  if (layers.names) writeNames(air, view, snapshot, fleet, colors);
+  DrawingSurface surface(air.picture);
+  if (layers.paths && level.has_paths)
+    drawAirPaths(surface, air, view, snapshot, colors, paths, layers.paths_from_s, level);
+  if (layers.sensors) drawRanges(surface, air, view, snapshot, fleet, shownOf(shown, snapshot.robots.size(), level));
+  if (level.is_crowded) {
+    drawDots(surface, air, view, snapshot, fleet, colors, level);
+  } else if (layers.names) {
+    writeNames(surface, air, view, snapshot, fleet, colors);
+  }
+  surface.copyTo(air.picture);
 }
 
 }  // namespace robosim

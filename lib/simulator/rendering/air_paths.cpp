@@ -2,9 +2,6 @@
 
 #include <optional>
 
-#include <opencv2/imgproc.hpp>
-
-#include "rendering/bgr.h"
 #include "rendering/ground_painter.h"
 #include "rendering/path_fading.h"
 
@@ -16,12 +13,10 @@ using mrpt::math::TPoint3D;
 
 constexpr double kPathHeight_m = 0.02;  // above the ground
 
-/// The visible lines of one path: pieces of a few pixels, each of them where it is visible.
+/// The visible parts of one path: pieces of a few pixels, each of them where it is visible.
 class VisiblePath {
  public:
-  struct Line {
-    TPoint2D from, to;  ///< pixels
-  };
+  using Line = std::vector<TPoint2D>;  ///< pixels
 
   VisiblePath(const AirPicture& air, const AirView& view) : air_(air), view_(view) {}
 
@@ -47,6 +42,14 @@ class VisiblePath {
   }
 
   const std::vector<Line>& lines() const { return lines_; }
+  /// [px]
+  double length() const {
+    double length_px = 0;
+    for (const auto& line : lines_) {
+      for (std::size_t i = 1; i < line.size(); ++i) length_px += (line[i] - line[i - 1]).norm();
+    }
+    return length_px;
+  }
 
  private:
   /// Ends in the camera's axes.
@@ -64,7 +67,6 @@ class VisiblePath {
     constexpr double kPiece_px = 6;
     const int pieces = std::clamp(static_cast<int>((b - a).norm() / kPiece_px), 1, 2000);
     const TPoint2D piece = (b - a) * (1.0 / pieces);
-    // Each run of visible pieces is one line: OpenCV's cost is per line.
     int first_visible = -1;
     for (int i = 0; i <= pieces; ++i) {
       const double share = (i + 0.5) / pieces;
@@ -74,7 +76,9 @@ class VisiblePath {
       const bool is_visible = i < pieces && view_.isOnPicture(center) && view_.isVisible(center, ahead_m, 0.05);
       if (is_visible && first_visible < 0) first_visible = i;
       if (is_visible || first_visible < 0) continue;
-      lines_.push_back({a + piece * first_visible, a + piece * i});
+      const TPoint2D begin = a + piece * first_visible;
+      if (lines_.empty() || lines_.back().back() != begin) lines_.push_back({begin});
+      lines_.back().push_back(i == pieces ? b : a + piece * i);
       first_visible = -1;
     }
   }
@@ -87,16 +91,16 @@ class VisiblePath {
 
 }  // namespace
 
-void drawAirPaths(const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
+void drawAirPaths(DrawingSurface& surface, const AirPicture& air, const AirView& view, const RunSnapshot& snapshot,
                   const std::vector<Color>& colors, const RunPaths& paths, double from_s, const DetailLevel& level) {
-  const int width_px = std::max(1, static_cast<int>(std::lround(2 * air.scale * level.path_share)));
+  const double width_px = 2 * air.scale * level.path_share;
   const double recent_from_s = std::max(from_s, snapshot.time_s - kRecentPath_s);
   const std::vector<VisiblePath> none(snapshot.robots.size(), {air, view});
   auto old = none, recent = none;
   double length_px = 0;
   for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
     old[i].add(paths.between(i, from_s, recent_from_s), paths.positionAt(i, recent_from_s));
-    for (const auto& line : old[i].lines()) length_px += (line.to - line.from).norm();
+    length_px += old[i].length();
     std::optional<TPoint2D> end;
     if (snapshot.robots[i].isPresent()) {
       const auto& pose = snapshot.robots[i].world_from_robot;
@@ -106,9 +110,7 @@ void drawAirPaths(const AirPicture& air, const AirView& view, const RunSnapshot&
   }
   const auto draw = [&](const std::vector<VisiblePath>& all, float fading) {
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const cv::Scalar color = bgr(mix(colors[i], kFloorColor, fading));
-      for (const auto& line : all[i].lines())
-        cv::line(air.picture, rounded(line.from), rounded(line.to), color, width_px, cv::LINE_AA);
+      for (const auto& line : all[i].lines()) surface.polyline(line, width_px, mix(colors[i], kFloorColor, fading));
     }
   };
   constexpr float kManyPaleness = 0.6f;

@@ -4,7 +4,6 @@
 
 #include <mrpt/math/TPoint2D.h>
 #include <mrpt/math/TPoint3D.h>
-#include <opencv2/core/types.hpp>
 
 #include "rendering/air_overlay.h"
 
@@ -18,7 +17,7 @@ class AirView {
 
   explicit AirView(const AirPicture& air)
       : air_(air),
-        middle_(air.camera.width_px / 2.0, air.camera.height_px / 2.0),
+        middle_((air.camera.width_px - 1) / 2.0, (air.camera.height_px - 1) / 2.0),
         focal_px_(air.camera.focalLength()),
         depth_finer_(std::max(1, air.depth.width_px / std::max(1, air.picture.cols))) {}
 
@@ -28,17 +27,18 @@ class AirView {
     air_.world_from_camera.inverseComposePoint(world, point);
     return point;
   }
+  /// (0, 0) is the middle of the upper left pixel.
   /// @pre seen.x > 0
   mrpt::math::TPoint2D pixel(const mrpt::math::TPoint3D& seen) const {
     return {middle_.x - focal_px_ * seen.y / seen.x, middle_.y - focal_px_ * seen.z / seen.x};
   }
   bool isOnPicture(const mrpt::math::TPoint2D& pixel) const {
-    return pixel.x >= 0 && pixel.y >= 0 && pixel.x < air_.picture.cols && pixel.y < air_.picture.rows;
+    return pixel.x >= -0.5 && pixel.y >= -0.5 && pixel.x < air_.picture.cols - 0.5 && pixel.y < air_.picture.rows - 0.5;
   }
-  /// Whether nothing nearer than `ahead_m` covers a pixel of the picture.
+  /// Whether nothing nearer than `ahead_m` covers a pixel that isOnPicture().
   /// @param slack_m, slack_share by how much, also of the distance, something may be nearer
   bool isVisible(const mrpt::math::TPoint2D& pixel, double ahead_m, double slack_m, double slack_share = 0.01) const {
-    const float depth_m = depthAt(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
+    const float depth_m = depthAt(static_cast<int>(pixel.x + 0.5), static_cast<int>(pixel.y + 0.5));
     return depth_m == 0 || ahead_m <= depth_m * (1 + slack_share) + slack_m;
   }
   /// [m]; 0 for the sky
@@ -52,9 +52,5 @@ class AirView {
   double focal_px_;
   int depth_finer_;  ///< pixels of the depth buffer per pixel
 };
-
-inline cv::Point rounded(const mrpt::math::TPoint2D& p) {
-  return {static_cast<int>(std::lround(p.x)), static_cast<int>(std::lround(p.y))};
-}
 
 }  // namespace robosim

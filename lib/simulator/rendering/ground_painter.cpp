@@ -99,7 +99,7 @@ void drawObjects(DrawingSurface& surface, const World& world) {
 
 void drawRobot(DrawingSurface& surface, const TPoint2D& center, double radius_px, const TPoint2D& ahead,
                const Color& color) {
-  const bool small = radius_px < 6;  // too small for details and antialiasing
+  const bool small = radius_px < 6;  // too small for details
   const auto disc = small ? &DrawingSurface::dot : &DrawingSurface::disc;
   (surface.*disc)(center, radius_px, mix(color, {0, 0, 0}, 0.5f));
   (surface.*disc)(center, radius_px - 1, color);

@@ -7,8 +7,8 @@
 
 #include "rendering/air_overlay.h"
 #include "rendering/bgr.h"
-#include "rendering/canvas.h"
 #include "rendering/detail_level.h"
+#include "rendering/drawing_surface.h"
 #include "rendering/ground_painter.h"
 
 namespace robosim {
@@ -213,10 +213,10 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
                      bgr(fleet_.robots[*robot].body.color));
   const cv::Rect place(picture.cols - inset.cols - 3 * border, 3 * border, inset.cols, inset.rows);
   if ((place & cv::Rect({}, picture.size())) != place) return;
-  Canvas canvas(inset);
+  DrawingSurface surface(inset);
   const double text_px = kTextSize_px * look_.scale;
-  canvas.text({border + 6 * look_.scale, border + 1.2 * text_px}, fleet_.robots[*robot].info.name, text_px, kInkColor);
-  canvas.picture().copyTo(picture(place));
+  surface.text({border + 6 * look_.scale, border + 1.2 * text_px}, fleet_.robots[*robot].info.name, text_px, kInkColor);
+  surface.picture().copyTo(picture(place));
 }
 
 std::vector<std::uint8_t> Panes::requestedReadings() const {

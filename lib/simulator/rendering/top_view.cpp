@@ -6,8 +6,8 @@
 
 #include <mrpt/core/format.h>
 
-#include "rendering/canvas.h"
 #include "rendering/detail_level.h"
+#include "rendering/drawing_surface.h"
 #include "rendering/free_areas.h"
 #include "rendering/ground_painter.h"
 #include "rendering/path_fading.h"
@@ -20,21 +20,21 @@ using mrpt::math::TPoint2D;
 using mrpt::math::TPose2D;
 
 constexpr Color kStallColor{0.80f, 0.05f, 0.05f};
-constexpr double kPath_px = 1.6;  ///< width
+constexpr double kPath_px = 2.2;  ///< width
 /// Maximum number of visible robots whose names are drawn.
 constexpr std::size_t kMaxNames = 60;
 
 constexpr double kArcPiece_px = 8;  ///< straight piece of a sonar sector's arc
 
-Canvas emptyFloor(const World& world, const GroundView& view, double scale) {
-  Canvas canvas(view, kPageColor, scale);
-  drawFloor(canvas, world.bounds);
-  return canvas;
+DrawingSurface emptyFloor(const World& world, const GroundView& view, double scale) {
+  DrawingSurface surface(view, kPageColor, scale);
+  drawFloor(surface, world.bounds);
+  return surface;
 }
 
-void drawObjectsAndMaps(Canvas& canvas, const World& world) {
-  drawMaps(canvas, world);
-  drawObjects(canvas, world);
+void drawObjectsAndMaps(DrawingSurface& surface, const World& world) {
+  drawMaps(surface, world);
+  drawObjects(surface, world);
 }
 
 /// Draws one picture, from back to front.
@@ -42,13 +42,13 @@ class Drawing {
  public:
   /// @param objects layer with the objects on the floor; null to draw them
   /// @param followed robot that the view follows, whose readings are drawn also among many robots
-  Drawing(const World& world, const Fleet& fleet, const RunSnapshot& snapshot, Canvas floor,
-          const Canvas::Layer* objects, std::optional<std::size_t> followed)
+  Drawing(const World& world, const Fleet& fleet, const RunSnapshot& snapshot, DrawingSurface floor,
+          const DrawingSurface* objects, std::optional<std::size_t> followed)
       : world_(world),
         fleet_(fleet),
         snapshot_(snapshot),
         view_(floor.view()),
-        canvas_(std::move(floor)),
+        surface_(std::move(floor)),
         objects_(objects),
         followed_(followed),
         level_(levelOf()) {}
@@ -57,15 +57,15 @@ class Drawing {
     if (layers.paths && level_.has_paths) drawPaths(paths, layers.paths_from_s);
     if (layers.sensors) drawRanges();
     if (objects_) {
-      canvas_.lay(*objects_);
+      surface_.lay(*objects_);
     } else {
-      drawObjectsAndMaps(canvas_, world_);
+      drawObjectsAndMaps(surface_, world_);
     }
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) drawRobot(i, layers.events);
     if (layers.sensors) drawTouch();
     if (layers.names) writeNames();
     writeLegend();
-    return canvas_.picture();
+    return surface_.picture();
   }
 
  private:
@@ -121,10 +121,10 @@ class Drawing {
     const double covered = length_px * width_px / (1.0 * view_.width() * view_.height());
     const float paleness = std::max(level_.is_crowded ? kManyPaleness : kPaleness, pathFading(covered));
     for (const auto& stroke : old)
-      canvas_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, paleness));
+      surface_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, paleness));
     const float recent_paleness = level_.is_crowded ? kManyPaleness : kPaleness;
     for (const auto& stroke : recent)
-      canvas_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, recent_paleness));
+      surface_.polyline(stroke.points, width_px, mix(colors_[stroke.robot], kFloorColor, recent_paleness));
   }
 
   /// Adds the visible pieces of a part of a path, which ends at `end` if that is known.
@@ -168,19 +168,19 @@ class Drawing {
         }
       }
     });
-    for (std::size_t i = 0; i < std::size(kinds); ++i) canvas_.tint(free[i], sensorColor(kinds[i]), 0.17f);
+    for (std::size_t i = 0; i < std::size(kinds); ++i) surface_.fillUnion(free[i], sensorColor(kinds[i]), 0.17);
     forEachSightLines(fleet_, snapshot_, [&](const RobotSnapshot& robot, const SensorInfo& sensor, const auto& lines) {
       if (!showsReadings(static_cast<std::size_t>(&robot - snapshot_.robots.data()))) return;
       const Color color = sensorColor(sensor.kind);
       for (const auto& line : lines) {
         std::vector<TPoint2D> pixels;
         for (const auto& point : line) pixels.push_back(view_.toPixel(point));
-        canvas_.polyline(pixels, 1, mix(color, kFloorColor, 0.35f));
+        surface_.polyline(pixels, 1, mix(color, kFloorColor, 0.35f));
         if (line.size() == 2) dots.push_back({pixels.back(), color});
       }
     });
     for (const auto& dot : dots) {
-      if (isOnPicture(dot.at, 2)) canvas_.dot(dot.at, 1.6, dot.color);
+      if (isOnPicture(dot.at, 2)) surface_.dot(dot.at, 1.6, dot.color);
     }
   }
 
@@ -195,12 +195,12 @@ class Drawing {
     if (!robot.isPresent() || !isOnPicture(center, radius + 8)) return;
     // Among many robots a rim no wider than the robot; gold is rare.
     const double rim_px = level_.is_crowded ? std::min(3.0, radius / 2) : 3;
-    if (robot.stalled && with_events) canvas_.disc(center, radius + rim_px, kStallColor);
-    if (robot.activity == Activity::found && with_events) canvas_.disc(center, radius + 3.5, kGlowColor);
+    if (robot.stalled && with_events) surface_.disc(center, radius + rim_px, kStallColor);
+    if (robot.activity == Activity::found && with_events) surface_.disc(center, radius + 3.5, kGlowColor);
     const Color color = robot.activity == Activity::active ? colors_[i] : mix(colors_[i], {0.5f, 0.5f, 0.5f}, 0.6f);
     const double heading = robot.world_from_robot.phi;
     const auto draw = level_.is_crowded ? drawRobotOfMany : robosim::drawRobot;
-    draw(canvas_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
+    draw(surface_, center, radius, {std::cos(heading), -std::sin(heading)}, color);
   }
 
   /// Draws bumper contacts as arcs on the rim, and heat as a number with a bar.
@@ -229,19 +229,19 @@ class Drawing {
         const double angle_rad = middle_rad + sensor.beam_width_rad * k / 8;
         arc.push_back(toPixel(robot, {info.radius_m * std::cos(angle_rad), info.radius_m * std::sin(angle_rad)}));
       }
-      canvas_.polyline(arc, 4, kStallColor);
+      surface_.polyline(arc, 4, kStallColor);
     }
   }
 
   void drawHeat(std::size_t i, double heat) {
     if (heat < 0.5) return;
     const TPoint2D center = pixelOf(snapshot_.robots[i].world_from_robot);
-    canvas_.text({center.x + radiusPx(i) * 0.7 + 4, center.y + radiusPx(i) * 0.7 + 8}, mrpt::format("heat %.0f", heat),
-                 kTextSize_px, mix(kGlowColor, {0.5f, 0, 0}, 0.5f));
+    surface_.text({center.x + radiusPx(i) * 0.7 + 4, center.y + radiusPx(i) * 0.7 + 8}, mrpt::format("heat %.0f", heat),
+                  kTextSize_px, mix(kGlowColor, {0.5f, 0, 0}, 0.5f));
   }
 
   void writeNames() {
-    NameWriter names(canvas_);
+    NameWriter names(surface_);
     names.keepClear({0, 0}, 330, 34);
     std::vector<std::size_t> seen;
     for (std::size_t i = 0; i < snapshot_.robots.size(); ++i) {
@@ -259,11 +259,11 @@ class Drawing {
   }
 
   void writeLegend() {
-    canvas_.text({12, 16},
-                 mrpt::format("%s   %.1f s   step %llu", world_.name.c_str(), snapshot_.time_s,
-                              static_cast<unsigned long long>(snapshot_.step)),
-                 11, kInkColor);
-    drawScale(canvas_, {14, view_.height() - 18.0});
+    surface_.text({12, 16},
+                  mrpt::format("%s   %.1f s   step %llu", world_.name.c_str(), snapshot_.time_s,
+                               static_cast<unsigned long long>(snapshot_.step)),
+                  11, kInkColor);
+    drawScale(surface_, {14, view_.height() - 18.0});
   }
 
   const World& world_;
@@ -271,8 +271,8 @@ class Drawing {
   const RunSnapshot& snapshot_;
   GroundView view_;
   std::vector<Color> colors_ = robotColors(fleet_);  ///< by robot
-  Canvas canvas_;
-  const Canvas::Layer* objects_;
+  DrawingSurface surface_;
+  const DrawingSurface* objects_;
   std::optional<std::size_t> followed_;
   DetailLevel level_;
 };
@@ -281,8 +281,7 @@ class Drawing {
 
 /// Layers that stay the same while the view does not move: most of the work.
 struct TopView::StaticLayers {
-  Canvas floor;
-  Canvas::Layer objects;
+  DrawingSurface floor, objects;
 };
 
 TopView::TopView(const World& world, const Fleet& fleet) : world_(world), fleet_(fleet) {}
@@ -327,11 +326,10 @@ cv::Mat TopView::draw(const RunSnapshot& snapshot, const RunPaths& paths, const 
         .draw(paths, layers);
   }
   if (!static_layers_) {
-    Canvas floor = emptyFloor(world_, view, camera.scale);
-    Canvas with_things(floor);
-    drawObjectsAndMaps(with_things, world_);
-    Canvas::Layer objects = with_things.differenceFrom(floor);
-    static_layers_ = std::make_unique<StaticLayers>(StaticLayers{std::move(floor), std::move(objects)});
+    DrawingSurface objects(view, std::nullopt, camera.scale);
+    drawObjectsAndMaps(objects, world_);
+    static_layers_ =
+        std::make_unique<StaticLayers>(StaticLayers{emptyFloor(world_, view, camera.scale), std::move(objects)});
   }
   return Drawing(world_, fleet_, snapshot, static_layers_->floor, &static_layers_->objects, camera.follow)
       .draw(paths, layers);
