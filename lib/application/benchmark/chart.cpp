@@ -12,7 +12,7 @@
 #include "base/text_table.h"
 #include "base/xml_element.h"
 #include "benchmark/chart_canvas.h"
-#include "rendering/figure_text.h"
+#include "rendering/drawn_text.h"
 
 namespace robosim {
 namespace {
@@ -170,7 +170,7 @@ class CairoCanvas : public ChartCanvas {
     cairo_set_source_rgba(&context_, color[0] / 255.0, color[1] / 255.0, color[2] / 255.0, opacity);
   }
   cairo_t& context_;
-  FigureText texts_;
+  DrawnText texts_;
 };
 
 }  // namespace

@@ -105,8 +105,8 @@ constexpr const char* kMethods =
 
 std::string reportHtml(const SearchPlan& plan, const SearchRuns& runs, const std::string& command) {
   return reportPage("Gold benchmark",
-                    "<p class=\"quiet\">RoboSim " ROBOSIM_VERSION ". " + escapedHtml(summaryLine(plan, runs)) +
-                        "</p>\n<pre>" + escapedHtml(command) + "</pre>\n" + overviewOf(plan, runs) +
+                    "<p class=\"quiet\">" + escapedHtml(summaryLine(plan, runs)) + "</p>\n<pre>" +
+                        escapedHtml(command) + "</pre>\n" + overviewOf(plan, runs) +
                         worldsOf(plan, summarise(plan, runs)) + comparisonsOf(plan, runs) +
                         robustnessSection(plan, runs) + kMethods,
                     chartStyle());

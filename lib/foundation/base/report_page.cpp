@@ -44,6 +44,7 @@ std::string reportStyle() {
          ".chart{min-width:36rem;max-width:100%;height:auto;display:block;margin:.4rem 0}"
          "summary{cursor:pointer;font-weight:600;padding:.3rem 0}"
          ".sure{color:var(--good);font-weight:600}"
+         "footer{margin-top:2.2rem;border-top:1px solid var(--line);padding-top:.6rem}"
          "@media print{.wide{max-height:none}}";
 }
 
@@ -72,7 +73,8 @@ std::string reportPage(const std::string& title, const std::string& content, con
   return "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" "
          "content=\"width=device-width\">\n<title>" +
          heading + "</title>\n<style>" + reportStyle() + style + "</style>\n</head>\n<body>\n<main>\n<h1>" + heading +
-         "</h1>\n" + content + "</main>\n<script>" + reportScript() + "</script>\n</body>\n</html>\n";
+         "</h1>\n" + content + "</main>\n<footer class=quiet>RoboSim " ROBOSIM_VERSION ".</footer>\n<script>" +
+         reportScript() + "</script>\n</body>\n</html>\n";
 }
 
 }  // namespace robosim

@@ -7,7 +7,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "rendering/figure_text.h"
+#include "rendering/drawn_text.h"
 
 namespace robosim {
 namespace {
@@ -47,10 +47,10 @@ void addUnion(cairo_t& context, std::span<const std::vector<TPoint2D>> polygons)
   }
 }
 
-/// Opens each font once per thread, not once per picture.
-FigureText& linesOfText() {
-  thread_local FigureText texts;
-  return texts;
+/// The fonts of all pictures of a thread, each of which is opened once.
+DrawnText& drawnText() {
+  thread_local DrawnText text;
+  return text;
 }
 
 }  // namespace
@@ -102,13 +102,8 @@ DrawingSurface::Owned<cairo_t> DrawingSurface::contextOf(cairo_surface_t& surfac
   cairo_translate(context.get(), 0.5, 0.5);  // GroundView has (0, 0) in the middle of a pixel
   cairo_set_line_join(context.get(), CAIRO_LINE_JOIN_ROUND);
   cairo_set_line_cap(context.get(), CAIRO_LINE_CAP_ROUND);
-  setEdges(*context);
   useUnhintedText(*context);
   return context;
-}
-
-void DrawingSurface::setEdges(cairo_t& context) const {
-  cairo_set_antialias(&context, edges_ == Edges::fast ? CAIRO_ANTIALIAS_FAST : CAIRO_ANTIALIAS_DEFAULT);
 }
 
 template <typename Draw>
@@ -125,7 +120,9 @@ void DrawingSurface::polyline(std::span<const TPoint2D> points, double width_px,
   paint(color, [&](cairo_t& context) {
     for (const auto& point : points) cairo_line_to(&context, point.x, point.y);
     cairo_set_line_width(&context, width_px);
+    cairo_set_antialias(&context, points.size() > 2 ? complexEdges() : CAIRO_ANTIALIAS_DEFAULT);
     cairo_stroke(&context);
+    cairo_set_antialias(&context, CAIRO_ANTIALIAS_DEFAULT);
   });
 }
 
@@ -173,7 +170,9 @@ void DrawingSurface::fillUnion(std::span<const std::vector<TPoint2D>> polygons, 
   if (polygons.empty()) return;
   const auto draw = [&](cairo_t& context) {
     addUnion(context, polygons);
+    cairo_set_antialias(&context, complexEdges());
     cairo_fill(&context);
+    cairo_set_antialias(&context, CAIRO_ANTIALIAS_DEFAULT);
   };
   paint(color, draw, opacity);
 }
@@ -185,6 +184,7 @@ cv::Mat DrawingSurface::coverage(std::span<const std::vector<TPoint2D>> polygons
       cairo_image_surface_create_for_data(covered.data, CAIRO_FORMAT_A8, image.cols, image.rows, covered.cols));
   const auto context = contextOf(*mask, scale_, std::nullopt);
   addUnion(*context, polygons);
+  cairo_set_antialias(context.get(), complexEdges());
   cairo_fill(context.get());
   cairo_surface_flush(mask.get());
   return covered.colRange(0, image.cols);
@@ -337,18 +337,16 @@ void DrawingSurface::text(const TPoint2D& at, const std::string& text, double si
   const double baseline = at.y + size_px / 2;
   const Bounds2D covered{at.x - kRim_px, at.x + textWidth(text, size_px) + kRim_px, at.y - size_px, at.y + size_px};
   const auto paint_rim = [&](cairo_t& context) {
-    linesOfText().addPath(context, text, size_px, at.x, baseline);
+    drawnText().addPath(context, text, size_px, at.x, baseline);
     cairo_set_line_width(&context, kRim_px);
     cairo_stroke(&context);
   };
   if (contrast(covered) > 0) paint({1, 1, 1}, paint_rim);
-  cairo_set_antialias(image_context_.get(), CAIRO_ANTIALIAS_DEFAULT);  // the details of characters are small
-  paint(color, [&](cairo_t& context) { linesOfText().show(context, text, size_px, at.x, baseline); });
-  setEdges(*image_context_);
+  paint(color, [&](cairo_t& context) { drawnText().show(context, text, size_px, at.x, baseline); });
 }
 
 double DrawingSurface::textWidth(const std::string& text, double size_px) const {
-  return linesOfText().width(*image_context_, text, size_px);
+  return drawnText().width(*image_context_, text, size_px);
 }
 
 double DrawingSurface::contrast(const Bounds2D& pixels_of_view) const {

@@ -7,7 +7,7 @@
 #include <mrpt/core/format.h>
 
 #include "base/error_list.h"
-#include "rendering/figure_text.h"
+#include "rendering/drawn_text.h"
 #include "rendering/font_lookup.h"
 
 namespace robosim {

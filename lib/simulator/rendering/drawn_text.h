@@ -10,12 +10,12 @@
 namespace robosim {
 
 /// Lines of text for Cairo, in the fonts of fontFor(), without hinting, so that they have the same widths at any scale.
-class FigureText {
+class DrawnText {
  public:
-  FigureText() = default;
-  ~FigureText();
-  FigureText(const FigureText&) = delete;
-  FigureText& operator=(const FigureText&) = delete;
+  DrawnText() = default;
+  ~DrawnText();
+  DrawnText(const DrawnText&) = delete;
+  DrawnText& operator=(const DrawnText&) = delete;
 
   /// Adds the outline of a line of text to the path, with the left end of its baseline at (x, y).
   void addPath(cairo_t& context, const std::string& text, double capital_px, double x, double y);
@@ -51,7 +51,7 @@ class TextRuler {
 
  private:
   cairo_t* context_;
-  FigureText texts_;
+  DrawnText texts_;
 };
 
 /// Switches hinting off, so that texts have the same widths at any scale.

@@ -1,4 +1,4 @@
-#include "rendering/figure_text.h"
+#include "rendering/drawn_text.h"
 
 #include <cairo-ft.h>
 #include <fontconfig/fontconfig.h>
@@ -33,18 +33,18 @@ void useFont(cairo_t& context, cairo_font_face_t* face, double capital_px) {
 
 }  // namespace
 
-FigureText::~FigureText() {
+DrawnText::~DrawnText() {
   for (const auto& [font, face] : faces_) cairo_font_face_destroy(face);
 }
 
-cairo_font_face_t* FigureText::faceFor(char32_t character) {
+cairo_font_face_t* DrawnText::faceFor(char32_t character) {
   const FontFile font = fontFor(character).value_or(FontFile());
   const auto [known, is_new] = faces_.try_emplace(font, nullptr);
   if (is_new) known->second = openFace(font);
   return known->second;
 }
 
-std::vector<FigureText::Run> FigureText::runsOf(const std::string& text) {
+std::vector<DrawnText::Run> DrawnText::runsOf(const std::string& text) {
   std::vector<Run> runs;
   for (const char32_t character : charactersOf(text)) {
     cairo_font_face_t* const face = faceFor(character);
@@ -54,7 +54,7 @@ std::vector<FigureText::Run> FigureText::runsOf(const std::string& text) {
   return runs;
 }
 
-void FigureText::addPath(cairo_t& context, const std::string& text, double capital_px, double x, double y) {
+void DrawnText::addPath(cairo_t& context, const std::string& text, double capital_px, double x, double y) {
   cairo_move_to(&context, x, y);
   for (const auto& run : runsOf(text)) {
     useFont(context, run.face, capital_px);
@@ -62,7 +62,7 @@ void FigureText::addPath(cairo_t& context, const std::string& text, double capit
   }
 }
 
-void FigureText::show(cairo_t& context, const std::string& text, double capital_px, double x, double y) {
+void DrawnText::show(cairo_t& context, const std::string& text, double capital_px, double x, double y) {
   if (cairo_surface_get_type(cairo_get_target(&context)) == CAIRO_SURFACE_TYPE_IMAGE) {
     // As characters, Cairo 1.16 would move each of them to whole pixels.
     addPath(context, text, capital_px, x, y);
@@ -77,7 +77,7 @@ void FigureText::show(cairo_t& context, const std::string& text, double capital_
   cairo_new_path(&context);  // without the end of the text
 }
 
-double FigureText::width(cairo_t& context, const std::string& text, double capital_px) {
+double DrawnText::width(cairo_t& context, const std::string& text, double capital_px) {
   double width_px = 0;
   for (const auto& run : runsOf(text)) {
     useFont(context, run.face, capital_px);
