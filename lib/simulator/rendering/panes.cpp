@@ -6,7 +6,6 @@
 #include <opencv2/imgproc.hpp>
 
 #include "rendering/air_overlay.h"
-#include "rendering/bgr.h"
 #include "rendering/detail_level.h"
 #include "rendering/drawing_surface.h"
 #include "rendering/ground_painter.h"
@@ -209,8 +208,9 @@ void Panes::drawInset(cv::Mat& picture, const RunSnapshot& snapshot) {
   const TPose3D world_from_robot(pose.x, pose.y, fleet_.robots[*robot].body.heights().z_min_m, pose.phi, 0, 0);
   cv::Mat inset = render(camera, world_from_robot + sensor.beams.front().robot_from_beam, snapshot, nullptr);
   const int border = std::max(1, static_cast<int>(std::lround(3 * look_.scale)));
+  const auto [red, green, blue] = fleet_.robots[*robot].body.color;
   cv::copyMakeBorder(inset, inset, border, border, border, border, cv::BORDER_CONSTANT,
-                     bgr(fleet_.robots[*robot].body.color));
+                     cv::Scalar(blue, green, red) * 255);
   const cv::Rect place(picture.cols - inset.cols - 3 * border, 3 * border, inset.cols, inset.rows);
   if ((place & cv::Rect({}, picture.size())) != place) return;
   DrawingSurface surface(inset);
